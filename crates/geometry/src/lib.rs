@@ -1,1 +1,14 @@
-//! Placeholder.
+//! The geometry of contact, without a single unknown: elements, meshes, contact surfaces, proximity.
+//!
+//! ```text
+//! tensor ◀── element ◀── mesh ◀── surface        proximity ──▶ tensor
+//! ```
+//!
+//! Rooms import only leftwards. Everything here can be used alone: a mesh, a surface made of some of its faces,
+//! the closest point on it, its curvature.
+
+pub mod element;
+pub mod mesh;
+pub mod proximity;
+pub mod surface;
+pub mod tensor;

@@ -1,0 +1,106 @@
+use super::quadrature::{self, Rule};
+use super::{ReferenceElement, Side, quad4};
+use crate::tensor::{Sym3, Vec3};
+
+/// The trilinear hexahedron of eight nodes, `ξ, η, ζ ∈ [-1, 1]`.
+pub(super) struct Hex8;
+
+const NODES: [Vec3; 8] = [
+    Vec3::new(-1.0, -1.0, -1.0),
+    Vec3::new(1.0, -1.0, -1.0),
+    Vec3::new(1.0, 1.0, -1.0),
+    Vec3::new(-1.0, 1.0, -1.0),
+    Vec3::new(-1.0, -1.0, 1.0),
+    Vec3::new(1.0, -1.0, 1.0),
+    Vec3::new(1.0, 1.0, 1.0),
+    Vec3::new(-1.0, 1.0, 1.0),
+];
+
+impl ReferenceElement for Hex8 {
+    fn name(&self) -> &'static str {
+        "hex8"
+    }
+
+    fn dim(&self) -> usize {
+        3
+    }
+
+    fn nodes(&self) -> &'static [Vec3] {
+        &NODES
+    }
+
+    fn shape(&self, xi: &Vec3, n: &mut [f64]) {
+        for (n, a) in n.iter_mut().zip(&NODES) {
+            *n = 0.125 * (1.0 + a.x * xi.x) * (1.0 + a.y * xi.y) * (1.0 + a.z * xi.z);
+        }
+    }
+
+    fn dshape(&self, xi: &Vec3, dn: &mut [Vec3]) {
+        for (dn, a) in dn.iter_mut().zip(&NODES) {
+            let (p, q, r) = (1.0 + a.x * xi.x, 1.0 + a.y * xi.y, 1.0 + a.z * xi.z);
+            *dn = Vec3::new(a.x * q * r, a.y * r * p, a.z * p * q) * 0.125;
+        }
+    }
+
+    fn ddshape(&self, xi: &Vec3, ddn: &mut [Sym3]) {
+        for (ddn, a) in ddn.iter_mut().zip(&NODES) {
+            let (p, q, r) = (1.0 + a.x * xi.x, 1.0 + a.y * xi.y, 1.0 + a.z * xi.z);
+            *ddn = Sym3::new(0.0, 0.0, 0.0, a.x * a.y * r, a.y * a.z * p, a.x * a.z * q) * 0.125;
+        }
+    }
+
+    fn sides(&self) -> &'static [Side] {
+        static SIDES: [Side; 6] = [
+            Side {
+                element: &quad4::Quad4,
+                nodes: &[0, 3, 2, 1],
+            },
+            Side {
+                element: &quad4::Quad4,
+                nodes: &[4, 5, 6, 7],
+            },
+            Side {
+                element: &quad4::Quad4,
+                nodes: &[0, 1, 5, 4],
+            },
+            Side {
+                element: &quad4::Quad4,
+                nodes: &[1, 2, 6, 5],
+            },
+            Side {
+                element: &quad4::Quad4,
+                nodes: &[2, 3, 7, 6],
+            },
+            Side {
+                element: &quad4::Quad4,
+                nodes: &[3, 0, 4, 7],
+            },
+        ];
+        &SIDES
+    }
+
+    fn edges(&self) -> &'static [[usize; 2]] {
+        &[
+            [0, 1],
+            [1, 2],
+            [2, 3],
+            [3, 0],
+            [4, 5],
+            [5, 6],
+            [6, 7],
+            [7, 4],
+            [0, 4],
+            [1, 5],
+            [2, 6],
+            [3, 7],
+        ]
+    }
+
+    fn full_rule(&self) -> &'static Rule {
+        &quadrature::HEX_8
+    }
+
+    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
+        xi.max_abs() <= 1.0 + tolerance
+    }
+}

@@ -1,0 +1,83 @@
+use super::quadrature::{self, Rule};
+use super::{ReferenceElement, Side, line2};
+use crate::tensor::{Sym3, Vec3};
+
+/// The bilinear quadrilateral of four nodes, `ξ, η ∈ [-1, 1]`.
+pub(super) struct Quad4;
+
+const NODES: [Vec3; 4] = [
+    Vec3::new(-1.0, -1.0, 0.0),
+    Vec3::new(1.0, -1.0, 0.0),
+    Vec3::new(1.0, 1.0, 0.0),
+    Vec3::new(-1.0, 1.0, 0.0),
+];
+
+impl ReferenceElement for Quad4 {
+    fn name(&self) -> &'static str {
+        "quad4"
+    }
+
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn nodes(&self) -> &'static [Vec3] {
+        &NODES
+    }
+
+    fn shape(&self, xi: &Vec3, n: &mut [f64]) {
+        for (n, a) in n.iter_mut().zip(&NODES) {
+            *n = 0.25 * (1.0 + a.x * xi.x) * (1.0 + a.y * xi.y);
+        }
+    }
+
+    fn dshape(&self, xi: &Vec3, dn: &mut [Vec3]) {
+        for (dn, a) in dn.iter_mut().zip(&NODES) {
+            *dn = Vec3::new(
+                0.25 * a.x * (1.0 + a.y * xi.y),
+                0.25 * a.y * (1.0 + a.x * xi.x),
+                0.0,
+            );
+        }
+    }
+
+    fn ddshape(&self, _: &Vec3, ddn: &mut [Sym3]) {
+        for (ddn, a) in ddn.iter_mut().zip(&NODES) {
+            *ddn = Sym3::new(0.0, 0.0, 0.0, 0.25 * a.x * a.y, 0.0, 0.0);
+        }
+    }
+
+    fn sides(&self) -> &'static [Side] {
+        static SIDES: [Side; 4] = [
+            Side {
+                element: &line2::Line2,
+                nodes: &[0, 1],
+            },
+            Side {
+                element: &line2::Line2,
+                nodes: &[1, 2],
+            },
+            Side {
+                element: &line2::Line2,
+                nodes: &[2, 3],
+            },
+            Side {
+                element: &line2::Line2,
+                nodes: &[3, 0],
+            },
+        ];
+        &SIDES
+    }
+
+    fn edges(&self) -> &'static [[usize; 2]] {
+        &[[0, 1], [1, 2], [2, 3], [3, 0]]
+    }
+
+    fn full_rule(&self) -> &'static Rule {
+        &quadrature::QUAD_4
+    }
+
+    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
+        xi.x.abs().max(xi.y.abs()) <= 1.0 + tolerance
+    }
+}

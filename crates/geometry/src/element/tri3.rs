@@ -1,0 +1,63 @@
+use super::quadrature::{self, Rule};
+use super::{ReferenceElement, Side, line2};
+use crate::tensor::{Sym3, Vec3};
+
+/// The flat triangle of three nodes, area coordinates `ξ = L2`, `η = L3`.
+pub(super) struct Tri3;
+
+impl ReferenceElement for Tri3 {
+    fn name(&self) -> &'static str {
+        "tri3"
+    }
+
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn nodes(&self) -> &'static [Vec3] {
+        const NODES: [Vec3; 3] = [Vec3::ZERO, Vec3::unit(0), Vec3::unit(1)];
+        &NODES
+    }
+
+    fn shape(&self, xi: &Vec3, n: &mut [f64]) {
+        n.copy_from_slice(&[1.0 - xi.x - xi.y, xi.x, xi.y]);
+    }
+
+    fn dshape(&self, _: &Vec3, dn: &mut [Vec3]) {
+        dn.copy_from_slice(&[Vec3::new(-1.0, -1.0, 0.0), Vec3::unit(0), Vec3::unit(1)]);
+    }
+
+    fn ddshape(&self, _: &Vec3, ddn: &mut [Sym3]) {
+        ddn.fill(Sym3::ZERO);
+    }
+
+    fn sides(&self) -> &'static [Side] {
+        static SIDES: [Side; 3] = [
+            Side {
+                element: &line2::Line2,
+                nodes: &[0, 1],
+            },
+            Side {
+                element: &line2::Line2,
+                nodes: &[1, 2],
+            },
+            Side {
+                element: &line2::Line2,
+                nodes: &[2, 0],
+            },
+        ];
+        &SIDES
+    }
+
+    fn edges(&self) -> &'static [[usize; 2]] {
+        &[[0, 1], [1, 2], [2, 0]]
+    }
+
+    fn full_rule(&self) -> &'static Rule {
+        &quadrature::TRI_1
+    }
+
+    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
+        xi.x >= -tolerance && xi.y >= -tolerance && xi.x + xi.y <= 1.0 + tolerance
+    }
+}

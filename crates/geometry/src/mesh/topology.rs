@@ -1,0 +1,238 @@
+//! Which faces there are: the faces behind lower-dimensional cells, the nodes of a set, the boundary of a body.
+
+use super::{CellId, Face, Mesh, NodeId, Set};
+use std::collections::HashMap;
+use thiserror::Error;
+
+/// Why a set cannot be used as asked.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum SetError {
+    /// A lower-dimensional cell that lies on no solid.
+    #[error("element {label} ({element}) of this set coincides with no side of a solid")]
+    NoSolidBehind {
+        /// Its number in the input.
+        label: u64,
+        /// Its type.
+        element: &'static str,
+    },
+    /// A face between two solids.
+    #[error(
+        "the face of element {label} in this set lies inside the body: element {other} is on its other side"
+    )]
+    Interior {
+        /// The element whose face was named.
+        label: u64,
+        /// The element behind it.
+        other: u64,
+    },
+}
+
+/// Finds solids by the nodes of their sides.
+pub struct FaceIndex {
+    // sorted corner nodes, padded, to the one or two faces that have them
+    by_nodes: HashMap<[NodeId; 4], (Face, Option<Face>)>,
+}
+
+/// At most four nodes identify a side: corners come first in every element.
+fn key(nodes: &[NodeId]) -> [NodeId; 4] {
+    let mut key = [NodeId::MAX; 4];
+    for (k, &n) in key.iter_mut().zip(nodes) {
+        *k = n;
+    }
+    key.sort_unstable();
+    key
+}
+
+impl FaceIndex {
+    /// Indexes all sides of these cells.
+    #[must_use]
+    pub fn new(mesh: &Mesh, cells: impl IntoIterator<Item = CellId>) -> Self {
+        let mut by_nodes: HashMap<[NodeId; 4], (Face, Option<Face>)> = HashMap::new();
+        for cell in cells {
+            let Some(element) = mesh.element(cell) else {
+                continue;
+            };
+            let nodes = mesh.cell(cell);
+            for (number, side) in element.sides().iter().enumerate() {
+                let mut corners = [NodeId::MAX; 4];
+                for (c, &i) in corners.iter_mut().zip(side.nodes) {
+                    *c = nodes.get(i).copied().unwrap_or(NodeId::MAX);
+                }
+                let face = Face {
+                    cell,
+                    side: number as u8,
+                };
+                by_nodes
+                    .entry(key(&corners))
+                    .and_modify(|found| found.1 = found.1.or(Some(face)))
+                    .or_insert((face, None));
+            }
+        }
+        Self { by_nodes }
+    }
+
+    /// The one or two faces with these nodes, in any order.
+    #[must_use]
+    pub fn find(&self, nodes: &[NodeId]) -> Option<(Face, Option<Face>)> {
+        self.by_nodes.get(&key(nodes)).copied()
+    }
+
+    /// The sides that only one cell has, sorted.
+    #[must_use]
+    pub fn boundary(&self) -> Vec<Face> {
+        let outer = self.by_nodes.values().filter(|f| f.1.is_none());
+        let mut faces: Vec<Face> = outer.map(|f| f.0).collect();
+        faces.sort_unstable();
+        faces
+    }
+}
+
+/// The outer faces of a body made of these cells, sorted.
+#[must_use]
+pub fn boundary(mesh: &Mesh, cells: impl IntoIterator<Item = CellId>) -> Vec<Face> {
+    FaceIndex::new(mesh, cells).boundary()
+}
+
+impl Mesh {
+    /// The faces that a set stands for: those named, and those that its lower-dimensional cells lie on. Sorted,
+    /// each once. `index` must hold the sides of all solids.
+    ///
+    /// # Errors
+    /// A cell without a solid behind it; a face inside a body.
+    pub fn faces(&self, set: &Set, index: &FaceIndex) -> Result<Vec<Face>, SetError> {
+        let mut faces = Vec::with_capacity(set.faces.len());
+        let label = |cell| self.cell_label(cell).unwrap_or(0);
+        for &face in &set.faces {
+            let Some((_, nodes)) = self.face(face) else {
+                continue;
+            };
+            if let Some((first, Some(second))) = index.find(&nodes) {
+                let other = if first == face { second } else { first };
+                return Err(SetError::Interior {
+                    label: label(face.cell),
+                    other: label(other.cell),
+                });
+            }
+            faces.push(face);
+        }
+        let solid = self.dim();
+        for &cell in &set.cells {
+            let Some(element) = self.element(cell) else {
+                continue;
+            };
+            if element.dim() + 1 != solid {
+                continue;
+            }
+            match index.find(self.cell(cell)) {
+                None => {
+                    return Err(SetError::NoSolidBehind {
+                        label: label(cell),
+                        element: element.name(),
+                    });
+                }
+                Some((first, Some(second))) => {
+                    return Err(SetError::Interior {
+                        label: label(first.cell),
+                        other: label(second.cell),
+                    });
+                }
+                Some((face, None)) => faces.push(face),
+            }
+        }
+        faces.sort_unstable();
+        faces.dedup();
+        Ok(faces)
+    }
+
+    /// Every node of a set: those named, those of its cells, those of its faces. Sorted, each once.
+    #[must_use]
+    pub fn nodes_of(&self, set: &Set) -> Vec<NodeId> {
+        let mut nodes = set.nodes.clone();
+        for &cell in &set.cells {
+            nodes.extend_from_slice(self.cell(cell));
+        }
+        for &face in &set.faces {
+            if let Some((_, of_face)) = self.face(face) {
+                nodes.extend(of_face);
+            }
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::element::by_name;
+    use crate::tensor::Vec3;
+
+    /// Two unit cubes side by side along x, and a quadrilateral on the top of the second.
+    fn two_cubes() -> Mesh {
+        let mut mesh = Mesh::default();
+        for z in 0..2 {
+            for y in 0..2 {
+                for x in 0..3 {
+                    mesh.points
+                        .push(Vec3::new(f64::from(x), f64::from(y), f64::from(z)));
+                    mesh.node_labels.push(mesh.points.len() as u64);
+                }
+            }
+        }
+        let hex = by_name("hex8").unwrap();
+        mesh.push_cell(hex, &[0, 1, 4, 3, 6, 7, 10, 9], 1);
+        mesh.push_cell(hex, &[1, 2, 5, 4, 7, 8, 11, 10], 2);
+        mesh.push_cell(by_name("quad4").unwrap(), &[8, 11, 10, 7], 3);
+        mesh
+    }
+
+    #[test]
+    fn boundary_of_two_cubes_has_ten_faces() {
+        let mesh = two_cubes();
+        let faces = boundary(&mesh, mesh.cells(3));
+        assert_eq!(faces.len(), 10);
+        assert!(faces.windows(2).all(|w| w[0] < w[1]));
+    }
+
+    #[test]
+    fn a_surface_cell_stands_for_the_side_of_the_solid_under_it() {
+        let mesh = two_cubes();
+        let index = FaceIndex::new(&mesh, mesh.cells(3));
+        let set = Set {
+            cells: mesh.cells(2).collect(),
+            ..Set::default()
+        };
+        let faces = mesh.faces(&set, &index).unwrap();
+        assert_eq!(faces.len(), 1);
+        assert_eq!((faces[0].cell.index, faces[0].side), (1, 1));
+        assert_eq!(mesh.face(faces[0]).unwrap().1, [7, 8, 11, 10]);
+    }
+
+    #[test]
+    fn interior_faces_and_loose_cells_are_refused_by_label() {
+        let mut mesh = two_cubes();
+        let loose = mesh.push_cell(by_name("quad4").unwrap(), &[0, 1, 11, 9], 77);
+        let index = FaceIndex::new(&mesh, mesh.cells(3));
+        let cells = Set {
+            cells: vec![loose],
+            ..Set::default()
+        };
+        assert_eq!(
+            mesh.faces(&cells, &index),
+            Err(SetError::NoSolidBehind {
+                label: 77,
+                element: "quad4"
+            })
+        );
+        let inner = index.find(&[1, 4, 10, 7]).unwrap();
+        let faces = Set {
+            faces: vec![inner.0],
+            ..Set::default()
+        };
+        assert_eq!(
+            mesh.faces(&faces, &index),
+            Err(SetError::Interior { label: 1, other: 2 })
+        );
+    }
+}

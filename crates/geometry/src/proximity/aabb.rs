@@ -1,0 +1,83 @@
+use crate::tensor::Vec3;
+
+/// A box with sides along the axes. May be empty (`min > max`) or unbounded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// The smallest coordinates.
+    pub min: Vec3,
+    /// The largest coordinates.
+    pub max: Vec3,
+}
+
+impl Aabb {
+    /// The box that contains nothing.
+    pub const EMPTY: Self = Self {
+        min: Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+        max: Vec3::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
+
+    /// The box that contains everything.
+    pub const ALL: Self = Self {
+        min: Self::EMPTY.max,
+        max: Self::EMPTY.min,
+    };
+
+    /// The smallest box around these points.
+    #[must_use]
+    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, p| Self {
+            min: b.min.min(p),
+            max: b.max.max(p),
+        })
+    }
+
+    /// The smallest box around both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// The box with every side moved outwards by `distance`.
+    #[must_use]
+    pub fn inflated(self, distance: f64) -> Self {
+        let d = Vec3::new(distance, distance, distance);
+        Self {
+            min: self.min - d,
+            max: self.max + d,
+        }
+    }
+
+    /// Whether the point is inside or on the boundary.
+    #[must_use]
+    pub fn contains(&self, p: Vec3) -> bool {
+        (0..3).all(|i| self.min[i] <= p[i] && p[i] <= self.max[i])
+    }
+
+    /// Whether the boxes share a point.
+    #[must_use]
+    pub fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
+    }
+
+    /// The middle.
+    #[must_use]
+    pub fn centre(&self) -> Vec3 {
+        (self.min + self.max) * 0.5
+    }
+
+    /// The lengths of the sides.
+    #[must_use]
+    pub fn extent(&self) -> Vec3 {
+        self.max - self.min
+    }
+
+    /// The square of the distance from a point to the box, 0 inside.
+    #[must_use]
+    pub fn distance_squared(&self, p: Vec3) -> f64 {
+        let outside = (self.min - p).max(p - self.max).max(Vec3::ZERO);
+        outside.norm_squared()
+    }
+}

@@ -1,0 +1,185 @@
+use super::Vec3;
+use std::ops::{Add, Mul, Sub};
+
+/// A 3×3 matrix, stored by rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Mat3 {
+    /// The rows.
+    pub rows: [Vec3; 3],
+}
+
+impl Mat3 {
+    /// The identity.
+    pub const IDENTITY: Self = Self {
+        rows: [Vec3::unit(0), Vec3::unit(1), Vec3::unit(2)],
+    };
+
+    /// The zero matrix.
+    pub const ZERO: Self = Self {
+        rows: [Vec3::ZERO; 3],
+    };
+
+    /// The matrix with these rows.
+    #[inline]
+    #[must_use]
+    pub const fn from_rows(rows: [Vec3; 3]) -> Self {
+        Self { rows }
+    }
+
+    /// The dyad `a bᵀ`.
+    #[inline]
+    #[must_use]
+    pub fn outer(a: Vec3, b: Vec3) -> Self {
+        Self::from_rows([b * a.x, b * a.y, b * a.z])
+    }
+
+    /// The matrix `[a]×` with `[a]× b = a × b`.
+    #[inline]
+    #[must_use]
+    pub const fn skew(a: Vec3) -> Self {
+        Self::from_rows([
+            Vec3::new(0.0, -a.z, a.y),
+            Vec3::new(a.z, 0.0, -a.x),
+            Vec3::new(-a.y, a.x, 0.0),
+        ])
+    }
+
+    /// The rotation by the vector `theta` (axis times angle in radians), Rodrigues' formula.
+    #[must_use]
+    pub fn rotation(theta: Vec3) -> Self {
+        let angle_squared = theta.norm_squared();
+        let angle = angle_squared.sqrt();
+        // sin(x)/x and (1 - cos(x))/x² with their series where the quotients lose digits
+        let (a, b) = if angle < 1e-4 {
+            (1.0 - angle_squared / 6.0, 0.5 - angle_squared / 24.0)
+        } else {
+            let half = (0.5 * angle).sin() / angle;
+            (angle.sin() / angle, 2.0 * half * half)
+        };
+        let k = Self::skew(theta);
+        Self::IDENTITY + k * a + k * k * b
+    }
+
+    /// The transpose.
+    #[inline]
+    #[must_use]
+    pub fn transpose(self) -> Self {
+        let [a, b, c] = self.rows;
+        Self::from_rows([
+            Vec3::new(a.x, b.x, c.x),
+            Vec3::new(a.y, b.y, c.y),
+            Vec3::new(a.z, b.z, c.z),
+        ])
+    }
+
+    /// The determinant.
+    #[inline]
+    #[must_use]
+    pub fn determinant(self) -> f64 {
+        self.rows[0].dot(self.rows[1].cross(self.rows[2]))
+    }
+
+    /// The inverse and the determinant, or `None` where the determinant is zero or not finite.
+    #[inline]
+    #[must_use]
+    pub fn inverse(self) -> Option<(Self, f64)> {
+        let [a, b, c] = self.rows;
+        let (p, q, r) = (b.cross(c), c.cross(a), a.cross(b));
+        let det = a.dot(p);
+        if det == 0.0 || !det.is_finite() {
+            return None;
+        }
+        Some((Self::from_rows([p, q, r]).transpose() * det.recip(), det))
+    }
+}
+
+impl Add for Mat3 {
+    type Output = Self;
+    #[inline]
+    fn add(self, o: Self) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.rows, o.rows);
+        Self::from_rows([a + d, b + e, c + f])
+    }
+}
+
+impl Sub for Mat3 {
+    type Output = Self;
+    #[inline]
+    fn sub(self, o: Self) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.rows, o.rows);
+        Self::from_rows([a - d, b - e, c - f])
+    }
+}
+
+impl Mul<f64> for Mat3 {
+    type Output = Self;
+    #[inline]
+    fn mul(self, s: f64) -> Self {
+        let [a, b, c] = self.rows;
+        Self::from_rows([a * s, b * s, c * s])
+    }
+}
+
+impl Mul<Vec3> for Mat3 {
+    type Output = Vec3;
+    #[inline]
+    fn mul(self, v: Vec3) -> Vec3 {
+        let [a, b, c] = self.rows;
+        Vec3::new(a.dot(v), b.dot(v), c.dot(v))
+    }
+}
+
+impl Mul for Mat3 {
+    type Output = Self;
+    #[inline]
+    fn mul(self, o: Self) -> Self {
+        let [d, e, f] = o.rows;
+        Self::from_rows(self.rows.map(|r| d * r.x + e * r.y + f * r.z))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Mat3 {
+        Mat3::from_rows([
+            Vec3::new(2.0, 1.0, -0.5),
+            Vec3::new(0.3, -1.5, 0.7),
+            Vec3::new(0.1, 0.4, 1.2),
+        ])
+    }
+
+    fn distance(a: Mat3, b: Mat3) -> f64 {
+        (a - b).rows.iter().map(|r| r.max_abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn inverse_times_matrix_is_identity() {
+        let (inverse, det) = sample().inverse().unwrap();
+        assert!(distance(inverse * sample(), Mat3::IDENTITY) < 1e-15);
+        assert!((det - sample().determinant()).abs() < 1e-15);
+        assert!(Mat3::ZERO.inverse().is_none());
+    }
+
+    #[test]
+    fn skew_is_the_vector_product() {
+        let (a, b) = (Vec3::new(1.0, -2.0, 3.0), Vec3::new(0.5, 0.25, -4.0));
+        assert_eq!(Mat3::skew(a) * b, a.cross(b));
+    }
+
+    #[test]
+    fn rotation_is_orthogonal_and_continuous_through_its_series() {
+        for angle in [0.0, 1e-9, 0.9999e-4, 1.0001e-4, 0.3, 3.0, 12.0] {
+            let r = Mat3::rotation(Vec3::new(0.6, 0.0, 0.8) * angle);
+            assert!(
+                distance(r * r.transpose(), Mat3::IDENTITY) < 1e-14,
+                "{angle}"
+            );
+            assert!((r.determinant() - 1.0).abs() < 1e-14);
+        }
+        let quarter = Mat3::rotation(Vec3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2));
+        assert!((quarter * Vec3::unit(0) - Vec3::unit(1)).norm() < 1e-15);
+    }
+}
