@@ -1,0 +1,372 @@
+//! A surface made of facets of elements: faces of solids in space, edges of solids in the plane.
+
+use super::{
+    Anchor, Carrier, ContactSurface, Feature, Outward, Placement, Projection, SurfaceError,
+    SurfaceJet, pair,
+};
+use crate::element::{Element, MAX_FACET_NODES};
+use crate::mesh::{Face, Mesh, NodeId};
+use crate::proximity::Aabb;
+use crate::tensor::{Sym3, Vec3};
+use std::collections::HashMap;
+use thiserror::Error;
+
+/// Facets of elements, with who is whose neighbour.
+#[derive(Clone, Debug)]
+pub struct Facets {
+    ntan: usize,
+    elements: Vec<Element>,
+    // nodes of facet f: nodes[first[f]..first[f + 1]]
+    first: Vec<u32>,
+    nodes: Vec<NodeId>,
+    neighbour_first: Vec<u32>,
+    neighbours: Vec<u32>,
+    /// Nodes at which the surface ends.
+    rim_nodes: Vec<NodeId>,
+    faces: Vec<Face>,
+}
+
+/// Why a surface cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum FacetsError {
+    /// Nothing to make it of.
+    #[error("the surface has no faces")]
+    Empty,
+    /// A face that the mesh does not have.
+    #[error("element {label} has no side {side}")]
+    NoSuchFace {
+        /// Its number in the input.
+        label: u64,
+        /// Number of the side, from 1.
+        side: u8,
+    },
+}
+
+impl Facets {
+    /// The surface made of these faces of a mesh. Facet `i` is `faces[i]`.
+    ///
+    /// # Errors
+    /// No faces, or a face that the mesh does not have.
+    pub fn new(mesh: &Mesh, faces: &[Face]) -> Result<Self, FacetsError> {
+        let mut elements = Vec::with_capacity(faces.len());
+        let mut first = vec![0u32];
+        let mut nodes = Vec::new();
+        for &face in faces {
+            let missing = || FacetsError::NoSuchFace {
+                label: mesh.cell_label(face.cell).unwrap_or(0),
+                side: face.side + 1,
+            };
+            let (element, of_face) = mesh.face(face).ok_or_else(missing)?;
+            elements.push(element);
+            nodes.extend(of_face);
+            first.push(nodes.len() as u32);
+        }
+        let ntan = elements.first().ok_or(FacetsError::Empty)?.dim();
+        let mut surface = Self {
+            ntan,
+            elements,
+            first,
+            nodes,
+            neighbour_first: Vec::new(),
+            neighbours: Vec::new(),
+            rim_nodes: Vec::new(),
+            faces: faces.to_vec(),
+        };
+        surface.connect();
+        Ok(surface)
+    }
+
+    /// Finds neighbours and rims.
+    fn connect(&mut self) {
+        let nfacet = self.elements.len() as u32;
+        let mut facets_of: HashMap<NodeId, Vec<u32>> = HashMap::new();
+        let mut edges: HashMap<[NodeId; 2], u32> = HashMap::new();
+        for f in 0..nfacet {
+            for &n in self.nodes(f) {
+                facets_of.entry(n).or_default().push(f);
+            }
+            for edge in self.edges(f) {
+                *edges.entry(edge).or_default() += 1;
+            }
+        }
+        self.neighbour_first.push(0);
+        let mut near: Vec<u32> = Vec::new();
+        for f in 0..nfacet {
+            near.clear();
+            for n in self.nodes(f) {
+                near.extend(facets_of.get(n).into_iter().flatten());
+            }
+            near.sort_unstable();
+            near.dedup();
+            near.retain(|&g| g != f);
+            self.neighbours.extend_from_slice(&near);
+            self.neighbour_first.push(self.neighbours.len() as u32);
+        }
+        if self.ntan == 1 {
+            let single = facets_of.iter().filter(|(_, f)| f.len() == 1);
+            self.rim_nodes = single.map(|(&n, _)| n).collect();
+        } else {
+            let single = edges.iter().filter(|&(_, &count)| count == 1);
+            self.rim_nodes = single.flat_map(|(&e, _)| e).collect();
+        }
+        self.rim_nodes.sort_unstable();
+        self.rim_nodes.dedup();
+    }
+
+    /// The nodes of a facet.
+    #[must_use]
+    pub fn nodes(&self, facet: u32) -> &[NodeId] {
+        let f = facet as usize;
+        match (self.first.get(f), self.first.get(f + 1)) {
+            (Some(&a), Some(&b)) => self.nodes.get(a as usize..b as usize).unwrap_or(&[]),
+            _ => &[],
+        }
+    }
+
+    /// The reference element of a facet.
+    #[must_use]
+    pub fn element(&self, facet: u32) -> Option<Element> {
+        self.elements.get(facet as usize).copied()
+    }
+
+    /// The face of the mesh that a facet is.
+    #[must_use]
+    pub fn face(&self, facet: u32) -> Option<Face> {
+        self.faces.get(facet as usize).copied()
+    }
+
+    /// All nodes of the surface, sorted, each once.
+    #[must_use]
+    pub fn all_nodes(&self) -> Vec<NodeId> {
+        let mut nodes = self.nodes.clone();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// `∫ N_i dA` of every node over all facets, in the order of [`Facets::all_nodes`]; lengths in the plane.
+    ///
+    /// # Errors
+    /// A facet without a normal.
+    pub fn nodal_areas(&self, x: &[Vec3]) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
+        let mut areas: Vec<(NodeId, f64)> =
+            self.all_nodes().into_iter().map(|n| (n, 0.0)).collect();
+        let at = Placement { x, poses: &[] };
+        let mut jet = SurfaceJet::default();
+        for facet in 0..self.elements.len() as u32 {
+            let Some(element) = self.element(facet) else {
+                continue;
+            };
+            for (xi, weight) in element.full_rule().iter() {
+                let anchor = Anchor { facet, local: *xi };
+                self.jet(&at, &anchor, &mut jet)?;
+                let area = weight * area_factor(&jet, self.ntan);
+                for (i, node) in self.nodes(facet).iter().enumerate() {
+                    if let Ok(k) = areas.binary_search_by_key(node, |a| a.0) {
+                        areas[k].1 += jet.shape[i] * area;
+                    }
+                }
+            }
+        }
+        Ok(areas)
+    }
+
+    /// The edges of a facet as sorted pairs of end nodes.
+    fn edges(&self, facet: u32) -> impl Iterator<Item = [NodeId; 2]> + '_ {
+        let nodes = self.nodes(facet);
+        let edges = self.element(facet).map_or(&[][..], |e| e.edges());
+        edges.iter().filter_map(|&[a, b]| {
+            let (a, b) = (*nodes.get(a)?, *nodes.get(b)?);
+            Some([a.min(b), a.max(b)])
+        })
+    }
+
+    /// The nodes of a facet whose shape functions do not vanish at a point of it.
+    fn support<'a>(
+        &'a self,
+        facet: u32,
+        jet: &'a SurfaceJet,
+    ) -> impl Iterator<Item = NodeId> + Clone + 'a {
+        let weights = jet.shape.iter().take(jet.nnode);
+        let nodes = self.nodes(facet).iter().zip(weights);
+        nodes.filter(|(_, n)| n.abs() > 1e-9).map(|(&n, _)| n)
+    }
+
+    /// The angle between the edges of a facet that meet at one of its nodes.
+    fn corner_angle(
+        &self,
+        facet: u32,
+        node: NodeId,
+        at: &Placement,
+    ) -> Result<(f64, Vec3), SurfaceError> {
+        let missing = SurfaceError::NoSuchFacet { facet };
+        let element = self.element(facet).ok_or(missing.clone())?;
+        let place = self.nodes(facet).iter().position(|&n| n == node);
+        let k = place.ok_or(missing)?;
+        let nodes = element.nodes();
+        let mut jet = SurfaceJet::default();
+        let anchor = Anchor {
+            facet,
+            local: nodes[k],
+        };
+        self.jet(at, &anchor, &mut jet)?;
+        let mut directions = element.edges().iter().filter(|e| e.contains(&k)).map(|e| {
+            let other = if e[0] == k { e[1] } else { e[0] };
+            let d = nodes[other] - nodes[k];
+            jet.tangent[0] * d.x + jet.tangent[1] * d.y
+        });
+        let angle = match (directions.next(), directions.next()) {
+            (Some(a), Some(b)) => a.cross(b).norm().atan2(a.dot(b)),
+            _ => 1.0, // in the plane both sides weigh the same
+        };
+        Ok((angle, jet.normal))
+    }
+}
+
+/// Area (length, in the plane) per unit of the parameters.
+fn area_factor(jet: &SurfaceJet, ntan: usize) -> f64 {
+    if ntan == 1 {
+        jet.tangent[0].norm()
+    } else {
+        jet.tangent[0].cross(jet.tangent[1]).norm()
+    }
+}
+
+impl ContactSurface for Facets {
+    fn ntan(&self) -> usize {
+        self.ntan
+    }
+
+    fn nfacet(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn carrier(&self, facet: u32) -> Carrier<'_> {
+        Carrier::Nodes(self.nodes(facet))
+    }
+
+    fn aabb(&self, at: &Placement, facet: u32) -> Aabb {
+        let corners = self.nodes(facet).iter();
+        Aabb::around(corners.filter_map(|&n| at.x.get(n as usize).copied()))
+    }
+
+    fn size(&self, at: &Placement, facet: u32) -> f64 {
+        let Some(element) = self.element(facet) else {
+            return 0.0;
+        };
+        let mut jet = SurfaceJet::default();
+        let mut area = 0.0;
+        for (xi, weight) in element.full_rule().iter() {
+            let anchor = Anchor { facet, local: *xi };
+            if self.jet(at, &anchor, &mut jet).is_ok() {
+                area += weight * area_factor(&jet, self.ntan);
+            }
+        }
+        if self.ntan == 1 { area } else { area.sqrt() }
+    }
+
+    fn jet(
+        &self,
+        at: &Placement,
+        point: &Anchor,
+        out: &mut SurfaceJet,
+    ) -> Result<(), SurfaceError> {
+        let facet = point.facet;
+        let missing = SurfaceError::NoSuchFacet { facet };
+        let nodes = self.nodes(facet);
+        let element = self.element(facet).ok_or(missing.clone())?;
+        let n = nodes.len();
+        let mut dshape = [Vec3::ZERO; MAX_FACET_NODES];
+        let mut ddshape = [Sym3::ZERO; MAX_FACET_NODES];
+        element.shape(&point.local, &mut out.shape[..n]);
+        element.dshape(&point.local, &mut dshape[..n]);
+        element.ddshape(&point.local, &mut ddshape[..n]);
+        out.nnode = n;
+        out.position = Vec3::ZERO;
+        out.tangent = [Vec3::ZERO; 2];
+        out.curvature = [Vec3::ZERO; 3];
+        for (i, &node) in nodes.iter().enumerate() {
+            let x = *at.x.get(node as usize).ok_or(missing.clone())?;
+            let (d, dd) = (dshape[i], ddshape[i]);
+            out.dshape[i] = [d.x, d.y];
+            out.position += x * out.shape[i];
+            out.tangent[0] += x * d.x;
+            out.tangent[1] += x * d.y;
+            out.curvature[pair(0, 0)] += x * dd.xx();
+            out.curvature[pair(1, 1)] += x * dd.yy();
+            out.curvature[pair(0, 1)] += x * dd.xy();
+        }
+        let [t1, t2] = out.tangent;
+        let (direction, scale) = if self.ntan == 1 {
+            (t1.cross(Vec3::unit(2)), t1.norm())
+        } else {
+            (t1.cross(t2), t1.norm() * t2.norm())
+        };
+        let length = direction.norm();
+        // a facet is degenerate when its tangents are parallel to round-off
+        if length <= 1e-12 * scale || !length.is_finite() {
+            return Err(SurfaceError::Degenerate { facet });
+        }
+        out.normal = direction / length;
+        out.metric = [t1.dot(t1), t2.dot(t2), t1.dot(t2)];
+        Ok(())
+    }
+
+    fn domain(&self, facet: u32) -> Option<Element> {
+        self.element(facet)
+    }
+
+    fn neighbours(&self, facet: u32) -> &[u32] {
+        let f = facet as usize;
+        match (self.neighbour_first.get(f), self.neighbour_first.get(f + 1)) {
+            (Some(&a), Some(&b)) => self.neighbours.get(a as usize..b as usize).unwrap_or(&[]),
+            _ => &[],
+        }
+    }
+
+    fn outward(&self, at: &Placement, found: &Projection) -> Result<Outward, SurfaceError> {
+        let facet = found.anchor.facet;
+        let mut jet = SurfaceJet::default();
+        self.jet(at, &found.anchor, &mut jet)?;
+        if found.feature == Feature::Face {
+            return Ok(Outward {
+                direction: jet.normal,
+                rim: false,
+            });
+        }
+        let around = |g: &&u32| {
+            let others = self.nodes(**g);
+            self.support(facet, &jet).all(|n| others.contains(&n))
+        };
+        let neighbours = self.neighbours(facet).iter().filter(around).copied();
+        if let Feature::Edge { .. } = found.feature {
+            let mut direction = jet.normal;
+            let mut other = SurfaceJet::default();
+            let mut count = 0;
+            for g in neighbours {
+                count += 1;
+                if self
+                    .project(at, g, jet.position, None, &mut other)?
+                    .is_some()
+                {
+                    direction += other.normal;
+                }
+            }
+            return Ok(Outward {
+                direction,
+                rim: count == 0,
+            });
+        }
+        let node = self.support(facet, &jet).next();
+        let node = node.ok_or(SurfaceError::NoSuchFacet { facet })?;
+        let mut direction = Vec3::ZERO;
+        for g in neighbours.chain([facet]) {
+            let (angle, normal) = self.corner_angle(g, node, at)?;
+            direction += normal * angle;
+        }
+        Ok(Outward {
+            direction,
+            rim: self.rim_nodes.binary_search(&node).is_ok(),
+        })
+    }
+}
