@@ -1,1 +1,12 @@
-//! Placeholder.
+//! Everything between a mesh and a result: unknowns, materials, solids, loads, contact, solution.
+//!
+//! ```text
+//! system ◀── solid, load, contact ◀── model          solve ──▶ system
+//! ```
+//!
+//! `solve` knows nothing of solids or contact: all it sees is [`system::Term`]. `material` and `contact::law` have never
+//! heard of a degree of freedom.
+
+pub mod material;
+pub mod solid;
+pub mod system;

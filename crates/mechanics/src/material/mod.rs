@@ -1,0 +1,166 @@
+//! Constitutive laws: strain in, stress, tangent and energy out.
+//!
+//! | symbol | name in code | shape |
+//! |---|---|---|
+//! | ε, E | `strain` | [`Sym3`]: linearized, or Green–Lagrange `½(FᵀF − I)` |
+//! | σ, S | `stress` | [`Sym3`]: Cauchy at small strain, second Piola–Kirchhoff at finite strain |
+//! | C_ijkl = ∂S_ij/∂E_kl | `tangent` | 6 × 6 over [`Sym3::PAIRS`]; multiplies strains with doubled shears |
+//! | W | `energy` | per volume of the reference |
+//! | λ, μ | [`Lame`] | λ = Eν/((1+ν)(1−2ν)), μ = E/(2(1+ν)) (E1) |
+//!
+//! A law knows no degree of freedom. To add one: one file that implements [`Material`], one line in [`TABLE`]; the
+//! property tests of this room run over the table. Neglected so far: temperature, history (the slices are there, no
+//! law uses them yet).
+
+mod linear_elastic;
+mod neo_hookean;
+mod saint_venant_kirchhoff;
+#[cfg(test)]
+mod tests;
+
+pub use linear_elastic::LinearElastic;
+pub use neo_hookean::NeoHookean;
+pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
+
+use signorini_geometry::tensor::Sym3;
+use thiserror::Error;
+
+/// How far a response is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Order {
+    /// Energy and stress.
+    Stress,
+    /// Energy, stress and tangent.
+    Tangent,
+}
+
+/// How large strains may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kinematics {
+    /// Linearized strain, Cauchy stress.
+    Small,
+    /// Green–Lagrange strain, second Piola–Kirchhoff stress.
+    Finite,
+}
+
+/// The strain at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Strain {
+    /// Which measure it is.
+    pub kinematics: Kinematics,
+    /// Its value, tensor components.
+    pub value: Sym3,
+}
+
+/// What a material answers.
+#[derive(Clone, Copy, Debug)]
+pub struct Response {
+    /// Conjugate to the strain measure.
+    pub stress: Sym3,
+    /// Derivative of the stress; valid for [`Order::Tangent`].
+    pub tangent: [[f64; 6]; 6],
+    /// Stored energy per volume of the reference.
+    pub energy: f64,
+}
+
+impl Default for Response {
+    fn default() -> Self {
+        Self {
+            stress: Sym3::ZERO,
+            tangent: [[0.0; 6]; 6],
+            energy: 0.0,
+        }
+    }
+}
+
+/// Why a material has no answer.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum MaterialError {
+    /// The volume ratio is not positive.
+    #[error("the material is turned inside out (volume ratio {ratio:.3e})")]
+    Inverted {
+        /// Determinant of the deformation gradient.
+        ratio: f64,
+    },
+}
+
+/// A constitutive law with its constants.
+pub trait Material: Send + Sync {
+    /// Numbers of history at a point.
+    fn nhistory(&self) -> usize {
+        0
+    }
+
+    /// Stress, energy and, if wanted, the tangent at a strain. `old` and `new` are the history, `nhistory` each.
+    ///
+    /// # Errors
+    /// A strain at which the law is not defined.
+    fn respond(
+        &self,
+        strain: &Strain,
+        old: &[f64],
+        new: &mut [f64],
+        order: Order,
+        out: &mut Response,
+    ) -> Result<(), MaterialError>;
+
+    /// The stiffness against uniaxial strain of the undeformed material, λ + 2μ: what automatic penalties scale with.
+    fn modulus(&self) -> f64;
+}
+
+/// Lamé's constants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lame {
+    /// First constant.
+    pub lambda: f64,
+    /// Shear modulus.
+    pub mu: f64,
+}
+
+impl Lame {
+    /// From Young's modulus `e > 0` and Poisson's ratio `−1 < nu < ½` (E1).
+    #[must_use]
+    pub fn new(e: f64, nu: f64) -> Self {
+        Self {
+            lambda: e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            mu: e / (2.0 * (1.0 + nu)),
+        }
+    }
+
+    /// The isotropic linear law `λ tr(ε) I + 2μ ε`.
+    fn respond(&self, strain: &Sym3, order: Order, out: &mut Response) {
+        let trace = strain.trace();
+        let mean = self.lambda * trace;
+        out.stress = Sym3::diagonal(mean, mean, mean) + *strain * (2.0 * self.mu);
+        out.energy = 0.5 * out.stress.double_dot(*strain);
+        if order == Order::Tangent {
+            out.tangent = self.tangent();
+        }
+    }
+
+    fn tangent(&self) -> [[f64; 6]; 6] {
+        let mut c = [[0.0; 6]; 6];
+        for i in 0..3 {
+            for j in 0..3 {
+                c[i][j] = self.lambda;
+            }
+            c[i][i] += 2.0 * self.mu;
+            c[i + 3][i + 3] = self.mu;
+        }
+        c
+    }
+}
+
+/// Makes a material from Young's modulus and Poisson's ratio.
+pub type Maker = fn(e: f64, nu: f64) -> Box<dyn Material>;
+
+/// Every isotropic law of two constants, by its name in a case.
+pub const TABLE: [(&str, Maker); 3] = [
+    ("linear-elastic", |e, nu| {
+        Box::new(LinearElastic::new(e, nu))
+    }),
+    ("saint-venant-kirchhoff", |e, nu| {
+        Box::new(SaintVenantKirchhoff::new(e, nu))
+    }),
+    ("neo-hookean", |e, nu| Box::new(NeoHookean::new(e, nu))),
+];

@@ -1,0 +1,74 @@
+use super::{Kinematics, Lame, Material, MaterialError, Order, Response, Strain};
+use signorini_geometry::tensor::Sym3;
+
+/// The compressible neo-Hookean law with the energy `W = μ/2 (tr C − 3) − μ ln J + λ/2 (ln J)²`.
+///
+/// `S = μ (I − C⁻¹) + λ ln J C⁻¹`, `C_ijkl = λ C⁻¹_ij C⁻¹_kl + (μ − λ ln J)(C⁻¹_ik C⁻¹_jl + C⁻¹_il C⁻¹_jk)`.
+/// At small strain it is linear elasticity. Source: Bonet and Wood, *Nonlinear Continuum Mechanics for Finite Element
+/// Analysis*, 2nd ed. 2008, section 6.4.3.
+#[derive(Clone, Debug)]
+pub struct NeoHookean {
+    lame: Lame,
+}
+
+impl NeoHookean {
+    /// From Young's modulus and Poisson's ratio of the undeformed material.
+    #[must_use]
+    pub fn new(e: f64, nu: f64) -> Self {
+        Self {
+            lame: Lame::new(e, nu),
+        }
+    }
+}
+
+impl Material for NeoHookean {
+    fn respond(
+        &self,
+        strain: &Strain,
+        _: &[f64],
+        _: &mut [f64],
+        order: Order,
+        out: &mut Response,
+    ) -> Result<(), MaterialError> {
+        if strain.kinematics == Kinematics::Small {
+            self.lame.respond(&strain.value, order, out);
+            return Ok(());
+        }
+        let Lame { lambda, mu } = self.lame;
+        let c = strain.value * 2.0 + Sym3::IDENTITY;
+        let (inverse, det) = c.inverse().ok_or(MaterialError::Inverted { ratio: 0.0 })?;
+        if det <= 0.0 {
+            return Err(MaterialError::Inverted { ratio: det });
+        }
+        // ln J from det C − 1, which keeps its digits at small strain
+        let log = 0.5 * determinant_minus_one(&strain.value).ln_1p();
+        // I − C⁻¹ = 2 E C⁻¹, without cancellation; E and C commute
+        let product = strain.value.to_mat3() * inverse.to_mat3();
+        out.stress = Sym3::symmetric_part(product) * (2.0 * mu) + inverse * (lambda * log);
+        let trace = 2.0 * strain.value.trace();
+        out.energy = 0.5 * mu * trace - mu * log + 0.5 * lambda * log * log;
+        if order == Order::Tangent {
+            let b = inverse.to_mat3();
+            let ci = inverse.to_pairs();
+            let shear = mu - lambda * log;
+            for (p, (i, j)) in Sym3::PAIRS.into_iter().enumerate() {
+                for (q, (k, l)) in Sym3::PAIRS.into_iter().enumerate() {
+                    out.tangent[p][q] = lambda * ci[p] * ci[q]
+                        + shear * (b.rows[i][k] * b.rows[j][l] + b.rows[i][l] * b.rows[j][k]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn modulus(&self) -> f64 {
+        self.lame.lambda + 2.0 * self.lame.mu
+    }
+}
+
+/// `det(I + 2E) − 1`, by invariants of `E`.
+fn determinant_minus_one(e: &Sym3) -> f64 {
+    let trace = e.trace();
+    let second = 0.5 * (trace * trace - e.double_dot(*e));
+    2.0 * trace + 4.0 * second + 8.0 * e.determinant()
+}

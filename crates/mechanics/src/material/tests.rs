@@ -1,0 +1,112 @@
+//! Properties of every material in the table.
+
+use super::*;
+
+const ZERO: Sym3 = Sym3::ZERO;
+const SAMPLE: Sym3 = Sym3::new(-0.21, 0.13, 0.05, 0.08, -0.11, 0.06);
+
+fn respond(material: &dyn Material, kinematics: Kinematics, value: Sym3) -> Response {
+    let mut out = Response::default();
+    let strain = Strain { kinematics, value };
+    material
+        .respond(&strain, &[], &mut [], Order::Tangent, &mut out)
+        .unwrap();
+    out
+}
+
+#[test]
+fn stress_is_the_gradient_of_energy_and_tangent_that_of_stress() {
+    for (name, make) in TABLE {
+        let material = make(500.0, 0.3);
+        for kinematics in [Kinematics::Small, Kinematics::Finite] {
+            let at = respond(material.as_ref(), kinematics, SAMPLE);
+            let h = 1e-6;
+            for q in 0..6 {
+                let mut step = [0.0; 6];
+                // a doubled shear of h is a tensor component of h/2
+                step[q] = if q < 3 { h } else { 0.5 * h };
+                let step = Sym3::from_pairs(step);
+                let plus = respond(material.as_ref(), kinematics, SAMPLE + step);
+                let minus = respond(material.as_ref(), kinematics, SAMPLE - step);
+                let slope = (plus.energy - minus.energy) / (2.0 * h);
+                assert!(
+                    (slope - at.stress.to_pairs()[q]).abs() < 1e-6,
+                    "{name} {kinematics:?}"
+                );
+                for p in 0..6 {
+                    let slope =
+                        (plus.stress.to_pairs()[p] - minus.stress.to_pairs()[p]) / (2.0 * h);
+                    assert!(
+                        (slope - at.tangent[p][q]).abs() < 1e-5,
+                        "{name} {kinematics:?} {p}{q}"
+                    );
+                    assert!((at.tangent[p][q] - at.tangent[q][p]).abs() < 1e-10);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn all_laws_agree_with_hooke_at_the_origin() {
+    let hooke = Lame::new(500.0, 0.3).tangent();
+    for (name, make) in TABLE {
+        let material = make(500.0, 0.3);
+        for kinematics in [Kinematics::Small, Kinematics::Finite] {
+            let at = respond(material.as_ref(), kinematics, ZERO);
+            assert_eq!(at.stress, ZERO, "{name}");
+            assert_eq!(at.energy, 0.0);
+            for (row, expected) in at.tangent.iter().zip(&hooke) {
+                for (a, b) in row.iter().zip(expected) {
+                    assert!((a - b).abs() < 1e-12 * 500.0, "{name}");
+                }
+            }
+        }
+        assert!((material.modulus() - hooke[0][0]).abs() < 1e-10);
+    }
+}
+
+#[test]
+fn uniaxial_saint_venant_kirchhoff_has_its_nominal_stress() {
+    // nu = 0: P = l S = ½ E l (l² − 1)
+    let law = SaintVenantKirchhoff::new(500.0, 0.0);
+    for l in [0.6, 0.8, 1.3] {
+        let e = 0.5 * (l * l - 1.0);
+        let out = respond(&law, Kinematics::Finite, Sym3::diagonal(e, 0.0, 0.0));
+        assert!((l * out.stress.xx() - 0.5 * 500.0 * l * (l * l - 1.0)).abs() < 1e-11);
+    }
+}
+
+#[test]
+fn neo_hookean_dilation_has_its_closed_form_and_keeps_digits_at_small_strain() {
+    let (lambda, mu) = (1000.0, 400.0);
+    let nu = lambda / (2.0 * (lambda + mu));
+    let law = NeoHookean::new(2.0 * mu * (1.0 + nu), nu);
+    for l in [0.7f64, 1.2] {
+        let e = 0.5 * (l * l - 1.0);
+        let out = respond(&law, Kinematics::Finite, Sym3::diagonal(e, e, e));
+        // S = (μ (l² − 1) + 3 λ ln l)/l²
+        let expected = (mu * (l * l - 1.0) + 3.0 * lambda * l.ln()) / (l * l);
+        assert!((out.stress.xx() - expected).abs() < 1e-10);
+    }
+    let tiny = 1e-9;
+    let out = respond(&law, Kinematics::Finite, Sym3::diagonal(tiny, 0.0, 0.0));
+    assert!((out.stress.yy() / (lambda * tiny) - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn an_inverted_state_is_an_error() {
+    let law = NeoHookean::new(1.0, 0.3);
+    let strain = Strain {
+        kinematics: Kinematics::Finite,
+        value: Sym3::diagonal(-0.6, 0.0, 0.0),
+    };
+    let outcome = law.respond(
+        &strain,
+        &[],
+        &mut [],
+        Order::Stress,
+        &mut Response::default(),
+    );
+    assert!(matches!(outcome, Err(MaterialError::Inverted { .. })));
+}

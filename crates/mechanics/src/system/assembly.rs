@@ -1,0 +1,433 @@
+//! From terms to one residual and one operator.
+
+use super::elimination::Expanded;
+use super::linear::Values;
+use super::sparsity::{BlockPattern, NONE, Pattern};
+use super::{
+    Dof, Elimination, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, Term, TermError, Work,
+};
+use rayon::prelude::*;
+use signorini_geometry::mesh::NodeId;
+
+/// Chunks evaluated before they are added: bounds the memory, and nothing else.
+const WAVE: usize = 64;
+
+/// The values that one assembly gives.
+#[derive(Clone, Debug, Default)]
+pub struct Assembly {
+    /// r = f_int − f_ext at every raw dof; zero at dependent ones.
+    pub residual: Vec<f64>,
+    /// Sum of the absolute values of everything that was added to the residual.
+    pub magnitude: Vec<f64>,
+    bulk: Vec<f64>,
+    interface: Vec<f64>,
+}
+
+impl Assembly {
+    /// The values of the operator.
+    #[must_use]
+    pub fn values(&self) -> Values<'_> {
+        Values {
+            bulk: &self.bulk,
+            interface: &self.interface,
+        }
+    }
+}
+
+/// Evaluates terms by chunks, in parallel, and adds the results in a fixed order.
+pub struct Assembler {
+    tasks: Vec<Task>,
+    bulk: BlockPattern,
+    interface: Pattern,
+    slots: Vec<Slot>,
+    expanded: Expanded,
+}
+
+struct Task {
+    term: usize,
+    chunk: usize,
+    part: Part,
+    // where the blocks of each element of the chunk go, in order; found once
+    positions: Vec<u32>,
+}
+
+#[derive(Default)]
+struct Slot {
+    work: Work,
+    buffer: Buffer,
+    failure: Option<TermError>,
+    energy: Option<f64>,
+}
+
+/// What a chunk added, one contribution after the other.
+#[derive(Default)]
+struct Buffer {
+    dofs: Vec<Dof>,
+    sizes: Vec<usize>,
+    force: Vec<f64>,
+    stiffness: Vec<f64>,
+    stiffness_sizes: Vec<usize>,
+}
+
+impl Sink for Buffer {
+    fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]) {
+        debug_assert_eq!(dofs.len(), force.len());
+        debug_assert!(stiffness.is_empty() || stiffness.len() == dofs.len() * dofs.len());
+        self.sizes.push(dofs.len());
+        self.stiffness_sizes.push(stiffness.len());
+        self.dofs.extend_from_slice(dofs);
+        self.force.extend_from_slice(force);
+        self.stiffness.extend_from_slice(stiffness);
+    }
+}
+
+impl Buffer {
+    fn clear(&mut self) {
+        self.dofs.clear();
+        self.sizes.clear();
+        self.force.clear();
+        self.stiffness.clear();
+        self.stiffness_sizes.clear();
+    }
+}
+
+/// Cliques of a pattern, as they come.
+struct Cliques<'a> {
+    layout: &'a Layout,
+    elimination: &'a Elimination,
+    bulk: Vec<u32>,
+    bulk_offsets: Vec<usize>,
+    interface: Vec<u32>,
+    interface_offsets: Vec<usize>,
+    dofs: Vec<Dof>,
+}
+
+impl PatternSink for Cliques<'_> {
+    fn bulk(&mut self, nodes: &[NodeId]) {
+        if nodes.iter().all(|&n| self.elimination.body_of(n).is_none()) {
+            self.bulk.extend_from_slice(nodes);
+            self.bulk_offsets.push(self.bulk.len());
+            return;
+        }
+        let layout = *self.layout;
+        let of_node = |&n: &NodeId| (0..layout.ndim).map(move |c| layout.node(n, c));
+        let dofs: Vec<Dof> = nodes.iter().flat_map(of_node).collect();
+        self.interface(&dofs);
+    }
+
+    fn interface(&mut self, dofs: &[Dof]) {
+        self.dofs.clear();
+        self.elimination
+            .independent(dofs, self.layout, &mut self.dofs);
+        self.interface.extend_from_slice(&self.dofs);
+        self.interface_offsets.push(self.interface.len());
+    }
+}
+
+impl Assembler {
+    /// Prepares the assembly of these terms.
+    #[must_use]
+    pub fn new(layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) -> Self {
+        let mut assembler = Self {
+            tasks: Vec::new(),
+            bulk: BlockPattern::empty(layout.nnode, layout.ndim),
+            interface: Pattern::empty(layout.ndof()),
+            slots: Vec::new(),
+            expanded: Expanded::default(),
+        };
+        for (number, term) in terms.iter().enumerate() {
+            assembler.tasks.extend((0..term.nchunk()).map(|chunk| Task {
+                term: number,
+                chunk,
+                part: term.part(),
+                positions: Vec::new(),
+            }));
+        }
+        let wave = WAVE.min(assembler.tasks.len());
+        assembler.slots.resize_with(wave, Slot::default);
+        let cliques = collect(layout, elimination, terms);
+        assembler.bulk = BlockPattern::from_cliques(
+            layout.nnode,
+            layout.ndim,
+            &cliques.bulk,
+            &cliques.bulk_offsets,
+        );
+        assembler.interface = Pattern::from_cliques(
+            layout.ndof(),
+            &cliques.interface,
+            &cliques.interface_offsets,
+        );
+        assembler
+    }
+
+    /// The pattern of the bulk.
+    #[must_use]
+    pub const fn bulk(&self) -> &BlockPattern {
+        &self.bulk
+    }
+
+    /// The pattern of the interface.
+    #[must_use]
+    pub const fn interface(&self) -> &Pattern {
+        &self.interface
+    }
+
+    /// Makes room for what the terms of the interface couple now. Says whether the pattern had to grow.
+    pub fn update_interface(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+    ) -> bool {
+        // solids that share nodes with rigid bodies have entries here, too
+        let cliques = collect(layout, elimination, terms);
+        let (dofs, offsets) = (&cliques.interface, &cliques.interface_offsets);
+        if self.interface.contains_cliques(dofs, offsets) {
+            return false;
+        }
+        self.interface = Pattern::from_cliques(layout.ndof(), dofs, offsets);
+        true
+    }
+
+    /// Evaluates all terms at a trial state into `out`.
+    ///
+    /// # Errors
+    /// The first failure in the order of terms and chunks.
+    pub fn assemble(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        trial: &State,
+        order: Order,
+        out: &mut Assembly,
+    ) -> Result<(), TermError> {
+        reset(&mut out.residual, layout.ndof());
+        reset(&mut out.magnitude, layout.ndof());
+        if order == Order::Tangent {
+            reset(&mut out.bulk, self.bulk.nvalue());
+            reset(&mut out.interface, self.interface.nentry());
+        }
+        let Self {
+            tasks,
+            bulk,
+            interface,
+            slots,
+            expanded,
+        } = self;
+        for wave in tasks.chunks_mut(WAVE) {
+            let evaluate = |(slot, task): (&mut Slot, &mut Task)| {
+                slot.buffer.clear();
+                let outcome = terms[task.term].evaluate(
+                    task.chunk,
+                    trial,
+                    order,
+                    &mut slot.work,
+                    &mut slot.buffer,
+                );
+                slot.failure = outcome.err();
+            };
+            if wave.len() == 1 {
+                slots.iter_mut().zip(&mut *wave).for_each(evaluate);
+            } else {
+                let pairs = slots.par_iter_mut().zip(&mut *wave);
+                pairs.for_each(evaluate);
+            }
+            for (slot, task) in slots.iter_mut().zip(wave) {
+                if let Some(failure) = slot.failure.take() {
+                    return Err(failure);
+                }
+                let mut scatter = Scatter {
+                    layout,
+                    elimination,
+                    trial,
+                    bulk,
+                    interface,
+                    expanded: &mut *expanded,
+                    out: &mut *out,
+                };
+                scatter.add(&slot.buffer, task);
+            }
+        }
+        Ok(())
+    }
+
+    /// The potential energy at a trial state, where every term has one.
+    ///
+    /// # Errors
+    /// The first failure in the order of terms and chunks.
+    pub fn energy(
+        &mut self,
+        terms: &[Box<dyn Term>],
+        trial: &State,
+    ) -> Result<Option<f64>, TermError> {
+        let mut total = 0.0;
+        for wave in self.tasks.chunks(WAVE) {
+            let evaluate = |(slot, task): (&mut Slot, &Task)| match terms[task.term].energy(
+                task.chunk,
+                trial,
+                &mut slot.work,
+            ) {
+                Ok(energy) => slot.energy = energy,
+                Err(failure) => slot.failure = Some(failure),
+            };
+            if wave.len() == 1 {
+                self.slots.iter_mut().zip(wave).for_each(evaluate);
+            } else {
+                self.slots.par_iter_mut().zip(wave).for_each(evaluate);
+            }
+            for (slot, _) in self.slots.iter_mut().zip(wave) {
+                if let Some(failure) = slot.failure.take() {
+                    return Err(failure);
+                }
+                match slot.energy {
+                    Some(energy) => total += energy,
+                    None => return Ok(None),
+                }
+            }
+        }
+        Ok(Some(total))
+    }
+}
+
+/// Adds one chunk after the other.
+struct Scatter<'a> {
+    layout: &'a Layout,
+    elimination: &'a Elimination,
+    trial: &'a State,
+    bulk: &'a BlockPattern,
+    interface: &'a Pattern,
+    expanded: &'a mut Expanded,
+    out: &'a mut Assembly,
+}
+
+impl Scatter<'_> {
+    fn add(&mut self, buffer: &Buffer, task: &mut Task) {
+        let (mut at, mut at_stiffness, mut at_position) = (0, 0, 0);
+        let first_time = task.positions.is_empty();
+        for (&n, &nk) in buffer.sizes.iter().zip(&buffer.stiffness_sizes) {
+            let dofs = &buffer.dofs[at..at + n];
+            let force = &buffer.force[at..at + n];
+            let stiffness = &buffer.stiffness[at_stiffness..at_stiffness + nk];
+            at += n;
+            at_stiffness += nk;
+            if dofs
+                .iter()
+                .any(|&d| self.elimination.depends(d, self.layout))
+            {
+                let mut expanded = std::mem::take(self.expanded);
+                self.elimination.expand(
+                    dofs,
+                    force,
+                    stiffness,
+                    self.trial,
+                    self.layout,
+                    &mut expanded,
+                );
+                self.force(&expanded.dofs, &expanded.force);
+                self.scalar(&expanded.dofs, &expanded.stiffness);
+                *self.expanded = expanded;
+                continue;
+            }
+            self.force(dofs, force);
+            if stiffness.is_empty() {
+                continue;
+            }
+            if task.part == Part::Interface {
+                self.scalar(dofs, stiffness);
+                continue;
+            }
+            let nblock = n / self.layout.ndim;
+            if first_time {
+                self.find(dofs, &mut task.positions);
+            }
+            let end = at_position + nblock * nblock;
+            self.blocks(n, stiffness, &task.positions[at_position..end]);
+            at_position = end;
+        }
+    }
+
+    fn force(&mut self, dofs: &[Dof], force: &[f64]) {
+        for (&dof, f) in dofs.iter().zip(force) {
+            if dof != NO_DOF {
+                self.out.residual[dof as usize] += f;
+                self.out.magnitude[dof as usize] += f.abs();
+            }
+        }
+    }
+
+    /// Where the blocks of an element are in the bulk.
+    fn find(&self, dofs: &[Dof], positions: &mut Vec<u32>) {
+        let ndim = self.layout.ndim;
+        let node = |d: &[Dof]| d[0] / ndim as u32;
+        for row in dofs.chunks_exact(ndim) {
+            for column in dofs.chunks_exact(ndim) {
+                let found = self.bulk.position(node(row), node(column));
+                positions.push(found.map_or(NONE, |p| p as u32));
+            }
+        }
+    }
+
+    fn blocks(&mut self, n: usize, stiffness: &[f64], positions: &[u32]) {
+        let ndim = self.layout.ndim;
+        let nblock = n / ndim;
+        for (k, &position) in positions.iter().enumerate() {
+            debug_assert_ne!(position, NONE, "an element outside its own pattern");
+            let (row, column) = (k / nblock * ndim, k % nblock * ndim);
+            let at = position as usize * ndim * ndim;
+            let block = &mut self.out.bulk[at..at + ndim * ndim];
+            for i in 0..ndim {
+                let from = (row + i) * n + column;
+                for (to, value) in block[i * ndim..]
+                    .iter_mut()
+                    .zip(&stiffness[from..from + ndim])
+                {
+                    *to += value;
+                }
+            }
+        }
+    }
+
+    fn scalar(&mut self, dofs: &[Dof], stiffness: &[f64]) {
+        for (row, values) in dofs.iter().zip(stiffness.chunks_exact(dofs.len().max(1))) {
+            if *row == NO_DOF {
+                continue;
+            }
+            for (column, value) in dofs.iter().zip(values) {
+                if *column == NO_DOF || *value == 0.0 {
+                    continue;
+                }
+                let position = self.interface.position(*row, *column);
+                debug_assert!(position.is_some(), "a row outside its own pattern");
+                if let Some(position) = position {
+                    self.out.interface[position] += value;
+                }
+            }
+        }
+    }
+}
+
+fn reset(values: &mut Vec<f64>, n: usize) {
+    values.clear();
+    values.resize(n, 0.0);
+}
+
+fn collect<'a>(
+    layout: &'a Layout,
+    elimination: &'a Elimination,
+    terms: &[Box<dyn Term>],
+) -> Cliques<'a> {
+    let mut cliques = Cliques {
+        layout,
+        elimination,
+        bulk: Vec::new(),
+        bulk_offsets: vec![0],
+        interface: Vec::new(),
+        interface_offsets: vec![0],
+        dofs: Vec::new(),
+    };
+    for term in terms {
+        term.pattern(&mut cliques);
+    }
+    cliques
+}

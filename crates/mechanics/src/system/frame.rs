@@ -1,0 +1,166 @@
+use signorini_geometry::element::Element;
+use signorini_geometry::tensor::{Sym3, Vec3};
+
+/// The state of contact at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Status {
+    /// Nothing of the other side is within reach.
+    #[default]
+    Absent,
+    /// Not touching.
+    Open,
+    /// Touching, without relative motion.
+    Stick,
+    /// Touching and free to slide; closed contact without friction counts as this.
+    Slip,
+}
+
+impl Status {
+    /// The number it has in files: −1 not a candidate, 0 open, 1 stick, 2 slip.
+    #[must_use]
+    pub const fn number(self) -> i8 {
+        match self {
+            Self::Absent => -1,
+            Self::Open => 0,
+            Self::Stick => 1,
+            Self::Slip => 2,
+        }
+    }
+
+    /// Whether it touches.
+    #[must_use]
+    pub const fn is_closed(self) -> bool {
+        matches!(self, Self::Stick | Self::Slip)
+    }
+}
+
+/// A force and its moment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Resultant {
+    /// The force.
+    pub force: Vec3,
+    /// The moment about the point that the context names.
+    pub moment: Vec3,
+}
+
+/// What happened at one contact interface.
+#[derive(Clone, Debug, Default)]
+pub struct ContactFrame {
+    /// Name of the interface.
+    pub name: String,
+    /// Nodes of the secondary side.
+    pub nodes: Vec<u32>,
+    /// Their present positions.
+    pub points: Vec<Vec3>,
+    /// Their displacements.
+    pub displacement: Vec<Vec3>,
+    /// Facets of the secondary side as indices into `points`; empty where it is bare nodes.
+    pub facets: Vec<(Element, Vec<u32>)>,
+    /// Gap at each node: positive open, negative penetration. NaN where nothing is within reach.
+    pub gap: Vec<f64>,
+    /// Pressure at each node, ≥ 0; force where the secondary side has no area.
+    pub pressure: Vec<f64>,
+    /// Status at each node.
+    pub status: Vec<Status>,
+    /// Contact force on each secondary node.
+    pub force: Vec<Vec3>,
+    /// Traction on each secondary node: force over tributary area.
+    pub traction: Vec<Vec3>,
+    /// Accumulated slip at each node.
+    pub slip: Vec<Vec3>,
+    /// Tributary area of each node.
+    pub area: Vec<f64>,
+    /// What the primary side exerts on the secondary; moment about the origin.
+    pub secondary: Resultant,
+    /// What the secondary side exerts on the primary; moment about the origin.
+    pub primary: Resultant,
+    /// The largest pressure.
+    pub pressure_max: f64,
+    /// The smallest gap; 0 where nothing is within reach.
+    pub gap_min: f64,
+    /// The largest accumulated slip.
+    pub slip_max: f64,
+    /// Open area.
+    pub area_open: f64,
+    /// Sticking area.
+    pub area_stick: f64,
+    /// Slipping area.
+    pub area_slip: f64,
+    /// Centre of pressure; zero without contact.
+    pub center: Vec3,
+    /// Work spent in friction since the start.
+    pub work_friction: f64,
+    /// Characteristic size of the facets, for judging the penetration.
+    pub facet_size: f64,
+}
+
+impl ContactFrame {
+    /// The number of closed nodes.
+    #[must_use]
+    pub fn nclosed(&self) -> usize {
+        self.status.iter().filter(|s| s.is_closed()).count()
+    }
+}
+
+/// The results at one accepted state. Plain data: writers take it from here.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    /// Total time.
+    pub time: f64,
+    /// Name of the step.
+    pub step: String,
+    /// Number of the step, from 0.
+    pub step_number: usize,
+    /// Increment within the step, from 1; 0 for the undeformed state.
+    pub increment: usize,
+    /// Linear solves that it took.
+    pub iterations: usize,
+    /// Displacement of each node.
+    pub displacement: Vec<Vec3>,
+    /// Force that supports exert on each node.
+    pub reaction_force: Vec<Vec3>,
+    /// Cauchy stress at each node, the mean over the cells around it.
+    pub stress: Vec<Sym3>,
+    /// How much went into each nodal mean; 0 at nodes without a solid.
+    pub stress_weight: Vec<f64>,
+    /// Cauchy stress of each cell, the mean over its volume; by block of the mesh, then cell.
+    pub cell_stress: Vec<Vec<Sym3>>,
+    /// Contact force on each node, of both sides.
+    pub contact_force: Vec<Vec3>,
+    /// Contact pressure at each node, 0 where there is no contact.
+    pub contact_pressure: Vec<f64>,
+    /// The contact interfaces.
+    pub contacts: Vec<ContactFrame>,
+    /// What contact exerts on each rigid body, about its reference point; and its motion.
+    pub rigid: Vec<RigidFrame>,
+    /// Potential energy, where every term has one.
+    pub energy: Option<f64>,
+}
+
+/// A rigid body at an accepted state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RigidFrame {
+    /// What contact exerts on it; moment about the reference point.
+    pub contact: Resultant,
+    /// Translation of the reference point since the start.
+    pub displacement: Vec3,
+    /// Rotation since the start, as axis times angle.
+    pub rotation: Vec3,
+}
+
+impl Frame {
+    /// A frame with room for a mesh.
+    #[must_use]
+    pub fn new(nnode: usize, ncell: &[usize]) -> Self {
+        Self {
+            displacement: vec![Vec3::ZERO; nnode],
+            reaction_force: vec![Vec3::ZERO; nnode],
+            stress: vec![Sym3::ZERO; nnode],
+            stress_weight: vec![0.0; nnode],
+            cell_stress: ncell.iter().map(|&n| vec![Sym3::ZERO; n]).collect(),
+            contact_force: vec![Vec3::ZERO; nnode],
+            contact_pressure: vec![0.0; nnode],
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! Unknowns, state, and how terms become one system of equations.
+//!
+//! ```text
+//!  Layout: which unknown is which          raw dof:  nodes | rigid bodies | multipliers
+//!  State:  their values, and positions       │
+//!  Term:   adds forces and stiffness to ──▶ Sink ──▶ Elimination ──▶ Operator: bulk (blocks) + interface (scalar)
+//!                                                                     │
+//!                                              equation[raw] ◀── prescribed, dependent, unused are left out
+//! ```
+//!
+//! | symbol | name in code | shape |
+//! |---|---|---|
+//! | u | `u` | `ndof` raw dofs |
+//! | r = f_int − f_ext | `residual` | `ndof` |
+//! | Σ_e \|f_e\| | `magnitude` | `ndof` |
+//! | K | `Operator`: bulk and interface | `ndof × ndof` |
+//!
+//! Newton solves `K du = −r`. The bulk (solids, in blocks of a node) and the interface (contact, couplings, springs)
+//! stay apart, because the iterative solver wants them apart; the direct one adds them. Prescribed dofs stay in the
+//! operator, so that reactions and the response to a prescribed motion come from the same assembly.
+//!
+//! Nodes of a rigid body are *dependent*: `x = c + R a_0`, hence `dx = dc − [a]× dθ` with the arm `a = x − c` (E1).
+//! A force `f` on such a node acts on the body as `f` and `a × f`, whose variation at constant `f` is
+//! `[f]× [a]× dθ` (E2): without that term the tangent is off by about one per cent. Rotations compose,
+//! `R ← exp(dθ) R`; angles are never added.
+//!
+//! Results do not depend on the number of threads: chunks are evaluated in parallel and added in a fixed order.
+
+mod assembly;
+mod elimination;
+mod frame;
+mod layout;
+pub mod linear;
+pub mod sparsity;
+mod state;
+mod term;
+
+pub use assembly::{Assembler, Assembly};
+pub use elimination::{Elimination, RigidBody};
+pub use frame::{ContactFrame, Frame, Resultant, Status};
+pub use layout::{Dof, DofName, Layout, NO_DOF};
+pub use linear::Symmetry;
+pub use state::State;
+pub use term::{
+    Archive, ArchiveError, Order, Part, PatternSink, Sink, StepContext, Term, TermError, Verdict,
+    Work,
+};

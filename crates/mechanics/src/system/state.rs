@@ -1,0 +1,80 @@
+use super::{Elimination, Layout};
+use signorini_geometry::surface::{Placement, Pose};
+use signorini_geometry::tensor::{Mat3, Vec3};
+
+/// The values of all unknowns, and where that puts every node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Total time.
+    pub time: f64,
+    /// Raw dofs: displacements of the nodes, translations and rotations of rigid bodies summed up as their increments
+    /// came (rotations only for the record: the poses hold the truth), multipliers.
+    pub u: Vec<f64>,
+    /// Poses of the rigid bodies.
+    pub poses: Vec<Pose>,
+    /// Present positions of the nodes.
+    pub x: Vec<Vec3>,
+}
+
+impl State {
+    /// The undeformed state.
+    #[must_use]
+    pub fn initial(layout: &Layout, reference: &[Vec3], elimination: &Elimination) -> Self {
+        let pose = |b: &super::RigidBody| Pose {
+            origin: b.reference,
+            rotation: Mat3::IDENTITY,
+        };
+        Self {
+            time: 0.0,
+            u: vec![0.0; layout.ndof()],
+            poses: elimination.bodies().iter().map(pose).collect(),
+            x: reference.to_vec(),
+        }
+    }
+
+    /// The configuration, as geometry sees it.
+    #[must_use]
+    pub fn placement(&self) -> Placement<'_> {
+        Placement {
+            x: &self.x,
+            poses: &self.poses,
+        }
+    }
+
+    /// Becomes `base` advanced by `alpha · du`. Rotations compose, dependent nodes follow. Allocates nothing when both
+    /// states belong to the same system.
+    pub fn advance_from(
+        &mut self,
+        base: &State,
+        du: &[f64],
+        alpha: f64,
+        layout: &Layout,
+        reference: &[Vec3],
+        elimination: &Elimination,
+    ) {
+        self.u.clone_from(&base.u);
+        self.poses.clone_from(&base.poses);
+        for (u, d) in self.u.iter_mut().zip(du) {
+            *u += alpha * d;
+        }
+        for (body, pose) in self.poses.iter_mut().enumerate() {
+            let body = body as u32;
+            let at = |dof: u32| alpha * du.get(dof as usize).copied().unwrap_or(0.0);
+            let read = |dof: &dyn Fn(usize) -> u32| Vec3::new(at(dof(0)), at(dof(1)), at(dof(2)));
+            pose.origin += read(&|c| layout.translation(body, c));
+            let turn = read(&|c| layout.rotation(body, c));
+            if turn != Vec3::ZERO {
+                pose.rotation = Mat3::rotation(turn) * pose.rotation;
+            }
+        }
+        elimination.follow(self, layout, reference);
+        for (node, (x, at)) in self.x.iter_mut().zip(reference).enumerate() {
+            let first = node * layout.ndim;
+            let mut moved = *at;
+            for (axis, u) in self.u[first..first + layout.ndim].iter().enumerate() {
+                moved[axis] += u;
+            }
+            *x = moved;
+        }
+    }
+}

@@ -1,0 +1,278 @@
+use super::{Dof, Frame, State, Symmetry};
+use signorini_geometry::mesh::NodeId;
+use std::any::Any;
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// How far a response is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Order {
+    /// Forces only.
+    Residual,
+    /// Forces and stiffness.
+    Tangent,
+}
+
+/// Where the stiffness of a term belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Solids: dofs come in blocks of a node, the pattern never changes.
+    Bulk,
+    /// Contact rows, couplings, springs.
+    Interface,
+}
+
+/// What a term says after an iteration.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Nothing changed.
+    Settled,
+    /// An active set moved, or an augmentation is not done.
+    Repeat {
+        /// How many rows changed.
+        changes: usize,
+        /// In the user's words: who, and how.
+        why: String,
+        /// The nodes concerned, at most a handful.
+        nodes: Vec<NodeId>,
+    },
+}
+
+/// What can go wrong while a term is evaluated.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum TermError {
+    /// A solid element has turned inside out.
+    #[error("element {element} of body \"{body}\" is turned inside out (volume ratio {ratio:.3e})")]
+    Inverted {
+        /// Name of the body.
+        body: String,
+        /// Number of the element in the input.
+        element: u64,
+        /// Determinant of the deformation gradient, or of the map from the reference element.
+        ratio: f64,
+    },
+    /// A value is not a number.
+    #[error("{what} is not a finite number")]
+    NotFinite {
+        /// Where: element or node, material, load.
+        what: String,
+    },
+    /// A contact surface has no answer.
+    #[error("contact \"{interface}\": {message}")]
+    Surface {
+        /// Name of the interface.
+        interface: String,
+        /// What the surface said.
+        message: String,
+    },
+}
+
+/// What an archive lacks.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ArchiveError {
+    /// A name that is not there.
+    #[error("the checkpoint has no \"{name}\"")]
+    Missing {
+        /// The name.
+        name: String,
+    },
+    /// Data of another model.
+    #[error("\"{name}\" in the checkpoint has {found} values, this model has {expected}")]
+    Length {
+        /// The name.
+        name: String,
+        /// Values in the checkpoint.
+        found: usize,
+        /// Values in the model.
+        expected: usize,
+    },
+}
+
+/// Named arrays: what a term needs to go on bit by bit where it stopped.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Archive {
+    /// The arrays.
+    pub arrays: BTreeMap<String, Vec<f64>>,
+}
+
+impl Archive {
+    /// Stores an array.
+    pub fn put(&mut self, name: impl Into<String>, values: &[f64]) {
+        self.arrays.insert(name.into(), values.to_vec());
+    }
+
+    /// Copies a stored array into `out`.
+    ///
+    /// # Errors
+    /// No such array, or one of another length.
+    pub fn get(&self, name: &str, out: &mut [f64]) -> Result<(), ArchiveError> {
+        let values = self.arrays.get(name).ok_or_else(|| ArchiveError::Missing {
+            name: name.to_string(),
+        })?;
+        if values.len() != out.len() {
+            return Err(ArchiveError::Length {
+                name: name.to_string(),
+                found: values.len(),
+                expected: out.len(),
+            });
+        }
+        out.copy_from_slice(values);
+        Ok(())
+    }
+}
+
+/// Takes the pattern of a term: which unknowns see each other.
+pub trait PatternSink {
+    /// The dofs of these nodes see each other, in the bulk.
+    fn bulk(&mut self, nodes: &[NodeId]);
+    /// These dofs see each other, in the interface.
+    fn interface(&mut self, dofs: &[Dof]);
+}
+
+/// Takes local forces and stiffnesses.
+pub trait Sink {
+    /// Adds `force`, and `stiffness` (row-major, `n × n`; empty for [`Order::Residual`]), at these dofs. In the bulk,
+    /// the dofs are those of whole nodes, one node after the other. Dofs may repeat and may be [`super::NO_DOF`].
+    fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]);
+}
+
+/// Scratch memory of one thread: each kind of term finds its own there, as it left it.
+#[derive(Default)]
+pub struct Work {
+    slots: Vec<Box<dyn Any + Send>>,
+}
+
+impl Work {
+    /// The scratch of type `T`, made on first use.
+    pub fn of<T: Default + Send + 'static>(&mut self) -> &mut T {
+        let found = self.slots.iter().position(|s| s.is::<T>());
+        let at = found.unwrap_or_else(|| {
+            self.slots.push(Box::new(T::default()));
+            self.slots.len() - 1
+        });
+        // the slot was just found or made with this very type
+        match self.slots[at].downcast_mut::<T>() {
+            Some(scratch) => scratch,
+            None => unreachable!("a slot is found by its type"),
+        }
+    }
+}
+
+/// The step a run is in, as terms see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepContext {
+    /// Number of the step, from 0.
+    pub number: usize,
+    /// Total time at its start.
+    pub start: f64,
+    /// Its duration.
+    pub duration: f64,
+    /// Whether displacements may be large.
+    pub nonlinear: bool,
+}
+
+/// A part of the model that exerts forces: solids, loads, contact interfaces. All that solving ever sees.
+pub trait Term: Send + Sync {
+    /// What it is called in messages and files.
+    fn name(&self) -> &str;
+
+    /// Which unknowns see each other. Asked again when [`Term::prepare`] says that it changed.
+    fn pattern(&self, out: &mut dyn PatternSink);
+
+    /// What its stiffness is at least.
+    fn symmetry(&self) -> Symmetry;
+
+    /// Where its stiffness belongs.
+    fn part(&self) -> Part;
+
+    /// A step begins at this accepted state.
+    ///
+    /// # Errors
+    /// What the term finds wrong with it.
+    fn begin_step(&mut self, _step: &StepContext, _from: &State) -> Result<(), TermError> {
+        Ok(())
+    }
+
+    /// An increment begins at this accepted state.
+    ///
+    /// # Errors
+    /// What the term finds wrong with it.
+    fn begin_increment(&mut self, _from: &State) -> Result<(), TermError> {
+        Ok(())
+    }
+
+    /// Once per iterate, before it is evaluated: search, pairing, status. Says whether the pattern changed.
+    ///
+    /// # Errors
+    /// What the term finds wrong with the configuration.
+    fn prepare(&mut self, _trial: &State) -> Result<bool, TermError> {
+        Ok(false)
+    }
+
+    /// The number of chunks, independent of the number of threads.
+    fn nchunk(&self) -> usize;
+
+    /// Adds the forces and stiffness of one chunk. Pure: the same trial gives the same bits.
+    ///
+    /// # Errors
+    /// An element turned inside out, a value that is not finite.
+    fn evaluate(
+        &self,
+        chunk: usize,
+        trial: &State,
+        order: Order,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError>;
+
+    /// The potential energy of one chunk, where the term has one: its forces are the gradient.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`].
+    fn energy(
+        &self,
+        chunk: usize,
+        trial: &State,
+        work: &mut Work,
+    ) -> Result<Option<f64>, TermError>;
+
+    /// The largest multiple of `du` that the term allows.
+    fn max_step(&self, _trial: &State, _du: &[f64]) -> f64 {
+        1.0
+    }
+
+    /// Whether the discrete choices made by the last [`Term::prepare`] equal those before it.
+    fn verdict(&mut self, _trial: &State) -> Verdict {
+        Verdict::Settled
+    }
+
+    /// The increment is done: history moves on.
+    ///
+    /// # Errors
+    /// What the term finds wrong with the state.
+    fn accept(&mut self, _state: &State) -> Result<(), TermError> {
+        Ok(())
+    }
+
+    /// The increment was cut: back to the last accepted history.
+    fn reject(&mut self) {}
+
+    /// Stores the accepted history.
+    fn save(&self, _out: &mut Archive) {}
+
+    /// Takes the accepted history back.
+    ///
+    /// # Errors
+    /// The archive belongs to another model.
+    fn load(&mut self, _from: &Archive) -> Result<(), ArchiveError> {
+        Ok(())
+    }
+
+    /// Writes what the term knows at an accepted state into a frame.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`].
+    fn report(&self, _state: &State, _frame: &mut Frame) -> Result<(), TermError> {
+        Ok(())
+    }
+}
