@@ -47,7 +47,7 @@
 //! C = (Σ_inner w + Σ_leaf n w) / w_root                                                   (E4)
 //! ```
 //!
-//! stays below 3/2 of what it was when it was built.
+//! stays below 6/5 of what it was when it was built.
 //!
 //! Boxes that are unbounded, such as those of planes, are kept beside the tree and tested one by one: there should be
 //! few of them. Boxes that contain nothing are near nothing; so are points that are not finite. Results are sorted

@@ -316,7 +316,7 @@ fn found(search: &Search) -> Vec<(u32, u32)> {
 
 #[test]
 fn candidates_hold_all_within_reach_whatever_moves() {
-    let filter = |i: u32, f: u32| (i + f) % 5 != 0;
+    let filter = |i: u32, f: u32| !(i + f).is_multiple_of(5);
     let (mut nrebuilt, mut nkept) = (0, 0);
     for (seed, step, skin) in [
         (1, 0.001, 0.05),
@@ -521,7 +521,7 @@ fn speed_of_a_hundred_thousand_boxes() {
     let mut random = Random(10);
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     let mut swapped = 0;
-    for nswap in [0, 30, 100, 300, 1000, 3000, 10_000] {
+    for nswap in [0, 10, 20, 50, 100] {
         while swapped < nswap {
             let n = order.len() as u64;
             order.swap((random.bits() % n) as usize, (random.bits() % n) as usize);
@@ -533,5 +533,21 @@ fn speed_of_a_hundred_thousand_boxes() {
         timed(&what, &mut || {
             points.iter().for_each(|&p| tree.query(p, reach, &mut out));
         });
+    }
+    for size in [0.5, 1.0, 2.0, 4.0] {
+        let jitter = |b: &Aabb| {
+            let d = random.cube() * (size / side as f64);
+            Aabb::around([b.min + d, b.max + d])
+        };
+        let boxes: Vec<_> = boxes.iter().map(jitter).collect();
+        for what in ["refitted", "built anew"] {
+            tree.refit(&boxes);
+            let what = format!("{what}, jitter {size} facets, cost × {:.2}", tree.growth());
+            timed(&what, &mut || {
+                points.iter().for_each(|&p| tree.query(p, reach, &mut out));
+            });
+            tree.rebuild(&boxes);
+        }
+        tree.rebuild(&sheet(0.0));
     }
 }
