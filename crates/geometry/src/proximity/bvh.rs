@@ -58,8 +58,9 @@ const HALVED_BELOW: usize = 32;
 /// No node is deeper, the root having depth 0.
 pub(super) const DEEPEST: usize = HALVED_BELOW + 30;
 
-/// The growth of the cost (E4) at which the tree counts as degraded. Building takes as long as asking once for every
-/// box; from here on asking costs 15 % (neighbours mixed) to 200 % (far boxes exchanged) more every time.
+/// The growth of the cost (E4) at which the tree counts as degraded. Building takes about as long as one query per box;
+/// at this growth a query takes up to three times as long where far boxes have changed places, and hardly longer where
+/// neighbours have mixed.
 const DEGRADED: f64 = 1.2;
 
 /// Covers the rounding of a distance that is the square root of a sum of squares.
