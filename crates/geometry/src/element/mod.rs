@@ -26,6 +26,8 @@ mod hex8;
 mod line2;
 mod quad4;
 pub mod quadrature;
+#[cfg(test)]
+mod tests;
 mod tet4;
 mod tri3;
 mod wedge6;

@@ -60,6 +60,26 @@ impl Aabb {
     #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
         (0..3).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
+            && !self.is_empty()
+            && !other.is_empty()
+    }
+
+    /// Whether the box has a point within `distance ≥ 0` of `p`.
+    #[must_use]
+    pub fn within(&self, p: Vec3, distance: f64) -> bool {
+        self.distance_squared(p) <= distance * distance && !self.is_empty()
+    }
+
+    /// Whether the box contains nothing: `min > max` along some axis, or a bound that is not a number.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        !(self.min.x <= self.max.x && self.min.y <= self.max.y && self.min.z <= self.max.z)
+    }
+
+    /// Whether the box contains something and all its bounds are finite.
+    #[must_use]
+    pub fn is_bounded(&self) -> bool {
+        !self.is_empty() && self.min.is_finite() && self.max.is_finite()
     }
 
     /// The middle.
@@ -74,7 +94,18 @@ impl Aabb {
         self.max - self.min
     }
 
-    /// The square of the distance from a point to the box, 0 inside.
+    /// The sum of the lengths of the sides, 0 where the box contains nothing: proportional to its mean width, the
+    /// chance that a plane hits it. Unlike the surface area it does not vanish for boxes around straight lines.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        if self.is_empty() {
+            return 0.0;
+        }
+        let extent = self.extent();
+        extent.x + extent.y + extent.z
+    }
+
+    /// The square of the distance from a point to the box, 0 inside; of no meaning where the box contains nothing.
     #[must_use]
     pub fn distance_squared(&self, p: Vec3) -> f64 {
         let outside = (self.min - p).max(p - self.max).max(Vec3::ZERO);
