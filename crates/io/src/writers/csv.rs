@@ -28,6 +28,63 @@ pub const CONVERGENCE_COLUMNS: [&str; 10] = [
 /// The first columns of `history.csv`; those of contacts, references and chosen quantities follow.
 pub const HISTORY_COLUMNS: [&str; 4] = ["time", "step", "increment", "iterations"];
 
+/// The columns of every contact in `history.csv`, after its name and a dot.
+///
+/// Forces are those of the primary side on the secondary side, moments about the origin; areas by status; the center is
+/// that of the pressure; axes that a plane case does not have are 0.
+pub const CONTACT_COLUMNS: [&str; 16] = [
+    "force_x",
+    "force_y",
+    "force_z",
+    "moment_x",
+    "moment_y",
+    "moment_z",
+    "pressure_max",
+    "gap_min",
+    "slip_max",
+    "area_open",
+    "area_stick",
+    "area_slip",
+    "center_x",
+    "center_y",
+    "center_z",
+    "work_friction",
+];
+
+/// The columns of every reference in `history.csv`, after its name and a dot.
+///
+/// Forces and moments are what contact exerts on the carrier, about the reference.
+pub const REFERENCE_COLUMNS: [&str; 12] = [
+    "force_x",
+    "force_y",
+    "force_z",
+    "moment_x",
+    "moment_y",
+    "moment_z",
+    "displacement_x",
+    "displacement_y",
+    "displacement_z",
+    "rotation_x",
+    "rotation_y",
+    "rotation_z",
+];
+
+/// The header of `history.csv`: [`HISTORY_COLUMNS`], then contacts, references and chosen `name.quantity` columns, in
+/// the order given.
+pub fn history_columns(contacts: &[&str], references: &[&str], chosen: &[&str]) -> Vec<String> {
+    let of = |names: &[&str], columns: &[&str]| -> Vec<String> {
+        names
+            .iter()
+            .flat_map(|name| columns.iter().map(move |column| format!("{name}.{column}")))
+            .collect()
+    };
+    let mut all: Vec<String> = HISTORY_COLUMNS.iter().map(ToString::to_string).collect();
+    all.extend(of(contacts, &CONTACT_COLUMNS));
+    all.extend(of(references, &REFERENCE_COLUMNS));
+    all.extend(chosen.iter().map(ToString::to_string));
+    all
+}
+
 /// One entry of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'a> {
@@ -170,6 +227,21 @@ mod tests {
 
     fn text(path: &Path) -> String {
         String::from_utf8(RealFs.read(path).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn the_history_has_the_documented_columns() {
+        assert_eq!(
+            header(&history_columns(&["c"], &["r"], &["pull.force_z"])),
+            "time,step,increment,iterations,c.force_x,c.force_y,c.force_z,c.moment_x,c.moment_y,c.moment_z,\
+             c.pressure_max,c.gap_min,c.slip_max,c.area_open,c.area_stick,c.area_slip,c.center_x,c.center_y,c.center_z,\
+             c.work_friction,r.force_x,r.force_y,r.force_z,r.moment_x,r.moment_y,r.moment_z,r.displacement_x,\
+             r.displacement_y,r.displacement_z,r.rotation_x,r.rotation_y,r.rotation_z,pull.force_z\n"
+        );
+        assert_eq!(
+            header(&CONVERGENCE_COLUMNS),
+            "step,increment,attempt,iteration,residual,correction,line_search,closed,flips,worst_node\n"
+        );
     }
 
     #[test]

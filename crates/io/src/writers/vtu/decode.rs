@@ -15,14 +15,20 @@ const DEFLATE_LIMIT: u64 = 1032;
 
 /// The numbers of an array, in the type of the file.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
 pub enum Numbers {
+    /// `Float64`
     F64(Vec<f64>),
+    /// `Float32`
     F32(Vec<f32>),
+    /// `Int8`
     I8(Vec<i8>),
+    /// `UInt8`
     U8(Vec<u8>),
+    /// `Int32`
     I32(Vec<i32>),
+    /// `Int64`
     I64(Vec<i64>),
+    /// `String`
     Text(String),
 }
 

@@ -20,7 +20,7 @@
 //! [`encode`] never writes a file that cannot be read: lengths, node numbers and cell types are checked first.
 //! [`read`] reads these files back and survives any bytes.
 //!
-//! Limits: one piece; no polyhedra; text only in the field data; at most 2³² nodes.
+//! Limits: one piece; no polyhedra; text only in the field data, and meshio refuses files with text; at most 2³² nodes.
 //!
 //! One more cell type: a line in [`nnode_of`].
 
@@ -48,13 +48,18 @@ const PIECE: usize = 1 << 17;
 ///
 /// Shears are tensor components, not engineering strains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[allow(missing_docs)]
 pub struct SymTensor {
+    /// On the plane normal to x, along x.
     pub xx: f64,
+    /// On the plane normal to y, along y.
     pub yy: f64,
+    /// On the plane normal to z, along z.
     pub zz: f64,
+    /// On the plane normal to x, along y.
     pub xy: f64,
+    /// On the plane normal to y, along z.
     pub yz: f64,
+    /// On the plane normal to x, along z.
     pub xz: f64,
 }
 

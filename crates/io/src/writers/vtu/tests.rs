@@ -1,5 +1,7 @@
 use std::io::ErrorKind;
 
+use serde_json::json;
+
 use super::*;
 use crate::fs::{FailingFs, RealFs, TornFs};
 use crate::writers::pvd::{Pvd, PvdError};
@@ -237,7 +239,7 @@ fn arrays_of_many_pieces_are_read_back_and_do_not_depend_on_threads() {
 
 #[test]
 fn every_cell_type_is_written_with_its_number_of_nodes() {
-    let types: Vec<u8> = (0..=255).filter(|t| nnode_of(*t).is_some()).collect();
+    let (types, offsets, connectivity) = one_cell_of_every_type();
     assert_eq!(
         types,
         [
@@ -245,12 +247,6 @@ fn every_cell_type_is_written_with_its_number_of_nodes() {
         ]
     );
     let points: Vec<[f64; 3]> = (0..27).map(|i| [f64::from(i), 0.0, 0.0]).collect();
-    let mut offsets = vec![0];
-    let mut connectivity = Vec::new();
-    for t in &types {
-        connectivity.extend(0..nnode_of(*t).unwrap() as u32);
-        offsets.push(connectivity.len());
-    }
     let grid = Grid {
         points: &points,
         types: &types,
@@ -260,6 +256,18 @@ fn every_cell_type_is_written_with_its_number_of_nodes() {
     };
     let vtu = read(&encode(&grid, &Options::default()).unwrap()).unwrap();
     assert_eq!((vtu.types, vtu.offsets), (types, offsets));
+}
+
+/// Types, offsets and connectivity.
+fn one_cell_of_every_type() -> (Vec<u8>, Vec<usize>, Vec<u32>) {
+    let types: Vec<u8> = (0..=255).filter(|t| nnode_of(*t).is_some()).collect();
+    let mut offsets = vec![0];
+    let mut connectivity = Vec::new();
+    for t in &types {
+        connectivity.extend(0..nnode_of(*t).unwrap() as u32);
+        offsets.push(connectivity.len());
+    }
+    (types, offsets, connectivity)
 }
 
 #[test]
@@ -574,4 +582,134 @@ fn a_list_torn_by_a_lying_disk_is_refused_and_built_again() {
     };
     Pvd::with_entries(&RealFs, &path, vec![entry(0), entry(1)]).unwrap();
     assert_consistent(dir.path(), 2);
+}
+
+/// Writes a frame and what a viewer must see in it.
+fn write_sample(stem: &str, grid: &Grid<'_>, options: &Options, expected: &serde_json::Value) {
+    let folder = std::path::PathBuf::from(std::env::var_os("SIGNORINI_SAMPLES").unwrap());
+    RealFs.create_dir_all(&folder).unwrap();
+    write(&RealFs, &folder.join(format!("{stem}.vtu")), grid, options).unwrap();
+    let expected = serde_json::to_vec_pretty(expected).unwrap();
+    RealFs
+        .write_atomic(&folder.join(format!("{stem}.json")), &expected)
+        .unwrap();
+}
+
+/// Writes `sample_*.vtu` and `sample_*.json` for `scripts/check_vtu.py` into the folder SIGNORINI_SAMPLES.
+#[test]
+#[ignore = "writes files for a viewer; set SIGNORINI_SAMPLES to a folder"]
+fn samples_for_viewers_are_written() {
+    let sample = Sample::new();
+    let stress: Vec<f64> = sample
+        .stress
+        .iter()
+        .flat_map(|t| [t.xx, t.yy, t.zz, t.xy, t.yz, t.xz])
+        .collect();
+    for options in all_options() {
+        let level = options
+            .compression
+            .map_or("raw".to_string(), |level| format!("zlib{level}"));
+        let (real, reals) = if options.single {
+            ("float", "f32")
+        } else {
+            ("double", "f64")
+        };
+        let ids = if options.long_ids { "i64" } else { "i32" };
+        let stored = |v: &[f64]| -> Vec<f64> {
+            v.iter()
+                .map(|v| {
+                    if options.single {
+                        f64::from(*v as f32)
+                    } else {
+                        *v
+                    }
+                })
+                .collect()
+        };
+        let mut expected = json!({
+            "points": stored(sample.points.as_flattened()),
+            "types": TYPES,
+            "cells": [&CONNECTIVITY[..8], &CONNECTIVITY[8..]],
+            "active_vectors": "displacement",
+            "point_data": {
+                "contact_status": { "values": sample.status, "type": "signed char" },
+                "displacement": { "values": stored(sample.displacement.as_flattened()), "type": real },
+                "contact_pressure": { "values": stored(&sample.pressure), "type": real },
+            },
+            "cell_data": {
+                "stress": { "values": stored(&stress), "type": real, "components": TENSOR_COMPONENTS },
+                "body": { "values": sample.body },
+                "element <&\"id\">": { "values": sample.element },
+            },
+            "field_data": { "TimeValue": { "values": [0.1 + 0.2] }, "step": { "values": [2] } },
+        });
+        // Text only with long numbers, since meshio refuses any file with text.
+        let nfact = if options.long_ids { 3 } else { 2 };
+        if options.long_ids {
+            expected["field_data"]["step_name"] = json!({ "text": "drück <1>" });
+        }
+        sample.with_grid(|grid| {
+            let grid = Grid {
+                facts: &grid.facts[..nfact],
+                ..*grid
+            };
+            write_sample(
+                &format!("sample_{reals}_{level}_{ids}"),
+                &grid,
+                &options,
+                &expected,
+            );
+        });
+    }
+}
+
+#[test]
+#[ignore = "writes files for a viewer; set SIGNORINI_SAMPLES to a folder"]
+fn samples_of_cell_types_and_sizes_are_written() {
+    let options = Options::default();
+    write_sample(
+        "sample_empty",
+        &Grid::default(),
+        &options,
+        &json!({ "points": [], "types": [] }),
+    );
+
+    let (types, offsets, connectivity) = one_cell_of_every_type();
+    let points: Vec<[f64; 3]> = (0..27)
+        .map(|i| [f64::from(i), f64::from(i * i), 0.0])
+        .collect();
+    let cells: Vec<&[u32]> = offsets
+        .windows(2)
+        .map(|w| &connectivity[w[0]..w[1]])
+        .collect();
+    let expected = json!({ "types": types, "cells": cells, "points": points });
+    let grid = Grid {
+        points: &points,
+        types: &types,
+        offsets: &offsets,
+        connectivity: &connectivity,
+        ..Grid::default()
+    };
+    write_sample("sample_every_cell_type", &grid, &options, &expected);
+
+    // Vertices in several compressed pieces.
+    let n = 40_000;
+    let points: Vec<[f64; 3]> = (0..n)
+        .map(|i| [0.1 * i as f64, (i as f64).sin(), 0.0])
+        .collect();
+    let (offsets, connectivity): (Vec<usize>, Vec<u32>) =
+        ((0..=n).collect(), (0..n as u32).collect());
+    let grid = Grid {
+        points: &points,
+        types: &vec![1; n],
+        offsets: &offsets,
+        connectivity: &connectivity,
+        ..Grid::default()
+    };
+    write_sample(
+        "sample_many_vertices",
+        &grid,
+        &options,
+        &json!({ "points": points, "types": vec![1; n] }),
+    );
 }
