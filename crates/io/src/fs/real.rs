@@ -1,0 +1,173 @@
+//! The disk itself.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::{Action, Fs, FsError, Lock, Log, folder_of};
+
+/// The file system of this machine.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RealFs;
+
+impl Fs for RealFs {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FsError> {
+        fs::read(path).map_err(|e| FsError::new(Action::Read, path, e))
+    }
+
+    fn exists(&self, path: &Path) -> Result<bool, FsError> {
+        path.try_exists()
+            .map_err(|e| FsError::new(Action::Read, path, e))
+    }
+
+    fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, FsError> {
+        let paths = || -> io::Result<Vec<PathBuf>> {
+            let mut paths = fs::read_dir(folder)?
+                .map(|entry| Ok(entry?.path()))
+                .collect::<io::Result<Vec<_>>>()?;
+            paths.sort();
+            Ok(paths)
+        };
+        paths().map_err(|e| FsError::new(Action::List, folder, e))
+    }
+
+    fn create_dir_all(&self, folder: &Path) -> Result<(), FsError> {
+        let created = || -> io::Result<()> {
+            let missing: Vec<&Path> = folder
+                .ancestors()
+                .take_while(|f| !f.as_os_str().is_empty() && !f.exists())
+                .collect();
+            fs::create_dir_all(folder)?;
+            missing.iter().try_for_each(|f| sync_folder(folder_of(f)))
+        };
+        created().map_err(|e| FsError::new(Action::CreateFolder, folder, e))
+    }
+
+    fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
+        let written = || -> io::Result<()> {
+            let mut file = File::create(path)?;
+            file.write_all(bytes)?;
+            file.sync_all()
+        };
+        written().map_err(|e| FsError::new(Action::Write, path, e))
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> Result<(), FsError> {
+        fs::rename(from, to).map_err(|e| FsError::new(Action::Rename, from, e))
+    }
+
+    fn sync_dir(&self, folder: &Path) -> Result<(), FsError> {
+        sync_folder(folder).map_err(|e| FsError::new(Action::Write, folder, e))
+    }
+
+    fn remove(&self, path: &Path) -> Result<(), FsError> {
+        fs::remove_file(path).map_err(|e| FsError::new(Action::Remove, path, e))
+    }
+
+    fn open_log(&self, path: &Path, keep: u64) -> Result<Box<dyn Log>, FsError> {
+        let opened = || -> io::Result<(File, bool)> {
+            let new = !path.try_exists()?;
+            let file = OpenOptions::new()
+                .write(true)
+                .create(true)
+                .truncate(false)
+                .open(path)?;
+            Ok((file, new))
+        };
+        let (file, new) = opened().map_err(|e| FsError::new(Action::Write, path, e))?;
+        let mut log = RealLog {
+            file,
+            path: path.to_path_buf(),
+        };
+        log.cut(keep)?;
+        if new {
+            self.sync_dir(folder_of(path))?;
+        }
+        Ok(Box::new(log))
+    }
+
+    fn lock(&self, path: &Path) -> Result<Lock, FsError> {
+        let failed = |e| FsError::new(Action::Lock, path, e);
+        let mut file = OpenOptions::new()
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)
+            .map_err(failed)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(FsError::Locked {
+                    path: path.to_path_buf(),
+                });
+            }
+            // Some network disks have no locks; a run there goes on without one.
+            Err(TryLockError::Error(e)) if e.kind() == io::ErrorKind::Unsupported => {}
+            Err(TryLockError::Error(e)) => return Err(failed(e)),
+        }
+        file.set_len(0)
+            .and_then(|()| writeln!(file, "{}", std::process::id()))
+            .map_err(failed)?;
+        Ok(Lock { _file: file })
+    }
+}
+
+/// A growing file on the disk, positioned at its end.
+struct RealLog {
+    file: File,
+    path: PathBuf,
+}
+
+impl Log for RealLog {
+    fn append(&mut self, bytes: &[u8]) -> Result<(), FsError> {
+        self.file
+            .write_all(bytes)
+            .map_err(|e| FsError::new(Action::Write, &self.path, e))
+    }
+
+    fn cut(&mut self, keep: u64) -> Result<(), FsError> {
+        let failed = |e| FsError::new(Action::Write, &self.path, e);
+        let have = self.file.metadata().map_err(failed)?.len();
+        if have < keep {
+            return Err(FsError::TooShort {
+                path: self.path.clone(),
+                have,
+                keep,
+            });
+        }
+        self.file
+            .set_len(keep)
+            .and_then(|()| self.file.seek(SeekFrom::Start(keep)))
+            .map_err(failed)?;
+        Ok(())
+    }
+
+    fn sync(&mut self) -> Result<(), FsError> {
+        self.file
+            .sync_data()
+            .map_err(|e| FsError::new(Action::Write, &self.path, e))
+    }
+}
+
+/// Makes the names in a folder durable where the system can.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    match File::open(folder)?.sync_all() {
+        // Some network disks cannot synchronize folders.
+        Err(e)
+            if matches!(
+                e.kind(),
+                io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported
+            ) =>
+        {
+            Ok(())
+        }
+        synced => synced,
+    }
+}
+
+/// Makes the names in a folder durable where the system can.
+#[cfg(not(unix))]
+fn sync_folder(_: &Path) -> io::Result<()> {
+    Ok(())
+}

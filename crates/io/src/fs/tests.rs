@@ -1,0 +1,207 @@
+use std::io::ErrorKind;
+
+use super::*;
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+#[test]
+fn write_atomic_leaves_the_old_or_the_new_content_whichever_step_fails() {
+    let old = vec![1u8; 1000];
+    let new = vec![2u8; 3000];
+    let mut kept_old = 0;
+    for kind in [
+        ErrorKind::StorageFull,
+        ErrorKind::PermissionDenied,
+        ErrorKind::Other,
+    ] {
+        for n in 1..=3 {
+            let dir = folder();
+            let path = dir.path().join("frame.vtu");
+            RealFs.write_atomic(&path, &old).unwrap();
+            let fs = FailingFs::nth(RealFs, n, kind);
+            let error = fs.write_atomic(&path, &new).unwrap_err();
+            assert_eq!(
+                error.path(),
+                path,
+                "the user's file is named, not its draft"
+            );
+            let content = RealFs.read(&path).unwrap();
+            assert!(
+                content == old || content == new,
+                "step {n} left a torn file"
+            );
+            kept_old += usize::from(content == old);
+            assert_eq!(
+                RealFs.list(dir.path()).unwrap(),
+                [path],
+                "no draft is left behind"
+            );
+        }
+    }
+    assert_eq!(
+        kept_old, 6,
+        "writing and renaming come before the new content is visible"
+    );
+}
+
+#[test]
+fn write_atomic_survives_a_power_cut_at_every_length() {
+    for keep in 0..=64 {
+        let dir = folder();
+        let path = dir.path().join("results.pvd");
+        RealFs.write_atomic(&path, &[1; 64]).unwrap();
+        TornFs::nth(RealFs, 1, keep)
+            .write_atomic(&path, &[2; 64])
+            .unwrap_err();
+        assert_eq!(RealFs.read(&path).unwrap(), [1; 64]);
+        // The torn draft of the dead run is in nobody's way.
+        RealFs.write_atomic(&path, &[3; 10]).unwrap();
+        assert_eq!(RealFs.read(&path).unwrap(), [3; 10]);
+    }
+}
+
+#[test]
+fn a_lying_disk_leaves_a_torn_file_under_its_final_name() {
+    let dir = folder();
+    let path = dir.path().join("a.sgc");
+    TornFs::lying(RealFs, 1, 5, 1)
+        .write_atomic(&path, &[7; 20])
+        .unwrap_err();
+    assert_eq!(RealFs.read(&path).unwrap(), [7; 5]);
+}
+
+#[test]
+fn a_full_disk_is_reported_with_its_size_and_what_to_do() {
+    let dir = folder();
+    let path = dir.path().join("volume_0031.vtu");
+    let error = FailingFs::nth(RealFs, 1, ErrorKind::StorageFull)
+        .write_atomic(&path, &vec![0; 1_200_000])
+        .unwrap_err();
+    let text = error.to_string();
+    assert!(
+        text.starts_with("disk full while writing ")
+            && text.ends_with("volume_0031.vtu (needs 1.2 MB)"),
+        "{text}"
+    );
+    assert!(error.help().contains("free space"), "{}", error.help());
+    assert_eq!(FsError::EXIT_CODE, 6);
+}
+
+#[test]
+fn faults_of_the_real_disk_are_told_apart() {
+    let dir = folder();
+    let file = dir.path().join("file");
+    RealFs.write_atomic(&file, b"x").unwrap();
+    assert!(matches!(
+        RealFs.read(&dir.path().join("none")),
+        Err(FsError::NotFound { .. })
+    ));
+    assert!(matches!(
+        RealFs.read(dir.path()),
+        Err(FsError::WrongKind { .. })
+    ));
+    assert!(matches!(
+        RealFs.write_atomic(&file.join("below"), b""),
+        Err(FsError::WrongKind { .. })
+    ));
+    assert!(matches!(
+        RealFs.create_dir_all(&file),
+        Err(FsError::WrongKind { .. })
+    ));
+    assert!(matches!(
+        RealFs.write_atomic(&dir.path().join("gone/f"), b""),
+        Err(FsError::NotFound { .. })
+    ));
+    assert!(!RealFs.exists(&dir.path().join("none")).unwrap());
+    assert!(RealFs.exists(&file).unwrap());
+}
+
+#[test]
+fn folders_are_created_with_their_parents_and_again_without_harm() {
+    let dir = folder();
+    let deep = dir.path().join("a b/ü/c");
+    RealFs.create_dir_all(&deep).unwrap();
+    RealFs.create_dir_all(&deep).unwrap();
+    RealFs.write_atomic(&deep.join("f"), b"x").unwrap();
+    assert_eq!(RealFs.list(&deep).unwrap(), [deep.join("f")]);
+    RealFs.remove(&deep.join("f")).unwrap();
+    assert!(RealFs.list(&deep).unwrap().is_empty());
+}
+
+#[test]
+fn a_log_grows_by_rows_and_is_cut_back_when_opened_again() {
+    let dir = folder();
+    let path = dir.path().join("history.csv");
+    let mut log = RealFs.open_log(&path, 0).unwrap();
+    log.append(b"one\n").unwrap();
+    log.append(b"two\n").unwrap();
+    assert_eq!(
+        RealFs.read(&path).unwrap(),
+        b"one\ntwo\n",
+        "a row is on the disk as soon as it is appended"
+    );
+    log.sync().unwrap();
+    drop(log);
+    let mut log = RealFs.open_log(&path, 4).unwrap();
+    log.append(b"2\n").unwrap();
+    assert_eq!(RealFs.read(&path).unwrap(), b"one\n2\n");
+    assert!(matches!(
+        RealFs.open_log(&path, 7),
+        Err(FsError::TooShort {
+            have: 6,
+            keep: 7,
+            ..
+        })
+    ));
+    assert_eq!(
+        RealFs.read(&path).unwrap(),
+        b"one\n2\n",
+        "a failed opening changes nothing"
+    );
+}
+
+#[test]
+fn a_lock_is_held_once_and_let_go_when_dropped() {
+    let dir = folder();
+    let path = dir.path().join(".lock");
+    let held = RealFs.lock(&path).unwrap();
+    let error = RealFs.lock(&path).unwrap_err();
+    assert!(matches!(error, FsError::Locked { .. }), "{error}");
+    drop(held);
+    RealFs.lock(&path).unwrap();
+}
+
+#[test]
+fn the_failing_disk_fails_exactly_where_told() {
+    let dir = folder();
+    let write = |fs: &dyn Fs, n: usize| {
+        (0..n)
+            .map(|i| fs.write(&dir.path().join("f"), &[i as u8]).is_ok())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        write(&FailingFs::nth(RealFs, 2, ErrorKind::Other), 4),
+        [true, false, true, true]
+    );
+    assert_eq!(
+        write(&FailingFs::from_nth(RealFs, 3, ErrorKind::Other), 4),
+        [true, true, false, false]
+    );
+    assert_eq!(
+        write(&TornFs::nth(RealFs, 2, 0), 4),
+        [true, false, false, false]
+    );
+    assert_eq!(
+        write(&TornFs::lying(RealFs, 2, 0, 1), 4),
+        [true, true, true, false]
+    );
+    let counting = FailingFs::counting(RealFs);
+    assert_eq!(write(&counting, 4), [true; 4]);
+    assert_eq!(counting.count(), 4);
+    let mut log = counting.open_log(&dir.path().join("log"), 0).unwrap();
+    log.append(b"x").unwrap();
+    log.sync().unwrap();
+    assert_eq!(counting.count(), 7);
+}
