@@ -37,7 +37,7 @@ mod term;
 
 pub use assembly::{Assembler, Assembly};
 pub use elimination::{Elimination, RigidBody};
-pub use frame::{ContactFrame, Frame, Resultant, Status};
+pub use frame::{ContactFrame, Frame, Resultant, RigidFrame, Status};
 pub use layout::{Dof, DofName, Layout, NO_DOF};
 pub use linear::Symmetry;
 pub use state::State;
