@@ -42,33 +42,57 @@ impl fmt::Display for Place {
 
 /// Why a mesh cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[allow(missing_docs)] // the fields are the words of the messages
 pub enum MeshError {
     /// No reader for this extension.
     #[error("{place}: no reader for this kind of file; meshes can be .{known}")]
-    UnknownFormat { place: Place, known: String },
+    UnknownFormat {
+        /// Where.
+        place: Place,
+        /// What is known.
+        known: String,
+    },
     /// A file of no bytes, or of white space only.
     #[error("{place}: the file is empty; was it written to the end?")]
-    Empty { place: Place },
+    Empty {
+        /// Where.
+        place: Place,
+    },
     /// Something else altogether.
     #[error("{place}: this is not a Gmsh mesh: it starts with `{found}`, not with $MeshFormat")]
-    NotAMesh { place: Place, found: String },
+    NotAMesh {
+        /// Where.
+        place: Place,
+        /// What was found.
+        found: String,
+    },
     /// Text of two bytes per character.
     #[error("{place}: the file is in UTF-16; save it as UTF-8")]
-    Utf16 { place: Place },
+    Utf16 {
+        /// Where.
+        place: Place,
+    },
     /// A version that is not read.
     #[error(
         "{place}: Gmsh format {found} is not supported; save as 4.1: Mesh.MshFileVersion = 4.1 (or 2.2)"
     )]
-    Version { place: Place, found: String },
+    Version {
+        /// Where.
+        place: Place,
+        /// What was found.
+        found: String,
+    },
     /// A header that contradicts itself.
     #[error(
         "{place}: {what} in $MeshFormat is {found}, which must be {wanted}; save the mesh again"
     )]
     Format {
+        /// Where.
         place: Place,
+        /// Which part.
         what: &'static str,
+        /// What was found.
         found: String,
+        /// What is needed.
         wanted: &'static str,
     },
     /// The file ends too early.
@@ -76,45 +100,67 @@ pub enum MeshError {
         "{place}: the file ends inside ${section}, where {wanted} should follow; it is truncated: save or copy it again"
     )]
     Truncated {
+        /// Where.
         place: Place,
+        /// The section.
         section: String,
+        /// What is needed.
         wanted: &'static str,
     },
     /// Something else where a number should be.
     #[error("{place}: `{found}` stands where {wanted} should be in ${section}{hint}")]
     NotANumber {
+        /// Where.
         place: Place,
+        /// The section.
         section: String,
+        /// What is needed.
         wanted: &'static str,
+        /// What was found.
         found: String,
+        /// What to do.
         hint: &'static str,
     },
     /// An infinite coordinate, or not a number.
     #[error("{place}: coordinate {axis} of node {node} is {found}; coordinates must be finite")]
     NotFinite {
+        /// Where.
         place: Place,
+        /// The node.
         node: u64,
+        /// The coordinate.
         axis: char,
+        /// What was found.
         found: String,
     },
     /// A number outside of what can be used.
     #[error(
-        "{place}: {wanted} is {found}, which is out of range ({range}); the file is damaged or in another byte order"
+        "{place}: {wanted} is {found}, which is out of range ({range}); {}",
+        damaged(place)
     )]
     OutOfRange {
+        /// Where.
         place: Place,
+        /// What is needed.
         wanted: &'static str,
+        /// What was found.
         found: String,
+        /// What can be used.
         range: &'static str,
     },
     /// A count that the rest of the file cannot hold.
     #[error(
-        "{place}: {wanted} is {announced}, but only {remaining} bytes follow; the file is truncated or the count is wrong"
+        "{place}: {wanted} is {announced}, but only {remaining} bytes follow; {}",
+        damaged(place)
     )]
     TooMany {
+        /// Where.
         place: Place,
+        /// What is needed.
         wanted: &'static str,
+        /// What was announced.
         announced: u64,
+        /// What is left of the file, bytes.
         remaining: usize,
     },
     /// A count that is not met.
@@ -122,10 +168,15 @@ pub enum MeshError {
         "{place}: ${section} announces {announced} {what}, but its blocks hold {found}; correct the count or save the mesh again"
     )]
     Count {
+        /// Where.
         place: Place,
+        /// The section.
         section: String,
+        /// Which part.
         what: &'static str,
+        /// What was announced.
         announced: u64,
+        /// What was found.
         found: u64,
     },
     /// More in a section than was announced.
@@ -133,73 +184,117 @@ pub enum MeshError {
         "{place}: `{found}` stands where $End{section} should be; the section holds more than its count says, or the mark is missing"
     )]
     SectionEnd {
+        /// Where.
         place: Place,
+        /// The section.
         section: String,
+        /// What was found.
         found: String,
     },
     /// Text between sections.
     #[error(
         "{place}: `{found}` stands between sections, where one such as $Nodes should start; remove it"
     )]
-    NotASection { place: Place, found: String },
+    NotASection {
+        /// Where.
+        place: Place,
+        /// What was found.
+        found: String,
+    },
     /// A section that must not come again.
     #[error("{place}: a second ${section}; a mesh has one: save it again as one model")]
-    SectionTwice { place: Place, section: String },
+    SectionTwice {
+        /// Where.
+        place: Place,
+        /// The section.
+        section: String,
+    },
     /// A section that is needed first.
     #[error("{place}: ${section} comes before ${needed}; put ${needed} first, as Gmsh writes it")]
     SectionOrder {
+        /// Where.
         place: Place,
+        /// The section.
         section: &'static str,
+        /// The section it needs.
         needed: &'static str,
     },
     /// A section that must be there.
     #[error("{place}: there is no ${section} in this file; save the whole mesh")]
-    NoSection { place: Place, section: &'static str },
+    NoSection {
+        /// Where.
+        place: Place,
+        /// The section.
+        section: &'static str,
+    },
     /// A group line without a name.
     #[error(
         "{place}: the name of physical group {tag} is not in double quotes: `{found}`; write {dim} {tag} \"name\""
     )]
     NoName {
+        /// Where.
         place: Place,
+        /// The dimension.
         dim: u8,
+        /// The tag.
         tag: i64,
+        /// What was found.
         found: String,
     },
     /// Groups of groups without bound.
     #[error(
         "{place}: the elements are in more physical groups ({found} memberships) than a file of this size can mean; the tags of $Entities are damaged"
     )]
-    TooManyMemberships { place: Place, found: u64 },
+    TooManyMemberships {
+        /// Where.
+        place: Place,
+        /// What was found.
+        found: u64,
+    },
     /// A number of an element type that nobody knows.
     #[error("{place}: there is no element type `{found}`; supported are {known}")]
     UnknownElement {
+        /// Where.
         place: Place,
+        /// What was found.
         found: String,
+        /// What is known.
         known: String,
     },
     /// Types that are known but not supported.
-    #[error("{place}: the mesh has {found}, which are not supported yet; {hint}")]
+    #[error("{place}: the mesh has {found}: not supported yet; {hint}")]
     Unsupported {
+        /// Where.
         place: Place,
+        /// What was found.
         found: String,
+        /// What to do.
         hint: &'static str,
     },
     /// Elements in a block of another dimension.
     #[error(
-        "{place}: elements of type {element} stand in an entity of dimension {dim}; the block is damaged: save the mesh again"
+        "{place}: elements of {element} stand in an entity of dimension {dim}; the block is damaged: save the mesh again"
     )]
     WrongDimension {
+        /// Where.
         place: Place,
+        /// The element.
         element: String,
+        /// The dimension.
         dim: u8,
     },
     /// An element with too few or too many nodes.
     #[error("{place}: element {element} has {found} nodes; a {kind} has {wanted}")]
     NodeCount {
+        /// Where.
         place: Place,
+        /// The element.
         element: u64,
+        /// Its type.
         kind: &'static str,
+        /// What was found.
         found: usize,
+        /// What is needed.
         wanted: usize,
     },
     /// A node that is not there.
@@ -207,8 +302,11 @@ pub enum MeshError {
         "{place}: element {element} refers to node {node}, which the mesh does not have; correct the element or add the node"
     )]
     MissingNode {
+        /// Where.
         place: Place,
+        /// The element.
         element: u64,
+        /// The node.
         node: u64,
     },
     /// The same node twice in one element.
@@ -216,23 +314,51 @@ pub enum MeshError {
         "{place}: element {element} has node {node} twice; collapsed elements are not supported: use a type with fewer nodes"
     )]
     RepeatedNode {
+        /// Where.
         place: Place,
+        /// The element.
         element: u64,
+        /// The node.
         node: u64,
     },
     /// Two nodes of one number.
     #[error("{place}: node {node} is defined a second time; give every node a number of its own")]
-    DuplicateNode { place: Place, node: u64 },
+    DuplicateNode {
+        /// Where.
+        place: Place,
+        /// The node.
+        node: u64,
+    },
     /// Two elements of one number.
     #[error(
         "{place}: element {element} is defined a second time; give every element a number of its own"
     )]
-    DuplicateElement { place: Place, element: u64 },
+    DuplicateElement {
+        /// Where.
+        place: Place,
+        /// The element.
+        element: u64,
+    },
     /// Nodes alone.
     #[error(
         "{place}: the mesh has {nnode} nodes but no elements; mesh the model before saving, and put what is to be saved into physical groups (or set Mesh.SaveAll = 1)"
     )]
-    NoElements { place: Place, nnode: usize },
+    NoElements {
+        /// Where.
+        place: Place,
+        /// How many nodes there are.
+        nnode: usize,
+    },
+}
+
+/// What number may be wrong for.
+fn damaged(place: &Place) -> &'static str {
+    match place {
+        Place::Byte { .. } => {
+            "the file is truncated, damaged or in another byte order: save it again"
+        }
+        _ => "the file is truncated or damaged: correct the number or save it again",
+    }
 }
 
 /// At most 40 characters of what was found, on one line.

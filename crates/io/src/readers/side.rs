@@ -5,39 +5,60 @@ use thiserror::Error;
 
 /// Why a side cannot be told.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[allow(missing_docs)] // the fields are the words of the messages
 pub enum SideError {
     /// Neither an axis nor a number.
     #[error("`{name}` names no side; write an axis such as \"+z\" or a number such as \"S2\"")]
-    NotASide { name: String },
+    NotASide {
+        /// What was written.
+        name: String,
+    },
     /// A cell that is not in the mesh.
     #[error("the element does not exist")]
     NoCell,
     /// A number beyond the sides of the element.
     #[error("element {element} ({kind}) has no side {name}; its sides are S1 to S{nside}")]
     NoSuchSide {
+        /// The element.
         element: u64,
+        /// Its type.
         kind: &'static str,
+        /// What was written.
         name: String,
+        /// How many sides it has.
         nside: usize,
     },
     /// An element that has no sides, such as a line.
     #[error("element {element} ({kind}) has no sides; name a solid, or a face in the plane")]
-    NoSides { element: u64, kind: &'static str },
+    NoSides {
+        /// The element.
+        element: u64,
+        /// Its type.
+        kind: &'static str,
+    },
     /// No side within one degree of the axis.
     #[error(
         "no side of element {element} ({kind}) faces {name} within 1 degree; the nearest, S{nearest}, is {degrees:.1} degrees off: name it by number"
     )]
     NoneFaces {
+        /// The element.
         element: u64,
+        /// Its type.
         kind: &'static str,
+        /// What was written.
         name: String,
+        /// The side that comes nearest, from 1.
         nearest: usize,
+        /// How far that one is off.
         degrees: f64,
     },
     /// A cell whose sides have no normals.
     #[error("element {element} ({kind}) is degenerate: no side of it has a normal")]
-    Degenerate { element: u64, kind: &'static str },
+    Degenerate {
+        /// The element.
+        element: u64,
+        /// Its type.
+        kind: &'static str,
+    },
 }
 
 /// The side of a cell that a user means, from 0: `"S2"` is side 1, `"+z"` the one whose normal in the undeformed

@@ -137,7 +137,7 @@ pub enum MeshIssue {
         elements: Sample,
     },
     /// Nodes at the same place that are not the same node.
-    #[error("{count} nodes lie within {tolerance:e} of another node, such as {} and {}; merge them, unless bodies or a crack meet there", pair[0], pair[1])]
+    #[error("nodes within {tolerance:e} of another one: {count}, such as {} and {}; merge them, unless bodies or a crack meet there", pair[0], pair[1])]
     Coincident {
         /// Nodes that coincide with an earlier one.
         count: usize,
@@ -147,7 +147,7 @@ pub enum MeshIssue {
         tolerance: f64,
     },
     /// Nodes without elements.
-    #[error("{count} nodes belong to no element; they are ignored")]
+    #[error("nodes without elements: {count}; they are ignored")]
     Unreferenced {
         /// How many.
         count: usize,

@@ -3,7 +3,7 @@
 use super::cursor::Cursor;
 use super::kind::{Kind, supported};
 use crate::readers::MeshError;
-use crate::readers::error::Place;
+use crate::readers::error::{Place, excerpt};
 use signorini_geometry::element::MAX_NODES;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId, Set};
 use signorini_geometry::tensor::Vec3;
@@ -13,6 +13,11 @@ type Result<T> = std::result::Result<T, MeshError>;
 
 /// What a cell belongs to: dimension, and the tag of an entity (4.1) or of a physical group (2.2).
 pub(super) type Owner = (u8, i64);
+
+/// `"1 node"`, `"2 nodes"`.
+fn plural(count: u64, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
+}
 
 /// Numbers that must each come once.
 #[derive(Default)]
@@ -129,7 +134,8 @@ impl Builder {
         let known = self.names.entry((dim, tag)).or_insert_with(|| name.clone());
         if *known != name {
             self.notes.push(format!(
-                "the physical group of dimension {dim} and tag {tag} is called `{known}` and `{name}`; `{known}` is used"
+                "the physical group of dimension {dim} and tag {tag} has two names; the first, `{}`, is used",
+                excerpt(known.as_bytes())
             ));
         }
     }
@@ -305,7 +311,8 @@ impl Builder {
     fn judge_skipped(&mut self) -> Result<()> {
         let skipped = || self.skipped.values();
         let highest = skipped().map(|s| s.kind.dim).max().unwrap_or(0);
-        let in_words = |s: &Skipped| s.kind.count_in_words(s.count);
+        let in_words =
+            |s: &Skipped| format!("{} of {}", plural(s.count, "element"), s.kind.in_words());
         if usize::from(highest) >= self.mesh.dim() {
             let solids = skipped().filter(|s| s.kind.dim == highest);
             let words: Vec<String> = solids.clone().map(in_words).collect();
@@ -332,10 +339,12 @@ impl Builder {
                 })
                 .map(|(dim, tag)| format!("`{}`", self.group(dim, tag)))
                 .collect();
-            let names: Vec<String> = names.into_iter().collect();
-            let mut note = format!("{} are left out: not supported yet", in_words(s));
+            let more = if names.len() > 5 { ", …" } else { "" };
+            let names: Vec<String> = names.into_iter().take(5).collect();
+            let mut note = format!("{} left out: not supported yet", in_words(s));
             if !names.is_empty() {
-                note += &format!("; they are missing from {}", names.join(", "));
+                note += &format!("; missing from {}", names.join(", "));
+                note += more;
             }
             self.notes.push(note);
         }
@@ -352,9 +361,9 @@ impl Builder {
         }
         let unused = used.iter().filter(|used| !**used).count();
         if unused > 0 {
-            self.notes.push(format!(
-                "{unused} nodes belong to no element and are ignored"
-            ));
+            let nodes = plural(unused as u64, "node");
+            self.notes
+                .push(format!("{nodes} without elements, ignored"));
         }
         if self.mesh.dim() < 3 && self.mesh.points.iter().any(|x| x.z != 0.0) {
             self.notes.push(
@@ -373,7 +382,7 @@ impl Builder {
             .map(|r| u64::from(r.end - r.first) * ngroup(&r.owner));
         let of_points = self.points.iter().map(|(owner, _)| ngroup(owner));
         let found = of_runs.chain(of_points).fold(0, u64::saturating_add);
-        if found > 8 * cursor.nbyte() as u64 {
+        if found > 2 * cursor.nbyte() as u64 + 1024 {
             return Err(MeshError::TooManyMemberships {
                 place: cursor.file(),
                 found,

@@ -25,23 +25,26 @@ impl Shape {
         }
     }
 
-    const fn plural(self) -> &'static str {
+    const fn word(self) -> &'static str {
         match self {
-            Self::Point => "points",
-            Self::Line => "lines",
-            Self::Triangle => "triangles",
-            Self::Quadrilateral => "quadrilaterals",
-            Self::Tetrahedron => "tetrahedra",
-            Self::Hexahedron => "hexahedra",
-            Self::Wedge => "wedges (prisms)",
-            Self::Pyramid => "pyramids",
+            Self::Point => "point",
+            Self::Line => "line",
+            Self::Triangle => "triangle",
+            Self::Quadrilateral => "quadrilateral",
+            Self::Tetrahedron => "tetrahedron",
+            Self::Hexahedron => "hexahedron",
+            Self::Wedge => "wedge, or prism,",
+            Self::Pyramid => "pyramid",
         }
     }
 }
 
-/// Every type: its number in the file, the polynomial order, the number of nodes.
+/// The types of a family: number in the file, polynomial order, number of nodes.
+type Family = &'static [(u32, u8, usize)];
+
+/// Every type.
 #[rustfmt::skip]
-const TYPES: [(Shape, &[(u32, u8, usize)]); 8] = [
+const TYPES: [(Shape, Family); 8] = [
     (Shape::Point, &[(15, 0, 1)]),
     (Shape::Line, &[(1, 1, 2), (8, 2, 3), (26, 3, 4), (27, 4, 5), (28, 5, 6), (62, 6, 7), (63, 7, 8), (64, 8, 9),
         (65, 9, 10), (66, 10, 11)]),
@@ -132,10 +135,10 @@ impl Kind {
         self.shape == Shape::Point
     }
 
-    /// In words: `"3 tetrahedra of 10 nodes (type 11)"`.
-    pub fn count_in_words(&self, count: u64) -> String {
-        let (shape, nnode, number) = (self.shape.plural(), self.nnode, self.number);
-        format!("{count} {shape} of {nnode} nodes (type {number})")
+    /// In words: `"type 11 (tetrahedron of 10 nodes)"`.
+    pub fn in_words(&self) -> String {
+        let (number, shape, nnode) = (self.number, self.shape.word(), self.nnode);
+        format!("type {number} ({shape} of {nnode} nodes)")
     }
 }
 
@@ -255,7 +258,8 @@ mod tests {
             [1, 4],
             [2, 5],
         ];
-        let cases: [(i64, &[[i8; 3]], usize, &[[usize; 2]]); 3] = [
+        type Case<'a> = (i64, &'a [[i8; 3]], usize, &'a [[usize; 2]]);
+        let cases: [Case<'_>; 3] = [
             (11, &TET10, 4, tet),
             (17, &HEX20, 8, hex),
             (18, &WEDGE15, 6, wedge),
@@ -263,14 +267,10 @@ mod tests {
         for (number, nodes, ncorner, edges) in cases {
             let permutation = Kind::find(number).unwrap().permutation;
             assert_eq!(permutation.len(), nodes.len());
-            for i in 0..ncorner {
-                assert_eq!(permutation[i], i);
-            }
-            for (edge, &place) in edges.iter().zip(&permutation[ncorner..]) {
-                for axis in 0..3 {
-                    let middle = (nodes[edge[0]][axis] + nodes[edge[1]][axis]) / 2;
-                    assert_eq!(nodes[place][axis], middle, "type {number}, edge {edge:?}");
-                }
+            assert!(permutation.iter().take(ncorner).copied().eq(0..ncorner));
+            for (&[a, b], &place) in edges.iter().zip(&permutation[ncorner..]) {
+                let middle = [0, 1, 2].map(|axis| (nodes[a][axis] + nodes[b][axis]) / 2);
+                assert_eq!(nodes[place], middle, "type {number}, edge {a}-{b}");
             }
         }
     }

@@ -45,8 +45,11 @@ pub(super) fn entities(
         }
     }
     let mut counts = [0; 4];
+    let least = if cursor.binary.is_some() { 32 } else { 8 };
     for count in &mut counts {
-        *count = cursor.size("the number of entities")?;
+        let wanted = "the number of entities";
+        *count = cursor.size(wanted)?;
+        cursor.check_count(wanted, *count, least)?;
     }
     for (dim, count) in (0_u8..).zip(counts) {
         for _ in 0..count {
@@ -133,7 +136,7 @@ pub(super) fn elements(cursor: &mut Cursor<'_>, builder: &mut Builder) -> Result
         if kind.dim != owner.0 {
             return Err(MeshError::WrongDimension {
                 place: cursor.place(),
-                element: kind.count_in_words(1),
+                element: kind.in_words(),
                 dim: owner.0,
             });
         }
