@@ -2,6 +2,8 @@
 //!
 //! Expected counts and groups are those that Gmsh reports for the model.
 
+#![allow(clippy::unwrap_used)]
+
 use signorini_geometry::mesh::{FaceIndex, Mesh};
 use signorini_io::readers::{parts, read_mesh, validate};
 use std::collections::BTreeMap;

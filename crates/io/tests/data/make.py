@@ -1,4 +1,4 @@
-# Writes the meshes in this folder:  pip install gmsh && python make.py
+# Writes the meshes in this folder, those here with Gmsh 4.15.2:  pip install gmsh && python make.py
 import gmsh
 
 gmsh.initialize()

@@ -276,6 +276,22 @@ mod tests {
     }
 
     #[test]
+    fn every_type_with_an_element_here_has_its_dimension_and_number_of_nodes() {
+        for (number, name, permutation) in ELEMENTS {
+            let kind = Kind::find(number.into()).unwrap();
+            assert!(permutation.is_empty() || permutation.len() == kind.nnode);
+            assert_eq!(
+                kind.element.map(|e| e.name()),
+                element::by_name(name).map(|e| e.name())
+            );
+            if let Some(element) = kind.element {
+                let expected = (kind.dim as usize, kind.nnode);
+                assert_eq!((element.dim(), element.nnode()), expected, "{name}");
+            }
+        }
+    }
+
+    #[test]
     fn types_are_listed_once() {
         let mut numbers: Vec<u32> = TYPES.iter().flat_map(|t| t.1).map(|t| t.0).collect();
         let count = numbers.len();

@@ -13,7 +13,7 @@
 //! kept. Other sections (`$Periodic`, `$NodeData`, …) are stepped over and noted.
 //!
 //! Text and binary data hold the same numbers in the same order, so each version is read by one set of functions over
-//! a [`cursor`](self) that knows how numbers are stored. Source: Gmsh reference manual, chapter "Gmsh file formats".
+//! a cursor that knows how numbers are stored. Source: Gmsh reference manual, chapter "Gmsh file formats".
 //!
 //! To add an element: one line in the table of `kind.rs`.
 

@@ -1,3 +1,4 @@
+use super::kind::Kind;
 use super::*;
 use crate::readers::validate;
 use std::fmt::Write as _;
@@ -227,8 +228,6 @@ impl BinaryWriter<'_> {
         }
     }
 }
-
-use super::kind::Kind;
 
 fn to_binary(text: &str, big_endian: bool, wide: bool) -> Vec<u8> {
     let mut out = Vec::new();
