@@ -1,6 +1,6 @@
 //! From a checked document to a [`Case`], and the checks that need more than one table.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use toml::de::{DeTable, DeValue};
 
@@ -365,7 +365,7 @@ impl Builder {
     fn body(&mut self, fields: Fields<'_>, place: Place) -> Body {
         let rigid = fields.flag("rigid");
         let groups = fields.texts("group");
-        if !rigid && !fields.has("material") {
+        if !rigid && !fields.has("material") && !fields.has_unknown_key() {
             let name = groups.first().map_or("", |group| group.value.as_str());
             self.found.push(
                 Diagnostic::error(
@@ -654,11 +654,31 @@ impl Builder {
                 .map(|contact| ("contact", &contact.name)),
         );
         self.unique(case.steps.iter().map(|step| ("step", &step.name)));
-        let contacts = case
+        self.unique(case.output.history.iter().map(|one| ("history", &one.name)));
+        let rigid = case
+            .bodies
+            .iter()
+            .filter(|body| body.rigid)
+            .flat_map(|body| &body.groups);
+        let columns: Vec<_> = case
             .contacts
             .iter()
-            .map(|contact| ("contact", &contact.name));
-        self.unique(contacts.chain(case.output.history.iter().map(|one| ("history", &one.name))));
+            .map(|one| ("contact", &one.name))
+            .chain(rigid.map(|group| ("rigid body", group)))
+            .collect();
+        for history in case
+            .output
+            .history
+            .iter()
+            .filter(|one| !one.name.is_empty())
+        {
+            if let Some(first) = columns
+                .iter()
+                .find(|(_, name)| name.value == history.name.value)
+            {
+                self.name_twice(*first, ("history", &history.name));
+            }
+        }
         for step in &case.steps {
             self.unique(
                 step.loads
@@ -673,13 +693,15 @@ impl Builder {
                 .filter_map(|one| one.group.as_ref())
                 .map(|group| (group.value.as_str(), group))
                 .collect();
+            let bodies: BTreeSet<&str> = case
+                .bodies
+                .iter()
+                .flat_map(|body| &body.groups)
+                .map(|group| group.as_str())
+                .collect();
             for set in &case.sets {
-                let is_body = case
-                    .bodies
-                    .iter()
-                    .flat_map(|body| &body.groups)
-                    .any(|group| group.value == set.name.value);
-                if let Some(group) = groups.get(set.name.as_str()).filter(|_| !is_body) {
+                let is_body = || bodies.contains(set.name.as_str());
+                if let Some(group) = groups.get(set.name.as_str()).filter(|_| !is_body()) {
                     self.name_twice(("group of elements", group), ("set", &set.name));
                 }
             }
@@ -701,7 +723,7 @@ impl Builder {
     fn name_twice(&mut self, first: (&str, &Name), second: (&str, &Name)) {
         let name = shortened(second.1);
         let message = if first.0 == second.0 {
-            format!("two things are called {} \"{name}\"", second.0)
+            format!("two {} are called \"{name}\"", plural(second.0))
         } else {
             format!("\"{name}\" is both a {} and a {}", first.0, second.0)
         };
@@ -716,7 +738,8 @@ impl Builder {
     fn references(&mut self, case: &Case, root: Fields<'_>) {
         // Where a list of definitions has a wrong form, which has been told, nobody knows what it defines.
         let known = |key: &str| !root.has(key) || root.is_of_its_form(key);
-        let materials: Vec<&str> = case.materials.iter().map(|one| one.name.as_str()).collect();
+        let materials: BTreeSet<&str> =
+            case.materials.iter().map(|one| one.name.as_str()).collect();
         for material in case
             .bodies
             .iter()
@@ -725,7 +748,7 @@ impl Builder {
         {
             self.reference("material", material, &materials);
         }
-        let amplitudes: Vec<&str> = case
+        let amplitudes: BTreeSet<&str> = case
             .amplitudes
             .iter()
             .map(|one| one.name.as_str())
@@ -742,13 +765,13 @@ impl Builder {
                 self.reference("amplitude", name, &amplitudes);
             }
         }
-        let contacts: Vec<&str> = case.contacts.iter().map(|one| one.name.as_str()).collect();
+        let contacts: BTreeSet<&str> = case.contacts.iter().map(|one| one.name.as_str()).collect();
         let rigid = case
             .bodies
             .iter()
             .filter(|body| body.rigid)
             .flat_map(|body| &body.groups);
-        let rigid: Vec<&str> = rigid.map(|group| group.as_str()).collect();
+        let rigid: BTreeSet<&str> = rigid.map(|group| group.as_str()).collect();
         for history in &case.output.history {
             match &history.source {
                 HistorySource::Contact(name) if known("contact") => {
@@ -774,20 +797,30 @@ impl Builder {
         }
     }
 
-    fn reference(&mut self, kind: &str, name: &Name, known: &[&str]) {
-        if name.is_empty() && name.place.get().is_none() || known.contains(&name.as_str()) {
+    fn reference(&mut self, kind: &str, name: &Name, known: &BTreeSet<&str>) {
+        if name.is_empty() && name.place.get().is_none() || known.contains(name.as_str()) {
             return;
         }
-        let remark = closest(name, known.iter().copied())
-            .map_or(String::new(), |meant| format!("did you mean \"{meant}\"?"));
-        self.found.push(
-            Diagnostic::error(
-                &codes::UNDEFINED,
-                format!("there is no {kind} called \"{}\"", shortened(name)),
+        let message = format!("there is no {kind} called \"{}\"", shortened(name));
+        let one = Diagnostic::error(&codes::UNDEFINED, message);
+        // Proposals take the product of the numbers of names, and nobody reads a hundred of them.
+        self.found.push(if self.found.len() < 100 {
+            let remark = closest(name, known.iter().copied());
+            one.at(
+                &name.place,
+                remark.map_or(String::new(), |meant| format!("did you mean \"{meant}\"?")),
             )
-            .at(&name.place, remark)
-            .note(format!("defined are: {}", listed(known.iter().copied()))),
-        );
+            .note(format!("defined are: {}", listed(known.iter().copied())))
+        } else {
+            one.at(&name.place, "")
+        });
+    }
+}
+
+fn plural(kind: &str) -> String {
+    match kind.strip_suffix('y') {
+        Some(stem) => format!("{stem}ies"),
+        None => format!("{kind}s"),
     }
 }
 

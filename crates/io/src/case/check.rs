@@ -14,6 +14,9 @@ use super::scalar::{count, found, has_type, is_usable, number, shortened, wanted
 use super::vocabulary::{CASE, Choice, Default, Key, Rule, Shape, Table};
 use crate::diagnostic::{Diagnostic, Diagnostics, closest, codes, listed};
 
+/// After so many findings the check ends: by then it is no case.
+const MOST: usize = 10_000;
+
 /// Checks a whole document.
 pub(super) fn check(document: &DeTable<'_>, origins: &Origins) -> Diagnostics {
     let mut checker = Checker {
@@ -43,9 +46,14 @@ struct Checker<'a> {
 
 impl Checker<'_> {
     fn table(&mut self, table: &DeTable<'_>, words: &'static Table, heading: Option<Range<usize>>) {
+        // A key that a mistyped one was meant to be is not reported as missing, too.
+        let mut meant = Vec::new();
         for (name, value) in in_order(table) {
+            if self.found.len() > MOST {
+                return;
+            }
             match words.key(name.get_ref()) {
-                None => self.unknown(name, value, words),
+                None => meant.extend(self.unknown(name, value, words)),
                 Some(Key {
                     later: Some(instead),
                     ..
@@ -56,7 +64,8 @@ impl Checker<'_> {
             }
         }
         for key in words.keys {
-            if key.default == Default::Required && !table.contains_key(key.name) {
+            let given = table.contains_key(key.name) || meant.contains(&key.name);
+            if key.default == Default::Required && !given {
                 self.missing(key, words, heading.clone());
             }
         }
@@ -165,6 +174,9 @@ impl Checker<'_> {
             }
             (Shape::Named(words), DeValue::Table(entries)) => {
                 for (name, one) in in_order(entries) {
+                    if self.found.len() > MOST {
+                        return;
+                    }
                     match one.get_ref() {
                         DeValue::Table(table) => self.table(table, words, Some(one.span())),
                         other => {
@@ -186,12 +198,13 @@ impl Checker<'_> {
         }
     }
 
+    /// Reports an unknown key and returns the key of this table that it was probably meant to be.
     fn unknown(
         &mut self,
         name: &Spanned<toml::de::DeString<'_>>,
         value: &Spanned<DeValue<'_>>,
         words: &'static Table,
-    ) {
+    ) -> Option<&'static str> {
         let typed: &str = name.get_ref();
         let place = self.origins.place(name.span());
         let mut one = Diagnostic::error(
@@ -230,6 +243,7 @@ impl Checker<'_> {
             one = one.at(&place, format!("{} has no such key", words.heading));
         }
         self.found.push(one.note(keys_of(words)));
+        near
     }
 
     fn later(&mut self, span: Range<usize>, what: &str, instead: &str) {

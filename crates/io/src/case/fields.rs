@@ -40,6 +40,15 @@ impl<'a> Fields<'a> {
         self.get(key).is_some()
     }
 
+    /// Whether a key stands here that nobody knows.
+    pub fn has_unknown_key(&self) -> bool {
+        self.table.is_some_and(|table| {
+            table
+                .keys()
+                .any(|key| self.words.key(key.get_ref()).is_none())
+        })
+    }
+
     /// Whether the value of a key has the TOML type of its key.
     pub fn is_of_its_form(&self, key: &str) -> bool {
         let shape = self.words.key(key).map(|key| &key.shape);
@@ -128,16 +137,6 @@ impl<'a> Fields<'a> {
 
     pub fn flag_if(&self, key: &str) -> Option<bool> {
         self.get(key)?.get_ref().as_bool()
-    }
-
-    /// Rows of numbers; rows of another length or with other entries are left out.
-    pub fn rows<const N: usize>(&self, key: &str) -> Vec<[f64; N]> {
-        let items = self.get(key).and_then(|value| value.get_ref().as_array());
-        items
-            .into_iter()
-            .flat_map(|items| items.iter())
-            .filter_map(|row| numbers(row.get_ref()))
-            .collect()
     }
 
     /// A list of exactly `N` numbers.

@@ -11,7 +11,7 @@ impl Generator {
     }
 
     /// The next number.
-    pub fn next(&mut self) -> u64 {
+    pub fn draw(&mut self) -> u64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
@@ -23,7 +23,7 @@ impl Generator {
         if end == 0 {
             0
         } else {
-            (self.next() % end as u64) as usize
+            (self.draw() % end as u64) as usize
         }
     }
 
@@ -101,7 +101,7 @@ fn change_byte(bytes: &mut Vec<u8>, generator: &mut Generator) {
         1 if at < bytes.len() => {
             bytes.remove(at);
         }
-        2 => bytes.insert(at, generator.next() as u8),
+        2 => bytes.insert(at, generator.draw() as u8),
         _ => {
             if let Some(byte) = bytes.get_mut(at) {
                 *byte ^= 1 << generator.below(8);

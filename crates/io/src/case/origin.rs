@@ -71,7 +71,7 @@ impl Origins {
         let Some((start, file)) = self.origin(range.start) else {
             return "";
         };
-        let end = range.end.checked_sub(*start).unwrap_or_default();
+        let end = range.end.saturating_sub(*start);
         file.text()
             .get(range.start - start..end)
             .unwrap_or_default()

@@ -18,6 +18,9 @@ pub(super) struct Parsed<'a> {
     pub sound: bool,
 }
 
+/// More errors of the text are not told: by then it is no case.
+const MOST: usize = 100;
+
 /// Reads the text; errors are told one for each line, up to the first that spoils what follows.
 pub(super) fn parse<'a>(text: &'a str, origins: &Origins) -> Parsed<'a> {
     let (table, errors) = DeTable::parse_recoverable(text);
@@ -39,7 +42,7 @@ pub(super) fn parse<'a>(text: &'a str, origins: &Origins) -> Parsed<'a> {
             parsed.errors.push(one);
             parsed.sound &= local;
         }
-        if !parsed.sound {
+        if !parsed.sound || parsed.errors.len() == MOST {
             break;
         }
     }
