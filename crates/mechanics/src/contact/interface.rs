@@ -376,6 +376,11 @@ impl Term for Interface {
         }
     }
 
+    fn nactive(&self) -> usize {
+        let pairs = self.now.pairs.iter().flatten();
+        pairs.filter(|p| p.inside()).count()
+    }
+
     fn accept(&mut self, _: &State) -> Result<(), TermError> {
         self.accepted.pairs.clone_from(&self.now.pairs);
         Ok(())

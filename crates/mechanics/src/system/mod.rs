@@ -30,6 +30,7 @@ mod assembly;
 mod elimination;
 mod frame;
 mod layout;
+mod whole;
 pub mod linear;
 pub mod sparsity;
 mod state;
@@ -39,6 +40,7 @@ pub use assembly::{Assembler, Assembly};
 pub use elimination::{Elimination, RigidBody};
 pub use frame::{ContactFrame, Frame, Resultant, RigidFrame, Status};
 pub use layout::{Dof, DofName, Layout, NO_DOF};
+pub use whole::System;
 pub use linear::Symmetry;
 pub use state::State;
 pub use term::{
