@@ -1,1 +1,3 @@
-//! Placeholder.
+//! Solids, contact and their solution: everything between a mesh and a result.
+
+pub mod system;

@@ -1,0 +1,321 @@
+//! The operator over equations: bulk and interface added up in one compressed matrix, equilibrated.
+//!
+//! Column e holds *row* e of the operator A. That is the matrix itself where it is symmetric (then only entries at or
+//! below the diagonal are kept), and its transpose where it is not. Gathering therefore reads the operator row by row:
+//! every place is written by one task, in a fixed order.
+//!
+//! ```text
+//!   raw row d = (node, i)   ──equation[d]──▶   column e of the matrix
+//!        bulk value k       ──bulk_place[k]──▶      its place, or NONE (prescribed, or above the diagonal)
+//!   interface value k       ──interface_place[k]──▶ its place
+//! ```
+//!
+//! Equilibration makes every row's largest entry about 1, by powers of two, which cost no accuracy (D. Ruiz, A scaling
+//! algorithm to equilibrate both rows and columns norms in matrices, RAL-TR-2001-034). Pivots can then be judged by
+//! their size.
+
+use super::{LinearError, Problem, Symmetry, Values};
+use crate::system::sparsity::NONE;
+use rayon::prelude::*;
+
+/// Columns gathered by one task; results do not depend on it.
+const COLUMNS_PER_TASK: usize = 2048;
+
+pub(super) struct Matrix {
+    /// Where each column begins.
+    pub start: Vec<u32>,
+    /// The row of each entry, sorted; the diagonal is always there, first where the matrix is symmetric.
+    pub row: Vec<u32>,
+    /// The equilibrated values.
+    pub value: Vec<f64>,
+    /// The scale of each equation: value = row_scale * A * column_scale.
+    pub row_scale: Vec<f64>,
+    /// The scale of each unknown.
+    pub column_scale: Vec<f64>,
+    /// Whether only one half is kept.
+    pub symmetric: bool,
+    dof_start: Vec<u32>,
+    dof: Vec<u32>,
+    bulk_place: Vec<u32>,
+    interface_place: Vec<u32>,
+}
+
+impl Matrix {
+    pub fn new(problem: &Problem) -> Result<Self, LinearError> {
+        let Problem {
+            bulk,
+            interface,
+            equation,
+            nequation,
+            ..
+        } = *problem;
+        let symmetric = problem.symmetry != Symmetry::Unsymmetric;
+        let block = bulk.block;
+        let nbulk = bulk.nrow() * block;
+
+        // the raw dofs of each equation, by counting
+        let mut dof_start = vec![0u32; nequation + 1];
+        for &e in equation.iter().filter(|&&e| e != NONE) {
+            dof_start[e as usize + 1] += 1;
+        }
+        for e in 0..nequation {
+            dof_start[e + 1] += dof_start[e];
+        }
+        let mut next = dof_start.clone();
+        let mut dof = vec![0u32; dof_start[nequation] as usize];
+        for (d, &e) in equation.iter().enumerate().filter(|&(_, &e)| e != NONE) {
+            dof[next[e as usize] as usize] = d as u32;
+            next[e as usize] += 1;
+        }
+
+        // the pattern; `seen` holds the last column that met a row, then the place it got there
+        let mut start = Vec::with_capacity(nequation + 1);
+        let mut row: Vec<u32> = Vec::new();
+        let mut bulk_place = vec![NONE; bulk.nvalue()];
+        let mut interface_place = vec![NONE; interface.nentry()];
+        let mut seen = vec![NONE; nequation];
+        let mut place = vec![0u32; nequation];
+        start.push(0);
+        for e in 0..nequation as u32 {
+            let begin = row.len();
+            let kept = |other: u32| other != NONE && !(symmetric && other < e);
+            let mine = &dof[dof_start[e as usize] as usize..dof_start[e as usize + 1] as usize];
+            let mut meet = |other: u32| {
+                if kept(other) && seen[other as usize] != e {
+                    seen[other as usize] = e;
+                    row.push(other);
+                }
+            };
+            meet(e);
+            for &d in mine {
+                let d = d as usize;
+                if d < nbulk {
+                    let columns =
+                        &bulk.column[bulk.row_start[d / block]..bulk.row_start[d / block + 1]];
+                    for &column in columns {
+                        equation[column as usize * block..][..block]
+                            .iter()
+                            .for_each(|&other| meet(other));
+                    }
+                }
+                if d < interface.nrow {
+                    let columns =
+                        &interface.column[interface.row_start[d]..interface.row_start[d + 1]];
+                    columns
+                        .iter()
+                        .for_each(|&column| meet(equation[column as usize]));
+                }
+            }
+            row[begin..].sort_unstable();
+            if row.len() >= NONE as usize / 2 {
+                return Err(LinearError::TooLarge {
+                    nequation,
+                    nentry: row.len(),
+                });
+            }
+            for (at, &other) in row.iter().enumerate().skip(begin) {
+                place[other as usize] = at as u32;
+            }
+            for &d in mine {
+                let d = d as usize;
+                if d < nbulk {
+                    for k in bulk.row_start[d / block]..bulk.row_start[d / block + 1] {
+                        let others = &equation[bulk.column[k] as usize * block..][..block];
+                        let places = &mut bulk_place[(k * block + d % block) * block..][..block];
+                        for (&other, to) in
+                            others.iter().zip(places).filter(|&(&other, _)| kept(other))
+                        {
+                            *to = place[other as usize];
+                        }
+                    }
+                }
+                if d < interface.nrow {
+                    let entries = interface.row_start[d]..interface.row_start[d + 1];
+                    for (&column, to) in interface.column[entries.clone()]
+                        .iter()
+                        .zip(&mut interface_place[entries])
+                    {
+                        let other = equation[column as usize];
+                        if kept(other) {
+                            *to = place[other as usize];
+                        }
+                    }
+                }
+            }
+            start.push(row.len() as u32);
+        }
+        Ok(Self {
+            value: vec![0.0; row.len()],
+            row_scale: vec![1.0; nequation],
+            column_scale: vec![1.0; nequation],
+            start,
+            row,
+            symmetric,
+            dof_start,
+            dof,
+            bulk_place,
+            interface_place,
+        })
+    }
+
+    pub fn nequation(&self) -> usize {
+        self.row_scale.len()
+    }
+
+    /// The rows of the entries of one column.
+    pub fn column(&self, column: usize) -> &[u32] {
+        &self.row[self.range(column)]
+    }
+
+    fn range(&self, column: usize) -> std::ops::Range<usize> {
+        self.start[column] as usize..self.start[column + 1] as usize
+    }
+
+    /// The place of the diagonal entry.
+    pub fn diagonal(&self, column: usize) -> usize {
+        let range = self.range(column);
+        let first = range.start;
+        if self.symmetric {
+            first
+        } else {
+            first + self.row[range].partition_point(|&row| (row as usize) < column)
+        }
+    }
+
+    /// Adds up bulk and interface and equilibrates.
+    ///
+    /// # Errors
+    /// `NotFinite`, and `Singular` with the equation where a row is zero.
+    pub fn gather(&mut self, problem: &super::Kept, values: &Values) -> Result<(), LinearError> {
+        let (bulk, interface, block) = (&problem.bulk, &problem.interface, problem.bulk.block);
+        let nbulk = bulk.nrow() * block;
+        let (dof_start, dof) = (&self.dof_start, &self.dof);
+        let (bulk_place, interface_place, start) =
+            (&self.bulk_place, &self.interface_place, &self.start);
+
+        let mut tasks = Vec::new();
+        let mut rest = self.value.as_mut_slice();
+        for first in (0..self.row_scale.len()).step_by(COLUMNS_PER_TASK) {
+            let last = (first + COLUMNS_PER_TASK).min(self.row_scale.len());
+            let (mine, others) = rest.split_at_mut((start[last] - start[first]) as usize);
+            tasks.push((first..last, mine));
+            rest = others;
+        }
+        let finite = tasks.into_par_iter().map(|(columns, out)| {
+            out.fill(0.0);
+            let base = start[columns.start];
+            let mut add = |place: u32, a: f64| {
+                if place != NONE {
+                    out[(place - base) as usize] += a;
+                }
+            };
+            for &d in &dof[dof_start[columns.start] as usize..dof_start[columns.end] as usize] {
+                let d = d as usize;
+                if d < nbulk {
+                    for k in bulk.row_start[d / block]..bulk.row_start[d / block + 1] {
+                        let at = (k * block + d % block) * block;
+                        for (&place, &a) in bulk_place[at..at + block]
+                            .iter()
+                            .zip(&values.bulk[at..at + block])
+                        {
+                            add(place, a);
+                        }
+                    }
+                }
+                if d < interface.nrow {
+                    for k in interface.row_start[d]..interface.row_start[d + 1] {
+                        add(interface_place[k], values.interface[k]);
+                    }
+                }
+            }
+            out.iter().all(|a| a.is_finite())
+        });
+        if !finite.reduce(|| true, |a, b| a && b) {
+            return Err(LinearError::NotFinite);
+        }
+        self.equilibrate()
+    }
+
+    fn equilibrate(&mut self) -> Result<(), LinearError> {
+        let n = self.nequation();
+        self.row_scale.fill(1.0);
+        self.column_scale.fill(1.0);
+        let (mut row_max, mut column_max) = (vec![0.0f64; n], vec![0.0f64; n]);
+        for sweep in 0..3 {
+            // an entry of column e at row f is A[e, f] of the operator
+            row_max.fill(0.0);
+            column_max.fill(0.0);
+            for e in 0..n {
+                for (&f, &a) in self.row[self.range(e)]
+                    .iter()
+                    .zip(&self.value[self.range(e)])
+                {
+                    let size = a.abs() * self.row_scale[e] * self.column_scale[f as usize];
+                    row_max[e] = row_max[e].max(size);
+                    column_max[f as usize] = column_max[f as usize].max(size);
+                }
+            }
+            if self.symmetric {
+                for (row, column) in row_max.iter_mut().zip(&mut column_max) {
+                    *row = row.max(*column);
+                    *column = *row;
+                }
+            }
+            if sweep == 0 {
+                let zero = row_max
+                    .iter()
+                    .zip(&column_max)
+                    .position(|(&row, &column)| row == 0.0 || column == 0.0);
+                if zero.is_some() {
+                    return Err(LinearError::Singular { equation: zero });
+                }
+            }
+            let within = |max: &[f64]| max.iter().all(|&m| (0.25..4.0).contains(&m));
+            if within(&row_max) && within(&column_max) {
+                break;
+            }
+            for (scale, &max) in self.row_scale.iter_mut().zip(&row_max) {
+                *scale *= power_of_two(max);
+            }
+            for (scale, &max) in self.column_scale.iter_mut().zip(&column_max) {
+                *scale *= power_of_two(max);
+            }
+        }
+        for e in 0..n {
+            let range = self.range(e);
+            for (&f, a) in self.row[range.clone()].iter().zip(&mut self.value[range]) {
+                *a *= self.row_scale[e] * self.column_scale[f as usize];
+            }
+        }
+        if self.value.iter().any(|a| !a.is_finite()) {
+            return Err(LinearError::NotFinite);
+        }
+        Ok(())
+    }
+
+    /// The equilibrated operator times a vector, and the same with absolute values: `(|A x|, |A| |x|)` in the largest
+    /// entry.
+    pub fn backward(&self, x: &[f64]) -> (f64, f64) {
+        let (mut y, mut size) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+        for e in 0..x.len() {
+            for (&f, &a) in self.row[self.range(e)]
+                .iter()
+                .zip(&self.value[self.range(e)])
+            {
+                let f = f as usize;
+                y[e] += a * x[f];
+                size[e] += (a * x[f]).abs();
+                if self.symmetric && f != e {
+                    y[f] += a * x[e];
+                    size[f] += (a * x[e]).abs();
+                }
+            }
+        }
+        (super::largest(&y), super::largest(&size))
+    }
+}
+
+/// The power of two next to 1/√size.
+fn power_of_two(size: f64) -> f64 {
+    (-0.5 * size.log2()).round().exp2()
+}

@@ -1,0 +1,349 @@
+//! Linear systems: from the operator in two parts to the change of every unknown, with a residual that was measured.
+//!
+//! ```text
+//!   Problem (patterns, equations, signs) ──analyze──▶ order, symbolic factor        once per pattern
+//!   Values  (bulk, interface)            ──factorize──▶ numeric factor              once per tangent
+//!   right-hand side                      ──solve──▶ x, SolveReport                  residual = |b − A x| / |b|
+//! ```
+//!
+//! A solver never hands back an answer that it has not checked: each solution is put into the operator as it was
+//! assembled, in both its parts, and refined or refused. A matrix that is singular to round-off (a body that nothing
+//! holds) is an error that names the equation which moves most in the free motion.
+//!
+//! One more solver: a file with a struct that implements [`LinearSolver`], and a line in [`SOLVERS`].
+
+mod cholesky;
+mod direct;
+mod lu;
+mod matrix;
+mod metis;
+mod operator;
+mod ordering;
+#[cfg(test)]
+mod tests;
+
+pub use direct::Direct;
+pub use operator::{apply, apply_absolute};
+
+use super::sparsity::{BlockPattern, NONE, Pattern};
+
+/// What is known of the matrix; the more general comes later, so that `max` combines terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Symmetry {
+    /// Symmetric, and positive definite in a stable state.
+    Definite,
+    /// Symmetric, with multipliers or otherwise indefinite.
+    Symmetric,
+    /// Values are not symmetric.
+    Unsymmetric,
+}
+
+/// What a solver is told before it sees values.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// The number of raw degrees of freedom.
+    pub ndof: usize,
+    /// The pattern of the bulk; it covers the first `nrow * block` raw degrees of freedom.
+    pub bulk: &'a BlockPattern,
+    /// The pattern of the interface.
+    pub interface: &'a Pattern,
+    /// The equation of each raw degree of freedom, [`NONE`] where it has none (prescribed, dependent, unused).
+    pub equation: &'a [u32],
+    /// The number of equations.
+    pub nequation: usize,
+    /// The most general symmetry of any term.
+    pub symmetry: Symmetry,
+    /// Per equation: +1 for a displacement, −1 for a multiplier.
+    pub sign: &'a [i8],
+    /// Where each node is.
+    pub coordinates: &'a [[f64; 3]],
+    /// The body of each node.
+    pub body: &'a [u32],
+}
+
+impl Problem<'_> {
+    /// Checks that all parts fit together.
+    ///
+    /// # Errors
+    /// `Shape` names the part that does not.
+    pub fn check(&self) -> Result<(), LinearError> {
+        let shape = |what, got: usize, wanted: usize| {
+            if got == wanted {
+                Ok(())
+            } else {
+                Err(LinearError::Shape { what, got, wanted })
+            }
+        };
+        let below = |what, numbers: &[u32], end: usize| match numbers
+            .iter()
+            .find(|&&number| number as usize >= end && number != NONE)
+        {
+            Some(&number) => Err(LinearError::Range {
+                what,
+                number: number as usize,
+                end,
+            }),
+            None => Ok(()),
+        };
+        let rows = |what, row_start: &[usize], ncolumn: usize| {
+            let rising = row_start.windows(2).all(|pair| pair[0] <= pair[1]);
+            shape(what, row_start.last().copied().unwrap_or(0), ncolumn)?;
+            shape(what, row_start.first().copied().unwrap_or(0), 0)?;
+            if rising {
+                Ok(())
+            } else {
+                Err(LinearError::Range {
+                    what,
+                    number: 0,
+                    end: ncolumn,
+                })
+            }
+        };
+        let nbulk = self.bulk.nrow() * self.bulk.block;
+        if !(1..=3).contains(&self.bulk.block) {
+            return Err(LinearError::Range {
+                what: "width of a block",
+                number: self.bulk.block,
+                end: 4,
+            });
+        }
+        if nbulk > self.ndof {
+            return Err(LinearError::Range {
+                what: "bulk degrees of freedom",
+                number: nbulk,
+                end: self.ndof + 1,
+            });
+        }
+        if self.interface.nrow > self.ndof {
+            return Err(LinearError::Range {
+                what: "interface rows",
+                number: self.interface.nrow,
+                end: self.ndof + 1,
+            });
+        }
+        shape(
+            "equations of degrees of freedom",
+            self.equation.len(),
+            self.ndof,
+        )?;
+        shape("signs", self.sign.len(), self.nequation)?;
+        shape(
+            "interface rows",
+            self.interface.row_start.len(),
+            self.interface.nrow + 1,
+        )?;
+        rows("bulk rows", &self.bulk.row_start, self.bulk.nblock())?;
+        rows(
+            "interface rows",
+            &self.interface.row_start,
+            self.interface.nentry(),
+        )?;
+        below("equation", self.equation, self.nequation)?;
+        below("bulk column", &self.bulk.column, self.bulk.nrow())?;
+        below("interface column", &self.interface.column, self.ndof)
+    }
+}
+
+/// The values of the operator, in the order of the two patterns.
+#[derive(Clone, Copy, Debug)]
+pub struct Values<'a> {
+    /// Block after block, each row-major.
+    pub bulk: &'a [f64],
+    /// Entry after entry.
+    pub interface: &'a [f64],
+}
+
+/// The parts of a [`Problem`] that outlive the call, kept to measure residuals and to recognize the same problem.
+#[derive(Clone, Debug)]
+struct Kept {
+    bulk: BlockPattern,
+    interface: Pattern,
+    equation: Vec<u32>,
+    symmetry: Symmetry,
+    sign: Vec<i8>,
+}
+
+impl Kept {
+    fn new(problem: &Problem) -> Self {
+        Self {
+            bulk: problem.bulk.clone(),
+            interface: problem.interface.clone(),
+            equation: problem.equation.to_vec(),
+            symmetry: problem.symmetry,
+            sign: problem.sign.to_vec(),
+        }
+    }
+
+    fn is(&self, problem: &Problem) -> bool {
+        self.symmetry == problem.symmetry
+            && self.equation == problem.equation
+            && self.sign == problem.sign
+            && self.interface == *problem.interface
+            && self.bulk == *problem.bulk
+    }
+}
+
+/// What a solution is worth.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolveReport {
+    /// The true relative residual |b − A x| / |b| in the largest entry; 0 for b = 0.
+    pub residual: f64,
+    /// Applications of the factor or preconditioner.
+    pub iterations: usize,
+    /// How many of them were refinements.
+    pub refinements: usize,
+    /// Negative pivots of the factor, one per multiplier in a stable state; 0 where pivots have no sign (LU).
+    pub negative_pivots: usize,
+}
+
+/// A way to solve linear systems; see the room's page for the order of calls.
+pub trait LinearSolver: Send {
+    /// Takes note of the pattern. Cheap where the problem is the same as in the last call.
+    ///
+    /// # Errors
+    /// `Shape` and `Range` for parts that do not fit together, `TooLarge`.
+    fn analyze(&mut self, problem: &Problem) -> Result<(), LinearError>;
+
+    /// Takes the values of a tangent.
+    ///
+    /// # Errors
+    /// `Singular`, `NotFinite`, `TooLarge`, `Shape`, and `Order` before `analyze`.
+    fn factorize(&mut self, values: &Values) -> Result<(), LinearError>;
+
+    /// Solves `A x = rhs` until the true relative residual is at most `rtol`, or at the round-off of the operator.
+    ///
+    /// The values may be newer than those of the factor, which then serves as a preconditioner for a few refinements.
+    ///
+    /// # Shapes
+    /// `rhs` and `x` have one entry per equation.
+    ///
+    /// # Errors
+    /// `Inaccurate` where the residual stays above, `NotFinite`, `Shape`, and `Order` before `factorize`. `x` then
+    /// holds nothing of use.
+    fn solve(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        rtol: f64,
+    ) -> Result<SolveReport, LinearError>;
+}
+
+/// Why a linear system was not solved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LinearError {
+    /// A motion costs no force: the matrix is singular to round-off.
+    #[error("the linear system is singular{}: something can move freely; hold every body, or close its contact",
+        .equation.map(|e| format!(", most of all in equation {e}")).unwrap_or_default())]
+    Singular {
+        /// The equation that moves most, or whose row is zero; `None` where it cannot be told.
+        equation: Option<usize>,
+    },
+    /// A number in the matrix, the right-hand side or the solution is infinite or not a number.
+    #[error(
+        "the linear system holds a number that is not finite: look for inverted elements or overflowing laws"
+    )]
+    NotFinite,
+    /// The solution does not satisfy the system.
+    #[error(
+        "the residual of the linear system stays at {residual:e} where {wanted:e} was asked: \
+        look for stiffnesses that differ by many powers of ten, or ask for less"
+    )]
+    Inaccurate {
+        /// The relative residual that was reached.
+        residual: f64,
+        /// The one that was asked for.
+        wanted: f64,
+    },
+    /// The factor does not fit into memory or into its index.
+    #[error(
+        "the system of {nequation} equations ({nentry} entries) is too large for a direct solver: use fewer"
+    )]
+    TooLarge {
+        /// The number of equations.
+        nequation: usize,
+        /// The entries of the matrix or of the factor where known, else those seen so far.
+        nentry: usize,
+    },
+    /// A list has the wrong length.
+    #[error("linear system: {got} {what} where {wanted} belong")]
+    Shape {
+        /// What the list holds.
+        what: &'static str,
+        /// Its length.
+        got: usize,
+        /// The length it should have.
+        wanted: usize,
+    },
+    /// A number points outside what it numbers.
+    #[error("linear system: {what} {number} is not below {end}")]
+    Range {
+        /// What is numbered.
+        what: &'static str,
+        /// The number.
+        number: usize,
+        /// The first number outside.
+        end: usize,
+    },
+    /// A call came before the one that it depends on.
+    #[error("linear solver: call {before} first")]
+    Order {
+        /// The call that is missing.
+        before: &'static str,
+    },
+}
+
+/// Which solver to use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LinearKind {
+    /// The one that suits the problem.
+    #[default]
+    Auto,
+    /// A sparse factorization.
+    Direct,
+}
+
+/// A line of the table of solvers.
+#[derive(Clone, Copy, Debug)]
+pub struct SolverEntry {
+    /// Which kind it answers to.
+    pub kind: LinearKind,
+    /// Its name in a case.
+    pub name: &'static str,
+    /// Makes one.
+    pub build: fn() -> Box<dyn LinearSolver>,
+}
+
+/// The table of solvers.
+pub const SOLVERS: &[SolverEntry] = &[
+    SolverEntry {
+        kind: LinearKind::Auto,
+        name: "auto",
+        build: || Box::new(Direct::new()),
+    },
+    SolverEntry {
+        kind: LinearKind::Direct,
+        name: "direct",
+        build: || Box::new(Direct::new()),
+    },
+];
+
+/// Makes a solver of the given kind.
+pub fn choose(kind: LinearKind) -> Box<dyn LinearSolver> {
+    let entry = SOLVERS.iter().find(|entry| entry.kind == kind);
+    entry.map_or_else(
+        || Box::new(Direct::new()) as Box<dyn LinearSolver>,
+        |entry| (entry.build)(),
+    )
+}
+
+/// The largest absolute value; NaN where there is one.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |max: f64, v| {
+        if v.is_nan() || v.abs() > max {
+            v.abs()
+        } else {
+            max
+        }
+    })
+}

@@ -1,0 +1,4 @@
+//! The algebra under every term.
+
+pub mod linear;
+pub mod sparsity;
