@@ -30,7 +30,7 @@ use faer::{Conj, MatMut, Par, Side};
 const SHIFT: f64 = 1e-10;
 /// A pivot below it, in units of the row's largest entry, is replaced with `REPLACEMENT`.
 const VANISHING: f64 = 1e-15;
-const REPLACEMENT: f64 = 1e-8;
+const REPLACEMENT: f64 = 1e-9;
 /// A pivot that elimination left below this part of its diagonal gives reason to look for free motions.
 const SUSPICIOUS: f64 = 1e-8;
 

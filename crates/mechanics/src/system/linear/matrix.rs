@@ -293,25 +293,21 @@ impl Matrix {
         Ok(())
     }
 
-    /// The equilibrated operator times a vector, and the same with absolute values: `(|A x|, |A| |x|)` in the largest
-    /// entry.
-    pub fn backward(&self, x: &[f64]) -> (f64, f64) {
-        let (mut y, mut size) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+    /// The equilibrated operator times a vector; with `of` the absolute value, the size of what is added up.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64], of: impl Fn(f64) -> f64) {
+        y.fill(0.0);
         for e in 0..x.len() {
             for (&f, &a) in self.row[self.range(e)]
                 .iter()
                 .zip(&self.value[self.range(e)])
             {
                 let f = f as usize;
-                y[e] += a * x[f];
-                size[e] += (a * x[f]).abs();
+                y[e] += of(a * x[f]);
                 if self.symmetric && f != e {
-                    y[f] += a * x[e];
-                    size[f] += (a * x[e]).abs();
+                    y[f] += of(a * x[e]);
                 }
             }
         }
-        (super::largest(&y), super::largest(&size))
     }
 }
 
