@@ -115,7 +115,7 @@ impl Cholesky {
 
     /// Whether some pivot was all but cancelled, so that the matrix may be singular.
     pub fn is_suspicious(&self) -> bool {
-        !(self.smallest_pivot > SUSPICIOUS)
+        self.smallest_pivot.is_nan() || self.smallest_pivot < SUSPICIOUS
     }
 
     /// Factorizes as L Lᵀ; false where a pivot is not positive.

@@ -223,8 +223,10 @@ impl Matrix {
                     }
                 }
                 if d < interface.nrow {
-                    for k in interface.row_start[d]..interface.row_start[d + 1] {
-                        add(interface_place[k], values.interface[k]);
+                    let entries = interface.row_start[d]..interface.row_start[d + 1];
+                    let places = &interface_place[entries.clone()];
+                    for (&place, &a) in places.iter().zip(&values.interface[entries]) {
+                        add(place, a);
                     }
                 }
             }
@@ -245,13 +247,11 @@ impl Matrix {
             // an entry of column e at row f is A[e, f] of the operator
             row_max.fill(0.0);
             column_max.fill(0.0);
-            for e in 0..n {
-                for (&f, &a) in self.row[self.range(e)]
-                    .iter()
-                    .zip(&self.value[self.range(e)])
-                {
+            for (e, row_max) in row_max.iter_mut().enumerate() {
+                let entries = self.range(e);
+                for (&f, &a) in self.row[entries.clone()].iter().zip(&self.value[entries]) {
                     let size = a.abs() * self.row_scale[e] * self.column_scale[f as usize];
-                    row_max[e] = row_max[e].max(size);
+                    *row_max = row_max.max(size);
                     column_max[f as usize] = column_max[f as usize].max(size);
                 }
             }

@@ -337,9 +337,9 @@ mod tests {
     fn fill(graph: &Graph, order: &[u32]) -> usize {
         let n = graph.nvertex();
         let mut linked = vec![vec![false; n]; n];
-        for vertex in 0..n {
+        for (vertex, linked) in linked.iter_mut().enumerate() {
             for &other in graph.neighbours(vertex) {
-                linked[vertex][other as usize] = true;
+                linked[other as usize] = true;
             }
         }
         let mut added = 0;
