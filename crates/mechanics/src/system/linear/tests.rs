@@ -422,7 +422,13 @@ fn a_tangent_that_recovers_is_factorized_as_definite_again() {
 
 #[test]
 fn saddles_with_a_zero_block_are_solved_in_every_order() {
-    for young in [[1.0, 1.0], [2.1e5, 70.0], [70.0, 2.1e5]] {
+    for young in [
+        [1.0, 1.0],
+        [2.1e5, 70.0],
+        [70.0, 2.1e5],
+        [2.1e11, 2.1e11],
+        [1e-9, 1e-9],
+    ] {
         let system = tied_blocks([3, 2, 2], young);
         let nmultiplier = system.ndof - system.multiplier_from;
         for ordering in [Ordering::MinimumDegree, Ordering::NestedDissection] {
@@ -1095,6 +1101,14 @@ fn calls_out_of_order_and_lists_that_do_not_fit_are_refused() {
         LinearError::Shape { .. }
     ));
     let mut bulk = assembled.bulk.clone();
+    bulk.column[0] = NONE;
+    assert!(matches!(
+        refused(&Problem {
+            bulk: &bulk,
+            ..problem
+        }),
+        LinearError::Range { .. }
+    ));
     bulk.column[0] = 10;
     assert!(matches!(
         refused(&Problem {
