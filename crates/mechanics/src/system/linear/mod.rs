@@ -74,16 +74,16 @@ impl Problem<'_> {
                 Err(LinearError::Shape { what, got, wanted })
             }
         };
-        let below = |what, numbers: &[u32], end: usize| match numbers
-            .iter()
-            .find(|&&number| number as usize >= end && number != NONE)
-        {
-            Some(&number) => Err(LinearError::Range {
-                what,
-                number: number as usize,
-                end,
-            }),
-            None => Ok(()),
+        let below = |what, numbers: &[u32], end: usize, exempt: Option<u32>| {
+            let outside = |number: &&u32| **number as usize >= end && Some(**number) != exempt;
+            match numbers.iter().find(outside) {
+                Some(&number) => Err(LinearError::Range {
+                    what,
+                    number: number as usize,
+                    end,
+                }),
+                None => Ok(()),
+            }
         };
         let rows = |what, row_start: &[usize], ncolumn: usize| {
             let rising = row_start.windows(2).all(|pair| pair[0] <= pair[1]);
@@ -138,9 +138,9 @@ impl Problem<'_> {
             &self.interface.row_start,
             self.interface.nentry(),
         )?;
-        below("equation", self.equation, self.nequation)?;
-        below("bulk column", &self.bulk.column, self.bulk.nrow())?;
-        below("interface column", &self.interface.column, self.ndof)
+        below("equation", self.equation, self.nequation, Some(NONE))?;
+        below("bulk column", &self.bulk.column, self.bulk.nrow(), None)?;
+        below("interface column", &self.interface.column, self.ndof, None)
     }
 }
 
