@@ -25,6 +25,7 @@ pub(super) fn build(document: &DeTable<'_>, origins: &Origins) -> (Case, Diagnos
     let root = Fields::new(document, &CASE, origins);
     let case = builder.case(root);
     builder.names(&case);
+    builder.cycles(&case);
     builder.references(&case, root);
     (case, builder.found)
 }
@@ -282,16 +283,6 @@ impl Builder {
         } else {
             SetContent::Nodes(fields.counts("nodes"))
         };
-        if let SetContent::Union(names) = &content
-            && let Some(own) = names.iter().find(|one| one.value == name.value)
-        {
-            self.error(
-                &codes::CONTRADICTION,
-                format!("set \"{}\" contains itself", name.value),
-                &own.place,
-                "delete it here",
-            );
-        }
         Set {
             name,
             content,
@@ -732,6 +723,81 @@ impl Builder {
                 .at(&second.1.place, "rename this one")
                 .at(&first.1.place, "or this one"),
         );
+    }
+
+    /// A chain of unions that comes back to its first set.
+    fn cycles(&mut self, case: &Case) {
+        let index: BTreeMap<&str, usize> = case
+            .sets
+            .iter()
+            .enumerate()
+            .map(|(at, set)| (set.name.as_str(), at))
+            .collect();
+        let members: Vec<Vec<(usize, &Name)>> = case
+            .sets
+            .iter()
+            .map(|set| match &set.content {
+                SetContent::Union(names) => names
+                    .iter()
+                    .filter_map(|name| Some((*index.get(name.as_str())?, name)))
+                    .collect(),
+                SetContent::Nodes(_) | SetContent::Faces(_) => Vec::new(),
+            })
+            .collect();
+        // Sets whose members are all resolved are resolved; what never is leads into a cycle.
+        let mut users: Vec<Vec<usize>> = vec![Vec::new(); members.len()];
+        let mut open: Vec<usize> = members.iter().map(Vec::len).collect();
+        for (user, inner) in members.iter().enumerate() {
+            for (member, _) in inner {
+                if let Some(users) = users.get_mut(*member) {
+                    users.push(user);
+                }
+            }
+        }
+        let mut resolved: Vec<usize> = (0..members.len())
+            .filter(|at| open.get(*at) == Some(&0))
+            .collect();
+        while let Some(member) = resolved.pop() {
+            for user in users.get(member).into_iter().flatten() {
+                if let Some(count) = open.get_mut(*user) {
+                    *count -= 1;
+                    if *count == 0 {
+                        resolved.push(*user);
+                    }
+                }
+            }
+        }
+        let is_open = |at: usize| open.get(at).is_some_and(|count| *count > 0);
+        let Some(mut at) = (0..members.len()).find(|at| is_open(*at)) else {
+            return;
+        };
+        let mut chain: Vec<(usize, &Name)> = Vec::new();
+        let mut seen = BTreeSet::new();
+        while seen.insert(at) {
+            let next = members
+                .get(at)
+                .and_then(|inner| inner.iter().find(|(member, _)| is_open(*member)));
+            let Some((next, name)) = next else {
+                return;
+            };
+            chain.push((at, *name));
+            at = *next;
+        }
+        let cycle: Vec<&Name> = chain
+            .iter()
+            .skip_while(|(set, _)| *set != at)
+            .map(|(_, name)| *name)
+            .collect();
+        let words = listed(cycle.iter().map(|name| name.as_str()));
+        if let Some(first) = cycle.first() {
+            self.found.push(
+                Diagnostic::error(&codes::CONTRADICTION, "a set contains itself")
+                    .at(&first.place, "part of the circle")
+                    .note(format!(
+                        "each of these contains the next, and the last the first: {words}"
+                    )),
+            );
+        }
     }
 
     /// References from one part of the case to another.

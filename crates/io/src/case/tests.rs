@@ -290,6 +290,28 @@ fn faults() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
+#[test]
+fn sets_that_contain_themselves_are_found_however_long_the_way() {
+    let sets = |text: &str| brick("[sets]", &format!("[sets]\n{text}"));
+    assert_eq!(
+        codes_of(&sets("a = { union = [\"base\", \"a\"] }")),
+        ["S0112"]
+    );
+    let chain: String = (0..20_000)
+        .map(|n| format!("a{n} = {{ union = [\"top\", \"a{}\"] }}\n", n + 1))
+        .collect();
+    assert!(read(&sets(&chain)).is_ok());
+    assert_eq!(
+        codes_of(&sets(&format!("{chain}a20000 = {{ union = [\"a7\"] }}"))),
+        ["S0112"]
+    );
+    let all = read(&sets(
+        "d = { union = [\"b\"] }\nb = { union = [\"base\", \"c\"] }\nc = { union = [\"b\"] }",
+    ))
+    .unwrap_err();
+    assert!(all.plain().contains("the last the first: c, b"), "{all}");
+}
+
 /// The options of `--set` that name nothing, or give a wrong value.
 const WRONG_OPTIONS: &[(&str, &str)] = &[
     ("material.sotf.E", "2000"),
@@ -736,7 +758,7 @@ fn damaged_options_never_panic() {
 #[test]
 fn texts_made_to_take_long_do_not() {
     let many = |line: &dyn Fn(usize) -> String, n: usize| (0..n).map(line).collect::<String>();
-    let lines = |line: &dyn Fn(usize) -> String| many(line, 100_000);
+    let lines = |line: &dyn Fn(usize) -> String| many(line, 30_000);
     let texts = [
         ("blank lines", "\n".repeat(10_000_000)),
         ("unknown keys", lines(&|n| format!("key{n} = {n}\n"))),

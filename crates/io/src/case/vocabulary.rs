@@ -1,7 +1,7 @@
 //! The words of a case: every key with its form, default, range and meaning, in one place.
 //!
 //! Reading, messages about unknown keys, the JSON schema and the resolved case all follow these tables. What the
-//! format knows but this version cannot do stands here too, marked as [`Key::later`] or [`Choice::later`], so that
+//! format knows but this version cannot do stands here too, marked as `later`, so that
 //! it is refused by name.
 //!
 //! To add a key: one line here, one field in `parts`, one line each in `build` and `resolved`.
