@@ -10,4 +10,5 @@
 pub mod contact;
 pub mod material;
 pub mod solid;
+pub mod solve;
 pub mod system;

@@ -30,20 +30,20 @@ mod assembly;
 mod elimination;
 mod frame;
 mod layout;
-mod whole;
 pub mod linear;
 pub mod sparsity;
 mod state;
 mod term;
+mod whole;
 
 pub use assembly::{Assembler, Assembly};
 pub use elimination::{Elimination, RigidBody};
 pub use frame::{ContactFrame, Frame, Resultant, RigidFrame, Status};
 pub use layout::{Dof, DofName, Layout, NO_DOF};
-pub use whole::System;
 pub use linear::Symmetry;
 pub use state::State;
 pub use term::{
     Archive, ArchiveError, Order, Part, PatternSink, Sink, StepContext, Term, TermError, Verdict,
     Work,
 };
+pub use whole::System;

@@ -37,7 +37,9 @@ impl System {
     #[must_use]
     pub fn new_frame(&self) -> Frame {
         let mut frame = Frame::new(self.layout.nnode, &self.ncell);
-        frame.rigid.resize_with(self.layout.nrigid, Default::default);
+        frame
+            .rigid
+            .resize_with(self.layout.nrigid, Default::default);
         frame
     }
 

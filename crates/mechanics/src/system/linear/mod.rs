@@ -319,12 +319,12 @@ pub const SOLVERS: &[SolverEntry] = &[
     SolverEntry {
         kind: LinearKind::Auto,
         name: "auto",
-        build: || Box::new(Direct::new()),
+        build: || Box::new(Direct::reproducible()),
     },
     SolverEntry {
         kind: LinearKind::Direct,
         name: "direct",
-        build: || Box::new(Direct::new()),
+        build: || Box::new(Direct::reproducible()),
     },
 ];
 
@@ -332,7 +332,7 @@ pub const SOLVERS: &[SolverEntry] = &[
 pub fn choose(kind: LinearKind) -> Box<dyn LinearSolver> {
     let entry = SOLVERS.iter().find(|entry| entry.kind == kind);
     entry.map_or_else(
-        || Box::new(Direct::new()) as Box<dyn LinearSolver>,
+        || Box::new(Direct::reproducible()) as Box<dyn LinearSolver>,
         |entry| (entry.build)(),
     )
 }
