@@ -8,7 +8,9 @@
 //! heard of a degree of freedom.
 
 pub mod contact;
+pub mod load;
 pub mod material;
+pub mod model;
 pub mod solid;
 pub mod solve;
 pub mod system;
