@@ -1,1 +1,3 @@
-//! Placeholder.
+//! Contact mechanics by finite elements.
+
+pub mod build;

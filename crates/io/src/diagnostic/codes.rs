@@ -215,6 +215,21 @@ codes! {
     ["a typing error", "the group was not exported (Gmsh writes only physical groups)", "case matters in .msh files"]
     ["list the names: signorini info MESH", "take one of the names that the message lists"]
 
+    BAD_MESH "S0202" Input "the mesh cannot be used"
+    "The mesh is damaged, contradicts itself, or holds elements that are not known."
+    ["the file was cut short or edited", "an element type that is not supported", "only the surface was saved"]
+    ["export the mesh again", "look at it: signorini info MESH"]
+
+    WRONG_KIND "S0203" Input "a set of the wrong kind"
+    "Contact needs faces, a body needs solid elements, a support needs nodes. This set has none of them."
+    ["a set of nodes where a surface is needed", "a group of curves or points", "a surface group without solids behind it"]
+    ["name another set", "list what is in the sets: signorini info MESH"]
+
+    MESH_NOTE "S0204" Input "something about the mesh worth knowing"
+    "The mesh can be used, but something in it is unusual."
+    ["nodes without elements", "nodes at the same place that are not merged"]
+    ["look at it: signorini check CASE", "silence with  allow = [\"S0204\"]  if it is meant so"]
+
     BAD_ELEMENTS "S0211" Model "elements with zero or negative volume"
     "Elements are turned inside out or flat. No solver can use them."
     ["nodes in another order than the format says", "mid-side nodes of curved elements moved too far", "a mirrored mesh"]
@@ -224,6 +239,31 @@ codes! {
     "Nothing but contact keeps the body in place, and the contact is open at the start."
     ["a small gap in the drawing or from meshing", "a support was forgotten"]
     ["close the gap", "prescribe the motion of the body instead of a load", "hold it by a weak support"]
+
+    FREE_BODY "S0302" Model "a body that nothing holds"
+    "The body can move without any force. Its equations have no unique solution."
+    ["a support or a contact was forgotten", "a support holds too few directions"]
+    ["fix the body in enough directions", "prescribe its motion", "bring it into contact"]
+
+    BAD_SIDES "S0303" Model "two sides of a contact that cannot touch"
+    "The sides share nodes, are the same, or are both rigid."
+    ["the meshes of the two bodies were merged", "the same set was named twice", "a rigid tool against a rigid base"]
+    ["mesh the bodies apart, without common nodes", "name two different sides", "give one body a material"]
+
+    NOTHING_TO_SOLVE "S0304" Model "nothing to solve for"
+    "No body has a material, so that nothing can deform."
+    ["all bodies are rigid"]
+    ["give a body a material"]
+
+    CLASH "S0305" Model "supports or motions that contradict each other"
+    "One displacement is prescribed twice in one step, differently, or on a node of a rigid body."
+    ["two sets of supports overlap", "a node of a rigid body is named instead of the body"]
+    ["take the nodes out of one of the sets", "free the set first", "support or move the rigid body itself"]
+
+    BOTH_BODIES "S0306" Model "an element or a node in two bodies"
+    "Every element belongs to one body, every node of a rigid body to no other rigid body."
+    ["groups that overlap"]
+    ["name groups that do not overlap"]
 
     IMPLAUSIBLE "S0402" Input "a value that does not fit the units"
     "A material value would be far outside of what materials have, if the units of the case are what its label says. \

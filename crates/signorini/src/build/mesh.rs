@@ -1,0 +1,109 @@
+//! The mesh of a case, from its text or from a file, and whether it can be used.
+
+use signorini_geometry::mesh::Mesh;
+use signorini_io::case::{Case, MeshSource};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
+use signorini_io::readers::{self, MeshIssue, Severity};
+use std::path::Path;
+
+/// The mesh of a case. `folder` is where the case lies: paths of mesh files are relative to it.
+///
+/// # Errors
+/// A file that cannot be read, a damaged mesh, elements that no solver can use.
+pub fn read_mesh_of(case: &Case, folder: &Path) -> Result<(Mesh, Diagnostics), Diagnostics> {
+    let mut found = Diagnostics::new();
+    let (mesh, place) = match &case.mesh {
+        MeshSource::File { path } => {
+            let file = folder.join(&path.value);
+            let bytes = std::fs::read(&file).map_err(|error| {
+                Diagnostic::error(
+                    &codes::UNREADABLE,
+                    format!("{} cannot be read: {error}", file.display()),
+                )
+                .at(&path.place, "named here")
+                .help("paths are relative to the case")
+            })?;
+            let name = file.display().to_string();
+            let read = readers::read_mesh(&name, &bytes);
+            let (mesh, notes) = read.map_err(|error| {
+                Diagnostic::error(&codes::BAD_MESH, error.to_string()).at(&path.place, "this mesh")
+            })?;
+            for note in notes {
+                found.push(Diagnostic::new(
+                    signorini_io::diagnostic::Severity::Note,
+                    &codes::MESH_NOTE,
+                    note,
+                ));
+            }
+            (mesh, path.place.clone())
+        }
+        MeshSource::Inline {
+            nodes,
+            elements,
+            place,
+        } => (inline(nodes, elements)?, place.clone()),
+    };
+    for issue in readers::validate(&mesh) {
+        found.push(judged(&issue, &place));
+    }
+    if found.has_errors() {
+        return Err(found);
+    }
+    Ok((mesh, found))
+}
+
+fn inline(
+    nodes: &[(u64, [f64; 3])],
+    elements: &[signorini_io::case::InlineElement],
+) -> Result<Mesh, Diagnostics> {
+    let plain: Vec<readers::InlineElement<'_>> = elements
+        .iter()
+        .map(|e| {
+            let group = e.group.as_ref().map(|g| g.value.as_str());
+            (e.id, e.element_type.value.as_str(), group, &e.nodes[..])
+        })
+        .collect();
+    readers::build(nodes, &plain).map_err(|errors| {
+        let mut found = Diagnostics::new();
+        for error in errors {
+            let message = Diagnostic::error(&codes::BAD_MESH, error.to_string());
+            let of_element = elements.iter().find(|e| {
+                error
+                    .to_string()
+                    .split(|c: char| !c.is_ascii_digit())
+                    .any(|n| n == e.id.to_string())
+            });
+            found.push(match of_element {
+                Some(element) => message.at(&element.place, ""),
+                None => message,
+            });
+        }
+        found
+    })
+}
+
+fn judged(issue: &MeshIssue, place: &Place) -> Diagnostic {
+    let code = match issue {
+        MeshIssue::Mirrored { .. }
+        | MeshIssue::Inverted { .. }
+        | MeshIssue::Folded { .. }
+        | MeshIssue::Flat { .. } => &codes::BAD_ELEMENTS,
+        _ if issue.severity() == Severity::Error => &codes::BAD_MESH,
+        _ => &codes::MESH_NOTE,
+    };
+    let severity = match issue.severity() {
+        Severity::Error => signorini_io::diagnostic::Severity::Error,
+        // bodies in contact have coincident nodes as a rule: worth a note, not a warning
+        _ if matches!(issue, MeshIssue::Coincident { .. }) => {
+            signorini_io::diagnostic::Severity::Note
+        }
+        Severity::Warning => signorini_io::diagnostic::Severity::Warning,
+        Severity::Note => signorini_io::diagnostic::Severity::Note,
+    };
+    let message = Diagnostic::new(severity, code, issue.to_string());
+    if severity == signorini_io::diagnostic::Severity::Error {
+        message.at(place, "in this mesh")
+    } else {
+        message
+    }
+}

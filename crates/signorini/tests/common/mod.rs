@@ -1,0 +1,110 @@
+//! Runs cases through the library and keeps what happened.
+
+#![allow(dead_code)]
+
+use serde_json::Value;
+use signorini::build::{Model, build, read_mesh_of};
+use signorini_io::case::read_case;
+use signorini_mechanics::solve::{
+    Event, Flow, IncrementRecord, IterationRecord, RunError, Stepper,
+};
+use signorini_mechanics::system::Frame;
+use std::path::{Path, PathBuf};
+
+/// Everything a run reported.
+#[derive(Default)]
+pub struct Run {
+    pub frames: Vec<Frame>,
+    pub increments: Vec<IncrementRecord>,
+    pub iterations: Vec<IterationRecord>,
+    pub cutbacks: Vec<String>,
+    pub error: Option<RunError>,
+}
+
+impl Run {
+    /// Force that the primary side exerts on the secondary, per increment.
+    pub fn contact_force(&self, increment: usize) -> [f64; 3] {
+        self.frames[increment - 1].contacts[0]
+            .secondary
+            .force
+            .to_array()
+    }
+
+    /// Residuals of an increment that was accepted at its last attempt, first to last.
+    pub fn residuals(&self, increment: usize) -> Vec<f64> {
+        let attempts = self.increments[increment - 1].attempts;
+        self.iterations
+            .iter()
+            .filter(|i| i.increment == increment && i.attempt == attempts)
+            .map(|i| i.residual)
+            .collect()
+    }
+}
+
+pub fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+pub fn model(name: &str, text: &str, set: &[(&str, &str)]) -> Model {
+    let set: Vec<(String, String)> = set
+        .iter()
+        .map(|(k, v)| (k.to_string(), v.to_string()))
+        .collect();
+    let (case, _) =
+        read_case(name, text.as_bytes(), &set).unwrap_or_else(|e| panic!("{}", e.plain()));
+    let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap_or_else(|e| panic!("{}", e.plain()));
+    build(case, mesh).unwrap_or_else(|e| panic!("{}", e.plain()))
+}
+
+pub fn example(name: &str, set: &[(&str, &str)]) -> Model {
+    let path = repository().join("examples").join(name).join("case.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    model(name, &text, set)
+}
+
+pub fn run(model: &mut Model) -> Run {
+    let mut run = Run::default();
+    let mut stepper = Stepper::new(&model.system, model.settings);
+    let outcome = stepper.run(&mut model.system, &model.steps, &mut |event: &Event<'_>| {
+        match event {
+            Event::Iteration(record) => run.iterations.push((*record).clone()),
+            Event::Increment { record, frame } => {
+                run.increments.push((*record).clone());
+                run.frames.push((*frame).clone());
+            }
+            Event::Cutback { cause, .. } => run.cutbacks.push(cause.failure.to_string()),
+            _ => {}
+        }
+        Flow::Continue
+    });
+    run.error = outcome.err();
+    run
+}
+
+pub fn oracle(name: &str) -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data")
+        .join(name);
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// The numbers of a JSON list.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    value
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|v| v.as_f64().unwrap())
+        .collect()
+}
+
+/// Largest difference over the largest value expected.
+pub fn relative(got: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(got.len(), expected.len());
+    let size = expected.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let error = got
+        .iter()
+        .zip(expected)
+        .fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+    error / size
+}

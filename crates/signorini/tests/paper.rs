@@ -1,0 +1,138 @@
+//! The three examples of the paper.
+//!
+//! SOURCE      Faltus, Horák, "A modular extension of a finite element contact implementation", figure 2; values from
+//!             an independent program (data/paper_examples.json: geometry and rules in its note).
+//! GOAL        One node against a wedge's triangle, a brick's quadrilateral on an axis and anywhere.
+//! MESH        One wedge6 or hex8, St. Venant-Kirchhoff, E = 500, nu = 0.
+//! CONDITIONS  Base fixed, tip of a rigid tetrahedron pushed down by 0.3 in 60 increments; penalty 1e5 per node.
+//! EXPECTED    Force, gap and displacements of all increments.
+//! TOLERANCE   1e-8: both programs iterate to round-off, the data has 12 digits.
+
+mod common;
+
+use common::{Run, example, numbers, oracle, relative, run};
+
+const CASES: [(&str, &str, &[(&str, &str)]); 3] = [
+    ("A_p1e+05", "paper_wedge_3d", &[]),
+    (
+        "A2_p1e+05",
+        "paper_wedge_3d",
+        // node 11 is the seventh of the list
+        &[("mesh.nodes.6", "[11, 0.25, 0.3, 1.0]")],
+    ),
+    ("B_p1e+05", "paper_brick_symmetric_3d", &[]),
+];
+
+#[test]
+fn wedge_and_symmetric_brick_match_the_independent_program() {
+    let data = oracle("paper_examples.json");
+    for (key, name, set) in CASES {
+        let mut model = example(name, set);
+        let result = run(&mut model);
+        assert!(result.error.is_none(), "{key}: {:?}", result.error);
+        assert_eq!(result.frames.len(), 60);
+        let expected = &data["examples"][key];
+        for row in expected["curve_step_fz_g_mineig"].as_array().unwrap() {
+            let row = numbers(row);
+            let increment = row[0] as usize;
+            let contact = &result.frames[increment - 1].contacts[0];
+            let force = contact.secondary.force.z;
+            assert!(
+                (force / row[1] - 1.0).abs() < 1e-8,
+                "{key} {increment}: {force} {}",
+                row[1]
+            );
+            assert!(
+                (contact.gap_min / row[2] - 1.0).abs() < 1e-8,
+                "{key} {increment}"
+            );
+        }
+        for (increment, step) in expected["steps"].as_object().unwrap() {
+            let increment: usize = increment.parse().unwrap();
+            let frame = &result.frames[increment - 1];
+            let force = frame.contacts[0].secondary.force.to_array();
+            assert!(
+                relative(&force, &numbers(&step["fnode"])) < 1e-8,
+                "{key} {increment}"
+            );
+            let top = step["u_top"].as_array().unwrap();
+            let u: Vec<f64> = top.iter().flat_map(numbers).collect();
+            let n = top.len();
+            let got: Vec<f64> = frame.displacement[n..2 * n]
+                .iter()
+                .flat_map(|u| u.to_array())
+                .collect();
+            assert!(relative(&got, &u) < 1e-8, "{key} {increment}");
+            let base = frame.reaction_force[..n].iter().copied();
+            let base: signorini_geometry::tensor::Vec3 = base.sum();
+            assert!(relative(&base.to_array(), &numbers(&step["base_reaction"])) < 1e-8);
+        }
+        let listed = numbers(&expected["iters_ls"]);
+        for (record, listed) in result.increments.iter().zip(listed) {
+            assert!(
+                record.iterations <= listed as usize + 1,
+                "{key} {}: {} iterations, {listed} listed",
+                record.increment,
+                record.iterations
+            );
+        }
+    }
+}
+
+fn arbitrary(penalty: &str) -> Run {
+    let set = [("contact.tip.enforcement.penalty", penalty)];
+    let run = run(&mut example("paper_brick_arbitrary_3d", &set));
+    assert!(run.error.is_none(), "{penalty}: {:?}", run.error);
+    assert_eq!(run.frames.len(), 60);
+    run
+}
+
+#[test]
+fn arbitrary_brick_converges_quadratically_for_every_penalty() {
+    for penalty in ["1e4", "1e5", "1e6"] {
+        let run = arbitrary(penalty);
+        for increment in 1..=60 {
+            let residuals = run.residuals(increment);
+            for pair in residuals.windows(2) {
+                if pair[1] > 1e-11 {
+                    assert!(
+                        pair[1] <= 100.0 * pair[0] * pair[0],
+                        "{penalty} {increment}: {residuals:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn distance_to_the_stiffest_solution_falls_as_one_over_the_penalty() {
+    let runs: Vec<Run> = ["1e4", "1e5", "1e6", "1e7"].map(arbitrary).into();
+    let displacements = |run: &Run, increment: usize| -> Vec<f64> {
+        let frame = &run.frames[increment - 1];
+        frame.displacement[4..8]
+            .iter()
+            .flat_map(|u| u.to_array())
+            .collect()
+    };
+    for increment in [10, 30, 50] {
+        let stiffest = displacements(&runs[3], increment);
+        let distance: Vec<f64> = runs[..3]
+            .iter()
+            .map(|r| {
+                let u = displacements(r, increment);
+                let squares = u.iter().zip(&stiffest).map(|(a, b)| (a - b) * (a - b));
+                squares.sum::<f64>().sqrt()
+            })
+            .collect();
+        // against the solution at 1e7 the law is 1/p - 1/1e7
+        for (pair, penalties) in distance.windows(2).zip([[1e4, 1e5], [1e5, 1e6]]) {
+            let expected = (1.0 / penalties[0] - 1e-7) / (1.0 / penalties[1] - 1e-7);
+            let ratio = pair[0] / pair[1];
+            assert!(
+                (ratio / expected - 1.0).abs() < 0.2,
+                "{increment}: {ratio} {expected}"
+            );
+        }
+    }
+}
