@@ -44,6 +44,7 @@ CONTACT_ARRAYS = {
 }
 ABSENT = -1
 AXES = "xyz"
+SHOWN = 40
 
 
 class Unreadable(Exception):
@@ -63,7 +64,8 @@ class Checks:
             self.passed += 1
         else:
             self.failed += 1
-            print(f"FAILED  {what}")
+            if self.failed <= SHOWN:
+                print(f"FAILED  {what}")
         return holds
 
     def near(self, what, got, expected, scale, rtol=None):
@@ -419,6 +421,8 @@ def main():
     except (OSError, ValueError, KeyError, Unreadable) as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
         return 2
+    if checks.failed > SHOWN:
+        print(f"FAILED  and {checks.failed - SHOWN} more")
     print(f"check_results: {checks.passed} passed, {checks.failed} failed")
     return 1 if checks.failed else 0
 

@@ -34,9 +34,9 @@ INCREMENTS = [0, 40, 60]
 VERTICAL = "ZZ"
 TENSOR = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"]
 COLOURS = "viridis"
-PANEL = (720, 760)
+PANEL = (760, 760)
 PIECES = 24
-EYE = np.array([-1.55, -2.3, 1.35])
+EYE = np.array([-1.45, -2.3, 1.75])
 
 # sides and edges of VTK's cells, normals pointing out
 SIDES = {
@@ -61,17 +61,24 @@ class Panel:
         points = np.array(grid.points, dtype=float)
         moved = points + np.array(grid.point_data["displacement"])
         stress = vertical_stress(grid)
-        cells = list(zip(grid.celltypes, np.split(grid.cell_connectivity, grid.offset[1:-1])))
+        offsets = pyvista_offsets(grid)
+        cells = list(zip(grid.celltypes, np.split(grid.cell_connectivity, offsets[1:-1])))
         # the tool is the one tetrahedron beside bricks and wedges
         solids = [(t, c) for t, c in cells if t != TETRA]
         tools = [(t, c) for t, c in cells if t == TETRA]
         self.triangles, self.values = patches(outer_sides(solids), moved, stress)
         self.edges = outlines(outer_sides(solids), moved)
-        self.before = outlines(outer_sides(solids), points)
+        still = np.array_equal(moved, points)
+        self.before = outlines([] if still else outer_sides(solids), points)
         self.tool, _ = patches(outer_sides(tools), moved, stress, 1)
         self.tool_edges = outlines(outer_sides(tools), moved)
         used = np.unique(np.concatenate([c for _, c in solids]))
         self.range = (stress[used].min(), stress[used].max())
+
+
+def pyvista_offsets(grid):
+    """Where the nodes of every cell start; the name of the property changed in PyVista 0.49."""
+    return grid.cell_offsets if hasattr(grid, "cell_offsets") else grid.offset
 
 
 def vertical_stress(grid):
@@ -171,12 +178,13 @@ def render_vtk(panel, limits, view, path):
     body.point_data["stress"] = panel.values.ravel()
     plotter.add_mesh(body, scalars="stress", clim=limits, cmap=COLOURS, lighting=False, show_scalar_bar=False)
     plotter.add_mesh(lines(panel.edges), color="black", line_width=2.5)
-    plotter.add_mesh(lines(panel.before), color="grey", line_width=1.2)
+    if len(panel.before):
+        plotter.add_mesh(lines(panel.before), color="grey", line_width=1.2)
     if len(panel.tool):
-        plotter.add_mesh(surface(panel.tool), color="lightgrey", opacity=0.35)
+        plotter.add_mesh(surface(panel.tool), color="lightgrey", opacity=0.45, lighting=False)
         plotter.add_mesh(lines(panel.tool_edges), color="dimgrey", line_width=2.0)
     middle, radius = view
-    plotter.camera.position = middle + EYE / np.linalg.norm(EYE) * 4.2 * radius
+    plotter.camera.position = middle + EYE / np.linalg.norm(EYE) * 4.15 * radius
     plotter.camera.focal_point = middle
     plotter.camera.up = (0.0, 0.0, 1.0)
     plotter.camera.view_angle = 28.0
@@ -192,13 +200,14 @@ def draw_matplotlib(axes, panel, limits, view):
 
     colours = colormaps[COLOURS](Normalize(*limits)(panel.values.mean(axis=1)))
     axes.add_collection3d(Poly3DCollection(panel.triangles, facecolors=colours, edgecolors=colours, linewidths=0.2))
-    axes.add_collection3d(Line3DCollection(panel.before, colors="grey", linewidths=0.6))
+    if len(panel.before):
+        axes.add_collection3d(Line3DCollection(panel.before, colors="grey", linewidths=0.6))
     axes.add_collection3d(Line3DCollection(panel.edges, colors="black", linewidths=0.9))
     if len(panel.tool):
         axes.add_collection3d(Poly3DCollection(panel.tool, facecolors=(0.8, 0.8, 0.8, 0.3), edgecolors="dimgrey"))
     middle, radius = view
     for axis, centre in zip("xyz", middle):
-        getattr(axes, f"set_{axis}lim")(centre - 0.62 * radius, centre + 0.62 * radius)
+        getattr(axes, f"set_{axis}lim")(centre - 0.56 * radius, centre + 0.56 * radius)
     axes.set_box_aspect((1, 1, 1))
     axes.view_init(elev=np.degrees(np.arcsin(EYE[2] / np.linalg.norm(EYE))), azim=np.degrees(np.arctan2(EYE[1], EYE[0])))
     axes.set_axis_off()
@@ -242,10 +251,10 @@ def compose(rows, arguments, folder):
     from matplotlib.colors import Normalize
 
     nrow, ncolumn = len(rows), len(arguments.increments)
-    figure = pyplot.figure(figsize=(3.3 * ncolumn + 1.0, 3.4 * nrow + 0.4))
+    figure = pyplot.figure(figsize=(3.0 * ncolumn + 1.0, 3.0 * nrow + 0.4))
     grid = figure.add_gridspec(
         nrow, ncolumn + 1, width_ratios=[1.0] * ncolumn + [0.05], left=0.1, right=0.92, top=0.95, bottom=0.02,
-        wspace=0.04, hspace=0.06,
+        wspace=0.0, hspace=0.0,
     )  # fmt: skip
     for i, panels in enumerate(rows):
         limits = limits_of(panels)
