@@ -1,5 +1,15 @@
-//! Everything that crosses the door: cases, meshes, results, checkpoints.
+//! Everything that crosses the door: cases, meshes, results, checkpoints, and the messages about them.
+//!
+//! ```text
+//! case.toml ──case──▶ Case       part.msh ──readers──▶ Mesh
+//! Frame ──writers──▶ frames/*.vtu, history.csv, …      all files through fs
+//! ```
+//!
+//! Foreign orders and names (Gmsh, VTK, Abaqus) exist only here, each function naming its own.
 
+pub mod case;
 pub mod checkpoint;
+pub mod diagnostic;
 pub mod fs;
+pub mod readers;
 pub mod writers;

@@ -7,6 +7,10 @@
 //! `solve` knows nothing of solids or contact: all it sees is [`system::Term`]. `material` and `contact::law` have never
 //! heard of a degree of freedom.
 
+pub mod contact;
+pub mod load;
 pub mod material;
+pub mod model;
 pub mod solid;
+pub mod solve;
 pub mod system;

@@ -101,6 +101,6 @@ impl ReferenceElement for Hex8 {
     }
 
     fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        xi.max_abs() <= 1.0 + tolerance
+        (0..3).all(|axis| xi[axis].abs() <= 1.0 + tolerance)
     }
 }

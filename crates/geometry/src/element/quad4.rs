@@ -78,6 +78,6 @@ impl ReferenceElement for Quad4 {
     }
 
     fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        xi.x.abs().max(xi.y.abs()) <= 1.0 + tolerance
+        xi.x.abs() <= 1.0 + tolerance && xi.y.abs() <= 1.0 + tolerance
     }
 }

@@ -67,6 +67,6 @@ impl ReferenceElement for Tet4 {
     }
 
     fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        xi.x.min(xi.y).min(xi.z) >= -tolerance && xi.x + xi.y + xi.z <= 1.0 + tolerance
+        (0..3).all(|axis| xi[axis] >= -tolerance) && xi.x + xi.y + xi.z <= 1.0 + tolerance
     }
 }

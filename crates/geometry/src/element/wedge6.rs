@@ -95,7 +95,8 @@ impl ReferenceElement for Wedge6 {
     }
 
     fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        xi.x.min(xi.y) >= -tolerance
+        xi.x >= -tolerance
+            && xi.y >= -tolerance
             && xi.x + xi.y <= 1.0 + tolerance
             && xi.z.abs() <= 1.0 + tolerance
     }

@@ -34,10 +34,11 @@ pub mod linear;
 pub mod sparsity;
 mod state;
 mod term;
+mod whole;
 
 pub use assembly::{Assembler, Assembly};
 pub use elimination::{Elimination, RigidBody};
-pub use frame::{ContactFrame, Frame, Resultant, Status};
+pub use frame::{ContactFrame, Frame, Resultant, RigidFrame, Status};
 pub use layout::{Dof, DofName, Layout, NO_DOF};
 pub use linear::Symmetry;
 pub use state::State;
@@ -45,3 +46,4 @@ pub use term::{
     Archive, ArchiveError, Order, Part, PatternSink, Sink, StepContext, Term, TermError, Verdict,
     Work,
 };
+pub use whole::System;

@@ -246,6 +246,11 @@ pub trait Term: Send + Sync {
         Verdict::Settled
     }
 
+    /// How many rows act at the present iterate: closed contacts.
+    fn nactive(&self) -> usize {
+        0
+    }
+
     /// The increment is done: history moves on.
     ///
     /// # Errors

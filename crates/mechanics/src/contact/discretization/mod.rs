@@ -34,6 +34,8 @@ pub struct SurfacePair {
     pub secondary: Option<Facets>,
     /// The side that is projected onto.
     pub primary: Box<dyn ContactSurface>,
+    /// The distance up to which a closest point counts.
+    pub reach: f64,
 }
 
 /// The discrete choices of one row.
@@ -43,8 +45,24 @@ pub struct Pair {
     pub anchor: Anchor,
     /// On what it lies.
     pub feature: Feature,
-    /// Whether the point has passed through the surface there.
-    pub inside: bool,
+    /// Signed distance: negative where the point has passed through the surface.
+    pub gap: f64,
+}
+
+impl Pair {
+    /// Whether the point has passed through the surface.
+    #[must_use]
+    pub fn inside(&self) -> bool {
+        self.gap < 0.0
+    }
+
+    /// Whether the discrete choices are the same.
+    #[must_use]
+    pub fn agrees(&self, other: &Self) -> bool {
+        self.inside() == other.inside()
+            && self.anchor.facet == other.anchor.facet
+            && std::mem::discriminant(&self.feature) == std::mem::discriminant(&other.feature)
+    }
 }
 
 /// The discrete choices of all rows: `None` where nothing is within reach.

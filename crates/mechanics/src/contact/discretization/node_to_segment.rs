@@ -88,7 +88,7 @@ impl Discretization for NodeToSegment {
         let choose = |row: usize, found: &mut Option<Pair>| {
             let hint = last.pairs.get(row).copied().flatten().map(|p| p.anchor);
             let point = self.point(row, pair, at);
-            *found = closest(surface, at, point, near.of(row), hint)?;
+            *found = closest(surface, at, point, near.near(row), hint, pair.reach)?;
             Ok(())
         };
         out.pairs
@@ -155,6 +155,7 @@ fn closest(
     point: Vec3,
     near: &[u32],
     hint: Option<Anchor>,
+    reach: f64,
 ) -> Result<Option<Pair>, SurfaceError> {
     let rank = |f: &Feature| match f {
         Feature::Face => 0,
@@ -182,7 +183,8 @@ fn closest(
             best = Some((found, tie));
         }
     }
-    let Some((found, _)) = best else {
+    // candidates further away than the reach may be there or not; results must not depend on them
+    let Some((found, _)) = best.filter(|(b, _)| b.distance <= reach) else {
         return Ok(None);
     };
     let outward = surface.outward(at, &found)?;
@@ -191,14 +193,22 @@ fn closest(
         return Ok(extended.map(|e| Pair {
             anchor: e.anchor,
             feature: Feature::Face,
-            inside: (point - jet.position).dot(jet.normal) < 0.0,
+            gap: (point - jet.position).dot(jet.normal),
         }));
     }
     surface.jet(at, &found.anchor, &mut jet)?;
+    let away = point - jet.position;
+    let gap = if found.feature == Feature::Face {
+        away.dot(jet.normal)
+    } else if away.dot(outward.direction) < 0.0 {
+        -found.distance
+    } else {
+        found.distance
+    };
     Ok(Some(Pair {
         anchor: found.anchor,
         feature: found.feature,
-        inside: (point - jet.position).dot(outward.direction) < 0.0,
+        gap,
     }))
 }
 
@@ -300,7 +310,7 @@ impl Place<'_> {
             (away.dot(self.jet.normal), self.jet.normal)
         } else {
             let distance = away.norm();
-            let gap = if self.found.inside { -distance } else { distance };
+            let gap = distance.copysign(self.found.gap);
             match away.normalized() {
                 Some(direction) => (gap, direction * gap.signum()),
                 None => return,
@@ -348,7 +358,9 @@ impl Place<'_> {
         let mut bar = [[0.0; MAX_COLUMNS]; 2];
         for k in 0..nfree {
             for j in 0..n {
-                d[k][j] = (0..nfree).map(|l| a_inverse[pair(k, l)] * right[l][j]).sum(); // (E1)
+                d[k][j] = (0..nfree)
+                    .map(|l| a_inverse[pair(k, l)] * right[l][j])
+                    .sum(); // (E1)
             }
         }
         for k in 0..nfree {

@@ -30,7 +30,7 @@ use faer::{Conj, MatMut, Par, Side};
 const SHIFT: f64 = 1e-10;
 /// A pivot below it, in units of the row's largest entry, is replaced with `REPLACEMENT`.
 const VANISHING: f64 = 1e-15;
-const REPLACEMENT: f64 = 1e-8;
+const REPLACEMENT: f64 = 1e-9;
 /// A pivot that elimination left below this part of its diagonal gives reason to look for free motions.
 const SUSPICIOUS: f64 = 1e-8;
 
@@ -115,7 +115,7 @@ impl Cholesky {
 
     /// Whether some pivot was all but cancelled, so that the matrix may be singular.
     pub fn is_suspicious(&self) -> bool {
-        !(self.smallest_pivot > SUSPICIOUS)
+        self.smallest_pivot.is_nan() || self.smallest_pivot < SUSPICIOUS
     }
 
     /// Factorizes as L Lᵀ; false where a pivot is not positive.

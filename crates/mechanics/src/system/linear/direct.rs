@@ -9,8 +9,10 @@
 //! The order and the symbolic factor serve both L Lᵀ and L D Lᵀ: a tangent that turns indefinite under compression
 //! costs no new analysis. After a factor with negative pivots, L D Lᵀ is tried first until they are gone.
 //!
-//! A matrix with a nearly cancelled pivot, and every LU, is examined by two steps of inverse iteration: a vector x with
-//! |A x| ≤ 2·10⁻¹⁴ |A| |x| is a free motion (round-off leaves about 10⁻¹⁶ of one, the softest useful structure 10⁻¹²).
+//! A matrix with a nearly cancelled pivot, and every LU, is examined for free motions by two steps of inverse iteration
+//! and one correction with the matrix itself. A vector x with |A x| < 4·10⁻¹⁵ |A| |x| is one: round-off leaves some
+//! 10⁻¹⁶ of a free motion, growing with the root of the size, and 10⁻¹³ of the softest motion of a stiffness matrix
+//! whose entries still resolve it.
 
 use super::cholesky::Cholesky;
 use super::lu::Lu;
@@ -27,8 +29,10 @@ use faer::Par;
 const THREADS_FROM: usize = 30_000;
 /// Refinements of one solution.
 const REFINEMENTS: usize = 3;
-/// What is left of a free motion after multiplication, relative to what is added up.
-const FREE: f64 = 2e-14;
+/// What is left of a free motion after multiplication, relative to what is added up: at most this, or
+const FREE: f64 = 4e-15;
+/// this times the root of the number of equations (measured: a third of it at 30,000).
+const FREE_PER_ROOT: f64 = 0.5 * f64::EPSILON;
 /// A residual of so many units of round-off of what is added up cannot be improved.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 /// What is added to the diagonal to find the free motion of a matrix whose LU broke down.
@@ -37,8 +41,14 @@ const NAMING_SHIFT: f64 = 1e-10;
 const LU_UP_TO: usize = 60_000;
 
 /// The direct solver.
+///
+/// # Limits
+/// From 30,000 equations on the dense kernels share their work among the threads of the current pool, and the last bits
+/// of a solution depend on their number (the same number gives the same bits). [`Direct::reproducible`] gives the same
+/// bits everywhere and takes up to half as long again on two threads.
 pub struct Direct {
     ordering: Ordering,
+    threads: bool,
     analysis: Option<Analysis>,
 }
 
@@ -84,7 +94,16 @@ impl Direct {
     pub fn new() -> Self {
         Self {
             ordering: Ordering::Auto,
+            threads: true,
             analysis: None,
+        }
+    }
+
+    /// The same, on one thread whatever the size: its bits do not depend on the number of threads.
+    pub fn reproducible() -> Self {
+        Self {
+            threads: false,
+            ..Self::new()
         }
     }
 
@@ -92,8 +111,22 @@ impl Direct {
     pub(super) fn with_ordering(ordering: Ordering) -> Self {
         Self {
             ordering,
-            analysis: None,
+            ..Self::new()
         }
+    }
+
+    /// Whether the current factor is an LU.
+    #[cfg(test)]
+    pub(super) fn uses_lu(&self) -> bool {
+        self.analysis
+            .as_ref()
+            .is_some_and(|a| a.active == Active::Lu)
+    }
+
+    /// Where the gathered matrix lies: the same address means that an analysis was kept.
+    #[cfg(test)]
+    pub(super) fn address(&self) -> Option<*const u32> {
+        self.analysis.as_ref().map(|a| a.matrix.row.as_ptr())
     }
 
     /// The numbers that the Cholesky factor stores.
@@ -117,7 +150,7 @@ impl LinearSolver for Direct {
         }
         self.analysis = None;
         problem.check()?;
-        self.analysis = Some(Analysis::new(problem, self.ordering)?);
+        self.analysis = Some(Analysis::new(problem, self.ordering, self.threads)?);
         Ok(())
     }
 
@@ -147,12 +180,12 @@ impl LinearSolver for Direct {
 }
 
 impl Analysis {
-    fn new(problem: &Problem, ordering: Ordering) -> Result<Self, LinearError> {
+    fn new(problem: &Problem, ordering: Ordering, threads: bool) -> Result<Self, LinearError> {
         let n = problem.nequation;
-        let par = if n < THREADS_FROM {
-            Par::Seq
-        } else {
+        let par = if threads && n >= THREADS_FROM {
             Par::rayon(0)
+        } else {
+            Par::Seq
         };
         let matrix = Matrix::new(problem)?;
         let (mut cholesky, mut lu) = (None, None);
@@ -242,37 +275,48 @@ impl Analysis {
 
     /// The equation that moves most in a free motion, if there is one; an error where the factor gives no numbers.
     fn free_motion(&mut self) -> Result<Option<usize>, ()> {
-        let mut x = std::mem::take(&mut self.work.change);
-        for (e, x) in x.iter_mut().enumerate() {
-            *x = 0.5 + ((e as f64 + 1.0) * 0.618_033_988_749_894_9).fract();
-            *x = if e % 2 == 0 { *x } else { -*x };
-        }
-        let mut size = 1.0;
+        let n = self.matrix.nequation();
+        let free = FREE.max(FREE_PER_ROOT * (n as f64).sqrt());
+        let scattered = |e: usize| 0.5 + ((e as f64 + 1.0) * 0.618_033_988_749_894_9).fract();
+        let mut x: Vec<f64> = (0..n)
+            .map(|e| {
+                if e % 2 == 0 {
+                    scattered(e)
+                } else {
+                    -scattered(e)
+                }
+            })
+            .collect();
+        let mut product = vec![0.0; n];
         for _ in 0..2 {
-            x.iter_mut().for_each(|x| *x /= size);
             self.back_substitute(&mut x);
-            size = largest(&x);
+            let size = largest(&x);
             if !size.is_finite() || size == 0.0 {
-                break;
+                return Err(());
+            }
+            x.iter_mut().for_each(|x| *x /= size);
+        }
+        for correction in 0..2 {
+            self.matrix.multiply(&x, &mut product, f64::abs);
+            let sum = largest(&product);
+            self.matrix.multiply(&x, &mut product, |a| a);
+            if largest(&product) < free * sum {
+                let moved = x
+                    .iter()
+                    .zip(&self.matrix.column_scale)
+                    .map(|(x, scale)| (x * scale).abs());
+                return Ok(moved
+                    .enumerate()
+                    .max_by(|a, b| a.1.total_cmp(&b.1))
+                    .map(|(e, _)| e));
+            }
+            // a factor of A + shift gives a motion that is off by the shift: correct it with A itself
+            if correction == 0 {
+                self.back_substitute(&mut product);
+                x.iter_mut().zip(&product).for_each(|(x, y)| *x -= y);
             }
         }
-        let found = if size.is_finite() && size > 0.0 {
-            x.iter_mut().for_each(|x| *x /= size);
-            let (product, sum) = self.matrix.backward(&x);
-            let moved = x
-                .iter()
-                .zip(&self.matrix.column_scale)
-                .map(|(x, scale)| (x * scale).abs());
-            let most = moved
-                .enumerate()
-                .max_by(|a, b| a.1.total_cmp(&b.1))
-                .map(|(e, _)| e);
-            Ok(most.filter(|_| product <= FREE * sum))
-        } else {
-            Err(())
-        };
-        self.work.change = x;
-        found
+        Ok(None)
     }
 
     fn back_substitute(&mut self, x: &mut [f64]) {

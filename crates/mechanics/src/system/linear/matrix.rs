@@ -38,6 +38,8 @@ pub(super) struct Matrix {
     dof: Vec<u32>,
     bulk_place: Vec<u32>,
     interface_place: Vec<u32>,
+    row_max: Vec<f64>,
+    column_max: Vec<f64>,
 }
 
 impl Matrix {
@@ -155,6 +157,8 @@ impl Matrix {
             dof,
             bulk_place,
             interface_place,
+            row_max: vec![0.0; nequation],
+            column_max: vec![0.0; nequation],
         })
     }
 
@@ -223,8 +227,10 @@ impl Matrix {
                     }
                 }
                 if d < interface.nrow {
-                    for k in interface.row_start[d]..interface.row_start[d + 1] {
-                        add(interface_place[k], values.interface[k]);
+                    let entries = interface.row_start[d]..interface.row_start[d + 1];
+                    let places = &interface_place[entries.clone()];
+                    for (&place, &a) in places.iter().zip(&values.interface[entries]) {
+                        add(place, a);
                     }
                 }
             }
@@ -237,26 +243,34 @@ impl Matrix {
     }
 
     fn equilibrate(&mut self) -> Result<(), LinearError> {
-        let n = self.nequation();
         self.row_scale.fill(1.0);
         self.column_scale.fill(1.0);
-        let (mut row_max, mut column_max) = (vec![0.0f64; n], vec![0.0f64; n]);
+        let (mut row_max, mut column_max) = (
+            std::mem::take(&mut self.row_max),
+            std::mem::take(&mut self.column_max),
+        );
+        let result = self.sweep(&mut row_max, &mut column_max);
+        (self.row_max, self.column_max) = (row_max, column_max);
+        result
+    }
+
+    /// Scales until every row and column has its largest entry near 1, then applies the scales.
+    fn sweep(&mut self, row_max: &mut [f64], column_max: &mut [f64]) -> Result<(), LinearError> {
+        let n = self.nequation();
         for sweep in 0..3 {
             // an entry of column e at row f is A[e, f] of the operator
             row_max.fill(0.0);
             column_max.fill(0.0);
-            for e in 0..n {
-                for (&f, &a) in self.row[self.range(e)]
-                    .iter()
-                    .zip(&self.value[self.range(e)])
-                {
+            for (e, row_max) in row_max.iter_mut().enumerate() {
+                let entries = self.range(e);
+                for (&f, &a) in self.row[entries.clone()].iter().zip(&self.value[entries]) {
                     let size = a.abs() * self.row_scale[e] * self.column_scale[f as usize];
-                    row_max[e] = row_max[e].max(size);
+                    *row_max = row_max.max(size);
                     column_max[f as usize] = column_max[f as usize].max(size);
                 }
             }
             if self.symmetric {
-                for (row, column) in row_max.iter_mut().zip(&mut column_max) {
+                for (row, column) in row_max.iter_mut().zip(column_max.iter_mut()) {
                     *row = row.max(*column);
                     *column = *row;
                 }
@@ -264,20 +278,20 @@ impl Matrix {
             if sweep == 0 {
                 let zero = row_max
                     .iter()
-                    .zip(&column_max)
+                    .zip(column_max.iter())
                     .position(|(&row, &column)| row == 0.0 || column == 0.0);
                 if zero.is_some() {
                     return Err(LinearError::Singular { equation: zero });
                 }
             }
             let within = |max: &[f64]| max.iter().all(|&m| (0.25..4.0).contains(&m));
-            if within(&row_max) && within(&column_max) {
+            if within(row_max) && within(column_max) {
                 break;
             }
-            for (scale, &max) in self.row_scale.iter_mut().zip(&row_max) {
+            for (scale, &max) in self.row_scale.iter_mut().zip(row_max.iter()) {
                 *scale *= power_of_two(max);
             }
-            for (scale, &max) in self.column_scale.iter_mut().zip(&column_max) {
+            for (scale, &max) in self.column_scale.iter_mut().zip(column_max.iter()) {
                 *scale *= power_of_two(max);
             }
         }
@@ -293,25 +307,21 @@ impl Matrix {
         Ok(())
     }
 
-    /// The equilibrated operator times a vector, and the same with absolute values: `(|A x|, |A| |x|)` in the largest
-    /// entry.
-    pub fn backward(&self, x: &[f64]) -> (f64, f64) {
-        let (mut y, mut size) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+    /// The equilibrated operator times a vector; with `of` the absolute value, the size of what is added up.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64], of: impl Fn(f64) -> f64) {
+        y.fill(0.0);
         for e in 0..x.len() {
             for (&f, &a) in self.row[self.range(e)]
                 .iter()
                 .zip(&self.value[self.range(e)])
             {
                 let f = f as usize;
-                y[e] += a * x[f];
-                size[e] += (a * x[f]).abs();
+                y[e] += of(a * x[f]);
                 if self.symmetric && f != e {
-                    y[f] += a * x[e];
-                    size[f] += (a * x[e]).abs();
+                    y[f] += of(a * x[e]);
                 }
             }
         }
-        (super::largest(&y), super::largest(&size))
     }
 }
 

@@ -74,16 +74,16 @@ impl Problem<'_> {
                 Err(LinearError::Shape { what, got, wanted })
             }
         };
-        let below = |what, numbers: &[u32], end: usize| match numbers
-            .iter()
-            .find(|&&number| number as usize >= end && number != NONE)
-        {
-            Some(&number) => Err(LinearError::Range {
-                what,
-                number: number as usize,
-                end,
-            }),
-            None => Ok(()),
+        let below = |what, numbers: &[u32], end: usize, exempt: Option<u32>| {
+            let outside = |number: &&u32| **number as usize >= end && Some(**number) != exempt;
+            match numbers.iter().find(outside) {
+                Some(&number) => Err(LinearError::Range {
+                    what,
+                    number: number as usize,
+                    end,
+                }),
+                None => Ok(()),
+            }
         };
         let rows = |what, row_start: &[usize], ncolumn: usize| {
             let rising = row_start.windows(2).all(|pair| pair[0] <= pair[1]);
@@ -138,9 +138,9 @@ impl Problem<'_> {
             &self.interface.row_start,
             self.interface.nentry(),
         )?;
-        below("equation", self.equation, self.nequation)?;
-        below("bulk column", &self.bulk.column, self.bulk.nrow())?;
-        below("interface column", &self.interface.column, self.ndof)
+        below("equation", self.equation, self.nequation, Some(NONE))?;
+        below("bulk column", &self.bulk.column, self.bulk.nrow(), None)?;
+        below("interface column", &self.interface.column, self.ndof, None)
     }
 }
 
@@ -319,12 +319,12 @@ pub const SOLVERS: &[SolverEntry] = &[
     SolverEntry {
         kind: LinearKind::Auto,
         name: "auto",
-        build: || Box::new(Direct::new()),
+        build: || Box::new(Direct::reproducible()),
     },
     SolverEntry {
         kind: LinearKind::Direct,
         name: "direct",
-        build: || Box::new(Direct::new()),
+        build: || Box::new(Direct::reproducible()),
     },
 ];
 
@@ -332,7 +332,7 @@ pub const SOLVERS: &[SolverEntry] = &[
 pub fn choose(kind: LinearKind) -> Box<dyn LinearSolver> {
     let entry = SOLVERS.iter().find(|entry| entry.kind == kind);
     entry.map_or_else(
-        || Box::new(Direct::new()) as Box<dyn LinearSolver>,
+        || Box::new(Direct::reproducible()) as Box<dyn LinearSolver>,
         |entry| (entry.build)(),
     )
 }

@@ -21,8 +21,9 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
-/// Below so many groups minimum degree is as good as nested dissection.
-const DISSECT_FROM: usize = 200;
+/// Below so many groups minimum degree is faster: a block of 600 nodes costs it 5 ms to order and factorize, dissection
+/// 7 ms; at 1,200 nodes they meet, at 17,000 dissection needs a third of the time.
+const DISSECT_FROM: usize = 600;
 
 /// An undirected graph without loops, each edge in the lists of both its ends.
 pub(super) struct Graph {
@@ -336,9 +337,9 @@ mod tests {
     fn fill(graph: &Graph, order: &[u32]) -> usize {
         let n = graph.nvertex();
         let mut linked = vec![vec![false; n]; n];
-        for vertex in 0..n {
+        for (vertex, linked) in linked.iter_mut().enumerate() {
             for &other in graph.neighbours(vertex) {
-                linked[vertex][other as usize] = true;
+                linked[other as usize] = true;
             }
         }
         let mut added = 0;

@@ -1,0 +1,318 @@
+//! All codes of messages, with what `signorini explain` says about them.
+//!
+//! | code  | about                                        | exit code |
+//! |-------|----------------------------------------------|-----------|
+//! | S01xx | the text of a case or deck                   | 3         |
+//! | S02xx | references, meshes                           | 3 or 4    |
+//! | S03xx | the model as a whole                         | 4         |
+//! | S04xx | plausibility                                 | – (warnings) |
+//! | S05xx | the course of a solution                     | 5         |
+//! | S06xx | writing results                              | 6         |
+//!
+//! What is once released under a code keeps its meaning.
+
+/// How a run ends on an error of this kind, in the order of a run's life.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// The input is wrong; nothing was solved.
+    Input,
+    /// The model is ill-posed; nothing was solved.
+    Model,
+    /// A solution did not converge; what had converged is on disk.
+    Convergence,
+    /// Results could not be written.
+    Output,
+}
+
+impl Class {
+    /// The exit code of the program.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Class::Input => 3,
+            Class::Model => 4,
+            Class::Convergence => 5,
+            Class::Output => 6,
+        }
+    }
+}
+
+/// A kind of finding, and what there is to say about it.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Code {
+    /// The code itself, as in `S0102`.
+    pub id: &'static str,
+    /// How a run ends on it.
+    pub class: Class,
+    /// What it is, in a few words.
+    pub title: &'static str,
+    /// What happened.
+    pub meaning: &'static str,
+    /// Why that may be.
+    pub reasons: &'static [&'static str],
+    /// What to do.
+    pub remedies: &'static [&'static str],
+}
+
+impl Code {
+    /// The entry of a code such as `S0102`; letters may be small.
+    pub fn find(id: &str) -> Option<&'static Code> {
+        ALL.iter()
+            .copied()
+            .find(|code| code.id.eq_ignore_ascii_case(id))
+    }
+
+    /// What `signorini explain` prints.
+    pub fn explanation(&self) -> String {
+        let mut text = format!("{}: {}\n\n{}\n", self.id, self.title, self.meaning);
+        for (heading, lines) in [
+            ("Possible reasons", self.reasons),
+            ("What to do", self.remedies),
+        ] {
+            text.push_str(&format!("\n{heading}\n"));
+            for line in lines {
+                text.push_str(&format!("  * {line}\n"));
+            }
+        }
+        text
+    }
+}
+
+macro_rules! codes {
+    ($( $name:ident $id:literal $class:ident $title:literal
+        $meaning:literal
+        [ $($reason:literal),* $(,)? ]
+        [ $($remedy:literal),* $(,)? ] )*) => {
+        $(
+            #[doc = concat!($id, ": ", $title, ".")]
+            pub static $name: Code = Code {
+                id: $id,
+                class: Class::$class,
+                title: $title,
+                meaning: $meaning,
+                reasons: &[$($reason),*],
+                remedies: &[$($remedy),*],
+            };
+        )*
+        /// Every code, in order.
+        pub static ALL: &[&Code] = &[$(&$name),*];
+    };
+}
+
+codes! {
+    EMPTY "S0101" Input "the file is empty"
+    "The file holds nothing but blank lines and comments."
+    ["the wrong file was named", "the program that wrote it was stopped or ran out of disk space"]
+    ["start from a template: signorini init"]
+
+    UNKNOWN_KEY "S0102" Input "unknown key"
+    "A key stands where the case format knows none of that name. Keys are never skipped in silence: a mistyped \
+     friction coefficient would otherwise go unnoticed."
+    ["a typing error", "the key belongs into another table", "the case was written for a newer version"]
+    ["take the key that the message proposes", "see all keys: signorini schema", "delete the line"]
+
+    NOT_TEXT "S0103" Input "the file is not text in UTF-8"
+    "A case is text in the encoding UTF-8. This file holds bytes that cannot be such text."
+    ["a binary file was named (a mesh, an archive, a result)", "an editor saved the file as UTF-16 or Latin-1"]
+    ["name the case file", "save the file as UTF-8, in Windows Notepad: Save as, Encoding: UTF-8"]
+
+    SYNTAX "S0104" Input "the text breaks the rules of TOML"
+    "The text cannot be read as TOML near the place shown, whatever the keys in it mean."
+    ["a quote, bracket or comma is missing or too much", "a text value has no quotes", "the file is cut off"]
+    ["look at the place shown and at the line before it", "TOML in ten minutes: https://toml.io"]
+
+    TWICE "S0105" Input "a key or table is given twice"
+    "The same key stands twice in one table, or the same table is opened twice. Neither of the two wins: it would \
+     depend on luck which one was meant."
+    ["a line was copied and the original not deleted", "`[table]` was written for a list, where `[[table]]` adds an entry"]
+    ["delete or rename one of the two"]
+
+    MISSING "S0106" Input "something required is missing"
+    "A key without which the case means nothing is absent. Only geometry, materials, supports and names have no default."
+    ["the key was forgotten or commented out", "it was mistyped and is reported as unknown too"]
+    ["add the key at the place shown"]
+
+    WRONG_TYPE "S0107" Input "a value of the wrong type"
+    "The value is of another kind than its key takes, such as text where a number belongs."
+    ["a number stands in quotes", "a single value stands where a list belongs, or the other way round"]
+    ["write the value as the message shows"]
+
+    NOT_FINITE "S0108" Input "not a finite number"
+    "The value is not a number one can compute with: NaN, infinite, larger than 1.8e308, or so small (below 2.2e-308) \
+     that digits are lost."
+    ["a script divided by zero while it wrote the case", "an exponent was mistyped"]
+    ["write a finite number"]
+
+    OUT_OF_RANGE "S0109" Input "a number outside its range"
+    "The value has no meaning for its key, such as a negative stiffness or Poisson's ratio of an incompressible material."
+    ["a sign or an exponent was mistyped", "two values were swapped"]
+    ["choose a value in the range that the message names"]
+
+    NOT_A_CHOICE "S0110" Input "a word that is not one of the choices"
+    "The key takes one of a few words, and this is none of them."
+    ["a typing error", "the word is what another program calls it"]
+    ["take one of the words that the message lists"]
+
+    NOT_BUILT "S0111" Input "known, but not supported yet"
+    "The case format has a meaning for this, but this version cannot do it. It is refused, because ignoring it would \
+     give an answer to another question."
+    ["the case was written for a newer version", "the manual describes a later version"]
+    ["take what the message proposes instead", "delete the line", "look for a newer version"]
+
+    CONTRADICTION "S0112" Input "keys that exclude each other, or need each other"
+    "Of several keys exactly one (or at most, or at least one) may be given, and that is not so here."
+    ["two ways of saying the same were mixed", "all of them were left out"]
+    ["keep the one that is meant"]
+
+    NAME_TWICE "S0113" Input "two things with one name"
+    "Sets, bodies, surfaces and references share one name space; contacts, steps and histories have one each. A name \
+     that stands for two things stands for none."
+    ["an entry was copied and its name not changed"]
+    ["rename one of the two"]
+
+    UNDEFINED "S0114" Input "reference to something undefined"
+    "A name is used that nothing in the case defines."
+    ["a typing error", "the definition was deleted, renamed or commented out"]
+    ["take one of the names that the message lists", "define it"]
+
+    NOT_A_NUMBER "S0115" Input "a number was expected"
+    "The text at the place shown looks like a number but is not one. Most often it has a decimal comma."
+    ["a decimal comma instead of a point", "a unit or other letters behind the number"]
+    ["write 0.3, not 0,3", "leave units away: `units` says them once"]
+
+    WRONG_LENGTH "S0116" Input "a list of the wrong length or form"
+    "A list has more or fewer entries than its key takes, such as two coordinates for a point."
+    ["a decimal comma splits one number in two", "a bracket is missing", "an entry was forgotten"]
+    ["write the list as the message shows"]
+
+    NOT_INCREASING "S0117" Input "a table whose first column does not increase"
+    "A table of values over time is read from its first row to its last; its times must increase from row to row."
+    ["rows were swapped or doubled", "a jump was written as two rows of one time"]
+    ["sort the rows", "write a jump as two rows a small time apart"]
+
+    TOO_DEEP "S0118" Input "nested too deep"
+    "Lists or tables stand inside each other more than eighty deep. No case needs more than six."
+    ["brackets were opened and never closed", "the file was made to break programs"]
+    ["look for the first bracket that is not closed"]
+
+    NEWER_FORMAT "S0119" Input "the case is written for another format"
+    "`format` says which version of the case format a file follows. This program knows version 1."
+    ["the case was written for a newer version of the program"]
+    ["install a newer version", "check that the number was not changed by mistake"]
+
+    BAD_OVERRIDE "S0120" Input "--set names nothing in the case"
+    "`--set path=value` changes one value of the case. The path leads from table to table, separated by points; \
+     entries of lists are found by name or by number, the first one being 0."
+    ["a typing error in the path", "the entry has another name in the file"]
+    ["take one of the names that the message lists", "quote names with points in them: material.\"St 37.2\".E"]
+
+    UNREADABLE "S0121" Input "a file cannot be read"
+    "The file does not exist, is a directory, or may not be read."
+    ["the name was mistyped or is relative to another directory", "permissions"]
+    ["check the name and the directory that the message shows"]
+
+    NOT_IN_MESH "S0201" Input "the mesh has nothing of that name"
+    "A case refers to groups of its mesh and to its own sets by name. This name is neither."
+    ["a typing error", "the group was not exported (Gmsh writes only physical groups)", "case matters in .msh files"]
+    ["list the names: signorini info MESH", "take one of the names that the message lists"]
+
+    BAD_ELEMENTS "S0211" Model "elements with zero or negative volume"
+    "Elements are turned inside out or flat. No solver can use them."
+    ["nodes in another order than the format says", "mid-side nodes of curved elements moved too far", "a mirrored mesh"]
+    ["look at the elements in check.vtu", "remesh, or curve the elements less"]
+
+    HELD_BY_CONTACT "S0301" Model "a body held only by contact"
+    "Nothing but contact keeps the body in place, and the contact is open at the start."
+    ["a small gap in the drawing or from meshing", "a support was forgotten"]
+    ["close the gap", "prescribe the motion of the body instead of a load", "hold it by a weak support"]
+
+    IMPLAUSIBLE "S0402" Input "a value that does not fit the units"
+    "A material value would be far outside of what materials have, if the units of the case are what its label says. \
+     Nothing is converted: numbers are used as they are."
+    ["a value in Pa in a model in millimetres and newtons (MPa)", "`units` does not say what the numbers are in"]
+    ["convert the value", "correct `units`", "silence with  allow = [\"S0402\"]  if it is meant so"]
+
+    STRANGE_UNITS "S0403" Input "a label of units that is not understood"
+    "The label names length, force and stress, separated by hyphens, such as mm-N-MPa. Where it cannot be understood, or \
+     its stress is not its force over its squared length, plausibility is not checked. Nothing else depends on it."
+    ["a typing error", "a mixture of units"]
+    ["write one of mm-N-MPa, m-N-Pa, m-MN-MPa, um-uN-MPa"]
+
+    NOT_CONVERGED "S0501" Convergence "an increment did not converge"
+    "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \
+     before it are saved."
+    ["the load is more than the structure bears", "contact status changes back and forth", "the mesh is too coarse at the contact"]
+    ["see which contact or element the message names", "smaller `min` in `increments`", "finer mesh, or smoother surfaces"]
+
+    NOT_WRITTEN "S0601" Output "results could not be written"
+    "Writing a file failed. Frames and checkpoints that were complete before are untouched."
+    ["the disk is full", "no permission", "a network drive went away"]
+    ["free space or name another directory with -o", "go on with  signorini resume DIR"]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_is_explained_once_and_in_order() {
+        for pair in ALL.windows(2) {
+            assert!(
+                pair[0].id < pair[1].id,
+                "{} before {}",
+                pair[0].id,
+                pair[1].id
+            );
+        }
+        for code in ALL {
+            assert_eq!(code.id.len(), 5);
+            assert!(code.id.starts_with('S') && code.id[1..].bytes().all(|b| b.is_ascii_digit()));
+            assert!(
+                !code.title.ends_with('.') && !code.title.is_empty(),
+                "{}",
+                code.id
+            );
+            assert!(code.meaning.ends_with('.'), "{}", code.id);
+            assert!(
+                !code.reasons.is_empty() && !code.remedies.is_empty(),
+                "{}",
+                code.id
+            );
+        }
+    }
+
+    #[test]
+    fn every_code_in_a_string_of_this_crate_exists() {
+        fn visit(folder: &std::path::Path, seen: &mut usize) {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                if path.is_dir() {
+                    visit(&path, seen);
+                } else if path.extension().is_some_and(|end| end == "rs") {
+                    let text = std::fs::read_to_string(&path).unwrap();
+                    for (at, _) in text.match_indices("S0") {
+                        let id = text.get(at..at + 5).unwrap_or_default();
+                        if id.len() == 5 && id[1..].bytes().all(|b| b.is_ascii_digit()) {
+                            assert!(Code::find(id).is_some(), "{id} in {}", path.display());
+                            *seen += 1;
+                        }
+                    }
+                }
+            }
+        }
+        let mut seen = 0;
+        visit(
+            &std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
+            &mut seen,
+        );
+        assert!(seen >= ALL.len());
+    }
+
+    #[test]
+    fn an_explanation_says_what_why_and_what_to_do() {
+        let text = Code::find("s0102").unwrap().explanation();
+        assert!(text.starts_with("S0102: unknown key\n\n"));
+        assert!(text.contains("\nPossible reasons\n  * a typing error\n"));
+        assert!(text.contains("\nWhat to do\n"));
+        assert!(Code::find("S9999").is_none());
+    }
+}

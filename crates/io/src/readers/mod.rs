@@ -1,0 +1,68 @@
+//! Meshes from files and from inline data, and what is wrong with them.
+//!
+//! ```text
+//! bytes ──reader by extension──▶ (Mesh, notes) ──validate──▶ issues
+//! ```
+//!
+//! A reader is a function from the name and the bytes of a file to a [`Mesh`] and notes worth telling. It trusts
+//! nothing: no count is believed before the bytes that remain could hold it, nothing recurses, every fault is a
+//! [`MeshError`] with its place. What a mesh that could be read still gets wrong (volumes, coincident nodes) is the
+//! matter of [`validate`].
+//!
+//! To add a format: one file here with a function of type [`Reader`], and one line in [`READERS`].
+
+mod error;
+pub mod gmsh;
+mod inline;
+mod side;
+mod validate;
+
+pub use error::{MeshError, Place};
+pub use inline::{InlineElement, build};
+pub use side::{SideError, side_by_normal};
+pub use validate::{MeshIssue, Sample, Severity, parts, validate};
+
+use signorini_geometry::mesh::Mesh;
+
+/// Reads the bytes of the file of this name: the mesh, and notes about what was ignored or is unusual.
+pub type Reader = fn(&str, &[u8]) -> Result<(Mesh, Vec<String>), MeshError>;
+
+/// Readers by extension, in lower case.
+pub const READERS: [(&str, Reader); 1] = [("msh", gmsh::read)];
+
+/// Reads a mesh in the format that the extension of `name` says.
+///
+/// # Errors
+/// An extension that [`READERS`] does not list; any fault in the file.
+pub fn read_mesh(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
+    let extension = name.rsplit_once('.').map_or("", |(_, e)| e);
+    let extension = extension.to_lowercase();
+    match READERS.iter().find(|(known, _)| *known == extension) {
+        Some((_, reader)) => reader(name, bytes),
+        None => Err(MeshError::UnknownFormat {
+            place: Place::File(name.into()),
+            known: READERS.map(|(known, _)| known).join(", ."),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_extension_is_refused_with_the_known_ones() {
+        let error = read_mesh("part.stl", b"solid").unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "part.stl: no reader for this kind of file; meshes can be .msh"
+        );
+        assert!(read_mesh("part", b"").is_err());
+    }
+
+    #[test]
+    fn the_extension_may_be_in_capitals() {
+        let error = read_mesh("PART.MSH", b"").unwrap_err();
+        assert!(matches!(error, MeshError::Empty { .. }), "{error}");
+    }
+}

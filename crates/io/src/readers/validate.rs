@@ -1,0 +1,513 @@
+//! What can be wrong with a mesh that could be read.
+
+use signorini_geometry::element::Element;
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::proximity::Aabb;
+use signorini_geometry::tensor::Vec3;
+use std::collections::HashMap;
+use std::collections::hash_map::RandomState;
+use std::fmt;
+use std::hash::BuildHasher;
+use thiserror::Error;
+
+/// How many elements or nodes an issue names.
+const NAMED: usize = 10;
+
+/// Nodes nearer than this, relative to the diagonal of the mesh, coincide.
+const COINCIDENT: f64 = 1e-9;
+
+/// Coordinates beyond this, and meshes smaller than its inverse, are refused: squares would overflow.
+const ABSURD: f64 = 1e150;
+
+/// A Jacobian below this is zero, relative to the size of the cell.
+const FLAT: f64 = 1e-12;
+
+/// How much an issue matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing.
+    Note,
+    /// Often a mistake.
+    Warning,
+    /// The mesh cannot be used.
+    Error,
+}
+
+/// Numbers of the input: how many, and the first ten of them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sample {
+    /// How many there are.
+    pub count: usize,
+    /// The first ten.
+    pub first: Vec<u64>,
+}
+
+impl Sample {
+    fn push(&mut self, label: u64) {
+        self.count += 1;
+        if self.first.len() < NAMED {
+            self.first.push(label);
+        }
+    }
+}
+
+impl fmt::Display for Sample {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, label) in self.first.iter().enumerate() {
+            write!(f, "{}{label}", if i == 0 { "" } else { ", " })?;
+        }
+        if self.count > self.first.len() {
+            write!(f, ", … ({} in all)", self.count)?;
+        }
+        Ok(())
+    }
+}
+
+/// One thing wrong, or unusual, with a mesh.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum MeshIssue {
+    /// Coordinates that are infinite or not numbers.
+    #[error("coordinates are not finite at nodes {nodes}; correct them")]
+    NotFinite {
+        /// The nodes.
+        nodes: Sample,
+    },
+    /// Coordinates whose squares overflow.
+    #[error("coordinates exceed 1e150 at nodes {nodes}; use other units")]
+    TooLarge {
+        /// The nodes.
+        nodes: Sample,
+    },
+    /// A mesh whose squares vanish.
+    #[error("the whole mesh is {extent:e} long; use other units")]
+    TooSmall {
+        /// Length of the diagonal of its box.
+        extent: f64,
+    },
+    /// A mesh so far away that its coordinates lose digits.
+    #[error(
+        "the mesh is {extent:e} long but {distance:e} from the origin; move it nearer, its coordinates lose digits"
+    )]
+    FarAway {
+        /// Length of the diagonal of its box.
+        extent: f64,
+        /// Largest coordinate.
+        distance: f64,
+    },
+    /// All cells are numbered the other way round.
+    #[error(
+        "all {ncell} elements have a negative volume: the whole mesh is mirrored; reverse the order of the nodes in every element, or mirror the coordinates"
+    )]
+    Mirrored {
+        /// How many.
+        ncell: usize,
+    },
+    /// Cells numbered the other way round.
+    #[error("negative volume: elements {elements}; reverse the order of their nodes")]
+    Inverted {
+        /// The cells.
+        elements: Sample,
+    },
+    /// Cells whose Jacobian changes sign.
+    #[error(
+        "elements {elements} are folded: the Jacobian is negative at some points; move their nodes or mesh again"
+    )]
+    Folded {
+        /// The cells.
+        elements: Sample,
+    },
+    /// Cells whose Jacobian vanishes at some or all points.
+    #[error(
+        "zero volume: elements {elements}, in whole or at a corner; remove them or move their nodes"
+    )]
+    Flat {
+        /// The cells.
+        elements: Sample,
+    },
+    /// Cells with the same node twice.
+    #[error("elements {elements} have a node twice; use a type with fewer nodes")]
+    RepeatedNode {
+        /// The cells.
+        elements: Sample,
+    },
+    /// Solids on the same nodes as another.
+    #[error("elements {elements} have the same nodes as another element; remove one of each")]
+    Duplicate {
+        /// The cells.
+        elements: Sample,
+    },
+    /// Nodes at the same place that are not the same node.
+    #[error("nodes within {tolerance:e} of another one: {count}, such as {} and {}; merge them, unless bodies or a crack meet there", pair[0], pair[1])]
+    Coincident {
+        /// Nodes that coincide with an earlier one.
+        count: usize,
+        /// An example.
+        pair: [u64; 2],
+        /// The distance.
+        tolerance: f64,
+    },
+    /// Nodes without elements.
+    #[error("nodes without elements: {count}; they are ignored")]
+    Unreferenced {
+        /// How many.
+        count: usize,
+    },
+}
+
+impl MeshIssue {
+    /// How much it matters.
+    #[must_use]
+    pub const fn severity(&self) -> Severity {
+        match self {
+            Self::Unreferenced { .. } => Severity::Note,
+            Self::FarAway { .. } | Self::Coincident { .. } | Self::Duplicate { .. } => {
+                Severity::Warning
+            }
+            _ => Severity::Error,
+        }
+    }
+}
+
+/// Everything wrong with the mesh itself, cells of the highest dimension taken as solids.
+///
+/// The sign of the Jacobian is that of the determinant in space, of the area in the plane; a surface in space has none
+/// and can only be flat. It is looked at in the quadrature points and the nodes, relative to the size of the cell.
+#[must_use]
+pub fn validate(mesh: &Mesh) -> Vec<MeshIssue> {
+    let mut issues = Vec::new();
+    let usable = coordinates(mesh, &mut issues);
+    repeated_nodes(mesh, &mut issues);
+    if usable {
+        volumes(mesh, &mut issues);
+    }
+    duplicates(mesh, &mut issues);
+    let used = used_nodes(mesh);
+    if usable {
+        issues.extend(coincident(mesh, &used));
+    }
+    let count = used.iter().filter(|used| !**used).count();
+    if count > 0 {
+        issues.push(MeshIssue::Unreferenced { count });
+    }
+    issues
+}
+
+/// The cells in groups that share no node, each sorted, the groups by their first cell.
+#[must_use]
+pub fn parts(mesh: &Mesh, cells: &[CellId]) -> Vec<Vec<CellId>> {
+    let mut parent: Vec<NodeId> = (0..mesh.nnode() as NodeId).collect();
+    let root = |parent: &mut [NodeId], mut node: NodeId| {
+        // every step halves the path
+        while let Some(&up) = parent.get(node as usize) {
+            if up == node {
+                break;
+            }
+            let next = parent.get(up as usize).copied().unwrap_or(up);
+            if let Some(entry) = parent.get_mut(node as usize) {
+                *entry = next;
+            }
+            node = next;
+        }
+        node
+    };
+    for &cell in cells {
+        if let [first, others @ ..] = mesh.cell(cell) {
+            for &other in others {
+                let (a, b) = (root(&mut parent, *first), root(&mut parent, other));
+                if let Some(entry) = parent.get_mut(a.max(b) as usize) {
+                    *entry = a.min(b);
+                }
+            }
+        }
+    }
+    let mut sorted = cells.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    let mut number: HashMap<NodeId, usize> = HashMap::new();
+    let mut parts: Vec<Vec<CellId>> = Vec::new();
+    for cell in sorted {
+        let Some(&first) = mesh.cell(cell).first() else {
+            continue;
+        };
+        let next = parts.len();
+        let part = *number.entry(root(&mut parent, first)).or_insert(next);
+        match parts.get_mut(part) {
+            Some(part) => part.push(cell),
+            None => parts.push(vec![cell]),
+        }
+    }
+    parts
+}
+
+fn label(mesh: &Mesh, node: usize) -> u64 {
+    mesh.node_labels.get(node).copied().unwrap_or(0)
+}
+
+/// Whether coordinates can be calculated with.
+fn coordinates(mesh: &Mesh, issues: &mut Vec<MeshIssue>) -> bool {
+    let (mut not_finite, mut too_large) = (Sample::default(), Sample::default());
+    for (node, x) in mesh.points.iter().enumerate() {
+        if !x.is_finite() {
+            not_finite.push(label(mesh, node));
+        } else if x.max_abs() > ABSURD {
+            too_large.push(label(mesh, node));
+        }
+    }
+    let before = issues.len();
+    if not_finite.count > 0 {
+        issues.push(MeshIssue::NotFinite { nodes: not_finite });
+    }
+    if too_large.count > 0 {
+        issues.push(MeshIssue::TooLarge { nodes: too_large });
+    }
+    if issues.len() > before || mesh.nnode() < 2 {
+        return issues.len() == before;
+    }
+    let extent = diagonal(&Aabb::around(mesh.points.iter().copied()));
+    let distance = mesh.points.iter().fold(0.0, |d, x| x.max_abs().max(d));
+    if extent < 1.0 / ABSURD {
+        issues.push(MeshIssue::TooSmall { extent });
+        return false;
+    }
+    if extent < 1e-8 * distance {
+        issues.push(MeshIssue::FarAway { extent, distance });
+    }
+    true
+}
+
+/// The length of the diagonal, without overflow.
+fn diagonal(aabb: &Aabb) -> f64 {
+    let extent = aabb.extent();
+    extent.x.hypot(extent.y).hypot(extent.z)
+}
+
+fn repeated_nodes(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
+    let mut elements = Sample::default();
+    for block in &mesh.blocks {
+        for (cell, &label) in block
+            .nodes
+            .chunks_exact(block.element.nnode())
+            .zip(&block.labels)
+        {
+            let again = |(i, node)| cell.iter().take(i).any(|before| before == node);
+            if cell.iter().enumerate().any(again) {
+                elements.push(label);
+            }
+        }
+    }
+    if elements.count > 0 {
+        issues.push(MeshIssue::RepeatedNode { elements });
+    }
+}
+
+/// What the Jacobian of a cell is like.
+#[derive(Clone, Copy, PartialEq)]
+enum Volume {
+    Good,
+    Flat,
+    Folded,
+    Inverted,
+}
+
+/// Samples the Jacobian of cells of one element.
+struct Jacobian {
+    dshapes: Vec<Vec<Vec3>>,
+    dim: usize,
+    plane: bool,
+}
+
+impl Jacobian {
+    fn new(element: Element, plane: bool) -> Self {
+        let points = element.nodes().iter().chain(element.full_rule().points);
+        let dshapes = points.map(|xi| {
+            let mut dshape = vec![Vec3::ZERO; element.nnode()];
+            element.dshape(xi, &mut dshape);
+            dshape
+        });
+        Self {
+            dshapes: dshapes.collect(),
+            dim: element.dim(),
+            plane,
+        }
+    }
+
+    /// The judgement on the cell with its nodes at `x`.
+    fn judge(&self, x: &[Vec3]) -> Volume {
+        let origin = x.first().copied().unwrap_or(Vec3::ZERO);
+        let size = x
+            .iter()
+            .fold(0.0_f64, |h, &x| h.max((x - origin).max_abs()));
+        if size == 0.0 {
+            return Volume::Flat;
+        }
+        // coordinates are rounded; what that does to the Jacobian is not a volume
+        let distance = x.iter().fold(0.0_f64, |d, x| d.max(x.max_abs()));
+        let zero = FLAT + 8.0 * f64::EPSILON * (distance / size);
+        let scaled: Vec<Vec3> = x.iter().map(|&x| (x - origin) / size).collect();
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for dshape in &self.dshapes {
+            let (mut t1, mut t2, mut t3) = (Vec3::ZERO, Vec3::ZERO, Vec3::ZERO);
+            for (dn, &x) in dshape.iter().zip(&scaled) {
+                t1 += x * dn.x;
+                t2 += x * dn.y;
+                t3 += x * dn.z;
+            }
+            let j = match self.dim {
+                3 => t1.dot(t2.cross(t3)),
+                2 if self.plane => t1.cross(t2).z,
+                2 => t1.cross(t2).norm(),
+                _ => t1.norm(),
+            };
+            least = least.min(j);
+            most = most.max(j);
+        }
+        if least > zero {
+            Volume::Good
+        } else if most < -zero {
+            Volume::Inverted
+        } else if least < -zero {
+            Volume::Folded
+        } else {
+            Volume::Flat
+        }
+    }
+}
+
+fn volumes(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
+    let dim = mesh.dim();
+    let z = mesh.points.first().map_or(0.0, |x| x.z);
+    let plane = mesh.points.iter().all(|x| x.z == z);
+    let [mut flat, mut folded, mut inverted] = [const {
+        Sample {
+            count: 0,
+            first: Vec::new(),
+        }
+    }; 3];
+    let mut ncell = 0;
+    for block in mesh.blocks.iter().filter(|b| b.element.dim() == dim) {
+        let jacobian = Jacobian::new(block.element, plane);
+        let mut x = Vec::with_capacity(block.element.nnode());
+        for (cell, &label) in block
+            .nodes
+            .chunks_exact(block.element.nnode())
+            .zip(&block.labels)
+        {
+            x.clear();
+            x.extend(cell.iter().filter_map(|&n| mesh.points.get(n as usize)));
+            ncell += 1;
+            match jacobian.judge(&x) {
+                Volume::Good => {}
+                Volume::Flat => flat.push(label),
+                Volume::Folded => folded.push(label),
+                Volume::Inverted => inverted.push(label),
+            }
+        }
+    }
+    if inverted.count > 0 {
+        issues.push(if inverted.count == ncell {
+            MeshIssue::Mirrored { ncell }
+        } else {
+            MeshIssue::Inverted { elements: inverted }
+        });
+    }
+    if folded.count > 0 {
+        issues.push(MeshIssue::Folded { elements: folded });
+    }
+    if flat.count > 0 {
+        issues.push(MeshIssue::Flat { elements: flat });
+    }
+}
+
+fn duplicates(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
+    let sorted = |cell| {
+        let mut nodes = mesh.cell(cell).to_vec();
+        nodes.sort_unstable();
+        nodes
+    };
+    let hasher = RandomState::new();
+    let mut hashes: Vec<(u64, CellId)> = mesh
+        .cells(mesh.dim())
+        .map(|cell| (hasher.hash_one(sorted(cell)), cell))
+        .collect();
+    hashes.sort_unstable();
+    let same = |pair: &&[(u64, CellId)]| matches!(pair, [a, b] if a.0 == b.0 && sorted(a.1) == sorted(b.1));
+    let mut labels: Vec<u64> = (hashes.windows(2).filter(same))
+        .filter_map(|pair| mesh.cell_label(pair.last()?.1))
+        .collect();
+    labels.sort_unstable();
+    let mut elements = Sample::default();
+    labels.into_iter().for_each(|label| elements.push(label));
+    if elements.count > 0 {
+        issues.push(MeshIssue::Duplicate { elements });
+    }
+}
+
+fn used_nodes(mesh: &Mesh) -> Vec<bool> {
+    let mut used = vec![false; mesh.nnode()];
+    let of_sets = mesh.sets.values().flat_map(|set| &set.nodes);
+    for &node in mesh.blocks.iter().flat_map(|b| &b.nodes).chain(of_sets) {
+        if let Some(used) = used.get_mut(node as usize) {
+            *used = true;
+        }
+    }
+    used
+}
+
+/// Counts nodes within the tolerance of an earlier one.
+///
+/// Only nodes without an earlier neighbour stay in the grid, of cells four tolerances wide; so few fit into a cell that
+/// the work grows with the number of nodes, however they lie.
+fn coincident(mesh: &Mesh, used: &[bool]) -> Option<MeshIssue> {
+    const NONE: u32 = u32::MAX;
+    let aabb = Aabb::around(mesh.points.iter().copied());
+    let tolerance = COINCIDENT * diagonal(&aabb);
+    if !(tolerance > 0.0 && tolerance.is_finite()) {
+        return None;
+    }
+    let width = 4.0 * tolerance;
+    let mut grid: HashMap<[i64; 3], u32> = HashMap::new();
+    let mut next = vec![NONE; mesh.nnode()];
+    let (mut count, mut pair) = (0, None);
+    for (node, &x) in mesh.points.iter().enumerate() {
+        if !used.get(node).copied().unwrap_or(false) {
+            continue;
+        }
+        let from = (x - aabb.min) / width;
+        let home = [from.x, from.y, from.z].map(|f| f.floor() as i64);
+        let low = [from.x, from.y, from.z].map(|f| (f - 0.25).floor() as i64);
+        let high = [from.x, from.y, from.z].map(|f| (f + 0.25).floor() as i64);
+        let near = (low[0]..=high[0]).flat_map(|i| {
+            (low[1]..=high[1]).flat_map(move |j| (low[2]..=high[2]).map(move |k| [i, j, k]))
+        });
+        let earlier = near.into_iter().find_map(|cell| {
+            let mut at = grid.get(&cell).copied().unwrap_or(NONE);
+            while let Some(&y) = mesh.points.get(at as usize) {
+                if ((x - y) / tolerance).norm() <= 1.0 {
+                    return Some(at);
+                }
+                at = next.get(at as usize).copied().unwrap_or(NONE);
+            }
+            None
+        });
+        match earlier {
+            Some(earlier) => {
+                count += 1;
+                pair = pair.or(Some([label(mesh, earlier as usize), label(mesh, node)]));
+            }
+            None => {
+                let head = grid.insert(home, node as u32).unwrap_or(NONE);
+                if let Some(next) = next.get_mut(node) {
+                    *next = head;
+                }
+            }
+        }
+    }
+    pair.map(|pair| MeshIssue::Coincident {
+        count,
+        pair,
+        tolerance,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,135 @@
+//! Which raw dofs are solved for, and the linear system over them.
+
+use crate::system::linear::{LinearError, LinearSolver, Problem, SolveReport};
+use crate::system::sparsity::NONE;
+use crate::system::{Assembler, Assembly, Dof, DofName, Symmetry, System};
+
+/// The numbering of the unknowns that are solved for, and the solver.
+pub(super) struct Equations {
+    /// Equation of each raw dof, or `NONE`.
+    equation: Vec<u32>,
+    /// Raw dof of each equation.
+    dofs: Vec<Dof>,
+    sign: Vec<i8>,
+    solver: Box<dyn LinearSolver>,
+    right: Vec<f64>,
+    left: Vec<f64>,
+    response: Vec<f64>,
+}
+
+impl Equations {
+    pub fn new(solver: Box<dyn LinearSolver>) -> Self {
+        Self {
+            equation: Vec::new(),
+            dofs: Vec::new(),
+            sign: Vec::new(),
+            solver,
+            right: Vec::new(),
+            left: Vec::new(),
+            response: Vec::new(),
+        }
+    }
+
+    /// The raw dofs that are solved for.
+    pub fn dofs(&self) -> &[Dof] {
+        &self.dofs
+    }
+
+    /// Numbers the unknowns and does the symbolic work.
+    pub fn analyze(
+        &mut self,
+        system: &System,
+        assembler: &Assembler,
+        prescribed: &[bool],
+    ) -> Result<(), LinearError> {
+        let layout = &system.layout;
+        self.equation.clear();
+        self.dofs.clear();
+        self.sign.clear();
+        for dof in 0..layout.ndof() as Dof {
+            let name = layout.name(dof);
+            let in_bulk = match name {
+                Some(DofName::Node(node, _)) => {
+                    system.elimination.body_of(node).is_none()
+                        && assembler.bulk().position(node, node).is_some()
+                }
+                _ => false,
+            };
+            let used = in_bulk || assembler.interface().position(dof, dof).is_some();
+            let free = !prescribed.get(dof as usize).copied().unwrap_or(false);
+            if used && free {
+                self.equation.push(self.dofs.len() as u32);
+                self.dofs.push(dof);
+                let multiplier = matches!(name, Some(DofName::Multiplier(_)));
+                self.sign.push(if multiplier { -1 } else { 1 });
+            } else {
+                self.equation.push(NONE);
+            }
+        }
+        let symmetry = system
+            .terms
+            .iter()
+            .map(|t| t.symmetry())
+            .max()
+            .unwrap_or(Symmetry::Definite);
+        let problem = Problem {
+            ndof: layout.ndof(),
+            bulk: assembler.bulk(),
+            interface: assembler.interface(),
+            equation: &self.equation,
+            nequation: self.dofs.len(),
+            symmetry,
+            sign: &self.sign,
+            coordinates: &system.coordinates,
+            body: &system.body,
+        };
+        self.solver.analyze(&problem)
+    }
+
+    /// Solves `K du = −r − K du_p` for the free dofs. `du` holds `du_p` at the prescribed dofs on entry, zero
+    /// elsewhere; on return the whole step.
+    pub fn solve(
+        &mut self,
+        assembler: &Assembler,
+        assembly: &Assembly,
+        with_motion: bool,
+        du: &mut [f64],
+    ) -> Result<SolveReport, LinearError> {
+        let values = assembly.values();
+        self.right.clear();
+        let residual = |&dof: &Dof| -assembly.residual[dof as usize];
+        self.right.extend(self.dofs.iter().map(residual));
+        if with_motion {
+            self.response.clear();
+            self.response.resize(du.len(), 0.0);
+            crate::system::linear::apply(
+                assembler.bulk(),
+                assembler.interface(),
+                &values,
+                du,
+                &mut self.response,
+            );
+            for (b, &dof) in self.right.iter_mut().zip(&self.dofs) {
+                *b -= self.response[dof as usize];
+            }
+        }
+        self.left.clear();
+        self.left.resize(self.dofs.len(), 0.0);
+        self.solver.factorize(&values)?;
+        let report = self
+            .solver
+            .solve(&values, &self.right, &mut self.left, SOLVE_TOLERANCE)?;
+        for (x, &dof) in self.left.iter().zip(&self.dofs) {
+            du[dof as usize] = *x;
+        }
+        Ok(report)
+    }
+
+    /// The raw dof of an equation that a solver complains of.
+    pub fn dof(&self, equation: Option<usize>) -> Option<Dof> {
+        equation.and_then(|e| self.dofs.get(e)).copied()
+    }
+}
+
+/// Relative residual asked of a linear solve: far below what Newton's tail needs.
+const SOLVE_TOLERANCE: f64 = 1e-10;

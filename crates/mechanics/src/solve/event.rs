@@ -1,0 +1,115 @@
+//! What happens in a run, as one stream: the terminal, the files and Python are all fed from it.
+
+use super::Failure;
+use crate::system::{Dof, Frame};
+
+/// One linear solve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IterationRecord {
+    /// Number of the step, from 0.
+    pub step: usize,
+    /// Increment within the step, from 1.
+    pub increment: usize,
+    /// Attempt at this increment, from 1.
+    pub attempt: usize,
+    /// Iteration, from 1; one more than the number of solves at the check that ends an increment.
+    pub iteration: usize,
+    /// Largest residual before this solve, over the mean force q.
+    pub residual: f64,
+    /// The dof where it is.
+    pub worst: Option<Dof>,
+    /// Largest change of a displacement by the solve before; 0 before the first.
+    pub correction: f64,
+    /// The multiple of the Newton step taken by the solve before; 1 before the first.
+    pub line_search: f64,
+    /// Rows that act: closed contacts.
+    pub closed: usize,
+    /// Discrete choices that changed since the iterate before.
+    pub flips: usize,
+}
+
+/// One accepted increment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IncrementRecord {
+    /// Number of the step, from 0.
+    pub step: usize,
+    /// Increment within the step, from 1.
+    pub increment: usize,
+    /// Attempts it took.
+    pub attempts: usize,
+    /// Linear solves of the successful attempt.
+    pub iterations: usize,
+    /// Total time at its end.
+    pub time: f64,
+    /// Time since the step began, and the step's duration.
+    pub step_time: (f64, f64),
+    /// Its size.
+    pub dt: f64,
+    /// Largest residual at its end, over the mean force q.
+    pub residual: f64,
+}
+
+/// Why something was given up: a failure and what it was about.
+#[derive(Clone, Debug)]
+pub struct Cause {
+    /// What failed.
+    pub failure: Failure,
+    /// Size of the increment that failed.
+    pub dt: f64,
+}
+
+/// Something that happened.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Event<'a> {
+    /// A step begins.
+    Step {
+        /// Its number, from 0.
+        step: usize,
+        /// Its name.
+        name: &'a str,
+    },
+    /// The state was assembled and judged.
+    Iteration(&'a IterationRecord),
+    /// An increment failed and is tried again in smaller pieces.
+    Cutback {
+        /// Number of the step, from 0.
+        step: usize,
+        /// Increment within the step, from 1.
+        increment: usize,
+        /// Attempt that failed, from 1.
+        attempt: usize,
+        /// Why.
+        cause: &'a Cause,
+        /// The size tried next.
+        next: f64,
+    },
+    /// An increment was accepted.
+    Increment {
+        /// Its record.
+        record: &'a IncrementRecord,
+        /// Its results.
+        frame: &'a Frame,
+    },
+}
+
+/// Whether to go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// Go on.
+    Continue,
+    /// Stop after what is accepted now.
+    Stop,
+}
+
+/// Receives the events of a run. Asked after every event whether to go on.
+pub trait Observer {
+    /// Something happened.
+    fn notice(&mut self, event: &Event<'_>) -> Flow;
+}
+
+impl<F: FnMut(&Event<'_>) -> Flow> Observer for F {
+    fn notice(&mut self, event: &Event<'_>) -> Flow {
+        self(event)
+    }
+}

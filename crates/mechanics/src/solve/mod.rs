@@ -1,0 +1,42 @@
+//! Newton's method, line search, increments: everything that turns a system into accepted states.
+//!
+//! ```text
+//! Stepper: for each step, for each increment            ──▶ Event ──▶ Observer (terminal, files, Python)
+//!   Newton: repeat
+//!     prepare, assemble  r, K                      all terms
+//!     converged?  r small, nothing changed, du small
+//!     K du = −r − K du_p                           du_p: prescribed motion of nodes, in the first solve only
+//!     line search  u ← u + α du
+//!   accept, or cut the increment
+//! ```
+//!
+//! An increment has converged when
+//!
+//! ```text
+//! (a)  max_i |r_i| ≤ max(force_tol · q, 100 eps max_i Σ_e |f_e|_i)
+//! (b)  no term changed its mind in the last update (status, facet, stick or slip)
+//! (d)  |du| ≤ 0.01 of the increment's displacement, or r is round-off already
+//! ```
+//!
+//! with `q` the mean of `Σ_e |f_e|_i` over the loaded components, its maximum over the run so far; rotations and
+//! multipliers have means of their own. Condition (c), on penetrations, belongs to laws with multipliers and comes
+//! through the verdict of their terms. *Iterations* are linear solves.
+//!
+//! Prescribed motion of nodes enters through the first linear solve, from the last accepted state: moving the nodes
+//! first would crush the elements next to them. Rigid bodies are moved at once: they deform nothing.
+//!
+//! This room knows nothing of solids or contact: all it sees is [`crate::system::Term`].
+
+mod equations;
+mod event;
+mod line_search;
+mod newton;
+mod stepping;
+#[cfg(test)]
+mod tests;
+
+pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
+pub use newton::{Failure, LineSearch, NewtonSettings};
+pub use stepping::{
+    Increments, Motion, Outcome, Prescription, RunError, Step, Stepper, StepperSettings,
+};

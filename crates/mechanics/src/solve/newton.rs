@@ -1,0 +1,487 @@
+//! One increment by Newton's method.
+
+use super::equations::Equations;
+use super::event::IterationRecord;
+use super::line_search;
+use crate::system::linear::LinearError;
+use crate::system::{Assembler, Assembly, Dof, DofName, Order, State, System, TermError, Verdict};
+use signorini_geometry::mesh::NodeId;
+use thiserror::Error;
+
+/// Whether and how steps are shortened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineSearch {
+    /// Where the full step does not lower the energy; without an energy, where it does not lower the slope.
+    Auto,
+    /// Never.
+    Off,
+}
+
+/// The numbers of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonSettings {
+    /// Linear solves after which an increment is given up.
+    pub max_iterations: usize,
+    /// Largest residual over the mean force, condition (a).
+    pub force_tol: f64,
+    /// Whether steps are shortened.
+    pub line_search: LineSearch,
+}
+
+impl Default for NewtonSettings {
+    fn default() -> Self {
+        Self {
+            max_iterations: 20,
+            force_tol: 1e-6,
+            line_search: LineSearch::Auto,
+        }
+    }
+}
+
+/// Why an increment did not converge.
+#[derive(Clone, Debug, Error)]
+pub enum Failure {
+    /// Too many iterations.
+    #[error(
+        "{iterations} iterations did not suffice: the largest force error is {residual:.3e} of the mean force"
+    )]
+    TooManyIterations {
+        /// Linear solves done.
+        iterations: usize,
+        /// Largest residual over the mean force.
+        residual: f64,
+        /// The dof where it is.
+        worst: Option<Dof>,
+        /// The residual there, a force.
+        force: f64,
+        /// What kept changing: the last verdict that was not settled, and its nodes.
+        unsettled: Option<(String, Vec<NodeId>)>,
+    },
+    /// The residual grew beyond all measure.
+    #[error("the iteration diverged: the largest force error is {residual:.3e} of the mean force")]
+    Diverged {
+        /// Linear solves done.
+        iterations: usize,
+        /// Largest residual over the mean force.
+        residual: f64,
+        /// The dof where it is.
+        worst: Option<Dof>,
+    },
+    /// No multiple of the step lowers the energy.
+    #[error("no multiple of the Newton step lowers the energy: the state may be at a limit load")]
+    NoDescent {
+        /// Linear solves done.
+        iterations: usize,
+        /// The dof with the largest residual.
+        worst: Option<Dof>,
+    },
+    /// A term could not be evaluated.
+    #[error(transparent)]
+    Term(#[from] TermError),
+    /// The linear system could not be solved.
+    #[error("{source}")]
+    Linear {
+        /// Why.
+        source: LinearError,
+        /// The unknown that the solver names.
+        dof: Option<Dof>,
+    },
+}
+
+/// What counts as small: residuals are judged against the mean force, separately for forces, moments, multipliers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct ForceScale {
+    /// q of each kind over the accepted states so far.
+    accepted: [f64; KINDS],
+}
+
+const KINDS: usize = 3;
+
+const fn kind(name: Option<DofName>) -> usize {
+    match name {
+        Some(DofName::Rotation(..)) => 1,
+        Some(DofName::Multiplier(_)) => 2,
+        _ => 0,
+    }
+}
+
+/// A state, judged.
+#[derive(Clone, Copy, Debug)]
+struct Judgement {
+    /// max |r| / q over the kinds.
+    residual: f64,
+    worst: Option<Dof>,
+    force: f64,
+    small: bool,
+    round_off: bool,
+    q: [f64; KINDS],
+}
+
+impl ForceScale {
+    pub fn accept(&mut self, q: [f64; KINDS]) {
+        for (a, q) in self.accepted.iter_mut().zip(q) {
+            *a = a.max(q);
+        }
+    }
+
+    /// The values, for a checkpoint.
+    pub const fn to_array(&self) -> [f64; KINDS] {
+        self.accepted
+    }
+
+    pub const fn from_array(accepted: [f64; KINDS]) -> Self {
+        Self { accepted }
+    }
+
+    fn judge(
+        &self,
+        system: &System,
+        dofs: &[Dof],
+        assembly: &Assembly,
+        force_tol: f64,
+    ) -> Judgement {
+        let layout = &system.layout;
+        let mut largest = [0.0f64; KINDS];
+        for (dof, m) in assembly.magnitude.iter().enumerate() {
+            let k = kind(layout.name(dof as Dof));
+            largest[k] = largest[k].max(*m);
+        }
+        let mut sum = [0.0; KINDS];
+        let mut count = [0usize; KINDS];
+        for (dof, m) in assembly.magnitude.iter().enumerate() {
+            let k = kind(layout.name(dof as Dof));
+            if *m > LOADED * largest[k] {
+                sum[k] += m;
+                count[k] += 1;
+            }
+        }
+        let q: [f64; KINDS] = std::array::from_fn(|k| {
+            let mean = if count[k] > 0 {
+                sum[k] / count[k] as f64
+            } else {
+                0.0
+            };
+            mean.max(self.accepted[k])
+        });
+        let mut judgement = Judgement {
+            residual: 0.0,
+            worst: None,
+            force: 0.0,
+            small: true,
+            round_off: true,
+            q,
+        };
+        for &dof in dofs {
+            let k = kind(layout.name(dof));
+            let r = assembly.residual[dof as usize].abs();
+            let floor = ROUND_OFF * largest[k];
+            judgement.round_off &= r <= floor;
+            judgement.small &= r <= (force_tol * q[k]).max(floor);
+            let relative = if r == 0.0 { 0.0 } else { r / q[k] };
+            // not `>` alone: a residual that is not a number is the worst of all
+            if relative > judgement.residual || relative.is_nan() {
+                judgement.residual = relative;
+                judgement.worst = Some(dof);
+                judgement.force = r;
+            }
+        }
+        judgement
+    }
+}
+
+/// A component carries load where its forces exceed this part of the largest.
+const LOADED: f64 = 1e-12;
+/// Rounding error of a residual over the sum of the absolute values in it.
+const ROUND_OFF: f64 = 100.0 * f64::EPSILON;
+/// Condition (d): the last correction over the increment's displacement.
+const CORRECTION: f64 = 1e-2;
+/// Residual over the mean force at which an iteration has left the realm of the possible.
+const DIVERGED: f64 = 1e12;
+
+/// An increment that converged.
+pub(super) struct Converged {
+    pub iterations: usize,
+    pub residual: f64,
+    pub q: [f64; KINDS],
+}
+
+/// Where an increment stands: for the records.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub step: usize,
+    pub increment: usize,
+    pub attempt: usize,
+}
+
+/// Newton's method with its memory: kept for a whole run.
+pub(super) struct Newton {
+    pub settings: NewtonSettings,
+    pub scale: ForceScale,
+    pub assembler: Assembler,
+    pub equations: Equations,
+    pub assembly: Assembly,
+    /// Raw dofs that are prescribed in this step.
+    pub prescribed: Vec<bool>,
+    /// Whether the numbering still holds.
+    pub analyzed: bool,
+    /// The state of the iterate.
+    pub trial: State,
+    start: State,
+    du: Vec<f64>,
+}
+
+impl Newton {
+    pub fn new(settings: NewtonSettings, system: &System, equations: Equations) -> Self {
+        let state = system.initial_state();
+        Self {
+            settings,
+            scale: ForceScale::default(),
+            assembler: Assembler::new(&system.layout, &system.elimination, &system.terms),
+            equations,
+            assembly: Assembly::default(),
+            prescribed: Vec::new(),
+            analyzed: false,
+            trial: state.clone(),
+            start: state,
+            du: Vec::new(),
+        }
+    }
+
+    /// Solves one increment from the accepted state `base`. Afterwards `trial` is the new state.
+    pub fn solve(
+        &mut self,
+        system: &mut System,
+        base: &State,
+        time: f64,
+        targets: &[(Dof, f64)],
+        place: Place,
+        report: &mut dyn FnMut(&IterationRecord),
+    ) -> Result<Converged, Failure> {
+        for term in &mut system.terms {
+            term.begin_increment(base)?;
+        }
+        let mut motion = self.begin(system, base, time, targets);
+        let mut correction = 0.0;
+        let mut alpha = 1.0;
+        let mut unsettled = None;
+        for iterations in 0.. {
+            self.prepare(system)?;
+            self.assemble(system, Order::Tangent)?;
+            let judgement = self.judge(system);
+            let (flips, repeat) = verdicts(system, &self.trial);
+            report(&IterationRecord {
+                step: place.step,
+                increment: place.increment,
+                attempt: place.attempt,
+                iteration: iterations + 1,
+                residual: judgement.residual,
+                worst: judgement.worst,
+                correction,
+                line_search: alpha,
+                closed: system.terms.iter().map(|t| t.nactive()).sum(),
+                flips,
+            });
+            let settled = repeat.is_none() || iterations == 0;
+            unsettled = repeat.or(unsettled);
+            let moved = largest_difference(&self.trial.u, &base.u);
+            let still = judgement.round_off || (iterations > 0 && correction <= CORRECTION * moved);
+            if !motion && judgement.small && settled && still {
+                return Ok(Converged {
+                    iterations,
+                    residual: judgement.residual,
+                    q: judgement.q,
+                });
+            }
+            if judgement.residual.is_nan() || judgement.residual > DIVERGED {
+                return Err(Failure::Diverged {
+                    iterations,
+                    residual: judgement.residual,
+                    worst: judgement.worst,
+                });
+            }
+            if iterations >= self.settings.max_iterations {
+                return Err(Failure::TooManyIterations {
+                    iterations,
+                    residual: judgement.residual,
+                    worst: judgement.worst,
+                    force: judgement.force,
+                    unsettled,
+                });
+            }
+            self.solve_linear(motion)?;
+            alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
+            correction = alpha * largest(&self.du);
+            motion = false;
+        }
+        unreachable!("the loop ends by returning")
+    }
+
+    /// Sets up the trial state and the motion of prescribed dofs; says whether nodes have to be moved in the first
+    /// solve.
+    fn begin(&mut self, system: &System, base: &State, time: f64, targets: &[(Dof, f64)]) -> bool {
+        self.du.clear();
+        self.du.resize(system.layout.ndof(), 0.0);
+        let is_node = |dof| matches!(system.layout.name(dof), Some(DofName::Node(..)));
+        let step = |dof: Dof, to: f64| to - base.u.get(dof as usize).copied().unwrap_or(to);
+        for &(dof, to) in targets.iter().filter(|(d, _)| !is_node(*d)) {
+            self.du[dof as usize] = step(dof, to);
+        }
+        system.advance(&mut self.trial, base, &self.du, 1.0);
+        self.trial.time = time;
+        self.du.fill(0.0);
+        let mut motion = false;
+        for &(dof, to) in targets.iter().filter(|(d, _)| is_node(*d)) {
+            self.du[dof as usize] = step(dof, to);
+            motion |= self.du[dof as usize] != 0.0;
+        }
+        motion
+    }
+
+    /// Lets all terms look at the trial state and keeps the pattern up to date.
+    fn prepare(&mut self, system: &mut System) -> Result<(), Failure> {
+        let mut changed = false;
+        for term in &mut system.terms {
+            changed |= term.prepare(&self.trial)?;
+        }
+        if changed {
+            let (layout, elimination) = (&system.layout, &system.elimination);
+            if self
+                .assembler
+                .update_interface(layout, elimination, &system.terms)
+            {
+                self.analyzed = false;
+            }
+        }
+        if !self.analyzed {
+            self.equations
+                .analyze(system, &self.assembler, &self.prescribed)
+                .map_err(|source| self.linear_failure(source))?;
+            self.analyzed = true;
+        }
+        Ok(())
+    }
+
+    fn assemble(&mut self, system: &System, order: Order) -> Result<(), TermError> {
+        self.assembler.assemble(
+            &system.layout,
+            &system.elimination,
+            &system.terms,
+            &self.trial,
+            order,
+            &mut self.assembly,
+        )
+    }
+
+    fn judge(&self, system: &System) -> Judgement {
+        let dofs = self.equations.dofs();
+        self.scale
+            .judge(system, dofs, &self.assembly, self.settings.force_tol)
+    }
+
+    fn solve_linear(&mut self, motion: bool) -> Result<(), Failure> {
+        if !motion {
+            self.du.fill(0.0);
+        }
+        let outcome = self
+            .equations
+            .solve(&self.assembler, &self.assembly, motion, &mut self.du);
+        outcome
+            .map(|_| ())
+            .map_err(|source| self.linear_failure(source))
+    }
+
+    fn linear_failure(&self, source: LinearError) -> Failure {
+        let equation = match &source {
+            LinearError::Singular { equation } => *equation,
+            _ => None,
+        };
+        Failure::Linear {
+            dof: self.equations.dof(equation),
+            source,
+        }
+    }
+
+    /// Moves the trial state along `du`, as far as the line search says, and returns how far.
+    fn advance(
+        &mut self,
+        system: &mut System,
+        motion: bool,
+        iterations: usize,
+        worst: Option<Dof>,
+    ) -> Result<f64, Failure> {
+        self.start.clone_from(&self.trial);
+        let du = &self.du;
+        let limits = system.terms.iter().map(|t| t.max_step(&self.start, du));
+        let first = limits.fold(1.0, f64::min);
+        let time = self.trial.time;
+        // a prescribed motion is taken whole: the energy before it is another problem's
+        if motion || self.settings.line_search == LineSearch::Off {
+            let alpha = if motion { 1.0 } else { first };
+            system.advance(&mut self.trial, &self.start, &self.du, alpha);
+            self.trial.time = time;
+            return Ok(alpha);
+        }
+        let slope = self.slope();
+        let start = self.assembler.energy(&system.terms, &self.start)?;
+        let alpha = match start {
+            Some(start) if slope < 0.0 => line_search::by_energy(start, slope, first, |alpha| {
+                self.try_step(system, alpha).ok()?;
+                let energy = self.assembler.energy(&system.terms, &self.trial);
+                energy.ok().flatten().filter(|e| e.is_finite())
+            }),
+            _ => line_search::by_slope(slope, first, |alpha| {
+                self.try_step(system, alpha).ok()?;
+                self.assemble(system, Order::Residual).ok()?;
+                Some(self.slope()).filter(|s| s.is_finite())
+            }),
+        };
+        let alpha = alpha.ok_or(Failure::NoDescent { iterations, worst })?;
+        system.advance(&mut self.trial, &self.start, &self.du, alpha);
+        self.trial.time = time;
+        Ok(alpha)
+    }
+
+    /// Puts the trial state at `alpha` and lets the terms look at it.
+    fn try_step(&mut self, system: &mut System, alpha: f64) -> Result<(), TermError> {
+        let time = self.start.time;
+        system.advance(&mut self.trial, &self.start, &self.du, alpha);
+        self.trial.time = time;
+        for term in &mut system.terms {
+            term.prepare(&self.trial)?;
+        }
+        Ok(())
+    }
+
+    /// s = du·r over the unknowns.
+    fn slope(&self) -> f64 {
+        let product = |&dof: &Dof| self.du[dof as usize] * self.assembly.residual[dof as usize];
+        self.equations.dofs().iter().map(product).sum()
+    }
+}
+
+/// How many discrete choices changed, and what the first term that is not settled says.
+fn verdicts(system: &mut System, trial: &State) -> (usize, Option<(String, Vec<NodeId>)>) {
+    let mut flips = 0;
+    let mut first = None;
+    for term in &mut system.terms {
+        if let Verdict::Repeat {
+            changes,
+            why,
+            nodes,
+        } = term.verdict(trial)
+        {
+            flips += changes;
+            first.get_or_insert((why, nodes));
+        }
+    }
+    (flips, first)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, v| v.abs().max(m))
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
+}

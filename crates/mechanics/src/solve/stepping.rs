@@ -1,0 +1,604 @@
+//! Steps and increments: how time passes.
+
+use super::equations::Equations;
+use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
+use super::newton::{Failure, ForceScale, Newton, NewtonSettings, Place};
+use crate::system::linear::{LinearKind, choose};
+use crate::system::{
+    Archive, ArchiveError, Dof, DofName, Frame, State, StepContext, System, TermError,
+};
+use signorini_geometry::tensor::Vec3;
+use thiserror::Error;
+
+/// How a step is cut into increments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Increments {
+    /// Exactly this many of equal size; a failure ends the run.
+    Fixed(usize),
+    /// Sizes that adapt to the difficulty.
+    Adaptive {
+        /// The first.
+        initial: f64,
+        /// The smallest that is tried.
+        min: f64,
+        /// The largest.
+        max: f64,
+        /// How many there may be.
+        count_max: usize,
+    },
+}
+
+/// The course of a prescribed dof over a step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Stays where it is when the step begins.
+    Hold,
+    /// Goes evenly from there to this value at the end of the step.
+    Ramp(f64),
+    /// Follows a table of (step time, value), linear between its rows, constant outside.
+    Table(Vec<[f64; 2]>),
+    /// The same over total time.
+    TotalTable(Vec<[f64; 2]>),
+}
+
+/// A prescribed dof.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prescription {
+    /// Which.
+    pub dof: Dof,
+    /// Its course.
+    pub motion: Motion,
+}
+
+/// A step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Its name.
+    pub name: String,
+    /// Its duration.
+    pub duration: f64,
+    /// How it is cut.
+    pub increments: Increments,
+    /// Whether displacements may be large.
+    pub nonlinear: bool,
+    /// What is prescribed during it; everything else is free.
+    pub prescriptions: Vec<Prescription>,
+}
+
+/// The numbers of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepperSettings {
+    /// Those of Newton's method.
+    pub newton: NewtonSettings,
+    /// Which linear solver.
+    pub linear: LinearKind,
+}
+
+/// How a run ended well.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// All steps are done.
+    Finished,
+    /// An observer asked to stop.
+    Stopped,
+}
+
+/// How a run ended badly.
+#[derive(Clone, Debug, Error)]
+pub enum RunError {
+    /// An increment did not converge, however small.
+    #[error(
+        "increment {increment} of step \"{step}\" did not converge (time {time:.6} of {duration:.6}): {cause}"
+    )]
+    NotConverged {
+        /// Name of the step.
+        step: String,
+        /// The increment, from 1.
+        increment: usize,
+        /// Step time that was reached.
+        time: f64,
+        /// Duration of the step.
+        duration: f64,
+        /// Sizes that were tried, first to last.
+        tried: Vec<f64>,
+        /// The smallest size allowed; none where increments are fixed.
+        min: Option<f64>,
+        /// Why the last attempt failed.
+        cause: Failure,
+    },
+    /// More increments than allowed.
+    #[error(
+        "step \"{step}\" is not done after {count} increments (time {time:.6} of {duration:.6})"
+    )]
+    TooManyIncrements {
+        /// Name of the step.
+        step: String,
+        /// The limit.
+        count: usize,
+        /// Step time that was reached.
+        time: f64,
+        /// Duration of the step.
+        duration: f64,
+    },
+    /// A term refused an accepted state.
+    #[error(transparent)]
+    Term(#[from] TermError),
+}
+
+/// Runs steps, one increment after the other.
+pub struct Stepper {
+    newton: Newton,
+    state: State,
+    progress: Progress,
+}
+
+/// Where a run is: with the state and the histories of the terms, all that it needs to go on.
+#[derive(Clone, Debug, PartialEq)]
+struct Progress {
+    step: usize,
+    /// Accepted increments of this step.
+    increment: usize,
+    /// Total time at the start of the step.
+    step_start: f64,
+    /// Time since then.
+    time: f64,
+    /// Size of the next increment; none at the start of a step.
+    dt: Option<f64>,
+    /// Accepted increments in a row that were easy.
+    easy: usize,
+    /// Values of the prescribed dofs at the start of the step.
+    origin: Vec<f64>,
+}
+
+/// Iterations up to which an increment counts as easy.
+const EASY: usize = 6;
+/// Easy increments in a row after which the next one grows.
+const EASY_ROW: usize = 2;
+/// By how much it grows.
+const GROWTH: f64 = 1.5;
+/// What is left of an increment that failed.
+const CUT: f64 = 0.5;
+/// The same where it failed badly: the iteration diverged or an element turned inside out.
+const CUT_HARD: f64 = 0.25;
+
+impl Stepper {
+    /// Prepares a run of a system from its undeformed state.
+    #[must_use]
+    pub fn new(system: &System, settings: StepperSettings) -> Self {
+        let equations = Equations::new(choose(settings.linear));
+        Self {
+            newton: Newton::new(settings.newton, system, equations),
+            state: system.initial_state(),
+            progress: Progress {
+                step: 0,
+                increment: 0,
+                step_start: 0.0,
+                time: 0.0,
+                dt: None,
+                easy: 0,
+                origin: Vec::new(),
+            },
+        }
+    }
+
+    /// The last accepted state.
+    #[must_use]
+    pub const fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The state of the last iterate, converged or not.
+    #[must_use]
+    pub const fn trial(&self) -> &State {
+        &self.newton.trial
+    }
+
+    /// The number of unknowns solved for in the present step.
+    #[must_use]
+    pub fn nunknown(&self) -> usize {
+        self.newton.equations.dofs().len()
+    }
+
+    /// Runs the remaining steps.
+    ///
+    /// # Errors
+    /// An increment that does not converge; everything accepted before has been reported.
+    pub fn run(
+        &mut self,
+        system: &mut System,
+        steps: &[Step],
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, RunError> {
+        while let Some(step) = steps.get(self.progress.step) {
+            let number = self.progress.step;
+            let event = Event::Step {
+                step: number,
+                name: &step.name,
+            };
+            if observer.notice(&event) == Flow::Stop {
+                return Ok(Outcome::Stopped);
+            }
+            self.begin_step(system, step)?;
+            if self.run_step(system, step, observer)? == Outcome::Stopped {
+                return Ok(Outcome::Stopped);
+            }
+            self.progress = Progress {
+                step: number + 1,
+                increment: 0,
+                step_start: self.progress.step_start + step.duration,
+                time: 0.0,
+                dt: None,
+                easy: self.progress.easy,
+                origin: Vec::new(),
+            };
+        }
+        Ok(Outcome::Finished)
+    }
+
+    fn begin_step(&mut self, system: &mut System, step: &Step) -> Result<(), TermError> {
+        let progress = &mut self.progress;
+        let value = |p: &Prescription| self.state.u.get(p.dof as usize).copied().unwrap_or(0.0);
+        if progress.increment == 0 {
+            progress.origin = step.prescriptions.iter().map(value).collect();
+        }
+        let context = StepContext {
+            number: progress.step,
+            start: progress.step_start,
+            duration: step.duration,
+            nonlinear: step.nonlinear,
+        };
+        for term in &mut system.terms {
+            term.begin_step(&context, &self.state)?;
+        }
+        let prescribed = &mut self.newton.prescribed;
+        prescribed.clear();
+        prescribed.resize(system.layout.ndof(), false);
+        for p in &step.prescriptions {
+            if let Some(flag) = prescribed.get_mut(p.dof as usize) {
+                *flag = true;
+            }
+        }
+        self.newton.analyzed = false;
+        Ok(())
+    }
+
+    fn run_step(
+        &mut self,
+        system: &mut System,
+        step: &Step,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, RunError> {
+        let (count, min, max) = match step.increments {
+            Increments::Fixed(n) => (n, None, step.duration / n as f64),
+            Increments::Adaptive {
+                min,
+                max,
+                count_max,
+                ..
+            } => (count_max, Some(min), max),
+        };
+        let mut targets: Vec<(Dof, f64)> = Vec::new();
+        while step.duration - self.progress.time > TIME * step.duration {
+            if self.progress.increment >= count {
+                return Err(RunError::TooManyIncrements {
+                    step: step.name.clone(),
+                    count,
+                    time: self.progress.time,
+                    duration: step.duration,
+                });
+            }
+            let first = match step.increments {
+                Increments::Fixed(_) => max,
+                Increments::Adaptive { initial, .. } => initial,
+            };
+            let mut dt = self.progress.dt.unwrap_or(first).min(max);
+            let mut tried = Vec::new();
+            let mut attempt = 1;
+            let stop = loop {
+                let end = self.end_of_increment(step, dt);
+                dt = end - self.progress.time;
+                tried.push(dt);
+                self.targets(step, end, &mut targets);
+                match self.attempt(system, end, &targets, attempt, observer) {
+                    Ok((iterations, residual, flow)) => {
+                        self.adapt(iterations, attempt, dt, max);
+                        let record = IncrementRecord {
+                            step: self.progress.step,
+                            increment: self.progress.increment + 1,
+                            attempts: attempt,
+                            iterations,
+                            time: self.state.time,
+                            step_time: (end, step.duration),
+                            dt,
+                            residual,
+                        };
+                        self.progress.increment += 1;
+                        self.progress.time = end;
+                        let frame = self.frame(system, step)?;
+                        let event = Event::Increment {
+                            record: &record,
+                            frame: &frame,
+                        };
+                        let after = observer.notice(&event);
+                        break flow == Flow::Stop || after == Flow::Stop;
+                    }
+                    Err(failure) => {
+                        for term in &mut system.terms {
+                            term.reject();
+                        }
+                        let next = dt * severity(&failure);
+                        let smallest = min.filter(|m| next >= *m);
+                        if smallest.is_none() {
+                            return Err(RunError::NotConverged {
+                                step: step.name.clone(),
+                                increment: self.progress.increment + 1,
+                                time: self.progress.time,
+                                duration: step.duration,
+                                tried,
+                                min,
+                                cause: failure,
+                            });
+                        }
+                        let cause = Cause { failure, dt };
+                        let event = Event::Cutback {
+                            step: self.progress.step,
+                            increment: self.progress.increment + 1,
+                            attempt,
+                            cause: &cause,
+                            next,
+                        };
+                        if observer.notice(&event) == Flow::Stop {
+                            break true;
+                        }
+                        self.progress.easy = 0;
+                        dt = next;
+                        attempt += 1;
+                    }
+                }
+            };
+            if stop {
+                return Ok(Outcome::Stopped);
+            }
+        }
+        Ok(Outcome::Finished)
+    }
+
+    /// Tries one increment up to the step time `end`.
+    fn attempt(
+        &mut self,
+        system: &mut System,
+        end: f64,
+        targets: &[(Dof, f64)],
+        attempt: usize,
+        observer: &mut dyn Observer,
+    ) -> Result<(usize, f64, Flow), Failure> {
+        let place = Place {
+            step: self.progress.step,
+            increment: self.progress.increment + 1,
+            attempt,
+        };
+        let mut flow = Flow::Continue;
+        let time = self.progress.step_start + end;
+        let converged =
+            self.newton
+                .solve(system, &self.state, time, targets, place, &mut |record| {
+                    if observer.notice(&Event::Iteration(record)) == Flow::Stop {
+                        flow = Flow::Stop;
+                    }
+                })?;
+        self.newton.scale.accept(converged.q);
+        self.state.clone_from(&self.newton.trial);
+        for term in &mut system.terms {
+            term.accept(&self.state)?;
+        }
+        Ok((converged.iterations, converged.residual, flow))
+    }
+
+    /// The step time at which an increment of about `dt` ends: on the grid where increments are fixed, and at the
+    /// end of the step rather than just before it.
+    fn end_of_increment(&self, step: &Step, dt: f64) -> f64 {
+        if let Increments::Fixed(n) = step.increments {
+            let done = self.progress.increment + 1;
+            return step.duration * (done as f64 / n as f64);
+        }
+        let end = self.progress.time + dt;
+        if step.duration - end <= TIME.max(1e-3 * dt / step.duration) * step.duration {
+            step.duration
+        } else {
+            end
+        }
+    }
+
+    /// Values of the prescribed dofs at a step time.
+    fn targets(&self, step: &Step, time: f64, out: &mut Vec<(Dof, f64)>) {
+        out.clear();
+        let fraction = time / step.duration;
+        let total = self.progress.step_start + time;
+        for (p, &from) in step.prescriptions.iter().zip(&self.progress.origin) {
+            let value = match &p.motion {
+                Motion::Hold => from,
+                Motion::Ramp(to) => from + (to - from) * fraction,
+                Motion::Table(table) => interpolate(table, time),
+                Motion::TotalTable(table) => interpolate(table, total),
+            };
+            out.push((p.dof, value));
+        }
+    }
+
+    /// Chooses the size of the next increment after one that converged.
+    fn adapt(&mut self, iterations: usize, attempt: usize, dt: f64, max: f64) {
+        let progress = &mut self.progress;
+        progress.easy = if iterations <= EASY && attempt == 1 {
+            progress.easy + 1
+        } else {
+            0
+        };
+        // an increment shortened by the end of the step says nothing about the next
+        let size = progress
+            .dt
+            .map_or(dt, |planned| if attempt == 1 { planned } else { dt });
+        let grown = if progress.easy >= EASY_ROW {
+            size * GROWTH
+        } else {
+            size
+        };
+        progress.dt = Some(grown.min(max));
+    }
+
+    /// The results at the accepted state.
+    fn frame(&self, system: &System, step: &Step) -> Result<Frame, TermError> {
+        let mut frame = self.report(system)?;
+        frame.step.clone_from(&step.name);
+        Ok(frame)
+    }
+
+    /// The results at the last accepted state; the undeformed one before the first increment.
+    ///
+    /// # Errors
+    /// A term that cannot evaluate it.
+    pub fn report(&self, system: &System) -> Result<Frame, TermError> {
+        let state = &self.state;
+        let mut frame = system.new_frame();
+        frame.time = state.time;
+        frame.step_number = self.progress.step;
+        frame.increment = self.progress.increment;
+        for (node, u) in frame.displacement.iter_mut().enumerate() {
+            *u = system.displacement(state, node as u32);
+        }
+        let residual = &self.newton.assembly.residual;
+        for (dof, prescribed) in self.newton.prescribed.iter().enumerate() {
+            if !prescribed || self.progress.increment == 0 {
+                continue;
+            }
+            if let Some(DofName::Node(node, axis)) = system.layout.name(dof as Dof)
+                && let (Some(to), Some(r)) = (
+                    frame.reaction_force.get_mut(node as usize),
+                    residual.get(dof),
+                )
+            {
+                to[axis] = *r;
+            }
+        }
+        for (body, rigid) in frame.rigid.iter_mut().enumerate() {
+            let body = body as u32;
+            let layout = &system.layout;
+            let value = |dof: Dof| state.u.get(dof as usize).copied().unwrap_or(0.0);
+            let vector =
+                |dof: &dyn Fn(usize) -> Dof| Vec3::new(value(dof(0)), value(dof(1)), value(dof(2)));
+            rigid.displacement = vector(&|c| layout.translation(body, c));
+            rigid.rotation = vector(&|c| layout.rotation(body, c));
+        }
+        for term in &system.terms {
+            term.report(state, &mut frame)?;
+        }
+        Ok(frame)
+    }
+
+    /// Stores the accepted state, the progress and the histories of all terms.
+    pub fn save(&self, system: &System, out: &mut Archive) {
+        let p = &self.progress;
+        out.put("state.time", &[self.state.time]);
+        out.put("state.u", &self.state.u);
+        let poses: Vec<f64> = self
+            .state
+            .poses
+            .iter()
+            .flat_map(|pose| {
+                let rows = pose.rotation.rows.map(Vec3::to_array);
+                pose.origin
+                    .to_array()
+                    .into_iter()
+                    .chain(rows.into_iter().flatten())
+            })
+            .collect();
+        out.put("state.poses", &poses);
+        let dt = p.dt.unwrap_or(-1.0);
+        out.put(
+            "progress",
+            &[
+                p.step as f64,
+                p.increment as f64,
+                p.step_start,
+                p.time,
+                dt,
+                p.easy as f64,
+                p.origin.len() as f64,
+            ],
+        );
+        out.put("progress.origin", &p.origin);
+        out.put("progress.scale", &self.newton.scale.to_array());
+        for term in &system.terms {
+            term.save(out);
+        }
+    }
+
+    /// Takes a stored run back: what follows is, bit by bit, what would have followed.
+    ///
+    /// # Errors
+    /// The archive belongs to another model.
+    pub fn load(&mut self, system: &mut System, from: &Archive) -> Result<(), ArchiveError> {
+        let mut progress = [0.0; 7];
+        from.get("progress", &mut progress)?;
+        let [step, increment, step_start, time, dt, easy, norigin] = progress;
+        let mut origin = vec![0.0; norigin as usize];
+        from.get("progress.origin", &mut origin)?;
+        let mut scale = [0.0; 3];
+        from.get("progress.scale", &mut scale)?;
+        let mut state = system.initial_state();
+        let mut total = [0.0];
+        from.get("state.time", &mut total)?;
+        state.time = total[0];
+        from.get("state.u", &mut state.u)?;
+        let mut poses = vec![0.0; state.poses.len() * 12];
+        from.get("state.poses", &mut poses)?;
+        for (pose, n) in state.poses.iter_mut().zip(poses.chunks_exact(12)) {
+            pose.origin = Vec3::new(n[0], n[1], n[2]);
+            for (row, r) in pose.rotation.rows.iter_mut().zip(n[3..].chunks_exact(3)) {
+                *row = Vec3::new(r[0], r[1], r[2]);
+            }
+        }
+        let still = vec![0.0; state.u.len()];
+        system.advance(&mut self.state, &state, &still, 0.0);
+        self.state.time = state.time;
+        for term in &mut system.terms {
+            term.load(from)?;
+        }
+        self.newton.scale = ForceScale::from_array(scale);
+        self.newton.analyzed = false;
+        self.progress = Progress {
+            step: step as usize,
+            increment: increment as usize,
+            step_start,
+            time,
+            dt: (dt > 0.0).then_some(dt),
+            easy: easy as usize,
+            origin,
+        };
+        Ok(())
+    }
+}
+
+/// Relative difference below which two times are equal.
+const TIME: f64 = 1e-12;
+
+/// What is left of an increment after a failure.
+fn severity(failure: &Failure) -> f64 {
+    match failure {
+        Failure::Diverged { .. } | Failure::Term(_) => CUT_HARD,
+        _ => CUT,
+    }
+}
+
+/// Linear between the rows of a table, constant outside.
+fn interpolate(table: &[[f64; 2]], at: f64) -> f64 {
+    let next = table.partition_point(|row| row[0] <= at);
+    match (
+        next.checked_sub(1).and_then(|k| table.get(k)),
+        table.get(next),
+    ) {
+        (None, Some(first)) => first[1],
+        (Some(last), None) => last[1],
+        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (at - a[0]) / (b[0] - a[0]),
+        (None, None) => 0.0,
+    }
+}

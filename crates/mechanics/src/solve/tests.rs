@@ -1,0 +1,1 @@
+//! Solving small systems.
