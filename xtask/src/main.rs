@@ -1,2 +1,94 @@
-//! Checks and chores of the repository.
-fn main() {}
+//! Checks and chores of the repository: `cargo xtask CHORE`.
+//!
+//! ```text
+//! cargo xtask                  lists the chores
+//! cargo xtask rooms            fails where a room imports one that its line in the table does not list
+//! cargo xtask rooms --graph    prints that table
+//! ```
+//!
+//! Exit codes: 0 all is well, 1 a check failed, 2 the command line is wrong or a file cannot be read.
+//!
+//! To add a chore: a module with a function that takes the repository's root, and one line in [`CHORES`].
+
+mod rooms;
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// What a chore ends with: whether its check holds, or why it could not look.
+type Outcome = Result<bool, ChoreError>;
+
+/// A chore: its command line, what it does, and the function that does it.
+struct Chore {
+    arguments: &'static [&'static str],
+    about: &'static str,
+    run: fn(&Path) -> Outcome,
+}
+
+const CHORES: [Chore; 2] = [
+    Chore {
+        arguments: &["rooms"],
+        about: "fail where a room imports one that its line in the table does not list",
+        run: rooms::check,
+    },
+    Chore {
+        arguments: &["rooms", "--graph"],
+        about: "print which room may import which",
+        run: rooms::graph,
+    },
+];
+
+/// Why a chore could not be done.
+#[derive(Debug)]
+enum ChoreError {
+    /// A file or folder that cannot be read.
+    Read {
+        path: PathBuf,
+        source: std::io::Error,
+    },
+    /// The folder of this program has no parent.
+    NoRoot,
+}
+
+impl fmt::Display for ChoreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read { path, source } => write!(f, "cannot read {}: {source}", path.display()),
+            Self::NoRoot => f.write_str("xtask does not lie inside the repository"),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let given: Vec<String> = std::env::args().skip(1).collect();
+    if given.is_empty() {
+        print!("{}", list());
+        return ExitCode::SUCCESS;
+    }
+    let Some(chore) = CHORES.iter().find(|chore| chore.arguments == given) else {
+        eprint!("no chore is called \"{}\"\n{}", given.join(" "), list());
+        return ExitCode::from(2);
+    };
+    match root().and_then(|root| (chore.run)(&root)) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn list() -> String {
+    let line = |chore: &Chore| {
+        let command = chore.arguments.join(" ");
+        format!("cargo xtask {command:<16} {}\n", chore.about)
+    };
+    CHORES.iter().map(line).collect()
+}
+
+fn root() -> Result<PathBuf, ChoreError> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    root.map(Path::to_path_buf).ok_or(ChoreError::NoRoot)
+}

@@ -1,0 +1,284 @@
+#!/usr/bin/env python3
+"""Tests of the scripts on made-up results, written with PyVista.
+
+    python scripts/test_scripts.py [--nothing-skipped]
+
+The results look like those of a run that presses a tip into one cell: a bilinear motion of its top, a tetrahedron that
+moves along, a stress that is linear in the displacement. Every test either finds them in order or damages one thing
+and expects that very thing to be named. Where pvpython is installed, it reads the same files;
+where it is not, that test is skipped, which is a failure with --nothing-skipped.
+"""
+
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import pyvista
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+NFRAME = 4
+BRICK = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
+WEDGE = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]]
+TENSOR = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"]
+
+
+def tensor_array(values):
+    array = pyvista.convert_array(np.ascontiguousarray(values), name="stress")
+    for i, name in enumerate(TENSOR):
+        array.SetComponentName(i, name)
+    return array
+
+
+def make_results(folder, body=BRICK, tip=(0.5, 0.25, 1.0), nframe=NFRAME):
+    """Frames, lists, history and summary of a run that never was."""
+    frames = os.path.join(folder, "frames")
+    os.makedirs(frames)
+    x0, y0, _ = tip
+    tool = [tip, (x0 - 0.3, y0 - 0.25, 1.8), (x0 + 0.3, y0 - 0.25, 1.8), (x0, y0 + 0.35, 1.8)]
+    points = np.array([*body, *tool], dtype=float)
+    n = len(body)
+    cells = [n, *range(n), 4, *range(n, n + 4)]
+    types = [12 if n == 8 else 13, 10]
+    listed = {"results": [], "contact": []}
+    rows = []
+    for i in range(nframe):
+        time = i / (nframe - 1)
+        displacement = np.zeros_like(points)
+        weight = (1.0 - abs(points[:n, 0] - x0)) * (1.0 - abs(points[:n, 1] - y0)) * points[:n, 2]
+        displacement[:n, 2] = -0.35 * time * weight
+        displacement[:n, 1] = -0.1 * time * weight * points[:n, 2]
+        displacement[n:, 2] = -0.3 * time
+        stress = np.zeros((len(points), 6))
+        stress[:n] = displacement[:n, 2:] * np.array([1.0, 2.0, 500.0, 3.0, 4.0, 5.0])
+        xx, yy, zz, xy, yz, xz = stress.T
+        mises = 0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3.0 * (xy**2 + yz**2 + xz**2)
+        force = np.array([0.3, -22.4, 68.9]) * time
+        size = float(np.linalg.norm(force))
+        volume = pyvista.UnstructuredGrid(np.array(cells), np.array(types, dtype=np.uint8), points)
+        volume.point_data["displacement"] = displacement
+        volume.GetPointData().AddArray(tensor_array(stress))
+        volume.point_data["von_mises"] = np.sqrt(mises)
+        volume.point_data["contact_pressure"] = np.eye(len(points))[n] * size
+        volume.point_data["reaction_force"] = np.zeros_like(points)
+        volume.GetPointData().SetActiveVectors("displacement")
+        contact = pyvista.UnstructuredGrid(np.array([1, 0]), np.array([1], dtype=np.uint8), points[n : n + 1])
+        contact.point_data["contact_gap"] = np.array([-size * 1e-5])
+        contact.point_data["contact_pressure"] = np.array([size])
+        contact.point_data["contact_status"] = np.array([2 if i else 0], dtype=np.int8)
+        contact.point_data["contact_force"] = np.array([force])
+        contact.point_data["contact_traction"] = np.array([force])
+        contact.point_data["contact_area"] = np.array([1.0])
+        contact.point_data["contact_slip"] = np.zeros((1, 3))
+        for name, grid in (("volume", volume), ("contact", contact)):
+            grid.field_data["TimeValue"] = np.array([time])
+            file = f"frames/{name}_{i:04}.vtu"
+            grid.save(os.path.join(folder, file))
+            listed["results" if name == "volume" else "contact"].append((time, file))
+        if i > 0:
+            rows.append([time, "press", i, 5, *force, size, -size * 1e-5, displacement[4, 2]])
+    for name, entries in listed.items():
+        write_pvd(os.path.join(folder, f"{name}.pvd"), entries)
+    columns = ["time", "step", "increment", "iterations", "tip.force_x", "tip.force_y", "tip.force_z"]
+    columns += ["tip.pressure_max", "tip.gap_min", "corner5_uz.displacement.z"]
+    with open(os.path.join(folder, "history.csv"), "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([columns, *rows])
+    last = rows[-1]
+    tip_end = {"force": last[4:7], "pressure_max": last[7], "gap_min": last[8]}
+    summary = {"exit_code": 0, "steps": [{"name": "press", "increments": len(rows)}], "contacts": {"tip": tip_end}}
+    with open(os.path.join(folder, "summary.json"), "w", encoding="utf-8") as file:
+        json.dump(summary, file)
+    with open(os.path.join(folder, "case.resolved.toml"), "w", encoding="utf-8") as file:
+        file.write(f"[mesh]\nnodes = [[5, {body[4][0]}, {body[4][1]}, {body[4][2]}]]\n")
+        file.write('[[output.history]]\nname = "corner5_uz"\nquantity = "displacement.z"\nnode = 5\n')
+
+
+def write_pvd(path, entries):
+    lines = [f'<DataSet timestep="{time!r}" part="0" file="{file}"/>' for time, file in entries]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1"><Collection>\n')
+        file.write("\n".join(lines) + "\n</Collection></VTKFile>\n")
+
+
+def run(script, *arguments, program=sys.executable):
+    command = [program, os.path.join(HERE, script), *arguments]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600)
+    return done.returncode, done.stdout
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = os.path.join(holder.name, "run.out")
+        make_results(self.folder)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def change_grid(self, name, change):
+        grid = pyvista.read(self.path("frames", name))
+        change(grid)
+        grid.save(self.path("frames", name))
+
+    def change_text(self, name, old, new):
+        with open(self.path(name), encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn(old, text)
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text.replace(old, new))
+
+    def expect_failure(self, words, *arguments):
+        code, said = run("check_results.py", self.folder, *arguments)
+        self.assertEqual(code, 1, said)
+        self.assertIn(words, said)
+
+    def write_expected(self, expected):
+        path = self.path("expected.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(expected, file)
+        return path
+
+
+class CheckResults(InFolder):
+    def test_sound_results_pass(self):
+        code, said = run("check_results.py", self.folder)
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r"check_results: \d{3,} passed, 0 failed")
+
+    @unittest.skipUnless(shutil.which("pvpython"), "pvpython is not installed")
+    def test_sound_results_pass_in_pvpython_and_a_wrong_force_does_not(self):
+        pvpython = shutil.which("pvpython")
+        code, said = run("check_results.py", self.folder, program=pvpython)
+        self.assertEqual(code, 0, said)
+        self.assertIn("ParaView", said)
+        self.change_text("summary.json", "68.9", "68.8")
+        code, said = run("check_results.py", self.folder, program=pvpython)
+        self.assertEqual(code, 1, said)
+
+    def test_a_force_other_than_that_of_the_history_is_found(self):
+        def change(grid):
+            grid.point_data["contact_force"] = grid.point_data["contact_force"] * (1.0 + 1e-8)
+            grid.point_data["contact_traction"] = grid.point_data["contact_force"]
+
+        self.change_grid("contact_0002.vtu", change)
+        self.expect_failure("contact frame 2: sum of contact_force of tip")
+
+    def test_a_missing_array_is_found(self):
+        self.change_grid("volume_0001.vtu", lambda g: g.point_data.remove("reaction_force"))
+        self.expect_failure("volume frame 1: there is no point array 'reaction_force'")
+
+    def test_stress_in_another_order_is_found(self):
+        def change(grid):
+            grid.point_data["stress"] = np.array(grid.point_data["stress"])[:, [2, 3, 0, 1, 4, 5]]
+
+        self.change_grid("volume_0003.vtu", change)
+        self.expect_failure("volume frame 3: von_mises of the stress")
+
+    def test_labels_of_another_order_are_found(self):
+        array = lambda g: g.GetPointData().GetArray("stress")  # noqa: E731
+        self.change_grid("volume_0003.vtu", lambda g: array(g).SetComponentName(4, "XZ"))
+        self.expect_failure("stress is labelled")
+
+    def test_another_time_is_found(self):
+        self.change_grid("volume_0001.vtu", lambda g: g.field_data.update({"TimeValue": np.array([0.33])}))
+        self.expect_failure("volume frame 1: TimeValue")
+
+    def test_a_displacement_other_than_that_of_the_history_is_found(self):
+        with open(self.path("history.csv"), encoding="utf-8") as file:
+            last = file.read().split(",")[-1].strip()
+        self.change_text("history.csv", last, str(float(last) + 1e-6))
+        self.expect_failure("corner5_uz.displacement.z at time 1.0")
+
+    def test_a_frame_that_is_not_listed_is_found(self):
+        self.change_text("contact.pvd", '<DataSet timestep="1.0" part="0" file="frames/contact_0003.vtu"/>', "")
+        self.expect_failure("contact.pvd lists 3 other times")
+
+    def test_a_summary_of_another_run_is_found(self):
+        self.change_text("summary.json", '"increments": 3', '"increments": 4')
+        self.expect_failure("summary.json: 4 increments")
+
+    def test_expected_values_are_compared(self):
+        history = [{"row": 3, "column": "tip.force_z", "value": 68.9}]
+        displacement = [{"frame": 3, "at": [0.5, 0.25, 1.0], "value": [0.0, 0.0, -0.3]}]
+        right = {"frames": NFRAME, "points": 12, "history": history, "displacement": displacement}
+        code, said = run("check_results.py", self.folder, "--expected", self.write_expected(right))
+        self.assertEqual(code, 0, said)
+        for wrong in (
+            {"frames": 5},
+            {"points": 8},
+            {"history": [history[0] | {"value": 68.9001}]},
+            {"history": [history[0] | {"row": 9}]},
+            {"displacement": [displacement[0] | {"value": [0.0, 0.0, -0.3001]}]},
+            {"displacement": [displacement[0] | {"at": [0.5, 0.3, 1.0]}]},
+        ):
+            code, said = run("check_results.py", self.folder, "--expected", self.write_expected(wrong))
+            self.assertEqual(code, 1, said)
+            self.assertEqual(said.count("FAILED"), 1, said)
+
+    def test_results_that_are_not_there_are_an_error_of_their_own(self):
+        code, said = run("check_results.py", self.path("nowhere"))
+        self.assertEqual(code, 2, said)
+        self.assertIn("results.pvd does not exist", said)
+
+
+class PaperFigure(InFolder):
+    def draw(self, *arguments):
+        output = self.path("figure.png")
+        folders = []
+        for name, body in (("a", WEDGE), ("b", BRICK)):
+            folders.append(self.path(name))
+            make_results(folders[-1], body)
+        last = str(NFRAME - 1)
+        code, said = run("paper_figure.py", *folders, "--increments", "0", last, "-o", output, *arguments)
+        self.assertEqual(code, 0, said)
+        return said, pyvista.read(output)
+
+    def assert_shows_something(self, image):
+        values = np.array(image.point_data["PNGImage"])[:, :3]
+        self.assertGreater(image.dimensions[0], 800)
+        self.assertGreater(len(np.unique(values, axis=0)), 500)
+
+    def test_matplotlib_draws(self):
+        said, image = self.draw("--renderer", "matplotlib")
+        self.assertIn("Matplotlib", said)
+        self.assert_shows_something(image)
+
+    def test_whatever_renderer_works_draws(self):
+        _, image = self.draw()
+        self.assert_shows_something(image)
+
+    def test_frames_that_are_not_there_are_named(self):
+        code, said = run("paper_figure.py", self.folder, "--increments", "60")
+        self.assertEqual(code, 2, said)
+        self.assertIn("lists 4 frames, increment 60 is not among them", said)
+
+
+class Patches(unittest.TestCase):
+    def test_pieces_of_a_warped_face_lie_on_its_bilinear_surface_and_cover_it(self):
+        sys.path.insert(0, HERE)
+        from paper_figure import patches
+
+        x = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0.5], [0, 1, 0]], dtype=float)
+        triangles, values = patches([np.arange(4)], x, x[:, 2])
+        at = triangles.reshape(-1, 3)
+        self.assertLess(abs(at[:, 2] - 0.25 * at[:, 0] * at[:, 1]).max(), 1e-14)
+        self.assertLess(abs(values.ravel() - at[:, 2]).max(), 1e-14)
+        flat = triangles[..., :2]
+        a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+        self.assertAlmostEqual(abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2, 2.0, places=12)
+        for sides, area in (([np.array([0, 1, 3])], 1.0), ([np.array([0, 1, 3])] * 2, 2.0)):
+            flat = patches(sides, x, x[:, 2])[0][..., :2]
+            a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+            self.assertAlmostEqual(abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2, area, places=12)
+
+
+if __name__ == "__main__":
+    strict = "--nothing-skipped" in sys.argv
+    result = unittest.main(argv=[a for a in sys.argv if a != "--nothing-skipped"], verbosity=2, exit=False).result
+    sys.exit(0 if result.wasSuccessful() and not (strict and result.skipped) else 1)
