@@ -21,6 +21,9 @@ use std::sync::Arc;
 /// Groups evaluated together.
 const CHUNK: usize = 64;
 
+/// Rounding error of a gap over the coordinates it comes from.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// How many nodes a verdict names.
 const NAMED: usize = 4;
 
@@ -204,6 +207,20 @@ impl Interface {
         self.parts.law.pressure(row.gap, 0.0, &self.parts.scale)
     }
 
+    /// The rounding error of the forces of a group: that of the positions times the stiffness of the law.
+    fn rounding(&self, rows: &Rows, trial: &State) -> f64 {
+        let size = |p: &Participant| match *p {
+            Participant::Node(node) => trial.x.get(node as usize).map_or(0.0, |x| x.max_abs()),
+            Participant::Rigid(body) => {
+                let pose = trial.poses.get(body as usize);
+                pose.map_or(0.0, |p| p.origin.max_abs())
+            }
+        };
+        let size = rows.participants().iter().map(size).fold(0.0, f64::max);
+        let stiffness = |row: &Row| self.pressure(row).dgap.abs() * self.measure(row.number);
+        ROUNDING * size * rows.rows().iter().map(stiffness).sum::<f64>()
+    }
+
     /// Adds the rows of a group into `force` and `stiffness`; whether anything acts.
     fn act(
         &self,
@@ -314,6 +331,7 @@ impl Term for Interface {
             if self.act(rows, force, stiffness, order) {
                 rows.dofs(&self.layout, dofs);
                 out.add(dofs, force, stiffness);
+                out.uncertain(dofs, self.rounding(rows, trial));
             }
         }
         Ok(())

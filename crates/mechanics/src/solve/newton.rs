@@ -4,8 +4,9 @@ use super::equations::Equations;
 use super::event::IterationRecord;
 use super::line_search;
 use crate::system::linear::LinearError;
-use crate::system::{Assembler, Assembly, Dof, DofName, Order, State, System, TermError, Verdict};
-use signorini_geometry::mesh::NodeId;
+use crate::system::{
+    Assembler, Assembly, Dof, DofName, NodeId, Order, State, System, TermError, Verdict,
+};
 use thiserror::Error;
 
 /// Whether and how steps are shortened.
@@ -174,7 +175,7 @@ impl ForceScale {
         for &dof in dofs {
             let k = kind(layout.name(dof));
             let r = assembly.residual[dof as usize].abs();
-            let floor = ROUND_OFF * largest[k];
+            let floor = ROUND_OFF * largest[k] + assembly.uncertainty[dof as usize];
             judgement.round_off &= r <= floor;
             judgement.small &= r <= (force_tol * q[k]).max(floor);
             let relative = if r == 0.0 { 0.0 } else { r / q[k] };

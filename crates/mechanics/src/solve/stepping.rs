@@ -4,10 +4,7 @@ use super::equations::Equations;
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Newton, NewtonSettings, Place};
 use crate::system::linear::{LinearKind, choose};
-use crate::system::{
-    Archive, ArchiveError, Dof, DofName, Frame, State, StepContext, System, TermError,
-};
-use signorini_geometry::tensor::Vec3;
+use crate::system::{Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError};
 use thiserror::Error;
 
 /// How a step is cut into increments.
@@ -452,66 +449,23 @@ impl Stepper {
         Ok(frame)
     }
 
-    /// The results at the last accepted state; the undeformed one before the first increment.
+    /// The results at the last accepted state; the undeformed one, with nothing prescribed yet, before the first
+    /// increment.
     ///
     /// # Errors
     /// A term that cannot evaluate it.
     pub fn report(&self, system: &System) -> Result<Frame, TermError> {
-        let state = &self.state;
-        let mut frame = system.new_frame();
-        frame.time = state.time;
+        let (prescribed, assembly) = (&self.newton.prescribed, &self.newton.assembly);
+        let mut frame = system.report(&self.state, prescribed, assembly)?;
         frame.step_number = self.progress.step;
         frame.increment = self.progress.increment;
-        for (node, u) in frame.displacement.iter_mut().enumerate() {
-            *u = system.displacement(state, node as u32);
-        }
-        let residual = &self.newton.assembly.residual;
-        for (dof, prescribed) in self.newton.prescribed.iter().enumerate() {
-            if !prescribed || self.progress.increment == 0 {
-                continue;
-            }
-            if let Some(DofName::Node(node, axis)) = system.layout.name(dof as Dof)
-                && let (Some(to), Some(r)) = (
-                    frame.reaction_force.get_mut(node as usize),
-                    residual.get(dof),
-                )
-            {
-                to[axis] = *r;
-            }
-        }
-        for (body, rigid) in frame.rigid.iter_mut().enumerate() {
-            let body = body as u32;
-            let layout = &system.layout;
-            let value = |dof: Dof| state.u.get(dof as usize).copied().unwrap_or(0.0);
-            let vector =
-                |dof: &dyn Fn(usize) -> Dof| Vec3::new(value(dof(0)), value(dof(1)), value(dof(2)));
-            rigid.displacement = vector(&|c| layout.translation(body, c));
-            rigid.rotation = vector(&|c| layout.rotation(body, c));
-        }
-        for term in &system.terms {
-            term.report(state, &mut frame)?;
-        }
         Ok(frame)
     }
 
     /// Stores the accepted state, the progress and the histories of all terms.
     pub fn save(&self, system: &System, out: &mut Archive) {
         let p = &self.progress;
-        out.put("state.time", &[self.state.time]);
-        out.put("state.u", &self.state.u);
-        let poses: Vec<f64> = self
-            .state
-            .poses
-            .iter()
-            .flat_map(|pose| {
-                let rows = pose.rotation.rows.map(Vec3::to_array);
-                pose.origin
-                    .to_array()
-                    .into_iter()
-                    .chain(rows.into_iter().flatten())
-            })
-            .collect();
-        out.put("state.poses", &poses);
+        self.state.save(out);
         let dt = p.dt.unwrap_or(-1.0);
         out.put(
             "progress",
@@ -522,7 +476,6 @@ impl Stepper {
                 p.time,
                 dt,
                 p.easy as f64,
-                p.origin.len() as f64,
             ],
         );
         out.put("progress.origin", &p.origin);
@@ -537,26 +490,15 @@ impl Stepper {
     /// # Errors
     /// The archive belongs to another model.
     pub fn load(&mut self, system: &mut System, from: &Archive) -> Result<(), ArchiveError> {
-        let mut progress = [0.0; 7];
+        let mut progress = [0.0; 6];
         from.get("progress", &mut progress)?;
-        let [step, increment, step_start, time, dt, easy, norigin] = progress;
-        let mut origin = vec![0.0; norigin as usize];
+        let [step, increment, step_start, time, dt, easy] = progress;
+        let mut origin = vec![0.0; from.length("progress.origin")?];
         from.get("progress.origin", &mut origin)?;
         let mut scale = [0.0; 3];
         from.get("progress.scale", &mut scale)?;
         let mut state = system.initial_state();
-        let mut total = [0.0];
-        from.get("state.time", &mut total)?;
-        state.time = total[0];
-        from.get("state.u", &mut state.u)?;
-        let mut poses = vec![0.0; state.poses.len() * 12];
-        from.get("state.poses", &mut poses)?;
-        for (pose, n) in state.poses.iter_mut().zip(poses.chunks_exact(12)) {
-            pose.origin = Vec3::new(n[0], n[1], n[2]);
-            for (row, r) in pose.rotation.rows.iter_mut().zip(n[3..].chunks_exact(3)) {
-                *row = Vec3::new(r[0], r[1], r[2]);
-            }
-        }
+        state.load(from)?;
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;

@@ -19,6 +19,8 @@ pub struct Assembly {
     pub residual: Vec<f64>,
     /// Sum of the absolute values of everything that was added to the residual.
     pub magnitude: Vec<f64>,
+    /// Sum of the rounding errors that terms know of, beyond that of the magnitude.
+    pub uncertainty: Vec<f64>,
     bulk: Vec<f64>,
     interface: Vec<f64>,
 }
@@ -67,6 +69,7 @@ struct Buffer {
     force: Vec<f64>,
     stiffness: Vec<f64>,
     stiffness_sizes: Vec<usize>,
+    errors: Vec<(Dof, f64)>,
 }
 
 impl Sink for Buffer {
@@ -79,6 +82,10 @@ impl Sink for Buffer {
         self.force.extend_from_slice(force);
         self.stiffness.extend_from_slice(stiffness);
     }
+
+    fn uncertain(&mut self, dofs: &[Dof], error: f64) {
+        self.errors.extend(dofs.iter().map(|&d| (d, error)));
+    }
 }
 
 impl Buffer {
@@ -88,6 +95,7 @@ impl Buffer {
         self.force.clear();
         self.stiffness.clear();
         self.stiffness_sizes.clear();
+        self.errors.clear();
     }
 }
 
@@ -204,6 +212,7 @@ impl Assembler {
     ) -> Result<(), TermError> {
         reset(&mut out.residual, layout.ndof());
         reset(&mut out.magnitude, layout.ndof());
+        reset(&mut out.uncertainty, layout.ndof());
         if order == Order::Tangent {
             reset(&mut out.bulk, self.bulk.nvalue());
             reset(&mut out.interface, self.interface.nentry());
@@ -303,6 +312,11 @@ struct Scatter<'a> {
 
 impl Scatter<'_> {
     fn add(&mut self, buffer: &Buffer, task: &mut Task) {
+        for &(dof, error) in &buffer.errors {
+            if let Some(to) = self.out.uncertainty.get_mut(dof as usize) {
+                *to += error;
+            }
+        }
         let (mut at, mut at_stiffness, mut at_position) = (0, 0, 0);
         let first_time = task.positions.is_empty();
         for (&n, &nk) in buffer.sizes.iter().zip(&buffer.stiffness_sizes) {

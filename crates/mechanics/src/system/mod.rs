@@ -13,6 +13,7 @@
 //! | u | `u` | `ndof` raw dofs |
 //! | r = f_int − f_ext | `residual` | `ndof` |
 //! | Σ_e \|f_e\| | `magnitude` | `ndof` |
+//! | rounding error of r | `uncertainty` | `ndof` |
 //! | K | `Operator`: bulk and interface | `ndof × ndof` |
 //!
 //! Newton solves `K du = −r`. The bulk (solids, in blocks of a node) and the interface (contact, couplings, springs)
@@ -41,6 +42,7 @@ pub use elimination::{Elimination, RigidBody};
 pub use frame::{ContactFrame, Frame, Resultant, RigidFrame, Status};
 pub use layout::{Dof, DofName, Layout, NO_DOF};
 pub use linear::Symmetry;
+pub use signorini_geometry::mesh::NodeId;
 pub use state::State;
 pub use term::{
     Archive, ArchiveError, Order, Part, PatternSink, Sink, StepContext, Term, TermError, Verdict,

@@ -1,4 +1,4 @@
-use super::{Elimination, Layout};
+use super::{Archive, ArchiveError, Elimination, Layout};
 use signorini_geometry::surface::{Placement, Pose};
 use signorini_geometry::tensor::{Mat3, Vec3};
 
@@ -76,5 +76,35 @@ impl State {
             }
             *x = moved;
         }
+    }
+
+    /// Stores the state.
+    pub fn save(&self, out: &mut Archive) {
+        out.put("state.time", &[self.time]);
+        out.put("state.u", &self.u);
+        let numbers = |pose: &Pose| {
+            let [a, b, c] = pose.rotation.rows;
+            [pose.origin, a, b, c].map(Vec3::to_array)
+        };
+        let poses: Vec<[f64; 3]> = self.poses.iter().flat_map(numbers).collect();
+        out.put("state.poses", poses.as_flattened());
+    }
+
+    /// Takes a stored state back, positions excepted: they follow when the state is advanced.
+    ///
+    /// # Errors
+    /// The archive belongs to another model.
+    pub fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+        from.get("state.time", std::slice::from_mut(&mut self.time))?;
+        from.get("state.u", &mut self.u)?;
+        let mut numbers = vec![[0.0; 3]; self.poses.len() * 4];
+        from.get("state.poses", numbers.as_flattened_mut())?;
+        for (pose, n) in self.poses.iter_mut().zip(numbers.chunks_exact(4)) {
+            pose.origin = Vec3::from(n[0]);
+            for (row, n) in pose.rotation.rows.iter_mut().zip(&n[1..]) {
+                *row = Vec3::from(*n);
+            }
+        }
+        Ok(())
     }
 }

@@ -101,6 +101,17 @@ impl Archive {
         self.arrays.insert(name.into(), values.to_vec());
     }
 
+    /// The length of a stored array.
+    ///
+    /// # Errors
+    /// No such array.
+    pub fn length(&self, name: &str) -> Result<usize, ArchiveError> {
+        let found = self.arrays.get(name).map(Vec::len);
+        found.ok_or_else(|| ArchiveError::Missing {
+            name: name.to_string(),
+        })
+    }
+
     /// Copies a stored array into `out`.
     ///
     /// # Errors
@@ -134,6 +145,10 @@ pub trait Sink {
     /// Adds `force`, and `stiffness` (row-major, `n × n`; empty for [`Order::Residual`]), at these dofs. In the bulk,
     /// the dofs are those of whole nodes, one node after the other. Dofs may repeat and may be [`super::NO_DOF`].
     fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]);
+
+    /// Says that forces at these dofs are uncertain by `error` through rounding: a stiff law amplifies the rounding of
+    /// positions far beyond that of the forces themselves.
+    fn uncertain(&mut self, _dofs: &[Dof], _error: f64) {}
 }
 
 /// Scratch memory of one thread: each kind of term finds its own there, as it left it.

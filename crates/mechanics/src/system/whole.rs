@@ -1,4 +1,4 @@
-use super::{Elimination, Frame, Layout, State, Term};
+use super::{Assembly, Dof, DofName, Elimination, Frame, Layout, State, Term, TermError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
@@ -33,14 +33,44 @@ impl System {
         trial.advance_from(base, du, alpha, layout, reference, &self.elimination);
     }
 
-    /// An empty frame for this system.
-    #[must_use]
-    pub fn new_frame(&self) -> Frame {
+    /// The results at an accepted state: motions, what every term reports, and the reactions at the prescribed dofs,
+    /// from the assembly at that state.
+    ///
+    /// # Errors
+    /// A term that cannot evaluate the state.
+    pub fn report(
+        &self,
+        state: &State,
+        prescribed: &[bool],
+        assembly: &Assembly,
+    ) -> Result<Frame, TermError> {
         let mut frame = Frame::new(self.layout.nnode, &self.ncell);
-        frame
-            .rigid
-            .resize_with(self.layout.nrigid, Default::default);
-        frame
+        frame.time = state.time;
+        for (node, u) in frame.displacement.iter_mut().enumerate() {
+            *u = self.displacement(state, node as u32);
+        }
+        let at_dofs = prescribed.iter().zip(&assembly.residual).enumerate();
+        for (dof, (_, r)) in at_dofs.filter(|(_, (prescribed, _))| **prescribed) {
+            if let Some(DofName::Node(node, axis)) = self.layout.name(dof as Dof)
+                && let Some(to) = frame.reaction_force.get_mut(node as usize)
+            {
+                to[axis] = *r;
+            }
+        }
+        let value = |dof: Dof| state.u.get(dof as usize).copied().unwrap_or(0.0);
+        let layout = &self.layout;
+        frame.rigid.resize_with(layout.nrigid, Default::default);
+        for (body, rigid) in frame.rigid.iter_mut().enumerate() {
+            let body = body as u32;
+            for axis in 0..3 {
+                rigid.displacement[axis] = value(layout.translation(body, axis));
+                rigid.rotation[axis] = value(layout.rotation(body, axis));
+            }
+        }
+        for term in &self.terms {
+            term.report(state, &mut frame)?;
+        }
+        Ok(frame)
     }
 
     /// The displacement of a node, a vector of space in every dimension.

@@ -56,10 +56,16 @@ pub fn model(name: &str, text: &str, set: &[(&str, &str)]) -> Model {
     build(case, mesh).unwrap_or_else(|e| panic!("{}", e.plain()))
 }
 
+pub fn text(example: &str) -> String {
+    let path = repository()
+        .join("examples")
+        .join(example)
+        .join("case.toml");
+    std::fs::read_to_string(&path).unwrap()
+}
+
 pub fn example(name: &str, set: &[(&str, &str)]) -> Model {
-    let path = repository().join("examples").join(name).join("case.toml");
-    let text = std::fs::read_to_string(&path).unwrap();
-    model(name, &text, set)
+    model(name, &text(name), set)
 }
 
 pub fn run(model: &mut Model) -> Run {
