@@ -255,15 +255,21 @@ impl Newton {
         base: &State,
         time: f64,
         targets: &[(Dof, f64)],
+        guess: Option<&[f64]>,
         place: Place,
         report: &mut dyn FnMut(&IterationRecord),
     ) -> Result<Converged, Failure> {
         for term in &mut system.terms {
             term.begin_increment(base)?;
         }
-        let mut motion = self.begin(system, base, time, targets);
+        let guessed = match guess {
+            Some(guess) => self.guess(system, base, time, targets, guess),
+            None => false,
+        };
+        let mut motion = !guessed && self.begin(system, base, time, targets);
         let mut correction = 0.0;
         let mut alpha = 1.0;
+        let mut decrement = 0.0;
         let mut unsettled = None;
         for iterations in 0.. {
             self.prepare(system)?;
@@ -278,6 +284,7 @@ impl Newton {
                 residual: judgement.residual,
                 worst: judgement.worst,
                 correction,
+                decrement,
                 line_search: alpha,
                 closed: system.terms.iter().map(|t| t.nactive()).sum(),
                 flips,
@@ -310,11 +317,33 @@ impl Newton {
                 });
             }
             self.solve_linear(motion)?;
+            decrement = self.slope().abs().sqrt();
             alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
             correction = alpha * largest(&self.du);
             motion = false;
         }
         unreachable!("the loop ends by returning")
+    }
+
+    /// Sets up the trial state by extrapolation: the prescribed dofs at their targets, the others advanced by `guess`.
+    /// Says whether that state can be evaluated.
+    fn guess(
+        &mut self,
+        system: &mut System,
+        base: &State,
+        time: f64,
+        targets: &[(Dof, f64)],
+        guess: &[f64],
+    ) -> bool {
+        self.du.clear();
+        self.du.extend_from_slice(guess);
+        for &(dof, to) in targets {
+            self.du[dof as usize] = to - base.u.get(dof as usize).copied().unwrap_or(to);
+        }
+        system.advance(&mut self.trial, base, &self.du, 1.0);
+        self.trial.time = time;
+        let looked = self.prepare(system).is_ok();
+        looked && self.assemble(system, Order::Residual).is_ok()
     }
 
     /// Sets up the trial state and the motion of prescribed dofs; says whether nodes have to be moved in the first
@@ -424,22 +453,29 @@ impl Newton {
         }
         let slope = self.slope();
         let start = self.assembler.energy(&system.terms, &self.start)?;
-        let alpha = match start {
-            Some(start) if slope < 0.0 => line_search::by_energy(start, slope, first, |alpha| {
-                self.try_step(system, alpha).ok()?;
-                let energy = self.assembler.energy(&system.terms, &self.trial);
-                energy.ok().flatten().filter(|e| e.is_finite())
-            }),
-            _ => line_search::by_slope(slope, first, |alpha| {
-                self.try_step(system, alpha).ok()?;
-                self.assemble(system, Order::Residual).ok()?;
-                Some(self.slope()).filter(|s| s.is_finite())
-            }),
-        };
+        if let Some(start) = start.filter(|_| slope < 0.0)
+            && self
+                .energy_at(system, first)
+                .is_some_and(|reached| line_search::lowers(start, slope, first, reached))
+        {
+            return Ok(first);
+        }
+        let alpha = line_search::root(slope, first, |alpha| {
+            self.try_step(system, alpha).ok()?;
+            self.assemble(system, Order::Residual).ok()?;
+            Some(self.slope()).filter(|s| s.is_finite())
+        });
         let alpha = alpha.ok_or(Failure::NoDescent { iterations, worst })?;
         system.advance(&mut self.trial, &self.start, &self.du, alpha);
         self.trial.time = time;
         Ok(alpha)
+    }
+
+    /// The energy after a step of `alpha`; `None` where there is none, or no admissible state.
+    fn energy_at(&mut self, system: &mut System, alpha: f64) -> Option<f64> {
+        self.try_step(system, alpha).ok()?;
+        let energy = self.assembler.energy(&system.terms, &self.trial);
+        energy.ok().flatten().filter(|e| e.is_finite())
     }
 
     /// Puts the trial state at `alpha` and lets the terms look at it.
