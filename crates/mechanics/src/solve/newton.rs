@@ -227,7 +227,7 @@ pub(super) struct Newton {
     pub analyzed: bool,
     /// The state of the iterate.
     pub trial: State,
-    start: State,
+    before: State,
     du: Vec<f64>,
 }
 
@@ -243,7 +243,7 @@ impl Newton {
             prescribed: Vec::new(),
             analyzed: false,
             trial: state.clone(),
-            start: state,
+            before: state,
             du: Vec::new(),
         }
     }
@@ -262,11 +262,7 @@ impl Newton {
         for term in &mut system.terms {
             term.begin_increment(base)?;
         }
-        let guessed = match guess {
-            Some(guess) => self.guess(system, base, time, targets, guess),
-            None => false,
-        };
-        let mut motion = !guessed && self.begin(system, base, time, targets);
+        let mut motion = self.start(system, base, time, targets, guess);
         let mut correction = 0.0;
         let mut alpha = 1.0;
         let mut decrement = 0.0;
@@ -325,16 +321,59 @@ impl Newton {
         unreachable!("the loop ends by returning")
     }
 
-    /// Sets up the trial state by extrapolation: the prescribed dofs at their targets, the others advanced by `guess`.
-    /// Says whether that state can be evaluated.
-    fn guess(
+    /// Sets up the trial state, extrapolated where that is of use; says whether nodes have to be moved in the first
+    /// solve.
+    ///
+    /// An extrapolation that cannot be evaluated is of no use. One that makes a term change its mind (contact opens
+    /// that was closed) is of use only where the plain start leaves a larger residual.
+    fn start(
         &mut self,
         system: &mut System,
         base: &State,
         time: f64,
         targets: &[(Dof, f64)],
-        guess: &[f64],
+        guess: Option<&[f64]>,
     ) -> bool {
+        let Some(guess) = guess else {
+            return self.begin(system, base, time, targets);
+        };
+        self.extrapolate(system, base, time, targets, guess);
+        let extrapolated = self.largest_residual(system);
+        let (_, repeat) = verdicts(system, &self.trial);
+        if extrapolated.is_some() && repeat.is_none() {
+            return false;
+        }
+        let back = |system: &mut System| system.terms.iter_mut().for_each(|t| t.reject());
+        back(system);
+        let motion = self.begin(system, base, time, targets);
+        if motion {
+            return true;
+        }
+        let plain = self.largest_residual(system);
+        back(system);
+        if extrapolated.zip(plain).is_some_and(|(e, p)| e < p) {
+            self.extrapolate(system, base, time, targets, guess);
+        }
+        false
+    }
+
+    /// The largest residual over the mean force at the trial state; `None` where it cannot be evaluated.
+    fn largest_residual(&mut self, system: &mut System) -> Option<f64> {
+        self.prepare(system).ok()?;
+        self.assemble(system, Order::Residual).ok()?;
+        let residual = self.judge(system).residual;
+        residual.is_finite().then_some(residual)
+    }
+
+    /// Puts the prescribed dofs at their targets and advances the others by `guess`.
+    fn extrapolate(
+        &mut self,
+        system: &System,
+        base: &State,
+        time: f64,
+        targets: &[(Dof, f64)],
+        guess: &[f64],
+    ) {
         self.du.clear();
         self.du.extend_from_slice(guess);
         for &(dof, to) in targets {
@@ -342,8 +381,6 @@ impl Newton {
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
         self.trial.time = time;
-        let looked = self.prepare(system).is_ok();
-        looked && self.assemble(system, Order::Residual).is_ok()
     }
 
     /// Sets up the trial state and the motion of prescribed dofs; says whether nodes have to be moved in the first
@@ -439,20 +476,20 @@ impl Newton {
         iterations: usize,
         worst: Option<Dof>,
     ) -> Result<f64, Failure> {
-        self.start.clone_from(&self.trial);
+        self.before.clone_from(&self.trial);
         let du = &self.du;
-        let limits = system.terms.iter().map(|t| t.max_step(&self.start, du));
+        let limits = system.terms.iter().map(|t| t.max_step(&self.before, du));
         let first = limits.fold(1.0, f64::min);
         let time = self.trial.time;
         // a prescribed motion is taken whole: the energy before it is another problem's
         if motion || self.settings.line_search == LineSearch::Off {
             let alpha = if motion { 1.0 } else { first };
-            system.advance(&mut self.trial, &self.start, &self.du, alpha);
+            system.advance(&mut self.trial, &self.before, &self.du, alpha);
             self.trial.time = time;
             return Ok(alpha);
         }
         let slope = self.slope();
-        let start = self.assembler.energy(&system.terms, &self.start)?;
+        let start = self.assembler.energy(&system.terms, &self.before)?;
         if let Some(start) = start.filter(|_| slope < 0.0)
             && self
                 .energy_at(system, first)
@@ -466,7 +503,7 @@ impl Newton {
             Some(self.slope()).filter(|s| s.is_finite())
         });
         let alpha = alpha.ok_or(Failure::NoDescent { iterations, worst })?;
-        system.advance(&mut self.trial, &self.start, &self.du, alpha);
+        system.advance(&mut self.trial, &self.before, &self.du, alpha);
         self.trial.time = time;
         Ok(alpha)
     }
@@ -480,8 +517,8 @@ impl Newton {
 
     /// Puts the trial state at `alpha` and lets the terms look at it.
     fn try_step(&mut self, system: &mut System, alpha: f64) -> Result<(), TermError> {
-        let time = self.start.time;
-        system.advance(&mut self.trial, &self.start, &self.du, alpha);
+        let time = self.before.time;
+        system.advance(&mut self.trial, &self.before, &self.du, alpha);
         self.trial.time = time;
         for term in &mut system.terms {
             term.prepare(&self.trial)?;

@@ -329,9 +329,14 @@ impl Stepper {
                         for term in &mut system.terms {
                             term.reject();
                         }
-                        let next = dt * severity(&failure);
-                        let smallest = min.filter(|m| next >= *m);
-                        if smallest.is_none() {
+                        // a failure from an extrapolated start says nothing about one from the last state
+                        let extrapolated = attempt == 1 && !self.progress.rate.is_empty();
+                        let next = if extrapolated {
+                            dt
+                        } else {
+                            dt * severity(&failure)
+                        };
+                        if !extrapolated && min.is_none_or(|m| next < m) {
                             return Err(RunError::NotConverged {
                                 step: step.name.clone(),
                                 increment: self.progress.increment + 1,
