@@ -42,7 +42,7 @@ mod kernel;
 pub mod law;
 mod row;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use interface::{Interface, InterfaceParts, Measure};
 pub use row::{Participant, Rows};
