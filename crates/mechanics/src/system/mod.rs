@@ -34,6 +34,8 @@ pub mod linear;
 pub mod sparsity;
 mod state;
 mod term;
+#[cfg(test)]
+mod tests;
 
 pub use assembly::{Assembler, Assembly};
 pub use elimination::{Elimination, RigidBody};
