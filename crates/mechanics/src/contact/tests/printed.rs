@@ -100,7 +100,8 @@ impl PrintedSigns {
             m
         };
         let kappa = |k: usize| self.kappa_sign * nu.dot(jet.curvature[k]);
-        let metric_inverse = inverse(&symmetric(&|k| jet.metric[k]));
+        let m_inverse = inverse(&symmetric(&|k| jet.metric[k]));
+        let metric = |p: usize, q: usize| m_inverse[p][q];
         let a_inverse = inverse(&symmetric(&|k| jet.metric[k] - gap * kappa(k)));
         // a column is a component of a node of the facet (weight −N) or of the point (weight 1)
         let weight = |j: usize, of: &dyn Fn(usize) -> f64, own: f64| match j / 3 {
@@ -128,7 +129,7 @@ impl PrintedSigns {
                     sum += b(i, p) * d(j, p) + d(i, p) * b(j, p);
                     for q in 0..ntan {
                         sum += kappa(pair(p, q)) * d(i, p) * d(j, q)
-                            + gap * metric_inverse[p][q] * bar(i, p) * bar(j, q);
+                            + gap * metric(p, q) * bar(i, p) * bar(j, q);
                     }
                 }
                 out[i * n + j] = sum;

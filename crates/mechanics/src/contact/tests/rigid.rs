@@ -203,7 +203,7 @@ impl Scene {
             let mut du: Vec<f64> = (0..layout.ndof()).map(|_| random.signed()).collect();
             // the node goes with the body, more or less
             for axis in 0..ndim {
-                du[axis] = 0.1 * du[axis];
+                du[axis] *= 0.1;
                 du[layout.translation(0, axis) as usize] *= 0.1;
             }
             state.advance_from(&base, &du, 1.0, &layout, &reference, &elimination);
