@@ -46,6 +46,9 @@ struct Cell {
     nodes: Vec<u32>,
 }
 
+/// Distance of the blocks at the start: at zero, rounding would decide which nodes begin in contact.
+const GAP: f64 = 0.004;
+
 /// Nodes and cells of a box, appended; the labels of the nodes by place, x first.
 fn grid(blocks: &mut Blocks, group: &'static str, n: [u32; 3], from: Vec3, size: Vec3) -> Vec<u32> {
     let first = blocks.nodes.len() as u32 + 1;
@@ -85,7 +88,7 @@ fn grid(blocks: &mut Blocks, group: &'static str, n: [u32; 3], from: Vec3, size:
 }
 
 impl Blocks {
-    /// Two blocks one above the other, with so many cells each.
+    /// Two blocks one above the other, with so many cells each, the upper one shifted by `aside`.
     fn new(ndim: usize, lower: ([u32; 3], Vec3), upper: ([u32; 3], Vec3), aside: Vec3) -> Self {
         let mut blocks = Self {
             ndim,
@@ -107,7 +110,7 @@ impl Blocks {
         let up = ndim - 1;
         let height = lower.1[up];
         let mut place = aside;
-        place[up] = height;
+        place[up] += height;
         let of_lower = grid(&mut blocks, "lower", lower.0, Vec3::ZERO, lower.1);
         let of_upper = grid(&mut blocks, "upper", upper.0, place, upper.1);
         let at = |blocks: &Self, labels: &[u32], level: f64| {
@@ -116,8 +119,8 @@ impl Blocks {
         };
         blocks.base = at(&blocks, &of_lower, 0.0);
         blocks.top = at(&blocks, &of_lower, height);
-        blocks.foot = at(&blocks, &of_upper, height);
-        blocks.head = at(&blocks, &of_upper, height + upper.1[up]);
+        blocks.foot = at(&blocks, &of_upper, place[up]);
+        blocks.head = at(&blocks, &of_upper, place[up] + upper.1[up]);
         blocks
     }
 
@@ -128,7 +131,7 @@ impl Blocks {
     /// In space: pressed, then moved aside across edges.
     fn space() -> Self {
         let (low, high) = (Vec3::new(3.0, 3.0, 1.5), Vec3::new(1.3, 1.1, 0.8));
-        let aside = Vec3::new(0.73, 0.61, 0.0);
+        let aside = Vec3::new(0.73, 0.61, GAP);
         let mut blocks = Self::new(3, ([3, 3, 1], low), ([2, 2, 1], high), aside);
         blocks.motions = vec![Vec3::new(0.0, 0.0, -0.06), Vec3::new(0.3, 0.2, -0.06)];
         blocks
@@ -137,7 +140,7 @@ impl Blocks {
     /// In the plane: the same.
     fn plane() -> Self {
         let (low, high) = (Vec3::new(3.0, 1.5, 0.0), Vec3::new(1.3, 0.8, 0.0));
-        let aside = Vec3::new(0.73, 0.0, 0.0);
+        let aside = Vec3::new(0.73, GAP, 0.0);
         let mut blocks = Self::new(2, ([3, 2, 0], low), ([2, 2, 0], high), aside);
         blocks.motions = vec![Vec3::new(0.0, -0.06, 0.0), Vec3::new(0.3, -0.06, 0.0)];
         blocks
