@@ -87,7 +87,9 @@ fn arbitrary(penalty: &str) -> Run {
         ("solver.newton.force_tol", "1e-6"),
     ];
     let run = run(&mut example("paper_brick_arbitrary_3d", &set));
-    for i in run.iterations.iter().rev().take(8) { println!("{i:?}"); }
+    for i in run.iterations.iter().rev().take(8) {
+        println!("{i:?}");
+    }
     assert!(run.error.is_none(), "{penalty}: {:?}", run.error);
     assert_eq!(run.frames.len(), 60);
     run
