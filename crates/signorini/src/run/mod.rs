@@ -44,6 +44,7 @@ pub use start::{Start, begin, facts};
 pub use tree::{Owner, Tree, case_copy};
 pub use volume::Volume;
 
+use crate::build::Model;
 use crate::load::Source;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_io::fs::{Fs, RealFs};
@@ -87,6 +88,14 @@ impl RunOptions {
             seconds: [0.0; 2],
         }
     }
+}
+
+/// Checks what a case asks to be written: fields, histories, expectations.
+///
+/// # Errors
+/// What names nothing.
+pub fn check_output(model: &Model) -> Result<(), Diagnostics> {
+    recorder::Setting::check(model).map(|_| ())
 }
 
 /// How a run ended.

@@ -221,17 +221,30 @@ fn time(time: f64) -> String {
     }
 }
 
-/// A value with the digits that tell it from its like.
+/// A value with seven digits, less the zeros at its end.
 fn digits(value: f64) -> String {
     if value.is_nan() {
-        "was never reached".to_owned()
-    } else if value != 0.0 && !(1e-4..1e6).contains(&value.abs()) {
-        format!("{value:.6e}")
+        return "was never reached".to_owned();
+    }
+    let size = value.abs();
+    if value != 0.0 && !(1e-4..1e6).contains(&size) {
+        return format!("{value:.6e}");
+    }
+    let whole = if size >= 1.0 {
+        size.log10().floor() as usize
     } else {
-        format!("{:.6}", value)
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_owned()
+        0
+    };
+    let zeros = if size > 0.0 && size < 1.0 {
+        (-size.log10()).floor() as usize
+    } else {
+        0
+    };
+    let text = format!("{value:.*}", 6 - whole + zeros);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
     }
 }
 
@@ -252,5 +265,35 @@ fn end(status: &str, exit_code: u8, seconds: f64, totals: &Totals) -> String {
             )
         }
         _ => format!("{sign} {status}: {effort}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn values_are_told_with_seven_digits() {
+        let told = [
+            38.8,
+            25.0,
+            -0.000725088618977,
+            123_456.789,
+            1.6644332579,
+            0.0,
+            2e9,
+        ]
+        .map(digits);
+        let wanted = [
+            "38.8",
+            "25",
+            "-0.0007250886",
+            "123456.8",
+            "1.664433",
+            "0",
+            "2.000000e9",
+        ];
+        assert_eq!(told, wanted);
+        assert_eq!(digits(f64::NAN), "was never reached");
     }
 }
