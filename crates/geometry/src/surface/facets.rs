@@ -192,6 +192,21 @@ impl Facets {
         nodes.filter(|(_, n)| n.abs() > 1e-9).map(|(&n, _)| n)
     }
 
+    /// The end nodes of the edge of a facet that runs through a point of it in this direction. Where the point is an
+    /// end of the edge, shape functions alone do not tell which edge that is.
+    fn edge_ends(&self, facet: u32, local: Vec3, direction: [f64; 2]) -> Option<[NodeId; 2]> {
+        let (element, nodes) = (self.element(facet)?, self.nodes(facet));
+        let corners = element.nodes();
+        let offset = |&[a, b]: &[usize; 2]| {
+            let (from, along) = (local - corners[a], corners[b] - corners[a]);
+            let turned = along.x * direction[1] - along.y * direction[0];
+            turned.abs() + (along.x * from.y - along.y * from.x).abs()
+        };
+        let nearer = |p: &&[usize; 2], q: &&[usize; 2]| offset(p).total_cmp(&offset(q));
+        let &[a, b] = element.edges().iter().min_by(nearer)?;
+        Some([*nodes.get(a)?, *nodes.get(b)?])
+    }
+
     /// The angle between the edges of a facet that meet at one of its nodes.
     fn corner_angle(
         &self,
@@ -334,12 +349,11 @@ impl ContactSurface for Facets {
                 rim: false,
             });
         }
-        let around = |g: &&u32| {
-            let others = self.nodes(**g);
-            self.support(facet, &jet).all(|n| others.contains(&n))
-        };
-        let neighbours = self.neighbours(facet).iter().filter(around).copied();
-        if let Feature::Edge { .. } = found.feature {
+        if let Feature::Edge { direction } = found.feature {
+            let ends = self.edge_ends(facet, found.anchor.local, direction);
+            let ends = ends.ok_or(SurfaceError::NoSuchFacet { facet })?;
+            let around = |g: &&u32| ends.iter().all(|n| self.nodes(**g).contains(n));
+            let neighbours = self.neighbours(facet).iter().filter(around).copied();
             let mut direction = jet.normal;
             let mut other = SurfaceJet::default();
             let mut count = 0;
@@ -360,7 +374,9 @@ impl ContactSurface for Facets {
         let node = self.support(facet, &jet).next();
         let node = node.ok_or(SurfaceError::NoSuchFacet { facet })?;
         let mut direction = Vec3::ZERO;
-        for g in neighbours.chain([facet]) {
+        let around = |g: &&u32| self.nodes(**g).contains(&node);
+        let neighbours = self.neighbours(facet).iter().filter(around);
+        for g in neighbours.copied().chain([facet]) {
             let (angle, normal) = self.corner_angle(g, node, at)?;
             direction += normal * angle;
         }

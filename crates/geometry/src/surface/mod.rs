@@ -35,7 +35,7 @@ mod projection;
 mod tests;
 
 pub use facets::{Facets, FacetsError};
-pub use projection::extended_face;
+pub use projection::{extended_edge, extended_face};
 
 use crate::element::{Element, MAX_FACET_NODES};
 use crate::mesh::NodeId;

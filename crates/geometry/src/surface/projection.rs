@@ -106,6 +106,69 @@ pub fn extended_face(
         .then(|| search.found(xi, Feature::Face, out)))
 }
 
+/// The point of an inner edge's own continuation beyond the rim that is closest to `point`, at most `reach` parameters
+/// outside, where `start` is the rim's vertex in which the edge ends. Only where the point lies between the normals of
+/// the two facets that meet in the edge, as it does under a valley: otherwise one of the facets' own continuations,
+/// [`extended_face`], is closer.
+///
+/// # Errors
+/// As [`ContactSurface::jet`].
+pub fn extended_edge(
+    surface: &dyn ContactSurface,
+    at: &Placement,
+    start: Anchor,
+    point: Vec3,
+    reach: f64,
+    out: &mut SurfaceJet,
+) -> Result<Option<Projection>, SurfaceError> {
+    surface.jet(at, &start, out)?;
+    let vertex = out.position;
+    let around = surface.neighbours(start.facet).iter().copied();
+    for facet in [start.facet].into_iter().chain(around) {
+        let Some(element) = surface.domain(facet).filter(|e| e.dim() == 2) else {
+            continue;
+        };
+        let mut search = Search {
+            surface,
+            at,
+            facet,
+            point,
+            ntan: 2,
+        };
+        let nodes = element.nodes();
+        for &[a, b] in element.edges() {
+            let (from, along) = (nodes[a], nodes[b] - nodes[a]);
+            let Some((s, _)) = search.edge(from, along, 0.5, out)? else {
+                continue;
+            };
+            let past = (-s).max(s - 1.0) * along.norm();
+            if !(0.0..=reach).contains(&past) {
+                continue;
+            }
+            search.jet(if s < 0.0 { nodes[a] } else { nodes[b] }, out)?;
+            if (out.position - vertex).norm() > 1e-9 * out.metric[0].max(out.metric[1]).sqrt() {
+                continue;
+            }
+            search.jet(from + along * s, out)?;
+            let direction = [along.x, along.y];
+            let found = search.found(from + along * s, Feature::Edge { direction }, out);
+            let outward = surface.outward(at, &found)?;
+            let other = outward.direction - out.normal;
+            if !outward.rim && between(point - out.position, out.normal, other) {
+                return Ok(Some(found));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Whether `w = α p + β q` with α and β of one sign, for unit vectors in one plane that are not parallel.
+fn between(w: Vec3, p: Vec3, q: Vec3) -> bool {
+    let c = p.dot(q);
+    let (wp, wq) = (w.dot(p), w.dot(q));
+    1.0 - c * c > 1e-12 && (wp - c * wq) * (wq - c * wp) >= 0.0
+}
+
 struct Search<'a, S: ?Sized> {
     surface: &'a S,
     at: &'a Placement<'a>,

@@ -41,6 +41,8 @@ mod interface;
 mod kernel;
 pub mod law;
 mod row;
+#[cfg(test)]
+pub(crate) mod tests;
 
 pub use interface::{Interface, InterfaceParts, Measure};
 pub use row::{Participant, Rows};

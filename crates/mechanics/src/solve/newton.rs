@@ -214,6 +214,16 @@ pub(super) struct Place {
     pub attempt: usize,
 }
 
+/// What an increment is to reach.
+pub(super) struct Goal<'a> {
+    /// Total time at its end.
+    pub time: f64,
+    /// Values of the prescribed dofs.
+    pub targets: &'a [(Dof, f64)],
+    /// Expected change of all dofs, from the increments before.
+    pub guess: Option<&'a [f64]>,
+}
+
 /// Newton's method with its memory: kept for a whole run.
 pub(super) struct Newton {
     pub settings: NewtonSettings,
@@ -227,7 +237,7 @@ pub(super) struct Newton {
     pub analyzed: bool,
     /// The state of the iterate.
     pub trial: State,
-    start: State,
+    before: State,
     du: Vec<f64>,
 }
 
@@ -243,7 +253,7 @@ impl Newton {
             prescribed: Vec::new(),
             analyzed: false,
             trial: state.clone(),
-            start: state,
+            before: state,
             du: Vec::new(),
         }
     }
@@ -253,17 +263,17 @@ impl Newton {
         &mut self,
         system: &mut System,
         base: &State,
-        time: f64,
-        targets: &[(Dof, f64)],
+        goal: &Goal<'_>,
         place: Place,
         report: &mut dyn FnMut(&IterationRecord),
     ) -> Result<Converged, Failure> {
         for term in &mut system.terms {
             term.begin_increment(base)?;
         }
-        let mut motion = self.begin(system, base, time, targets);
+        let mut motion = self.start(system, base, goal);
         let mut correction = 0.0;
         let mut alpha = 1.0;
+        let mut decrement = 0.0;
         let mut unsettled = None;
         for iterations in 0.. {
             self.prepare(system)?;
@@ -278,6 +288,7 @@ impl Newton {
                 residual: judgement.residual,
                 worst: judgement.worst,
                 correction,
+                decrement,
                 line_search: alpha,
                 closed: system.terms.iter().map(|t| t.nactive()).sum(),
                 flips,
@@ -310,6 +321,7 @@ impl Newton {
                 });
             }
             self.solve_linear(motion)?;
+            decrement = self.slope().abs().sqrt();
             alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
             correction = alpha * largest(&self.du);
             motion = false;
@@ -317,21 +329,69 @@ impl Newton {
         unreachable!("the loop ends by returning")
     }
 
+    /// Sets up the trial state, extrapolated where that is of use; says whether nodes have to be moved in the first
+    /// solve.
+    ///
+    /// An extrapolation that cannot be evaluated is of no use. One that makes a term change its mind (contact opens
+    /// that was closed) is of use only where the plain start leaves a larger residual.
+    fn start(&mut self, system: &mut System, base: &State, goal: &Goal<'_>) -> bool {
+        let Some(guess) = goal.guess else {
+            return self.begin(system, base, goal);
+        };
+        self.extrapolate(system, base, goal, guess);
+        let extrapolated = self.largest_residual(system);
+        let (_, repeat) = verdicts(system, &self.trial);
+        if extrapolated.is_some() && repeat.is_none() {
+            return false;
+        }
+        let back = |system: &mut System| system.terms.iter_mut().for_each(|t| t.reject());
+        back(system);
+        let motion = self.begin(system, base, goal);
+        if motion {
+            return true;
+        }
+        let plain = self.largest_residual(system);
+        back(system);
+        if extrapolated.zip(plain).is_some_and(|(e, p)| e < p) {
+            self.extrapolate(system, base, goal, guess);
+        }
+        false
+    }
+
+    /// The largest residual over the mean force at the trial state; `None` where it cannot be evaluated.
+    fn largest_residual(&mut self, system: &mut System) -> Option<f64> {
+        self.prepare(system).ok()?;
+        self.assemble(system, Order::Residual).ok()?;
+        let residual = self.judge(system).residual;
+        residual.is_finite().then_some(residual)
+    }
+
+    /// Puts the prescribed dofs at their targets and advances the others by `guess`.
+    fn extrapolate(&mut self, system: &System, base: &State, goal: &Goal<'_>, guess: &[f64]) {
+        self.du.clear();
+        self.du.extend_from_slice(guess);
+        for &(dof, to) in goal.targets {
+            self.du[dof as usize] = to - base.u.get(dof as usize).copied().unwrap_or(to);
+        }
+        system.advance(&mut self.trial, base, &self.du, 1.0);
+        self.trial.time = goal.time;
+    }
+
     /// Sets up the trial state and the motion of prescribed dofs; says whether nodes have to be moved in the first
     /// solve.
-    fn begin(&mut self, system: &System, base: &State, time: f64, targets: &[(Dof, f64)]) -> bool {
+    fn begin(&mut self, system: &System, base: &State, goal: &Goal<'_>) -> bool {
         self.du.clear();
         self.du.resize(system.layout.ndof(), 0.0);
         let is_node = |dof| matches!(system.layout.name(dof), Some(DofName::Node(..)));
         let step = |dof: Dof, to: f64| to - base.u.get(dof as usize).copied().unwrap_or(to);
-        for &(dof, to) in targets.iter().filter(|(d, _)| !is_node(*d)) {
+        for &(dof, to) in goal.targets.iter().filter(|(d, _)| !is_node(*d)) {
             self.du[dof as usize] = step(dof, to);
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
-        self.trial.time = time;
+        self.trial.time = goal.time;
         self.du.fill(0.0);
         let mut motion = false;
-        for &(dof, to) in targets.iter().filter(|(d, _)| is_node(*d)) {
+        for &(dof, to) in goal.targets.iter().filter(|(d, _)| is_node(*d)) {
             self.du[dof as usize] = step(dof, to);
             motion |= self.du[dof as usize] != 0.0;
         }
@@ -410,42 +470,49 @@ impl Newton {
         iterations: usize,
         worst: Option<Dof>,
     ) -> Result<f64, Failure> {
-        self.start.clone_from(&self.trial);
+        self.before.clone_from(&self.trial);
         let du = &self.du;
-        let limits = system.terms.iter().map(|t| t.max_step(&self.start, du));
+        let limits = system.terms.iter().map(|t| t.max_step(&self.before, du));
         let first = limits.fold(1.0, f64::min);
         let time = self.trial.time;
         // a prescribed motion is taken whole: the energy before it is another problem's
         if motion || self.settings.line_search == LineSearch::Off {
             let alpha = if motion { 1.0 } else { first };
-            system.advance(&mut self.trial, &self.start, &self.du, alpha);
+            system.advance(&mut self.trial, &self.before, &self.du, alpha);
             self.trial.time = time;
             return Ok(alpha);
         }
         let slope = self.slope();
-        let start = self.assembler.energy(&system.terms, &self.start)?;
-        let alpha = match start {
-            Some(start) if slope < 0.0 => line_search::by_energy(start, slope, first, |alpha| {
-                self.try_step(system, alpha).ok()?;
-                let energy = self.assembler.energy(&system.terms, &self.trial);
-                energy.ok().flatten().filter(|e| e.is_finite())
-            }),
-            _ => line_search::by_slope(slope, first, |alpha| {
-                self.try_step(system, alpha).ok()?;
-                self.assemble(system, Order::Residual).ok()?;
-                Some(self.slope()).filter(|s| s.is_finite())
-            }),
-        };
+        let start = self.assembler.energy(&system.terms, &self.before)?;
+        if let Some(start) = start.filter(|_| slope < 0.0)
+            && self
+                .energy_at(system, first)
+                .is_some_and(|reached| line_search::lowers(start, slope, first, reached))
+        {
+            return Ok(first);
+        }
+        let alpha = line_search::root(slope, first, |alpha| {
+            self.try_step(system, alpha).ok()?;
+            self.assemble(system, Order::Residual).ok()?;
+            Some(self.slope()).filter(|s| s.is_finite())
+        });
         let alpha = alpha.ok_or(Failure::NoDescent { iterations, worst })?;
-        system.advance(&mut self.trial, &self.start, &self.du, alpha);
+        system.advance(&mut self.trial, &self.before, &self.du, alpha);
         self.trial.time = time;
         Ok(alpha)
     }
 
+    /// The energy after a step of `alpha`; `None` where there is none, or no admissible state.
+    fn energy_at(&mut self, system: &mut System, alpha: f64) -> Option<f64> {
+        self.try_step(system, alpha).ok()?;
+        let energy = self.assembler.energy(&system.terms, &self.trial);
+        energy.ok().flatten().filter(|e| e.is_finite())
+    }
+
     /// Puts the trial state at `alpha` and lets the terms look at it.
     fn try_step(&mut self, system: &mut System, alpha: f64) -> Result<(), TermError> {
-        let time = self.start.time;
-        system.advance(&mut self.trial, &self.start, &self.du, alpha);
+        let time = self.before.time;
+        system.advance(&mut self.trial, &self.before, &self.du, alpha);
         self.trial.time = time;
         for term in &mut system.terms {
             term.prepare(&self.trial)?;

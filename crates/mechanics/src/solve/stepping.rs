@@ -2,7 +2,7 @@
 
 use super::equations::Equations;
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
-use super::newton::{Failure, ForceScale, Newton, NewtonSettings, Place};
+use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
 use crate::system::linear::{LinearKind, choose};
 use crate::system::{Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError};
 use thiserror::Error;
@@ -101,7 +101,7 @@ pub enum RunError {
         /// The smallest size allowed; none where increments are fixed.
         min: Option<f64>,
         /// Why the last attempt failed.
-        cause: Failure,
+        cause: Box<Failure>,
     },
     /// More increments than allowed.
     #[error(
@@ -127,6 +127,7 @@ pub struct Stepper {
     newton: Newton,
     state: State,
     progress: Progress,
+    guess: Vec<f64>,
 }
 
 /// Where a run is: with the state and the histories of the terms, all that it needs to go on.
@@ -145,6 +146,8 @@ struct Progress {
     easy: usize,
     /// Values of the prescribed dofs at the start of the step.
     origin: Vec<f64>,
+    /// Change of the state per time in the last increment of this step; empty where there was none.
+    rate: Vec<f64>,
 }
 
 /// Iterations up to which an increment counts as easy.
@@ -174,7 +177,9 @@ impl Stepper {
                 dt: None,
                 easy: 0,
                 origin: Vec::new(),
+                rate: Vec::new(),
             },
+            guess: Vec::new(),
         }
     }
 
@@ -227,6 +232,7 @@ impl Stepper {
                 dt: None,
                 easy: self.progress.easy,
                 origin: Vec::new(),
+                rate: Vec::new(),
             };
         }
         Ok(Outcome::Finished)
@@ -323,9 +329,14 @@ impl Stepper {
                         for term in &mut system.terms {
                             term.reject();
                         }
-                        let next = dt * severity(&failure);
-                        let smallest = min.filter(|m| next >= *m);
-                        if smallest.is_none() {
+                        // a failure from an extrapolated start says nothing about one from the last state
+                        let extrapolated = attempt == 1 && !self.progress.rate.is_empty();
+                        let next = if extrapolated {
+                            dt
+                        } else {
+                            dt * severity(&failure)
+                        };
+                        if !extrapolated && min.is_none_or(|m| next < m) {
                             return Err(RunError::NotConverged {
                                 step: step.name.clone(),
                                 increment: self.progress.increment + 1,
@@ -333,7 +344,7 @@ impl Stepper {
                                 duration: step.duration,
                                 tried,
                                 min,
-                                cause: failure,
+                                cause: Box::new(failure),
                             });
                         }
                         let cause = Cause { failure, dt };
@@ -376,14 +387,26 @@ impl Stepper {
         };
         let mut flow = Flow::Continue;
         let time = self.progress.step_start + end;
-        let converged =
-            self.newton
-                .solve(system, &self.state, time, targets, place, &mut |record| {
-                    if observer.notice(&Event::Iteration(record)) == Flow::Stop {
-                        flow = Flow::Stop;
-                    }
-                })?;
+        let dt = end - self.progress.time;
+        self.guess.clear();
+        self.guess.extend(self.progress.rate.iter().map(|r| r * dt));
+        let goal = Goal {
+            time,
+            targets,
+            guess: (!self.guess.is_empty() && attempt == 1).then_some(&self.guess[..]),
+        };
+        let converged = self
+            .newton
+            .solve(system, &self.state, &goal, place, &mut |record| {
+                if observer.notice(&Event::Iteration(record)) == Flow::Stop {
+                    flow = Flow::Stop;
+                }
+            })?;
         self.newton.scale.accept(converged.q);
+        let change = self.newton.trial.u.iter().zip(&self.state.u);
+        let rate = change.map(|(now, before)| (now - before) / dt);
+        self.progress.rate.clear();
+        self.progress.rate.extend(rate);
         self.state.clone_from(&self.newton.trial);
         for term in &mut system.terms {
             term.accept(&self.state)?;
@@ -479,6 +502,7 @@ impl Stepper {
             ],
         );
         out.put("progress.origin", &p.origin);
+        out.put("progress.rate", &p.rate);
         out.put("progress.scale", &self.newton.scale.to_array());
         for term in &system.terms {
             term.save(out);
@@ -495,6 +519,8 @@ impl Stepper {
         let [step, increment, step_start, time, dt, easy] = progress;
         let mut origin = vec![0.0; from.length("progress.origin")?];
         from.get("progress.origin", &mut origin)?;
+        let mut rate = vec![0.0; from.length("progress.rate")?];
+        from.get("progress.rate", &mut rate)?;
         let mut scale = [0.0; 3];
         from.get("progress.scale", &mut scale)?;
         let mut state = system.initial_state();
@@ -515,6 +541,7 @@ impl Stepper {
             dt: (dt > 0.0).then_some(dt),
             easy: easy as usize,
             origin,
+            rate,
         };
         Ok(())
     }

@@ -35,6 +35,8 @@ pub mod linear;
 pub mod sparsity;
 mod state;
 mod term;
+#[cfg(test)]
+mod tests;
 mod whole;
 
 pub use assembly::{Assembler, Assembly};

@@ -32,7 +32,7 @@ pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
             if let Failure::Linear {
                 source: LinearError::Singular { .. },
                 dof,
-            } = cause
+            } = cause.as_ref()
             {
                 return free_body(*dof, model);
             }

@@ -1,6 +1,6 @@
 //! Runs cases through the library and keeps what happened.
 
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
 use serde_json::Value;
 use signorini::build::{Model, build, read_mesh_of};
@@ -30,13 +30,13 @@ impl Run {
             .to_array()
     }
 
-    /// Residuals of an increment that was accepted at its last attempt, first to last.
-    pub fn residuals(&self, increment: usize) -> Vec<f64> {
+    /// Energy norms of the residual of an increment, one for each solve of its last attempt.
+    pub fn decrements(&self, increment: usize) -> Vec<f64> {
         let attempts = self.increments[increment - 1].attempts;
         self.iterations
             .iter()
-            .filter(|i| i.increment == increment && i.attempt == attempts)
-            .map(|i| i.residual)
+            .filter(|i| i.increment == increment && i.attempt == attempts && i.iteration > 1)
+            .map(|i| i.decrement)
             .collect()
     }
 }

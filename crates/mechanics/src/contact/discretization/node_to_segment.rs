@@ -23,8 +23,8 @@
 //! that combine `m − gκ` with `+κ D D` are wrong on curved facets, and a test of this room shows it.
 //!
 //! Where the primary surface ends, a point that is just past the rim (by [`RIM`]) still rests on the continuation of
-//! the facet; further out it is free. Facets are compared over their whole neighbourhood: the smallest distance wins,
-//! then the face over the edge over the vertex, then the lower number.
+//! the facet, or of the valley that ends there; further out it is free. Facets are compared over their whole
+//! neighbourhood: the smallest distance wins, then the face over the edge over the vertex, then the lower number.
 //!
 //! Limits: `w = 0` on an edge or vertex has no normal and counts as open; a node that lies deeper in the body than
 //! half its thickness is pushed out at the wrong side. Sources: Wriggers 2006, section 6.3; Konyukhov and
@@ -37,7 +37,7 @@ use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::proximity::Candidates;
 use signorini_geometry::surface::{
     Anchor, Carrier, ContactSurface, Feature, Placement, Projection, SurfaceError, SurfaceJet,
-    extended_face, pair,
+    extended_edge, extended_face, pair,
 };
 use signorini_geometry::tensor::{Mat3, Vec3};
 
@@ -184,10 +184,17 @@ fn closest(
         }
     }
     // candidates further away than the reach may be there or not; results must not depend on them
-    let Some((found, _)) = best.filter(|(b, _)| b.distance <= reach) else {
+    let Some((mut found, _)) = best.filter(|(b, _)| b.distance <= reach) else {
         return Ok(None);
     };
-    let outward = surface.outward(at, &found)?;
+    let mut outward = surface.outward(at, &found)?;
+    if outward.rim
+        && found.feature == Feature::Vertex
+        && let Some(edge) = extended_edge(surface, at, found.anchor, point, RIM, &mut jet)?
+    {
+        found = edge;
+        outward = surface.outward(at, &found)?;
+    }
     if outward.rim {
         let extended = extended_face(surface, at, found.anchor, point, RIM, &mut jet)?;
         return Ok(extended.map(|e| Pair {

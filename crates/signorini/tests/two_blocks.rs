@@ -1,0 +1,193 @@
+//! Two blocks pressed and slid over each other, in the plane and in space.
+//!
+//! SOURCE      Independent programs written for the purpose: data/two_block_2d.json, two_block_2d_vertex.json,
+//!             two_block_3d_nts.json (mesh, rules and path in their notes).
+//! GOAL        Sliding across facets; a node that comes to rest in the concave corner between two of them, the trap for
+//!             "closest segment with unclamped coordinates"; in space with faces, edges and vertices.
+//! MESH        12 quad4; 13 hex8. Neo-Hookean or St. Venant-Kirchhoff, E = 1000 and 2000, nu = 0.3.
+//! CONDITIONS  Base fixed, top moved; node-to-segment penalty without friction, 1e4 and 1e5 per node.
+//! EXPECTED    Displacements of all nodes and forces of both ends after every increment.
+//! TOLERANCE   1e-8: both programs iterate to round-off, the data has 12 digits.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{Run, example, model, numbers, oracle, relative, run, text};
+use serde_json::Value;
+use std::fmt::Write;
+
+fn check(key: &str, run: &Run, steps: &[Value], nodes_of_top: &[usize], ndim: usize) {
+    assert!(run.error.is_none(), "{key}: {:?}", run.error);
+    assert!(run.frames.len() >= steps.len(), "{key}");
+    for (step, frame) in steps.iter().zip(&run.frames) {
+        let number = &step["step"];
+        let expected: Vec<f64> = step["u"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .flat_map(numbers)
+            .collect();
+        let got: Vec<f64> = frame
+            .displacement
+            .iter()
+            .flat_map(|u| u.to_array().into_iter().take(ndim))
+            .collect();
+        let error = relative(&got, &expected);
+        assert!(
+            error < 1e-8,
+            "{key} {number}: displacements differ by {error:e}"
+        );
+        let mut top = vec![0.0; ndim];
+        for &node in nodes_of_top {
+            for (axis, sum) in top.iter_mut().enumerate() {
+                *sum += frame.reaction_force[node][axis];
+            }
+        }
+        let error = relative(&top, &numbers(&step["R_top"]));
+        assert!(error < 1e-8, "{key} {number}: forces differ by {error:e}");
+        let contact = &frame.contacts[0];
+        let balance = contact.secondary.force + contact.primary.force;
+        assert!(balance.norm() < 1e-12 * contact.primary.force.norm());
+        let moment = contact.secondary.moment + contact.primary.moment;
+        assert!(moment.norm() < 1e-12 * contact.primary.moment.norm());
+    }
+}
+
+fn indices(value: &Value) -> Vec<usize> {
+    numbers(value).into_iter().map(|n| n as usize).collect()
+}
+
+#[test]
+fn plane_blocks_match_for_both_materials() {
+    let data = oracle("two_block_2d.json");
+    let top = indices(&data["mesh"]["top_nodes"]);
+    for (key, law) in [
+        ("nh_pen_mu0", "neo-hookean"),
+        ("svk_pen_mu0", "saint-venant-kirchhoff"),
+    ] {
+        let law = format!("\"{law}\"");
+        let set = [
+            ("material.soft.model", &law[..]),
+            ("material.stiff.model", &law[..]),
+        ];
+        let result = run(&mut example("two_blocks_2d", &set));
+        let steps = data["runs"][key]["steps"].as_array().unwrap();
+        check(key, &result, steps, &top, 2);
+    }
+}
+
+#[test]
+fn a_node_comes_to_rest_in_a_concave_corner() {
+    let data = oracle("two_block_2d_vertex.json");
+    let top = indices(&oracle("two_block_2d.json")["mesh"]["top_nodes"]);
+    // the same mesh, slid by 0.02 in each of ten increments
+    let slower = text("two_blocks_2d")
+        .replace("[12.0, 0.21]", "[15.0, 0.2]")
+        .replace("duration   = 12.0", "duration   = 15.0")
+        .replace("fixed = 12", "fixed = 15");
+    for penalty in ["1e4", "1e5"] {
+        let set = [("contact.foot_on_block.enforcement.penalty", penalty)];
+        let result = run(&mut model("vertex", &slower, &set));
+        for kind in ["vertex0", "vertex1"] {
+            let key = format!("p{}_{kind}", penalty.replace('e', "e+0"));
+            let steps = data["runs"][&key].as_array().unwrap();
+            check(&key, &result, steps, &top, 2);
+        }
+    }
+}
+
+/// The case of the two blocks in space, written from the mesh in the data.
+fn blocks_in_space(data: &Value, penalty: &str) -> String {
+    let mesh = &data["mesh"];
+    let list = |value: &Value| {
+        let labels = indices(value).into_iter().map(|n| (n + 1).to_string());
+        labels.collect::<Vec<_>>().join(", ")
+    };
+    let mut text = String::from("format = 1\n[mesh]\nnodes = [\n");
+    for (i, x) in mesh["nodes"].as_array().unwrap().iter().enumerate() {
+        let x = numbers(x);
+        writeln!(text, "[{}, {:?}, {:?}, {:?}],", i + 1, x[0], x[1], x[2]).unwrap();
+    }
+    text.push_str("]\nelements = [\n");
+    let nlower = mesh["n_lower_elements"].as_u64().unwrap() as usize;
+    let elements = mesh["hex8"].as_array().unwrap();
+    for (i, nodes) in elements.iter().enumerate() {
+        let group = if i < nlower { "lower" } else { "upper" };
+        let nodes = list(nodes);
+        let id = i + 1;
+        writeln!(
+            text,
+            "{{ id = {id}, type = \"hex8\", group = \"{group}\", nodes = [{nodes}] }},"
+        )
+        .unwrap();
+    }
+    let facets =
+        (1..=mesh["primary_facets"].as_array().unwrap().len()).map(|id| format!("[{id}, \"+z\"]"));
+    let facets = facets.collect::<Vec<_>>().join(", ");
+    write!(
+        text,
+        r#"]
+[sets]
+base = {{ nodes = [{}] }}
+head = {{ nodes = [{}] }}
+foot = {{ nodes = [{}] }}
+top  = {{ faces = [{facets}] }}
+[amplitude]
+press = {{ table = [[0, 0], [3, -0.06]], time = "total" }}
+along = {{ table = [[3, 0], [8, 0.3]], time = "total" }}
+aside = {{ table = [[3, 0], [8, 0.175]], time = "total" }}
+[material.soft]
+model = "neo-hookean"
+E = 1000.0
+nu = 0.3
+[material.stiff]
+model = "neo-hookean"
+E = 2000.0
+nu = 0.3
+[[body]]
+group = "lower"
+material = "soft"
+[[body]]
+group = "upper"
+material = "stiff"
+[[contact]]
+name = "blocks"
+secondary = "foot"
+primary = "top"
+enforcement = {{ penalty = {penalty}, per = "node" }}
+[[step]]
+name = "path"
+duration = 8.0
+increments = {{ fixed = 8 }}
+[[step.fix]]
+on = "base"
+u = "all"
+[[step.move]]
+on = "head"
+ux = {{ amplitude = "along", value = 1.0 }}
+uy = {{ amplitude = "aside", value = 1.0 }}
+uz = {{ amplitude = "press", value = 1.0 }}
+[solver]
+newton = {{ force_tol = 1e-10 }}
+"#,
+        list(&mesh["base"]),
+        list(&mesh["top"]),
+        list(&mesh["secondary_nodes"]),
+    )
+    .unwrap();
+    text
+}
+
+#[test]
+fn blocks_in_space_match_across_faces_edges_and_vertices() {
+    let data = oracle("two_block_3d_nts.json");
+    let top = indices(&data["mesh"]["top"]);
+    for (key, penalty) in [("p1e+04", "1e4"), ("p1e+05", "1e5")] {
+        let result = run(&mut model("blocks", &blocks_in_space(&data, penalty), &[]));
+        let steps = data["runs"][key].as_array().unwrap();
+        check(key, &result, steps, &top, 3);
+        let got: Vec<usize> = result.increments.iter().map(|i| i.iterations).collect();
+        println!("{key}: {got:?}");
+    }
+}
