@@ -62,7 +62,7 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
             options,
             clock,
         }
-        .to_its_end(&start, from.as_ref()),
+        .finish(&start, from.as_ref()),
         Err(error) => refuse(not_opened(&error, from.is_some()).into(), listener),
     }
 }
@@ -148,7 +148,7 @@ enum Ending {
 }
 
 impl Run<'_, '_> {
-    fn to_its_end(mut self, start: &Start, from: Option<&Checkpoint>) -> Finished {
+    fn finish(mut self, start: &Start, from: Option<&Checkpoint>) -> Finished {
         let mut found = self.model.warnings.clone();
         if let Some(why) = from.and_then(|from| from.passed_over.as_ref()) {
             let message = "one of the two checkpoints is of no use; the run goes on from the other";

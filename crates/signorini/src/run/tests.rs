@@ -88,13 +88,20 @@ fn run_on(fs: Arc<dyn Fs>, folder: &Path, resume: bool) -> (Finished, Vec<String
     (run(&mut model, &options, listener), endings)
 }
 
+/// A folder in memory where there is one: on a disk, every operation waits for it.
+fn scratch() -> tempfile::TempDir {
+    tempfile::tempdir_in("/dev/shm")
+        .or_else(|_| tempfile::tempdir())
+        .unwrap()
+}
+
 fn history(folder: &Path) -> String {
     std::fs::read_to_string(folder.join("history.csv")).unwrap()
 }
 
 #[test]
 fn f62_a_disk_that_fails_at_any_moment_harms_nothing_that_was_written() {
-    let whole = tempfile::tempdir().unwrap();
+    let whole = scratch();
     let counting = Arc::new(FailingFs::counting(RealFs));
     let (finished, endings) = run_on(counting.clone(), whole.path(), false);
     assert_eq!(finished.exit_code, 0, "{}", finished.diagnostics);
@@ -107,7 +114,7 @@ fn f62_a_disk_that_fails_at_any_moment_harms_nothing_that_was_written() {
             if stays && n % 5 != 0 {
                 continue;
             }
-            let folder = tempfile::tempdir().unwrap();
+            let folder = scratch();
             let folder = folder.path();
             let disk: Arc<dyn Fs> = if stays {
                 Arc::new(FailingFs::from_nth(RealFs, n, ErrorKind::StorageFull))
@@ -176,7 +183,7 @@ fn go_on(folder: &Path, n: u64, listed: usize, whole: &str) {
 
 #[test]
 fn a_listener_that_wants_no_more_stops_the_run() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = scratch();
     let text = CASE.to_owned();
     let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
     let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();

@@ -2,6 +2,8 @@
 //!
 //! Numbers behind the names of tests are those of the list of faults that the program has to stand.
 
+#![allow(clippy::unwrap_used)]
+
 mod events;
 mod files;
 mod help;
