@@ -46,7 +46,7 @@ impl Run {
             Ok(read) => read,
             Err(found) => return refused(&joined(warnings, found), &self.solve),
         };
-        let mut job = Job {
+        let job = Job {
             warnings: joined(warnings, more),
             case,
             mesh,
@@ -59,9 +59,6 @@ impl Run {
         };
         if self.dry_run {
             return super::check::preview(job.case, job.mesh, job.warnings, None);
-        }
-        if job.fresh {
-            job.resume = false;
         }
         job.solve(&self.solve)
     }

@@ -22,7 +22,7 @@ macro_rules! example {
 }
 
 /// All of them; the first one is the default.
-pub const TEMPLATES: [Template; 3] = [
+pub const TEMPLATES: [Template; 4] = [
     Template {
         name: "paper-brick",
         about: "a rigid tip is pressed into one brick, on a symmetry axis of its top",
@@ -37,6 +37,11 @@ pub const TEMPLATES: [Template; 3] = [
         name: "paper-brick-arbitrary",
         about: "the same brick, the tip anywhere on its top",
         text: example!("paper_brick_arbitrary_3d"),
+    },
+    Template {
+        name: "two-blocks",
+        about: "one block is pressed on another, in the plane",
+        text: example!("two_blocks_2d"),
     },
 ];
 

@@ -6,7 +6,7 @@ use super::fields::Fields;
 use super::history::History;
 use super::limits::Stop;
 use super::news::{Detail, Listener, News, Totals, tell};
-use super::recorder::{Recorder, Setting};
+use super::recorder::{Opened, Recorder, Setting};
 use super::start::{Start, begin, facts};
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
@@ -51,22 +51,19 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
         Some(Err(error)) => return refuse(bad_checkpoint(&error).into(), listener),
     };
     let (setting, expectations) = setting(model, options, tree, checked);
-    let recorder = match &from {
-        None => Recorder::create(setting, expectations, checkpoints, listener)
-            .map_err(|error| (error, false)),
-        Some(from) => Recorder::resume(setting, expectations, checkpoints, &from.archive, listener)
-            .map_err(|error| (error, true)),
+    let opened = match &from {
+        None => Opened::create(setting, expectations, checkpoints),
+        Some(from) => Opened::resume(setting, expectations, checkpoints, &from.archive),
     };
-    match recorder {
-        Ok(recorder) => Run {
+    match opened {
+        Ok(opened) => Run {
+            recorder: opened.heard_by(listener),
             model,
             options,
-            recorder,
             clock,
         }
-        .to_its_end(&start, from.as_ref()),
-        // the listener went with the recorder: who called tells
-        Err((error, resumed)) => refused(not_opened(&error, resumed).into()),
+        .finish(&start, from.as_ref()),
+        Err(error) => refuse(not_opened(&error, from.is_some()).into(), listener),
     }
 }
 
@@ -151,7 +148,7 @@ enum Ending {
 }
 
 impl Run<'_, '_> {
-    fn to_its_end(mut self, start: &Start, from: Option<&Checkpoint>) -> Finished {
+    fn finish(mut self, start: &Start, from: Option<&Checkpoint>) -> Finished {
         let mut found = self.model.warnings.clone();
         if let Some(why) = from.and_then(|from| from.passed_over.as_ref()) {
             let message = "one of the two checkpoints is of no use; the run goes on from the other";
@@ -191,7 +188,7 @@ impl Run<'_, '_> {
         };
         let mut due = from.is_none();
         loop {
-            if due {
+            if due && self.recorder.error.is_none() {
                 let saved = self.recorder.save(&stepper, &self.model.system);
                 if let Some(solution) = saved {
                     stepper = self.restart(&solution)?;

@@ -198,7 +198,7 @@ fn facts(cause: &Failure, model: &Model) -> Vec<String> {
                         .map(|l| l.to_string())
                         .collect();
                     facts.push(format!(
-                        "what kept it from converging: {why} in the last iteration but one or later (nodes {})",
+                        "what kept it from converging: {why} (nodes {})",
                         labels.join(", ")
                     ));
                 }

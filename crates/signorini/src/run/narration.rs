@@ -230,17 +230,12 @@ fn digits(value: f64) -> String {
     if value != 0.0 && !(1e-4..1e6).contains(&size) {
         return format!("{value:.6e}");
     }
-    let whole = if size >= 1.0 {
-        size.log10().floor() as usize
-    } else {
+    let exponent = if value == 0.0 {
         0
-    };
-    let zeros = if size > 0.0 && size < 1.0 {
-        (-size.log10()).floor() as usize
     } else {
-        0
+        size.log10().floor() as i32
     };
-    let text = format!("{value:.*}", 6 - whole + zeros);
+    let text = format!("{value:.*}", (6 - exponent).max(0) as usize);
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {

@@ -92,6 +92,20 @@ pub struct Counts {
     pub steps: Vec<StepSummary>,
 }
 
+/// The open files of a run, and where they stand.
+pub struct Opened {
+    setting: Setting,
+    files: Files,
+    results: Pvd,
+    contact: Pvd,
+    checkpoints: Checkpoints,
+    counts: Counts,
+    expectations: Expectations,
+    step: Option<usize>,
+    time: f64,
+    step_time: f64,
+}
+
 /// Receives the events of the solution.
 pub struct Recorder<'l> {
     pub setting: Setting,
@@ -121,7 +135,7 @@ pub struct Recorder<'l> {
     step_time: f64,
 }
 
-impl<'l> Recorder<'l> {
+impl Opened {
     /// Starts all files anew.
     ///
     /// # Errors
@@ -130,7 +144,6 @@ impl<'l> Recorder<'l> {
         setting: Setting,
         expectations: Expectations,
         checkpoints: Checkpoints,
-        listener: &'l mut dyn Listener,
     ) -> Result<Self, OutputError> {
         let fs = setting.fs.as_ref();
         let path = |name: &str| setting.tree.path(name);
@@ -160,7 +173,6 @@ impl<'l> Recorder<'l> {
             counts,
             expectations,
             checkpoints,
-            listener,
         ))
     }
 
@@ -173,7 +185,6 @@ impl<'l> Recorder<'l> {
         mut expectations: Expectations,
         checkpoints: Checkpoints,
         from: &Archive,
-        listener: &'l mut dyn Listener,
     ) -> Result<Self, OutputError> {
         let fs = setting.fs.as_ref();
         let path = |name: &str| setting.tree.path(name);
@@ -242,7 +253,6 @@ impl<'l> Recorder<'l> {
                 counts,
                 expectations,
                 checkpoints,
-                listener,
             )
         })
     }
@@ -254,33 +264,50 @@ impl<'l> Recorder<'l> {
         counts: Counts,
         expectations: Expectations,
         checkpoints: Checkpoints,
-        listener: &'l mut dyn Listener,
     ) -> Self {
         Self {
-            saved_at: (counts.increments, Instant::now()),
-            narrator: Narrator::default(),
-            contacts: BTreeMap::new(),
-            error: None,
-            stop: None,
-            write_seconds: 0.0,
-            step: None,
-            flips: 0,
-            iterations: 0,
-            last_flips: 0,
-            worst: None,
-            time: 0.0,
-            step_time: 0.0,
             setting,
             files,
             results,
             contact,
-            checkpoints,
-            listener,
             counts,
             expectations,
+            checkpoints,
+            step: None,
+            time: 0.0,
+            step_time: 0.0,
         }
     }
 
+    /// Lets someone listen.
+    pub fn heard_by(self, listener: &mut dyn Listener) -> Recorder<'_> {
+        Recorder {
+            saved_at: (self.counts.increments, Instant::now()),
+            narrator: Narrator::default(),
+            listener,
+            contacts: BTreeMap::new(),
+            error: None,
+            stop: None,
+            write_seconds: 0.0,
+            flips: 0,
+            iterations: 0,
+            last_flips: 0,
+            worst: None,
+            setting: self.setting,
+            files: self.files,
+            results: self.results,
+            contact: self.contact,
+            checkpoints: self.checkpoints,
+            counts: self.counts,
+            expectations: self.expectations,
+            step: self.step,
+            time: self.time,
+            step_time: self.step_time,
+        }
+    }
+}
+
+impl Recorder<'_> {
     /// Tells and records that the run starts.
     pub fn start(&mut self, facts: &Facts, title: &str, findings: &Diagnostics) {
         let event = Event::Start {
