@@ -1,3 +1,34 @@
-//! Contact mechanics by finite elements.
+//! Contact mechanics by finite elements: the library's face.
+//!
+//! ```text
+//! case.toml ──load──▶ Case + Mesh ──build──▶ Model ──run──▶ hertz.out/results.pvd, history.csv, …
+//!                                                    │
+//!                                                    └──▶ News ──▶ Listener (terminal, --json, Python)
+//! ```
+//!
+//! # Example
+//! ```no_run
+//! use signorini::{RunOptions, build, load, run};
+//!
+//! let loaded = load("hertz.toml".as_ref(), &[])?;
+//! let mut model = build(loaded.case, loaded.mesh)?;
+//! let options = RunOptions::new(loaded.source);
+//! let finished = run(&mut model, &options, &mut ());
+//! assert_eq!(finished.exit_code, 0);
+//! # Ok::<(), signorini::Diagnostics>(())
+//! ```
 
 pub mod build;
+mod load;
+pub mod preview;
+pub mod resume;
+pub mod run;
+pub mod text;
+
+pub use build::{Model, build};
+pub use load::{Loaded, Source, load, load_case, load_mesh};
+pub use run::{Finished, Limits, Listener, News, RunOptions, run};
+pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};
+
+/// The version of the program.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -8,6 +8,8 @@
 //! EXPECTED    Force, gap and displacements of all increments.
 //! TOLERANCE   1e-8: both programs iterate to round-off, the data has 12 digits.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{Run, example, model, numbers, oracle, relative, run, text};

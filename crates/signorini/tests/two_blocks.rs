@@ -9,6 +9,8 @@
 //! EXPECTED    Displacements of all nodes and forces of both ends after every increment.
 //! TOLERANCE   1e-8: both programs iterate to round-off, the data has 12 digits.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{Run, example, model, numbers, oracle, relative, run, text};

@@ -7,7 +7,9 @@
 //! | S03xx | the model as a whole                         | 4         |
 //! | S04xx | plausibility                                 | – (warnings) |
 //! | S05xx | the course of a solution                     | 5         |
-//! | S06xx | writing results                              | 6         |
+//! | S06xx | writing results                              | 6, or 3   |
+//! | S07xx | going on with a run                          | 7         |
+//! | S08xx | limits                                       | 8         |
 //!
 //! What is once released under a code keeps its meaning.
 
@@ -22,6 +24,10 @@ pub enum Class {
     Convergence,
     /// Results could not be written.
     Output,
+    /// A run cannot go on from where it stopped.
+    Restart,
+    /// A limit was reached; the run can go on.
+    Limit,
 }
 
 impl Class {
@@ -32,6 +38,8 @@ impl Class {
             Class::Model => 4,
             Class::Convergence => 5,
             Class::Output => 6,
+            Class::Restart => 7,
+            Class::Limit => 8,
         }
     }
 }
@@ -287,6 +295,23 @@ codes! {
     "Writing a file failed. Frames and checkpoints that were complete before are untouched."
     ["the disk is full", "no permission", "a network drive went away"]
     ["free space or name another directory with -o", "go on with  signorini resume DIR"]
+
+    OTHER_RESULTS "S0602" Input "the output folder holds something else"
+    "The folder for the results holds the results of another case, or files that no run has written. A run never \
+     writes over what it does not know."
+    ["two cases have the same name", "-o names a folder of other files"]
+    ["name another folder with -o DIR", "write there all the same: --fresh"]
+
+    CANNOT_RESUME "S0701" Restart "the run cannot go on"
+    "There is no checkpoint that this run could go on from. A checkpoint belongs to one case, one mesh and one format; \
+     another one would give wrong numbers."
+    ["the case or the mesh was changed", "the files were damaged or removed", "another version of the program wrote them"]
+    ["undo the change", "start again: signorini run CASE --fresh"]
+
+    LIMIT_REACHED "S0801" Limit "a limit was reached"
+    "The run stopped because it reached a limit that was set for it. What had converged is on disk."
+    ["the time given with --max-wall is over"]
+    ["go on with  signorini resume DIR", "give more time"]
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{
-    Anchor, Carrier, ContactSurface, Facets, Feature, Placement, SurfaceError,
+    Anchor, Carrier, ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet,
 };
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -67,6 +67,8 @@ pub struct Interface {
     accepted: Pairing,
     judged: Pairing,
     next: Pairing,
+    /// Whether the accepted choices are those of a state, and not just of nothing.
+    started: bool,
     /// The facet that the pattern couples each row with, its neighbours included; `NONE` where it couples none.
     coupled: Vec<u32>,
     points: Vec<Vec3>,
@@ -100,6 +102,7 @@ impl Interface {
             accepted: nothing.clone(),
             judged: nothing.clone(),
             next: nothing,
+            started: false,
             coupled: vec![NONE; nrow],
             points: Vec::new(),
             boxes: Vec::new(),
@@ -157,6 +160,34 @@ impl Interface {
         discretization.pair_up(pair, at, near, &self.now, &mut self.next)?;
         std::mem::swap(&mut self.now, &mut self.next);
         Ok(())
+    }
+
+    /// Whether a point that was near a facet has jumped through it, out of reach behind it: contact would be lost without
+    /// ever having been noticed.
+    fn passed_through(&self, at: &Placement) -> Option<String> {
+        let surface = self.parts.pair.primary.as_ref();
+        let mut jet = SurfaceJet::default();
+        let rows = self.accepted.pairs.iter().zip(&self.now.pairs).enumerate();
+        for (row, (before, now)) in rows {
+            let (Some(before), None) = (before, now) else {
+                continue;
+            };
+            let point = self.points.get(row).copied().unwrap_or_default();
+            if surface.jet(at, &before.anchor, &mut jet).is_err() {
+                continue;
+            }
+            let away = point - jet.position;
+            let behind = -away.dot(jet.normal);
+            let distance = away.norm();
+            if distance > self.parts.pair.reach && behind > 0.5 * distance {
+                return Some(format!(
+                    "a point went through the surface in one increment, {behind:.3} behind it and further than the \
+                     reach of {:.3}; take smaller increments",
+                    self.parts.pair.reach
+                ));
+            }
+        }
+        None
     }
 
     /// Couples every row that touches, or may soon, with its facet; says whether that adds to what was coupled.
@@ -297,10 +328,27 @@ impl Term for Interface {
         Part::Interface
     }
 
+    fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
+        if !self.started {
+            self.search(&from.placement())
+                .map_err(|e| self.failed(&e))?;
+            self.accepted.pairs.clone_from(&self.now.pairs);
+            self.judged.pairs.clone_from(&self.now.pairs);
+            self.started = true;
+        }
+        Ok(())
+    }
+
     fn prepare(&mut self, trial: &State) -> Result<bool, TermError> {
-        self.search(&trial.placement())
-            .map_err(|e| self.failed(&e))?;
-        Ok(self.couple())
+        let at = trial.placement();
+        self.search(&at).map_err(|e| self.failed(&e))?;
+        match self.passed_through(&at) {
+            Some(message) => Err(TermError::Surface {
+                interface: self.parts.name.clone(),
+                message,
+            }),
+            None => Ok(self.couple()),
+        }
     }
 
     fn nchunk(&self) -> usize {
@@ -427,6 +475,7 @@ impl Term for Interface {
             *pair = pair_from_numbers(numbers);
         }
         self.reject();
+        self.started = true;
         self.coupled.fill(NONE);
         self.search.forget();
         Ok(())

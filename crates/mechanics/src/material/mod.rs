@@ -141,9 +141,7 @@ impl Lame {
     fn tangent(&self) -> [[f64; 6]; 6] {
         let mut c = [[0.0; 6]; 6];
         for i in 0..3 {
-            for j in 0..3 {
-                c[i][j] = self.lambda;
-            }
+            c[i][..3].fill(self.lambda);
             c[i][i] += 2.0 * self.mu;
             c[i + 3][i + 3] = self.mu;
         }

@@ -1,5 +1,7 @@
 //! One element: forces, stiffness, energy, stress. Loop bounds are constants here and nowhere else.
 
+#![allow(clippy::needless_range_loop)] // indices are those of tensors, and several arrays share them
+
 use crate::material::{Kinematics, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::element::ReferenceElement;
 use signorini_geometry::element::quadrature::Rule;

@@ -214,6 +214,16 @@ pub(super) struct Place {
     pub attempt: usize,
 }
 
+/// What an increment is to reach.
+pub(super) struct Goal<'a> {
+    /// Total time at its end.
+    pub time: f64,
+    /// Values of the prescribed dofs.
+    pub targets: &'a [(Dof, f64)],
+    /// Expected change of all dofs, from the increments before.
+    pub guess: Option<&'a [f64]>,
+}
+
 /// Newton's method with its memory: kept for a whole run.
 pub(super) struct Newton {
     pub settings: NewtonSettings,
@@ -253,16 +263,14 @@ impl Newton {
         &mut self,
         system: &mut System,
         base: &State,
-        time: f64,
-        targets: &[(Dof, f64)],
-        guess: Option<&[f64]>,
+        goal: &Goal<'_>,
         place: Place,
         report: &mut dyn FnMut(&IterationRecord),
     ) -> Result<Converged, Failure> {
         for term in &mut system.terms {
             term.begin_increment(base)?;
         }
-        let mut motion = self.start(system, base, time, targets, guess);
+        let mut motion = self.start(system, base, goal);
         let mut correction = 0.0;
         let mut alpha = 1.0;
         let mut decrement = 0.0;
@@ -326,18 +334,11 @@ impl Newton {
     ///
     /// An extrapolation that cannot be evaluated is of no use. One that makes a term change its mind (contact opens
     /// that was closed) is of use only where the plain start leaves a larger residual.
-    fn start(
-        &mut self,
-        system: &mut System,
-        base: &State,
-        time: f64,
-        targets: &[(Dof, f64)],
-        guess: Option<&[f64]>,
-    ) -> bool {
-        let Some(guess) = guess else {
-            return self.begin(system, base, time, targets);
+    fn start(&mut self, system: &mut System, base: &State, goal: &Goal<'_>) -> bool {
+        let Some(guess) = goal.guess else {
+            return self.begin(system, base, goal);
         };
-        self.extrapolate(system, base, time, targets, guess);
+        self.extrapolate(system, base, goal, guess);
         let extrapolated = self.largest_residual(system);
         let (_, repeat) = verdicts(system, &self.trial);
         if extrapolated.is_some() && repeat.is_none() {
@@ -345,14 +346,14 @@ impl Newton {
         }
         let back = |system: &mut System| system.terms.iter_mut().for_each(|t| t.reject());
         back(system);
-        let motion = self.begin(system, base, time, targets);
+        let motion = self.begin(system, base, goal);
         if motion {
             return true;
         }
         let plain = self.largest_residual(system);
         back(system);
         if extrapolated.zip(plain).is_some_and(|(e, p)| e < p) {
-            self.extrapolate(system, base, time, targets, guess);
+            self.extrapolate(system, base, goal, guess);
         }
         false
     }
@@ -366,38 +367,31 @@ impl Newton {
     }
 
     /// Puts the prescribed dofs at their targets and advances the others by `guess`.
-    fn extrapolate(
-        &mut self,
-        system: &System,
-        base: &State,
-        time: f64,
-        targets: &[(Dof, f64)],
-        guess: &[f64],
-    ) {
+    fn extrapolate(&mut self, system: &System, base: &State, goal: &Goal<'_>, guess: &[f64]) {
         self.du.clear();
         self.du.extend_from_slice(guess);
-        for &(dof, to) in targets {
+        for &(dof, to) in goal.targets {
             self.du[dof as usize] = to - base.u.get(dof as usize).copied().unwrap_or(to);
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
-        self.trial.time = time;
+        self.trial.time = goal.time;
     }
 
     /// Sets up the trial state and the motion of prescribed dofs; says whether nodes have to be moved in the first
     /// solve.
-    fn begin(&mut self, system: &System, base: &State, time: f64, targets: &[(Dof, f64)]) -> bool {
+    fn begin(&mut self, system: &System, base: &State, goal: &Goal<'_>) -> bool {
         self.du.clear();
         self.du.resize(system.layout.ndof(), 0.0);
         let is_node = |dof| matches!(system.layout.name(dof), Some(DofName::Node(..)));
         let step = |dof: Dof, to: f64| to - base.u.get(dof as usize).copied().unwrap_or(to);
-        for &(dof, to) in targets.iter().filter(|(d, _)| !is_node(*d)) {
+        for &(dof, to) in goal.targets.iter().filter(|(d, _)| !is_node(*d)) {
             self.du[dof as usize] = step(dof, to);
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
-        self.trial.time = time;
+        self.trial.time = goal.time;
         self.du.fill(0.0);
         let mut motion = false;
-        for &(dof, to) in targets.iter().filter(|(d, _)| is_node(*d)) {
+        for &(dof, to) in goal.targets.iter().filter(|(d, _)| is_node(*d)) {
             self.du[dof as usize] = step(dof, to);
             motion |= self.du[dof as usize] != 0.0;
         }

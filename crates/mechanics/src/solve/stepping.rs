@@ -2,7 +2,7 @@
 
 use super::equations::Equations;
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
-use super::newton::{Failure, ForceScale, Newton, NewtonSettings, Place};
+use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
 use crate::system::linear::{LinearKind, choose};
 use crate::system::{Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError};
 use thiserror::Error;
@@ -101,7 +101,7 @@ pub enum RunError {
         /// The smallest size allowed; none where increments are fixed.
         min: Option<f64>,
         /// Why the last attempt failed.
-        cause: Failure,
+        cause: Box<Failure>,
     },
     /// More increments than allowed.
     #[error(
@@ -344,7 +344,7 @@ impl Stepper {
                                 duration: step.duration,
                                 tried,
                                 min,
-                                cause: failure,
+                                cause: Box::new(failure),
                             });
                         }
                         let cause = Cause { failure, dt };
@@ -390,20 +390,18 @@ impl Stepper {
         let dt = end - self.progress.time;
         self.guess.clear();
         self.guess.extend(self.progress.rate.iter().map(|r| r * dt));
-        let guess = (!self.guess.is_empty() && attempt == 1).then_some(&self.guess[..]);
-        let converged = self.newton.solve(
-            system,
-            &self.state,
+        let goal = Goal {
             time,
             targets,
-            guess,
-            place,
-            &mut |record| {
+            guess: (!self.guess.is_empty() && attempt == 1).then_some(&self.guess[..]),
+        };
+        let converged = self
+            .newton
+            .solve(system, &self.state, &goal, place, &mut |record| {
                 if observer.notice(&Event::Iteration(record)) == Flow::Stop {
                     flow = Flow::Stop;
                 }
-            },
-        )?;
+            })?;
         self.newton.scale.accept(converged.q);
         let change = self.newton.trial.u.iter().zip(&self.state.u);
         let rate = change.map(|(now, before)| (now - before) / dt);

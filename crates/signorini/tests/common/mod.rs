@@ -1,6 +1,6 @@
 //! Runs cases through the library and keeps what happened.
 
-#![allow(dead_code)]
+#![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
 use serde_json::Value;
 use signorini::build::{Model, build, read_mesh_of};

@@ -1,14 +1,20 @@
 use super::{ContactLaw, Eval, Scale};
 
 /// The linear penalty, `p = ε⟨−g⟩`.
+///
+/// At `g = 0` the slope has two values. A surface that just touches, to rounding, gets that of contact: bodies that
+/// touch at the start are then pressed together from the first solve on, and not driven into each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Penalty;
 
+/// Gap over the size of the facets up to which a surface touches.
+const TOUCH: f64 = 1e-12;
+
 impl ContactLaw for Penalty {
     fn pressure(&self, gap: f64, _: f64, scale: &Scale) -> Eval {
-        if gap < 0.0 {
+        if gap <= TOUCH * scale.length {
             Eval {
-                value: -scale.penalty * gap,
+                value: -scale.penalty * gap.min(0.0),
                 dgap: -scale.penalty,
                 dlambda: 0.0,
             }

@@ -1,0 +1,89 @@
+//! `signorini check CASE`
+
+use super::console::Console;
+use super::run::joined;
+use super::{CaseOptions, FolderOption};
+use clap::Args;
+use signorini::preview;
+use signorini::{Diagnostics, build, load};
+use signorini_geometry::mesh::Mesh;
+use signorini_io::case::Case;
+use signorini_io::diagnostic::{Diagnostic, codes};
+use signorini_io::fs::{Fs, FsError, RealFs};
+use std::path::{Path, PathBuf};
+
+/// Read everything, solve nothing.
+#[derive(Debug, Args)]
+pub struct Check {
+    /// The case, a .toml file
+    case: PathBuf,
+    #[command(flatten)]
+    folder: FolderOption,
+    #[command(flatten)]
+    changes: CaseOptions,
+}
+
+impl Check {
+    pub fn execute(self) -> u8 {
+        match load(&self.case, &self.changes.set) {
+            Ok(loaded) => preview(
+                loaded.case,
+                loaded.mesh,
+                loaded.warnings,
+                self.folder.output.as_deref(),
+            ),
+            Err(found) => refused(&found),
+        }
+    }
+}
+
+/// Builds a case and tells what would be solved; draws it where there is a folder.
+pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Path>) -> u8 {
+    let mut model = match build(case, mesh) {
+        Ok(model) => model,
+        Err(found) => return refused(&joined(warnings, found)),
+    };
+    let mut found = joined(warnings, std::mem::take(&mut model.warnings));
+    let output = signorini::run::check_output(&model);
+    let preview = match preview::preview(&mut model) {
+        Ok(preview) if output.is_ok() => preview,
+        seen => {
+            for wrong in [output.err(), seen.err()].into_iter().flatten() {
+                found.append(wrong);
+            }
+            return refused(&found);
+        }
+    };
+    Console::stderr().findings(&found);
+    let out = Console::stdout();
+    for line in &preview.lines {
+        out.line(line);
+    }
+    if let Some(folder) = folder {
+        let path = folder.join("check.vtu");
+        let written = preview::picture(&model, &preview)
+            .map_err(|error| Diagnostic::error(&codes::NOT_WRITTEN, error.to_string()))
+            .and_then(|bytes| write(&path, &bytes).map_err(|e| not_written(&e)));
+        match written {
+            Ok(()) => out.line(&format!("→ {}", path.display())),
+            Err(one) => return refused(&one.into()),
+        }
+    }
+    out.line("✓ nothing wrong was found");
+    0
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), FsError> {
+    RealFs.create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
+    RealFs.write_atomic(path, bytes)
+}
+
+/// The message for a file that could not be written.
+pub fn not_written(error: &FsError) -> Diagnostic {
+    Diagnostic::error(&codes::NOT_WRITTEN, error.to_string()).help(error.help())
+}
+
+fn refused(found: &Diagnostics) -> u8 {
+    Console::stderr().findings(found);
+    found.exit_code().unwrap_or(3)
+}

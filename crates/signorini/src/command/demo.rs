@@ -1,0 +1,53 @@
+//! `signorini demo [NAME]`
+
+use super::console::Console;
+use super::run::{Job, refused};
+use super::templates::{self, TEMPLATES};
+use super::{SolveOptions, WRONG_COMMAND, init, threads};
+use clap::Args;
+use signorini::load;
+use signorini_io::fs::FsError;
+use std::time::Instant;
+
+/// Run an example and compare with its expected values.
+#[derive(Debug, Args)]
+pub struct Demo {
+    /// Which one; see signorini init --list
+    #[arg(default_value = TEMPLATES[0].name)]
+    name: String,
+    #[command(flatten)]
+    solve: SolveOptions,
+}
+
+impl Demo {
+    pub fn execute(self) -> u8 {
+        let console = Console::stderr();
+        let Some(template) = templates::find(&self.name) else {
+            console.line(&format!("error: {}", templates::unknown(&self.name)));
+            return WRONG_COMMAND;
+        };
+        let clock = Instant::now();
+        let folder = std::env::temp_dir().join(format!("signorini-demo-{}", std::process::id()));
+        let path = folder.join(init::file_name(template));
+        if let Err(error) = init::write(&path, template) {
+            console.findings(&super::check::not_written(&error).into());
+            return FsError::EXIT_CODE;
+        }
+        console.line(&format!("{}: {}", template.name, template.about));
+        match load(&path, &[]) {
+            Err(found) => refused(&found, &self.solve),
+            Ok(loaded) => Job {
+                threads: threads::make(self.solve.threads, loaded.case.solver.threads),
+                case: loaded.case,
+                mesh: loaded.mesh,
+                warnings: loaded.warnings,
+                source: loaded.source,
+                folder: None,
+                fresh: false,
+                resume: false,
+                read_seconds: clock.elapsed().as_secs_f64(),
+            }
+            .solve(&self.solve),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! The last line of defence: an error of the program itself ends with exit code 70 and a text worth sending.
+
+use super::console::Console;
+use std::panic;
+use std::process::ExitCode;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The exit code for an error of the program.
+const INTERNAL: u8 = 70;
+
+/// The stack of the thread that works, in bytes: enough whatever limit the shell has set.
+const STACK: usize = 16 << 20;
+
+/// Runs the program in a thread with a stack of its own, and turns a panic into a message.
+pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> ExitCode {
+    let seen: Arc<Mutex<Option<String>>> = Arc::default();
+    let keep = Arc::clone(&seen);
+    panic::set_hook(Box::new(move |info| {
+        let mut first = keep.lock().unwrap_or_else(PoisonError::into_inner);
+        first.get_or_insert_with(|| info.to_string());
+    }));
+    let thread = std::thread::Builder::new()
+        .name("signorini".into())
+        .stack_size(STACK)
+        .spawn(program);
+    let code = match thread.map(std::thread::JoinHandle::join) {
+        Ok(Ok(code)) => code,
+        Ok(Err(_)) => {
+            let what = seen.lock().unwrap_or_else(PoisonError::into_inner).take();
+            report(&what.unwrap_or_else(|| "a panic".into()));
+            INTERNAL
+        }
+        Err(error) => {
+            report(&format!("no thread could be started: {error}"));
+            INTERNAL
+        }
+    };
+    ExitCode::from(code)
+}
+
+fn report(what: &str) {
+    let console = Console::stderr();
+    console.line("internal error: this is a bug of signorini, not of your case");
+    console.line(&format!("  {what}"));
+    console.line(&format!(
+        "  signorini {} on {}-{}",
+        signorini::VERSION,
+        std::env::consts::ARCH,
+        std::env::consts::OS
+    ));
+    console.line(
+        "  please send these lines with the case and its mesh; what had converged is on disk",
+    );
+}

@@ -1,0 +1,203 @@
+//! `signorini info FILE|DIR`
+
+use super::console::Console;
+use clap::Args;
+use signorini::text::{count, plural, short};
+use signorini::{Diagnostics, load};
+use signorini_geometry::mesh::Mesh;
+use signorini_io::diagnostic::{Diagnostic, codes};
+use signorini_io::fs::{Fs, RealFs};
+use signorini_io::readers::{self, Severity};
+use signorini_io::writers::json::Summary;
+use signorini_io::writers::pvd::Pvd;
+use signorini_io::writers::vtu::{self, Array};
+use std::path::{Path, PathBuf};
+
+/// Tell what is in a mesh, a case, or a folder of results.
+#[derive(Debug, Args)]
+pub struct Info {
+    /// A mesh, a case (.toml), a .vtu file, or a folder of results
+    path: PathBuf,
+}
+
+impl Info {
+    pub fn execute(self) -> u8 {
+        let told = if self.path.is_dir() {
+            results(&self.path)
+        } else {
+            let extension = self.path.extension().map(|e| e.to_ascii_lowercase());
+            match extension.as_deref().and_then(|e| e.to_str()) {
+                Some("toml") => load(&self.path, &[]).map(|loaded| mesh(&loaded.mesh)),
+                Some("vtu") => fields(&self.path).map_err(Diagnostics::from),
+                _ => mesh_file(&self.path).map_err(Diagnostics::from),
+            }
+        };
+        match told {
+            Ok(lines) => {
+                let out = Console::stdout();
+                lines.iter().for_each(|line| out.line(line));
+                0
+            }
+            Err(found) => {
+                Console::stderr().findings(&found);
+                found.exit_code().unwrap_or(3)
+            }
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    RealFs.read(path).map_err(|error| {
+        Diagnostic::error(&codes::UNREADABLE, error.to_string()).help(error.help())
+    })
+}
+
+fn mesh_file(path: &Path) -> Result<Vec<String>, Diagnostic> {
+    let bytes = read(path)?;
+    let (found, notes) = readers::read_mesh(&path.display().to_string(), &bytes)
+        .map_err(|error| Diagnostic::error(&codes::BAD_MESH, error.to_string()))?;
+    let mut lines = mesh(&found);
+    lines.extend(notes.iter().map(|note| format!("note: {note}")));
+    Ok(lines)
+}
+
+/// Nodes, cells, groups and what is wrong with them.
+fn mesh(mesh: &Mesh) -> Vec<String> {
+    let mut lines = vec![plural(mesh.nnode(), "node")];
+    for block in &mesh.blocks {
+        lines.push(format!("{} {}", count(block.ncell()), block.element.name()));
+    }
+    for axis in 0..3 {
+        let values = mesh.points.iter().map(|x| x.to_array()[axis]);
+        let low = values.clone().fold(f64::INFINITY, f64::min);
+        let high = values.fold(f64::NEG_INFINITY, f64::max);
+        if low < high {
+            let name = ["x", "y", "z"][axis];
+            lines.push(format!("{name} from {} to {}", short(low), short(high)));
+        }
+    }
+    for (name, set) in &mesh.sets {
+        let mut parts = Vec::new();
+        for dim in (0..=3).rev() {
+            let n = set
+                .cells
+                .iter()
+                .filter(|cell| mesh.element(**cell).is_some_and(|e| e.dim() == dim));
+            let noun = ["point", "line", "surface cell", "volume cell"][dim];
+            match n.count() {
+                0 => {}
+                n => parts.push(plural(n, noun)),
+            }
+        }
+        if !set.faces.is_empty() {
+            parts.push(plural(set.faces.len(), "face"));
+        }
+        if !set.nodes.is_empty() {
+            parts.push(plural(set.nodes.len(), "node"));
+        }
+        lines.push(format!("group {name}: {}", parts.join(", ")));
+    }
+    for issue in readers::validate(mesh) {
+        let kind = match issue.severity() {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        lines.push(format!("{kind}: {issue}"));
+    }
+    lines
+}
+
+/// How a run ended, its times, and the fields of its last frame.
+fn results(folder: &Path) -> Result<Vec<String>, Diagnostics> {
+    let no_results = |why: String| {
+        Diagnostic::error(
+            &codes::UNREADABLE,
+            format!("{} holds no results: {why}", folder.display()),
+        )
+    };
+    let list = Pvd::read(&RealFs, &folder.join("results.pvd"))
+        .map_err(|error| no_results(error.to_string()))?;
+    let mut lines = Vec::new();
+    match Summary::read(&RealFs, &folder.join("summary.json")) {
+        Ok(summary) => lines.extend(ending(&summary)),
+        Err(_) => lines.push("not ended yet, or killed".to_owned()),
+    }
+    let entries = list.entries();
+    if let (Some(first), Some(last)) = (entries.first(), entries.last()) {
+        lines.push(format!(
+            "{}, time {} to {}",
+            plural(entries.len(), "frame"),
+            first.time,
+            last.time
+        ));
+        lines.push(format!("fields of the last frame, {}:", last.file));
+        lines.extend(fields(&folder.join(&last.file))?);
+    }
+    Ok(lines)
+}
+
+fn ending(summary: &Summary) -> Vec<String> {
+    let mut lines = vec![format!(
+        "{} (exit code {})",
+        summary.status, summary.exit_code
+    )];
+    for step in &summary.steps {
+        lines.push(format!(
+            "step {}: {}, {}, {}",
+            step.name,
+            plural(step.increments as usize, "increment"),
+            plural(step.iterations as usize, "iteration"),
+            plural(step.cutbacks as usize, "cut-back")
+        ));
+    }
+    for (name, contact) in &summary.contacts {
+        let [x, y, z] = contact.force.map(short);
+        lines.push(format!(
+            "contact {name}: force ({x}, {y}, {z}), largest pressure {}, smallest gap {}",
+            short(contact.pressure_max),
+            short(contact.gap_min)
+        ));
+    }
+    for one in &summary.expectations {
+        let sign = if one.ok { "✓" } else { "✗" };
+        lines.push(format!(
+            "expect {}: {} for {}  {sign}",
+            one.what, one.got, one.value
+        ));
+    }
+    lines
+}
+
+/// The arrays of a frame with their ranges.
+fn fields(path: &Path) -> Result<Vec<String>, Diagnostic> {
+    let bytes = read(path)?;
+    let grid = vtu::read(&bytes).map_err(|error| {
+        Diagnostic::error(&codes::UNREADABLE, format!("{}: {error}", path.display()))
+    })?;
+    let mut lines = Vec::new();
+    for (place, arrays) in [("node", &grid.point_data), ("cell", &grid.cell_data)] {
+        for array in arrays {
+            let (low, high) = range(array);
+            let what = match array.ncomponent {
+                1 => String::new(),
+                n => format!(", {n} components"),
+            };
+            lines.push(format!(
+                "  {} ({place}{what}): {} to {}",
+                array.name,
+                short(low),
+                short(high)
+            ));
+        }
+    }
+    Ok(lines)
+}
+
+/// Smallest and largest number of an array; numbers that are none are left out.
+fn range(array: &Array) -> (f64, f64) {
+    let values = array.numbers.to_f64();
+    let start = (f64::INFINITY, f64::NEG_INFINITY);
+    let wider = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
+    values.iter().fold(start, wider)
+}

@@ -1,0 +1,48 @@
+//! `signorini resume DIR`
+
+use super::console::Console;
+use super::run::{Job, refused};
+use super::{SolveOptions, threads};
+use clap::Args;
+use signorini::resume::{Stopped, stopped};
+use signorini_io::fs::RealFs;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Go on with a run that was stopped.
+#[derive(Debug, Args)]
+pub struct Resume {
+    /// The folder with its results
+    folder: PathBuf,
+    #[command(flatten)]
+    solve: SolveOptions,
+}
+
+impl Resume {
+    pub fn execute(self) -> u8 {
+        let clock = Instant::now();
+        match stopped(&RealFs, &self.folder) {
+            Err(found) => refused(&found, &self.solve),
+            Ok(Stopped::Done(summary)) => {
+                let folder = self.folder.display();
+                Console::stderr().line(&format!(
+                    "nothing is left to do: the run in {folder} ended as \"{}\"",
+                    summary.status
+                ));
+                summary.exit_code
+            }
+            Ok(Stopped::Open(loaded)) => Job {
+                threads: threads::make(self.solve.threads, loaded.case.solver.threads),
+                case: loaded.case,
+                mesh: loaded.mesh,
+                warnings: loaded.warnings,
+                source: loaded.source,
+                folder: Some(self.folder),
+                fresh: false,
+                resume: true,
+                read_seconds: clock.elapsed().as_secs_f64(),
+            }
+            .solve(&self.solve),
+        }
+    }
+}

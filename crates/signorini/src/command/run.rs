@@ -1,0 +1,155 @@
+//! `signorini run CASE`
+
+use super::console::Console;
+use super::ndjson::Ndjson;
+use super::terminal::Terminal;
+use super::{CaseOptions, FolderOption, SolveOptions, signals, threads};
+use clap::Args;
+use signorini::run::{Detail, Finished};
+use signorini::{
+    Diagnostics, Limits, Listener, Model, News, RunOptions, Source, build, load_case, load_mesh,
+};
+use signorini_geometry::mesh::Mesh;
+use signorini_io::case::Case;
+use signorini_io::writers::json::Event;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Solve a case.
+#[derive(Debug, Args)]
+pub struct Run {
+    /// The case, a .toml file
+    case: PathBuf,
+    #[command(flatten)]
+    folder: FolderOption,
+    /// Start even in a folder with results of another case
+    #[arg(long)]
+    fresh: bool,
+    /// Build everything and stop before the first increment; nothing is written
+    #[arg(long)]
+    dry_run: bool,
+    #[command(flatten)]
+    changes: CaseOptions,
+    #[command(flatten)]
+    solve: SolveOptions,
+}
+
+impl Run {
+    pub fn execute(self) -> u8 {
+        let clock = Instant::now();
+        let (case, warnings, mut source) = match load_case(&self.case, &self.changes.set) {
+            Ok(read) => read,
+            Err(found) => return refused(&found, &self.solve),
+        };
+        let nthread = threads::make(self.solve.threads, case.solver.threads);
+        let (mesh, more) = match load_mesh(&case, &mut source) {
+            Ok(read) => read,
+            Err(found) => return refused(&joined(warnings, found), &self.solve),
+        };
+        let job = Job {
+            warnings: joined(warnings, more),
+            case,
+            mesh,
+            source,
+            folder: self.folder.output,
+            fresh: self.fresh,
+            resume: false,
+            threads: nthread,
+            read_seconds: clock.elapsed().as_secs_f64(),
+        };
+        if self.dry_run {
+            return super::check::preview(job.case, job.mesh, job.warnings, None);
+        }
+        job.solve(&self.solve)
+    }
+}
+
+/// Everything that is solved from: what `run` and `resume` have in common.
+pub struct Job {
+    pub case: Case,
+    pub mesh: Mesh,
+    pub warnings: Diagnostics,
+    pub source: Source,
+    pub folder: Option<PathBuf>,
+    pub fresh: bool,
+    pub resume: bool,
+    pub threads: usize,
+    pub read_seconds: f64,
+}
+
+impl Job {
+    /// Builds, solves, tells; returns the exit code.
+    pub fn solve(self, options: &SolveOptions) -> u8 {
+        let clock = Instant::now();
+        let mut model = match build(self.case, self.mesh) {
+            Ok(model) => model,
+            Err(found) => return refused(&joined(self.warnings, found), options),
+        };
+        model.name.clone_from(&self.source.name);
+        model.warnings = joined(self.warnings, std::mem::take(&mut model.warnings));
+        let mut run = RunOptions::new(self.source);
+        run.folder = self.folder.unwrap_or(run.folder);
+        run.fresh = self.fresh;
+        run.resume = self.resume;
+        run.threads = self.threads;
+        run.seconds = [self.read_seconds, clock.elapsed().as_secs_f64()];
+        run.limits = Limits {
+            signal: signals::watched(),
+            deadline: options
+                .max_wall
+                .map(|s| Instant::now() + Duration::from_secs_f64(s.min(1e9))),
+        };
+        let finished = solve(&mut model, &run, options);
+        if options.timings {
+            timings(&finished);
+        }
+        finished.exit_code
+    }
+}
+
+/// Solves and tells as the options say.
+fn solve(model: &mut Model, run: &RunOptions, options: &SolveOptions) -> Finished {
+    let level = if options.json {
+        signorini::run::narration::Level::Important
+    } else {
+        Terminal::level(options.quiet, options.verbose)
+    };
+    let mut terminal = Terminal::new(level, !options.no_progress && !options.json);
+    if options.json {
+        signorini::run(model, run, &mut (Ndjson(Console::stdout()), terminal))
+    } else {
+        signorini::run(model, run, &mut terminal)
+    }
+}
+
+/// Tells why nothing is solved, and returns the exit code.
+pub fn refused(found: &Diagnostics, options: &SolveOptions) -> u8 {
+    Console::stderr().findings(found);
+    let code = found.exit_code().unwrap_or(3);
+    if options.json {
+        let mut out = Ndjson(Console::stdout());
+        signorini::run::tell(found, &mut out);
+        let event = Event::End {
+            status: "not started".into(),
+            exit_code: code,
+            seconds: 0.0,
+        };
+        let _ = out.hear(&News {
+            event: &event,
+            detail: Detail::None,
+        });
+    }
+    code
+}
+
+pub fn joined(mut first: Diagnostics, second: Diagnostics) -> Diagnostics {
+    first.append(second);
+    first
+}
+
+fn timings(finished: &Finished) {
+    let console = Console::stderr();
+    for (phase, seconds) in &finished.summary.time {
+        console.line(&format!("  {phase:<8}{seconds:>9.3} s"));
+    }
+}

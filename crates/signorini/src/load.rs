@@ -1,0 +1,143 @@
+//! Reading what a run starts from: the case and its mesh, and what is remembered of both.
+
+use crate::build::read_mesh_of;
+use sha2::{Digest, Sha256};
+use signorini_geometry::mesh::Mesh;
+use signorini_io::case::{self, Case, MeshSource};
+use signorini_io::diagnostic::Diagnostics;
+use signorini_io::writers::json::Input;
+use std::path::{Path, PathBuf};
+
+/// Where a case comes from: enough to know it again, and to read it again.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Source {
+    /// What the run is called: the stem of the case's file name.
+    pub name: String,
+    /// The case, as the user named it.
+    pub path: PathBuf,
+    /// The folder that paths in the case are relative to.
+    pub folder: PathBuf,
+    /// The bytes of the case.
+    pub text: Vec<u8>,
+    /// What `--set` changed: path and value.
+    pub overrides: Vec<(String, String)>,
+    /// The mesh file, where there is one.
+    pub mesh: Option<PathBuf>,
+    /// The files that were read, with their hashes.
+    pub inputs: Vec<Input>,
+}
+
+impl Source {
+    /// What the case and its mesh hash to: two runs of one hash are the same run.
+    #[must_use]
+    pub fn hash(&self) -> [u8; 32] {
+        let mut hasher = Sha256::new();
+        for (path, value) in &self.overrides {
+            hasher.update(format!("{path}={value}\n"));
+        }
+        for input in &self.inputs {
+            hasher.update(input.sha256.as_bytes());
+        }
+        hasher.finalize().into()
+    }
+
+    /// The folder its results go to unless the user names one: beside the case.
+    #[must_use]
+    pub fn output_folder(&self) -> PathBuf {
+        self.path.with_file_name(format!("{}.out", self.name))
+    }
+}
+
+/// A case with its mesh.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The case.
+    pub case: Case,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// What is unusual.
+    pub warnings: Diagnostics,
+    /// Where both come from.
+    pub source: Source,
+}
+
+/// Reads a case, changed by `overrides` (path, value), and its mesh.
+///
+/// # Errors
+/// All faults of the case at once; else all faults of the mesh.
+pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Loaded, Diagnostics> {
+    let (case, mut warnings, mut source) = load_case(path, overrides)?;
+    let (mesh, more) = load_mesh(&case, &mut source)?;
+    warnings.append(more);
+    Ok(Loaded {
+        case,
+        mesh,
+        warnings,
+        source,
+    })
+}
+
+/// Reads a case without its mesh.
+///
+/// # Errors
+/// All faults of the case at once.
+pub fn load_case(
+    path: &Path,
+    overrides: &[(String, String)],
+) -> Result<(Case, Diagnostics, Source), Diagnostics> {
+    let Ok(text) = std::fs::read(path) else {
+        // says why, in the words for users
+        let (case, warnings) = case::read_case_file(path, overrides)?;
+        return Ok((case, warnings, Source::default()));
+    };
+    let (case, warnings) = case::read_case(&path.display().to_string(), &text, overrides)?;
+    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
+    let source = Source {
+        name: stem.unwrap_or_else(|| "case".into()),
+        path: path.to_path_buf(),
+        folder: folder_of(path),
+        inputs: vec![Input {
+            path: path.display().to_string(),
+            sha256: sha256(&text),
+        }],
+        text,
+        overrides: overrides.to_vec(),
+        mesh: None,
+    };
+    Ok((case, warnings, source))
+}
+
+/// Reads the mesh of a case.
+///
+/// # Errors
+/// All faults of the mesh.
+pub fn load_mesh(case: &Case, source: &mut Source) -> Result<(Mesh, Diagnostics), Diagnostics> {
+    let (mesh, mut warnings) = read_mesh_of(case, &source.folder)?;
+    if let MeshSource::File { path } = &case.mesh {
+        let path = source.folder.join(&path.value);
+        let bytes = std::fs::read(&path).unwrap_or_default();
+        source.inputs.push(Input {
+            path: path.display().to_string(),
+            sha256: sha256(&bytes),
+        });
+        source.mesh = Some(path);
+    }
+    let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
+    warnings.silence(&allowed);
+    Ok((mesh, warnings))
+}
+
+/// SHA-256 in hexadecimal.
+pub(crate) fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes)
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_path_buf(),
+        _ => PathBuf::from("."),
+    }
+}

@@ -1,0 +1,71 @@
+//! Reading what a stopped run started from, out of its output folder.
+
+use crate::load::{Loaded, Source, load_mesh, sha256};
+use crate::run::{Owner, cannot_resume, case_copy};
+use signorini_io::case::read_case;
+use signorini_io::diagnostic::Diagnostics;
+use signorini_io::fs::Fs;
+use signorini_io::writers::json::{Input, Summary};
+use std::path::Path;
+
+/// What a folder of results can be gone on with.
+pub enum Stopped {
+    /// The run was done; this is how it ended.
+    Done(Box<Summary>),
+    /// The run was stopped: its case as it was then, and its mesh.
+    Open(Box<Loaded>),
+}
+
+/// Reads what a stopped run started from. The case is the copy in the folder; the mesh must not have changed.
+///
+/// # Errors
+/// A folder without results, a mesh that has changed: exit code 7.
+pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
+    let shown = folder.display();
+    let owner = Owner::read(fs, folder).ok_or_else(|| {
+        cannot_resume(format!(
+            "{shown} holds no results of a run; start one: signorini run CASE -o {shown}"
+        ))
+    })?;
+    if let Ok(summary) = Summary::read(fs, &folder.join("summary.json"))
+        && summary.exit_code <= 1
+    {
+        return Ok(Stopped::Done(Box::new(summary)));
+    }
+    let text = case_copy(fs, folder).map_err(cannot_resume)?;
+    if sha256(&text) != owner.sha256 {
+        return Err(cannot_resume(format!(
+            "the copy of the case in {shown} was changed; start again with --fresh"
+        ))
+        .into());
+    }
+    let name = owner.case.display().to_string();
+    let (case, mut warnings) = read_case(&name, &text, &owner.overrides)?;
+    let mut source = Source {
+        name: owner.name.clone(),
+        folder: owner.case.parent().unwrap_or(Path::new(".")).to_path_buf(),
+        inputs: vec![Input {
+            path: name,
+            sha256: sha256(&text),
+        }],
+        path: owner.case,
+        text,
+        overrides: owner.overrides,
+        mesh: None,
+    };
+    let (mesh, more) = load_mesh(&case, &mut source)?;
+    warnings.append(more);
+    let hash = source.inputs.get(1).map(|input| &input.sha256);
+    if hash != owner.mesh_sha256.as_ref() {
+        return Err(cannot_resume(
+            "the mesh has changed since the run was stopped; undo the change, or start again with --fresh",
+        )
+        .into());
+    }
+    Ok(Stopped::Open(Box::new(Loaded {
+        case,
+        mesh,
+        warnings,
+        source,
+    })))
+}

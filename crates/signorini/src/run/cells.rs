@@ -1,0 +1,80 @@
+//! Cells as VTK numbers them.
+
+use signorini_geometry::element::Element;
+
+/// The type and the order of nodes that VTK has for an element.
+///
+/// VTK's wedge has the normal of its first triangle pointing out, ours in, as Gmsh and Abaqus have it.
+const TABLE: [(&str, u8, &[usize]); 6] = [
+    ("line2", 3, &[0, 1]),
+    ("tri3", 5, &[0, 1, 2]),
+    ("quad4", 9, &[0, 1, 2, 3]),
+    ("tet4", 10, &[0, 1, 2, 3]),
+    ("hex8", 12, &[0, 1, 2, 3, 4, 5, 6, 7]),
+    ("wedge6", 13, &[0, 2, 1, 3, 5, 4]),
+];
+
+/// VTK's type of a single point.
+const VERTEX: u8 = 1;
+
+/// Cells in the making.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cells {
+    /// VTK's type of each.
+    pub types: Vec<u8>,
+    /// Where the nodes of each start; one more than cells.
+    pub offsets: Vec<usize>,
+    /// Nodes in VTK's order.
+    pub connectivity: Vec<u32>,
+}
+
+impl Default for Cells {
+    fn default() -> Self {
+        Self {
+            types: Vec::new(),
+            offsets: vec![0],
+            connectivity: Vec::new(),
+        }
+    }
+}
+
+impl Cells {
+    /// Appends a cell; says whether VTK has such cells.
+    pub fn push(&mut self, element: Element, nodes: &[u32], shift: u32) -> bool {
+        let Some((_, kind, order)) = TABLE.iter().find(|(name, ..)| *name == element.name()) else {
+            return false;
+        };
+        let picked = order.iter().filter_map(|&k| nodes.get(k));
+        self.connectivity.extend(picked.map(|n| n + shift));
+        self.types.push(*kind);
+        self.offsets.push(self.connectivity.len());
+        true
+    }
+
+    /// Appends a point.
+    pub fn push_vertex(&mut self, node: u32) {
+        self.connectivity.push(node);
+        self.types.push(VERTEX);
+        self.offsets.push(self.connectivity.len());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_geometry::element;
+    use signorini_io::writers::vtu;
+
+    #[test]
+    fn every_element_has_a_cell_of_vtk_with_as_many_nodes() {
+        for element in element::TABLE {
+            let mut cells = Cells::default();
+            let nodes: Vec<u32> = (0..element.nnode() as u32).collect();
+            assert!(cells.push(element, &nodes, 10), "{}", element.name());
+            assert_eq!(vtu::nnode_of(cells.types[0]), Some(nodes.len()));
+            let mut seen = cells.connectivity.clone();
+            seen.sort_unstable();
+            assert!(seen.iter().zip(&nodes).all(|(a, b)| *a == b + 10));
+        }
+    }
+}

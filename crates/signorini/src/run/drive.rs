@@ -1,0 +1,418 @@
+//! From a model to an ending: claims the folder, solves, saves, judges.
+
+use super::error::{OutputError, bad_checkpoint, cannot_resume};
+use super::expectations::Expectations;
+use super::fields::Fields;
+use super::history::History;
+use super::limits::Stop;
+use super::news::{Detail, Listener, News, Totals, tell};
+use super::recorder::{Opened, Recorder, Setting};
+use super::start::{Start, begin, facts};
+use super::tree::{Claim, Tree};
+use super::volume::Volume;
+use super::{Finished, RunOptions, event_of, failure};
+use crate::build::Model;
+use signorini_io::case;
+use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_io::writers::RowsError;
+use signorini_io::writers::json::{DiagnosticSummary, Event, StepSummary, Summary};
+use signorini_mechanics::solve::{Outcome, RunError, Stepper};
+use signorini_mechanics::system::{Archive, ArchiveError};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Solves a model; everything that happens goes to files and to the listener.
+///
+/// Never fails in another way than by the exit code and the messages of what it returns.
+pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener) -> Finished {
+    let clock = Instant::now();
+    let prepared = Setting::check(model).and_then(|checked| Ok((checked, begin(model)?)));
+    let (checked, start) = match prepared {
+        Ok(prepared) => prepared,
+        Err(found) => return refuse(found, listener),
+    };
+    let claim = match (options.resume, options.fresh) {
+        (true, _) => Claim::Resume,
+        (false, true) => Claim::Fresh,
+        (false, false) => Claim::Start,
+    };
+    let tree = match Tree::claim(&options.fs, &options.folder, &options.source, claim) {
+        Ok(tree) => tree,
+        Err(found) => return refuse(found, listener),
+    };
+    let checkpoints = Checkpoints::new(&tree.path("checkpoint"), options.source.hash());
+    let from = match options
+        .resume
+        .then(|| checkpoints.latest_good(options.fs.as_ref()))
+    {
+        None => None,
+        Some(Ok(checkpoint)) => Some(checkpoint),
+        Some(Err(error)) => return refuse(bad_checkpoint(&error).into(), listener),
+    };
+    let (setting, expectations) = setting(model, options, tree, checked);
+    let opened = match &from {
+        None => Opened::create(setting, expectations, checkpoints),
+        Some(from) => Opened::resume(setting, expectations, checkpoints, &from.archive),
+    };
+    match opened {
+        Ok(opened) => Run {
+            recorder: opened.heard_by(listener),
+            model,
+            options,
+            clock,
+        }
+        .finish(&start, from.as_ref()),
+        Err(error) => refuse(not_opened(&error, from.is_some()).into(), listener),
+    }
+}
+
+/// The ending of a run that never began; the listener is told why.
+pub fn refuse(found: Diagnostics, listener: &mut dyn Listener) -> Finished {
+    tell(&found, listener);
+    let finished = refused(found);
+    let event = Event::End {
+        status: finished.summary.status.clone(),
+        exit_code: finished.exit_code,
+        seconds: 0.0,
+    };
+    let _ = listener.hear(&News {
+        event: &event,
+        detail: Detail::None,
+    });
+    finished
+}
+
+fn refused(found: Diagnostics) -> Finished {
+    let exit_code = found.exit_code().unwrap_or(3);
+    Finished {
+        exit_code,
+        summary: Summary {
+            status: "not started".into(),
+            exit_code,
+            version: crate::VERSION.into(),
+            diagnostics: summaries(&found),
+            ..Summary::default()
+        },
+        diagnostics: found,
+    }
+}
+
+/// The message for growing files that could not be opened.
+fn not_opened(error: &OutputError, resumed: bool) -> Diagnostic {
+    match error {
+        OutputError::Rows(RowsError::Fs(_)) | OutputError::Fs(_) => error.diagnostic(),
+        other if resumed => cannot_resume(other),
+        other => other.diagnostic(),
+    }
+}
+
+fn setting(
+    model: &Model,
+    options: &RunOptions,
+    tree: Tree,
+    (history, expectations, fields): (History, Expectations, Fields),
+) -> (Setting, Expectations) {
+    let checkpoint = &model.case.checkpoint;
+    let setting = Setting {
+        fs: Arc::clone(&options.fs),
+        tree,
+        name: model.name.clone(),
+        mesh: Arc::clone(&model.mesh),
+        layout: model.system.layout,
+        steps: model.steps.clone(),
+        volume: Volume::new(&model.mesh, fields),
+        history,
+        every: model.case.output.every,
+        checkpoint_increments: checkpoint.increments,
+        checkpoint_wall: checkpoint.wall.map(Duration::from_secs_f64),
+        limits: options.limits.clone(),
+        has_contact: !model.contacts.is_empty(),
+    };
+    (setting, expectations)
+}
+
+/// A run that has its folder.
+struct Run<'a, 'l> {
+    model: &'a mut Model,
+    options: &'a RunOptions,
+    recorder: Recorder<'l>,
+    clock: Instant,
+}
+
+/// How the solution ended.
+enum Ending {
+    Solved,
+    Stopped(Stop),
+    Failed(Diagnostic),
+}
+
+impl Run<'_, '_> {
+    fn finish(mut self, start: &Start, from: Option<&Checkpoint>) -> Finished {
+        let mut found = self.model.warnings.clone();
+        if let Some(why) = from.and_then(|from| from.passed_over.as_ref()) {
+            let message = "one of the two checkpoints is of no use; the run goes on from the other";
+            found.push(Diagnostic::warning(&codes::CANNOT_RESUME, message).note(why));
+        }
+        let facts = facts(self.model, start, self.options);
+        self.recorder.start(&facts, &self.model.case.title, &found);
+        self.write_resolved();
+        let before = self.recorder.write_seconds;
+        let solving = Instant::now();
+        let ending = match self.solve(start, from) {
+            Ok(ending) => ending,
+            Err(error) => Ending::Failed(cannot_resume(error)),
+        };
+        let writing = self.recorder.write_seconds - before;
+        let solving = (solving.elapsed().as_secs_f64() - writing).max(0.0);
+        self.close(ending, found, facts.nunknown, solving)
+    }
+
+    fn write_resolved(&mut self) {
+        let text = case::resolved(&self.model.case);
+        let path = self.recorder.setting.tree.path("case.resolved.toml");
+        let fs = &self.recorder.setting.fs;
+        if let Err(error) = fs.write_atomic(&path, text.as_bytes()) {
+            self.recorder.error.get_or_insert(error.into());
+        }
+    }
+
+    /// Solves until the end, a limit or a failure; saves where it is due.
+    fn solve(&mut self, start: &Start, from: Option<&Checkpoint>) -> Result<Ending, ArchiveError> {
+        let mut stepper = match from {
+            Some(from) => self.restart(&solution_of(&from.archive))?,
+            None => {
+                self.recorder.undeformed(&start.frame);
+                Stepper::new(&self.model.system, self.model.settings)
+            }
+        };
+        let mut due = from.is_none();
+        loop {
+            if due && self.recorder.error.is_none() {
+                let saved = self.recorder.save(&stepper, &self.model.system);
+                if let Some(solution) = saved {
+                    stepper = self.restart(&solution)?;
+                }
+            }
+            if self.recorder.error.is_some() {
+                // who asks sees the failure of the disk first
+                return Ok(Ending::Solved);
+            }
+            if let Some(stop) = self.recorder.stop {
+                return Ok(Ending::Stopped(stop));
+            }
+            let Model { system, steps, .. } = &mut *self.model;
+            match stepper.run(system, steps, &mut self.recorder) {
+                Ok(Outcome::Finished) => return Ok(Ending::Solved),
+                Ok(Outcome::Stopped) => due = self.recorder.is_due(),
+                Err(error) => return Ok(self.failed(&error, &stepper)),
+            }
+        }
+    }
+
+    /// Goes on from an archive in the way a new process does, so that both give the same bits: loaded histories first,
+    /// then a stepper that has seen nothing else.
+    fn restart(&mut self, archive: &Archive) -> Result<Stepper, ArchiveError> {
+        let (system, settings) = (&mut self.model.system, self.model.settings);
+        Stepper::new(system, settings).load(system, archive)?;
+        let mut stepper = Stepper::new(system, settings);
+        stepper.load(system, archive)?;
+        Ok(stepper)
+    }
+
+    fn failed(&mut self, error: &RunError, stepper: &Stepper) -> Ending {
+        self.recorder.gave_up(error);
+        self.recorder.failed(&self.model.system, stepper);
+        let saved = failure::Saved {
+            increments: self.recorder.counts.increments,
+            folder: self.options.folder.display().to_string(),
+        };
+        Ending::Failed(failure::message(error, self.model, &saved))
+    }
+
+    /// Judges, tells and writes how it ended.
+    fn close(
+        mut self,
+        ending: Ending,
+        mut found: Diagnostics,
+        nunknown: usize,
+        solving: f64,
+    ) -> Finished {
+        let solved = matches!(ending, Ending::Solved) && self.recorder.error.is_none();
+        self.recorder.finish(solved);
+        let mut verdicts = Vec::new();
+        let (mut exit_code, mut status) = match ending {
+            Ending::Solved => {
+                verdicts = self.expectations();
+                let ok = verdicts.iter().all(|v| v.ok);
+                (
+                    u8::from(!ok),
+                    if ok { "solved" } else { "expectation failed" },
+                )
+            }
+            Ending::Stopped(stop) => {
+                if stop == Stop::Time {
+                    let limit = self.stopped_by_time();
+                    self.recorder
+                        .tell(&event_of(&limit), Detail::Finding(&limit));
+                    found.push(limit);
+                }
+                (stop.exit_code(), stop.status())
+            }
+            Ending::Failed(one) => {
+                let code = one.code.class.exit_code();
+                self.recorder.tell(&event_of(&one), Detail::Finding(&one));
+                found.push(one);
+                let status = match code {
+                    4 => "model ill-posed",
+                    7 => "cannot resume",
+                    _ => "not converged",
+                };
+                (code, status)
+            }
+        };
+        let mut summary = Summary {
+            steps: self.recorder.counts.steps.clone(),
+            contacts: std::mem::take(&mut self.recorder.contacts),
+            expectations: verdicts,
+            time: [
+                ("read", self.options.seconds[0]),
+                ("build", self.options.seconds[1]),
+                ("solve", solving),
+                ("write", self.recorder.write_seconds),
+                (
+                    "total",
+                    self.clock.elapsed().as_secs_f64() + self.options.seconds.iter().sum::<f64>(),
+                ),
+            ]
+            .map(|(phase, seconds)| (phase.to_owned(), seconds))
+            .into(),
+            memory_peak_bytes: memory_peak(),
+            unknowns: nunknown as u64,
+            version: crate::VERSION.into(),
+            inputs: self.options.source.inputs.clone(),
+            ..Summary::default()
+        };
+        let path = self.recorder.setting.tree.path("summary.json");
+        let mut event = Event::End {
+            status: String::new(),
+            exit_code,
+            seconds: summary.time.get("total").copied().unwrap_or(0.0),
+        };
+        let totals = self.totals(&summary);
+        // twice at most: the writing of the ending may fail, which makes another ending
+        loop {
+            let failed = self.recorder.error.take();
+            if let Some(error) = &failed {
+                (exit_code, status) = (6, "not written");
+                let one = self.not_written(error);
+                self.recorder
+                    .tell_listener(&event_of(&one), Detail::Finding(&one));
+                found.push(one);
+            }
+            summary.exit_code = exit_code;
+            summary.status = status.to_owned();
+            summary.diagnostics = summaries(&found);
+            if let Event::End {
+                status, exit_code, ..
+            } = &mut event
+            {
+                (*status, *exit_code) = (summary.status.clone(), summary.exit_code);
+            }
+            let written = summary.write(self.recorder.setting.fs.as_ref(), &path);
+            if failed.is_some() {
+                break;
+            }
+            self.recorder.record(&event, Detail::End(&totals));
+            if let Err(error) = written {
+                self.recorder.error.get_or_insert(error.into());
+            }
+            if self.recorder.error.is_none() {
+                break;
+            }
+        }
+        self.recorder.tell_listener(&event, Detail::End(&totals));
+        Finished {
+            exit_code,
+            diagnostics: found,
+            summary,
+        }
+    }
+
+    fn totals(&self, summary: &Summary) -> Totals {
+        let count = |of: fn(&StepSummary) -> u64| summary.steps.iter().map(of).sum();
+        Totals {
+            increments: count(|s| s.increments),
+            iterations: count(|s| s.iterations),
+            cutbacks: count(|s| s.cutbacks),
+            folder: self.options.folder.display().to_string(),
+            phases: summary.time.clone().into_iter().collect(),
+        }
+    }
+
+    fn expectations(&mut self) -> Vec<signorini_io::writers::json::Expectation> {
+        let verdicts = self.recorder.expectations.judge();
+        let tolerances = self.recorder.expectations.tolerances();
+        for (verdict, tolerance) in verdicts.iter().zip(&tolerances) {
+            let event = Event::Expect {
+                what: verdict.what.clone(),
+                value: verdict.value,
+                got: verdict.got,
+                ok: verdict.ok,
+            };
+            self.recorder.tell(&event, Detail::Expectation(tolerance));
+        }
+        verdicts
+    }
+
+    fn stopped_by_time(&self) -> Diagnostic {
+        let n = self.recorder.counts.increments;
+        let folder = self.options.folder.display();
+        Diagnostic::error(&codes::LIMIT_REACHED, "the time limit is reached")
+            .note(format!("{n} increments have converged and are on disk"))
+            .help(format!("signorini resume {folder}"))
+    }
+
+    fn not_written(&self, error: &OutputError) -> Diagnostic {
+        let one = error.diagnostic();
+        match self.recorder.counts.frames.len() {
+            0 => one,
+            n => one
+                .note(format!(
+                    "frames 0 to {} are complete; results.pvd lists only complete ones",
+                    n - 1
+                ))
+                .help(format!(
+                    "then  signorini resume {}",
+                    self.options.folder.display()
+                )),
+        }
+    }
+}
+
+/// The part of a checkpoint that belongs to the solution.
+fn solution_of(archive: &checkpoint::Archive) -> Archive {
+    let mut solution = Archive::default();
+    for name in archive.names() {
+        if let (Some(own), Ok(values)) = (name.strip_prefix("solve/"), archive.get_f64(name)) {
+            solution.put(own, values);
+        }
+    }
+    solution
+}
+
+fn summaries(found: &Diagnostics) -> Vec<DiagnosticSummary> {
+    let summary = |one: &Diagnostic| DiagnosticSummary {
+        code: one.code.id.into(),
+        message: one.message.clone(),
+    };
+    found.iter().map(summary).collect()
+}
+
+/// The largest memory this process has had, in bytes; 0 where the system does not say.
+fn memory_peak() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    kilobytes.map_or(0, |kb| kb * 1024)
+}

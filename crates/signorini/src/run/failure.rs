@@ -1,0 +1,291 @@
+//! Why a run failed, in the user's words: names of nodes, bodies, contacts; what was tried; what to change.
+
+use crate::build::Model;
+use signorini_geometry::mesh::NodeId;
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_mechanics::solve::{Failure, RunError};
+use signorini_mechanics::system::linear::LinearError;
+use signorini_mechanics::system::{Dof, DofName, TermError};
+
+/// What is on disk when a run fails.
+pub struct Saved {
+    /// Accepted increments.
+    pub increments: u64,
+    /// The output folder.
+    pub folder: String,
+}
+
+/// The message for an undeformed state that cannot be looked at; exit code 4.
+pub fn at_start(error: &TermError) -> Diagnostics {
+    Diagnostic::error(
+        &codes::BAD_ELEMENTS,
+        format!("{error}, before anything moves"),
+    )
+    .help("look at the mesh: signorini check CASE -o DIR writes DIR/check.vtu")
+    .into()
+}
+
+/// The message for a run that failed.
+pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
+    match error {
+        RunError::NotConverged { cause, .. } if saved.increments == 0 => {
+            if let Failure::Linear {
+                source: LinearError::Singular { .. },
+                dof,
+            } = cause.as_ref()
+            {
+                return free_body(*dof, model);
+            }
+            not_converged(error, model, saved)
+        }
+        RunError::NotConverged { .. } => not_converged(error, model, saved),
+        RunError::TooManyIncrements { .. } => {
+            Diagnostic::error(&codes::NOT_CONVERGED, error.to_string())
+                .note(saved_so_far(saved))
+                .help("allow more: increments = { …, count_max = 10000 }")
+        }
+        RunError::Term(cause) => Diagnostic::error(&codes::NOT_CONVERGED, cause.to_string())
+            .note(saved_so_far(saved))
+            .help("smaller increments, or a better mesh there"),
+    }
+}
+
+/// A system that is singular before anything was solved: something is not held.
+fn free_body(dof: Option<Dof>, model: &Model) -> Diagnostic {
+    let motion = dof.and_then(|dof| motion(dof, model));
+    let message = match &motion {
+        Some((owner, _)) => format!("{owner} can move freely: nothing holds it"),
+        None => "something can move freely: nothing holds it".to_owned(),
+    };
+    let mut one = Diagnostic::error(&codes::FREE_BODY, message);
+    if let Some((_, motion)) = motion {
+        one = one.note(format!("free motions: at least {motion}"));
+    }
+    one.note("nothing was solved")
+        .help("hold it by [[step.fix]], or prescribe its motion by [[step.move]]")
+}
+
+/// What moves and how, in words.
+fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
+    let axis = |axis: usize| ["x", "y", "z"].get(axis).copied().unwrap_or("?");
+    let rigid = |body: u32| {
+        let name = model.references.iter().find(|r| r.rigid == body);
+        format!("rigid body \"{}\"", name.map_or("?", |r| r.name.as_str()))
+    };
+    Some(match model.system.layout.name(dof)? {
+        DofName::Node(node, k) => {
+            let place = node_in_words(node, model);
+            (
+                body_of(node, model),
+                format!("along {} at {place}", axis(k)),
+            )
+        }
+        DofName::Translation(body, k) => (rigid(body), format!("translation along {}", axis(k))),
+        DofName::Rotation(body, k) => (rigid(body), format!("rotation about {}", axis(k))),
+        DofName::Multiplier(number) => ("a contact".into(), format!("multiplier {number}")),
+    })
+}
+
+/// The body that a node belongs to.
+fn body_of(node: NodeId, model: &Model) -> String {
+    let groups = model.case.bodies.iter().flat_map(|body| &body.groups);
+    let has = |name: &str| {
+        model
+            .nodes_of(name)
+            .is_some_and(|nodes| nodes.contains(&node))
+    };
+    let found = groups.into_iter().find(|group| has(&group.value));
+    found.map_or_else(
+        || "a body".to_owned(),
+        |group| format!("body \"{}\"", group.value),
+    )
+}
+
+/// `node 1042 (x = 20.0, y = 0.0, z = 10.0)`.
+fn node_in_words(node: NodeId, model: &Model) -> String {
+    let at = model
+        .mesh
+        .points
+        .get(node as usize)
+        .copied()
+        .unwrap_or_default();
+    let label = model.mesh.node_labels.get(node as usize);
+    let label = label.map_or_else(|| "?".to_owned(), u64::to_string);
+    let mut text = format!("node {label} (x = {}, y = {}", at.x, at.y);
+    if model.system.layout.ndim == 3 {
+        text += &format!(", z = {}", at.z);
+    }
+    text + ")"
+}
+
+fn dof_in_words(dof: Dof, model: &Model) -> Option<String> {
+    match model.system.layout.name(dof)? {
+        DofName::Node(node, _) => Some(node_in_words(node, model)),
+        _ => motion(dof, model).map(|(owner, motion)| format!("{owner}, {motion}")),
+    }
+}
+
+fn not_converged(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
+    let RunError::NotConverged {
+        step,
+        increment,
+        time,
+        duration,
+        tried,
+        min,
+        cause,
+    } = error
+    else {
+        return Diagnostic::error(&codes::NOT_CONVERGED, error.to_string());
+    };
+    let message = format!(
+        "increment {increment} of step \"{step}\" did not converge (time {} of {duration})",
+        (time * 1e6).round() / 1e6
+    );
+    let mut one = Diagnostic::error(&codes::NOT_CONVERGED, message).note(sizes(tried, *min));
+    for fact in facts(cause, model) {
+        one = one.note(fact);
+    }
+    one = one.note(saved_so_far(saved));
+    for help in remedies(cause, min.is_some()) {
+        one = one.help(help);
+    }
+    one.help(format!("signorini explain {}", codes::NOT_CONVERGED.id))
+}
+
+fn sizes(tried: &[f64], min: Option<f64>) -> String {
+    let size = |size: Option<&f64>| size.map_or_else(|| "?".into(), |s| format!("{s:.3}"));
+    let few = |s: Option<&f64>| match s {
+        Some(s) if *s < 1e-3 => format!("{s:.1e}"),
+        other => size(other),
+    };
+    match (tried.len(), min) {
+        (1, None) => format!(
+            "tried the size {}; `increments = {{ fixed }}` allows no smaller one",
+            few(tried.first())
+        ),
+        (n, Some(min)) if n > 1 => format!(
+            "tried {n} sizes from {} down to {}; the limit is min = {min:e}",
+            few(tried.first()),
+            few(tried.last())
+        ),
+        (_, min) => format!(
+            "tried the size {}; half of it is below min = {:e}",
+            few(tried.first()),
+            min.unwrap_or(0.0)
+        ),
+    }
+}
+
+/// What kept it from converging.
+fn facts(cause: &Failure, model: &Model) -> Vec<String> {
+    let worst = |worst: &Option<Dof>| worst.and_then(|dof| dof_in_words(dof, model));
+    match cause {
+        Failure::TooManyIterations {
+            iterations,
+            residual,
+            worst: at,
+            force,
+            unsettled,
+        } => {
+            let mut facts = Vec::new();
+            match unsettled {
+                Some((why, nodes)) => {
+                    let label = |&n: &NodeId| model.mesh.node_labels.get(n as usize).copied();
+                    let labels: Vec<String> = nodes
+                        .iter()
+                        .filter_map(label)
+                        .map(|l| l.to_string())
+                        .collect();
+                    facts.push(format!(
+                        "what kept it from converging: {why} (nodes {})",
+                        labels.join(", ")
+                    ));
+                }
+                None => facts.push(format!(
+                    "{iterations} iterations did not suffice; contact did not change any more"
+                )),
+            }
+            if let Some(place) = worst(at) {
+                facts.push(format!(
+                    "largest force error {force:.3e} at {place}, that is {:.3} % of the mean force",
+                    100.0 * residual
+                ));
+            }
+            facts
+        }
+        Failure::Diverged {
+            iterations,
+            residual,
+            worst: at,
+        } => {
+            let place = worst(at).map_or_else(String::new, |p| format!(", most of all at {p}"));
+            vec![format!(
+                "the forces grew to {residual:.1e} of the mean force within {iterations} iterations{place}"
+            )]
+        }
+        Failure::NoDescent {
+            iterations,
+            worst: at,
+        } => {
+            let place =
+                worst(at).map_or_else(String::new, |p| format!("; largest force error at {p}"));
+            vec![format!(
+                "after {iterations} iterations no shorter step lowers the energy: the state may be at a limit load{place}"
+            )]
+        }
+        Failure::Term(error) => vec![format!("what kept it from converging: {error}")],
+        Failure::Linear {
+            source: LinearError::Singular { .. },
+            dof,
+        } => {
+            let motion = dof.and_then(|dof| motion(dof, model));
+            vec![match motion {
+                Some((owner, motion)) => {
+                    format!("{owner} has become free: nothing holds it any more, {motion}")
+                }
+                None => "something has become free: nothing holds it any more".into(),
+            }]
+        }
+        other => vec![format!("what kept it from converging: {other}")],
+    }
+}
+
+/// What to change, most promising first.
+fn remedies(cause: &Failure, adaptive: bool) -> Vec<&'static str> {
+    let smaller = if adaptive {
+        "allow smaller increments: increments = { …, min = 1e-8 }"
+    } else {
+        "let the program cut increments: increments = { initial = 0.1, min = 1e-6, max = 0.1 }"
+    };
+    match cause {
+        Failure::TooManyIterations {
+            unsettled: Some(_), ..
+        } => vec![smaller, "finer mesh where contact changes"],
+        Failure::TooManyIterations { .. } => {
+            vec![
+                "more iterations: [solver] newton = { max_iterations = 50 }",
+                smaller,
+            ]
+        }
+        Failure::NoDescent { .. } => vec!["prescribe a motion instead of a load", smaller],
+        Failure::Linear { .. } => vec![
+            "hold the body by a support, or prescribe its motion",
+            smaller,
+        ],
+        Failure::Term(TermError::Inverted { .. }) => {
+            vec![smaller, "a finer or better shaped mesh there"]
+        }
+        _ => vec![smaller],
+    }
+}
+
+fn saved_so_far(saved: &Saved) -> String {
+    match saved.increments {
+        0 => "nothing was solved; the last try is frames/failed.vtu".to_owned(),
+        n => format!(
+            "saved: {n} converged increments, the last try as frames/failed.vtu   resume: signorini resume {}",
+            saved.folder
+        ),
+    }
+}

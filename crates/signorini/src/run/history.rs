@@ -1,0 +1,223 @@
+//! The rows of `history.csv`: what is told of every accepted increment.
+
+use super::probe::{Probe, ProbeError, quantities};
+use crate::build::Model;
+use signorini_geometry::surface::RigidId;
+use signorini_io::case::HistorySource;
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
+use signorini_io::writers::csv::{
+    CONTACT_COLUMNS, HISTORY_COLUMNS, REFERENCE_COLUMNS, history_columns,
+};
+use signorini_mechanics::system::{ContactFrame, Frame, Resultant, RigidFrame};
+
+/// The columns of a run and where their values come from.
+#[derive(Debug)]
+pub struct History {
+    columns: Vec<String>,
+    contacts: Vec<String>,
+    references: Vec<RigidId>,
+    chosen: Vec<Chosen>,
+}
+
+/// A column that the case asks for.
+#[derive(Debug)]
+enum Chosen {
+    /// The same as another one.
+    Copy(usize),
+    /// A field at nodes.
+    Probe(Probe),
+}
+
+impl History {
+    /// The columns of a model.
+    ///
+    /// # Errors
+    /// Entries of `[[output.history]]` that name nothing.
+    pub fn new(model: &Model) -> Result<Self, Diagnostics> {
+        let contacts: Vec<&str> = model.contacts.iter().map(|c| c.name.as_str()).collect();
+        let references: Vec<&str> = model.references.iter().map(|r| r.name.as_str()).collect();
+        let standard = history_columns(&contacts, &references, &[]);
+        let mut found = Diagnostics::new();
+        let mut names = Vec::new();
+        let mut chosen = Vec::new();
+        for entry in &model.case.output.history {
+            for quantity in &entry.quantities {
+                match choose(model, &standard, &entry.source, quantity) {
+                    Ok(one) => {
+                        names.push(format!("{}.{}", entry.name.value, quantity.value));
+                        chosen.push(one);
+                    }
+                    Err(one) => found.push(*one),
+                }
+            }
+        }
+        if found.has_errors() {
+            return Err(found);
+        }
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        Ok(Self {
+            columns: history_columns(&contacts, &references, &names),
+            contacts: contacts.iter().map(ToString::to_string).collect(),
+            references: model.references.iter().map(|r| r.rigid).collect(),
+            chosen,
+        })
+    }
+
+    /// The names of all columns.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The numbers of a row; the name of the step, in the second column, is not one.
+    pub fn row(&self, frame: &Frame, iterations: usize) -> Vec<f64> {
+        let mut row = vec![
+            frame.time,
+            f64::NAN,
+            frame.increment as f64,
+            iterations as f64,
+        ];
+        row.extend(self.values(frame));
+        row
+    }
+
+    fn values(&self, frame: &Frame) -> Vec<f64> {
+        let mut values = Vec::with_capacity(self.columns.len());
+        for name in &self.contacts {
+            match frame.contacts.iter().find(|c| c.name == *name) {
+                Some(contact) => values.extend(of_contact(contact)),
+                None => values.extend([0.0; CONTACT_COLUMNS.len()]),
+            }
+        }
+        for &body in &self.references {
+            let rigid = frame.rigid.get(body as usize).copied();
+            values.extend(of_reference(&rigid.unwrap_or_default()));
+        }
+        for one in &self.chosen {
+            let value = match one {
+                Chosen::Copy(column) => values.get(*column).copied().unwrap_or(f64::NAN),
+                Chosen::Probe(probe) => probe.value(frame),
+            };
+            values.push(value);
+        }
+        values
+    }
+}
+
+fn of_contact(c: &ContactFrame) -> [f64; CONTACT_COLUMNS.len()] {
+    let Resultant {
+        force: f,
+        moment: m,
+    } = c.secondary;
+    let p = c.center;
+    [
+        f.x,
+        f.y,
+        f.z,
+        m.x,
+        m.y,
+        m.z,
+        c.pressure_max,
+        c.gap_min,
+        c.slip_max,
+        c.area_open,
+        c.area_stick,
+        c.area_slip,
+        p.x,
+        p.y,
+        p.z,
+        c.work_friction,
+    ]
+}
+
+fn of_reference(r: &RigidFrame) -> [f64; REFERENCE_COLUMNS.len()] {
+    let (f, m) = (r.contact.force, r.contact.moment);
+    let (u, t) = (r.displacement, r.rotation);
+    [f.x, f.y, f.z, m.x, m.y, m.z, u.x, u.y, u.z, t.x, t.y, t.z]
+}
+
+fn choose(
+    model: &Model,
+    standard: &[String],
+    source: &HistorySource,
+    quantity: &Spanned<String>,
+) -> Result<Chosen, Box<Diagnostic>> {
+    let copy = |owner: &Spanned<String>, known: &[String], columns: &[&'static str]| {
+        if !known.contains(&owner.value) {
+            return Err(undefined(owner, known));
+        }
+        let column = format!("{}.{}", owner.value, quantity.value);
+        let at = standard.iter().position(|c| *c == column);
+        let at = at.and_then(|at| at.checked_sub(HISTORY_COLUMNS.len()));
+        at.map(Chosen::Copy)
+            .ok_or_else(|| no_quantity(quantity, columns.iter().copied()))
+    };
+    let names = |of: Vec<&String>| of.into_iter().cloned().collect::<Vec<_>>();
+    let probe = |probe: Result<Probe, ProbeError>, owner: &dyn Fn(Diagnostic) -> Diagnostic| {
+        probe.map(Chosen::Probe).map_err(|error| match error {
+            ProbeError::Quantity { .. } => no_quantity(quantity, quantities()),
+            other => Box::new(owner(Diagnostic::error(
+                &codes::NOT_IN_MESH,
+                other.to_string(),
+            ))),
+        })
+    };
+    match source {
+        HistorySource::Contact(name) => {
+            let known = names(model.contacts.iter().map(|c| &c.name).collect());
+            copy(name, &known, &CONTACT_COLUMNS)
+        }
+        HistorySource::Reference(name) => {
+            let known = names(model.references.iter().map(|r| &r.name).collect());
+            copy(name, &known, &REFERENCE_COLUMNS)
+        }
+        HistorySource::Node(label) => probe(
+            Probe::at_node(model, &quantity.value, label.value),
+            &|one| one.at(&label.place, "no such node"),
+        ),
+        HistorySource::Set(name) => {
+            probe(Probe::on_set(model, &quantity.value, &name.value), &|one| {
+                one.at(&name.place, "no nodes in it")
+            })
+        }
+    }
+}
+
+fn undefined(name: &Spanned<String>, known: &[String]) -> Box<Diagnostic> {
+    let names = || known.iter().map(String::as_str);
+    let remark = closest(&name.value, names()).map_or_else(
+        || "not defined".into(),
+        |n| format!("did you mean \"{n}\"?"),
+    );
+    Box::new(
+        Diagnostic::error(
+            &codes::UNDEFINED,
+            format!(
+                "a history is asked of \"{}\", which is not there",
+                name.value
+            ),
+        )
+        .at(&name.place, remark)
+        .note(format!("there are: {}", listed(names()))),
+    )
+}
+
+fn no_quantity<'a>(
+    quantity: &Spanned<String>,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Box<Diagnostic> {
+    let remark = closest(&quantity.value, known.clone()).map_or_else(
+        || "no such quantity".into(),
+        |q| format!("did you mean \"{q}\"?"),
+    );
+    Box::new(
+        Diagnostic::error(
+            &codes::NOT_A_CHOICE,
+            format!("\"{}\" is not a quantity there", quantity.value),
+        )
+        .at(&quantity.place, remark)
+        .note(format!(
+            "quantities: {}",
+            known.collect::<Vec<_>>().join(", ")
+        )),
+    )
+}

@@ -1,0 +1,59 @@
+//! What stops a run from outside: a signal, the clock.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// The limits of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Limits {
+    /// The number of the signal that came; 0 before that. May be set from anywhere.
+    pub signal: Arc<AtomicUsize>,
+    /// When to stop.
+    pub deadline: Option<Instant>,
+}
+
+/// Why a run stopped before its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// A signal came.
+    Signal(usize),
+    /// The time is up.
+    Time,
+    /// Who listens wants no more.
+    Listener,
+}
+
+impl Stop {
+    /// The exit code of the program.
+    #[must_use]
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Self::Signal(number) => u8::try_from(128 + number).unwrap_or(130),
+            Self::Time => 8,
+            Self::Listener => 130,
+        }
+    }
+
+    /// The status in the summary.
+    #[must_use]
+    pub const fn status(self) -> &'static str {
+        match self {
+            Self::Signal(_) | Self::Listener => "interrupted",
+            Self::Time => "time limit reached",
+        }
+    }
+}
+
+impl Limits {
+    /// Whether to stop now, and why.
+    #[must_use]
+    pub fn reached(&self) -> Option<Stop> {
+        let signal = self.signal.load(Ordering::Relaxed);
+        if signal != 0 {
+            return Some(Stop::Signal(signal));
+        }
+        let late = self.deadline.is_some_and(|at| Instant::now() >= at);
+        late.then_some(Stop::Time)
+    }
+}

@@ -1,0 +1,110 @@
+//! A run: a model is solved, and everything that happens becomes files and news.
+//!
+//! ```text
+//!            ┌── drive ─────────────────────────────────────────────────┐
+//!  Model ──▶ │ Stepper ──solve::Event──▶ Recorder ──▶ files, through Fs │ ──▶ Finished
+//!            │    ▲                         │                           │
+//!            │    └── checkpoint, restart ──┤                           │
+//!            └──────────────────────────────┼───────────────────────────┘
+//!                                           └──▶ News ──▶ Listener
+//! ```
+//!
+//! At any instant the folder is whole: frames are complete before a list names them, rows are whole, and of two
+//! checkpoints one is good. After a checkpoint the run itself goes on from it, in the way a resumed run does: what
+//! follows is the same to the last bit. For the same reason an interrupted run adds no checkpoint where none was due.
+//!
+//! To add a file: a line in `tree`, and its writing in `recorder`.
+
+mod cells;
+mod contact_surface;
+mod drive;
+mod error;
+mod expectations;
+mod failure;
+mod fields;
+mod history;
+mod limits;
+pub mod narration;
+mod news;
+mod principal;
+mod probe;
+mod recorder;
+mod start;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod volume;
+
+pub use drive::run;
+pub use error::{OutputError, bad_checkpoint, cannot_resume};
+pub use fields::Fields;
+pub use limits::{Limits, Stop};
+pub use news::{Detail, Effort, Facts, Listener, News, Totals, event_of, tell};
+pub use start::{Start, begin, facts};
+pub use tree::{Owner, Tree, case_copy};
+pub use volume::Volume;
+
+use crate::build::Model;
+use crate::load::Source;
+use signorini_io::diagnostic::Diagnostics;
+use signorini_io::fs::{Fs, RealFs};
+use signorini_io::writers::json::Summary;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What a run is told besides its model.
+#[derive(Clone)]
+pub struct RunOptions {
+    /// Where the model comes from.
+    pub source: Source,
+    /// The folder for the results.
+    pub folder: PathBuf,
+    /// Start even in a folder of another case.
+    pub fresh: bool,
+    /// Go on from the last checkpoint in the folder.
+    pub resume: bool,
+    /// What stops it from outside.
+    pub limits: Limits,
+    /// The disk.
+    pub fs: Arc<dyn Fs>,
+    /// How many threads there are, for the records.
+    pub threads: usize,
+    /// Seconds that reading and building took, for the records.
+    pub seconds: [f64; 2],
+}
+
+impl RunOptions {
+    /// A run into the usual folder of its case.
+    #[must_use]
+    pub fn new(source: Source) -> Self {
+        Self {
+            folder: source.output_folder(),
+            source,
+            fresh: false,
+            resume: false,
+            limits: Limits::default(),
+            fs: Arc::new(RealFs),
+            threads: rayon::current_num_threads(),
+            seconds: [0.0; 2],
+        }
+    }
+}
+
+/// Checks what a case asks to be written: fields, histories, expectations.
+///
+/// # Errors
+/// What names nothing.
+pub fn check_output(model: &Model) -> Result<(), Diagnostics> {
+    recorder::Setting::check(model).map(|_| ())
+}
+
+/// How a run ended.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// The exit code of the program: 0 solved, 1 an expectation failed, 5 not converged, 6 not written, …
+    pub exit_code: u8,
+    /// Errors and warnings.
+    pub diagnostics: Diagnostics,
+    /// What `summary.json` says.
+    pub summary: Summary,
+}

@@ -1,0 +1,294 @@
+//! The news in words: what a terminal shows and `run.log` keeps.
+//!
+//! ```text
+//! hertz  577 nodes · 1 855 tet4 · 1 pair  ·  2 threads
+//! ✓ read 0.02 s   ✓ built 0.01 s: 1 203 unknowns · 93 candidate nodes, smallest gap 0.000 mm
+//!  step        inc  att   time    iter  contact  residual   worst                     p_max     F
+//!  press         5    1  0.950       9       41  8.8e-07    2 flips n214               37.9     23.8   ← slow
+//! ✓ solved: 6 increments, 31 iterations, 0 cut-backs, 3.4 s   → hertz.out/results.pvd
+//!   expect ball-block.pressure_max  38.12  (38.80 ± 3 %)  ✓
+//! ```
+
+use super::news::{Detail, Effort, Facts, News, Totals};
+use super::recorder::SLOW;
+use crate::text::{count, plural, short};
+use signorini_io::diagnostic::{Diagnostics, Severity};
+use signorini_io::writers::json::Event;
+use signorini_mechanics::solve::{IncrementRecord, IterationRecord};
+use signorini_mechanics::system::Frame;
+
+/// How much a line matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// Told even to those who want quiet.
+    Important,
+    /// Told by default.
+    Normal,
+    /// Told to those who want to know all.
+    Verbose,
+}
+
+/// A line for people.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// Its text.
+    pub text: String,
+    /// How much it matters.
+    pub level: Level,
+}
+
+/// Puts news into words; remembers what has been said before.
+#[derive(Clone, Debug, Default)]
+pub struct Narrator {
+    headed: bool,
+    step: String,
+}
+
+impl Narrator {
+    /// The lines for one piece of news; there may be none.
+    pub fn lines(&mut self, news: &News<'_>) -> Vec<Line> {
+        let normal = |text: String| vec![line(text, Level::Normal)];
+        match (news.event, news.detail) {
+            (_, Detail::Start(facts)) => start(facts),
+            (_, Detail::Finding(one)) => {
+                let level = match one.severity {
+                    Severity::Error | Severity::Warning => Level::Important,
+                    Severity::Note => Level::Normal,
+                };
+                let text = Diagnostics::from(one.clone()).plain();
+                vec![line(text.trim_end().to_owned(), level)]
+            }
+            (Event::Iteration { step, .. }, Detail::Iteration(record)) => {
+                self.step.clone_from(step);
+                vec![line(iteration(record), Level::Verbose)]
+            }
+            (Event::Increment { step, .. }, Detail::Increment(record, frame, effort)) => {
+                self.step.clone_from(step);
+                let mut lines = self.head();
+                lines.push(line(increment(step, record, frame, effort), Level::Normal));
+                lines
+            }
+            (
+                Event::Cutback {
+                    step,
+                    inc,
+                    att,
+                    size,
+                    why,
+                    ..
+                },
+                _,
+            ) => {
+                let mut lines = self.head();
+                lines.push(line(
+                    format!(
+                        " {step:<12}{inc:>4}  {att:>3}  cut to {}: {why}",
+                        short(*size)
+                    ),
+                    Level::Normal,
+                ));
+                lines
+            }
+            (Event::Checkpoint { file, .. }, _) => {
+                vec![line(format!("   saved to {file}"), Level::Verbose)]
+            }
+            (
+                Event::Expect {
+                    what,
+                    value,
+                    got,
+                    ok,
+                },
+                Detail::Expectation(tolerance),
+            ) => normal(format!(
+                "  expect {what}  {}  ({} {tolerance})  {}",
+                digits(*got),
+                digits(*value),
+                if *ok { "✓" } else { "✗" }
+            )),
+            (
+                Event::End {
+                    status,
+                    exit_code,
+                    seconds,
+                },
+                Detail::End(totals),
+            ) => {
+                vec![line(
+                    end(status, *exit_code, *seconds, totals),
+                    Level::Important,
+                )]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// The head of the table, once.
+    fn head(&mut self) -> Vec<Line> {
+        if std::mem::replace(&mut self.headed, true) {
+            return Vec::new();
+        }
+        let text = format!(
+            " {:<12}{:>4}  {:>3}  {:<8}{:>4}  {:>7}  {:<9}  {:<22}{:>9}{:>10}",
+            "step", "inc", "att", "time", "iter", "contact", "residual", "worst", "p_max", "F"
+        );
+        vec![line(text.trim_end().to_owned(), Level::Normal)]
+    }
+}
+
+fn line(text: String, level: Level) -> Line {
+    Line { text, level }
+}
+
+fn start(facts: &Facts) -> Vec<Line> {
+    let cells = facts.cells.iter();
+    let cells: Vec<String> = cells
+        .map(|(name, n)| format!("{} {name}", count(*n)))
+        .collect();
+    let mut head = format!("{}  {}", facts.name, plural(facts.nnode, "node"));
+    for part in cells {
+        head += &format!(" · {part}");
+    }
+    if facts.ncontact > 0 {
+        head += &format!(" · {}", plural(facts.ncontact, "pair"));
+    }
+    head += &format!("  ·  {}", plural(facts.threads, "thread"));
+    let [read, built] = facts.seconds;
+    let mut ready = format!(
+        "✓ read {read:.2} s   ✓ built {built:.2} s: {}",
+        plural(facts.nunknown, "unknown")
+    );
+    if facts.ncontact > 0 {
+        ready += &format!(" · {}", plural(facts.npoint, "candidate node"));
+        let length = &facts.length;
+        ready += &match facts.gap_min {
+            Some(gap) if gap < 0.0 => format!(", largest overlap {} {length}", short(-gap)),
+            Some(gap) => format!(", smallest gap {} {length}", short(gap)),
+            None => ", none within reach".to_owned(),
+        };
+    }
+    [head, ready.trim_end().to_owned()]
+        .map(|text| line(text, Level::Normal))
+        .into()
+}
+
+fn iteration(record: &IterationRecord) -> String {
+    format!(
+        "   iteration {:>2}  residual {:.2e}  correction {:.2e}  step {:.3}  closed {}  flips {}",
+        record.iteration,
+        record.residual,
+        record.correction,
+        record.line_search,
+        record.closed,
+        record.flips
+    )
+}
+
+fn increment(step: &str, record: &IncrementRecord, frame: &Frame, effort: &Effort) -> String {
+    let pressure = frame
+        .contacts
+        .iter()
+        .map(|c| c.pressure_max)
+        .fold(0.0, f64::max);
+    let force = frame.contacts.iter().map(|c| c.secondary.force.norm());
+    let force = force.fold(0.0, f64::max);
+    let text = format!(
+        " {step:<12}{:>4}  {:>3}  {:<8}{:>4}  {:>7}  {:<9}  {:<22}{:>9}{:>10}{}",
+        record.increment,
+        record.attempts,
+        time(record.time),
+        record.iterations,
+        effort.closed,
+        format!("{:.1e}", record.residual),
+        effort.worst.as_deref().unwrap_or("—"),
+        short(pressure),
+        short(force),
+        if record.iterations >= SLOW {
+            "   ← slow"
+        } else {
+            ""
+        }
+    );
+    text.trim_end().to_owned()
+}
+
+/// A time with three decimals, or more where they are needed to tell small ones apart.
+fn time(time: f64) -> String {
+    if time != 0.0 && !(0.01..1e4).contains(&time.abs()) {
+        format!("{time:.2e}")
+    } else {
+        format!("{time:.3}")
+    }
+}
+
+/// A value with seven digits, less the zeros at its end.
+fn digits(value: f64) -> String {
+    if value.is_nan() {
+        return "was never reached".to_owned();
+    }
+    let size = value.abs();
+    if value != 0.0 && !(1e-4..1e6).contains(&size) {
+        return format!("{value:.6e}");
+    }
+    let exponent = if value == 0.0 {
+        0
+    } else {
+        size.log10().floor() as i32
+    };
+    let text = format!("{value:.*}", (6 - exponent).max(0) as usize);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+fn end(status: &str, exit_code: u8, seconds: f64, totals: &Totals) -> String {
+    let sign = if exit_code == 0 { "✓" } else { "✗" };
+    let effort = format!(
+        "{}, {}, {}, {seconds:.1} s",
+        plural(totals.increments as usize, "increment"),
+        plural(totals.iterations as usize, "iteration"),
+        plural(totals.cutbacks as usize, "cut-back"),
+    );
+    let folder = &totals.folder;
+    match exit_code {
+        0 | 1 => format!("{sign} {status}: {effort}   → {folder}/results.pvd"),
+        _ if totals.increments > 0 => {
+            format!(
+                "{sign} {status}: {effort}   → {folder}/results.pvd, go on with: signorini resume {folder}"
+            )
+        }
+        _ => format!("{sign} {status}: {effort}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn values_are_told_with_seven_digits() {
+        let told = [
+            38.8,
+            25.0,
+            -0.000725088618977,
+            123_456.789,
+            1.6644332579,
+            0.0,
+            2e9,
+        ]
+        .map(digits);
+        let wanted = [
+            "38.8",
+            "25",
+            "-0.0007250886",
+            "123456.8",
+            "1.664433",
+            "0",
+            "2.000000e9",
+        ];
+        assert_eq!(told, wanted);
+        assert_eq!(digits(f64::NAN), "was never reached");
+    }
+}

@@ -1,0 +1,202 @@
+//! Values of fields at nodes: `displacement.z @ node 5`, `reaction_force.x @ set base`.
+
+use super::principal::principal;
+use crate::build::Model;
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_mechanics::system::Frame;
+
+/// A number of a field at a node.
+type Read = fn(&Frame, usize) -> Option<f64>;
+
+fn vector(values: &[Vec3], node: usize, axis: usize) -> Option<f64> {
+    values
+        .get(node)
+        .and_then(|v| v.to_array().get(axis).copied())
+}
+
+fn stress(frame: &Frame, node: usize, of: fn(&Sym3) -> f64) -> Option<f64> {
+    frame.stress.get(node).map(of)
+}
+
+/// Every quantity with its name; those of forces are summed over a set, the others averaged.
+const QUANTITIES: [(&str, Read); 23] = [
+    ("displacement.x", |f, n| vector(&f.displacement, n, 0)),
+    ("displacement.y", |f, n| vector(&f.displacement, n, 1)),
+    ("displacement.z", |f, n| vector(&f.displacement, n, 2)),
+    ("displacement.magnitude", |f, n| {
+        f.displacement.get(n).map(|v| v.norm())
+    }),
+    ("reaction_force.x", |f, n| vector(&f.reaction_force, n, 0)),
+    ("reaction_force.y", |f, n| vector(&f.reaction_force, n, 1)),
+    ("reaction_force.z", |f, n| vector(&f.reaction_force, n, 2)),
+    ("reaction_force.magnitude", |f, n| {
+        f.reaction_force.get(n).map(|v| v.norm())
+    }),
+    ("contact_force.x", |f, n| vector(&f.contact_force, n, 0)),
+    ("contact_force.y", |f, n| vector(&f.contact_force, n, 1)),
+    ("contact_force.z", |f, n| vector(&f.contact_force, n, 2)),
+    ("contact_force.magnitude", |f, n| {
+        f.contact_force.get(n).map(|v| v.norm())
+    }),
+    ("contact_pressure", |f, n| {
+        f.contact_pressure.get(n).copied()
+    }),
+    ("stress.xx", |f, n| stress(f, n, Sym3::xx)),
+    ("stress.yy", |f, n| stress(f, n, Sym3::yy)),
+    ("stress.zz", |f, n| stress(f, n, Sym3::zz)),
+    ("stress.xy", |f, n| stress(f, n, Sym3::xy)),
+    ("stress.yz", |f, n| stress(f, n, Sym3::yz)),
+    ("stress.xz", |f, n| stress(f, n, Sym3::xz)),
+    ("von_mises", |f, n| stress(f, n, |s| s.von_mises())),
+    ("principal.min", |f, n| stress(f, n, |s| principal(s)[0])),
+    ("principal.mid", |f, n| stress(f, n, |s| principal(s)[1])),
+    ("principal.max", |f, n| stress(f, n, |s| principal(s)[2])),
+];
+
+/// How the values at several nodes become one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Statistic {
+    Sum,
+    Mean,
+    Min,
+    Max,
+}
+
+/// A quantity at nodes.
+#[derive(Clone, Debug)]
+pub struct Probe {
+    read: Read,
+    nodes: Vec<NodeId>,
+    statistic: Statistic,
+}
+
+/// Why a probe makes no sense.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ProbeError {
+    /// No such quantity.
+    #[error("there is no quantity \"{name}\" at nodes")]
+    Quantity {
+        /// What was asked for.
+        name: String,
+    },
+    /// No such node.
+    #[error("the mesh has no node {label}")]
+    Node {
+        /// Its number.
+        label: u64,
+    },
+    /// No such set, or an empty one.
+    #[error("there are no nodes in a set \"{name}\"")]
+    Set {
+        /// Its name.
+        name: String,
+    },
+    /// Words behind the `@` that are not understood.
+    #[error("\"{words}\" is not understood; write  @ node 5  or  @ set base max")]
+    Words {
+        /// The words.
+        words: String,
+    },
+}
+
+impl Probe {
+    /// A quantity at the node of a number.
+    ///
+    /// # Errors
+    /// No such quantity or node.
+    pub fn at_node(model: &Model, quantity: &str, label: u64) -> Result<Self, ProbeError> {
+        let (read, _) = find(quantity)?;
+        let node = model.node(label).ok_or(ProbeError::Node { label })?;
+        Ok(Self {
+            read,
+            nodes: vec![node],
+            statistic: Statistic::Mean,
+        })
+    }
+
+    /// A quantity on a set: the sum of forces, the mean of others.
+    ///
+    /// # Errors
+    /// No such quantity or set.
+    pub fn on_set(model: &Model, quantity: &str, set: &str) -> Result<Self, ProbeError> {
+        let (read, statistic) = find(quantity)?;
+        let nodes = model.nodes_of(set).filter(|nodes| !nodes.is_empty());
+        let nodes = nodes.ok_or_else(|| ProbeError::Set { name: set.into() })?;
+        Ok(Self {
+            read,
+            nodes,
+            statistic,
+        })
+    }
+
+    /// Reads `QUANTITY @ node N` or `QUANTITY @ set NAME [max|min|mean|sum]`; none without `@`.
+    ///
+    /// # Errors
+    /// No such quantity, node or set.
+    pub fn parse(model: &Model, what: &str) -> Option<Result<Self, ProbeError>> {
+        let (quantity, place) = what.split_once('@')?;
+        Some(Self::parse_place(model, quantity.trim(), place.trim()))
+    }
+
+    fn parse_place(model: &Model, quantity: &str, place: &str) -> Result<Self, ProbeError> {
+        let words = || ProbeError::Words {
+            words: place.into(),
+        };
+        let (kind, name) = place.split_once(char::is_whitespace).ok_or_else(words)?;
+        let name = name.trim();
+        match kind {
+            "node" => Self::at_node(model, quantity, name.parse().map_err(|_| words())?),
+            "set" => {
+                // a name may hold spaces, and may end like a statistic
+                if let Ok(probe) = Self::on_set(model, quantity, name) {
+                    return Ok(probe);
+                }
+                let split = name.rsplit_once(char::is_whitespace);
+                let (name, statistic) = match split {
+                    Some((name, "max")) => (name, Some(Statistic::Max)),
+                    Some((name, "min")) => (name, Some(Statistic::Min)),
+                    Some((name, "mean")) => (name, Some(Statistic::Mean)),
+                    Some((name, "sum")) => (name, Some(Statistic::Sum)),
+                    _ => (name, None),
+                };
+                let mut probe = Self::on_set(model, quantity, name.trim())?;
+                probe.statistic = statistic.unwrap_or(probe.statistic);
+                Ok(probe)
+            }
+            _ => Err(words()),
+        }
+    }
+
+    /// The value in a frame.
+    #[must_use]
+    pub fn value(&self, frame: &Frame) -> f64 {
+        let values = self.nodes.iter();
+        let values = values.map(|&node| (self.read)(frame, node as usize).unwrap_or(f64::NAN));
+        match self.statistic {
+            Statistic::Sum => values.sum(),
+            Statistic::Mean => values.sum::<f64>() / self.nodes.len() as f64,
+            Statistic::Min => values.fold(f64::INFINITY, f64::min),
+            Statistic::Max => values.fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}
+
+/// The names of all quantities.
+pub fn quantities() -> impl Iterator<Item = &'static str> + Clone {
+    QUANTITIES.iter().map(|(name, _)| *name)
+}
+
+fn find(quantity: &str) -> Result<(Read, Statistic), ProbeError> {
+    let found = QUANTITIES.iter().find(|(name, _)| *name == quantity);
+    let (name, read) = found.ok_or_else(|| ProbeError::Quantity {
+        name: quantity.into(),
+    })?;
+    let is_force = name.contains("_force.");
+    let statistic = if is_force {
+        Statistic::Sum
+    } else {
+        Statistic::Mean
+    };
+    Ok((*read, statistic))
+}

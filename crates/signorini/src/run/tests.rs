@@ -1,0 +1,200 @@
+//! A disk that fails at every single operation of a whole run.
+
+use super::{Finished, Listener, News, RunOptions, run};
+use crate::build::build;
+use crate::load::Source;
+use signorini_io::case::read_case;
+use signorini_io::checkpoint::Checkpoints;
+use signorini_io::fs::{FailingFs, Fs, RealFs};
+use signorini_io::writers::json::Event;
+use signorini_io::writers::pvd::Pvd;
+use signorini_io::writers::vtu;
+use signorini_mechanics::solve::Flow;
+use std::io::ErrorKind;
+use std::path::Path;
+use std::sync::Arc;
+
+const CASE: &str = r#"
+[mesh]
+nodes = [
+  [1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0],
+  [5, 0, 0, 1], [6, 1, 0, 1], [7, 1, 1, 1], [8, 0, 1, 1],
+  [11, 0.3, 0.2, 1], [12, 0, 0, 1.8], [13, 0.6, 0, 1.8], [14, 0.3, 0.6, 1.8],
+]
+elements = [
+  { id = 1, type = "hex8", group = "brick", nodes = [1, 2, 3, 4, 5, 6, 7, 8] },
+  { id = 2, type = "tet4", group = "tool", nodes = [11, 12, 13, 14] },
+]
+[sets]
+base = { nodes = [1, 2, 3, 4] }
+tip_node = { nodes = [11] }
+top = { faces = [[1, "+z"]] }
+[material.soft]
+model = "saint-venant-kirchhoff"
+E = 500.0
+nu = 0.0
+[[body]]
+group = "brick"
+material = "soft"
+[[body]]
+group = "tool"
+rigid = true
+[[contact]]
+name = "tip"
+secondary = "tip_node"
+primary = "top"
+[[step]]
+name = "press"
+increments = { fixed = 3 }
+[[step.fix]]
+on = "base"
+u = "all"
+[[step.move]]
+on = "tool"
+uz = -0.02
+[checkpoint]
+every = { increments = 1 }
+[[expect]]
+what = "time"
+value = 1.0
+tol = { abs = 0.0 }
+"#;
+
+/// Runs the case into a folder through a disk, and hears what is told.
+fn run_on(fs: Arc<dyn Fs>, folder: &Path, resume: bool) -> (Finished, Vec<String>) {
+    let text = CASE.to_owned();
+    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
+    let mut model = build(case, mesh).unwrap();
+    model.name = "case".into();
+    let source = Source {
+        name: "case".into(),
+        path: "/nowhere/case.toml".into(),
+        text: text.into_bytes(),
+        ..Source::default()
+    };
+    let mut options = RunOptions::new(source);
+    options.folder = folder.to_path_buf();
+    options.fs = fs;
+    options.resume = resume;
+    let mut endings = Vec::new();
+    let mut listener = |news: &News<'_>| {
+        if let Event::End { status, .. } = news.event {
+            endings.push(status.clone());
+        }
+        Flow::Continue
+    };
+    let listener: &mut dyn Listener = &mut listener;
+    (run(&mut model, &options, listener), endings)
+}
+
+/// A folder in memory where there is one: on a disk, every operation waits for it.
+fn scratch() -> tempfile::TempDir {
+    tempfile::tempdir_in("/dev/shm")
+        .or_else(|_| tempfile::tempdir())
+        .unwrap()
+}
+
+fn history(folder: &Path) -> String {
+    std::fs::read_to_string(folder.join("history.csv")).unwrap()
+}
+
+#[test]
+fn f62_a_disk_that_fails_at_any_moment_harms_nothing_that_was_written() {
+    let whole = scratch();
+    let counting = Arc::new(FailingFs::counting(RealFs));
+    let (finished, endings) = run_on(counting.clone(), whole.path(), false);
+    assert_eq!(finished.exit_code, 0, "{}", finished.diagnostics);
+    assert_eq!(endings, ["solved"]);
+    let operations = counting.count();
+    assert!(operations > 60, "{operations}");
+    for n in 1..=operations {
+        // one fault, and a disk that stays full: by turns, both at the first and the last operations
+        for stays in [false, true] {
+            if stays && n % 5 != 0 {
+                continue;
+            }
+            let folder = scratch();
+            let folder = folder.path();
+            let disk: Arc<dyn Fs> = if stays {
+                Arc::new(FailingFs::from_nth(RealFs, n, ErrorKind::StorageFull))
+            } else {
+                Arc::new(FailingFs::nth(RealFs, n, ErrorKind::StorageFull))
+            };
+            let (finished, endings) = run_on(disk, folder, false);
+            assert_eq!(
+                finished.exit_code, 6,
+                "operation {n}: {}",
+                finished.diagnostics
+            );
+            assert!(
+                endings.len() <= 1 && endings.iter().all(|e| e != "solved"),
+                "{n}: {endings:?}"
+            );
+            assert!(finished.diagnostics.plain().contains("disk full"), "{n}");
+            let listed = check_frames(folder, n);
+            go_on(folder, n, listed, &history(whole.path()));
+        }
+    }
+}
+
+/// Every listed frame can be read; returns how many there are.
+fn check_frames(folder: &Path, n: u64) -> usize {
+    let mut listed = 0;
+    for list in ["results.pvd", "contact.pvd"] {
+        let path = folder.join(list);
+        if !path.exists() {
+            continue;
+        }
+        let list = Pvd::read(&RealFs, &path).unwrap();
+        for entry in list.entries() {
+            let bytes = std::fs::read(folder.join(&entry.file)).unwrap();
+            let frame = vtu::read(&bytes).unwrap_or_else(|e| panic!("operation {n}: {e}"));
+            assert_eq!(frame.time(), Some(entry.time));
+        }
+        listed = list.entries().len();
+    }
+    listed
+}
+
+/// Once there is room again the run goes on and ends like one that never failed.
+fn go_on(folder: &Path, n: u64, listed: usize, whole: &str) {
+    let source = Source {
+        text: CASE.into(),
+        ..Source::default()
+    };
+    let checkpoints = Checkpoints::new(&folder.join("checkpoint"), source.hash());
+    if checkpoints.latest_good(&RealFs).is_err() {
+        assert!(
+            listed <= 1,
+            "operation {n}: frames, but nothing to go on from"
+        );
+        return;
+    }
+    let (finished, _) = run_on(Arc::new(RealFs), folder, true);
+    assert_eq!(
+        finished.exit_code, 0,
+        "operation {n}: {}",
+        finished.diagnostics
+    );
+    assert_eq!(history(folder), whole, "operation {n}");
+    assert_eq!(check_frames(folder, n), 4, "operation {n}");
+}
+
+#[test]
+fn a_listener_that_wants_no_more_stops_the_run() {
+    let folder = scratch();
+    let text = CASE.to_owned();
+    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
+    let mut model = build(case, mesh).unwrap();
+    let mut options = RunOptions::new(Source::default());
+    options.folder = folder.path().join("out");
+    let mut stop = |news: &News<'_>| match news.event {
+        Event::Increment { inc: 2, .. } => Flow::Stop,
+        _ => Flow::Continue,
+    };
+    let finished = run(&mut model, &options, &mut stop);
+    assert_eq!(finished.summary.status, "interrupted");
+    assert_eq!(finished.summary.steps[0].increments, 2);
+}

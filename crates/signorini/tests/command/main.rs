@@ -1,0 +1,15 @@
+//! The command as users meet it: what it says, how it ends, and what it leaves behind.
+//!
+//! Numbers behind the names of tests are those of the list of faults that the program has to stand.
+
+#![allow(clippy::unwrap_used)]
+
+mod events;
+mod files;
+mod help;
+mod mesh;
+mod model;
+mod numerics;
+mod restart;
+mod support;
+mod text;

@@ -1,0 +1,184 @@
+use crate::support::{brick_in, change, command, folder_with, read, result, run};
+use std::process::{Child, Stdio};
+use std::time::Duration;
+use tempfile::TempDir;
+
+const INCREMENTS: usize = 60;
+
+/// The files that a run leaves but for times and logs.
+fn results(folder: &TempDir) -> Vec<(String, Vec<u8>)> {
+    let mut names: Vec<String> = [
+        "history.csv",
+        "convergence.csv",
+        "case.sta",
+        "results.pvd",
+        "contact.pvd",
+    ]
+    .map(String::from)
+    .into();
+    for number in 0..=INCREMENTS {
+        names.push(format!("frames/volume_{number:04}.vtu"));
+        names.push(format!("frames/contact_{number:04}.vtu"));
+    }
+    let read = |name: &String| std::fs::read(result(folder, name)).unwrap();
+    names
+        .iter()
+        .map(|name| (name.clone(), read(name)))
+        .collect()
+}
+
+/// A case whose tip changes its facet and lifts off again, so that contact has a history.
+fn case() -> String {
+    let text = change(
+        &brick_in(INCREMENTS),
+        "every = { increments = 1 }",
+        "every = { increments = 7 }",
+    );
+    change(
+        &text,
+        "uz = -0.02",
+        "uz = { table = [[0, 0], [0.5, -0.2], [0.8, 0.05], [1, -0.1]] }\nux = 0.1",
+    )
+}
+
+fn start(folder: &TempDir) -> Child {
+    command(folder.path())
+        .args(["run", "case.toml"])
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+/// Waits until a frame is there.
+fn wait_for(folder: &TempDir, number: usize, run: &mut Child) {
+    let frame = result(folder, &format!("frames/volume_{number:04}.vtu"));
+    while !frame.exists() {
+        assert!(
+            run.try_wait().unwrap().is_none(),
+            "the run ended before frame {number}"
+        );
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn assert_same(reference: &[(String, Vec<u8>)], folder: &TempDir, why: &str) {
+    for ((name, wanted), (_, got)) in reference.iter().zip(results(folder)) {
+        assert!(*wanted == got, "{why}: {name} differs");
+    }
+}
+
+#[test]
+fn f64_a_run_killed_at_any_moment_and_resumed_is_the_same_run_bit_by_bit() {
+    let whole = folder_with(&case());
+    run(whole.path(), &["run", "case.toml", "-q"]).says(0, &[]);
+    let reference = results(&whole);
+    for moments in [vec![2], vec![9], vec![30], vec![45, 52]] {
+        let folder = folder_with(&case());
+        let mut child = start(&folder);
+        for (number, &moment) in moments.iter().enumerate() {
+            wait_for(&folder, moment, &mut child);
+            child.kill().unwrap();
+            child.wait().unwrap();
+            if number + 1 < moments.len() {
+                child = command(folder.path())
+                    .args(["resume", "case.out"])
+                    .stderr(Stdio::null())
+                    .spawn()
+                    .unwrap();
+            }
+        }
+        run(folder.path(), &["resume", "case.out"]).says(0, &["✓ solved: 60 increments"]);
+        assert_same(&reference, &folder, &format!("{moments:?}"));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn f64_signals_end_with_130_and_143_and_the_run_can_go_on() {
+    let whole = folder_with(&case());
+    run(whole.path(), &["run", "case.toml", "-q"]).says(0, &[]);
+    let reference = results(&whole);
+    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+        let folder = folder_with(&case());
+        let mut child = start(&folder);
+        wait_for(&folder, 10, &mut child);
+        let sent = std::process::Command::new("kill")
+            .args([signal, &child.id().to_string()])
+            .status()
+            .unwrap();
+        assert!(sent.success());
+        assert_eq!(child.wait().unwrap().code(), Some(code));
+        let summary = read(&result(&folder, "summary.json"));
+        assert!(summary.contains("\"interrupted\""), "{summary}");
+        run(folder.path(), &["resume", "case.out"]).says(0, &[]);
+        assert_same(&reference, &folder, signal);
+    }
+}
+
+#[test]
+fn a_time_limit_ends_with_8_and_the_run_can_go_on() {
+    let folder = folder_with(&case());
+    run(folder.path(), &["run", "case.toml", "--max-wall", "0.1s"])
+        .says(8, &["S0801", "signorini resume case.out"]);
+    run(folder.path(), &["resume", "case.out"]).says(0, &["✓ solved"]);
+    run(folder.path(), &["resume", "case.out"]).says(0, &["nothing is left to do"]);
+}
+
+/// A run stopped after frame 20.
+fn stopped() -> TempDir {
+    let folder = folder_with(&case());
+    let mut child = start(&folder);
+    wait_for(&folder, 20, &mut child);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    folder
+}
+
+#[test]
+fn f65_of_two_checkpoints_a_damaged_one_is_passed_over_and_two_are_refused() {
+    let whole = folder_with(&case());
+    run(whole.path(), &["run", "case.toml", "-q"]).says(0, &[]);
+    let reference = results(&whole);
+    let flip = |folder: &TempDir, name: &str| {
+        let path = result(folder, name);
+        let mut bytes = std::fs::read(&path).unwrap();
+        let at = bytes.len() / 2;
+        bytes[at] ^= 0x10;
+        std::fs::write(path, bytes).unwrap();
+    };
+    for name in ["checkpoint/a.sgc", "checkpoint/b.sgc"] {
+        let folder = stopped();
+        flip(&folder, name);
+        run(folder.path(), &["resume", "case.out"])
+            .says(0, &["one of the two checkpoints is of no use"]);
+        assert_same(&reference, &folder, name);
+    }
+    let folder = stopped();
+    flip(&folder, "checkpoint/a.sgc");
+    std::fs::write(result(&folder, "checkpoint/b.sgc"), b"SGNC").unwrap();
+    run(folder.path(), &["resume", "case.out"]).says(7, &["S0701", "--fresh"]);
+}
+
+#[test]
+fn f65_nothing_to_resume_from_is_told() {
+    let folder = folder_with(&case());
+    run(folder.path(), &["resume", "case.out"]).says(7, &["holds no results"]);
+    run(folder.path(), &["resume", "."]).says(7, &["holds no results"]);
+}
+
+#[test]
+fn f65_tables_that_were_changed_are_refused() {
+    let folder = stopped();
+    let path = result(&folder, "history.csv");
+    let table = read(&path);
+    let short: String = table.lines().take(3).map(|l| format!("{l}\n")).collect();
+    std::fs::write(&path, short).unwrap();
+    run(folder.path(), &["resume", "case.out"]).says(7, &["history.csv", "rows"]);
+}
+
+#[test]
+fn a_resumed_run_takes_the_case_as_it_was() {
+    let folder = stopped();
+    std::fs::write(folder.path().join("case.toml"), "no case any more").unwrap();
+    run(folder.path(), &["resume", "case.out"]).says(0, &["60 increments"]);
+}
