@@ -235,6 +235,8 @@ pub(super) struct Newton {
     pub prescribed: Vec<bool>,
     /// Whether the numbering still holds.
     pub analyzed: bool,
+    /// Whether a term has changed its pattern since it was last taken: terms say so only once.
+    pub outgrown: bool,
     /// The state of the iterate.
     pub trial: State,
     before: State,
@@ -252,6 +254,7 @@ impl Newton {
             assembly: Assembly::default(),
             prescribed: Vec::new(),
             analyzed: false,
+            outgrown: false,
             trial: state.clone(),
             before: state,
             du: Vec::new(),
@@ -400,11 +403,11 @@ impl Newton {
 
     /// Lets all terms look at the trial state and keeps the pattern up to date.
     fn prepare(&mut self, system: &mut System) -> Result<(), Failure> {
-        let mut changed = false;
         for term in &mut system.terms {
-            changed |= term.prepare(&self.trial)?;
+            self.outgrown |= term.prepare(&self.trial)?;
         }
-        if changed {
+        if self.outgrown {
+            self.outgrown = false;
             let (layout, elimination) = (&system.layout, &system.elimination);
             if self
                 .assembler
@@ -515,7 +518,7 @@ impl Newton {
         system.advance(&mut self.trial, &self.before, &self.du, alpha);
         self.trial.time = time;
         for term in &mut system.terms {
-            term.prepare(&self.trial)?;
+            self.outgrown |= term.prepare(&self.trial)?;
         }
         Ok(())
     }
