@@ -15,7 +15,7 @@ fn once() -> Vec<Step> {
 
 fn failure(told: Told) -> Failure {
     match told.outcome {
-        Err(RunError::NotConverged { cause, .. }) => cause,
+        Err(RunError::NotConverged { cause, .. }) => *cause,
         other => panic!("{other:?}"),
     }
 }
@@ -343,4 +343,94 @@ fn with_everything_prescribed_there_is_nothing_to_solve() {
     told.assert_finished();
     assert_close(&told.reactions[0], &[-3.0, 3.0], 1e-15);
     assert_close(&told.reactions[1], &[-6.0, 6.0], 1e-15);
+}
+
+/// A spring between two nodes that couples them only once the first has moved, and says so only once.
+struct Late {
+    spring: Spring,
+    coupled: bool,
+}
+
+impl Term for Late {
+    fn name(&self) -> &str {
+        "late"
+    }
+
+    fn pattern(&self, out: &mut dyn PatternSink) {
+        if self.coupled {
+            self.spring.pattern(out);
+        }
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        self.spring.symmetry()
+    }
+
+    fn part(&self) -> Part {
+        Part::Interface
+    }
+
+    fn prepare(&mut self, trial: &State) -> Result<bool, TermError> {
+        let before = self.coupled;
+        self.coupled |= trial.u[x(0) as usize] > 0.05;
+        Ok(self.coupled != before)
+    }
+
+    fn nchunk(&self) -> usize {
+        1
+    }
+
+    fn evaluate(
+        &self,
+        chunk: usize,
+        trial: &State,
+        order: Order,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        if self.coupled {
+            self.spring.evaluate(chunk, trial, order, work, out)?;
+        }
+        Ok(())
+    }
+
+    fn energy(
+        &self,
+        chunk: usize,
+        trial: &State,
+        work: &mut Work,
+    ) -> Result<Option<f64>, TermError> {
+        self.spring.energy(chunk, trial, work)
+    }
+}
+
+#[test]
+fn a_pattern_that_changes_during_the_line_search_is_taken_up() {
+    // without its stiffness the pair of springs would need many iterations, or none would do
+    fn catching(e: f64) -> [f64; 3] {
+        let e = (e - 0.05).max(0.0);
+        [50.0 * e * e, 100.0 * e, if e > 0.0 { 100.0 } else { 0.0 }]
+    }
+    let late = Late {
+        spring: Spring {
+            from: Some(1),
+            to: 0,
+            law: catching,
+            potential: true,
+            max_step: 1.0,
+        },
+        coupled: false,
+    };
+    let terms = vec![
+        Spring::new(None, 0, linear),
+        Spring::new(None, 1, linear),
+        Box::new(late),
+        load(0, &[5.0]),
+    ];
+    let told = run(system(2, terms), &once());
+    told.assert_finished();
+    assert!(told.increments[0].iterations <= 3);
+    // 10 u0 + f = 5, 10 u1 = f, f = 100 (u0 − u1 − 0.05)
+    let f = (0.5 - 0.05) / (0.01 + 0.2);
+    assert_close(&told.u[0], &[0.5 - 0.1 * f, 0.1 * f], 1e-12);
 }

@@ -147,7 +147,7 @@ fn a_run_that_gives_up_lists_the_sizes_it_tried_and_the_last_cause() {
             assert_eq!((increment, time, min), (2, 0.5, Some(0.02)));
             assert_eq!(tried, [0.5, 0.5, 0.125, 0.03125]);
             let text = "the fault is not a finite number";
-            assert!(matches!(&cause, Failure::Term(e) if e.to_string() == text));
+            assert!(matches!(&*cause, Failure::Term(e) if e.to_string() == text));
         }
         other => panic!("{other:?}"),
     }
@@ -312,7 +312,7 @@ fn an_inverted_element_shortens_the_increment_and_is_named_in_the_end() {
             // the top meets the base at 1/1.2
             assert!((0.8..1.0 / 1.2).contains(&time), "{time}");
             assert!(tried.len() > 1);
-            match cause {
+            match *cause {
                 Failure::Term(TermError::Inverted {
                     element,
                     body,
