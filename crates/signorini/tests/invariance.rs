@@ -8,6 +8,8 @@
 //! EXPECTED    The same displacements, forces and iterations, transformed.
 //! TOLERANCE   1e-9 or better of the largest value: increments are iterated to 1e-10 of the mean force.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{Run, model, run};
@@ -404,7 +406,7 @@ fn a_mirror_does_not_matter() {
     for blocks in [Blocks::plane(), Blocks::space()] {
         for axis in 0..2 {
             let mut rows = [0, 1, 2].map(Vec3::unit);
-            rows[axis] = rows[axis] * -1.0;
+            rows[axis] *= -1.0;
             let map = Mat3::from_rows(rows);
             let mut other = blocks.mapped(map, Vec3::ZERO);
             // the mirror image of a cell is inside out until its sides run the other way round
