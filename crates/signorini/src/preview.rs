@@ -17,7 +17,7 @@ pub struct Preview {
     pub lines: Vec<String>,
 }
 
-/// Numbers of a stiffness matrix and its factor for each unknown, and bytes of each: measured on solids of linear
+/// Numbers of a stiffness matrix and its factor for each unknown, and bytes of each: rough values for solids of linear
 /// elements in space; the factor grows with the size of the model.
 const MATRIX_ENTRIES: f64 = 81.0;
 const FACTOR_GROWTH: f64 = 7.0;

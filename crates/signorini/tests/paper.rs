@@ -149,3 +149,28 @@ fn distance_to_the_stiffest_solution_falls_as_one_over_the_penalty() {
         }
     }
 }
+
+/// SOURCE      Closed form: the wedge under its centroid is in uniaxial stress, F = A ½ E (l − l³) with A = ½, and the
+///             tip at depth d penetrates by d − (1 − l) = F/ε.
+/// TOLERANCE   1e-10: both sides are solved to round-off.
+#[test]
+fn wedge_under_its_centroid_has_its_closed_form() {
+    let result = run(&mut example("paper_wedge_3d", &[]));
+    let (young, area, penalty) = (500.0, 0.5, 1e5);
+    for (increment, frame) in result.frames.iter().enumerate() {
+        let depth = 0.3 * (increment + 1) as f64 / 60.0;
+        let force = |l: f64| area * 0.5 * young * (l - l.powi(3));
+        let mut stretch = 1.0 - depth;
+        for _ in 0..50 {
+            // Newton on F(l)/ε = d − (1 − l)
+            let slope = area * 0.5 * young * (1.0 - 3.0 * stretch * stretch) / penalty - 1.0;
+            stretch -= (force(stretch) / penalty - depth + 1.0 - stretch) / slope;
+        }
+        let got = frame.contacts[0].secondary.force.z;
+        assert!(
+            (got / force(stretch) - 1.0).abs() < 1e-10,
+            "{increment}: {got} {}",
+            force(stretch)
+        );
+    }
+}

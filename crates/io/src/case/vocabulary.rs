@@ -424,7 +424,7 @@ static BODY: Table = Table {
         key("integration", Shape::Text, "full or reduced")
             .later("leave it away: integration is full"),
         key("locking", Shape::Text, "remedy against locking")
-            .later("leave it away, or use quadratic elements"),
+            .later("leave it away, and keep Poisson's ratio away from one half"),
         key("orientation", Shape::Table(&LATER), "axes of the material").later(""),
     ],
     rules: &[],
@@ -758,10 +758,14 @@ static SOLVER: Table = Table {
         .or(Default::Text("auto")),
         key(
             "on_trouble",
-            Shape::List(&Shape::Choice(&[word("cut"), word("stabilize")]), 0, 2),
+            Shape::List(
+                &Shape::Choice(&[word("cut"), Choice::later("stabilize", "cut")]),
+                0,
+                2,
+            ),
             "what is tried, in order, when an increment does not converge",
         )
-        .or(Default::Texts(&["cut", "stabilize"])),
+        .or(Default::Texts(&["cut"])),
         key(
             "threads",
             Shape::Either(&[AUTO, Shape::Integer(1, 4096)]),
@@ -792,7 +796,7 @@ static NEWTON: Table = Table {
         key(
             "gap_tol",
             POSITIVE,
-            "largest penetration, in parts of the size of a facet",
+            "largest penetration, in parts of the size of a facet, of laws with multipliers",
         )
         .or(Default::Number(1e-6)),
         key(

@@ -72,6 +72,7 @@ impl Equations {
             .map(|t| t.symmetry())
             .max()
             .unwrap_or(Symmetry::Definite);
+        let symmetry = symmetry.max(self.turning(system));
         let problem = Problem {
             ndof: layout.ndof(),
             bulk: assembler.bulk(),
@@ -84,6 +85,23 @@ impl Equations {
             body: &system.body,
         };
         self.solver.analyze(&problem)
+    }
+
+    /// A rigid body that may turn about some axes and is held about others carries a moment at equilibrium, and a moment
+    /// makes the stiffness against rotations unsymmetric.
+    fn turning(&self, system: &System) -> Symmetry {
+        let layout = &system.layout;
+        let partly = (0..layout.nrigid as u32).any(|body| {
+            let rotations = (0..3).map(|axis| layout.rotation(body, axis));
+            let free =
+                rotations.filter(|&d| self.equation.get(d as usize).is_some_and(|e| *e != NONE));
+            (1..3).contains(&free.count())
+        });
+        if partly && layout.ndim == 3 {
+            Symmetry::Unsymmetric
+        } else {
+            Symmetry::Definite
+        }
     }
 
     /// Solves `K du = −r − K du_p` for the free dofs. `du` holds `du_p` at the prescribed dofs on entry, zero

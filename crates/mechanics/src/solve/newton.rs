@@ -244,8 +244,10 @@ pub(super) struct Newton {
     pub prescribed: Vec<bool>,
     /// Whether the numbering still holds.
     pub analyzed: bool,
-    /// Whether a term has changed its pattern since it was last taken: terms say so only once.
-    pub outgrown: bool,
+    /// Whether a term couples unknowns that the pattern may not hold yet.
+    pub coupled_more: bool,
+    /// Whether all terms have looked at the trial state as it is.
+    looked: bool,
     /// The state of the iterate.
     pub trial: State,
     before: State,
@@ -263,7 +265,8 @@ impl Newton {
             assembly: Assembly::default(),
             prescribed: Vec::new(),
             analyzed: false,
-            outgrown: false,
+            coupled_more: false,
+            looked: false,
             trial: state.clone(),
             before: state,
             du: Vec::new(),
@@ -356,18 +359,25 @@ impl Newton {
         if extrapolated.is_some() && repeat.is_none() {
             return false;
         }
-        let back = |system: &mut System| system.terms.iter_mut().for_each(|t| t.reject());
-        back(system);
+        self.forget(system);
         let motion = self.begin(system, base, goal);
         if motion {
             return true;
         }
         let plain = self.largest_residual(system);
-        back(system);
+        self.forget(system);
         if extrapolated.zip(plain).is_some_and(|(e, p)| e < p) {
             self.extrapolate(system, base, goal, guess);
         }
         false
+    }
+
+    /// Takes all terms back to their accepted history.
+    fn forget(&mut self, system: &mut System) {
+        for term in &mut system.terms {
+            term.reject();
+        }
+        self.looked = false;
     }
 
     /// The largest residual over the mean force at the trial state; `None` where it cannot be evaluated.
@@ -387,6 +397,7 @@ impl Newton {
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
         self.trial.time = goal.time;
+        self.looked = false;
     }
 
     /// Sets up the trial state and the motion of prescribed dofs; says whether nodes have to be moved in the first
@@ -401,6 +412,7 @@ impl Newton {
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
         self.trial.time = goal.time;
+        self.looked = false;
         self.du.fill(0.0);
         let mut motion = false;
         for &(dof, to) in goal.targets.iter().filter(|(d, _)| is_node(*d)) {
@@ -412,18 +424,16 @@ impl Newton {
 
     /// Lets all terms look at the trial state and keeps the pattern up to date.
     fn prepare(&mut self, system: &mut System) -> Result<(), Failure> {
-        for term in &mut system.terms {
-            self.outgrown |= term.prepare(&self.trial)?;
+        if !self.looked {
+            self.look(system)?;
         }
-        if self.outgrown {
-            self.outgrown = false;
+        if self.coupled_more {
             let (layout, elimination) = (&system.layout, &system.elimination);
-            if self
+            let changed = self
                 .assembler
-                .update_interface(layout, elimination, &system.terms)
-            {
-                self.analyzed = false;
-            }
+                .update_interface(layout, elimination, &system.terms);
+            self.analyzed &= !changed;
+            self.coupled_more = false;
         }
         if !self.analyzed {
             self.equations
@@ -431,6 +441,15 @@ impl Newton {
                 .map_err(|source| self.linear_failure(source))?;
             self.analyzed = true;
         }
+        Ok(())
+    }
+
+    /// Lets all terms look at the trial state.
+    fn look(&mut self, system: &mut System) -> Result<(), TermError> {
+        for term in &mut system.terms {
+            self.coupled_more |= term.prepare(&self.trial)?;
+        }
+        self.looked = true;
         Ok(())
     }
 
@@ -486,12 +505,10 @@ impl Newton {
         let du = &self.du;
         let limits = system.terms.iter().map(|t| t.max_step(&self.before, du));
         let first = limits.fold(1.0, f64::min);
-        let time = self.trial.time;
         // a prescribed motion is taken whole: the energy before it is another problem's
         if motion || self.settings.line_search == LineSearch::Off {
             let alpha = if motion { 1.0 } else { first };
-            system.advance(&mut self.trial, &self.before, &self.du, alpha);
-            self.trial.time = time;
+            self.place(system, alpha);
             return Ok(alpha);
         }
         let slope = self.slope();
@@ -503,14 +520,24 @@ impl Newton {
         {
             return Ok(first);
         }
+        let mut obstacle = None;
         let alpha = line_search::root(slope, first, |alpha| {
-            self.try_step(system, alpha).ok()?;
-            self.assemble(system, Order::Residual).ok()?;
-            Some(self.slope()).filter(|s| s.is_finite())
+            let tried = self
+                .try_step(system, alpha)
+                .and_then(|()| self.assemble(system, Order::Residual));
+            match tried {
+                Ok(()) => Some(self.slope()).filter(|s| s.is_finite()),
+                Err(error) => {
+                    obstacle = Some(error);
+                    None
+                }
+            }
         });
-        let alpha = alpha.ok_or(Failure::NoDescent { iterations, worst })?;
-        system.advance(&mut self.trial, &self.before, &self.du, alpha);
-        self.trial.time = time;
+        let Some(alpha) = alpha else {
+            let in_the_way = obstacle.map(Failure::Term);
+            return Err(in_the_way.unwrap_or(Failure::NoDescent { iterations, worst }));
+        };
+        self.place(system, alpha);
         Ok(alpha)
     }
 
@@ -523,13 +550,15 @@ impl Newton {
 
     /// Puts the trial state at `alpha` and lets the terms look at it.
     fn try_step(&mut self, system: &mut System, alpha: f64) -> Result<(), TermError> {
-        let time = self.before.time;
+        self.place(system, alpha);
+        self.look(system)
+    }
+
+    /// Puts the trial state at `alpha` along the step.
+    fn place(&mut self, system: &System, alpha: f64) {
         system.advance(&mut self.trial, &self.before, &self.du, alpha);
-        self.trial.time = time;
-        for term in &mut system.terms {
-            self.outgrown |= term.prepare(&self.trial)?;
-        }
-        Ok(())
+        self.trial.time = self.before.time;
+        self.looked = false;
     }
 
     /// s = du·r over the unknowns.

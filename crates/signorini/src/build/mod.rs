@@ -14,7 +14,7 @@ use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::surface::{Facets, RigidId};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{
-    self, Amplitude, Case, Enforcement, Geometry, LoadKind, Method, Name, Per, TimeBase,
+    self, Amplitude, Case, Enforcement, Geometry, LoadKind, Method, Name, Per, Remedy, TimeBase,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::contact::Measure;
@@ -390,13 +390,18 @@ impl StepBuilder<'_> {
             steps.push(StepPart {
                 name: step.name.value.clone(),
                 duration: step.duration,
-                increments: increments(&step.increments, step.duration),
+                increments: increments(&step.increments, step.duration, self.may_cut()),
                 nonlinear,
                 changes,
                 loads,
             });
         }
         steps
+    }
+
+    /// Whether an increment that fails may be tried again in smaller pieces.
+    fn may_cut(&self) -> bool {
+        self.case.solver.on_trouble.contains(&Remedy::Cut)
     }
 
     fn target(&self, on: &Name, found: &mut Diagnostics) -> Option<Target> {
@@ -472,29 +477,25 @@ fn scaled(amplitude: &Amplitude, factor: f64) -> Motion {
     }
 }
 
-fn increments(part: &case::Increments, duration: f64) -> Increments {
-    match *part {
-        case::Increments::Fixed(n) => Increments::Fixed(n as usize),
+fn increments(part: &case::Increments, duration: f64, may_cut: bool) -> Increments {
+    let (initial, min, max, count_max) = match *part {
+        case::Increments::Fixed(n) => return Increments::Fixed(n as usize),
         case::Increments::Count(n) => {
             let size = duration / n as f64;
-            Increments::Adaptive {
-                initial: size,
-                min: 1e-5 * size,
-                max: size,
-                count_max: (n as usize).saturating_mul(100).max(1000),
-            }
+            (size, 1e-5 * size, size, n.saturating_mul(100).max(1000))
         }
         case::Increments::Adaptive {
             initial,
             min,
             max,
             count_max,
-        } => Increments::Adaptive {
-            initial,
-            min,
-            max,
-            count_max: count_max as usize,
-        },
+        } => (initial, min, max, count_max),
+    };
+    Increments::Adaptive {
+        initial,
+        min: if may_cut { min } else { f64::INFINITY },
+        max,
+        count_max: count_max as usize,
     }
 }
 

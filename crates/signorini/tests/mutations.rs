@@ -1,0 +1,68 @@
+//! Damaged cases: read, built and looked at, never a panic and never a hang.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::text;
+use signorini::build::{build, read_mesh_of};
+use signorini::preview::preview;
+use signorini_io::case::mutate::{Generator, mutate};
+use signorini_io::case::read_case;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Does what `signorini check` does; says how far it came.
+fn check(bytes: &[u8]) -> usize {
+    let Ok((case, _)) = read_case("case.toml", bytes, &[]) else {
+        return 0;
+    };
+    let Ok((mesh, _)) = read_mesh_of(&case, Path::new("/nowhere")) else {
+        return 1;
+    };
+    let Ok(mut model) = build(case, mesh) else {
+        return 2;
+    };
+    if preview(&mut model).is_err() { 3 } else { 4 }
+}
+
+fn mutants(count: usize, seed: u64) {
+    let originals = [
+        "paper_wedge_3d",
+        "paper_brick_symmetric_3d",
+        "paper_brick_arbitrary_3d",
+        "two_blocks_2d",
+    ]
+    .map(text);
+    let mut generator = Generator::new(seed);
+    let mut reached = [0usize; 5];
+    for number in 0..count {
+        let original = &originals[number % originals.len()];
+        let mutant = mutate(original.as_bytes(), &mut generator);
+        let start = Instant::now();
+        reached[check(&mutant)] += 1;
+        let took = start.elapsed();
+        assert!(
+            took < Duration::from_secs(10),
+            "mutant {number} of seed {seed} took {took:?}:\n{}",
+            String::from_utf8_lossy(&mutant)
+        );
+    }
+    println!("refused as text, mesh, model, state; accepted: {reached:?}");
+    // the mutants reach every stage: the test is not one of the text alone
+    assert!(
+        reached[0] > 0 && reached[2] > 0 && reached[4] > 0,
+        "{reached:?}"
+    );
+}
+
+#[test]
+fn two_thousand_damaged_cases_are_refused_or_built_without_panic() {
+    mutants(2_000, 20261121);
+}
+
+#[test]
+#[ignore = "takes a minute: run by .ci/run"]
+fn a_hundred_thousand_damaged_cases_are_refused_or_built_without_panic() {
+    mutants(100_000, 7);
+}
