@@ -461,6 +461,9 @@ impl Term for Interface {
         let rows = self.accepted.pairs.iter();
         let values: Vec<f64> = rows.flat_map(pair_to_numbers).collect();
         out.put(format!("contact.{}.pairs", self.parts.name), &values);
+        let facet = |&f: &u32| if f == NONE { -1.0 } else { f64::from(f) };
+        let coupled: Vec<f64> = self.coupled.iter().map(facet).collect();
+        out.put(format!("contact.{}.coupled", self.parts.name), &coupled);
     }
 
     fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
@@ -474,9 +477,16 @@ impl Term for Interface {
         {
             *pair = pair_from_numbers(numbers);
         }
+        let mut coupled = vec![0.0; self.coupled.len()];
+        from.get(
+            &format!("contact.{}.coupled", self.parts.name),
+            &mut coupled,
+        )?;
+        for (to, facet) in self.coupled.iter_mut().zip(coupled) {
+            *to = if facet < 0.0 { NONE } else { facet as u32 };
+        }
         self.reject();
-        self.started = true;
-        self.coupled.fill(NONE);
+        self.started = self.accepted.pairs.iter().any(Option::is_some);
         self.search.forget();
         Ok(())
     }

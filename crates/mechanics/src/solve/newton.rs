@@ -172,6 +172,16 @@ impl ForceScale {
             round_off: true,
             q,
         };
+        // a reaction must be a number, too
+        let broken = assembly.residual.iter().position(|r| !r.is_finite());
+        if let Some(dof) = broken {
+            judgement.residual = f64::NAN;
+            judgement.worst = Some(dof as Dof);
+            judgement.force = f64::NAN;
+            judgement.small = false;
+            judgement.round_off = false;
+            return judgement;
+        }
         for &dof in dofs {
             let k = kind(layout.name(dof));
             let r = assembly.residual[dof as usize].abs();
@@ -179,8 +189,7 @@ impl ForceScale {
             judgement.round_off &= r <= floor;
             judgement.small &= r <= (force_tol * q[k]).max(floor);
             let relative = if r == 0.0 { 0.0 } else { r / q[k] };
-            // not `>` alone: a residual that is not a number is the worst of all
-            if relative > judgement.residual || relative.is_nan() {
+            if relative > judgement.residual {
                 judgement.residual = relative;
                 judgement.worst = Some(dof);
                 judgement.force = r;
@@ -236,7 +245,7 @@ pub(super) struct Newton {
     /// Whether the numbering still holds.
     pub analyzed: bool,
     /// Whether a term couples unknowns that the pattern may not hold yet.
-    coupled_more: bool,
+    pub coupled_more: bool,
     /// Whether all terms have looked at the trial state as it is.
     looked: bool,
     /// The state of the iterate.

@@ -533,6 +533,7 @@ impl Stepper {
         }
         self.newton.scale = ForceScale::from_array(scale);
         self.newton.analyzed = false;
+        self.newton.coupled_more = true;
         self.progress = Progress {
             step: step as usize,
             increment: increment as usize,

@@ -180,7 +180,9 @@ impl Assembler {
         &self.interface
     }
 
-    /// Makes room for what the terms of the interface couple now. Says whether the pattern had to grow.
+    /// Makes room for what the terms of the interface couple now, and for nothing else: the pattern, and with it the
+    /// order of elimination and every bit of the solution, must not depend on what was coupled long ago. Says whether it
+    /// changed.
     pub fn update_interface(
         &mut self,
         layout: &Layout,
@@ -190,11 +192,10 @@ impl Assembler {
         // solids that share nodes with rigid bodies have entries here, too
         let cliques = collect(layout, elimination, terms);
         let (dofs, offsets) = (&cliques.interface, &cliques.interface_offsets);
-        if self.interface.contains_cliques(dofs, offsets) {
-            return false;
-        }
-        self.interface = Pattern::from_cliques(layout.ndof(), dofs, offsets);
-        true
+        let now = Pattern::from_cliques(layout.ndof(), dofs, offsets);
+        let changed = now != self.interface;
+        self.interface = now;
+        changed
     }
 
     /// Evaluates all terms at a trial state into `out`.

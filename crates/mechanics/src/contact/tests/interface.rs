@@ -453,6 +453,7 @@ fn a_loaded_interface_goes_on_with_the_same_choices() {
 
     let mut short = Archive::default();
     short.put("contact.touch.pairs", &[0.0; 8]);
+    short.put("contact.touch.coupled", &[0.0; 1]);
     assert!(other.interface.load(&short).is_err());
     assert!(other.interface.load(&Archive::default()).is_err());
 }

@@ -3,6 +3,7 @@
 
 mod dual;
 mod interface;
+mod paper;
 pub(crate) mod printed;
 mod rigid;
 

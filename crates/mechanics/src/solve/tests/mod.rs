@@ -1,0 +1,345 @@
+//! Solving small systems: springs whose answers are known, and solids and contact where springs do not do.
+
+mod newton;
+mod restart;
+mod stepping;
+
+use super::{
+    Event, Flow, IncrementRecord, Increments, IterationRecord, LineSearch, Motion, NewtonSettings,
+    Outcome, Prescription, RunError, Step, Stepper, StepperSettings,
+};
+use crate::load::NodalForces;
+use crate::system::{
+    Dof, Elimination, Layout, Order, Part, PatternSink, Sink, State, Symmetry, System, Term,
+    TermError, Verdict, Work,
+};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::Vec3;
+use std::sync::Arc;
+
+/// Energy, force and stiffness of a spring at an elongation.
+type Law = fn(f64) -> [f64; 3];
+
+/// A spring along x between two nodes, or between the ground and a node.
+struct Spring {
+    from: Option<NodeId>,
+    to: NodeId,
+    law: Law,
+    /// Whether it admits to having an energy.
+    potential: bool,
+    /// The largest step it allows.
+    max_step: f64,
+}
+
+impl Spring {
+    fn between(from: Option<NodeId>, to: NodeId, law: Law) -> Box<dyn Term> {
+        Box::new(Self {
+            from,
+            to,
+            law,
+            potential: true,
+            max_step: 1.0,
+        })
+    }
+
+    fn at(&self, trial: &State) -> [f64; 3] {
+        let u = |node: NodeId| trial.u[x(node) as usize];
+        (self.law)(u(self.to) - self.from.map_or(0.0, u))
+    }
+
+    fn dofs(&self) -> Vec<Dof> {
+        self.from.into_iter().chain([self.to]).map(x).collect()
+    }
+}
+
+/// The displacement of a node along x.
+const fn x(node: NodeId) -> Dof {
+    2 * node
+}
+
+fn linear(e: f64) -> [f64; 3] {
+    [5.0 * e * e, 10.0 * e, 10.0]
+}
+
+/// Stiffens: `f = e + e³`.
+fn hardening(e: f64) -> [f64; 3] {
+    [
+        0.5 * e * e + 0.25 * e.powi(4),
+        e + e.powi(3),
+        1.0 + 3.0 * e * e,
+    ]
+}
+
+impl Term for Spring {
+    fn name(&self) -> &str {
+        "spring"
+    }
+
+    fn pattern(&self, out: &mut dyn PatternSink) {
+        out.interface(&self.dofs());
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::Symmetric
+    }
+
+    fn part(&self) -> Part {
+        Part::Interface
+    }
+
+    fn nchunk(&self) -> usize {
+        1
+    }
+
+    fn evaluate(
+        &self,
+        _: usize,
+        trial: &State,
+        order: Order,
+        _: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let [_, f, k] = self.at(trial);
+        let (mut force, mut stiffness) = (vec![f], vec![k]);
+        if self.from.is_some() {
+            force.insert(0, -f);
+            stiffness = vec![k, -k, -k, k];
+        }
+        if order == Order::Residual {
+            stiffness.clear();
+        }
+        out.add(&self.dofs(), &force, &stiffness);
+        Ok(())
+    }
+
+    fn energy(&self, _: usize, trial: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
+        Ok(self.potential.then(|| self.at(trial)[0]))
+    }
+
+    fn max_step(&self, _: &State, _: &[f64]) -> f64 {
+        self.max_step
+    }
+}
+
+/// A term without forces that finds fault with states.
+struct Fault {
+    /// What it refuses to evaluate: start of the increment, state.
+    refuses: fn(&State, &State) -> bool,
+    /// When it is not settled: start of the increment, state, how often it was asked in this increment.
+    unsettled: fn(&State, &State, usize) -> bool,
+    start: Option<State>,
+    asked: usize,
+}
+
+impl Fault {
+    fn refuse(refuses: fn(&State, &State) -> bool) -> Box<dyn Term> {
+        Box::new(Self {
+            refuses,
+            unsettled: |_, _, _| false,
+            start: None,
+            asked: 0,
+        })
+    }
+
+    fn unsettle(unsettled: fn(&State, &State, usize) -> bool) -> Box<dyn Term> {
+        Box::new(Self {
+            refuses: |_, _| false,
+            unsettled,
+            start: None,
+            asked: 0,
+        })
+    }
+
+    fn start(&self) -> &State {
+        self.start.as_ref().unwrap()
+    }
+
+    fn error() -> TermError {
+        TermError::NotFinite {
+            what: "the fault".into(),
+        }
+    }
+}
+
+impl Term for Fault {
+    fn name(&self) -> &str {
+        "fault"
+    }
+
+    fn pattern(&self, _: &mut dyn PatternSink) {}
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::Definite
+    }
+
+    fn part(&self) -> Part {
+        Part::Interface
+    }
+
+    fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
+        self.start = Some(from.clone());
+        self.asked = 0;
+        Ok(())
+    }
+
+    fn nchunk(&self) -> usize {
+        1
+    }
+
+    fn evaluate(
+        &self,
+        _: usize,
+        trial: &State,
+        _: Order,
+        _: &mut Work,
+        _: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        if (self.refuses)(self.start(), trial) {
+            return Err(Self::error());
+        }
+        Ok(())
+    }
+
+    fn energy(&self, _: usize, trial: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
+        if (self.refuses)(self.start(), trial) {
+            return Err(Self::error());
+        }
+        Ok(Some(0.0))
+    }
+
+    fn verdict(&mut self, trial: &State) -> Verdict {
+        self.asked += 1;
+        if (self.unsettled)(self.start(), trial, self.asked) {
+            return Verdict::Repeat {
+                changes: 3,
+                why: "the fault wavers".into(),
+                nodes: vec![1],
+            };
+        }
+        Verdict::Settled
+    }
+}
+
+/// A dead force along x on a node; its value at the end of each step.
+fn load(node: NodeId, ends: &[f64]) -> Box<dyn Term> {
+    let ends = ends.iter().map(|&f| vec![f]).collect();
+    Box::new(NodalForces::new(vec![x(node)], ends))
+}
+
+/// Nodes in the plane, of which only the displacement along x is in use.
+fn system(nnode: usize, terms: Vec<Box<dyn Term>>) -> System {
+    let layout = Layout {
+        ndim: 2,
+        nnode,
+        nrigid: 0,
+        nmultiplier: 0,
+    };
+    let reference: Arc<[Vec3]> = (0..nnode).map(|n| Vec3::unit(0) * n as f64).collect();
+    System {
+        layout,
+        coordinates: reference.iter().map(|x| x.to_array()).collect(),
+        reference,
+        elimination: Arc::new(Elimination::default()),
+        terms,
+        body: vec![0; nnode],
+        ncell: Vec::new(),
+    }
+}
+
+fn step(increments: Increments, prescribed: &[(NodeId, Motion)]) -> Step {
+    let prescription = |(node, motion): &(NodeId, Motion)| Prescription {
+        dof: x(*node),
+        motion: motion.clone(),
+    };
+    Step {
+        name: "step".into(),
+        duration: 1.0,
+        increments,
+        nonlinear: true,
+        prescriptions: prescribed.iter().map(prescription).collect(),
+    }
+}
+
+fn adaptive(initial: f64, min: f64, max: f64) -> Increments {
+    Increments::Adaptive {
+        initial,
+        min,
+        max,
+        count_max: 100,
+    }
+}
+
+fn settings(force_tol: f64, line_search: LineSearch) -> StepperSettings {
+    let newton = NewtonSettings {
+        max_iterations: 20,
+        force_tol,
+        line_search,
+    };
+    StepperSettings {
+        newton,
+        ..StepperSettings::default()
+    }
+}
+
+/// Everything that a run said, and what it left.
+struct Told {
+    outcome: Result<Outcome, RunError>,
+    iterations: Vec<IterationRecord>,
+    increments: Vec<IncrementRecord>,
+    /// Sizes that failed and those tried next.
+    cuts: Vec<[f64; 2]>,
+    /// Displacements and reactions of all nodes along x after each increment.
+    u: Vec<Vec<f64>>,
+    reactions: Vec<Vec<f64>>,
+    state: State,
+}
+
+fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> Told {
+    let mut stepper = Stepper::new(&system, settings);
+    let (mut iterations, mut increments, mut cuts) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut u, mut reactions) = (Vec::new(), Vec::new());
+    let outcome = stepper.run(&mut system, steps, &mut |event: &Event<'_>| {
+        match event {
+            Event::Iteration(record) => iterations.push((*record).clone()),
+            Event::Increment { record, frame } => {
+                increments.push((*record).clone());
+                u.push(frame.displacement.iter().map(|u| u.x).collect());
+                reactions.push(frame.reaction_force.iter().map(|f| f.x).collect());
+            }
+            Event::Cutback { cause, next, .. } => cuts.push([cause.dt, *next]),
+            Event::Step { .. } => {}
+        }
+        Flow::Continue
+    });
+    Told {
+        outcome,
+        iterations,
+        increments,
+        cuts,
+        u,
+        reactions,
+        state: stepper.state().clone(),
+    }
+}
+
+fn run(system: System, steps: &[Step]) -> Told {
+    run_with(system, steps, settings(1e-10, LineSearch::Auto))
+}
+
+impl Told {
+    fn assert_finished(&self) {
+        let finished = matches!(self.outcome, Ok(Outcome::Finished));
+        assert!(finished, "{:?}", self.outcome);
+    }
+
+    fn sizes(&self) -> Vec<f64> {
+        self.increments.iter().map(|i| i.dt).collect()
+    }
+}
+
+fn assert_close(got: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(got.len(), expected.len(), "{got:?} {expected:?}");
+    for (a, b) in got.iter().zip(expected) {
+        assert!((a - b).abs() <= tolerance, "{got:?} {expected:?}");
+    }
+}
