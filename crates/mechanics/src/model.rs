@@ -674,6 +674,8 @@ impl Context<'_> {
                 }
             }
         }
+        // what the user has prescribed, as against what is held because nobody says otherwise
+        let mut named: BTreeSet<Dof> = BTreeSet::new();
         let mut loads: BTreeMap<String, Vec<(Dof, f64)>> = BTreeMap::new();
         let mut ends: Vec<BTreeMap<Dof, f64>> = Vec::new();
         let mut steps = Vec::new();
@@ -694,6 +696,7 @@ impl Context<'_> {
                                     return Err(self.clash(&part.name, dof));
                                 }
                                 prescribed.insert(dof, motion.clone());
+                                named.insert(dof);
                             }
                         }
                     }
@@ -701,13 +704,21 @@ impl Context<'_> {
                         for &component in components {
                             for dof in self.dofs(target, component)? {
                                 prescribed.remove(&dof);
+                                named.remove(&dof);
                             }
                         }
                     }
                 }
             }
             for load in part.loads {
-                loads.insert(load.name, self.load(&load.forces)?);
+                let forces = self.load(&load.forces)?;
+                if let LoadForces::Rigid(..) = load.forces {
+                    // a rigid body that is loaded along an axis may move along it
+                    for (dof, _) in forces.iter().filter(|(d, _)| !named.contains(d)) {
+                        prescribed.remove(dof);
+                    }
+                }
+                loads.insert(load.name, forces);
             }
             let mut end = BTreeMap::new();
             for (dof, force) in loads.values().flatten() {

@@ -174,3 +174,29 @@ fn wedge_under_its_centroid_has_its_closed_form() {
         );
     }
 }
+
+/// GOAL        A rigid body that is loaded moves along the load and is held otherwise.
+/// EXPECTED    Contact carries the load in every increment; at the force of the motion-driven run's last increment, the
+///             tip has gone down as far as it was moved there.
+#[test]
+fn a_loaded_tip_goes_as_deep_as_the_moved_one_at_the_same_force() {
+    let moved = run(&mut example("paper_wedge_3d", &[]));
+    let force = moved.frames[59].contacts[0].secondary.force.z;
+    let load = format!("force = [0.0, 0.0, -{force:?}]");
+    let text = text("paper_wedge_3d")
+        .replace("[[step.move]]", "[[step.load]]")
+        .replace("uz = -0.3 ", &load)
+        .replace("{ fixed = 60 }", "10");
+    let loaded = run(&mut model("loaded", &text, &[]));
+    assert!(loaded.error.is_none(), "{:?}", loaded.error);
+    for (increment, frame) in loaded.frames.iter().enumerate() {
+        let expected = force * (increment + 1) as f64 / 10.0;
+        let got = frame.contacts[0].secondary.force.z;
+        assert!(
+            (got / expected - 1.0).abs() < 1e-9,
+            "{increment}: {got} {expected}"
+        );
+    }
+    let last = loaded.frames.last().map(|f| f.rigid[0].displacement.z);
+    assert!(last.is_some_and(|z| (z + 0.3).abs() < 1e-9), "{last:?}");
+}

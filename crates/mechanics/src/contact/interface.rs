@@ -252,14 +252,8 @@ impl Interface {
         ROUNDING * size * rows.rows().iter().map(stiffness).sum::<f64>()
     }
 
-    /// Adds the rows of a group into `force` and `stiffness`; whether anything acts.
-    fn act(
-        &self,
-        rows: &Rows,
-        force: &mut Vec<f64>,
-        stiffness: &mut Vec<f64>,
-        order: Order,
-    ) -> bool {
+    /// Adds the rows of a group up in `force` and `stiffness`.
+    fn act(&self, rows: &Rows, force: &mut Vec<f64>, stiffness: &mut Vec<f64>, order: Order) {
         let n = rows.ncolumn();
         force.clear();
         force.resize(n, 0.0);
@@ -267,16 +261,12 @@ impl Interface {
         if order == Order::Tangent {
             stiffness.resize(n * n, 0.0);
         }
-        let mut acts = false;
         for row in rows.rows() {
             let pressure = self.pressure(row);
-            if pressure == Eval::default() {
-                continue;
+            if pressure != Eval::default() {
+                add_pressure(row, self.measure(row.number), &pressure, force, stiffness);
             }
-            acts = true;
-            add_pressure(row, self.measure(row.number), &pressure, force, stiffness);
         }
-        acts
     }
 }
 
@@ -375,12 +365,20 @@ impl Term for Interface {
             Order::Tangent => RowOrder::Tangent,
         };
         for group in self.groups(chunk) {
-            self.rows(group, &at, row_order, rows)?;
-            if self.act(rows, force, stiffness, order) {
-                rows.dofs(&self.layout, dofs);
-                out.add(dofs, force, stiffness);
-                out.uncertain(dofs, self.rounding(rows, trial));
+            // gaps first: most rows are open and need nothing else
+            self.rows(group, &at, RowOrder::Gap, rows)?;
+            if !rows
+                .rows()
+                .iter()
+                .any(|r| self.pressure(r) != Eval::default())
+            {
+                continue;
             }
+            self.rows(group, &at, row_order, rows)?;
+            self.act(rows, force, stiffness, order);
+            rows.dofs(&self.layout, dofs);
+            out.add(dofs, force, stiffness);
+            out.uncertain(dofs, self.rounding(rows, trial));
         }
         Ok(())
     }

@@ -16,7 +16,7 @@ pub enum Increments {
     Adaptive {
         /// The first.
         initial: f64,
-        /// The smallest that is tried.
+        /// The smallest that is tried; infinite: none is cut.
         min: f64,
         /// The largest.
         max: f64,
@@ -278,7 +278,7 @@ impl Stepper {
                 max,
                 count_max,
                 ..
-            } => (count_max, Some(min), max),
+            } => (count_max, Some(min).filter(|m| m.is_finite()), max),
         };
         let mut targets: Vec<(Dof, f64)> = Vec::new();
         while step.duration - self.progress.time > TIME * step.duration {

@@ -32,7 +32,7 @@ struct Spring {
 }
 
 impl Spring {
-    fn term(from: Option<NodeId>, to: NodeId, law: Law) -> Box<dyn Term> {
+    fn between(from: Option<NodeId>, to: NodeId, law: Law) -> Box<dyn Term> {
         Box::new(Self {
             from,
             to,

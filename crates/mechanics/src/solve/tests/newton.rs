@@ -6,7 +6,7 @@ use crate::system::linear::LinearError;
 
 /// A node on a spring under a load that is reached in one increment.
 fn pulled(law: Law, force: f64) -> System {
-    system(1, vec![Spring::term(None, 0, law), load(0, &[force])])
+    system(1, vec![Spring::between(None, 0, law), load(0, &[force])])
 }
 
 fn once() -> Vec<Step> {
@@ -66,7 +66,7 @@ fn condition_a_stops_at_round_off_where_the_tolerance_cannot_be_reached() {
 fn condition_a_remembers_the_largest_mean_force_of_the_run() {
     // a load comes and goes; what is left is judged against what was
     let steps = [1, 1].map(|n| step(Increments::Fixed(n), &[]));
-    let springs = vec![Spring::term(None, 0, hardening), load(0, &[1e3, 0.0])];
+    let springs = vec![Spring::between(None, 0, hardening), load(0, &[1e3, 0.0])];
     let told = run_with(system(1, springs), &steps, settings(1e-6, LineSearch::Auto));
     told.assert_finished();
     assert!(told.state.u[0].abs() <= 1e-6 * 2e3);
@@ -129,8 +129,8 @@ fn condition_d_goes_on_where_a_soft_direction_still_moves() {
         ]
     }
     let terms = vec![
-        Spring::term(None, 0, stiff),
-        Spring::term(None, 1, soft),
+        Spring::between(None, 0, stiff),
+        Spring::between(None, 1, soft),
         load(0, &[1e6]),
         load(1, &[soft(0.1)[1]]),
     ];
@@ -153,7 +153,7 @@ fn a_state_in_equilibrium_needs_no_solve() {
 #[test]
 fn prescribed_motion_of_a_linear_problem_takes_one_solve_and_a_check() {
     // a chain of three springs between the ground and a node that moves; a load in between
-    let chain = [(0, 1), (1, 2), (2, 3)].map(|(a, b)| Spring::term(Some(a), b, linear));
+    let chain = [(0, 1), (1, 2), (2, 3)].map(|(a, b)| Spring::between(Some(a), b, linear));
     let mut terms = Vec::from(chain);
     terms.push(load(1, &[6.0]));
     let motion = [(0, Motion::Hold), (3, Motion::Ramp(0.9))];
@@ -170,7 +170,7 @@ fn prescribed_motion_of_a_linear_problem_takes_one_solve_and_a_check() {
 
 #[test]
 fn extrapolation_leaves_nothing_to_solve_on_a_straight_path() {
-    let chain = [(0, 1), (1, 2)].map(|(a, b)| Spring::term(Some(a), b, linear));
+    let chain = [(0, 1), (1, 2)].map(|(a, b)| Spring::between(Some(a), b, linear));
     let motion = [(0, Motion::Hold), (2, Motion::Ramp(1.0))];
     let steps = [step(Increments::Fixed(4), &motion)];
     let told = run_with(
@@ -251,14 +251,11 @@ fn no_step_is_longer_than_a_term_allows() {
 }
 
 #[test]
-fn a_step_that_a_term_refuses_at_any_length_fails_with_what_the_term_says() {
+fn a_step_without_an_admissible_state_fails_for_what_is_in_the_way() {
     let mut system = pulled(linear, 5.0);
     system.terms.push(Fault::refuse(|_, at| at.u[0] != 0.0));
     let failure = failure(run(system, &once()));
-    assert!(
-        matches!(&failure, Failure::Term(e) if *e == Fault::error()),
-        "{failure:?}"
-    );
+    assert!(matches!(failure, Failure::Term(_)), "{failure:?}");
 }
 
 #[test]
@@ -282,8 +279,8 @@ fn a_number_that_is_none_is_caught_in_the_same_iteration() {
         [5.0 * e * e, f, 10.0]
     }
     let terms = vec![
-        Spring::term(None, 0, linear),
-        Spring::term(None, 1, broken),
+        Spring::between(None, 0, linear),
+        Spring::between(None, 1, broken),
         load(1, &[5.0]),
     ];
     let told = run_with(system(2, terms), &once(), settings(1e-6, LineSearch::Off));
@@ -308,7 +305,10 @@ fn a_reaction_that_is_no_number_is_never_accepted() {
         let f = if e > 0.4 { f64::NAN } else { 10.0 * e };
         [5.0 * e * e, f, 10.0]
     }
-    let terms = vec![Spring::term(None, 0, linear), Spring::term(None, 1, broken)];
+    let terms = vec![
+        Spring::between(None, 0, linear),
+        Spring::between(None, 1, broken),
+    ];
     let motion = [(1, Motion::Ramp(1.0))];
     let told = run(system(2, terms), &[step(Increments::Fixed(4), &motion)]);
     assert_eq!(told.increments.len(), 1);
@@ -335,8 +335,8 @@ fn a_stiffness_that_is_no_number_is_caught() {
 fn a_body_that_nothing_holds_is_named_by_one_of_its_unknowns() {
     // node 0 is held, nodes 1 and 2 only by each other
     let terms = vec![
-        Spring::term(None, 0, linear),
-        Spring::term(Some(1), 2, linear),
+        Spring::between(None, 0, linear),
+        Spring::between(Some(1), 2, linear),
         load(2, &[1.0]),
     ];
     match failure(run(system(3, terms), &once())) {
@@ -351,7 +351,7 @@ fn a_body_that_nothing_holds_is_named_by_one_of_its_unknowns() {
 #[test]
 fn with_everything_prescribed_there_is_nothing_to_solve() {
     let motion = [(0, Motion::Hold), (1, Motion::Ramp(0.6))];
-    let terms = vec![Spring::term(Some(0), 1, linear)];
+    let terms = vec![Spring::between(Some(0), 1, linear)];
     let told = run(system(2, terms), &[step(Increments::Fixed(2), &motion)]);
     told.assert_finished();
     assert_close(&told.reactions[0], &[-3.0, 3.0], 1e-15);
@@ -435,8 +435,8 @@ fn a_pattern_that_changes_during_the_line_search_is_taken_up() {
         coupled: false,
     };
     let terms = vec![
-        Spring::term(None, 0, linear),
-        Spring::term(None, 1, linear),
+        Spring::between(None, 0, linear),
+        Spring::between(None, 1, linear),
         Box::new(late),
         load(0, &[5.0]),
     ];

@@ -218,7 +218,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 #[test]
 fn an_archive_of_another_model_is_refused() {
     let (_, archives) = legs();
-    let mut other = system(3, vec![Spring::term(None, 0, linear)]);
+    let mut other = system(3, vec![Spring::between(None, 0, linear)]);
     let mut stepper = Stepper::new(&other, StepperSettings::default());
     let error = stepper.load(&mut other, &archives[3]).unwrap_err();
     assert!(error.to_string().contains("state.u"), "{error}");

@@ -9,7 +9,7 @@ use signorini_geometry::mesh::Mesh;
 
 /// A node on a spring under a load.
 fn pulled(fault: Option<Box<dyn Term>>) -> System {
-    let mut terms = vec![Spring::term(None, 0, hardening), load(0, &[1.0, 2.0])];
+    let mut terms = vec![Spring::between(None, 0, hardening), load(0, &[1.0, 2.0])];
     terms.extend(fault);
     system(1, terms)
 }
@@ -163,7 +163,7 @@ fn a_run_that_gives_up_lists_the_sizes_it_tried_and_the_last_cause() {
 
 #[test]
 fn motions_follow_their_course() {
-    let nodes = || (0..4).map(|n| Spring::term(Some(n), 4, linear));
+    let nodes = || (0..4).map(|n| Spring::between(Some(n), 4, linear));
     let table = |offset: f64| vec![[offset, 0.0], [offset + 0.5, 0.8], [offset + 1.0, 0.2]];
     let first = [
         (0, Motion::Hold),
