@@ -126,40 +126,6 @@ impl Pattern {
     pub fn position(&self, row: u32, column: u32) -> Option<usize> {
         position(&self.row_start, &self.column, row, column)
     }
-
-    /// Whether every pair of members of every clique is in the pattern, so that it can be kept.
-    pub fn contains_cliques(&self, dofs: &[u32], offsets: &[usize]) -> bool {
-        offsets.par_windows(2).all(|ends| {
-            let mut clique = dofs.get(ends[0]..ends[1]).unwrap_or_default().to_vec();
-            clique.sort_unstable();
-            clique.dedup();
-            clique
-                .iter()
-                .all(|&row| contains_sorted(row_of(&self.row_start, &self.column, row), &clique))
-        })
-    }
-
-    /// The entries of either pattern; as many rows as the taller one.
-    pub fn union(&self, other: &Self) -> Self {
-        let nrow = self.nrow.max(other.nrow);
-        let mut row_start = Vec::with_capacity(nrow + 1);
-        let mut column = Vec::with_capacity(self.column.len().max(other.column.len()));
-        row_start.push(0);
-        for row in 0..nrow as u32 {
-            let mine = row_of(&self.row_start, &self.column, row);
-            merge_sorted(
-                mine,
-                row_of(&other.row_start, &other.column, row),
-                &mut column,
-            );
-            row_start.push(column.len());
-        }
-        Self {
-            nrow,
-            row_start,
-            column,
-        }
-    }
 }
 
 /// The columns of one row; none for a row outside the pattern.
@@ -175,28 +141,6 @@ fn position(row_start: &[usize], columns: &[u32], row: u32, column: u32) -> Opti
         .binary_search(&column)
         .ok()?;
     row_start.get(row as usize).map(|begin| begin + at)
-}
-
-/// Whether the sorted list `part` is contained in the sorted list `whole`.
-fn contains_sorted(whole: &[u32], part: &[u32]) -> bool {
-    let mut rest = whole.iter();
-    part.iter().all(|wanted| rest.any(|have| have == wanted))
-}
-
-/// Appends the union of two sorted lists.
-fn merge_sorted(mut a: &[u32], mut b: &[u32], out: &mut Vec<u32>) {
-    while let (Some((&first, rest_a)), Some((&second, rest_b))) = (a.split_first(), b.split_first())
-    {
-        out.push(first.min(second));
-        if first <= second {
-            a = rest_a;
-        }
-        if second <= first {
-            b = rest_b;
-        }
-    }
-    out.extend_from_slice(a);
-    out.extend_from_slice(b);
 }
 
 /// Compressed rows from cliques: each row is the sorted union of the cliques that the row occurs in.
@@ -360,29 +304,5 @@ mod tests {
             BlockPattern::empty(0, 2)
         );
         assert_eq!(Pattern::from_cliques(3, &[], &[]), Pattern::empty(3));
-    }
-
-    #[test]
-    fn union_holds_both_and_no_more() {
-        let (a, b) = (random_cliques(60, 20, 11), random_cliques(80, 20, 12));
-        let first = Pattern::from_cliques(60, &a.0, &a.1);
-        let second = Pattern::from_cliques(80, &b.0, &b.1);
-        let both = first.union(&second);
-        assert_eq!(both, second.union(&first));
-        assert_eq!(both.nrow, 80);
-        assert!(both.contains_cliques(&a.0, &a.1) && both.contains_cliques(&b.0, &b.1));
-        assert!(!first.contains_cliques(&b.0, &b.1) && !second.contains_cliques(&a.0, &a.1));
-        let mut shared = 0;
-        for row in 0..80 {
-            for &column in row_of(&both.row_start, &both.column, row) {
-                let (here, there) = (
-                    first.position(row, column).is_some(),
-                    second.position(row, column).is_some(),
-                );
-                assert!(here || there);
-                shared += usize::from(here && there);
-            }
-        }
-        assert_eq!(both.nentry(), first.nentry() + second.nentry() - shared);
     }
 }
