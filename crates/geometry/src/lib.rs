@@ -10,5 +10,7 @@
 pub mod element;
 pub mod mesh;
 pub mod proximity;
+#[cfg(test)]
+mod random;
 pub mod surface;
 pub mod tensor;

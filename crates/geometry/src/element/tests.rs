@@ -1,26 +1,14 @@
 //! Properties of every element of the table, asked through the trait alone.
 
 use super::*;
+use crate::random::Random;
 use crate::tensor::Mat3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// SplitMix64: Steele, Lea, Flood, OOPSLA 2014.
-struct Random(u64);
-
 impl Random {
-    /// In `[0, 1)`.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     /// In `[-1, 1)` along the first `dim` axes, 0 along the others.
     fn cube(&mut self, dim: usize) -> Vec3 {
-        (0..dim).fold(Vec3::ZERO, |v, axis| {
-            v + Vec3::unit(axis) * (2.0 * self.unit() - 1.0)
-        })
+        (0..dim).fold(Vec3::ZERO, |v, axis| v + Vec3::unit(axis) * self.signed())
     }
 
     /// A point of the convex hull of these.

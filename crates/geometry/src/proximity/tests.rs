@@ -1,32 +1,13 @@
 use super::{Aabb, Bvh, Search, brute, bvh};
+use crate::random::Random;
 use crate::tensor::Vec3;
 use std::time::Instant;
 
-/// SplitMix64: Steele, Lea, Flood, OOPSLA 2014.
-struct Random(u64);
-
 impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In `[0, 1)`.
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// In the cube `[-1, 1)³`.
-    fn cube(&mut self) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - Vec3::new(1.0, 1.0, 1.0)
-    }
-
     /// In the ball of radius 1.
     fn ball(&mut self) -> Vec3 {
         loop {
-            let v = self.cube();
+            let v = self.vector();
             if v.norm_squared() <= 1.0 {
                 return v;
             }
@@ -34,8 +15,8 @@ impl Random {
     }
 
     fn aabb(&mut self, size: f64) -> Aabb {
-        let centre = self.cube();
-        Aabb::around([0; 2].map(|_| centre + self.cube() * size))
+        let centre = self.vector();
+        Aabb::around([0; 2].map(|_| centre + self.vector() * size))
     }
 }
 
@@ -102,7 +83,7 @@ fn assert_agrees(name: &str, tree: &Bvh, boxes: &[Aabb], random: &mut Random) {
             0 => Vec3::new(nan, 0.0, 0.0),
             1 => Vec3::new(0.0, inf, 0.0),
             2 => boxes.first().map_or(Vec3::ZERO, |b| b.min),
-            _ => random.cube() * 1.2,
+            _ => random.vector() * 1.2,
         };
         let size = random.unit();
         for distance in [0.0, 0.03, size, 10.0, inf, -0.1, nan] {
@@ -144,7 +125,7 @@ fn closest(
 fn distance_to_a_box_is_that_of_its_closest_point() {
     let mut random = Random(1);
     for _ in 0..1000 {
-        let (b, p) = (random.aabb(0.5), random.cube() * 2.0);
+        let (b, p) = (random.aabb(0.5), random.vector() * 2.0);
         let clamped = p.max(b.min).min(b.max);
         assert_eq!(b.distance_squared(p), (clamped - p).norm_squared());
         assert_eq!(b.contains(p), b.distance_squared(p) == 0.0);
@@ -186,7 +167,7 @@ fn refitted_tree_finds_what_brute_force_finds() {
         let mut tree = Bvh::build(&boxes);
         for step in [0.01, 0.3, 3.0] {
             for b in &mut boxes {
-                let (d, e) = (random.cube() * step, random.cube() * 0.1 * step);
+                let (d, e) = (random.vector() * step, random.vector() * 0.1 * step);
                 (b.min, b.max) = ((b.min + d).min(b.max + d + e), b.max + d + e);
             }
             tree.refit(&boxes);
@@ -221,7 +202,7 @@ fn nearest_visits_few_of_many() {
     let tree = Bvh::build(&boxes);
     let (mut nvisit, nquery) = (0, 200);
     for _ in 0..nquery {
-        let point = random.cube();
+        let point = random.vector();
         let mut found = f64::INFINITY;
         tree.visit_near(point, |id| {
             nvisit += 1;
@@ -269,7 +250,7 @@ struct Motion {
 impl Motion {
     fn new(seed: u64) -> Self {
         let mut random = Random(seed);
-        let points = (0..150).map(|_| random.cube()).collect();
+        let points = (0..150).map(|_| random.vector()).collect();
         let mut boxes: Vec<_> = (0..200).map(|_| random.aabb(0.1)).collect();
         boxes[17] = ALL_Y;
         Self {
@@ -536,7 +517,7 @@ fn speed_of_a_hundred_thousand_boxes() {
     }
     for size in [0.5, 1.0, 2.0, 4.0] {
         let jitter = |b: &Aabb| {
-            let d = random.cube() * (size / side as f64);
+            let d = random.vector() * (size / side as f64);
             Aabb::around([b.min + d, b.max + d])
         };
         let boxes: Vec<_> = boxes.iter().map(jitter).collect();

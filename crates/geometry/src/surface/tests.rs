@@ -3,28 +3,7 @@
 use super::*;
 use crate::element::by_name;
 use crate::mesh::{Face, Mesh};
-
-/// A small reproducible generator (xorshift64*).
-pub(crate) struct Random(u64);
-
-impl Random {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-
-    /// Uniform on [-1, 1].
-    pub(crate) fn signed(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
-        bits as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub(crate) fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.signed(), self.signed(), self.signed())
-    }
-}
+use crate::random::Random;
 
 /// One facet on its own: a cell of dimension one higher is not needed to make a surface of it.
 fn single(element: Element) -> (Facets, Vec<Vec3>) {
@@ -74,7 +53,7 @@ fn shaped(surface: &Facets, n: usize, random: &mut Random, amount: f64) -> Vec<V
 
 #[test]
 fn jet_matches_differences_on_warped_facets() {
-    let mut random = Random::new(1);
+    let mut random = Random(1);
     for name in ["line2", "tri3", "quad4"] {
         let (surface, points) = single(by_name(name).unwrap());
         for _ in 0..50 {
@@ -180,7 +159,7 @@ fn brute_force(element: Element, x: &[Vec3], nodes: &[NodeId], point: Vec3) -> f
 
 #[test]
 fn projection_agrees_with_brute_force_on_random_facets() {
-    let mut random = Random::new(7);
+    let mut random = Random(7);
     let mut kinds = [0usize; 3];
     for name in ["line2", "tri3", "quad4"] {
         let (surface, points) = single(by_name(name).unwrap());

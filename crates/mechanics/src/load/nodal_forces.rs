@@ -1,6 +1,5 @@
 use crate::system::{
-    Archive, ArchiveError, Dof, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term,
-    TermError, Work,
+    Dof, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term, TermError, Work,
 };
 
 /// Forces on unknowns that keep their direction: on nodes, or on rigid bodies (forces and moments).
@@ -89,12 +88,6 @@ impl Term for NodalForces {
         let value = |dof: Dof| trial.u.get(dof as usize).copied().unwrap_or(0.0);
         let forces = self.dofs.iter().zip(self.at(trial.time));
         Ok(Some(forces.map(|(d, f)| -f * value(*d)).sum()))
-    }
-
-    fn save(&self, _: &mut Archive) {}
-
-    fn load(&mut self, _: &Archive) -> Result<(), ArchiveError> {
-        Ok(())
     }
 }
 

@@ -131,7 +131,7 @@ pub struct Stepper {
 }
 
 /// Where a run is: with the state and the histories of the terms, all that it needs to go on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 struct Progress {
     step: usize,
     /// Accepted increments of this step.
@@ -169,16 +169,7 @@ impl Stepper {
         Self {
             newton: Newton::new(settings.newton, system, equations),
             state: system.initial_state(),
-            progress: Progress {
-                step: 0,
-                increment: 0,
-                step_start: 0.0,
-                time: 0.0,
-                dt: None,
-                easy: 0,
-                origin: Vec::new(),
-                rate: Vec::new(),
-            },
+            progress: Progress::default(),
             guess: Vec::new(),
         }
     }
@@ -226,13 +217,9 @@ impl Stepper {
             }
             self.progress = Progress {
                 step: number + 1,
-                increment: 0,
                 step_start: self.progress.step_start + step.duration,
-                time: 0.0,
-                dt: None,
                 easy: self.progress.easy,
-                origin: Vec::new(),
-                rate: Vec::new(),
+                ..Progress::default()
             };
         }
         Ok(Outcome::Finished)

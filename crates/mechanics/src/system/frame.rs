@@ -113,8 +113,6 @@ pub struct Frame {
     pub step_number: usize,
     /// Increment within the step, from 1; 0 for the undeformed state.
     pub increment: usize,
-    /// Linear solves that it took.
-    pub iterations: usize,
     /// Displacement of each node.
     pub displacement: Vec<Vec3>,
     /// Force that supports exert on each node.
