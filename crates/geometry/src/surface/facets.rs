@@ -144,11 +144,16 @@ impl Facets {
         nodes
     }
 
-    /// `∫ N_i dA` of every node over all facets, in the order of [`Facets::all_nodes`]; lengths in the plane.
+    /// `∫ N_i e dA` of every node over all facets, in the order of [`Facets::all_nodes`]; `dA` is a length in the plane,
+    /// and `e` the extent across it at a position (thickness, circumference; 1 in space).
     ///
     /// # Errors
     /// A facet without a normal.
-    pub fn nodal_areas(&self, x: &[Vec3]) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
+    pub fn nodal_areas(
+        &self,
+        x: &[Vec3],
+        extent: &dyn Fn(Vec3) -> f64,
+    ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
         let mut areas: Vec<(NodeId, f64)> =
             self.all_nodes().into_iter().map(|n| (n, 0.0)).collect();
         let at = Placement { x, poses: &[] };
@@ -160,7 +165,7 @@ impl Facets {
             for (xi, weight) in element.full_rule().iter() {
                 let anchor = Anchor { facet, local: *xi };
                 self.jet(&at, &anchor, &mut jet)?;
-                let area = weight * area_factor(&jet, self.ntan);
+                let area = weight * area_factor(&jet, self.ntan) * extent(jet.position);
                 for (i, node) in self.nodes(facet).iter().enumerate() {
                     if let Ok(k) = areas.binary_search_by_key(node, |a| a.0) {
                         areas[k].1 += jet.shape[i] * area;

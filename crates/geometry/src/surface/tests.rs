@@ -273,7 +273,7 @@ fn outward_on_a_ridge_is_between_the_normals_and_a_rim_is_named() {
 #[test]
 fn nodal_areas_share_the_area_of_the_facets() {
     let (surface, x) = strip(3, 0.0);
-    let areas = surface.nodal_areas(&x).unwrap();
+    let areas = surface.nodal_areas(&x, &|_| 1.0).unwrap();
     let total: f64 = areas.iter().map(|a| a.1).sum();
     assert!((total - 3.0).abs() < 1e-14);
     assert!((areas[0].1 - 0.25).abs() < 1e-15);

@@ -6,6 +6,8 @@
 //!
 //! To add a load: a file with a term, and one line where models are built. Limits: dead loads only.
 
+mod course;
 mod nodal_forces;
 
+pub use course::Course;
 pub use nodal_forces::NodalForces;

@@ -9,14 +9,15 @@
 //! | λ, μ | [`Lame`] | λ = Eν/((1+ν)(1−2ν)), μ = E/(2(1+ν)) (E1) |
 //!
 //! A law knows no degree of freedom. To add one: one file that implements [`Material`], one line in [`TABLE`]; the
-//! property tests of this room run over the table. Neglected so far: temperature, history (the slices are there, no
-//! law uses them yet).
+//! property tests of this room run over the table.
 
+mod constants;
 mod neo_hookean;
 mod saint_venant_kirchhoff;
 #[cfg(test)]
 mod tests;
 
+pub use constants::{Constants, ConstantsError};
 pub use neo_hookean::NeoHookean;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 
@@ -48,6 +49,20 @@ pub struct Strain {
     pub kinematics: Kinematics,
     /// Its value, tensor components.
     pub value: Sym3,
+    /// The temperature; laws without thermal expansion ignore it.
+    pub temperature: f64,
+}
+
+impl Strain {
+    /// A strain at temperature zero.
+    #[must_use]
+    pub const fn new(kinematics: Kinematics, value: Sym3) -> Self {
+        Self {
+            kinematics,
+            value,
+            temperature: 0.0,
+        }
+    }
 }
 
 /// What a material answers.
@@ -57,8 +72,12 @@ pub struct Response {
     pub stress: Sym3,
     /// Derivative of the stress; valid for [`Order::Tangent`].
     pub tangent: [[f64; 6]; 6],
-    /// Stored energy per volume of the reference.
+    /// The potential of the stress over the increment, per volume of the reference: its derivative with respect to
+    /// the strain, at fixed old history, is the stress. For elastic laws the stored energy; with plasticity the stored
+    /// energy and what is dissipated.
     pub energy: f64,
+    /// The strain zz: what came in, or what a law with stress-free directions found.
+    pub across: f64,
 }
 
 impl Default for Response {
@@ -67,6 +86,7 @@ impl Default for Response {
             stress: Sym3::ZERO,
             tangent: [[0.0; 6]; 6],
             energy: 0.0,
+            across: 0.0,
         }
     }
 }
@@ -80,6 +100,12 @@ pub enum MaterialError {
         /// Determinant of the deformation gradient.
         ratio: f64,
     },
+    /// An iteration at a point did not converge.
+    #[error("the material finds no {what} at this strain")]
+    NotConverged {
+        /// What was looked for.
+        what: &'static str,
+    },
 }
 
 /// A constitutive law with its constants.
@@ -88,6 +114,9 @@ pub trait Material: Send + Sync {
     fn nhistory(&self) -> usize {
         0
     }
+
+    /// The history of the undeformed material, into `nhistory` numbers that are zero.
+    fn start(&self, _history: &mut [f64]) {}
 
     /// Stress, energy and, if wanted, the tangent at a strain. `old` and `new` are the history, `nhistory` each.
     ///
@@ -104,6 +133,16 @@ pub trait Material: Send + Sync {
 
     /// The stiffness against uniaxial strain of the undeformed material, λ + 2μ: what automatic penalties scale with.
     fn modulus(&self) -> f64;
+
+    /// Whether the tangent is symmetric.
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+
+    /// The equivalent plastic strain in a history, where the law has one.
+    fn plastic_strain(&self, _history: &[f64]) -> Option<f64> {
+        None
+    }
 }
 
 /// Lamé's constants.
@@ -147,17 +186,47 @@ impl Lame {
     }
 }
 
-/// Makes a material from Young's modulus and Poisson's ratio.
-pub type Maker = fn(e: f64, nu: f64) -> Box<dyn Material>;
+/// A law of the table.
+pub struct Law {
+    /// Its name in a case.
+    pub name: &'static str,
+    /// The constants it needs, by their names in a case.
+    pub constants: &'static [&'static str],
+    /// Makes it.
+    pub make: fn(&Constants) -> Result<Box<dyn Material>, ConstantsError>,
+}
 
-/// Every isotropic law of two constants, by its name in a case. At finite strain `linear-elastic` is the law of Saint
-/// Venant and Kirchhoff: rotations are exact, strains should stay small.
-pub const TABLE: [(&str, Maker); 3] = [
-    ("linear-elastic", |e, nu| {
-        Box::new(SaintVenantKirchhoff::new(e, nu))
-    }),
-    ("saint-venant-kirchhoff", |e, nu| {
-        Box::new(SaintVenantKirchhoff::new(e, nu))
-    }),
-    ("neo-hookean", |e, nu| Box::new(NeoHookean::new(e, nu))),
+/// Every law, by its name in a case. At finite strain `linear-elastic` is the law of Saint Venant and Kirchhoff:
+/// rotations are exact, strains should stay small.
+pub static TABLE: [Law; 3] = [
+    Law {
+        name: "linear-elastic",
+        constants: &["E", "nu"],
+        make: |c| {
+            let (e, nu) = c.isotropic()?;
+            Ok(Box::new(SaintVenantKirchhoff::new(e, nu)))
+        },
+    },
+    Law {
+        name: "saint-venant-kirchhoff",
+        constants: &["E", "nu"],
+        make: |c| {
+            let (e, nu) = c.isotropic()?;
+            Ok(Box::new(SaintVenantKirchhoff::new(e, nu)))
+        },
+    },
+    Law {
+        name: "neo-hookean",
+        constants: &["E", "nu"],
+        make: |c| {
+            let (e, nu) = c.isotropic()?;
+            Ok(Box::new(NeoHookean::new(e, nu)))
+        },
+    },
 ];
+
+/// The law of this name.
+#[must_use]
+pub fn by_name(name: &str) -> Option<&'static Law> {
+    TABLE.iter().find(|law| law.name == name)
+}

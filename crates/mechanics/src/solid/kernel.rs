@@ -34,12 +34,15 @@ pub(super) struct Output<'a> {
 /// Why an element has no response.
 pub(super) enum Failure {
     Inverted { ratio: f64 },
+    Material(MaterialError),
 }
 
 impl From<MaterialError> for Failure {
     fn from(error: MaterialError) -> Self {
-        let MaterialError::Inverted { ratio } = error;
-        Self::Inverted { ratio }
+        match error {
+            MaterialError::Inverted { ratio } => Self::Inverted { ratio },
+            other => Self::Material(other),
+        }
     }
 }
 
@@ -144,10 +147,7 @@ fn respond<const NN: usize, const ND: usize, const NS: usize>(
             }
             value = value + Sym3::gram(h) * 0.5;
         }
-        let strain = Strain {
-            kinematics: element.kinematics,
-            value,
-        };
+        let strain = Strain::new(element.kinematics, value);
         element
             .material
             .respond(&strain, &[], &mut [], order, &mut response)?;

@@ -22,9 +22,11 @@
 //! To add an element: its file in `geometry`, and one line in [`kernel`]'s table. Limits: full integration, no remedy
 //! against locking yet.
 
+mod choice;
 mod kernel;
 mod term;
 #[cfg(test)]
 mod tests;
 
-pub use term::{Solid, SolidError};
+pub use choice::{Integration, Locking};
+pub use term::{Solid, SolidError, SolidParts};

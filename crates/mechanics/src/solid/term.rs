@@ -1,8 +1,9 @@
 use super::kernel::{Element, Failure, Kernel, Output, Points, kernel};
+use super::{Integration, Locking};
 use crate::material::{Kinematics, Material, Order as MaterialOrder};
 use crate::system::{
-    Dof, Frame, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term,
-    TermError, Work,
+    Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink, Sink, State,
+    StepContext, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
@@ -19,10 +20,34 @@ pub struct Solid {
     reference: Arc<[Vec3]>,
     material: Box<dyn Material>,
     kinematics: Kinematics,
-    thickness: f64,
+    space: Idealisation,
     blocks: Vec<Cells>,
     // (block, first cell, last cell)
     chunks: Vec<(usize, usize, usize)>,
+}
+
+/// What a body is made from.
+pub struct SolidParts<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// Positions of the nodes at the start.
+    pub reference: Arc<[Vec3]>,
+    /// Its cells.
+    pub cells: &'a [CellId],
+    /// Which unknown is which.
+    pub layout: Layout,
+    /// Space, plane or axisymmetry.
+    pub space: Idealisation,
+    /// What it is made of: the law for three dimensions, in every space.
+    pub material: Box<dyn Material>,
+    /// Full or reduced integration.
+    pub integration: Integration,
+    /// What is done against locking.
+    pub locking: Locking,
+    /// Temperatures, where there are any.
+    pub temperature: Option<Arc<NodalField>>,
 }
 
 /// Cells of one element.
@@ -68,19 +93,21 @@ struct Scratch {
 }
 
 impl Solid {
-    /// The body made of these cells. `thickness` multiplies everything in the plane; 1 in space.
+    /// The body made of these parts.
     ///
     /// # Errors
     /// A cell that is no solid of the problem's dimension.
-    pub fn new(
-        name: &str,
-        mesh: &Mesh,
-        reference: Arc<[Vec3]>,
-        cells: &[CellId],
-        layout: Layout,
-        material: Box<dyn Material>,
-        thickness: f64,
-    ) -> Result<Self, SolidError> {
+    pub fn new(parts: SolidParts<'_>) -> Result<Self, SolidError> {
+        let SolidParts {
+            name,
+            mesh,
+            reference,
+            cells,
+            layout,
+            space,
+            material,
+            ..
+        } = parts;
         let mut blocks: Vec<(u32, Cells)> = Vec::new();
         for &id in cells {
             let (Some(element), Some(label)) = (mesh.element(id), mesh.cell_label(id)) else {
@@ -132,7 +159,7 @@ impl Solid {
             reference,
             material,
             kinematics: Kinematics::Finite,
-            thickness,
+            space,
             blocks,
             chunks,
         })
@@ -186,7 +213,7 @@ impl Solid {
                 u: &scratch.u,
                 material: self.material.as_ref(),
                 kinematics: self.kinematics,
-                thickness: self.thickness,
+                thickness: self.space.extent(Vec3::ZERO),
             };
             let mut out = Output {
                 force: &mut scratch.force,
@@ -197,12 +224,22 @@ impl Solid {
             };
             let outcome = (block.kernel)(&element, order, &mut out);
             let energy = out.energy;
-            if let Err(Failure::Inverted { ratio }) = outcome {
-                return Err(TermError::Inverted {
-                    body: self.name.clone(),
-                    element: block.labels[cell],
-                    ratio,
-                });
+            match outcome {
+                Ok(()) => {}
+                Err(Failure::Inverted { ratio }) => {
+                    return Err(TermError::Inverted {
+                        body: self.name.clone(),
+                        element: block.labels[cell],
+                        ratio,
+                    });
+                }
+                Err(Failure::Material(error)) => {
+                    return Err(TermError::Material {
+                        body: self.name.clone(),
+                        element: block.labels[cell],
+                        message: error.to_string(),
+                    });
+                }
             }
             if !energy.is_finite() || !scratch.force.iter().all(|f| f.is_finite()) {
                 return Err(TermError::NotFinite {

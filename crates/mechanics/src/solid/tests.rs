@@ -1,9 +1,9 @@
 //! Elements against differences, patches, rigid motions.
 
 use super::*;
-use crate::material::{Kinematics, TABLE};
+use crate::material::{Constants, Kinematics, TABLE};
 use crate::system::{
-    Assembler, Assembly, Dof, Elimination, Layout, Order, Sink, State, Term, Work,
+    Assembler, Assembly, Dof, Elimination, Idealisation, Layout, Order, Sink, State, Term, Work,
 };
 use signorini_geometry::element;
 use signorini_geometry::mesh::Mesh;
@@ -39,16 +39,22 @@ fn single(name: &str, law: usize, nonlinear: bool) -> (Solid, Layout, Arc<[Vec3]
         nmultiplier: 0,
     };
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
-    let material = TABLE[law].1(500.0, 0.3);
-    let mut solid = Solid::new(
-        "body",
-        &mesh,
-        reference.clone(),
-        &[cell],
+    let material = (TABLE[law].make)(&Constants::elastic(500.0, 0.3)).unwrap();
+    let mut solid = Solid::new(SolidParts {
+        name: "body",
+        mesh: &mesh,
+        reference: reference.clone(),
+        cells: &[cell],
         layout,
+        space: match element.dim() {
+            2 => Idealisation::PlaneStrain { thickness: 1.0 },
+            _ => Idealisation::Space,
+        },
         material,
-        1.0,
-    )
+        integration: Integration::Full,
+        locking: Locking::None,
+        temperature: None,
+    })
     .unwrap();
     solid.set_kinematics(if nonlinear {
         Kinematics::Finite
@@ -191,16 +197,19 @@ fn a_homogeneous_strain_gives_its_stress_everywhere_and_no_force_inside() {
     };
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
     for nonlinear in [false, true] {
-        let material = TABLE[2].1(1000.0, 0.25);
-        let mut solid = Solid::new(
-            "patch",
-            &mesh,
-            reference.clone(),
-            &cells,
+        let material = (TABLE[2].make)(&Constants::elastic(1000.0, 0.25)).unwrap();
+        let mut solid = Solid::new(SolidParts {
+            name: "patch",
+            mesh: &mesh,
+            reference: reference.clone(),
+            cells: &cells,
             layout,
+            space: Idealisation::PlaneStrain { thickness: 2.0 },
             material,
-            2.0,
-        )
+            integration: Integration::Full,
+            locking: Locking::None,
+            temperature: None,
+        })
         .unwrap();
         solid.set_kinematics(if nonlinear {
             Kinematics::Finite

@@ -4,7 +4,9 @@ use super::equations::Equations;
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
 use crate::system::linear::{LinearKind, choose};
-use crate::system::{Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError};
+use crate::system::{
+    Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError, interpolate,
+};
 use thiserror::Error;
 
 /// How a step is cut into increments.
@@ -543,19 +545,5 @@ fn severity(failure: &Failure) -> f64 {
     match failure {
         Failure::Diverged { .. } | Failure::Term(_) => CUT_HARD,
         _ => CUT,
-    }
-}
-
-/// Linear between the rows of a table, constant outside.
-fn interpolate(table: &[[f64; 2]], at: f64) -> f64 {
-    let next = table.partition_point(|row| row[0] <= at);
-    match (
-        next.checked_sub(1).and_then(|k| table.get(k)),
-        table.get(next),
-    ) {
-        (None, Some(first)) => first[1],
-        (Some(last), None) => last[1],
-        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (at - a[0]) / (b[0] - a[0]),
-        (None, None) => 0.0,
     }
 }

@@ -119,10 +119,20 @@ pub struct Frame {
     pub reaction_force: Vec<Vec3>,
     /// Cauchy stress at each node, the mean over the cells around it.
     pub stress: Vec<Sym3>,
+    /// Strain at each node, averaged likewise: linearized at small strain, logarithmic `½ ln(F Fᵀ)` at finite strain.
+    pub strain: Vec<Sym3>,
+    /// Equivalent plastic strain at each node, averaged likewise; empty where no material has one.
+    pub plastic_strain: Vec<f64>,
     /// How much went into each nodal mean; 0 at nodes without a solid.
     pub stress_weight: Vec<f64>,
     /// Cauchy stress of each cell, the mean over its volume; by block of the mesh, then cell.
     pub cell_stress: Vec<Vec<Sym3>>,
+    /// Strain of each cell, likewise.
+    pub cell_strain: Vec<Vec<Sym3>>,
+    /// Equivalent plastic strain of each cell, likewise; empty where no material has one.
+    pub cell_plastic_strain: Vec<Vec<f64>>,
+    /// Temperature of each node; empty where there are none.
+    pub temperature: Vec<f64>,
     /// Contact force on each node, of both sides.
     pub contact_force: Vec<Vec3>,
     /// Contact pressure at each node, 0 where there is no contact.
@@ -154,8 +164,10 @@ impl Frame {
             displacement: vec![Vec3::ZERO; nnode],
             reaction_force: vec![Vec3::ZERO; nnode],
             stress: vec![Sym3::ZERO; nnode],
+            strain: vec![Sym3::ZERO; nnode],
             stress_weight: vec![0.0; nnode],
             cell_stress: ncell.iter().map(|&n| vec![Sym3::ZERO; n]).collect(),
+            cell_strain: ncell.iter().map(|&n| vec![Sym3::ZERO; n]).collect(),
             contact_force: vec![Vec3::ZERO; nnode],
             contact_pressure: vec![0.0; nnode],
             ..Self::default()

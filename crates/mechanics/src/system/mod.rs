@@ -28,8 +28,10 @@
 //! Results do not depend on the number of threads: chunks are evaluated in parallel and added in a fixed order.
 
 mod assembly;
+mod course;
 mod elimination;
 mod frame;
+mod idealisation;
 mod layout;
 pub mod linear;
 pub mod sparsity;
@@ -40,8 +42,10 @@ mod tests;
 mod whole;
 
 pub use assembly::{Assembler, Assembly};
+pub use course::{NodalField, interpolate};
 pub use elimination::{Elimination, RigidBody};
 pub use frame::{ContactFrame, Frame, Resultant, RigidFrame, Status};
+pub use idealisation::Idealisation;
 pub use layout::{Dof, DofName, Layout, NO_DOF};
 pub use linear::Symmetry;
 pub use signorini_geometry::mesh::NodeId;

@@ -51,6 +51,16 @@ pub enum TermError {
         /// Determinant of the deformation gradient, or of the map from the reference element.
         ratio: f64,
     },
+    /// A material has no answer.
+    #[error("element {element} of body \"{body}\": {message}")]
+    Material {
+        /// Name of the body.
+        body: String,
+        /// Number of the element in the input.
+        element: u64,
+        /// What the material said.
+        message: String,
+    },
     /// A value is not a number.
     #[error("{what} is not a finite number")]
     NotFinite {

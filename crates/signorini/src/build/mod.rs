@@ -18,16 +18,18 @@ use signorini_io::case::{
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::contact::Measure;
-use signorini_mechanics::material;
+use signorini_mechanics::load::Course;
+use signorini_mechanics::material::{self, Constants};
 use signorini_mechanics::model::{
-    BodyPart, Change, ContactPart, LoadForces, LoadPart, ModelError, Parts, SidePart, Space,
-    StepPart, Target,
+    BodyKind, BodyPart, CarrierPart, Change, ContactPart, Load, LoadPart, ModelError, Parts,
+    SidePart, StepPart, Target,
 };
+use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::{
     Increments, LineSearch, Motion, NewtonSettings, Step, StepperSettings,
 };
-use signorini_mechanics::system::System;
 use signorini_mechanics::system::linear::LinearKind;
+use signorini_mechanics::system::{Idealisation, System};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -137,12 +139,19 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
                 rigid: id,
             });
         }
-        let material = body.material.as_ref().filter(|_| !body.rigid);
-        bodies.push(BodyPart {
-            name,
-            cells,
-            material: material.and_then(|m| make_material(&case, m)),
-        });
+        let kind = if body.rigid {
+            Some(BodyKind::Rigid(references.len() as RigidId - 1))
+        } else {
+            let material = body.material.as_ref();
+            let material = material.and_then(|m| make_material(&case, m, &mut found));
+            material.map(|material| BodyKind::Solid {
+                material,
+                density: None,
+                integration: Integration::Full,
+                locking: Locking::Auto,
+            })
+        };
+        bodies.extend(kind.map(|kind| BodyPart { name, cells, kind }));
     }
 
     let contacts: Vec<ContactPart> = case
@@ -163,16 +172,25 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
     }
 
     let space = match case.model.space.value {
-        case::Space::ThreeD => Space::ThreeD,
-        case::Space::PlaneStrain => Space::PlaneStrain {
+        case::Space::ThreeD => Idealisation::Space,
+        case::Space::PlaneStrain => Idealisation::PlaneStrain {
             thickness: case.model.thickness,
         },
     };
+    let carriers = references.iter().map(|r: &ReferenceInfo| CarrierPart {
+        name: r.name.clone(),
+        at: None,
+    });
+    let carriers = carriers.collect();
     let parts = Parts {
         mesh: &mesh,
         space,
         bodies,
+        carriers,
+        springs: Vec::new(),
+        constraints: Vec::new(),
         contacts,
+        temperature: Vec::new(),
         steps,
     };
     let model = match signorini_mechanics::model::Model::assemble(parts) {
@@ -276,12 +294,24 @@ fn wrong_dimension(case: &Case, mesh: &Mesh, ndim: usize) -> Diagnostic {
         })
 }
 
-fn make_material(case: &Case, name: &Name) -> Option<Box<dyn material::Material>> {
+fn make_material(
+    case: &Case,
+    name: &Name,
+    found: &mut Diagnostics,
+) -> Option<Box<dyn material::Material>> {
     let part = case.materials.iter().find(|m| m.name.value == name.value)?;
-    let (_, make) = material::TABLE
-        .iter()
-        .find(|(model, _)| *model == part.model.value)?;
-    Some(make(part.young.value, part.poisson.value))
+    let law = material::by_name(&part.model.value)?;
+    let constants = Constants::elastic(part.young.value, part.poisson.value);
+    match (law.make)(&constants) {
+        Ok(material) => Some(material),
+        Err(error) => {
+            found.push(
+                Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string())
+                    .at(&part.model.place, "in this material"),
+            );
+            None
+        }
+    }
 }
 
 fn contact(
@@ -383,8 +413,9 @@ impl StepBuilder<'_> {
             for (number, load) in step.loads.iter().enumerate() {
                 let given = load.name.as_ref().map(|n| n.value.clone());
                 let name = given.unwrap_or_else(|| format!("{}#{number}", step.name.value));
-                if let Some(forces) = self.forces(load, found) {
-                    loads.push(LoadPart { name, forces });
+                if let Some(load) = self.load(load, found) {
+                    let course = Course::Ramp;
+                    loads.push(LoadPart { name, load, course });
                 }
             }
             steps.push(StepPart {
@@ -394,6 +425,7 @@ impl StepBuilder<'_> {
                 nonlinear,
                 changes,
                 loads,
+                temperatures: Vec::new(),
             });
         }
         steps
@@ -426,23 +458,25 @@ impl StepBuilder<'_> {
         }
     }
 
-    fn forces(&self, load: &case::Load, found: &mut Diagnostics) -> Option<LoadForces> {
+    fn load(&self, load: &case::Load, found: &mut Diagnostics) -> Option<Load> {
         let target = self.target(&load.on, found)?;
         match (target, &load.kind) {
             (Target::Rigid(body), LoadKind::Force(f) | LoadKind::PerNode(f)) => {
-                Some(LoadForces::Rigid(body, Vec3::from(*f)))
+                Some(Load::Carrier {
+                    carrier: body,
+                    force: Vec3::from(*f),
+                    moment: Vec3::ZERO,
+                })
             }
             (Target::Nodes(nodes), LoadKind::PerNode(f)) => {
                 let force = Vec3::from(*f);
-                Some(LoadForces::Nodes(
-                    nodes.into_iter().map(|n| (n, force)).collect(),
-                ))
+                Some(Load::Nodes(nodes.into_iter().map(|n| (n, force)).collect()))
             }
             (Target::Nodes(nodes), LoadKind::Force(f)) => {
                 let total = Vec3::from(*f);
                 let shares = self.shares(&load.on, &nodes);
                 let shared = shares.into_iter().map(|(n, share)| (n, total * share));
-                Some(LoadForces::Nodes(shared.collect()))
+                Some(Load::Nodes(shared.collect()))
             }
         }
     }
@@ -452,7 +486,7 @@ impl StepBuilder<'_> {
         let even = 1.0 / nodes.len().max(1) as f64;
         let of_faces = self.names.faces_quietly(on).and_then(|faces| {
             let areas = Facets::new(self.mesh, &faces).ok()?;
-            areas.nodal_areas(&self.mesh.points).ok()
+            areas.nodal_areas(&self.mesh.points, &|_| 1.0).ok()
         });
         match of_faces {
             Some(areas) => {

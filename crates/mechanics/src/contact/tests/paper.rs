@@ -5,11 +5,12 @@ use super::super::friction::Frictionless;
 use super::super::law::{Penalty, Scale};
 use super::super::{Interface, InterfaceParts, Measure};
 use super::printed::PrintedSigns;
-use crate::material::TABLE;
-use crate::model::{BodyPart, Change, Model, Parts, Space, StepPart, Target};
+use crate::material::SaintVenantKirchhoff;
+use crate::model::{BodyKind, BodyPart, CarrierPart, Change, Model, Parts, StepPart, Target};
 use crate::solve::{
     Event, Flow, Increments, LineSearch, Motion, NewtonSettings, Stepper, StepperSettings,
 };
+use crate::system::Idealisation;
 use signorini_geometry::element::by_name;
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
 use signorini_geometry::surface::Facets;
@@ -42,24 +43,24 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
     let nodes: Vec<NodeId> = (0..12).collect();
     let brick = mesh.push_cell(by_name("hex8").unwrap(), &nodes[..8], 1);
     let tool = mesh.push_cell(by_name("tet4").unwrap(), &nodes[8..], 2);
-    let svk = TABLE.iter().find(|(name, _)| name.starts_with("saint"));
     let held = |axis| (axis, Motion::Hold);
     let parts = Parts {
-        mesh: &mesh,
-        space: Space::ThreeD,
+        carriers: vec![CarrierPart {
+            name: "tool".into(),
+            at: None,
+        }],
         bodies: vec![
             BodyPart {
                 name: "brick".into(),
                 cells: vec![brick],
-                material: Some(svk.unwrap().1(500.0, 0.0)),
+                kind: BodyKind::solid(Box::new(SaintVenantKirchhoff::new(500.0, 0.0))),
             },
             BodyPart {
                 name: "tool".into(),
                 cells: vec![tool],
-                material: None,
+                kind: BodyKind::Rigid(0),
             },
         ],
-        contacts: Vec::new(),
         steps: vec![StepPart {
             name: "press".into(),
             duration: 1.0,
@@ -70,7 +71,9 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
                 Change::Prescribe(Target::Rigid(0), vec![(2, Motion::Ramp(-0.3))]),
             ],
             loads: Vec::new(),
+            temperatures: Vec::new(),
         }],
+        ..Parts::new(&mesh, Idealisation::Space)
     };
     let mut model = Model::assemble(parts).unwrap();
     let top = Face {

@@ -2,11 +2,11 @@
 
 use super::*;
 use crate::contact::Measure;
-use crate::material::TABLE;
+use crate::material::NeoHookean;
 use crate::model::{
-    BodyPart, Change, ContactPart, Model, Parts, SidePart, Space, StepPart, Target,
+    BodyKind, BodyPart, Change, ContactPart, Model, Parts, SidePart, StepPart, Target,
 };
-use crate::system::Archive;
+use crate::system::{Archive, Idealisation};
 use signorini_geometry::element::by_name;
 use signorini_geometry::mesh::{CellId, Face, Mesh};
 
@@ -39,7 +39,7 @@ fn sliding_block() -> Model {
     let (low, lower) = rectangle(&mut mesh, [8, 3], Vec3::ZERO, Vec3::new(3.0, 1.0, 0.0));
     let place = Vec3::new(0.41, 1.0, 0.0);
     let (high, upper) = rectangle(&mut mesh, [5, 3], place, Vec3::new(1.3, 0.7, 0.0));
-    let law = |e| TABLE.iter().find(|l| l.0 == "neo-hookean").unwrap().1(e, 0.3);
+    let law = |e| Box::new(NeoHookean::new(e, 0.3));
     let side = |cells: &[CellId], side| -> Vec<Face> {
         cells.iter().map(|&cell| Face { cell, side }).collect()
     };
@@ -63,6 +63,7 @@ fn sliding_block() -> Model {
             nonlinear: true,
             changes,
             loads: Vec::new(),
+            temperatures: Vec::new(),
         }
     };
     let held = vec![(0, Motion::Hold), (1, Motion::Hold)];
@@ -79,14 +80,13 @@ fn sliding_block() -> Model {
     let body = |name: &str, cells, e| BodyPart {
         name: name.into(),
         cells,
-        material: Some(law(e)),
+        kind: BodyKind::solid(law(e)),
     };
     let parts = Parts {
-        mesh: &mesh,
-        space: Space::PlaneStrain { thickness: 1.0 },
         bodies: vec![body("lower", lower, 1000.0), body("upper", upper, 2000.0)],
         contacts: vec![contact],
         steps,
+        ..Parts::new(&mesh, Idealisation::PlaneStrain { thickness: 1.0 })
     };
     let mut model = Model::assemble(parts).unwrap();
     // something goes wrong in long increments of the second step

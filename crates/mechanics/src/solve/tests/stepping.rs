@@ -2,8 +2,9 @@
 
 use super::super::Failure;
 use super::*;
-use crate::material::TABLE;
-use crate::model::{BodyPart, Change, Model, Parts, Space, StepPart, Target};
+use crate::material::{self, Constants};
+use crate::model::{BodyKind, BodyPart, Change, Model, Parts, StepPart, Target};
+use crate::system::Idealisation;
 use signorini_geometry::element::by_name;
 use signorini_geometry::mesh::Mesh;
 
@@ -251,18 +252,16 @@ fn cube(law: &str, nonlinear: bool, increments: Increments, down: f64) -> Model 
         ..Mesh::default()
     };
     let cell = mesh.push_cell(element, &[0, 1, 2, 3, 4, 5, 6, 7], 17);
-    let material = TABLE.iter().find(|(name, _)| *name == law).unwrap().1(100.0, 0.0);
+    let make = material::by_name(law).unwrap().make;
+    let material = make(&Constants::elastic(100.0, 0.0)).unwrap();
     let body = BodyPart {
         name: "cube".into(),
         cells: vec![cell],
-        material: Some(material),
+        kind: BodyKind::solid(material),
     };
     let held = |axis| (axis, Motion::Hold);
     let parts = Parts {
-        mesh: &mesh,
-        space: Space::ThreeD,
         bodies: vec![body],
-        contacts: Vec::new(),
         steps: vec![StepPart {
             name: "crush".into(),
             duration: 1.0,
@@ -278,7 +277,9 @@ fn cube(law: &str, nonlinear: bool, increments: Increments, down: f64) -> Model 
                 ),
             ],
             loads: Vec::new(),
+            temperatures: Vec::new(),
         }],
+        ..Parts::new(&mesh, Idealisation::Space)
     };
     Model::assemble(parts).unwrap()
 }

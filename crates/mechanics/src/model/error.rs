@@ -1,0 +1,108 @@
+use crate::solid::SolidError;
+use signorini_geometry::surface::{FacetsError, SurfaceError};
+use thiserror::Error;
+
+/// Why no model can be made.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ModelError {
+    /// Nothing can deform.
+    #[error("no body has a material: there is nothing to solve for")]
+    NothingDeforms,
+    /// An element in two bodies.
+    #[error("element {label} belongs to body \"{first}\" and to body \"{second}\"")]
+    TwoBodies {
+        /// Its number in the input.
+        label: u64,
+        /// One body.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// A body without cells.
+    #[error("body \"{body}\" has no elements")]
+    EmptyBody {
+        /// Its name.
+        body: String,
+    },
+    /// An element that is no solid.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+    /// Two rigid bodies that share a node.
+    #[error("the rigid bodies \"{first}\" and \"{second}\" share node {node}")]
+    RigidBodiesShare {
+        /// One body.
+        first: String,
+        /// The other.
+        second: String,
+        /// The node, as numbered in the input.
+        node: u64,
+    },
+    /// A surface that cannot be made.
+    #[error("contact \"{contact}\": {source}")]
+    Facets {
+        /// Name of the contact.
+        contact: String,
+        /// Why.
+        source: FacetsError,
+    },
+    /// A surface with a folded facet.
+    #[error("contact \"{contact}\": {source}")]
+    Surface {
+        /// Name of the contact.
+        contact: String,
+        /// Why.
+        source: SurfaceError,
+    },
+    /// A side without nodes.
+    #[error("contact \"{contact}\": the secondary side is empty")]
+    EmptySide {
+        /// Name of the contact.
+        contact: String,
+    },
+    /// Two sides that share nodes.
+    #[error(
+        "contact \"{contact}\": the two surfaces are glued at {count} nodes, one of them node {node}"
+    )]
+    Glued {
+        /// Name of the contact.
+        contact: String,
+        /// How many nodes they share.
+        count: usize,
+        /// One of them, as numbered in the input.
+        node: u64,
+    },
+    /// Two rigid sides.
+    #[error("contact \"{contact}\": both sides are rigid, nothing can yield")]
+    BothRigid {
+        /// Name of the contact.
+        contact: String,
+    },
+    /// A body that nothing can hold.
+    #[error("body \"{body}\" is held by nothing: no support, no motion, no contact")]
+    FreeBody {
+        /// Its name.
+        body: String,
+    },
+    /// One dof with two motions in one step.
+    #[error(
+        "step \"{step}\" prescribes the {component} displacement of node {node} twice, differently"
+    )]
+    Clash {
+        /// Name of the step.
+        step: String,
+        /// The node, as numbered in the input.
+        node: u64,
+        /// The direction.
+        component: char,
+    },
+    /// A support, motion or load on a node of a rigid body.
+    #[error(
+        "node {node} belongs to the rigid body \"{body}\": support, move or load the body instead"
+    )]
+    OnRigidNode {
+        /// The node, as numbered in the input.
+        node: u64,
+        /// Name of the body.
+        body: String,
+    },
+}

@@ -1,0 +1,252 @@
+//! What a run is made of: a mesh, bodies, contacts, steps, put together into one system.
+//!
+//! ```text
+//! Parts (plain data, names already resolved) ──assemble──▶ Model: System + Steps
+//! ```
+//!
+//! Readers of every format end here, and so does a program that uses the library without any file. What is left open
+//! (`None`) is chosen here and can be read back from the [`Model`]:
+//!
+//! * the penalty, `ε = 10 · min(M/h)` per area, with the modulus `M = λ + 2μ` and the size `h` of the facets of each
+//!   deformable side: a pressure `p` then penetrates `p h/(10 M)` (E1). Per node it is multiplied by the mean tributary
+//!   area, or by `h²` (`h · thickness` in the plane) where the secondary side is bare nodes;
+//! * the reach of the search, twice the largest facet;
+//! * motions of rigid bodies that no step names: held.
+
+mod constraints;
+mod contact;
+mod error;
+mod held;
+mod loads;
+mod parts;
+mod steps;
+
+pub use error::ModelError;
+pub use parts::{
+    BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart, ContactPart, Load,
+    LoadPart, Parts, SidePart, SpringPart, StepPart, Target, Unknown,
+};
+
+use crate::contact::{Interface, Measure};
+use crate::solid::{Solid, SolidParts};
+use crate::solve::Step;
+use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
+use held::Held;
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::surface::Carrier;
+use signorini_geometry::tensor::Vec3;
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
+
+/// What a contact became.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactSummary {
+    /// Its name.
+    pub name: String,
+    /// The penalty in use.
+    pub penalty: f64,
+    /// What it refers to.
+    pub measure: Measure,
+    /// The reach in use.
+    pub reach: f64,
+    /// Points of the secondary side.
+    pub npoint: usize,
+    /// Facets of the primary side.
+    pub nfacet: usize,
+    /// Size of the facets.
+    pub facet_size: f64,
+}
+
+/// A system with the steps it is to go through.
+pub struct Model {
+    /// What is solved.
+    pub system: System,
+    /// The steps.
+    pub steps: Vec<Step>,
+    /// The contacts, with what was chosen for them.
+    pub contacts: Vec<ContactSummary>,
+    /// Nodes that no body uses: they take no part.
+    pub unused: Vec<NodeId>,
+    /// Bodies that nothing but contact holds.
+    pub held_by_contact: Vec<String>,
+}
+
+impl Model {
+    /// Puts the parts together.
+    ///
+    /// # Errors
+    /// What makes no model, each case named with the user's own numbers and names.
+    pub fn assemble(parts: Parts<'_>) -> Result<Self, ModelError> {
+        let Parts {
+            mesh,
+            space,
+            bodies,
+            carriers,
+            springs: _,
+            constraints: _,
+            contacts,
+            temperature,
+            steps,
+        } = parts;
+        let reference: Arc<[Vec3]> = mesh.points.clone().into();
+        let owner = owners(mesh, &bodies)?;
+        let elimination = Arc::new(constraints::elimination(mesh, &bodies, &carriers)?);
+        let layout = Layout {
+            ndim: space.ndim(),
+            nnode: mesh.nnode(),
+            nrigid: elimination.bodies().len(),
+            nmultiplier: 0,
+        };
+        let names: Vec<String> = bodies.iter().map(|b| b.name.clone()).collect();
+        let modulus: Vec<Option<f64>> = bodies
+            .iter()
+            .map(|b| b.kind.material().map(|m| m.modulus()))
+            .collect();
+        if modulus.iter().all(Option::is_none) {
+            return Err(ModelError::NothingDeforms);
+        }
+        let body_of_node = nodes_by_body(mesh, &bodies);
+        let held = Held::new(mesh, &bodies);
+        let temperature = temperatures(temperature, &steps);
+
+        let mut terms: Vec<Box<dyn Term>> = Vec::new();
+        for body in bodies {
+            let BodyKind::Solid {
+                material,
+                integration,
+                locking,
+                ..
+            } = body.kind
+            else {
+                continue;
+            };
+            let solid = Solid::new(SolidParts {
+                name: &body.name,
+                mesh,
+                reference: reference.clone(),
+                cells: &body.cells,
+                layout,
+                space,
+                material,
+                integration,
+                locking,
+                temperature: temperature.clone(),
+            })?;
+            terms.push(Box::new(solid));
+        }
+        let context = Context {
+            mesh,
+            reference: &reference,
+            owner: &owner,
+            modulus: &modulus,
+            elimination: &elimination,
+            carriers: &carriers,
+            space,
+            layout,
+        };
+        let mut summaries = Vec::new();
+        let mut touching = BTreeSet::new();
+        for contact in contacts {
+            let (parts, summary) = context.contact(contact)?;
+            touching.extend(parts.pair.points.iter().copied());
+            touching.extend((0..parts.pair.primary.nfacet() as u32).flat_map(|f| {
+                match parts.pair.primary.carrier(f) {
+                    Carrier::Nodes(nodes) => nodes.to_vec(),
+                    _ => Vec::new(),
+                }
+            }));
+            terms.push(Box::new(Interface::new(parts, layout, elimination.clone())));
+            summaries.push(summary);
+        }
+        let (steps, loads) = context.steps(steps)?;
+        terms.extend(loads);
+        let held_by_contact = held.judge(&names, &layout, &steps, &elimination, &touching)?;
+
+        let unused = (0..mesh.nnode() as NodeId)
+            .filter(|n| body_of_node.get(*n as usize).is_none_or(|b| *b == u32::MAX))
+            .collect();
+        Ok(Self {
+            system: System {
+                layout,
+                coordinates: reference.iter().map(|x| x.to_array()).collect(),
+                reference,
+                elimination,
+                terms,
+                body: body_of_node,
+                ncell: mesh.blocks.iter().map(|b| b.ncell()).collect(),
+            },
+            steps,
+            contacts: summaries,
+            unused,
+            held_by_contact,
+        })
+    }
+}
+
+/// The body of each cell.
+fn owners(mesh: &Mesh, bodies: &[BodyPart]) -> Result<HashMap<CellId, usize>, ModelError> {
+    let mut owner: HashMap<CellId, usize> = HashMap::new();
+    for (number, body) in bodies.iter().enumerate() {
+        if body.cells.is_empty() {
+            return Err(ModelError::EmptyBody {
+                body: body.name.clone(),
+            });
+        }
+        for &cell in &body.cells {
+            if let Some(before) = owner.insert(cell, number) {
+                return Err(ModelError::TwoBodies {
+                    label: mesh.cell_label(cell).unwrap_or(0),
+                    first: bodies[before].name.clone(),
+                    second: body.name.clone(),
+                });
+            }
+        }
+    }
+    Ok(owner)
+}
+
+fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<u32> {
+    let mut of = vec![u32::MAX; mesh.nnode()];
+    for (number, body) in bodies.iter().enumerate() {
+        for &cell in &body.cells {
+            for &node in mesh.cell(cell) {
+                of[node as usize] = number as u32;
+            }
+        }
+    }
+    of
+}
+
+/// Temperatures of the nodes at the start and at the end of every step.
+fn temperatures(start: Vec<f64>, steps: &[StepPart]) -> Option<Arc<NodalField>> {
+    if start.is_empty() {
+        return None;
+    }
+    let mut ends = vec![start];
+    for step in steps {
+        let mut end = ends.last().cloned().unwrap_or_default();
+        for &(node, value) in &step.temperatures {
+            if let Some(to) = end.get_mut(node as usize) {
+                *to = value;
+            }
+        }
+        ends.push(end);
+    }
+    Some(Arc::new(NodalField { ends }))
+}
+
+fn label(mesh: &Mesh, node: NodeId) -> u64 {
+    mesh.node_labels.get(node as usize).copied().unwrap_or(0)
+}
+
+/// What the parts of a model are made from.
+struct Context<'a> {
+    mesh: &'a Mesh,
+    reference: &'a [Vec3],
+    owner: &'a HashMap<CellId, usize>,
+    modulus: &'a [Option<f64>],
+    elimination: &'a Elimination,
+    carriers: &'a [CarrierPart],
+    space: Idealisation,
+    layout: Layout,
+}

@@ -1,0 +1,335 @@
+//! What a model is made of, as plain data: names are resolved, nothing is chosen yet.
+
+use crate::contact::Measure;
+use crate::load::Course;
+use crate::material::Material;
+use crate::solid::{Integration, Locking};
+use crate::solve::{Increments, Motion};
+use crate::system::Idealisation;
+use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
+use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::Vec3;
+
+/// Everything a model is made of.
+pub struct Parts<'a> {
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// Space, plane or axisymmetry.
+    pub space: Idealisation,
+    /// The bodies.
+    pub bodies: Vec<BodyPart>,
+    /// What rigid bodies and couplings move with. Their numbers, [`RigidId`], are their places here.
+    pub carriers: Vec<CarrierPart>,
+    /// Springs.
+    pub springs: Vec<SpringPart>,
+    /// Constraints between unknowns.
+    pub constraints: Vec<ConstraintPart>,
+    /// The contacts.
+    pub contacts: Vec<ContactPart>,
+    /// Temperature of each node at the start; empty where no step and no material speaks of temperatures.
+    pub temperature: Vec<f64>,
+    /// The steps.
+    pub steps: Vec<StepPart>,
+}
+
+impl<'a> Parts<'a> {
+    /// A model without anything in it yet.
+    #[must_use]
+    pub fn new(mesh: &'a Mesh, space: Idealisation) -> Self {
+        Self {
+            mesh,
+            space,
+            bodies: Vec::new(),
+            carriers: Vec::new(),
+            springs: Vec::new(),
+            constraints: Vec::new(),
+            contacts: Vec::new(),
+            temperature: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
+}
+
+/// A body.
+pub struct BodyPart {
+    /// Its name.
+    pub name: String,
+    /// Its cells.
+    pub cells: Vec<CellId>,
+    /// What it is.
+    pub kind: BodyKind,
+}
+
+/// What a body is.
+pub enum BodyKind {
+    /// A deformable solid.
+    Solid {
+        /// What it is made of.
+        material: Box<dyn Material>,
+        /// Mass per volume, where it is known.
+        density: Option<f64>,
+        /// Full or reduced integration.
+        integration: Integration,
+        /// What is done against locking.
+        locking: Locking,
+    },
+    /// Bars that carry normal force only: cells of lines.
+    Truss {
+        /// What it is made of; it answers uniaxial stress.
+        material: Box<dyn Material>,
+        /// Mass per volume, where it is known.
+        density: Option<f64>,
+        /// Cross-section (area).
+        area: f64,
+    },
+    /// A rigid body that moves with a carrier.
+    Rigid(RigidId),
+}
+
+impl BodyKind {
+    /// A solid of this material, everything else as it is by default.
+    #[must_use]
+    pub fn solid(material: Box<dyn Material>) -> Self {
+        Self::Solid {
+            material,
+            density: None,
+            integration: Integration::default(),
+            locking: Locking::default(),
+        }
+    }
+
+    /// The material of a deformable body.
+    #[must_use]
+    pub fn material(&self) -> Option<&dyn Material> {
+        match self {
+            Self::Solid { material, .. } | Self::Truss { material, .. } => Some(material.as_ref()),
+            Self::Rigid(_) => None,
+        }
+    }
+}
+
+/// A reference point with translations and rotations of its own. Rigid bodies and couplings move with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CarrierPart {
+    /// Its name: that of the reference, or of the rigid body whose own it is.
+    pub name: String,
+    /// Where it is; `None`: in the mean of the nodes of its rigid bodies.
+    pub at: Option<Vec3>,
+}
+
+/// A spring. Its force is `stiffness` times its elongation, measured along `direction`, or along the line between its
+/// ends, which turns with them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpringPart {
+    /// Its name.
+    pub name: String,
+    /// Pairs of ends; the second is `None` where the spring is tied to the ground.
+    pub ends: Vec<(NodeId, Option<NodeId>)>,
+    /// Force over elongation of each spring.
+    pub stiffness: f64,
+    /// Unit vector, fixed in space; `None`: along the line between the ends.
+    pub direction: Option<Vec3>,
+}
+
+/// What an equation speaks of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unknown {
+    /// Displacement of a node along an axis.
+    Node(NodeId, usize),
+    /// Component of a carrier: 0 to 2 translations, 3 to 5 rotations.
+    Carrier(RigidId, usize),
+}
+
+/// A constraint between unknowns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConstraintPart {
+    /// What it is called in messages.
+    pub name: String,
+    /// What it says.
+    pub kind: ConstraintKind,
+}
+
+/// What a constraint says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ConstraintKind {
+    /// `Σ coefficient · unknown = rhs`; the right-hand side is reached linearly over the first step.
+    Equation {
+        /// Unknowns with their coefficients.
+        terms: Vec<(Unknown, f64)>,
+        /// The right-hand side.
+        rhs: f64,
+    },
+    /// These displacements of all nodes are equal.
+    Equal {
+        /// The nodes.
+        nodes: Vec<NodeId>,
+        /// The directions.
+        axes: [bool; 3],
+    },
+    /// The nodes follow the carrier as a rigid body does, in these directions.
+    Kinematic {
+        /// The nodes.
+        nodes: Vec<NodeId>,
+        /// What they follow.
+        carrier: RigidId,
+        /// The directions.
+        axes: [bool; 3],
+    },
+    /// The carrier follows the weighted mean motion of the nodes, which stay free to deform.
+    Distributing {
+        /// The nodes with positive weights.
+        nodes: Vec<(NodeId, f64)>,
+        /// What follows them.
+        carrier: RigidId,
+    },
+    /// The nodes, in a plane at the start (in the plane: on a line), stay in one, which may move and turn.
+    Plane {
+        /// The nodes.
+        nodes: Vec<NodeId>,
+    },
+}
+
+/// One side of a contact.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SidePart {
+    /// Faces of solids.
+    Faces(Vec<Face>),
+    /// Bare nodes.
+    Nodes(Vec<NodeId>),
+}
+
+/// A contact.
+#[derive(Clone, Debug)]
+pub struct ContactPart {
+    /// Its name.
+    pub name: String,
+    /// The side that carries points.
+    pub secondary: SidePart,
+    /// The side that is projected onto.
+    pub primary: Vec<Face>,
+    /// Penalty; `None`: from the stiffness behind the surfaces (E1).
+    pub penalty: Option<f64>,
+    /// What it refers to; `None`: area where the secondary side has one.
+    pub measure: Option<Measure>,
+    /// Distance up to which a closest point counts; `None`: chosen.
+    pub reach: Option<f64>,
+}
+
+/// What a support or a motion is applied to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// Nodes of deformable bodies.
+    Nodes(Vec<NodeId>),
+    /// A carrier.
+    Rigid(RigidId),
+}
+
+/// A change of what is prescribed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// Components 0 to 2 (displacements) and 3 to 5 (rotations) get a motion.
+    Prescribe(Target, Vec<(usize, Motion)>),
+    /// Components become free.
+    Release(Target, Vec<usize>),
+}
+
+/// A load. A later load of the same name replaces it; a load stays as it is until then.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadPart {
+    /// Its name.
+    pub name: String,
+    /// What acts, at full size.
+    pub load: Load,
+    /// The factor over time: from what the load of this name was before to full size by default.
+    pub course: Course,
+}
+
+/// What acts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Load {
+    /// Forces on nodes, which keep their direction.
+    Nodes(Vec<(NodeId, Vec3)>),
+    /// A force and a moment on a carrier, which keep their direction.
+    Carrier {
+        /// Where they act.
+        carrier: RigidId,
+        /// The force.
+        force: Vec3,
+        /// The moment.
+        moment: Vec3,
+    },
+    /// A total force, spread evenly over the reference area of faces; it keeps its direction.
+    Force {
+        /// Where it acts.
+        faces: Vec<Face>,
+        /// The sum.
+        total: Vec3,
+    },
+    /// A moment on nodes: forces that are statically equivalent to it at the start, and keep their direction.
+    Moment {
+        /// Where it acts.
+        nodes: Vec<NodeId>,
+        /// The moment about their centre.
+        moment: Vec3,
+    },
+    /// Force per reference area, which keeps its direction.
+    Traction {
+        /// Where it acts.
+        faces: Vec<Face>,
+        /// Force per area.
+        traction: Vec3,
+    },
+    /// Pressure, positive in compression.
+    Pressure {
+        /// Where it acts.
+        faces: Vec<Face>,
+        /// Force per area.
+        pressure: f64,
+        /// Whether it follows area and normal of the deformed faces.
+        follows: bool,
+    },
+    /// Force per reference volume.
+    Body {
+        /// Where it acts.
+        cells: Vec<CellId>,
+        /// Force per volume.
+        force: Vec3,
+    },
+    /// Mass times an acceleration.
+    Gravity {
+        /// Where it acts.
+        cells: Vec<CellId>,
+        /// The acceleration.
+        acceleration: Vec3,
+    },
+    /// Mass times centrifugal acceleration about an axis that stays where it is.
+    Centrifugal {
+        /// Where it acts.
+        cells: Vec<CellId>,
+        /// Angular velocity (radian per time); a course multiplies its square.
+        speed: f64,
+        /// A point of the axis.
+        point: Vec3,
+        /// The direction of the axis.
+        axis: Vec3,
+    },
+}
+
+/// A step: what it changes.
+#[derive(Clone, Debug)]
+pub struct StepPart {
+    /// Its name.
+    pub name: String,
+    /// Its duration.
+    pub duration: f64,
+    /// How it is cut into increments.
+    pub increments: Increments,
+    /// Whether displacements may be large.
+    pub nonlinear: bool,
+    /// Changes of supports and motions; everything else stays.
+    pub changes: Vec<Change>,
+    /// Loads that begin or change here.
+    pub loads: Vec<LoadPart>,
+    /// Temperatures that nodes reach linearly over the step; others keep theirs.
+    pub temperatures: Vec<(NodeId, f64)>,
+}
