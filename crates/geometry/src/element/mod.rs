@@ -19,6 +19,9 @@
 //! listed so that the normal of the side's own parametrisation, `t1 × t2` (in the plane `(t_y, -t_x)`), points out
 //! of the element.
 //!
+//! The quadratic elements have the corners of the linear ones, then a mid node on every edge in the order of
+//! [`ReferenceElement::edges`]; quad9 adds its centre, hex27 the centres of the sides S1 to S6 and then its own.
+//!
 //! To add an element: one file here and one line in [`TABLE`]; its orders in foreign files go into the tables of the
 //! readers and writers. The property tests below run over the whole table.
 
@@ -79,8 +82,8 @@ pub trait ReferenceElement: Send + Sync {
     /// reference domain they are straight; a mid node lies halfway, and mid nodes follow the corners in this order.
     fn edges(&self) -> &'static [[usize; 2]];
 
-    /// The rule that integrates the stiffness of the undistorted element exactly; that of wedge15 has the customary
-    /// nine points, which are exact for linear strains only where they do not vary along the axis.
+    /// The rule that integrates the stiffness of the undistorted element exactly; that of wedge15 has the customary nine
+    /// points, exact for products of linear strains.
     fn full_rule(&self) -> &'static Rule;
 
     /// The rule of reduced integration: one order less in the serendipity elements, the full rule in all others.

@@ -48,6 +48,10 @@ impl ReferenceElement for Tri3 {
         &quadrature::TRI_1
     }
 
+    fn surface_rule(&self) -> &'static Rule {
+        &quadrature::TRI_3
+    }
+
     fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
         xi.x >= -tolerance && xi.y >= -tolerance && xi.x + xi.y <= 1.0 + tolerance
     }

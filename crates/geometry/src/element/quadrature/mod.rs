@@ -197,51 +197,77 @@ mod tests {
         rule.iter().map(|(x, w)| w * f(x)).sum()
     }
 
+    /// The integral over `[-1, 1]`.
+    fn along_axis(p: i32) -> f64 {
+        f64::from(1 - p % 2) * 2.0 / f64::from(p + 1)
+    }
+
+    /// The integral of `x^a y^b z^c` over the reference triangle (`c = 0`) or tetrahedron.
+    fn over_simplex(dim: i32, [a, b, c]: [i32; 3]) -> f64 {
+        let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
+        factorial(a) * factorial(b) * factorial(c) / factorial(a + b + c + dim)
+    }
+
     #[test]
-    fn products_of_gauss_points_integrate_cubics_in_each_direction() {
-        for (rule, dim) in [(&LINE_2, 1), (&QUAD_4, 2), (&HEX_8, 3)] {
-            for px in 0..=3 {
-                for py in 0..=if dim > 1 { 3 } else { 0 } {
-                    for pz in 0..=if dim > 2 { 3 } else { 0 } {
-                        let powers = [px, py, pz];
-                        let exact: f64 = powers[..dim]
-                            .iter()
-                            .map(|p| {
-                                if p % 2 == 0 {
-                                    2.0 / f64::from(p + 1)
-                                } else {
-                                    0.0
-                                }
-                            })
-                            .product();
-                        let got = integral(rule, |x| x.x.powi(px) * x.y.powi(py) * x.z.powi(pz));
-                        assert!(
-                            (got - exact).abs() < 1e-14,
-                            "{dim} {powers:?}: {got} {exact}"
-                        );
-                    }
+    fn products_of_gauss_points_integrate_their_degree_in_each_direction() {
+        for (rule, dim, degree) in [
+            (&LINE_2, 1, 3),
+            (&LINE_3, 1, 5),
+            (&QUAD_4, 2, 3),
+            (&QUAD_9, 2, 5),
+            (&HEX_8, 3, 3),
+            (&HEX_27, 3, 5),
+        ] {
+            let powers = |axis: usize| 0..=if axis < dim { degree } else { 0 };
+            for a in powers(0) {
+                for (b, c) in powers(1).flat_map(|b| powers(2).map(move |c| (b, c))) {
+                    let exact: f64 = [a, b, c][..dim].iter().map(|&p| along_axis(p)).product();
+                    let got = integral(rule, |x| x.x.powi(a) * x.y.powi(b) * x.z.powi(c));
+                    assert!(
+                        (got - exact).abs() < 1e-14,
+                        "{dim} {a} {b} {c}: {got} {exact}"
+                    );
                 }
             }
+            let beyond = integral(rule, |x| x.x.powi(degree + 1)) / 2f64.powi(dim as i32 - 1);
+            assert!((beyond - along_axis(degree + 1)).abs() > 1e-2);
         }
     }
 
     #[test]
-    fn simplex_rules_integrate_their_degree() {
-        let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
-        for (rule, degree) in [(&TRI_1, 1), (&TRI_3, 2)] {
+    fn simplex_rules_integrate_their_total_degree() {
+        for (rule, dim, degree) in [
+            (&TRI_1, 2, 1),
+            (&TRI_3, 2, 2),
+            (&TRI_6, 2, 4),
+            (&TET_1, 3, 1),
+            (&TET_4, 3, 2),
+        ] {
+            let error = |p: [i32; 3]| {
+                let got = integral(rule, |x| x.x.powi(p[0]) * x.y.powi(p[1]) * x.z.powi(p[2]));
+                (got - over_simplex(dim, p)).abs()
+            };
             for a in 0..=degree {
                 for b in 0..=degree - a {
-                    let exact = factorial(a) * factorial(b) / factorial(a + b + 2);
-                    let got = integral(rule, |x| x.x.powi(a) * x.y.powi(b));
-                    assert!((got - exact).abs() < 1e-15, "{a} {b}");
+                    for c in 0..=if dim == 3 { degree - a - b } else { 0 } {
+                        assert!(error([a, b, c]) < 1e-15, "{a} {b} {c}");
+                    }
+                }
+            }
+            assert!(error([degree + 1, 0, 0]) > 1e-6);
+        }
+    }
+
+    #[test]
+    fn wedge_rules_integrate_quadratics_of_the_triangle_times_powers_along_the_axis() {
+        for (rule, along) in [(&WEDGE_6, 3), (&WEDGE_9, 5)] {
+            for (a, b) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)] {
+                for c in 0..=along {
+                    let exact = over_simplex(2, [a, b, 0]) * along_axis(c);
+                    let got = integral(rule, |x| x.x.powi(a) * x.y.powi(b) * x.z.powi(c));
+                    assert!((got - exact).abs() < 1e-15, "{a} {b} {c}");
                 }
             }
         }
-        for axis in 0..3 {
-            assert!((integral(&TET_1, |x| x[axis]) - 1.0 / 24.0).abs() < 1e-16);
-        }
-        assert!((integral(&TET_1, |_| 1.0) - 1.0 / 6.0).abs() < 1e-16);
-        let wedge = integral(&WEDGE_6, |x| x.x * x.x * x.z * x.z);
-        assert!((wedge - 1.0 / 12.0 * 2.0 / 3.0).abs() < 1e-15);
     }
 }
