@@ -420,7 +420,10 @@ fn inside_and_outside_are_told_apart_across_faces_edges_and_vertices() {
         }
         // a convex solid is closest to its faces from inside
         let [outside, inside] = kinds;
-        assert!(inside[0] == 2000 && outside[0] > 1000, "{element:?} {kinds:?}");
+        assert!(
+            inside[0] == 2000 && outside[0] > 1000,
+            "{element:?} {kinds:?}"
+        );
         assert!(outside[1] + outside[2] > 50, "{element:?} {kinds:?}");
     }
 }
