@@ -34,7 +34,7 @@ const MOST: usize = 5;
 
 /// Newton steps at a point; damped ones included.
 const STEPS: usize = 60;
-/// A step this small, relative to the [`size`] of the strain, is the last: what it leaves is of the order of its square.
+/// A step this small, relative to the strain's size, is the last: what it leaves is of the order of its square.
 const LAST: f64 = 1e-9;
 /// The share of the predicted decrease that a step must bring (Armijo).
 const DECREASE: f64 = 1e-4;
@@ -158,6 +158,19 @@ impl Reduced {
         }
     }
 
+    /// What a last step is small against: the strain, at finite strain no more than what is left of the free stretches.
+    fn size(&self, strain: &Strain) -> f64 {
+        let largest = largest(&strain.value.to_pairs());
+        match (strain.value * 2.0 + Sym3::IDENTITY).inverse() {
+            Some((inverse, _)) if strain.kinematics == Kinematics::Finite => {
+                let inverse = inverse.to_pairs();
+                let normal = self.free.iter().filter(|p| **p < 3);
+                largest.min(normal.map(|p| inverse[*p]).sum::<f64>().recip())
+            }
+            _ => largest,
+        }
+    }
+
     /// Takes the stress-free directions out of a response.
     fn condense(&self, out: &mut Response) -> Result<(), MaterialError> {
         let n = self.free.len();
@@ -210,7 +223,7 @@ impl Material for Reduced {
         let mut converged = false;
         for _ in 0..STEPS {
             let step = self.step(out)?;
-            if largest(&step) <= LAST * size(&at) {
+            if largest(&step) <= LAST * self.size(&at) {
                 at = self.moved(&at, &step, 1.0);
                 converged = true;
                 break;
@@ -275,17 +288,6 @@ impl Material for Reduced {
 
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
-}
-
-/// The size of a strain, at finite strain no more than the square of the shortest stretch.
-fn size(strain: &Strain) -> f64 {
-    let largest = largest(&strain.value.to_pairs());
-    match (strain.value * 2.0 + Sym3::IDENTITY).inverse() {
-        Some((inverse, _)) if strain.kinematics == Kinematics::Finite => {
-            largest.min(inverse.trace().recip())
-        }
-        _ => largest,
-    }
 }
 
 /// Whether a body can have this strain: at finite strain, `C = I + 2E` is positive definite.
