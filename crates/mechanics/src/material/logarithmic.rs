@@ -1,3 +1,5 @@
+#![allow(clippy::needless_range_loop)] // indices are those of tensors, and several arrays share them
+
 use super::frame::Frame;
 use super::{MaterialError, Order, Response};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
