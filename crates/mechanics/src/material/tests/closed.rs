@@ -342,7 +342,7 @@ fn vectors_that_span_no_plane_are_refused() {
         x + Vec3::unit(0) * 1e-9,
     ] {
         assert!(Oriented::new(of_table("orthotropic"), x, y).is_err());
-        assert!(Oriented::new(of_table("orthotropic"), y, x).is_err() || y == x + Vec3::unit(0));
+        assert!(Oriented::new(of_table("orthotropic"), y, x).is_err());
     }
 }
 
