@@ -94,8 +94,9 @@ impl Plasticity {
     /// The radial return, in whatever axes strain and memory are.
     fn integrate(&self, strain: Sym3, memory: &mut Memory, order: Order, out: &mut Response) {
         let mu = self.lame.mu;
-        self.lame.respond(&(strain - memory.strain), order, out);
-        let relative = deviator(out.stress) - memory.centre;
+        let elastic = strain - memory.strain;
+        self.lame.respond(&elastic, order, out);
+        let relative = deviator(elastic) * (2.0 * mu) - memory.centre;
         let q = relative.von_mises();
         let excess = q - self.hardening.radius(memory.plastic);
         if excess <= 0.0 {
@@ -181,6 +182,6 @@ impl Material for Plasticity {
     }
 }
 
-fn deviator(stress: Sym3) -> Sym3 {
-    stress - Sym3::IDENTITY * (stress.trace() / 3.0)
+fn deviator(tensor: Sym3) -> Sym3 {
+    tensor - Sym3::IDENTITY * (tensor.trace() / 3.0)
 }
