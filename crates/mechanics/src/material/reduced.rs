@@ -194,6 +194,56 @@ impl Reduced {
         }
     }
 
+    /// The strain without stress in the free directions.
+    fn find(
+        &self,
+        mut at: Strain,
+        old: &[f64],
+        new: &mut [f64],
+        out: &mut Response,
+    ) -> Result<Strain, MaterialError> {
+        self.inner.respond(&at, old, new, Order::Tangent, out)?;
+        for _ in 0..STEPS {
+            let step = self.step(&at, out)?;
+            if largest(&step) <= LAST * self.size(&at) {
+                return Ok(self.moved(&at, &step, 1.0));
+            }
+            at = self.search(&at, &step, old, new, out)?;
+        }
+        Err(NOT_CONVERGED)
+    }
+
+    /// The longest share of a step, by halves, that brings the potential or its slope down; `out` goes along.
+    fn search(
+        &self,
+        at: &Strain,
+        step: &Vector,
+        old: &[f64],
+        new: &mut [f64],
+        out: &mut Response,
+    ) -> Result<Strain, MaterialError> {
+        let slope = self.slope(out, step);
+        let noise = 4.0 * f64::EPSILON * out.energy.abs();
+        let mut trial = Response::default();
+        let mut share = 1.0;
+        while share > SHORTEST {
+            let there = self.moved(at, step, share);
+            let answers = is_possible(&there)
+                && (self.inner)
+                    .respond(&there, old, new, Order::Tangent, &mut trial)
+                    .is_ok();
+            if answers {
+                let falls = trial.energy <= out.energy + DECREASE * share * slope + noise;
+                if falls || self.slope(&trial, step).abs() <= FLATTENING * slope.abs() {
+                    *out = trial;
+                    return Ok(there);
+                }
+            }
+            share *= 0.5;
+        }
+        Err(NOT_CONVERGED)
+    }
+
     /// Takes the stress-free directions out of a response.
     fn condense(&self, out: &mut Response) -> Result<(), MaterialError> {
         let n = self.free.len();
@@ -243,45 +293,8 @@ impl Material for Reduced {
     ) -> Result<(), MaterialError> {
         let (old, last) = old.split_at(self.inner.nhistory());
         let (new, found) = new.split_at_mut(self.inner.nhistory());
-        let mut at = self.first(strain, last)?;
-        self.inner.respond(&at, old, new, Order::Tangent, out)?;
-        let mut converged = false;
-        for _ in 0..STEPS {
-            let step = self.step(&at, out)?;
-            if largest(&step) <= LAST * self.size(&at) {
-                at = self.moved(&at, &step, 1.0);
-                converged = true;
-                break;
-            }
-            let slope = self.slope(out, &step);
-            let mut share = 1.0;
-            loop {
-                let trial = self.moved(&at, &step, share);
-                let mut response = Response::default();
-                if is_possible(&trial)
-                    && self
-                        .inner
-                        .respond(&trial, old, new, Order::Tangent, &mut response)
-                        .is_ok()
-                {
-                    let noise = f64::EPSILON * out.energy.abs();
-                    let falls =
-                        response.energy <= out.energy + DECREASE * share * slope + 4.0 * noise;
-                    let left = self.slope(&response, &step);
-                    if falls || left.abs() <= FLATTENING * slope.abs() {
-                        (at, *out) = (trial, response);
-                        break;
-                    }
-                }
-                share *= 0.5;
-                if share < SHORTEST {
-                    return Err(NOT_CONVERGED);
-                }
-            }
-        }
-        if !converged {
-            return Err(NOT_CONVERGED);
-        }
+        let first = self.first(strain, last)?;
+        let at = self.find(first, old, new, out)?;
         self.inner.respond(&at, old, new, order, out)?;
         let mut stress = out.stress.to_pairs();
         let pairs = at.value.to_pairs();
