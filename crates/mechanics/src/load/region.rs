@@ -80,7 +80,7 @@ impl Region {
 
 impl Patch {
     fn new(element: Element) -> Self {
-        let rule = element.full_rule();
+        let rule = element.surface_rule();
         let n = element.nnode();
         let mut shape = vec![0.0; n * rule.npoint()];
         let mut dshape = vec![Vec3::ZERO; n * rule.npoint()];
