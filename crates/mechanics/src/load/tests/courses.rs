@@ -51,7 +51,7 @@ fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
         bodies: vec![BodyPart {
             name: "square".into(),
             cells: vec![cell],
-            kind: BodyKind::solid(std::boxed::Box::new(NeoHookean::new(1000.0, 0.3))),
+            kind: BodyKind::solid(Box::new(NeoHookean::new(1000.0, 0.3))),
         }],
         steps: steps.collect(),
         ..Parts::new(&mesh, Idealisation::PlaneStrain { thickness: 1.0 })

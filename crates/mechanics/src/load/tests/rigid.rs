@@ -6,13 +6,13 @@ use crate::system::{Assembler, Assembly, RigidBody};
 use std::f64::consts::TAU;
 
 /// A rigid box of distorted quadratic faces, which turns about a point of its own.
-struct Box {
+struct RigidBox {
     single: Single,
     layout: Layout,
     elimination: Elimination,
 }
 
-impl Box {
+impl RigidBox {
     fn new(name: &str, space: Idealisation, reference: Vec3) -> Self {
         let single = Single::new(element::by_name(name).unwrap(), space, 0.1);
         let body = RigidBody {
@@ -58,11 +58,7 @@ impl Box {
     }
 
     /// What acts on the body, and its stiffness.
-    fn evaluate(
-        &self,
-        terms: &[std::boxed::Box<dyn Term>],
-        state: &State,
-    ) -> (Vec<f64>, Vec<Vec<f64>>) {
+    fn evaluate(&self, terms: &[Box<dyn Term>], state: &State) -> (Vec<f64>, Vec<Vec<f64>>) {
         let mut assembler = Assembler::new(&self.layout, &self.elimination, terms);
         let mut out = Assembly::default();
         let (layout, elimination) = (&self.layout, &self.elimination);
@@ -84,7 +80,7 @@ impl Box {
 }
 
 /// Work of a term on the way through three turns about an axis, with the largest force on the way.
-fn three_turns(model: &Box, terms: &[std::boxed::Box<dyn Term>], axis: Vec3) -> (f64, f64, State) {
+fn three_turns(model: &RigidBox, terms: &[Box<dyn Term>], axis: Vec3) -> (f64, f64, State) {
     const N: usize = 180;
     let mut state = model.start();
     let (mut work, mut largest) = (0.0, 0.0f64);
@@ -118,9 +114,9 @@ fn a_box_under_pressure_on_all_sides_turns_freely_and_comes_back() {
         ("tet10", Idealisation::Space),
         ("quad8", Idealisation::PlaneStrain { thickness: 2.0 }),
     ] {
-        let model = Box::new(name, space, Vec3::new(0.7, 0.2, 0.0));
+        let model = RigidBox::new(name, space, Vec3::new(0.7, 0.2, 0.0));
         let pressure = model.single.pressure(model.single.surface(), 5.0);
-        let (work, largest, end) = three_turns(&model, &[std::boxed::Box::new(pressure)], axis);
+        let (work, largest, end) = three_turns(&model, &[Box::new(pressure)], axis);
         assert!(
             work.abs() < 1e-10 && largest < 1e-12 * 300.0,
             "{name} {work:e} {largest:e}"
@@ -134,15 +130,14 @@ fn a_box_under_pressure_on_all_sides_turns_freely_and_comes_back() {
 #[test]
 fn pressure_on_one_face_does_the_work_of_its_lever_and_none_where_it_has_none() {
     let point = Vec3::new(0.7, 0.2, 0.3);
-    let model = Box::new("hex8", Idealisation::Space, point);
+    let model = RigidBox::new("hex8", Idealisation::Space, point);
     for side in 0..6 {
         let face = model.single.face(side);
         let x = &model.single.reference;
         let forces = spread::over_faces(&face, Idealisation::Space, x, |n| n * -5.0);
         let lever = |(n, f): (&NodeId, &Vec3)| (x[*n as usize] - point).cross(*f);
         let moment: Vec3 = forces.iter().map(lever).sum();
-        let terms: [std::boxed::Box<dyn Term>; 1] =
-            [std::boxed::Box::new(model.single.pressure(face, 5.0))];
+        let terms: [Box<dyn Term>; 1] = [Box::new(model.single.pressure(face, 5.0))];
         // the moment turns with the body, so that the way along a fixed axis gives moment times angle
         let axis = Vec3::new(0.48, -0.6, 0.64);
         let (work, _, _) = three_turns(&model, &terms, axis);
@@ -167,7 +162,7 @@ fn the_stiffness_of_loads_on_a_rigid_box_is_the_derivative_of_their_forces() {
         ("wedge15", Idealisation::Space),
         ("quad8", Idealisation::PlaneStrain { thickness: 2.0 }),
     ] {
-        let model = Box::new(name, space, Vec3::new(0.7, 0.2, 0.0));
+        let model = RigidBox::new(name, space, Vec3::new(0.7, 0.2, 0.0));
         let single = &model.single;
         let x = &single.reference;
         let traction = spread::over_faces(&single.face(1), space, x, |n| {
@@ -181,16 +176,10 @@ fn the_stiffness_of_loads_on_a_rigid_box_is_the_derivative_of_their_forces() {
             point: Vec3::ZERO,
             axis: Vec3::unit(2),
         };
-        let loads: [(&str, std::boxed::Box<dyn Term>); 3] = [
-            (
-                "pressure",
-                std::boxed::Box::new(single.pressure(single.face(1), 2.0)),
-            ),
-            ("dead", std::boxed::Box::new(dead)),
-            (
-                "centrifugal",
-                std::boxed::Box::new(single.centrifugal(2.0, spin)),
-            ),
+        let loads: [(&str, Box<dyn Term>); 3] = [
+            ("pressure", Box::new(single.pressure(single.face(1), 2.0))),
+            ("dead", Box::new(dead)),
+            ("centrifugal", Box::new(single.centrifugal(2.0, spin))),
         ];
         for (what, term) in loads {
             let terms = [term];
