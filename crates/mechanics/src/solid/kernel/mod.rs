@@ -54,14 +54,13 @@ pub(super) struct Output<'a> {
 }
 
 /// What is known at a quadrature point.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub(super) struct Sample {
     /// Cauchy stress.
     pub stress: Sym3,
     /// Linearized, or logarithmic at finite strain.
     pub strain: Sym3,
     pub plastic_strain: f64,
-    pub temperature: f64,
     /// Present volume that belongs to the point.
     pub volume: f64,
 }
@@ -275,7 +274,6 @@ impl Element<'_> {
             stress,
             strain,
             plastic_strain: self.material.plastic_strain(history).unwrap_or(0.0),
-            temperature: self.temperature(point),
             volume,
         }
     }

@@ -168,7 +168,7 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
             *size += at.weight * f.abs();
         }
         let (stress, tangent) = (&response.stress, &response.tangent);
-        add_stiffness(&gradient, None, at.weight, stress, tangent, false, out);
+        add_stiffness::<NT, ND, NG>(&gradient, None, at.weight, stress, tangent, false, out);
     }
     Ok(size.into_iter().fold(0.0, f64::max))
 }

@@ -78,25 +78,57 @@ pub(super) fn add_stiffness<const NN: usize, const ND: usize, const NG: usize>(
             }
         }
     }
+    // two nodes at a time share what is read of the columns
     let n = NN * ND;
-    let rows = out.stiffness.chunks_exact_mut(n).enumerate();
-    for (dof, to) in rows {
-        let (node, i) = (dof / ND, dof % ND);
+    let pairs = out.stiffness.chunks_mut(2 * n * ND).enumerate();
+    for (pair, rows) in pairs {
+        let node = 2 * pair;
         let first = if symmetric { node * ND } else { 0 };
-        let g = &gradient[node];
-        let to = &mut to[first..];
-        let of = |a: usize| &columns[i][a].as_flattened()[first..];
-        if NG == 3 {
-            let (x, y, z) = (of(0), of(1), of(2));
-            for (c, to) in to.iter_mut().enumerate() {
-                *to += g[0] * x[c] + g[1] * y[c] + g[2] * z[c];
-            }
-        } else {
-            let (x, y) = (of(0), of(1));
-            for (c, to) in to.iter_mut().enumerate() {
-                *to += g[0] * x[c] + g[1] * y[c];
+        let (upper, lower) = rows.split_at_mut(n * ND);
+        for i in 0..ND {
+            let columns = columns[i].each_ref().map(|c| &c.as_flattened()[first..]);
+            let upper = &mut upper[i * n + first..(i + 1) * n];
+            let g = &gradient[node];
+            match gradient.get(node + 1) {
+                Some(h) => add_two(upper, &mut lower[i * n + first..(i + 1) * n], g, h, columns),
+                None => add_one(upper, g, columns),
             }
         }
+    }
+}
+
+/// Adds `g_a columns_a` to a row.
+#[inline]
+fn add_one<const NG: usize>(to: &mut [f64], g: &[f64; NG], columns: [&[f64]; NG]) {
+    let columns = columns.map(|c| &c[..to.len()]);
+    for c in 0..to.len() {
+        let mut sum = 0.0;
+        for a in 0..NG {
+            sum += g[a] * columns[a][c];
+        }
+        to[c] += sum;
+    }
+}
+
+/// Adds `g_a columns_a` to one row and `h_a columns_a` to another.
+#[inline]
+fn add_two<const NG: usize>(
+    to: &mut [f64],
+    other: &mut [f64],
+    g: &[f64; NG],
+    h: &[f64; NG],
+    columns: [&[f64]; NG],
+) {
+    let columns = columns.map(|c| &c[..to.len()]);
+    let other = &mut other[..to.len()];
+    for c in 0..to.len() {
+        let (mut one, mut two) = (0.0, 0.0);
+        for a in 0..NG {
+            one += g[a] * columns[a][c];
+            two += h[a] * columns[a][c];
+        }
+        to[c] += one;
+        other[c] += two;
     }
 }
 
