@@ -110,6 +110,15 @@ pub trait ReferenceElement: Send + Sync {
     fn nnode(&self) -> usize {
         self.nodes().len()
     }
+
+    /// The number of corners, the nodes in which edges end. They come first.
+    fn ncorner(&self) -> usize {
+        match self.dim() {
+            1 => 2,
+            2 => self.edges().len(),
+            _ => self.edges().len() + 2 - self.sides().len(), // Euler
+        }
+    }
 }
 
 /// One side of an element.

@@ -13,12 +13,14 @@
 
 mod constants;
 mod neo_hookean;
+mod reduced;
 mod saint_venant_kirchhoff;
 #[cfg(test)]
 mod tests;
 
 pub use constants::{Constants, ConstantsError};
 pub use neo_hookean::NeoHookean;
+pub use reduced::Reduced;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 
 use signorini_geometry::tensor::Sym3;
@@ -76,7 +78,7 @@ pub struct Response {
     /// the strain, at fixed old history, is the stress. For elastic laws the stored energy; with plasticity the stored
     /// energy and what is dissipated.
     pub energy: f64,
-    /// The strain zz: what came in, or what a law with stress-free directions found.
+    /// The strain zz that a law with stress-free directions found; the others leave it alone.
     pub across: f64,
 }
 

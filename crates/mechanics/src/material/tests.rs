@@ -109,3 +109,81 @@ fn an_inverted_state_is_an_error() {
     );
     assert!(matches!(outcome, Err(MaterialError::Inverted { .. })));
 }
+
+fn finite(value: Sym3) -> Strain {
+    Strain::new(Kinematics::Finite, value)
+}
+
+/// The answer from the undeformed state.
+fn fresh(material: &dyn Material, strain: &Strain) -> Response {
+    let mut old = vec![0.0; material.nhistory()];
+    material.start(&mut old);
+    advance(material, strain, &mut old)
+}
+
+/// The answer from a history, which goes on.
+fn advance(material: &dyn Material, strain: &Strain, history: &mut Vec<f64>) -> Response {
+    let mut new = history.clone();
+    let mut out = Response::default();
+    material
+        .respond(strain, history, &mut new, Order::Tangent, &mut out)
+        .unwrap();
+    *history = new;
+    out
+}
+
+#[test]
+fn plane_and_uniaxial_stress_of_hooke_have_their_closed_forms() {
+    let (e, nu) = (500.0, 0.3);
+    let strain = Strain::new(
+        Kinematics::Small,
+        Sym3::new(1e-3, -2e-3, 7.0, 5e-4, 7.0, 7.0),
+    );
+    let plane = Reduced::plane_stress(Box::new(SaintVenantKirchhoff::new(e, nu)));
+    let out = fresh(&plane, &strain);
+    let c = e / (1.0 - nu * nu);
+    assert!((out.stress.xx() - c * (1e-3 - nu * 2e-3)).abs() < 1e-13);
+    assert!((out.stress.xy() - e / (1.0 + nu) * 5e-4).abs() < 1e-13);
+    assert!((out.tangent[0][0] - c).abs() < 1e-10 && (out.tangent[0][1] - nu * c).abs() < 1e-10);
+    assert!((out.across - nu / (1.0 - nu) * 1e-3).abs() < 1e-16);
+    let bar = Reduced::uniaxial(Box::new(SaintVenantKirchhoff::new(e, nu)));
+    let out = fresh(&bar, &strain);
+    assert!((out.stress.xx() - e * 1e-3).abs() < 1e-13);
+    assert!((out.tangent[0][0] - e).abs() < 1e-10);
+    assert!((out.across + nu * 1e-3).abs() < 1e-16);
+}
+
+#[test]
+fn a_stretch_of_rubber_to_any_length_finds_its_thickness_in_one_step() {
+    for nu in [0.0, 0.3, 0.499, 0.49999] {
+        for stretch in [0.02f64, 0.2, 0.7, 1.5, 4.0, 20.0] {
+            let law = Reduced::uniaxial(Box::new(NeoHookean::new(3.0, nu)));
+            let out = fresh(
+                &law,
+                &finite(Sym3::diagonal(0.5 * (stretch * stretch - 1.0), 0.0, 0.0)),
+            );
+            // μ (c − 1) + λ ln(stretch c) = 0 in c = C_zz
+            let Lame { lambda, mu } = Lame::new(3.0, nu);
+            let c = 1.0 + 2.0 * out.across;
+            let size = mu * c.max(1.0) + lambda * (stretch * c).ln().abs();
+            let left = mu * (c - 1.0) + lambda * (stretch * c).ln();
+            // round-off of E, where c is small against 1
+            let floor = 1e-14 * (mu + lambda) / c;
+            assert!(left.abs() < 1e-10 * size + floor, "{nu} {stretch}: {left}");
+        }
+    }
+}
+
+#[test]
+fn saint_venant_kirchhoff_without_thickness_left_is_an_error() {
+    let law = Reduced::plane_stress(Box::new(SaintVenantKirchhoff::new(500.0, 0.45)));
+    let strain = finite(Sym3::diagonal(1.0, 1.0, 0.0));
+    let outcome = law.respond(
+        &strain,
+        &[0.0; 3],
+        &mut [0.0; 3],
+        Order::Stress,
+        &mut Response::default(),
+    );
+    assert!(matches!(outcome, Err(MaterialError::NotConverged { .. })));
+}
