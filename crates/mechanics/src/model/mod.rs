@@ -22,6 +22,7 @@ mod parts;
 mod steps;
 
 pub use error::ModelError;
+pub use held::Unheld;
 pub use parts::{
     BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart, ContactPart, Load,
     LoadPart, Parts, SidePart, SpringPart, StepPart, Target, Unknown,
@@ -33,9 +34,8 @@ use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
 use held::Held;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::surface::Carrier;
 use signorini_geometry::tensor::Vec3;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// What a contact became.
@@ -67,8 +67,8 @@ pub struct Model {
     pub contacts: Vec<ContactSummary>,
     /// Nodes that no body uses: they take no part.
     pub unused: Vec<NodeId>,
-    /// Bodies that nothing but contact holds.
-    pub held_by_contact: Vec<String>,
+    /// Motions of bodies that nothing but contact stops.
+    pub held_by_contact: Vec<Unheld>,
 }
 
 impl Model {
@@ -82,8 +82,8 @@ impl Model {
             space,
             bodies,
             carriers,
-            springs: _,
-            constraints: _,
+            springs,
+            constraints,
             contacts,
             temperature,
             steps,
@@ -97,7 +97,6 @@ impl Model {
             nrigid: elimination.bodies().len(),
             nmultiplier: 0,
         };
-        let names: Vec<String> = bodies.iter().map(|b| b.name.clone()).collect();
         let modulus: Vec<Option<f64>> = bodies
             .iter()
             .map(|b| b.kind.material().map(|m| m.modulus()))
@@ -106,7 +105,10 @@ impl Model {
             return Err(ModelError::NothingDeforms);
         }
         let body_of_node = nodes_by_body(mesh, &bodies);
-        let held = Held::new(mesh, &bodies);
+        let mut held = Held::new(mesh, space, &bodies, &carriers, &elimination);
+        held.springs(&springs);
+        held.constraints(&constraints);
+        contacts.iter().for_each(|contact| held.contact(contact));
         let temperature = temperatures(temperature, &steps);
 
         let mut terms: Vec<Box<dyn Term>> = Vec::new();
@@ -145,22 +147,17 @@ impl Model {
             layout,
         };
         let mut summaries = Vec::new();
-        let mut touching = BTreeSet::new();
         for contact in contacts {
             let (parts, summary) = context.contact(contact)?;
-            touching.extend(parts.pair.points.iter().copied());
-            touching.extend((0..parts.pair.primary.nfacet() as u32).flat_map(|f| {
-                match parts.pair.primary.carrier(f) {
-                    Carrier::Nodes(nodes) => nodes.to_vec(),
-                    _ => Vec::new(),
-                }
-            }));
             terms.push(Box::new(Interface::new(parts, layout, elimination.clone())));
             summaries.push(summary);
         }
         let (steps, loads) = context.steps(steps)?;
         terms.extend(loads);
-        let held_by_contact = held.judge(&names, &layout, &steps, &elimination, &touching)?;
+        if let Some(first) = steps.first() {
+            held.supports(&layout, &first.prescriptions);
+        }
+        let held_by_contact = held.judge()?;
 
         let unused = (0..mesh.nnode() as NodeId)
             .filter(|n| body_of_node.get(*n as usize).is_none_or(|b| *b == u32::MAX))

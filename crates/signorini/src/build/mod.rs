@@ -200,12 +200,13 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
             return Err(found);
         }
     };
-    for body in &model.held_by_contact {
+    for unheld in &model.held_by_contact {
         found.push(
             Diagnostic::warning(
                 &codes::HELD_BY_CONTACT,
-                format!("body \"{body}\" is held only by contact"),
+                format!("{unheld} is held only by contact"),
             )
+            .note(format!("without contact it is free to {}", unheld.motion))
             .help("hold it by a support, or prescribe its motion with `move` instead of `load`"),
         );
     }
@@ -585,9 +586,12 @@ fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             of_contact(contact).map(|c| &c.place),
             "give one of the bodies a `material`, or a `penalty` to the contact",
         ),
-        ModelError::FreeBody { body } => (
+        ModelError::FreeBody(free) => (
             &codes::FREE_BODY,
-            of_body(body).map(|b| &b.place),
+            free.bodies
+                .first()
+                .and_then(|b| of_body(b))
+                .map(|b| &b.place),
             "add a [[step.fix]] or [[step.move]] on it in the first step",
         ),
         ModelError::Clash { step, .. } => (
