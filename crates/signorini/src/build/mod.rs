@@ -211,6 +211,10 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         );
     }
 
+    found.append(stiff_elements(&case, &names, &mesh));
+    let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
+    found.silence(&allowed);
+
     let contacts: Vec<ContactInfo> = model
         .contacts
         .iter()
@@ -277,6 +281,38 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         by_label,
         mesh: Arc::new(mesh),
     })
+}
+
+/// Elements that are too stiff in bending.
+const STIFF: [&str; 3] = ["tri3", "tet4", "wedge6"];
+
+/// A warning for each deformable body of linear triangles, tetrahedra or wedges.
+fn stiff_elements(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Diagnostics {
+    let mut found = Diagnostics::new();
+    for body in case.bodies.iter().filter(|b| !b.rigid) {
+        let groups = body.groups.iter();
+        let cells = groups.flat_map(|g| names.solids(g, &mut Diagnostics::new()));
+        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        for element in cells.filter_map(|cell| mesh.element(cell)) {
+            if STIFF.contains(&element.name()) {
+                *kinds.entry(element.name()).or_default() += 1;
+            }
+        }
+        if kinds.is_empty() {
+            continue;
+        }
+        let counts: Vec<String> = kinds.iter().map(|(k, n)| format!("{n} {k}")).collect();
+        let group = body.groups.first().map_or("", |g| g.value.as_str());
+        found.push(
+            Diagnostic::warning(
+                &codes::STIFF_ELEMENTS,
+                format!("body \"{group}\" has {}: too stiff in bending", counts.join(", ")),
+            )
+            .at(&body.place, "")
+            .help("use quad4 or hex8, elements of second order, or several over the thickness; allow = [\"S0404\"] silences"),
+        );
+    }
+    found
 }
 
 fn wrong_dimension(case: &Case, mesh: &Mesh, ndim: usize) -> Diagnostic {

@@ -56,6 +56,19 @@ impl Volume {
     /// # Errors
     /// Arrays of another mesh.
     pub fn encode(&self, frame: &Frame) -> Result<Vec<u8>, VtuError> {
+        self.encode_with(frame, &[], &[])
+    }
+
+    /// The bytes of a frame with more fields at nodes and in cells, these in the order of the mesh.
+    ///
+    /// # Errors
+    /// Arrays of another mesh.
+    pub fn encode_with(
+        &self,
+        frame: &Frame,
+        more_at_nodes: &[Field<'_>],
+        more_in_cells: &[Field<'_>],
+    ) -> Result<Vec<u8>, VtuError> {
         let displacement = vectors(&frame.displacement);
         let reaction = vectors(&frame.reaction_force);
         let force = vectors(&frame.contact_force);
@@ -88,6 +101,8 @@ impl Volume {
             at_nodes.push(Field::new("contact_pressure", pressure));
             at_nodes.push(Field::new("contact_force", Values::Vector(&force)));
         }
+        at_nodes.extend_from_slice(more_at_nodes);
+        in_cells.extend_from_slice(more_in_cells);
         at_nodes.push(Field::new("node_id", Values::Int64(&self.node_ids)));
         in_cells.push(Field::new("element_id", Values::Int64(&self.element_ids)));
         self.write(&at_nodes, &in_cells, frame)

@@ -1,0 +1,181 @@
+//! What can be said about a model before anything is solved: sizes, shapes of elements, free motions, gaps, overlaps,
+//! memory and time.
+
+mod cost;
+mod picture;
+mod quality;
+
+pub use picture::picture;
+pub use quality::Quality;
+
+use crate::build::Model;
+use crate::run::{Start, begin};
+use crate::text::{count, plural, short};
+use signorini_geometry::mesh::{CellId, Mesh};
+use signorini_geometry::tensor::Vec3;
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_mechanics::system::ContactFrame;
+use std::collections::BTreeSet;
+
+/// Elements that a message lists by number.
+const NLISTED: usize = 8;
+
+/// A look at a model.
+#[derive(Clone, Debug)]
+pub struct Preview {
+    /// The undeformed state.
+    pub start: Start,
+    /// The shapes of the elements.
+    pub quality: Quality,
+    /// What there is to say, line by line.
+    pub lines: Vec<String>,
+}
+
+/// Looks at a model.
+///
+/// # Errors
+/// Elements without volume, and any other undeformed state that cannot be evaluated: exit code 4.
+pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
+    let quality = Quality::new(&model.mesh);
+    if let Some(found) = bad_elements(model, &quality) {
+        return Err(found.into());
+    }
+    let start = begin(model)?;
+    let mesh = &model.mesh;
+    let mut lines = Vec::new();
+    lines.push(plural(mesh.nnode(), "node"));
+    let solids = mesh.blocks.iter().filter(|b| b.element.dim() == mesh.dim());
+    let cells: Vec<String> = solids
+        .map(|b| format!("{} {}", count(b.ncell()), b.element.name()))
+        .collect();
+    lines.push(format!("elements: {}", cells.join(", ")));
+    lines.push(plural(start.nunknown, "unknown"));
+    lines.extend(shapes(mesh, &quality));
+    for body in &model.case.bodies {
+        let groups: Vec<&str> = body.groups.iter().map(|g| g.value.as_str()).collect();
+        let nodes = groups.iter().filter_map(|g| model.nodes_of(g)).flatten();
+        let nodes: BTreeSet<u32> = nodes.collect();
+        let kind = match &body.material {
+            Some(material) if !body.rigid => format!("of {}", material.value),
+            _ => "rigid".to_owned(),
+        };
+        lines.push(format!(
+            "body {}: {kind}, {}",
+            groups.join(" + "),
+            plural(nodes.len(), "node")
+        ));
+    }
+    for info in &model.contacts {
+        lines.push(format!(
+            "contact {}: {}, penalty {} per {}, {} against {} of size {}",
+            info.name,
+            info.method,
+            short(info.penalty),
+            info.per,
+            plural(info.npoint, "point"),
+            plural(info.nfacet, "facet"),
+            short(info.facet_size)
+        ));
+        let contact = start.frame.contacts.iter().find(|c| c.name == info.name);
+        lines.extend(contact.map(|c| gaps(c, model)));
+    }
+    lines.extend(cost::line(model));
+    Ok(Preview {
+        start,
+        quality,
+        lines,
+    })
+}
+
+/// The gaps of a contact in words.
+fn gaps(contact: &ContactFrame, model: &Model) -> String {
+    let near: Vec<(usize, f64)> = contact
+        .gap
+        .iter()
+        .copied()
+        .enumerate()
+        .filter(|(_, gap)| gap.is_finite())
+        .collect();
+    let Some(&(at, gap)) = near.iter().min_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return "  nothing of the other side is within reach".to_owned();
+    };
+    let node = contact.nodes.get(at);
+    let label = node.and_then(|&n| model.mesh.node_labels.get(n as usize));
+    let label = label.map_or_else(String::new, |l| format!(" at node {l}"));
+    let touching = near.iter().filter(|(_, gap)| *gap <= 0.0).count();
+    let gap = if gap < 0.0 {
+        format!("largest initial overlap {}{label}", short(-gap))
+    } else {
+        format!("smallest gap {}{label}", short(gap))
+    };
+    let area: f64 = near.iter().filter_map(|(k, _)| contact.area.get(*k)).sum();
+    let area = match contact.area.is_empty() {
+        true => String::new(),
+        false => format!(" on an area of {}", short(area)),
+    };
+    format!(
+        "  {} within reach{area}, {touching} touching, {gap}",
+        plural(near.len(), "point")
+    )
+}
+
+/// The shapes of the elements in two lines.
+fn shapes(mesh: &Mesh, quality: &Quality) -> Vec<String> {
+    let Some((worst, eta)) = quality.worst() else {
+        return Vec::new();
+    };
+    let tenths: Vec<String> = quality.histogram.iter().map(|&n| count(n)).collect();
+    vec![
+        format!(
+            "quality (1 ideal, 0 flat): worst {eta:.2}, {} at {}",
+            mesh.element(worst).map_or("", |e| e.name()),
+            center(mesh, worst)
+        ),
+        format!("  elements by tenths from 0 to 1: {}", tenths.join(" | ")),
+    ]
+}
+
+/// `element 17 (x = 1.00, y = 0, z = 2.50)`.
+fn center(mesh: &Mesh, cell: CellId) -> String {
+    let nodes = mesh.cell(cell).iter();
+    let points = nodes.filter_map(|&n| mesh.points.get(n as usize).copied());
+    let (sum, n) = points.fold((Vec3::ZERO, 0.0), |(s, n), x| (s + x, n + 1.0));
+    let at = sum / f64::max(n, 1.0);
+    format!(
+        "element {} (x = {}, y = {}, z = {})",
+        mesh.cell_label(cell).unwrap_or(0),
+        short(at.x),
+        short(at.y),
+        short(at.z)
+    )
+}
+
+/// The message for deformable elements without volume, all of them at once.
+fn bad_elements(model: &Model, quality: &Quality) -> Option<Diagnostic> {
+    let deformable = model.case.bodies.iter().filter(|b| !b.rigid);
+    let groups = deformable.flat_map(|b| &b.groups);
+    let nodes = groups.filter_map(|g| model.nodes_of(&g.value)).flatten();
+    let nodes: BTreeSet<u32> = nodes.collect();
+    let mesh = &model.mesh;
+    let is_deformable = |cell: &CellId| mesh.cell(*cell).iter().all(|n| nodes.contains(n));
+    let bad: Vec<CellId> = quality.bad().filter(is_deformable).collect();
+    let first = bad.first()?;
+    let labels = bad.iter().filter_map(|&cell| mesh.cell_label(cell));
+    let mut listed: Vec<String> = labels.take(NLISTED).map(|l| l.to_string()).collect();
+    if bad.len() > NLISTED {
+        listed.push(format!("and {} more", count(bad.len() - NLISTED)));
+    }
+    let have = if bad.len() == 1 { "has" } else { "have" };
+    Some(
+        Diagnostic::error(
+            &codes::BAD_ELEMENTS,
+            format!(
+                "{} {have} zero or negative volume, or a corner turned inside out",
+                plural(bad.len(), "element")
+            ),
+        )
+        .note(format!("elements: {}", listed.join(", ")))
+        .note(format!("the first is {}", center(mesh, *first)))
+        .help("remesh, or correct the order of the nodes"),
+    )
+}
