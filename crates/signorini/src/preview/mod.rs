@@ -109,7 +109,7 @@ fn gaps(contact: &ContactFrame, model: &Model) -> String {
         format!("smallest gap {}{label}", short(gap))
     };
     let area: f64 = near.iter().filter_map(|(k, _)| contact.area.get(*k)).sum();
-    let area = match contact.area.is_empty() {
+    let area = match contact.facets.is_empty() {
         true => String::new(),
         false => format!(" on an area of {}", short(area)),
     };
