@@ -27,6 +27,8 @@ pub struct Preview {
     pub start: Start,
     /// The shapes of the elements.
     pub quality: Quality,
+    /// What is unusual.
+    pub warnings: Diagnostics,
     /// What there is to say, line by line.
     pub lines: Vec<String>,
 }
@@ -34,12 +36,15 @@ pub struct Preview {
 /// Looks at a model.
 ///
 /// # Errors
-/// Elements without volume, and any other undeformed state that cannot be evaluated: exit code 4.
+/// An undeformed state that cannot be evaluated: exit code 4.
 pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
     let quality = Quality::new(&model.mesh);
-    if let Some(found) = bad_elements(model, &quality) {
-        return Err(found.into());
-    }
+    let mut warnings = Diagnostics::new();
+    flat_corners(model, &quality)
+        .into_iter()
+        .for_each(|one| warnings.push(one));
+    let allowed: Vec<&str> = model.case.allow.iter().map(String::as_str).collect();
+    warnings.silence(&allowed);
     let start = begin(model)?;
     let mesh = &model.mesh;
     let mut lines = Vec::new();
@@ -83,6 +88,7 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
     Ok(Preview {
         start,
         quality,
+        warnings,
         lines,
     })
 }
@@ -150,8 +156,8 @@ fn center(mesh: &Mesh, cell: CellId) -> String {
     )
 }
 
-/// The message for deformable elements without volume, all of them at once.
-fn bad_elements(model: &Model, quality: &Quality) -> Option<Diagnostic> {
+/// A warning of deformable elements with a corner at which they have no volume, all of them at once.
+fn flat_corners(model: &Model, quality: &Quality) -> Option<Diagnostic> {
     let deformable = model.case.bodies.iter().filter(|b| !b.rigid);
     let groups = deformable.flat_map(|b| &b.groups);
     let nodes = groups.filter_map(|g| model.nodes_of(&g.value)).flatten();
@@ -165,17 +171,17 @@ fn bad_elements(model: &Model, quality: &Quality) -> Option<Diagnostic> {
     if bad.len() > NLISTED {
         listed.push(format!("and {} more", count(bad.len() - NLISTED)));
     }
-    let have = if bad.len() == 1 { "has" } else { "have" };
+    let has = if bad.len() == 1 { "has" } else { "have" };
     Some(
-        Diagnostic::error(
-            &codes::BAD_ELEMENTS,
+        Diagnostic::warning(
+            &codes::MESH_NOTE,
             format!(
-                "{} {have} zero or negative volume, or a corner turned inside out",
+                "{} {has} a corner that is flat or turned inside out",
                 plural(bad.len(), "element")
             ),
         )
         .note(format!("elements: {}", listed.join(", ")))
         .note(format!("the first is {}", center(mesh, *first)))
-        .help("remesh, or correct the order of the nodes"),
+        .help("look for quality 0 in check.vtu; remesh there"),
     )
 }
