@@ -21,7 +21,7 @@ mod loads;
 mod parts;
 mod steps;
 
-pub use error::ModelError;
+pub use error::{LoadError, ModelError};
 pub use held::Unheld;
 pub use parts::{
     BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart, ContactPart, Load,
@@ -33,6 +33,7 @@ use crate::solid::{Solid, SolidParts};
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
 use held::Held;
+use loads::Substance;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
@@ -104,6 +105,7 @@ impl Model {
         if modulus.iter().all(Option::is_none) {
             return Err(ModelError::NothingDeforms);
         }
+        let substances: Vec<Substance> = bodies.iter().map(Substance::from).collect();
         let body_of_node = nodes_by_body(mesh, &bodies);
         let mut held = Held::new(mesh, space, &bodies, &carriers, &elimination);
         held.springs(&springs);
@@ -141,6 +143,7 @@ impl Model {
             reference: &reference,
             owner: &owner,
             modulus: &modulus,
+            substances: &substances,
             elimination: &elimination,
             carriers: &carriers,
             space,
@@ -239,9 +242,10 @@ fn label(mesh: &Mesh, node: NodeId) -> u64 {
 /// What the parts of a model are made from.
 struct Context<'a> {
     mesh: &'a Mesh,
-    reference: &'a [Vec3],
+    reference: &'a Arc<[Vec3]>,
     owner: &'a HashMap<CellId, usize>,
     modulus: &'a [Option<f64>],
+    substances: &'a [Substance],
     elimination: &'a Elimination,
     carriers: &'a [CarrierPart],
     space: Idealisation,
