@@ -47,7 +47,7 @@ pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Pa
     let is_by_contact = |one: &Diagnostic| one.code.id == codes::HELD_BY_CONTACT.id;
     let is_held = !found.iter().any(is_by_contact);
     let output = signorini::run::check_output(&model);
-    let mut preview = match preview::preview(&mut model) {
+    let preview = match preview::preview(&mut model) {
         Ok(preview) if output.is_ok() => preview,
         seen => {
             for wrong in [output.err(), seen.err()].into_iter().flatten() {
@@ -56,7 +56,6 @@ pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Pa
             return refused(&found);
         }
     };
-    found.append(std::mem::take(&mut preview.warnings));
     Console::stderr().findings(&found);
     let out = Console::stdout();
     for line in &preview.lines {

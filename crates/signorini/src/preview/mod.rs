@@ -13,12 +13,9 @@ use crate::run::{Start, begin};
 use crate::text::{count, plural, short};
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::Vec3;
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_io::diagnostic::Diagnostics;
 use signorini_mechanics::system::ContactFrame;
 use std::collections::BTreeSet;
-
-/// Elements that a message lists by number.
-const NLISTED: usize = 8;
 
 /// A look at a model.
 #[derive(Clone, Debug)]
@@ -27,8 +24,6 @@ pub struct Preview {
     pub start: Start,
     /// The shapes of the elements.
     pub quality: Quality,
-    /// What is unusual.
-    pub warnings: Diagnostics,
     /// What there is to say, line by line.
     pub lines: Vec<String>,
 }
@@ -39,12 +34,6 @@ pub struct Preview {
 /// An undeformed state that cannot be evaluated: exit code 4.
 pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
     let quality = Quality::new(&model.mesh);
-    let mut warnings = Diagnostics::new();
-    flat_corners(model, &quality)
-        .into_iter()
-        .for_each(|one| warnings.push(one));
-    let allowed: Vec<&str> = model.case.allow.iter().map(String::as_str).collect();
-    warnings.silence(&allowed);
     let start = begin(model)?;
     let mesh = &model.mesh;
     let mut lines = Vec::new();
@@ -88,7 +77,6 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
     Ok(Preview {
         start,
         quality,
-        warnings,
         lines,
     })
 }
@@ -153,35 +141,5 @@ fn center(mesh: &Mesh, cell: CellId) -> String {
         short(at.x),
         short(at.y),
         short(at.z)
-    )
-}
-
-/// A warning of deformable elements with a corner at which they have no volume, all of them at once.
-fn flat_corners(model: &Model, quality: &Quality) -> Option<Diagnostic> {
-    let deformable = model.case.bodies.iter().filter(|b| !b.rigid);
-    let groups = deformable.flat_map(|b| &b.groups);
-    let nodes = groups.filter_map(|g| model.nodes_of(&g.value)).flatten();
-    let nodes: BTreeSet<u32> = nodes.collect();
-    let mesh = &model.mesh;
-    let is_deformable = |cell: &CellId| mesh.cell(*cell).iter().all(|n| nodes.contains(n));
-    let bad: Vec<CellId> = quality.bad().filter(is_deformable).collect();
-    let first = bad.first()?;
-    let labels = bad.iter().filter_map(|&cell| mesh.cell_label(cell));
-    let mut listed: Vec<String> = labels.take(NLISTED).map(|l| l.to_string()).collect();
-    if bad.len() > NLISTED {
-        listed.push(format!("and {} more", count(bad.len() - NLISTED)));
-    }
-    let has = if bad.len() == 1 { "has" } else { "have" };
-    Some(
-        Diagnostic::warning(
-            &codes::MESH_NOTE,
-            format!(
-                "{} {has} a corner that is flat or turned inside out",
-                plural(bad.len(), "element")
-            ),
-        )
-        .note(format!("elements: {}", listed.join(", ")))
-        .note(format!("the first is {}", center(mesh, *first)))
-        .help("look for quality 0 in check.vtu; remesh there"),
     )
 }

@@ -44,12 +44,6 @@ impl Quality {
         quality
     }
 
-    /// The cells without volume or turned inside out.
-    pub fn bad(&self) -> impl Iterator<Item = CellId> + '_ {
-        let bad = self.cells.iter().filter(|(_, eta)| *eta <= 0.0);
-        bad.map(|(cell, _)| *cell)
-    }
-
     /// The worst cell.
     pub fn worst(&self) -> Option<(CellId, f64)> {
         let cells = self.cells.iter().copied();
