@@ -595,6 +595,11 @@ fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             of_step(step).map(|s| &s.place),
             "take the node out of one of the two sets",
         ),
+        ModelError::Constraint(_) => (
+            &codes::CLASH,
+            None,
+            "take out what is said twice, or what cannot be followed",
+        ),
         ModelError::OnRigidNode { body, .. } => (
             &codes::CLASH,
             of_body(body).map(|b| &b.place),
