@@ -7,6 +7,8 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+type Terms = Vec<Box<dyn Term>>;
+
 /// Component of a carrier along the axis of an axisymmetric model.
 const AXIAL: usize = 1;
 
@@ -71,10 +73,7 @@ impl Context<'_> {
     }
 
     /// What is prescribed in each step, and the loads of all steps as terms.
-    pub(super) fn steps(
-        &self,
-        parts: Vec<StepPart>,
-    ) -> Result<(Vec<Step>, Vec<Box<dyn Term>>), ModelError> {
+    pub(super) fn steps(&self, parts: Vec<StepPart>) -> Result<(Vec<Step>, Terms), ModelError> {
         let mut prescribed: BTreeMap<Dof, Motion> = BTreeMap::new();
         for body in 0..self.layout.nrigid as RigidId {
             for dof in components(&self.layout, body).filter(|d| !self.ties.free.contains(d)) {
