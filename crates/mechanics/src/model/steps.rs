@@ -145,7 +145,8 @@ impl Context<'_> {
                 prescriptions: prescriptions.collect(),
             });
         }
-        Ok((steps, loads::terms(self, loads)?))
+        let terms = loads::terms(self, &steps, loads)?;
+        Ok((steps, terms))
     }
 
     /// The unknowns of carriers along which loads act.

@@ -10,6 +10,8 @@ use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::sync::Arc;
 
+mod speed;
+
 const ELEMENTS: [&str; 5] = ["tri3", "quad4", "tet4", "hex8", "wedge6"];
 
 /// Numbers in [-1, 1] that look random and are the same in every run.
@@ -39,7 +41,7 @@ fn single(name: &str, law: usize, nonlinear: bool) -> (Solid, Layout, Arc<[Vec3]
         nmultiplier: 0,
     };
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
-    let material = (TABLE[law].make)(&Constants::elastic(500.0, 0.3)).unwrap();
+    let material = (TABLE[law].make)(&Constants::sample()).unwrap();
     let mut solid = Solid::new(SolidParts {
         name: "body",
         mesh: &mesh,
