@@ -639,6 +639,11 @@ fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             of_step(step).map(|s| &s.place),
             "take the node out of one of the two sets",
         ),
+        ModelError::Constraint(_) => (
+            &codes::CLASH,
+            None,
+            "take out what is said twice, or what cannot be followed",
+        ),
         ModelError::Load { load, .. } => (
             &codes::WRONG_KIND,
             of_load(load).map(|l| &l.place),
