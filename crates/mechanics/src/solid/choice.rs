@@ -2,6 +2,7 @@ use super::kernel::Remedy;
 use crate::material::{Kinematics, Material, Order, Response, Strain};
 use crate::system::Idealisation;
 use signorini_geometry::element::ReferenceElement;
+use signorini_geometry::element::quadrature::{self, Rule};
 use signorini_geometry::tensor::Sym3;
 use std::fmt;
 
@@ -153,6 +154,19 @@ impl Situation {
             Locking::Incompatible
         } else {
             Locking::None
+        }
+    }
+
+    /// The quadrature rule; more points than usual where fewer would leave motions free: beside the axis of revolution,
+    /// where the hoop is a strain of its own, and in tetrahedra whose dilatation counts only once.
+    pub fn rule(&self, projected: bool) -> &'static Rule {
+        let revolved = self.space == Idealisation::Axisymmetric;
+        match (self.element.name(), self.integration) {
+            ("tri3", _) if revolved => &quadrature::TRI_3,
+            ("tri6", _) if revolved => &quadrature::TRI_6,
+            ("tet10", _) if projected => &quadrature::TET_14,
+            (_, Integration::Full) => self.element.full_rule(),
+            (_, Integration::Reduced) => self.element.reduced_rule(),
         }
     }
 

@@ -29,6 +29,8 @@ mod report;
 mod term;
 #[cfg(test)]
 mod tests;
+mod truss;
 
 pub use choice::{Integration, Locking};
 pub use term::{Solid, SolidError, SolidParts};
+pub use truss::{Truss, TrussParts};
