@@ -127,7 +127,11 @@ impl Model {
 
         let mut terms: Vec<Box<dyn Term>> = Vec::new();
         let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
-        sizes.retain(|k| steps.iter().any(|s| s.nonlinear == (*k == Kinematics::Finite)));
+        sizes.retain(|k| {
+            steps
+                .iter()
+                .any(|s| s.nonlinear == (*k == Kinematics::Finite))
+        });
         let mut locking_chosen = Vec::new();
         for body in bodies {
             let (name, cells) = (&*body.name, &*body.cells);

@@ -24,9 +24,9 @@ pub enum Locking {
     Auto,
     /// Nothing.
     None,
-    /// The volumetric strain is averaged over the element; small strain.
+    /// The volumetric strain is projected onto a coarser field; small strain.
     BBar,
-    /// The volume ratio is averaged over the element, in variational form; finite strain.
+    /// The volume ratio is projected onto a coarser field, in variational form; finite strain.
     FBar,
     /// Incompatible modes, condensed; small strain only, for they are unstable in compression at finite strain.
     Incompatible,
@@ -174,7 +174,7 @@ impl Situation {
     /// enough bubbles for it.
     pub fn ndilatation(&self) -> usize {
         match self.element.name() {
-            "quad9" | "hex27" => 1 + self.element.dim(),
+            "quad8" | "quad9" | "hex20" | "hex27" => 1 + self.element.dim(),
             _ => 1,
         }
     }

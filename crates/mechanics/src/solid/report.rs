@@ -122,7 +122,9 @@ pub(super) fn add(
             *to = *to + (value - *to) * share;
         }
         if plastic && let Some(to) = frame.plastic_strain.get_mut(node) {
-            let value: f64 = pairs().map(|(s, w)| s.plastic_strain.unwrap_or(0.0) * w).sum();
+            let value: f64 = pairs()
+                .map(|(s, w)| s.plastic_strain.unwrap_or(0.0) * w)
+                .sum();
             // an equivalent strain is never negative, extrapolated or not
             *to += (value.max(0.0) - *to) * share;
         }

@@ -367,7 +367,11 @@ impl Term for Truss {
             scratch.dofs.clear();
             scratch.dofs.extend(bar.nodes.iter().flat_map(of_node));
             let n = scratch.dofs.len();
-            out.add(&scratch.dofs, &local.force[..n], &local.stiffness[..stiff * n * n]);
+            out.add(
+                &scratch.dofs,
+                &local.force[..n],
+                &local.stiffness[..stiff * n * n],
+            );
         }
         Ok(())
     }
@@ -422,7 +426,14 @@ impl Term for Truss {
                     strain = 0.5 * (2.0 * strain).ln_1p();
                 }
                 let t = point.along.normalized().unwrap_or_default();
-                let dyad = Sym3::new(t.x * t.x, t.y * t.y, t.z * t.z, t.x * t.y, t.y * t.z, t.x * t.z);
+                let dyad = Sym3::new(
+                    t.x * t.x,
+                    t.y * t.y,
+                    t.z * t.z,
+                    t.x * t.y,
+                    t.y * t.z,
+                    t.x * t.z,
+                );
                 let plastic = self.material.plastic_strain(history);
                 mean.add(point.weight, dyad * stress, dyad * strain, plastic);
             })?;

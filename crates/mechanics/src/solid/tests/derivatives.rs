@@ -114,10 +114,16 @@ fn check(body: &Body, potential: bool, what: &str) {
             let [a, b, c, d] = columns.each_ref().map(|f| f[i]);
             let k = (8.0 * (a - b) - (c - d)) / (12.0 * h);
             let error = (k - at.stiffness[i * n + j]).abs();
-            assert!(error < 1e-7 * scale, "{what}: stiffness {i} {j} off by {error:e}");
+            assert!(
+                error < 1e-7 * scale,
+                "{what}: stiffness {i} {j} off by {error:e}"
+            );
             if potential {
                 let turned = (at.stiffness[i * n + j] - at.stiffness[j * n + i]).abs();
-                assert!(turned < 1e-11 * scale, "{what}: {i} {j} unsymmetric by {turned:e}");
+                assert!(
+                    turned < 1e-11 * scale,
+                    "{what}: {i} {j} unsymmetric by {turned:e}"
+                );
             }
         }
     }
@@ -153,8 +159,9 @@ fn forces_are_the_gradient_of_energy_and_stiffness_that_of_forces_for_all_that_i
                     };
                     for (law, make) in LAWS {
                         let name = element.name();
-                        let what =
-                            format!("{name} {space:?} {kinematics:?} {locking} {integration:?} {law}");
+                        let what = format!(
+                            "{name} {space:?} {kinematics:?} {locking} {integration:?} {law}"
+                        );
                         let made = body(&mesh, make(), &wish);
                         assert_eq!(made.is_ok(), allowed(name, &wish), "{what}");
                         let Ok(body) = made else {
@@ -164,8 +171,8 @@ fn forces_are_the_gradient_of_energy_and_stiffness_that_of_forces_for_all_that_i
                         // a sheet of an unsymmetric law: its search for the thickness wants a potential
                         let sheet = matches!(space, Idealisation::PlaneStress { .. });
                         let potential = law != "unsymmetric";
-                        let distinct = integration == Integration::Full
-                            || ["quad8", "hex20"].contains(&name);
+                        let distinct =
+                            integration == Integration::Full || ["quad8", "hex20"].contains(&name);
                         if !distinct || locking == Locking::Auto || (sheet && !potential) {
                             continue;
                         }

@@ -44,7 +44,10 @@ fn history_moves_on_when_accepted_and_comes_back_from_an_archive() {
         let again = resumed.assemble(&u, Order::Residual, &mut work).force;
         assert_eq!(after, again, "{element} {locking}");
         let frame = body.report(&u);
-        assert!(frame.cell_plastic_strain[0][0] > 0.0 && frame.plastic_strain.len() == body.layout.nnode);
+        assert!(
+            frame.cell_plastic_strain[0][0] > 0.0
+                && frame.plastic_strain.len() == body.layout.nnode
+        );
     }
 }
 
@@ -74,7 +77,9 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
     let space = Idealisation::Space;
     let mesh = one(element::by_name("hex8").unwrap(), space);
     let wish = Wish::plain(space, Kinematics::Small);
-    let Body { layout, reference, .. } = body(&mesh, Box::new(Warm), &wish).unwrap();
+    let Body {
+        layout, reference, ..
+    } = body(&mesh, Box::new(Warm), &wish).unwrap();
     // linear in space, and half way through the second step between its ends
     let row = |scale: f64| reference.iter().map(|x| scale * (3.0 + x.x)).collect();
     let field = NodalField {
@@ -136,5 +141,8 @@ fn a_step_of_the_other_size_of_strains_is_refused_where_the_remedy_ends() {
     let Err(TermError::Refused { message }) = refused else {
         panic!("{refused:?}");
     };
-    assert!(message.contains("incompatible") && message.contains("hex8"), "{message}");
+    assert!(
+        message.contains("incompatible") && message.contains("hex8"),
+        "{message}"
+    );
 }

@@ -126,7 +126,10 @@ fn cook(name: &str, locking: Locking, integration: Integration, n: usize, nu: f6
     let wish = Wish {
         locking,
         integration,
-        ..Wish::plain(Idealisation::PlaneStrain { thickness: 1.0 }, Kinematics::Small)
+        ..Wish::plain(
+            Idealisation::PlaneStrain { thickness: 1.0 },
+            Kinematics::Small,
+        )
     };
     let body = body(&mesh, law, &wish).unwrap();
     let ndof = body.layout.ndof();
@@ -145,7 +148,11 @@ fn cook(name: &str, locking: Locking, integration: Integration, n: usize, nu: f6
     // Simpson's weights where sides have mid nodes
     let quadratic = edge.len() == 2 * n + 1;
     for (k, &node) in edge.iter().enumerate() {
-        let end = if k == 0 || k == edge.len() - 1 { 0.5 } else { 1.0 };
+        let end = if k == 0 || k == edge.len() - 1 {
+            0.5
+        } else {
+            1.0
+        };
         let share = match (quadratic, k % 2) {
             (true, 1) => 4.0 / 6.0 / n as f64,
             (true, _) => 2.0 * end / 6.0 / n as f64,
@@ -161,22 +168,30 @@ fn cook(name: &str, locking: Locking, integration: Integration, n: usize, nu: f6
 fn remedies_free_cooks_membrane_of_a_nearly_incompressible_material() {
     let nu = 0.4999;
     let reference = cook("quad9", Locking::BBar, Integration::Full, 12, nu);
-    println!("reference {reference:.4}");
-    for (name, locking, integration, n, within) in [
-        ("quad4", Locking::BBar, Integration::Full, 16, 0.03),
-        ("quad4", Locking::Incompatible, Integration::Full, 16, 0.03),
-        ("tri6", Locking::BBar, Integration::Full, 8, 0.03),
-        ("quad8", Locking::BBar, Integration::Full, 8, 0.03),
-        ("quad8", Locking::None, Integration::Reduced, 8, 0.03),
-        ("quad9", Locking::BBar, Integration::Full, 8, 0.03),
+    for (name, locking, integration, n) in [
+        ("quad4", Locking::BBar, Integration::Full, 16),
+        ("quad4", Locking::Incompatible, Integration::Full, 16),
+        ("tri6", Locking::BBar, Integration::Full, 8),
+        ("quad8", Locking::BBar, Integration::Full, 8),
+        ("quad8", Locking::None, Integration::Reduced, 8),
+        ("quad9", Locking::BBar, Integration::Full, 8),
     ] {
         let cured = cook(name, locking, integration, n, nu);
         let locked = cook(name, Locking::None, Integration::Full, n, nu);
-        println!("{name} {locking} {integration:?}: {cured:.4}, without {locked:.4}");
-        assert!((cured - reference).abs() < within * reference, "{name} {locking}: {cured}");
+        println!(
+            "{name} {locking} {integration:?}: {cured:.4}, without {locked:.4}, {reference:.4}"
+        );
+        let (left, before) = ((cured - reference).abs(), (locked - reference).abs());
+        assert!(
+            left < 0.6 * before && left < 0.04 * reference,
+            "{name} {locking}: {cured}"
+        );
     }
     let locked = cook("quad4", Locking::None, Integration::Full, 16, nu);
-    assert!(locked < 0.75 * reference, "a membrane that does not lock proves nothing: {locked}");
+    assert!(
+        locked < 0.5 * reference,
+        "a membrane that does not lock proves nothing: {locked}"
+    );
 }
 
 /// Errors against a smooth flow without divergence, `u = rot ψ`, with pressure `p` of its own:
@@ -243,7 +258,7 @@ fn errors(name: &str, locking: Locking, integration: Integration, n: usize) -> [
             }
         });
     }
-    // on the boundary the exact displacement, but one free side that lets the pressure find its level
+    // the exact displacement on the boundary
     let mut uses: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
     for cell in &cells {
         for side in element.sides() {
@@ -253,7 +268,11 @@ fn errors(name: &str, locking: Locking, integration: Integration, n: usize) -> [
         }
     }
     let mut prescribed = vec![None; body.layout.ndof()];
-    for nodes in uses.iter().filter(|(_, n)| **n == 1).map(|(nodes, _)| nodes) {
+    for nodes in uses
+        .iter()
+        .filter(|(_, n)| **n == 1)
+        .map(|(nodes, _)| nodes)
+    {
         for &node in nodes {
             let u = exact(mesh.points[node as usize]);
             for axis in 0..ndim {
@@ -265,7 +284,10 @@ fn errors(name: &str, locking: Locking, integration: Integration, n: usize) -> [
     let mut frame = Frame::new(mesh.nnode(), &[mesh.ncell()]);
     body.solid.report(&body.state(&u), &mut frame).unwrap();
     // with displacements given all round, the pressure is known but for a constant
-    let mean: Vec<f64> = frame.cell_stress[0].iter().map(|s| s.trace() / 3.0).collect();
+    let mean: Vec<f64> = frame.cell_stress[0]
+        .iter()
+        .map(|s| s.trace() / 3.0)
+        .collect();
     let (mut off, mut volumes, mut level, mut area) = (0.0, 0.0, 0.0, 0.0);
     let mut exact_means = Vec::new();
     for (cell, p) in cells.iter().zip(&mean) {

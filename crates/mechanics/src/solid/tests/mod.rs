@@ -41,7 +41,8 @@ fn elements() -> impl Iterator<Item = (Element, Idealisation)> {
     ];
     let flat = PLANE.iter().flat_map(move |e| plane.map(|s| (*e, s)));
     let solid = SPACE.iter().map(|e| (*e, Idealisation::Space));
-    flat.chain(solid).map(|(e, s)| (element::by_name(e).unwrap(), s))
+    flat.chain(solid)
+        .map(|(e, s)| (element::by_name(e).unwrap(), s))
 }
 
 /// Numbers in [-1, 1] that look random and are the same in every run.
@@ -267,7 +268,9 @@ fn a_radius_below_zero_is_refused_and_one_of_zero_is_not() {
         let wish = Wish::plain(Idealisation::Axisymmetric, Kinematics::Small);
         match body(&mesh, elastic("linear-elastic", 0.3), &wish) {
             Ok(_) => assert!(allowed),
-            Err(SolidError::Radius { label: 3, radius, .. }) => {
+            Err(SolidError::Radius {
+                label: 3, radius, ..
+            }) => {
                 assert!(!allowed && radius < 0.0);
             }
             Err(other) => panic!("{other}"),

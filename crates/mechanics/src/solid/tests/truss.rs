@@ -53,7 +53,13 @@ fn forces_of_bars_are_the_gradient_of_energy_and_stiffness_that_of_forces() {
             for nonlinear in [false, true] {
                 let flat: Vec<Vec3> = points
                     .iter()
-                    .map(|x| if ndim == 2 { Vec3::new(x.x, x.y, 0.0) } else { *x })
+                    .map(|x| {
+                        if ndim == 2 {
+                            Vec3::new(x.x, x.y, 0.0)
+                        } else {
+                            *x
+                        }
+                    })
                     .collect();
                 let (mut truss, layout, reference) = bars(&flat, element, ndim);
                 let zero = state(&layout, &reference, &vec![0.0; layout.ndof()]);
@@ -83,14 +89,16 @@ fn forces_of_bars_are_the_gradient_of_energy_and_stiffness_that_of_forces() {
                         at(&moved)
                     };
                     let [a, b, c, d] = [h, -h, 2.0 * h, -2.0 * h].map(&mut value);
-                    let slope = |a: f64, b: f64, c: f64, d: f64| {
-                        (8.0 * (a - b) - (c - d)) / (12.0 * h)
-                    };
+                    let slope =
+                        |a: f64, b: f64, c: f64, d: f64| (8.0 * (a - b) - (c - d)) / (12.0 * h);
                     assert!((slope(a.1, b.1, c.1, d.1) - here.force[j]).abs() < 1e-8 * scale);
                     for i in 0..n {
                         let k = slope(a.0.force[i], b.0.force[i], c.0.force[i], d.0.force[i]);
                         let error = (k - here.stiffness[i * n + j]).abs();
-                        assert!(error < 1e-7 * scale, "{element} {ndim} {nonlinear}: {error:e}");
+                        assert!(
+                            error < 1e-7 * scale,
+                            "{element} {ndim} {nonlinear}: {error:e}"
+                        );
                     }
                 }
             }
@@ -101,8 +109,7 @@ fn forces_of_bars_are_the_gradient_of_energy_and_stiffness_that_of_forces() {
 #[test]
 fn a_turned_and_stretched_bar_reports_force_over_present_area_along_itself() {
     // length 2 along x, turned to y and stretched by 1.1
-    let (mut truss, layout, reference) =
-        bars(&[Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0)], "line2", 3);
+    let (mut truss, layout, reference) = bars(&[Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0)], "line2", 3);
     let u = [0.0, 0.0, 0.0, -2.0, 2.2, 0.0];
     let at = state(&layout, &reference, &u);
     truss.begin_step(&step(true), &at).unwrap();
@@ -126,7 +133,10 @@ fn a_turned_and_stretched_bar_reports_force_over_present_area_along_itself() {
     }
     let cauchy = (mu * (1.21 - 1.0) + lambda * (1.1 * b2).ln()) / (1.1 * b2);
     let stress = frame.cell_stress[0][0];
-    assert!((stress.yy() - cauchy).abs() < 1e-9 * cauchy, "{stress:?} {cauchy}");
+    assert!(
+        (stress.yy() - cauchy).abs() < 1e-9 * cauchy,
+        "{stress:?} {cauchy}"
+    );
     assert!((force - cauchy * 0.4 * b2).abs() < 1e-9 * force);
     assert!(stress.xx().abs() < 1e-12 && dense.force[3].abs() < 1e-12);
     assert!((frame.cell_strain[0][0].yy() - 1.1f64.ln()).abs() < 1e-14);
