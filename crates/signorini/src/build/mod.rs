@@ -544,6 +544,10 @@ fn refused(case: &Case, error: &ModelError) -> Diagnostic {
         })
     };
     let of_step = |name: &str| case.steps.iter().find(|s| s.name.value == name);
+    let of_load = |name: &str| {
+        let mut loads = case.steps.iter().flat_map(|s| &s.loads);
+        loads.find(|l| l.name.as_ref().is_some_and(|n| n.value == name))
+    };
     let (code, place, help) = match error {
         ModelError::NothingDeforms => (
             &codes::NOTHING_TO_SOLVE,
@@ -594,6 +598,11 @@ fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             &codes::CLASH,
             of_step(step).map(|s| &s.place),
             "take the node out of one of the two sets",
+        ),
+        ModelError::Load { load, .. } => (
+            &codes::WRONG_KIND,
+            of_load(load).map(|l| &l.place),
+            "name something that this load can act on",
         ),
         ModelError::OnRigidNode { body, .. } => (
             &codes::CLASH,

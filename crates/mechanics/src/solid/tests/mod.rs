@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::material::{
-    Constants, Kinematics, Material, MaterialError, Order as MaterialOrder, Response, Strain, TABLE,
+    Constants, Expanding, Hardening, HardeningKind, Kinematics, Material, MaterialError,
+    Order as MaterialOrder, Plasticity, Response, Strain, TABLE,
 };
 use crate::system::{
     Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, Layout, NodalField, Order,
@@ -234,6 +235,67 @@ fn a_rigid_rotation_stores_no_energy_at_finite_strain() {
             assert!(at.force.iter().all(|f| f.abs() < 1e-11), "{name}");
             assert!(body.energy(&u, &mut work) < 1e-20, "{name}");
             assert!(at.stiffness.is_empty());
+        }
+    }
+}
+
+#[test]
+fn auto_chooses_by_element_strain_space_and_material() {
+    let plane = Idealisation::PlaneStrain { thickness: 1.0 };
+    let sheet = Idealisation::PlaneStress { thickness: 1.0 };
+    let space = Idealisation::Space;
+    let (none, modes) = (Locking::None, Locking::Incompatible);
+    let (small, finite) = (Locking::BBar, Locking::FBar);
+    // ordinary small and finite, then of a material that keeps its volume
+    for (name, idealisation, integration, chosen) in [
+        ("tri3", plane, Integration::Full, [none; 4]),
+        (
+            "quad4",
+            plane,
+            Integration::Full,
+            [modes, none, small, finite],
+        ),
+        (
+            "quad4",
+            sheet,
+            Integration::Full,
+            [modes, none, modes, none],
+        ),
+        (
+            "hex8",
+            space,
+            Integration::Full,
+            [modes, none, small, finite],
+        ),
+        ("tet4", space, Integration::Full, [none; 4]),
+        (
+            "tet10",
+            space,
+            Integration::Full,
+            [none, none, small, finite],
+        ),
+        ("quad8", sheet, Integration::Full, [none; 4]),
+        (
+            "hex20",
+            space,
+            Integration::Full,
+            [none, none, small, finite],
+        ),
+        ("hex20", space, Integration::Reduced, [none; 4]),
+    ] {
+        let mesh = one(element::by_name(name).unwrap(), idealisation);
+        let laws = [elastic("neo-hookean", 0.3), derivatives::plastic()];
+        let keeping = elastic("neo-hookean", 0.49);
+        for (law, pair) in laws.into_iter().chain([keeping]).zip([0, 2, 2]) {
+            let wish = Wish {
+                locking: Locking::Auto,
+                integration,
+                ..Wish::plain(idealisation, Kinematics::Small)
+            };
+            let solid = body(&mesh, law, &wish).unwrap().solid;
+            let sizes = [Kinematics::Small, Kinematics::Finite];
+            let found = sizes.map(|k| solid.locking(k).unwrap()[0].1);
+            assert_eq!(found, chosen[pair..pair + 2], "{name} {idealisation:?}");
         }
     }
 }
