@@ -117,7 +117,7 @@ def gauss_points(cell):
 def jacobian(cell, at):
     """The determinant of a cell's map from its parameters; the cell lies along x or in the plane where it is flat."""
     n, dim = cell.GetNumberOfPoints(), cell.GetCellDimension()
-    slopes = [0.0] * (3 * n)
+    slopes = [0.0] * (dim * n)
     cell.InterpolateDerivs(at, slopes)
     points = [cell.GetPoints().GetPoint(i) for i in range(n)]
     t = [[sum(slopes[a * n + i] * points[i][c] for i in range(n)) for c in range(3)] for a in range(dim)]
@@ -151,7 +151,7 @@ def check_measures(grid, expected, differences):
         measure = sum(w * j for w, j in found)
         if abs(measure - want) > 1e-9 * want:
             differences.add(f"{what}: measure {measure!r}, expected {want!r}")
-        if abs(size - want) > 0.2 * want:
+        if size > 0.0 and abs(size - want) > 0.2 * want:  # older VTK has no size of some types
             differences.add(f"{what}: VTK's size is {size!r}, expected about {want!r}")
         edges = [cell.GetEdge(i) for i in range(cell.GetNumberOfEdges())] or [cell]
         for edge in (e.GetPoints() for e in edges if e.GetNumberOfPoints() == 3):
