@@ -37,7 +37,8 @@ pub use parts::{
 };
 
 use crate::contact::{Interface, Measure};
-use crate::solid::{Solid, SolidParts};
+use crate::material::Kinematics;
+use crate::solid::{Locking, Solid, SolidParts, Truss, TrussParts};
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
 use constraints::{Followers, Ties};
@@ -67,6 +68,19 @@ pub struct ContactSummary {
     pub facet_size: f64,
 }
 
+/// What is done against locking in the elements of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LockingSummary {
+    /// Name of the body.
+    pub body: String,
+    /// Type of the elements.
+    pub element: &'static str,
+    /// In steps of which size of strains.
+    pub kinematics: Kinematics,
+    /// What is done.
+    pub locking: Locking,
+}
+
 /// A system with the steps it is to go through.
 pub struct Model {
     /// What is solved.
@@ -75,6 +89,8 @@ pub struct Model {
     pub steps: Vec<Step>,
     /// The contacts, with what was chosen for them.
     pub contacts: Vec<ContactSummary>,
+    /// What was chosen against locking, by body, size of strains and element.
+    pub locking: Vec<LockingSummary>,
     /// Nodes that no body uses: they take no part.
     pub unused: Vec<NodeId>,
     /// Motions of bodies that nothing but contact stops.
@@ -149,29 +165,61 @@ impl Model {
         let held_by_contact = held.judge()?;
 
         let mut terms: Vec<Box<dyn Term>> = Vec::new();
+        let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
+        sizes.retain(|k| {
+            steps
+                .iter()
+                .any(|s| s.nonlinear == (*k == Kinematics::Finite))
+        });
+        let mut locking_chosen = Vec::new();
         for body in bodies {
-            let BodyKind::Solid {
-                material,
-                integration,
-                locking,
-                ..
-            } = body.kind
-            else {
-                continue;
-            };
-            let solid = Solid::new(SolidParts {
-                name: &body.name,
-                mesh,
-                reference: reference.clone(),
-                cells: &body.cells,
-                layout,
-                space,
-                material,
-                integration,
-                locking,
-                temperature: temperature.clone(),
-            })?;
-            terms.push(Box::new(solid));
+            let (name, cells) = (&*body.name, &*body.cells);
+            let (reference, temperature) = (reference.clone(), temperature.clone());
+            match body.kind {
+                BodyKind::Solid {
+                    material,
+                    integration,
+                    locking,
+                    ..
+                } => {
+                    let solid = Solid::new(SolidParts {
+                        name,
+                        mesh,
+                        reference,
+                        cells,
+                        layout,
+                        space,
+                        material,
+                        integration,
+                        locking,
+                        temperature,
+                    })?;
+                    for &kinematics in &sizes {
+                        let chosen = solid.locking(kinematics)?.into_iter();
+                        locking_chosen.extend(chosen.map(|(element, locking)| LockingSummary {
+                            body: name.to_string(),
+                            element,
+                            kinematics,
+                            locking,
+                        }));
+                    }
+                    terms.push(Box::new(solid));
+                }
+                BodyKind::Truss { material, area, .. } => {
+                    terms.push(Box::new(Truss::new(TrussParts {
+                        name,
+                        mesh,
+                        reference,
+                        cells,
+                        layout,
+                        space,
+                        material,
+                        area,
+                        temperature,
+                    })?));
+                }
+                BodyKind::Rigid(_) => {}
+            }
         }
         terms.extend(connectors);
         let mut summaries = Vec::new();
@@ -197,6 +245,7 @@ impl Model {
             },
             steps,
             contacts: summaries,
+            locking: locking_chosen,
             unused,
             held_by_contact,
         })
