@@ -578,9 +578,17 @@ fn rotations_stay_rotations_over_thousands_of_increments() {
 
 fn refusal(constraints: Vec<ConstraintPart>, changes: Vec<Change>) -> Result<(), ModelError> {
     let (mesh, cells) = cube(1);
+    // springs to the ground hold the cube without prescribing anything
+    let to_ground = |axis: usize| SpringPart {
+        name: format!("ground {axis}"),
+        ends: (0..8).map(|node| (node, None)).collect(),
+        stiffness: 1.0,
+        direction: Some(Vec3::unit(axis)),
+    };
     Model::assemble(Parts {
         bodies: vec![solid("cube", cells)],
         carriers: vec![carrier("a", [0.0; 3]), carrier("b", [0.0; 3])],
+        springs: (0..3).map(to_ground).collect(),
         constraints,
         steps: vec![step(1, true, changes)],
         ..Parts::new(&mesh, Idealisation::Space)

@@ -140,7 +140,13 @@ fn motions_that_supports_leave_are_told_in_words() {
             &[0, 1, 2][..],
             "turn about the axis along (0.577, 0.577, 0.577) through (0.5, 0.5, 0.5)",
         ),
-        (&BOTTOM[..], &[0, 1][..], "slide along z"),
+        (
+            // nodes in a plane may leave it
+            &BOTTOM[..],
+            &[0, 1][..],
+            "slide along z and to turn about the axis along x through (0.5, 0.5, 0) \
+             and to turn about the axis along y through (0.5, 0.5, 0)",
+        ),
     ] {
         let mut held = model.held();
         fix(&mut held, nodes, axes);
