@@ -207,7 +207,7 @@ impl Field {
                 (a.z, k.z) = (0.0, 0.0);
             }
             if nu > 0.49 {
-                *a = *a - *k * (a.dot(*k) / k.dot(*k));
+                *a -= *k * (a.dot(*k) / k.dot(*k));
             }
         }
         let e = 3.0;
@@ -394,7 +394,7 @@ fn errors(name: &str, n: usize, field: &Field, choice: Choice) -> [f64; 2] {
                 for axis in 0..dim {
                     let u = u[node as usize * dim + axis];
                     difference[axis] -= n * u;
-                    slope.rows[axis] = slope.rows[axis] - *g * u;
+                    slope.rows[axis] -= *g * u;
                 }
             }
             sums[0] += point.volume * difference.dot(difference);
