@@ -80,6 +80,8 @@ struct Cells {
     nhistory: usize,
     // accepted history of all cells
     history: Vec<f64>,
+    // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
+    rigidity: Vec<f64>,
 }
 
 /// Why a body cannot be made.
@@ -240,6 +242,7 @@ impl Solid {
                 block.radii(name, &reference)?;
             }
             block.start(material.as_ref());
+            block.rigidity = block.rigidities(&reference, space, material.modulus());
             let ncell = block.labels.len();
             chunks.extend(
                 (0..ncell)
@@ -435,6 +438,7 @@ impl Cells {
             nodes: Vec::new(),
             labels: Vec::new(),
             ids: Vec::new(),
+            rigidity: Vec::new(),
             nhistory: rule.npoint() * nhistory + modes,
             history: Vec::new(),
         })
@@ -472,6 +476,18 @@ impl Cells {
             let points = cell[..of_points].chunks_exact_mut(n);
             points.for_each(|point| material.start(point));
         }
+    }
+
+    /// `M ∫ max_i |N_i,X|² dV` of every cell, with the modulus `M`: the largest entry of its stiffness, about.
+    fn rigidities(&self, reference: &[Vec3], space: Idealisation, modulus: f64) -> Vec<f64> {
+        let at = |node: &NodeId| reference.get(*node as usize).copied().unwrap_or_default();
+        let mut x: Vec<Vec3> = Vec::new();
+        let of_cell = |nodes: &[NodeId]| {
+            x.clear();
+            x.extend(nodes.iter().map(at));
+            modulus * self.points.stretch(&x, space)
+        };
+        self.nodes.chunks_exact(self.nnode).map(of_cell).collect()
     }
 
     /// Checks that no node lies beyond the axis, and no quadrature point on it.
@@ -568,8 +584,12 @@ impl Term for Solid {
             Order::Tangent => Wanted::Stiffness,
         };
         let scratch = work.of::<Scratch>();
-        self.each(chunk, trial, wanted, scratch, |_, _, _, s| {
+        self.each(chunk, trial, wanted, scratch, |block, cell, _, s| {
             out.add(&s.dofs, &s.force, &s.stiffness);
+            // strains are sums of as many products as there are nodes
+            let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
+            let sum = block.rigidity[cell] * block.nnode as f64;
+            out.uncertain(&s.dofs, f64::EPSILON * sum * far);
         })
     }
 

@@ -121,6 +121,30 @@ impl Points {
     fn dshape(&self, point: usize) -> &[Vec3] {
         &self.dshape[point * self.nnode..(point + 1) * self.nnode]
     }
+
+    /// `∫ max_i |N_i,X|² dV` over a cell whose nodes are at `x`; 0 where its map has no inverse.
+    pub fn stretch(&self, x: &[Vec3], space: Idealisation) -> f64 {
+        let weights = self.rule.weights.iter().enumerate();
+        let at_point = weights.map(|(point, weight)| {
+            let (mut jacobian, mut at) = (Mat3::ZERO, Vec3::ZERO);
+            for ((x, n), d) in x.iter().zip(self.shape(point)).zip(self.dshape(point)) {
+                at += *x * *n;
+                for (row, slope) in jacobian.rows.iter_mut().zip(d.to_array()) {
+                    *row += *x * slope;
+                }
+            }
+            if space.ndim() == 2 {
+                jacobian.rows[2] = Vec3::unit(2);
+            }
+            let Some((inverse, det)) = jacobian.inverse() else {
+                return 0.0;
+            };
+            let slopes = self.dshape(point).iter().map(|d| (inverse * *d).norm());
+            let steepest = slopes.fold(0.0, f64::max);
+            steepest * steepest * weight * det.abs() * space.extent(at)
+        });
+        at_point.sum()
+    }
 }
 
 /// What is done against locking, as the kernels know it.

@@ -328,3 +328,31 @@ fn an_inverted_element_shortens_the_increment_and_is_named_in_the_end() {
         other => panic!("{other:?}"),
     }
 }
+
+#[test]
+fn a_body_in_free_flight_is_in_equilibrium() {
+    // nothing but rounding is left of the forces: it must not count as a residual
+    for nonlinear in [false, true] {
+        let mut model = cube("neo-hookean", nonlinear, Increments::Fixed(20), -0.1);
+        for step in &mut model.steps {
+            step.prescriptions = (0..3)
+                .flat_map(|axis| (0..8).map(move |node| (node, axis)))
+                .filter(|&(node, axis)| node < 4 || axis < 2)
+                .map(|(node, axis)| Prescription {
+                    dof: model.system.layout.node(node, axis),
+                    motion: Motion::Ramp([0.7, -1.3, 900.0][axis]),
+                })
+                .collect();
+        }
+        let mut settings = StepperSettings::default();
+        settings.newton.force_tol = 1e-12;
+        let mut stepper = Stepper::new(&model.system, settings);
+        let mut quiet = |_: &Event<'_>| Flow::Continue;
+        let outcome = stepper.run(&mut model.system, &model.steps, &mut quiet);
+        assert_eq!(outcome.unwrap(), Outcome::Finished);
+        for node in 4..8 {
+            let z = stepper.state().u[3 * node + 2];
+            assert!((z - 900.0).abs() < 1e-9, "{z}");
+        }
+    }
+}
