@@ -14,6 +14,8 @@
 mod error;
 pub mod gmsh;
 mod inline;
+pub mod inp;
+mod labels;
 mod side;
 mod validate;
 
@@ -28,7 +30,7 @@ use signorini_geometry::mesh::Mesh;
 pub type Reader = fn(&str, &[u8]) -> Result<(Mesh, Vec<String>), MeshError>;
 
 /// Readers by extension, in lower case.
-pub const READERS: [(&str, Reader); 1] = [("msh", gmsh::read)];
+pub const READERS: [(&str, Reader); 2] = [("msh", gmsh::read), ("inp", inp::read)];
 
 /// Reads a mesh in the format that the extension of `name` says.
 ///
@@ -55,7 +57,7 @@ mod tests {
         let error = read_mesh("part.stl", b"solid").unwrap_err();
         assert_eq!(
             error.to_string(),
-            "part.stl: no reader for this kind of file; meshes can be .msh"
+            "part.stl: no reader for this kind of file; meshes can be .msh, .inp"
         );
         assert!(read_mesh("part", b"").is_err());
     }
