@@ -33,7 +33,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 27] = [
+const ROOMS: [Room; 28] = [
     room("geometry", &[]),
     room("geometry::tensor", &[]),
     room("geometry::element", &["geometry::tensor"]),
@@ -79,11 +79,16 @@ const ROOMS: [Room; 27] = [
             "io::case",
             "io::diagnostic",
             "io::fs",
+            "io::vtk",
             "mechanics",
             "geometry",
         ],
     ),
-    room("io::writers", &["io::fs", "mechanics", "geometry"]),
+    room("io::vtk", &["io::fs"]),
+    room(
+        "io::writers",
+        &["io::fs", "io::vtk", "mechanics", "geometry"],
+    ),
     room("io::checkpoint", &["io::fs", "mechanics", "geometry"]),
     room("signorini", &["io", "mechanics", "geometry"]),
     room("python", &["signorini", "io", "mechanics", "geometry"]),

@@ -1,3 +1,4 @@
+use crate::vtk::VtuReadError;
 use std::fmt;
 use thiserror::Error;
 
@@ -460,6 +461,14 @@ pub enum MeshError {
         side: String,
         /// `"; its sides are …"`, or what to do.
         hint: String,
+    },
+    /// A `.vtu` file that cannot be read.
+    #[error("{place}: {error}")]
+    Vtu {
+        /// Where.
+        place: Place,
+        /// Why.
+        error: VtuReadError,
     },
     /// Nodes alone.
     #[error(

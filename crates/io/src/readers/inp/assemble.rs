@@ -71,6 +71,7 @@ pub(super) fn assemble(files: &Files<'_>, deck: Deck) -> Result<(Mesh, Vec<Strin
         free: None,
         left: ENTRIES + 2 * nbyte,
         missing: BTreeMap::new(),
+        highest: [0; 2],
         notes: Vec::new(),
         deck,
     };
@@ -109,6 +110,8 @@ struct Assembly<'f> {
     left: u64,
     /// Numbers in sets that nothing has: how many, and the first, by set.
     missing: BTreeMap<(String, &'static str), (u64, u64)>,
+    /// The highest numbers of nodes and elements so far.
+    highest: [u64; 2],
     notes: Vec<String>,
 }
 
@@ -167,10 +170,13 @@ impl Assembly<'_> {
 
     /// Puts nodes and elements of a scope into the mesh. Numbers go on from those that are there already.
     fn place(&mut self, scope: &Scope, name: Option<&str>) -> Result<Space> {
-        let highest = |labels: &[u64]| labels.iter().copied().max().unwrap_or(0);
-        let node_shift = highest(&self.mesh.node_labels);
-        let of_blocks = self.mesh.blocks.iter().map(|block| highest(&block.labels));
-        let element_shift = of_blocks.max().unwrap_or(0);
+        let [node_shift, element_shift] = self.highest;
+        for (highest, labels) in
+            (self.highest.iter_mut()).zip([&scope.node_labels, &scope.element_labels])
+        {
+            let own = labels.iter().copied().max().unwrap_or(0);
+            *highest = highest.saturating_add(own);
+        }
         let nodes = Lookup::new(&scope.node_labels);
         let node_ids = self.place_nodes(scope, &nodes, node_shift)?;
         let elements = Lookup::new(&scope.element_labels);

@@ -6,7 +6,7 @@ use super::lines::{Files, Lines, Spot};
 use crate::readers::MeshError;
 use crate::readers::error::excerpt;
 use signorini_geometry::tensor::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 type Result<T> = std::result::Result<T, MeshError>;
@@ -163,6 +163,7 @@ pub(super) fn read(files: &Files<'_>) -> Result<Deck> {
         },
         kinds: BTreeMap::new(),
         parts: BTreeMap::new(),
+        instances: BTreeSet::new(),
         here: 0,
         open: None,
         step: None,
@@ -176,6 +177,7 @@ struct Reader<'f> {
     deck: Deck,
     kinds: BTreeMap<String, u32>,
     parts: BTreeMap<String, usize>,
+    instances: BTreeSet<String>,
     /// The scope that cards fill.
     here: usize,
     /// The part or instance that is open: its keyword and its line.
@@ -567,8 +569,7 @@ impl Reader<'_> {
                 known: known(),
             });
         };
-        let is_known = |i: &Instance| key(&i.name) == key(&name);
-        if self.deck.instances.iter().any(is_known) {
+        if !self.instances.insert(key(&name)) {
             return Err(MeshError::DuplicateName {
                 place: self.lines.place_of(card.spot),
                 what: "instance",

@@ -69,7 +69,8 @@ const SOLIDS: Sizes = &[
     ("13", 13, ""),
     ("15", 15, "wedge15"),
     ("20", 20, "hex20"),
-    ("27", 27, "hex27"),
+    // its order of the nodes in the middle differs, and some may be missing
+    ("27", 27, ""),
 ];
 const FACES: Sizes = &[
     ("3", 3, "tri3"),

@@ -166,8 +166,8 @@ fn files_are_included_where_they_are_named() {
     let (head, tail) = SAMPLE.split_at(at);
     fs::create_dir(folder.path().join("sub dir")).unwrap();
     write("Main.inp", &format!("{head}*Include,\n INPUT=sub dir/Nodes.txt"));
-    write("sub dir/Nodes.txt", &format!("** data of the card before\n{}*INCLUDE, INPUT=rest.inp", &tail[..40]));
-    write("sub dir/rest.inp", &tail[40..]);
+    write("sub dir/Nodes.txt", &format!("** data of the card before\n{}*INCLUDE, INPUT=rest.inp", &tail[..37]));
+    write("sub dir/rest.inp", &tail[37..]);
     assert_eq!(read().unwrap().0, read_text(SAMPLE).unwrap().0);
     // data of one card
     let with_data = SAMPLE.replace(" 1, 4\n*nset", "*nset").replace("NSET=bottom,", "NSET=bottom, INPUT=n.txt,");
