@@ -260,7 +260,11 @@ impl Corners {
             shortest = shortest.min(length);
             longest = longest.max(length);
         }
-        let edge_ratio = if longest > 0.0 { shortest / longest } else { 0.0 };
+        let edge_ratio = if longest > 0.0 {
+            shortest / longest
+        } else {
+            0.0
+        };
         if self.dim < 2 {
             let scaled = if longest > 0.0 { 1.0 } else { 0.0 };
             return (scaled, edge_ratio);
@@ -296,7 +300,10 @@ struct Measures {
 impl Measures {
     fn of(mesh: &Mesh) -> Self {
         let is_plane = is_plane(mesh);
-        let of_blocks = mesh.blocks.iter().map(|b| Corners::new(b.element, is_plane));
+        let of_blocks = mesh
+            .blocks
+            .iter()
+            .map(|b| Corners::new(b.element, is_plane));
         Self {
             of_blocks: of_blocks.collect(),
             is_plane,
@@ -311,7 +318,8 @@ impl Measures {
             return None;
         }
         self.x.clear();
-        self.x.extend(nodes.iter().filter_map(|&n| mesh.points.get(n as usize)));
+        self.x
+            .extend(nodes.iter().filter_map(|&n| mesh.points.get(n as usize)));
         normalize(&mut self.x);
         let (scaled_jacobian, edge_ratio) = corners.measure(&self.x, self.is_plane);
         Some(CellQuality {
@@ -455,7 +463,12 @@ mod tests {
     fn ideal_cells_of_any_size_and_place_have_ratios_of_one() {
         let h = 3.0_f64.sqrt() / 2.0;
         let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, h, 0.0]];
-        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let square = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0],
+        ];
         let up = |x: &[[f64; 3]]| x.iter().map(|x| [x[0], x[1], 1.0]).collect::<Vec<_>>();
         let apex = [[0.5, h / 3.0, (2.0_f64 / 3.0).sqrt()]];
         for (name, x) in [
@@ -468,7 +481,10 @@ mod tests {
             for (size, shift) in [(1.0, 0.0), (1e-9, 1e-9), (1e6, -1e6)] {
                 let x: Vec<[f64; 3]> = x.iter().map(|x| x.map(|x| size * x + shift)).collect();
                 let found = single(name, &x);
-                assert!((found.scaled_jacobian - 1.0).abs() < 1e-12, "{name} {found:?}");
+                assert!(
+                    (found.scaled_jacobian - 1.0).abs() < 1e-12,
+                    "{name} {found:?}"
+                );
                 assert!((found.edge_ratio - 1.0).abs() < 1e-12, "{name} {found:?}");
                 assert!(found.jacobian_min > 0.0);
             }
@@ -478,13 +494,26 @@ mod tests {
     #[test]
     fn known_distortions_have_their_known_measures() {
         // right-angled corner: det of unit vectors 1/2 at the two far corners of the slope, times √2
-        let corner = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let corner = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+        ];
         let found = single("tet4", &corner);
-        assert!(near(found.scaled_jacobian, 2.0_f64.sqrt() / 2.0), "{found:?}");
+        assert!(
+            near(found.scaled_jacobian, 2.0_f64.sqrt() / 2.0),
+            "{found:?}"
+        );
         assert!(near(found.edge_ratio, 1.0 / 2.0_f64.sqrt()));
         // a rhombus with an angle of 30 degrees, and a rectangle 1 : 4
         let (c, s) = (3.0_f64.sqrt() / 2.0, 0.5);
-        let rhombus = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0 + c, s, 0.0], [c, s, 0.0]];
+        let rhombus = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0 + c, s, 0.0],
+            [c, s, 0.0],
+        ];
         assert!(near(single("quad4", &rhombus).scaled_jacobian, 0.5));
         let rectangle = [[0.0; 3], [4.0, 0.0, 0.0], [4.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let found = single("quad4", &rectangle);
@@ -498,9 +527,15 @@ mod tests {
         // an arrow: one corner is folded
         let arrow = [[0.0; 3], [1.0, 0.0, 0.0], [0.2, 0.2, 0.0], [0.0, 1.0, 0.0]];
         let found = single("quad4", &arrow);
-        assert!(found.scaled_jacobian < 0.0 && found.jacobian_min < 0.0, "{found:?}");
+        assert!(
+            found.scaled_jacobian < 0.0 && found.jacobian_min < 0.0,
+            "{found:?}"
+        );
         let mirrored = corner.map(|[x, y, z]| [x, y, -z]);
-        assert!(near(single("tet4", &mirrored).scaled_jacobian, -(2.0_f64.sqrt()) / 2.0));
+        assert!(near(
+            single("tet4", &mirrored).scaled_jacobian,
+            -(2.0_f64.sqrt()) / 2.0
+        ));
         assert_eq!(single("tet4", &[[1.0; 3]; 4]).edge_ratio, 0.0);
     }
 
@@ -537,7 +572,8 @@ mod tests {
         let used = vec![true; mesh.nnode() + 2];
         assert_eq!(coincident(&mesh, &used, 1e-9), None);
         for i in [5, 7] {
-            mesh.points.push(mesh.points[i] + Vec3::new(0.0, 1e-10, 0.0));
+            mesh.points
+                .push(mesh.points[i] + Vec3::new(0.0, 1e-10, 0.0));
         }
         let found = coincident(&mesh, &used, 1e-9).unwrap();
         assert_eq!((found.count, found.pair), (2, [5, 27]));

@@ -62,9 +62,9 @@ impl Region {
             Self::Plane { normal, point } => normal
                 .normalized()
                 .is_some_and(|n| n.dot(x - point).abs() <= tolerance),
-            Self::Box { min, max } => {
-                (0..3).all(|i| min[i] <= max[i] && x[i] >= min[i] - tolerance && x[i] <= max[i] + tolerance)
-            }
+            Self::Box { min, max } => (0..3).all(|i| {
+                min[i] <= max[i] && x[i] >= min[i] - tolerance && x[i] <= max[i] + tolerance
+            }),
             Self::Ball { centre, radius } => {
                 radius >= 0.0 && (x - centre).norm() <= radius + tolerance
             }
@@ -132,7 +132,9 @@ impl Mesh {
         let nearer = |a: &(NodeId, f64), b: &(NodeId, f64)| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0));
         match among {
             Some(nodes) => nodes.iter().filter_map(|&n| distance(n)).min_by(nearer),
-            None => (0..self.nnode() as NodeId).filter_map(distance).min_by(nearer),
+            None => (0..self.nnode() as NodeId)
+                .filter_map(distance)
+                .min_by(nearer),
         }
     }
 
@@ -196,9 +198,18 @@ mod tests {
             max: Vec3::ZERO,
         };
         assert_eq!(count(inside_out), 0);
-        assert_eq!(count(Region::Ball { centre, radius: -1.0 }), 0);
+        assert_eq!(
+            count(Region::Ball {
+                centre,
+                radius: -1.0
+            }),
+            0
+        );
         let among = [0, 5, 1];
-        assert_eq!(mesh.nodes_in(&Region::level(1, 0.0), Some(&among), None), [0, 1]);
+        assert_eq!(
+            mesh.nodes_in(&Region::level(1, 0.0), Some(&among), None),
+            [0, 1]
+        );
     }
 
     #[test]
@@ -216,7 +227,10 @@ mod tests {
     #[test]
     fn the_nearest_node_is_the_nearest_by_brute_force_and_the_lowest_of_equals() {
         let mesh = bricks([4, 3, 2], 1.0);
-        assert_eq!(mesh.nearest_node(Vec3::new(0.5, 0.0, 0.0), None), Some((0, 0.5)));
+        assert_eq!(
+            mesh.nearest_node(Vec3::new(0.5, 0.0, 0.0), None),
+            Some((0, 0.5))
+        );
         let near = mesh.nearest_node(Vec3::new(2.1, 1.2, 0.9), None).unwrap();
         assert_eq!(mesh.points[near.0 as usize].to_array(), [2.0, 1.0, 1.0]);
         assert_eq!(mesh.nearest_node(Vec3::ZERO, Some(&[9, 3])).unwrap().0, 3);

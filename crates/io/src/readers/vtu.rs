@@ -71,7 +71,8 @@ const CELLS: [(u8, &str, &[usize]); 16] = [
 
 /// The middles of the sides in VTK: -x +x -y +y -z +z. Here: S1 to S6.
 const HEX27: &[usize] = &[
-    0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 24, 25, 22, 21, 23, 20, 26,
+    0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 24, 25, 22, 21, 23, 20,
+    26,
 ];
 
 /// VTK's single points, which mark nodes.
@@ -127,7 +128,9 @@ pub fn from_grid(name: &str, grid: &Vtu) -> Result<(Mesh, Vec<String>), MeshErro
     }
     for array in &grid.cell_data {
         for (set, members) in groups(array, &mut notes) {
-            let cells = members.iter().filter_map(|&i| cells.get(i).copied().flatten());
+            let cells = members
+                .iter()
+                .filter_map(|&i| cells.get(i).copied().flatten());
             mesh.sets.entry(set).or_default().cells.extend(cells);
         }
     }
@@ -153,7 +156,9 @@ fn labels(array: Option<&Array>, count: usize) -> Vec<u64> {
     let Some(numbers) = array.and_then(|array| array.numbers.to_i64()) else {
         return counted();
     };
-    let given = numbers.iter().map(|&n| u64::try_from(n).ok().filter(|&n| n > 0));
+    let given = numbers
+        .iter()
+        .map(|&n| u64::try_from(n).ok().filter(|&n| n > 0));
     let Some(given) = given.collect::<Option<Vec<u64>>>() else {
         return counted();
     };
@@ -231,7 +236,10 @@ fn push_cells(
 fn turn_wedge(mesh: &Mesh, nodes: &mut [NodeId]) {
     let x = |i: usize| {
         let node = nodes.get(i).copied().unwrap_or(0);
-        mesh.points.get(node as usize).copied().unwrap_or(Vec3::ZERO)
+        mesh.points
+            .get(node as usize)
+            .copied()
+            .unwrap_or(Vec3::ZERO)
     };
     let axis = x(3) + x(4) + x(5) - x(0) - x(1) - x(2);
     let lower = (x(1) - x(0)).cross(x(2) - x(0));
@@ -262,7 +270,9 @@ fn groups(array: &Array, notes: &mut Vec<String>) -> Vec<(String, Vec<usize>)> {
         }
     }
     let named = groups.into_iter();
-    named.map(|(value, entries)| (format!("{}_{value}", array.name), entries)).collect()
+    named
+        .map(|(value, entries)| (format!("{}_{value}", array.name), entries))
+        .collect()
 }
 
 #[cfg(test)]
@@ -351,7 +361,10 @@ mod tests {
         grid.point_data = vec![numbers("mask", (0..count).collect())];
         let (mesh, notes) = from_grid("a.vtu", &grid).unwrap();
         assert_eq!(mesh.sets.len(), 1);
-        assert_eq!(notes, ["array `mask` has more than 256 values: it gives no sets"]);
+        assert_eq!(
+            notes,
+            ["array `mask` has more than 256 values: it gives no sets"]
+        );
     }
 
     #[test]
@@ -373,6 +386,9 @@ mod tests {
         assert!(fault(|g| g.points[4][1] = f64::NAN).contains("coordinate y of node 5 is NaN"));
         assert!(fault(|g| g.types = vec![1; 3]).contains("no elements"));
         let error = read("a.vtu", b"solid").unwrap_err().to_string();
-        assert!(error.starts_with("a.vtu: the file is not a .vtu file"), "{error}");
+        assert!(
+            error.starts_with("a.vtu: the file is not a .vtu file"),
+            "{error}"
+        );
     }
 }

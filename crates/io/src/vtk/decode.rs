@@ -64,7 +64,11 @@ impl Numbers {
             Numbers::I32(v) => v.iter().map(|x| i64::from(*x)).collect(),
             Numbers::U32(v) => v.iter().map(|x| i64::from(*x)).collect(),
             Numbers::I64(v) => v.clone(),
-            Numbers::U64(v) => v.iter().map(|x| i64::try_from(*x)).collect::<Result<_, _>>().ok()?,
+            Numbers::U64(v) => v
+                .iter()
+                .map(|x| i64::try_from(*x))
+                .collect::<Result<_, _>>()
+                .ok()?,
             Numbers::F64(_) | Numbers::F32(_) | Numbers::Text(_) => return None,
         })
     }
@@ -389,7 +393,11 @@ impl Reader<'_> {
     }
 
     /// An array's tag. Fields of kinds that are not read are left out; the grid itself must be read.
-    fn array(&mut self, parent: &str, tag: &Tag<'_>) -> Result<Option<(Target, Slot)>, VtuReadError> {
+    fn array(
+        &mut self,
+        parent: &str,
+        tag: &Tag<'_>,
+    ) -> Result<Option<(Target, Slot)>, VtuReadError> {
         let target = match (parent, tag.get("Name")) {
             ("FieldData", _) => Target::Field(Place::Facts),
             ("PointData", _) => Target::Field(Place::Points),
@@ -480,7 +488,10 @@ impl Reader<'_> {
 
         let slot = types.ok_or(missing("cell types"))?;
         let types = self.indices(&slot, Some(ncell))?;
-        let types = types.into_iter().map(u8::try_from).collect::<Result<_, _>>();
+        let types = types
+            .into_iter()
+            .map(u8::try_from)
+            .collect::<Result<_, _>>();
         self.vtu.types = types.map_err(|_| slot.damaged("a cell type is beyond 255"))?;
 
         let slot = offsets.ok_or(missing("cell offsets"))?;
@@ -542,19 +553,20 @@ impl Reader<'_> {
     fn numbers(&mut self, slot: &Slot, ntuple: Option<u64>) -> Result<Numbers, VtuReadError> {
         let count = ntuple.and_then(|n| n.checked_mul(slot.ncomponent));
         let nbyte = count.and_then(|n| n.checked_mul(slot.kind.width()));
-        let (count, nbyte) = count.zip(nbyte).ok_or(slot.damaged("its size is out of range"))?;
-        self.left = self
-            .left
-            .checked_sub(nbyte)
-            .ok_or(VtuReadError::TooLarge {
-                name: slot.name.clone(),
-                limit: self.limit,
-            })?;
+        let (count, nbyte) = count
+            .zip(nbyte)
+            .ok_or(slot.damaged("its size is out of range"))?;
+        self.left = self.left.checked_sub(nbyte).ok_or(VtuReadError::TooLarge {
+            name: slot.name.clone(),
+            limit: self.limit,
+        })?;
         let stream = match &slot.source {
             Source::Ascii(text) => return ascii(slot, text, count),
             Source::Base64(text) => Stream::base64(text.as_bytes()),
             Source::Appended(offset) => {
-                let data = usize::try_from(*offset).ok().and_then(|at| self.data.get(at..));
+                let data = usize::try_from(*offset)
+                    .ok()
+                    .and_then(|at| self.data.get(at..));
                 let data = data.ok_or(slot.damaged("it starts behind the end of the file"))?;
                 match self.storage.is_base64 {
                     true => Stream::base64(data),

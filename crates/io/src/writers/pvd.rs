@@ -5,8 +5,8 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use crate::vtk::xml::{Piece, Scanner, XmlError, escape};
 use crate::fs::{Fs, FsError};
+use crate::vtk::xml::{Piece, Scanner, XmlError, escape};
 
 /// One file of one frame.
 #[derive(Clone, Debug, PartialEq)]

@@ -190,7 +190,9 @@ impl Assembly<'_> {
             surfaces: Names::new(),
         };
         self.place_elements(scope, &mut space, element_shift)?;
-        let of = name.map_or("the assembly".to_owned(), |name| format!("instance `{name}`"));
+        let of = name.map_or("the assembly".to_owned(), |name| {
+            format!("instance `{name}`")
+        });
         if node_shift > 0 && !scope.points.is_empty() {
             let note = format!("the nodes of {of} have their own numbers plus {node_shift}");
             self.notes.push(note);
@@ -446,10 +448,13 @@ impl Assembly<'_> {
         let mut places: Vec<u32> = Vec::with_capacity(definition.labels.len());
         places.extend(definition.added.clone().map(|place| place as u32));
         for &label in &definition.labels {
-            let lookup = self.spaces.get(number).map(|space| match definition.family {
-                Family::Cells => &space.elements,
-                _ => &space.nodes,
-            });
+            let lookup = self
+                .spaces
+                .get(number)
+                .map(|space| match definition.family {
+                    Family::Cells => &space.elements,
+                    _ => &space.nodes,
+                });
             match lookup.and_then(|lookup| lookup.find(label)) {
                 Some(place) => places.push(place),
                 None => self.miss(definition, label),
@@ -550,7 +555,9 @@ impl Assembly<'_> {
             Region::Label(label) => {
                 let space = self.spaces.get(number);
                 let place = space.and_then(|space| space.elements.find(*label));
-                let cell = space.zip(place).and_then(|(s, at)| s.cells.get(at as usize));
+                let cell = space
+                    .zip(place)
+                    .and_then(|(s, at)| s.cells.get(at as usize));
                 let Some(cell) = cell else {
                     return Err(self.undefined(definition, "element", &label.to_string()));
                 };
@@ -673,7 +680,8 @@ impl Assembly<'_> {
         set.faces.sort_unstable();
         set.faces.dedup();
         if set.is_empty() {
-            self.notes.push(format!("{} `{name}` is empty", family.word()));
+            self.notes
+                .push(format!("{} `{name}` is empty", family.word()));
         }
         let Some(taken) = self.mesh.sets.get(&name) else {
             self.mesh.sets.insert(name, set);
@@ -729,13 +737,15 @@ fn append(scope: &mut Scope, own: Scope) {
     scope.element_kinds.extend(own.element_kinds);
     scope.element_spots.extend(own.element_spots);
     scope.connectivity.extend(own.connectivity);
-    scope.definitions.extend(own.definitions.into_iter().map(|mut definition| {
-        let shift = match definition.family {
-            Family::Cells => nelement,
-            _ => nnode,
-        };
-        let added = definition.added;
-        definition.added = added.start + shift..added.end + shift;
-        definition
-    }));
+    scope
+        .definitions
+        .extend(own.definitions.into_iter().map(|mut definition| {
+            let shift = match definition.family {
+                Family::Cells => nelement,
+                _ => nnode,
+            };
+            let added = definition.added;
+            definition.added = added.start + shift..added.end + shift;
+            definition
+        }));
 }

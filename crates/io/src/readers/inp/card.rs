@@ -65,7 +65,10 @@ pub(super) fn included(line: &[u8]) -> Option<(String, bool)> {
         return None;
     }
     let card = Card::parse(line, Spot::default());
-    let path = card.get("INPUT").filter(|path| !path.is_empty())?.to_owned();
+    let path = card
+        .get("INPUT")
+        .filter(|path| !path.is_empty())?
+        .to_owned();
     match card.keyword.as_str() {
         "INCLUDE" => Some((path, false)),
         "NODE" | "ELEMENT" | "NSET" | "ELSET" | "SURFACE" => Some((path, true)),
@@ -187,11 +190,26 @@ mod tests {
             ("1.5+3", 1.5e3),
             ("-2-3", -2e-3),
             ("0.12345678901234567890123456789", 0.123_456_789_012_345_68),
-            ("123456789012345678901234567890.", 1.234_567_890_123_456_8e29),
+            (
+                "123456789012345678901234567890.",
+                1.234_567_890_123_456_8e29,
+            ),
         ] {
             assert_eq!(real(text.as_bytes()), Some(value), "{text}");
         }
-        for text in ["", "nan", "inf", "-infinity", "1,5", "five", "1e", "--1", "+", "1 2", "é"] {
+        for text in [
+            "",
+            "nan",
+            "inf",
+            "-infinity",
+            "1,5",
+            "five",
+            "1e",
+            "--1",
+            "+",
+            "1 2",
+            "é",
+        ] {
             assert_eq!(real(text.as_bytes()), None, "{text}");
         }
     }

@@ -148,7 +148,10 @@ impl Kind {
             element,
         };
         let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-        if name.strip_prefix('U').is_some_and(|n| n.len() < 5 && is_number(n)) {
+        if name
+            .strip_prefix('U')
+            .is_some_and(|n| n.len() < 5 && is_number(n))
+        {
             return Some(kind(Role::Special, 0, None));
         }
         let fits = |(letters, role, sizes): &(&str, Role, Sizes)| {
@@ -188,7 +191,9 @@ pub(super) fn supported() -> String {
         (!known.is_empty()).then(|| format!("{letters}{}", known.join("/")))
     };
     let told = ["C3D", "CPE", "CPS", "CAX", "S", "M3D", "T3D", "B3"];
-    let families = FAMILIES.iter().filter(|(letters, ..)| told.contains(letters));
+    let families = FAMILIES
+        .iter()
+        .filter(|(letters, ..)| told.contains(letters));
     families.filter_map(sizes).collect::<Vec<_>>().join(", ")
 }
 
@@ -238,7 +243,9 @@ mod tests {
             let kind = Kind::find(name).unwrap_or_else(|| panic!("{name}"));
             assert_eq!((kind.role, kind.nnode), (role, nnode), "{name}");
         }
-        for name in ["", "C3D", "C3D7", "C3D80", "CPS", "HEX8", "C3D8-R", "S5", "U", "c3d8"] {
+        for name in [
+            "", "C3D", "C3D7", "C3D80", "CPS", "HEX8", "C3D8-R", "S5", "U", "c3d8",
+        ] {
             assert!(Kind::find(name).is_none(), "{name}");
         }
     }

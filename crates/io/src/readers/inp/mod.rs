@@ -54,11 +54,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> 
 ///
 /// # Errors
 /// Those of [`read`].
-pub fn read_from(
-    fs: &dyn Fs,
-    name: &str,
-    bytes: &[u8],
-) -> Result<(Mesh, Vec<String>), MeshError> {
+pub fn read_from(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
     let is_blank = |b: &u8| b.is_ascii_whitespace();
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if text.iter().all(is_blank) {
