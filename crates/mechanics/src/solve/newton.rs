@@ -1,6 +1,6 @@
 //! One increment by Newton's method.
 
-use super::equations::Equations;
+use super::equations::{Equations, Factor};
 use super::event::IterationRecord;
 use super::line_search;
 use crate::system::linear::LinearError;
@@ -292,7 +292,15 @@ impl Newton {
         let mut unsettled = None;
         for iterations in 0.. {
             self.prepare(system)?;
-            self.assemble(system, Order::Tangent)?;
+            let moved = largest_difference(&self.trial.u, &base.u);
+            let little = iterations > 0 && correction <= CORRECTION * moved;
+            // after a small correction there is probably no need for a tangent
+            let first = if little {
+                Order::Residual
+            } else {
+                Order::Tangent
+            };
+            self.assemble(system, first)?;
             let judgement = self.judge(system);
             let (flips, repeat) = verdicts(system, &self.trial);
             report(&IterationRecord {
@@ -310,9 +318,7 @@ impl Newton {
             });
             let settled = repeat.is_none() || iterations == 0;
             unsettled = repeat.or(unsettled);
-            let moved = largest_difference(&self.trial.u, &base.u);
-            let still = judgement.round_off || (iterations > 0 && correction <= CORRECTION * moved);
-            if !motion && judgement.small && settled && still {
+            if !motion && judgement.small && settled && (judgement.round_off || little) {
                 return Ok(Converged {
                     iterations,
                     residual: judgement.residual,
@@ -335,7 +341,12 @@ impl Newton {
                     unsettled,
                 });
             }
-            self.solve_linear(motion)?;
+            if first == Order::Residual {
+                self.assemble(system, Order::Tangent)?;
+            }
+            // where only the size of the next correction is left to show, the last factor tells it
+            let nearly = iterations > 0 && !motion && judgement.small && settled;
+            self.solve_linear(motion, nearly)?;
             decrement = self.slope().abs().sqrt();
             alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
             correction = alpha * largest(&self.du);
@@ -470,13 +481,26 @@ impl Newton {
             .judge(system, dofs, &self.assembly, self.settings.force_tol)
     }
 
-    fn solve_linear(&mut self, motion: bool) -> Result<(), Failure> {
+    fn solve_linear(&mut self, motion: bool, keep_factor: bool) -> Result<(), Failure> {
         if !motion {
             self.du.fill(0.0);
         }
-        let outcome = self
-            .equations
-            .solve(&self.assembler, &self.assembly, motion, &mut self.du);
+        let (assembler, assembly) = (&self.assembler, &self.assembly);
+        let mut outcome = Err(LinearError::Order {
+            before: "factorize",
+        });
+        if keep_factor {
+            let kept = Factor::Kept;
+            outcome = self
+                .equations
+                .solve(assembler, assembly, motion, kept, &mut self.du);
+        }
+        if outcome.is_err() {
+            let new = Factor::New;
+            outcome = self
+                .equations
+                .solve(assembler, assembly, motion, new, &mut self.du);
+        }
         outcome
             .map(|_| ())
             .map_err(|source| self.linear_failure(source))
