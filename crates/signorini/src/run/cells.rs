@@ -4,14 +4,24 @@ use signorini_geometry::element::Element;
 
 /// The type and the order of nodes that VTK has for an element.
 ///
-/// VTK's wedge has the normal of its first triangle pointing out, ours in, as Gmsh and Abaqus have it.
-const TABLE: [(&str, u8, &[usize]); 6] = [
+/// VTK's linear wedge has the normal of its first triangle pointing out, ours in, as Gmsh and Abaqus have it, and as
+/// VTK's own quadratic wedge has it. VTK's hexahedron of 27 nodes has the centres of its sides at -x, +x, -y, +y, -z, +z.
+#[rustfmt::skip]
+const TABLE: [(&str, u8, &[usize]); 14] = [
     ("line2", 3, &[0, 1]),
+    ("line3", 21, &[0, 1, 2]),
     ("tri3", 5, &[0, 1, 2]),
+    ("tri6", 22, &[0, 1, 2, 3, 4, 5]),
     ("quad4", 9, &[0, 1, 2, 3]),
+    ("quad8", 23, &[0, 1, 2, 3, 4, 5, 6, 7]),
+    ("quad9", 28, &[0, 1, 2, 3, 4, 5, 6, 7, 8]),
     ("tet4", 10, &[0, 1, 2, 3]),
+    ("tet10", 24, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
     ("hex8", 12, &[0, 1, 2, 3, 4, 5, 6, 7]),
+    ("hex20", 25, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19]),
+    ("hex27", 29, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 25, 23, 22, 24, 20, 21, 26]),
     ("wedge6", 13, &[0, 2, 1, 3, 5, 4]),
+    ("wedge15", 26, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]),
 ];
 
 /// VTK's type of a single point.
