@@ -199,6 +199,8 @@ struct Corners {
     factor: f64,
     /// Whether the axes in the middle count as a corner.
     has_axes: bool,
+    /// Whether all corners have one volume: then the corner of the longest edges counts, whatever the sign.
+    is_simplex: bool,
     dim: usize,
 }
 
@@ -247,6 +249,7 @@ impl Corners {
             middle,
             factor,
             has_axes: (dim, ends.len()) == (3, 8),
+            is_simplex: ends.len() == dim + 1,
             dim,
         }
     }
@@ -281,7 +284,14 @@ impl Corners {
         };
         let mut least = f64::INFINITY;
         for &(c, [i, j, k]) in &self.corners {
-            least = least.min(determinant(at(i) - at(c), at(j) - at(c), at(k) - at(c)));
+            let at_corner = determinant(at(i) - at(c), at(j) - at(c), at(k) - at(c));
+            let is_less = match self.is_simplex {
+                true => at_corner.abs() < least.abs(),
+                false => at_corner < least,
+            };
+            if is_less {
+                least = at_corner;
+            }
         }
         if self.has_axes {
             least = least.min(determinant(t1, t2, t3));

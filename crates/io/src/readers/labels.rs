@@ -52,17 +52,12 @@ impl Lookup {
         let is_meant = |label: u64| (label - first).is_multiple_of(step);
         match self {
             Self::Dense { first: low, places } => {
-                let high = low + places.len() as u64 - 1;
-                let mut label = first;
-                if first < *low {
-                    label = first + (low - first).div_ceil(step).saturating_mul(step);
-                }
-                while label <= last.min(high) {
+                let high = low + (places.len() as u64).saturating_sub(1);
+                let skipped = low.saturating_sub(first).div_ceil(step);
+                let mut next = skipped.checked_mul(step).and_then(|n| n.checked_add(first));
+                while let Some(label) = next.filter(|&label| label <= last.min(high)) {
                     out.extend(self.find(label));
-                    match label.checked_add(step) {
-                        Some(next) => label = next,
-                        None => break,
-                    }
+                    next = label.checked_add(step);
                 }
             }
             Self::Sparse(sorted) => {
@@ -111,6 +106,7 @@ mod tests {
             assert_eq!(range(&labels, 1, 5, 2), [1, 3]);
             assert_eq!(range(&labels, 3, 4, u64::MAX), [1]);
             assert_eq!(range(&labels, 9, 3, 1), [0; 0]);
+            assert_eq!(range(&labels, 1, u64::MAX, u64::MAX), [0; 0]);
         }
         assert_eq!(range(&[], 0, u64::MAX, 1), [0; 0]);
     }
