@@ -27,6 +27,13 @@ fn read(folder: &Path, name: &str) -> (Mesh, Vec<String>) {
     read_mesh(path.to_str().unwrap(), &std::fs::read(&path).unwrap()).unwrap()
 }
 
+fn labels(mesh: &Mesh, nodes: &[u32]) -> Vec<u64> {
+    nodes
+        .iter()
+        .map(|&n| mesh.node_labels[n as usize])
+        .collect()
+}
+
 #[test]
 fn two_cubes_have_their_sets_and_surfaces() {
     let Some(folder) = folder() else { return };
@@ -34,8 +41,8 @@ fn two_cubes_have_their_sets_and_surfaces() {
     assert_eq!((mesh.nnode(), mesh.ncell()), (16, 2));
     let index = FaceIndex::new(&mesh, mesh.cells(3));
     let primary = mesh.faces(&mesh.sets["Smast"], &index).unwrap();
-    assert_eq!(primary.len(), 1);
-    assert_eq!(mesh.sets["Sslav"].nodes.len(), 4);
+    assert_eq!(primary.iter().map(|f| f.side).collect::<Vec<_>>(), [4]);
+    assert_eq!(labels(&mesh, &mesh.sets["Sslav"].nodes), [10]);
     assert_eq!(mesh.sets["Nall"].nodes.len(), 16);
     assert_eq!(mesh.sets["Eall"].cells.len(), 2);
 }

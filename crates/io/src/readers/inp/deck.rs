@@ -188,15 +188,26 @@ struct Reader<'f> {
 
 impl Reader<'_> {
     fn cards(&mut self) -> Result<()> {
+        let mut before: Option<MeshError> = None;
+        let mut ncard = 0;
         while let Some(line) = self.lines.line() {
             if !line.starts_with(b"*") {
-                return Err(MeshError::NotACard {
+                before.get_or_insert_with(|| MeshError::NotACard {
                     place: self.lines.place(),
                     found: excerpt(line),
                 });
+                continue;
             }
+            ncard += 1;
             let card = Card::read(line, &mut self.lines);
             self.card(&card)?;
+        }
+        match before {
+            Some(error) if ncard == 0 => return Err(error),
+            Some(MeshError::NotACard { place, found }) => self.deck.notes.push(format!(
+                "{place}: `{found}` and what follows stands before the first keyword: ignored"
+            )),
+            _ => {}
         }
         if let Some((keyword, spot)) = self.open {
             return Err(MeshError::Truncated {
