@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 /// How deep files may include each other; Abaqus allows 5, CalculiX 9.
 const DEPTH: usize = 10;
 
-/// How much text all inclusions may come to, in bytes and as a multiple of the deck.
-const TEXT: usize = 1 << 30;
+/// How many bytes files that are included again may come to.
+const REPEATED: usize = 1 << 28;
 
 /// A line of one of the files.
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,21 +57,18 @@ impl<'a> Files<'a> {
             at: 0,
             line: 1,
         }];
-        let mut left = TEXT.max(bytes.len().saturating_mul(4));
+        let mut left = REPEATED;
         while let Some(Open { file, at, line }) = open.pop() {
             let text = this.text(file);
-            left = left.saturating_sub(256);
             let Some(Inclusion {
                 kept,
                 end,
                 path: wanted,
             }) = next_inclusion(text, at)
             else {
-                left = left.saturating_sub(text.len() - at);
                 this.push(file, at..text.len(), line);
                 continue;
             };
-            left = left.saturating_sub(end - at);
             let next = line + count_lines(text.get(at..end).unwrap_or_default());
             let spot = Spot {
                 file: file as u32,
@@ -83,13 +80,15 @@ impl<'a> Files<'a> {
                 at: end,
                 line: next,
             });
-            if left == 0 {
-                return Err(MeshError::Excess {
+            let nfile = this.files.len();
+            let included = this.include(fs, &wanted, spot, &mut known)?;
+            if included < nfile {
+                let nbyte = 256 + this.text(included).len();
+                left = left.checked_sub(nbyte).ok_or_else(|| MeshError::Excess {
                     place: this.place(spot),
                     what: "the included files",
-                });
+                })?;
             }
-            let included = this.include(fs, &wanted, spot, &mut known)?;
             if open.iter().any(|o| o.file == included) {
                 return Err(MeshError::IncludeCycle {
                     place: this.place(spot),

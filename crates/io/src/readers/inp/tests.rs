@@ -304,7 +304,7 @@ fn files_are_included_where_they_are_named() {
     }
     let error = read().unwrap_err().to_string();
     assert!(
-        error.contains("9.inp, line 1: files include each other more than 10 deep"),
+        error.contains("8.inp, line 1: files include each other more than 10 deep"),
         "{error}"
     );
     // 50^8 files are too many, and are not read
