@@ -56,6 +56,7 @@ const ROOMS: [Room; 28] = [
         &["mechanics::system", "mechanics::material", "geometry"],
     ),
     room("mechanics::load", &["mechanics::system", "geometry"]),
+    room("mechanics::connector", &["mechanics::system", "geometry"]),
     room("mechanics::contact", &["mechanics::system", "geometry"]),
     room("mechanics::contact::law", &[]),
     room("mechanics::contact::friction", &[]),

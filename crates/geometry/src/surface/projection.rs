@@ -10,7 +10,8 @@
 //! by Newton's method with (E2) where it is positive definite and with the metric `m_ab` where it is not, an Armijo
 //! rule on `F` and a bounded step. A face alone is not enough: on a warped facet the closest point often lies on an
 //! edge, so the face (from two starts, from more where it has mid nodes), every edge and every vertex compete, and the
-//! smallest distance wins; ties go to the face, then the edge. Neglected: nothing; limits: a facet folded over itself within its own size.
+//! smallest distance wins; ties go to the face, then the edge. Neglected: nothing; limits: a facet folded over itself
+//! within its own size.
 //!
 //! Source: Konyukhov and Schweizerhof 2013, chapter 3 (existence and uniqueness of the projection).
 

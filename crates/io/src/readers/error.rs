@@ -452,15 +452,15 @@ pub enum MeshError {
         /// Where.
         place: Place,
         /// The surface.
-        surface: String,
+        surface: Box<str>,
         /// The element.
         element: u64,
         /// Its type.
         kind: &'static str,
         /// As the deck names it.
-        side: String,
+        side: Box<str>,
         /// `"; its sides are …"`, or what to do.
-        hint: String,
+        hint: Box<str>,
     },
     /// A `.vtu` file that cannot be read.
     #[error("{place}: {error}")]

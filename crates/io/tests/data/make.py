@@ -108,7 +108,7 @@ def ring(kind, dim, recombine, incomplete, layers=1):
         size = count = 0
         (types, tags, _) = gmsh.model.mesh.getElements(d, 1 if d == dim else outer)
         for element, cells in zip(types, tags):
-            points, weights = gmsh.model.mesh.getIntegrationPoints(element, "Gauss10")
+            points, weights = gmsh.model.mesh.getIntegrationPoints(element, "CompositeGauss6")
             entity = 1 if d == dim else outer
             _, determinants, _ = gmsh.model.mesh.getJacobians(element, points, entity)
             size += sum(w * j for w, j in zip(list(weights) * len(cells), determinants))

@@ -1,3 +1,4 @@
+use super::{ConstraintError, Unheld};
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
 use thiserror::Error;
@@ -27,6 +28,9 @@ pub enum ModelError {
     /// An element that is no solid.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// A constraint, spring or reference that makes no sense.
+    #[error(transparent)]
+    Constraint(#[from] ConstraintError),
     /// Two rigid bodies that share a node.
     #[error("the rigid bodies \"{first}\" and \"{second}\" share node {node}")]
     RigidBodiesShare {
@@ -77,12 +81,9 @@ pub enum ModelError {
         /// Name of the contact.
         contact: String,
     },
-    /// A body that nothing can hold.
-    #[error("body \"{body}\" is held by nothing: no support, no motion, no contact")]
-    FreeBody {
-        /// Its name.
-        body: String,
-    },
+    /// A body with a motion that nothing can stop.
+    #[error("{} is free to {}: no support and no contact stops it", .0, .0.motion)]
+    FreeBody(Unheld),
     /// One dof with two motions in one step.
     #[error(
         "step \"{step}\" prescribes the {component} displacement of node {node} twice, differently"
@@ -105,4 +106,64 @@ pub enum ModelError {
         /// Name of the body.
         body: String,
     },
+    /// A load that cannot act.
+    #[error("load \"{load}\": {source}")]
+    Load {
+        /// Name of the load.
+        load: String,
+        /// Why.
+        source: LoadError,
+    },
+}
+
+/// Why a load cannot act.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum LoadError {
+    /// A name given twice in one step.
+    #[error("step \"{step}\" has two loads of this name")]
+    Twice {
+        /// Name of the step.
+        step: String,
+    },
+    /// No face, no cell.
+    #[error("it acts on nothing")]
+    Nowhere,
+    /// An element that is in no body.
+    #[error("element {element} belongs to no body")]
+    Outside {
+        /// The element, as numbered in the input.
+        element: u64,
+    },
+    /// Something that is no face of a solid.
+    #[error("side {side} of element {element} is no face of a solid")]
+    NoFace {
+        /// The element, as numbered in the input.
+        element: u64,
+        /// The side, from 1.
+        side: usize,
+    },
+    /// A total force on faces without area.
+    #[error("its faces have no area")]
+    NoArea,
+    /// A load by volume on an element without volume.
+    #[error("element {element} has no volume")]
+    NoVolume {
+        /// The element, as numbered in the input.
+        element: u64,
+    },
+    /// A load by mass on a body whose density is not known.
+    #[error("body \"{body}\" has no density")]
+    NoDensity {
+        /// Name of the body.
+        body: String,
+    },
+    /// A moment on nodes that cannot carry it.
+    #[error("its nodes lie in a point, or on a line about which the moment turns")]
+    NoArm,
+    /// A centrifugal load about an axis without direction.
+    #[error("its axis has no direction")]
+    NoAxis,
+    /// A centrifugal load about another axis than that of an axisymmetric model.
+    #[error("its axis is not the axis of the model: x = 0, along y")]
+    OtherAxis,
 }

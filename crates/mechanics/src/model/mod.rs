@@ -11,7 +11,13 @@
 //!   deformable side: a pressure `p` then penetrates `p h/(10 M)` (E1). Per node it is multiplied by the mean tributary
 //!   area, or by `h²` (`h · thickness` in the plane) where the secondary side is bare nodes;
 //! * the reach of the search, twice the largest facet;
-//! * motions of rigid bodies that no step names: held.
+//! * motions of rigid bodies that no step, load or equation names: held. References of kinematic and distributing
+//!   couplings are free: along what moves their nodes, and altogether, respectively. In an axisymmetric model carriers
+//!   move along the axis and in no other way.
+//!
+//! Translations and rotations of a carrier are prescribed by components. The rotation that results is composed of the
+//! increments of the rotation vector: what `rx, ry, rz` prescribe is the integral of its rate, so that components
+//! ramped together turn about a fixed axis, by as many turns as one likes.
 
 mod constraints;
 mod contact;
@@ -19,23 +25,28 @@ mod error;
 mod held;
 mod loads;
 mod parts;
+mod reduction;
 mod steps;
 
-pub use error::ModelError;
+pub use constraints::ConstraintError;
+pub use error::{LoadError, ModelError};
+pub use held::Unheld;
 pub use parts::{
     BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart, ContactPart, Load,
     LoadPart, Parts, SidePart, SpringPart, StepPart, Target, Unknown,
 };
 
 use crate::contact::{Interface, Measure};
-use crate::solid::{Solid, SolidParts};
+use crate::material::Kinematics;
+use crate::solid::{Locking, Solid, SolidParts, Truss, TrussParts};
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
+use constraints::{Followers, Ties};
 use held::Held;
+use loads::Substance;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::surface::Carrier;
 use signorini_geometry::tensor::Vec3;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// What a contact became.
@@ -57,6 +68,19 @@ pub struct ContactSummary {
     pub facet_size: f64,
 }
 
+/// What is done against locking in the elements of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LockingSummary {
+    /// Name of the body.
+    pub body: String,
+    /// Type of the elements.
+    pub element: &'static str,
+    /// In steps of which size of strains.
+    pub kinematics: Kinematics,
+    /// What is done.
+    pub locking: Locking,
+}
+
 /// A system with the steps it is to go through.
 pub struct Model {
     /// What is solved.
@@ -65,10 +89,12 @@ pub struct Model {
     pub steps: Vec<Step>,
     /// The contacts, with what was chosen for them.
     pub contacts: Vec<ContactSummary>,
+    /// What was chosen against locking, by body, size of strains and element.
+    pub locking: Vec<LockingSummary>,
     /// Nodes that no body uses: they take no part.
     pub unused: Vec<NodeId>,
-    /// Bodies that nothing but contact holds.
-    pub held_by_contact: Vec<String>,
+    /// Motions of bodies that nothing but contact stops.
+    pub held_by_contact: Vec<Unheld>,
 }
 
 impl Model {
@@ -82,22 +108,25 @@ impl Model {
             space,
             bodies,
             carriers,
-            springs: _,
-            constraints: _,
+            springs,
+            constraints,
             contacts,
             temperature,
             steps,
         } = parts;
         let reference: Arc<[Vec3]> = mesh.points.clone().into();
         let owner = owners(mesh, &bodies)?;
-        let elimination = Arc::new(constraints::elimination(mesh, &bodies, &carriers)?);
-        let layout = Layout {
-            ndim: space.ndim(),
-            nnode: mesh.nnode(),
-            nrigid: elimination.bodies().len(),
-            nmultiplier: 0,
+        let followers = Followers {
+            mesh,
+            space,
+            bodies: &bodies,
+            carriers: &carriers,
+            constraints: &constraints,
+            springs: &springs,
         };
-        let names: Vec<String> = bodies.iter().map(|b| b.name.clone()).collect();
+        let layout = followers.layout();
+        let (elimination, ties) = followers.elimination(&layout)?;
+        let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
         let modulus: Vec<Option<f64>> = bodies
             .iter()
             .map(|b| b.kind.material().map(|m| m.modulus()))
@@ -105,62 +134,101 @@ impl Model {
         if modulus.iter().all(Option::is_none) {
             return Err(ModelError::NothingDeforms);
         }
+        let substances: Vec<Substance> = bodies.iter().map(Substance::from).collect();
         let body_of_node = nodes_by_body(mesh, &bodies);
-        let held = Held::new(mesh, &bodies);
         let temperature = temperatures(temperature, &steps);
 
-        let mut terms: Vec<Box<dyn Term>> = Vec::new();
-        for body in bodies {
-            let BodyKind::Solid {
-                material,
-                integration,
-                locking,
-                ..
-            } = body.kind
-            else {
-                continue;
-            };
-            let solid = Solid::new(SolidParts {
-                name: &body.name,
-                mesh,
-                reference: reference.clone(),
-                cells: &body.cells,
-                layout,
-                space,
-                material,
-                integration,
-                locking,
-                temperature: temperature.clone(),
-            })?;
-            terms.push(Box::new(solid));
-        }
-        let context = Context {
+        let mut context = Context {
             mesh,
             reference: &reference,
             owner: &owner,
             modulus: &modulus,
-            elimination: &elimination,
+            substances: &substances,
+            elimination: Arc::new(elimination),
             carriers: &carriers,
             space,
             layout,
+            ties: &ties,
         };
+        let (mut steps, loads) = context.steps(steps)?;
+        let elimination = Arc::make_mut(&mut context.elimination);
+        followers.relate(&layout, &ties, elimination, &mut steps)?;
+        let elimination = context.elimination.clone();
+
+        let mut held = Held::new(mesh, space, &bodies, &carriers, &elimination);
+        held.springs(&springs);
+        held.constraints(&constraints);
+        contacts.iter().for_each(|contact| held.contact(contact));
+        if let Some(first) = steps.first() {
+            held.supports(&layout, &first.prescriptions);
+        }
+        let held_by_contact = held.judge()?;
+
+        let mut terms: Vec<Box<dyn Term>> = Vec::new();
+        let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
+        sizes.retain(|k| {
+            steps
+                .iter()
+                .any(|s| s.nonlinear == (*k == Kinematics::Finite))
+        });
+        let mut locking_chosen = Vec::new();
+        for body in bodies {
+            let (name, cells) = (&*body.name, &*body.cells);
+            let (reference, temperature) = (reference.clone(), temperature.clone());
+            match body.kind {
+                BodyKind::Solid {
+                    material,
+                    integration,
+                    locking,
+                    ..
+                } => {
+                    let solid = Solid::new(SolidParts {
+                        name,
+                        mesh,
+                        reference,
+                        cells,
+                        layout,
+                        space,
+                        material,
+                        integration,
+                        locking,
+                        temperature,
+                    })?;
+                    for &kinematics in &sizes {
+                        let chosen = solid.locking(kinematics)?.into_iter();
+                        locking_chosen.extend(chosen.map(|(element, locking)| LockingSummary {
+                            body: name.to_string(),
+                            element,
+                            kinematics,
+                            locking,
+                        }));
+                    }
+                    terms.push(Box::new(solid));
+                }
+                BodyKind::Truss { material, area, .. } => {
+                    terms.push(Box::new(Truss::new(TrussParts {
+                        name,
+                        mesh,
+                        reference,
+                        cells,
+                        layout,
+                        space,
+                        material,
+                        area,
+                        temperature,
+                    })?));
+                }
+                BodyKind::Rigid(_) => {}
+            }
+        }
+        terms.extend(connectors);
         let mut summaries = Vec::new();
-        let mut touching = BTreeSet::new();
         for contact in contacts {
             let (parts, summary) = context.contact(contact)?;
-            touching.extend(parts.pair.points.iter().copied());
-            touching.extend((0..parts.pair.primary.nfacet() as u32).flat_map(|f| {
-                match parts.pair.primary.carrier(f) {
-                    Carrier::Nodes(nodes) => nodes.to_vec(),
-                    _ => Vec::new(),
-                }
-            }));
             terms.push(Box::new(Interface::new(parts, layout, elimination.clone())));
             summaries.push(summary);
         }
-        let (steps, loads) = context.steps(steps)?;
         terms.extend(loads);
-        let held_by_contact = held.judge(&names, &layout, &steps, &elimination, &touching)?;
 
         let unused = (0..mesh.nnode() as NodeId)
             .filter(|n| body_of_node.get(*n as usize).is_none_or(|b| *b == u32::MAX))
@@ -177,6 +245,7 @@ impl Model {
             },
             steps,
             contacts: summaries,
+            locking: locking_chosen,
             unused,
             held_by_contact,
         })
@@ -242,11 +311,13 @@ fn label(mesh: &Mesh, node: NodeId) -> u64 {
 /// What the parts of a model are made from.
 struct Context<'a> {
     mesh: &'a Mesh,
-    reference: &'a [Vec3],
+    reference: &'a Arc<[Vec3]>,
     owner: &'a HashMap<CellId, usize>,
     modulus: &'a [Option<f64>],
-    elimination: &'a Elimination,
+    substances: &'a [Substance],
+    elimination: Arc<Elimination>,
     carriers: &'a [CarrierPart],
     space: Idealisation,
     layout: Layout,
+    ties: &'a Ties,
 }

@@ -200,15 +200,20 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
             return Err(found);
         }
     };
-    for body in &model.held_by_contact {
+    for unheld in &model.held_by_contact {
         found.push(
             Diagnostic::warning(
                 &codes::HELD_BY_CONTACT,
-                format!("body \"{body}\" is held only by contact"),
+                format!("{unheld} is held only by contact"),
             )
+            .note(format!("without contact it is free to {}", unheld.motion))
             .help("hold it by a support, or prescribe its motion with `move` instead of `load`"),
         );
     }
+
+    found.append(stiff_elements(&case, &names, &mesh));
+    let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
+    found.silence(&allowed);
 
     let contacts: Vec<ContactInfo> = model
         .contacts
@@ -276,6 +281,38 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         by_label,
         mesh: Arc::new(mesh),
     })
+}
+
+/// Elements that are too stiff in bending.
+const STIFF: [&str; 3] = ["tri3", "tet4", "wedge6"];
+
+/// A warning for each deformable body of linear triangles, tetrahedra or wedges.
+fn stiff_elements(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Diagnostics {
+    let mut found = Diagnostics::new();
+    for body in case.bodies.iter().filter(|b| !b.rigid) {
+        let groups = body.groups.iter();
+        let cells = groups.flat_map(|g| names.solids(g, &mut Diagnostics::new()));
+        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        for element in cells.filter_map(|cell| mesh.element(cell)) {
+            if STIFF.contains(&element.name()) {
+                *kinds.entry(element.name()).or_default() += 1;
+            }
+        }
+        if kinds.is_empty() {
+            continue;
+        }
+        let counts: Vec<String> = kinds.iter().map(|(k, n)| format!("{n} {k}")).collect();
+        let group = body.groups.first().map_or("", |g| g.value.as_str());
+        found.push(
+            Diagnostic::warning(
+                &codes::STIFF_ELEMENTS,
+                format!("body \"{group}\" has {}: too stiff in bending", counts.join(", ")),
+            )
+            .at(&body.place, "")
+            .help("use quad4 or hex8, elements of second order, or several over the thickness; allow = [\"S0404\"] silences"),
+        );
+    }
+    found
 }
 
 fn wrong_dimension(case: &Case, mesh: &Mesh, ndim: usize) -> Diagnostic {
@@ -544,6 +581,10 @@ fn refused(case: &Case, error: &ModelError) -> Diagnostic {
         })
     };
     let of_step = |name: &str| case.steps.iter().find(|s| s.name.value == name);
+    let of_load = |name: &str| {
+        let mut loads = case.steps.iter().flat_map(|s| &s.loads);
+        loads.find(|l| l.name.as_ref().is_some_and(|n| n.value == name))
+    };
     let (code, place, help) = match error {
         ModelError::NothingDeforms => (
             &codes::NOTHING_TO_SOLVE,
@@ -585,15 +626,28 @@ fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             of_contact(contact).map(|c| &c.place),
             "give one of the bodies a `material`, or a `penalty` to the contact",
         ),
-        ModelError::FreeBody { body } => (
+        ModelError::FreeBody(free) => (
             &codes::FREE_BODY,
-            of_body(body).map(|b| &b.place),
+            free.bodies
+                .first()
+                .and_then(|b| of_body(b))
+                .map(|b| &b.place),
             "add a [[step.fix]] or [[step.move]] on it in the first step",
         ),
         ModelError::Clash { step, .. } => (
             &codes::CLASH,
             of_step(step).map(|s| &s.place),
             "take the node out of one of the two sets",
+        ),
+        ModelError::Constraint(_) => (
+            &codes::CLASH,
+            None,
+            "take out what is said twice, or what cannot be followed",
+        ),
+        ModelError::Load { load, .. } => (
+            &codes::WRONG_KIND,
+            of_load(load).map(|l| &l.place),
+            "name something that this load can act on",
         ),
         ModelError::OnRigidNode { body, .. } => (
             &codes::CLASH,

@@ -593,14 +593,14 @@ impl Assembly<'_> {
                     };
                     return Err(MeshError::NoSuchSide {
                         place: self.files.place(definition.spot),
-                        surface: definition.name.clone(),
+                        surface: definition.name.as_str().into(),
                         element: self.mesh.cell_label(cell).unwrap_or(0),
                         kind: element.name(),
                         side: match side {
-                            Side::Number(n) => format!("S{n}"),
+                            Side::Number(n) => format!("S{n}").into(),
                             _ => "SPOS or SNEG".into(),
                         },
-                        hint,
+                        hint: hint.into(),
                     });
                 }
             }

@@ -1,0 +1,138 @@
+//! From quadrature points to cells and nodes.
+
+use super::dense;
+use super::kernel::Sample;
+use crate::system::Frame;
+use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::element::{self, ReferenceElement};
+use signorini_geometry::mesh::{CellId, NodeId};
+use signorini_geometry::tensor::Sym3;
+
+/// The matrix that carries values at the points of a rule to the nodes, `nnode` rows of `npoint`: the field of the linear
+/// element of the same shape that comes closest to them (least squares), or their mean where there are too few points.
+pub(super) fn extrapolation(element: &dyn ReferenceElement, rule: &Rule) -> Vec<f64> {
+    let npoint = rule.npoint();
+    let fitted = linear(element).and_then(|linear| {
+        let n = linear.nnode();
+        if n > npoint {
+            return None;
+        }
+        let mut shape = vec![0.0; n];
+        let mut at = |xi| {
+            linear.shape(xi, &mut shape);
+            shape.clone()
+        };
+        // (AᵀA) X = Aᵀ, with row p of A the shape functions at point p
+        let a: Vec<f64> = rule.points.iter().flat_map(&mut at).collect();
+        let column = |i: usize| a.iter().skip(i).step_by(n);
+        let mut normal: Vec<f64> = (0..n * n)
+            .map(|k| column(k / n).zip(column(k % n)).map(|(x, y)| x * y).sum())
+            .collect();
+        let mut x: Vec<f64> = (0..n).flat_map(|i| column(i).copied()).collect();
+        dense::solve(&mut normal, n, &mut x, npoint)?;
+        let nodes = element.nodes().iter().flat_map(|xi| {
+            let shape = at(xi);
+            let value = |p| (0..n).map(|i| shape[i] * x[i * npoint + p]).sum();
+            (0..npoint).map(value).collect::<Vec<f64>>()
+        });
+        Some(nodes.collect())
+    });
+    fitted.unwrap_or_else(|| vec![1.0 / npoint as f64; element.nnode() * npoint])
+}
+
+/// The linear element of the same shape.
+fn linear(of: &dyn ReferenceElement) -> Option<element::Element> {
+    let same = |e: &&element::Element| {
+        let shape = e.dim() == of.dim() && e.sides().len() == of.sides().len();
+        shape && of.nodes().starts_with(e.nodes())
+    };
+    let candidates = element::TABLE.iter().copied().filter(|e| same(&e));
+    candidates.min_by_key(|e| e.nnode())
+}
+
+/// The means over a cell.
+#[derive(Default)]
+pub(super) struct CellMeans {
+    volume: f64,
+    stress: Sym3,
+    strain: Sym3,
+    plastic_strain: Option<f64>,
+}
+
+impl CellMeans {
+    /// Takes a point into the means.
+    pub fn add(&mut self, volume: f64, stress: Sym3, strain: Sym3, plastic_strain: Option<f64>) {
+        self.volume += volume;
+        let share = volume / self.volume;
+        self.stress = self.stress + (stress - self.stress) * share;
+        self.strain = self.strain + (strain - self.strain) * share;
+        if let Some(value) = plastic_strain {
+            let mean = self.plastic_strain.unwrap_or(0.0);
+            self.plastic_strain = Some(mean + (value - mean) * share);
+        }
+    }
+
+    /// Writes them into a frame.
+    pub fn put(&self, frame: &mut Frame, id: CellId) {
+        let (block, cell) = (id.block as usize, id.index as usize);
+        put(frame.cell_stress.get_mut(block), cell, self.stress);
+        put(frame.cell_strain.get_mut(block), cell, self.strain);
+        if let Some(value) = self.plastic_strain {
+            if frame.cell_plastic_strain.is_empty() {
+                let cells = frame.cell_stress.iter().map(|c| vec![0.0; c.len()]);
+                frame.cell_plastic_strain = cells.collect();
+            }
+            put(frame.cell_plastic_strain.get_mut(block), cell, value);
+        }
+    }
+}
+
+/// Adds a cell's samples to a frame: its own means, and its share of those of its nodes.
+pub(super) fn add(
+    frame: &mut Frame,
+    id: CellId,
+    nodes: &[NodeId],
+    extrapolation: &[f64],
+    samples: &[Sample],
+) {
+    let mut means = CellMeans::default();
+    for s in samples {
+        means.add(s.volume, s.stress, s.strain, s.plastic_strain);
+    }
+    means.put(frame, id);
+    let plastic = means.plastic_strain.is_some();
+    if plastic {
+        frame.plastic_strain.resize(frame.stress.len(), 0.0);
+    }
+    for (&node, weights) in nodes.iter().zip(extrapolation.chunks_exact(samples.len())) {
+        let node = node as usize;
+        let Some(weight) = frame.stress_weight.get_mut(node) else {
+            continue;
+        };
+        // running mean
+        *weight += 1.0;
+        let share = weight.recip();
+        let pairs = || samples.iter().zip(weights);
+        if let Some(to) = frame.stress.get_mut(node) {
+            let value = pairs().fold(Sym3::ZERO, |sum, (s, w)| sum + s.stress * *w);
+            *to = *to + (value - *to) * share;
+        }
+        if let Some(to) = frame.strain.get_mut(node) {
+            let value = pairs().fold(Sym3::ZERO, |sum, (s, w)| sum + s.strain * *w);
+            *to = *to + (value - *to) * share;
+        }
+        if plastic && let Some(to) = frame.plastic_strain.get_mut(node) {
+            let value: f64 = pairs()
+                .map(|(s, w)| s.plastic_strain.unwrap_or(0.0) * w)
+                .sum();
+            // an equivalent strain is never negative, extrapolated or not
+            *to += (value.max(0.0) - *to) * share;
+        }
+    }
+}
+
+fn put<T>(cells: Option<&mut Vec<T>>, cell: usize, value: T) {
+    if let Some(to) = cells.and_then(|c| c.get_mut(cell)) {
+        *to = value;
+    }
+}
