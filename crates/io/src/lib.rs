@@ -12,4 +12,5 @@ pub mod checkpoint;
 pub mod diagnostic;
 pub mod fs;
 pub mod readers;
+pub mod vtk;
 pub mod writers;

@@ -8,8 +8,13 @@
 //!
 //! Inside, everything is numbered from 0 without gaps; the numbers a user wrote are kept as *labels* and are all
 //! that a message ever shows. A cell of lower dimension than the solids (a triangle on a tetrahedron's side) stands
-//! for the face it coincides with: see [`Mesh::faces`].
+//! for the face it coincides with: see [`Mesh::faces`]. What lies where is found in [`select`], how good cells are in
+//! [`quality`].
 
+pub mod quality;
+pub mod select;
+#[cfg(test)]
+mod testing;
 mod topology;
 
 pub use topology::{FaceIndex, SetError, boundary};

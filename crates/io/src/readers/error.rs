@@ -1,3 +1,4 @@
+use crate::vtk::VtuReadError;
 use std::fmt;
 use thiserror::Error;
 
@@ -97,7 +98,7 @@ pub enum MeshError {
     },
     /// The file ends too early.
     #[error(
-        "{place}: the file ends inside ${section}, where {wanted} should follow; it is truncated: save or copy it again"
+        "{place}: the file ends inside {section}, where {wanted} should follow; it is truncated: save or copy it again"
     )]
     Truncated {
         /// Where.
@@ -108,7 +109,7 @@ pub enum MeshError {
         wanted: &'static str,
     },
     /// Something else where a number should be.
-    #[error("{place}: `{found}` stands where {wanted} should be in ${section}{hint}")]
+    #[error("{place}: `{found}` stands where {wanted} should be in {section}{hint}")]
     NotANumber {
         /// Where.
         place: Place,
@@ -291,7 +292,7 @@ pub enum MeshError {
         /// The element.
         element: u64,
         /// Its type.
-        kind: &'static str,
+        kind: String,
         /// What was found.
         found: usize,
         /// What is needed.
@@ -339,9 +340,139 @@ pub enum MeshError {
         /// The element.
         element: u64,
     },
+    /// Bytes that are no text.
+    #[error("{place}: the file is not text: it holds zero bytes; export the deck again")]
+    NotText {
+        /// Where.
+        place: Place,
+    },
+    /// A deck that starts with data.
+    #[error(
+        "{place}: `{found}` stands where a keyword such as *NODE should be; a deck starts with a keyword"
+    )]
+    NotACard {
+        /// Where.
+        place: Place,
+        /// What was found.
+        found: String,
+    },
+    /// A keyword without a parameter that it needs.
+    #[error("{place}: *{card} has no {parameter}; write *{card}, {parameter}=…")]
+    NoParameter {
+        /// Where.
+        place: Place,
+        /// The keyword.
+        card: String,
+        /// The parameter.
+        parameter: &'static str,
+    },
+    /// A keyword that changes the mesh in a way that is not read.
+    #[error("{place}: *{card} is refused: {why}")]
+    Refused {
+        /// Where.
+        place: Place,
+        /// The keyword.
+        card: String,
+        /// What it would do, and what to do.
+        why: &'static str,
+    },
+    /// A keyword where it cannot be.
+    #[error("{place}: *{card} stands {found}; {wanted}")]
+    Nesting {
+        /// Where.
+        place: Place,
+        /// The keyword.
+        card: String,
+        /// Where it stands.
+        found: &'static str,
+        /// Where it should.
+        wanted: &'static str,
+    },
+    /// An included file that cannot be read.
+    #[error("{place}: the file `{path}` cannot be included: {why}")]
+    Include {
+        /// Where.
+        place: Place,
+        /// As the deck names it.
+        path: String,
+        /// Why.
+        why: String,
+    },
+    /// A file that includes itself.
+    #[error(
+        "{place}: the file `{path}` includes itself, directly or through others; remove this line"
+    )]
+    IncludeCycle {
+        /// Where.
+        place: Place,
+        /// As the deck names it.
+        path: String,
+    },
+    /// Files in files in files.
+    #[error("{place}: files include each other more than {limit} deep; put them into one")]
+    IncludeDepth {
+        /// Where.
+        place: Place,
+        /// The limit.
+        limit: usize,
+    },
+    /// A few lines that mean more than memory can hold.
+    #[error("{place}: {what} come to more than a file of this size can mean")]
+    Excess {
+        /// Where.
+        place: Place,
+        /// What repeats itself.
+        what: &'static str,
+    },
+    /// A name that nothing has.
+    #[error("{place}: there is no {what} `{name}`{known}")]
+    Undefined {
+        /// Where.
+        place: Place,
+        /// What should have the name.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// `"; there are …"`, or nothing.
+        known: String,
+    },
+    /// Two things with one name.
+    #[error("{place}: a second {what} is called `{name}`; give it a name of its own")]
+    DuplicateName {
+        /// Where.
+        place: Place,
+        /// What has the name.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A side that is none.
+    #[error("{place}: surface `{surface}`: element {element} ({kind}) has no side {side}{hint}")]
+    NoSuchSide {
+        /// Where.
+        place: Place,
+        /// The surface.
+        surface: Box<str>,
+        /// The element.
+        element: u64,
+        /// Its type.
+        kind: &'static str,
+        /// As the deck names it.
+        side: Box<str>,
+        /// `"; its sides are …"`, or what to do.
+        hint: Box<str>,
+    },
+    /// A `.vtu` file that cannot be read.
+    #[error("{place}: {error}")]
+    Vtu {
+        /// Where.
+        place: Place,
+        /// Why.
+        error: VtuReadError,
+    },
     /// Nodes alone.
     #[error(
-        "{place}: the mesh has {nnode} nodes but no elements; mesh the model before saving, and put what is to be saved into physical groups (or set Mesh.SaveAll = 1)"
+        "{place}: the mesh has {nnode} nodes but no elements; mesh the model before saving it whole (in Gmsh: put what is to be saved into physical groups, or set Mesh.SaveAll = 1)"
     )]
     NoElements {
         /// Where.

@@ -39,7 +39,7 @@ pub fn build(
             errors.push(MeshError::NodeCount {
                 place: place(),
                 element: label,
-                kind: element.name(),
+                kind: element.name().into(),
                 found: labels.len(),
                 wanted: element.nnode(),
             });

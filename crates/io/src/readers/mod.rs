@@ -14,13 +14,17 @@
 mod error;
 pub mod gmsh;
 mod inline;
+pub mod inp;
+mod labels;
 mod side;
 mod validate;
+pub mod vtu;
 
 pub use error::{MeshError, Place};
 pub use inline::{InlineElement, build};
 pub use side::{SideError, side_by_normal};
-pub use validate::{MeshIssue, Sample, Severity, parts, validate};
+pub use signorini_geometry::mesh::quality::parts;
+pub use validate::{MeshIssue, Sample, Severity, validate};
 
 use signorini_geometry::mesh::Mesh;
 
@@ -28,7 +32,8 @@ use signorini_geometry::mesh::Mesh;
 pub type Reader = fn(&str, &[u8]) -> Result<(Mesh, Vec<String>), MeshError>;
 
 /// Readers by extension, in lower case.
-pub const READERS: [(&str, Reader); 1] = [("msh", gmsh::read)];
+pub const READERS: [(&str, Reader); 3] =
+    [("msh", gmsh::read), ("inp", inp::read), ("vtu", vtu::read)];
 
 /// Reads a mesh in the format that the extension of `name` says.
 ///
@@ -55,7 +60,7 @@ mod tests {
         let error = read_mesh("part.stl", b"solid").unwrap_err();
         assert_eq!(
             error.to_string(),
-            "part.stl: no reader for this kind of file; meshes can be .msh"
+            "part.stl: no reader for this kind of file; meshes can be .msh, .inp, .vtu"
         );
         assert!(read_mesh("part", b"").is_err());
     }

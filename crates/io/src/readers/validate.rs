@@ -1,10 +1,8 @@
 //! What can be wrong with a mesh that could be read.
 
-use signorini_geometry::element::Element;
-use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::proximity::Aabb;
+use signorini_geometry::mesh::quality::{self, Jacobian};
+use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::Vec3;
-use std::collections::HashMap;
 use std::collections::hash_map::RandomState;
 use std::fmt;
 use std::hash::BuildHasher;
@@ -192,53 +190,6 @@ pub fn validate(mesh: &Mesh) -> Vec<MeshIssue> {
     issues
 }
 
-/// The cells in groups that share no node, each sorted, the groups by their first cell.
-#[must_use]
-pub fn parts(mesh: &Mesh, cells: &[CellId]) -> Vec<Vec<CellId>> {
-    let mut parent: Vec<NodeId> = (0..mesh.nnode() as NodeId).collect();
-    let root = |parent: &mut [NodeId], mut node: NodeId| {
-        // every step halves the path
-        while let Some(&up) = parent.get(node as usize) {
-            if up == node {
-                break;
-            }
-            let next = parent.get(up as usize).copied().unwrap_or(up);
-            if let Some(entry) = parent.get_mut(node as usize) {
-                *entry = next;
-            }
-            node = next;
-        }
-        node
-    };
-    for &cell in cells {
-        if let [first, others @ ..] = mesh.cell(cell) {
-            for &other in others {
-                let (a, b) = (root(&mut parent, *first), root(&mut parent, other));
-                if let Some(entry) = parent.get_mut(a.max(b) as usize) {
-                    *entry = a.min(b);
-                }
-            }
-        }
-    }
-    let mut sorted = cells.to_vec();
-    sorted.sort_unstable();
-    sorted.dedup();
-    let mut number: HashMap<NodeId, usize> = HashMap::new();
-    let mut parts: Vec<Vec<CellId>> = Vec::new();
-    for cell in sorted {
-        let Some(&first) = mesh.cell(cell).first() else {
-            continue;
-        };
-        let next = parts.len();
-        let part = *number.entry(root(&mut parent, first)).or_insert(next);
-        match parts.get_mut(part) {
-            Some(part) => part.push(cell),
-            None => parts.push(vec![cell]),
-        }
-    }
-    parts
-}
-
 fn label(mesh: &Mesh, node: usize) -> u64 {
     mesh.node_labels.get(node).copied().unwrap_or(0)
 }
@@ -263,7 +214,7 @@ fn coordinates(mesh: &Mesh, issues: &mut Vec<MeshIssue>) -> bool {
     if issues.len() > before || mesh.nnode() < 2 {
         return issues.len() == before;
     }
-    let extent = diagonal(&Aabb::around(mesh.points.iter().copied()));
+    let extent = mesh.diagonal();
     let distance = mesh.points.iter().fold(0.0, |d, x| x.max_abs().max(d));
     if extent < 1.0 / ABSURD {
         issues.push(MeshIssue::TooSmall { extent });
@@ -273,12 +224,6 @@ fn coordinates(mesh: &Mesh, issues: &mut Vec<MeshIssue>) -> bool {
         issues.push(MeshIssue::FarAway { extent, distance });
     }
     true
-}
-
-/// The length of the diagonal, without overflow.
-fn diagonal(aabb: &Aabb) -> f64 {
-    let extent = aabb.extent();
-    extent.x.hypot(extent.y).hypot(extent.z)
 }
 
 fn repeated_nodes(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
@@ -309,74 +254,30 @@ enum Volume {
     Inverted,
 }
 
-/// Samples the Jacobian of cells of one element.
-struct Jacobian {
-    dshapes: Vec<Vec<Vec3>>,
-    dim: usize,
-    plane: bool,
-}
-
-impl Jacobian {
-    fn new(element: Element, plane: bool) -> Self {
-        let points = element.nodes().iter().chain(element.full_rule().points);
-        let dshapes = points.map(|xi| {
-            let mut dshape = vec![Vec3::ZERO; element.nnode()];
-            element.dshape(xi, &mut dshape);
-            dshape
-        });
-        Self {
-            dshapes: dshapes.collect(),
-            dim: element.dim(),
-            plane,
-        }
+/// The judgement on a cell with its nodes at `x`, which are moved and scaled.
+fn judge(jacobian: &Jacobian, x: &mut [Vec3]) -> Volume {
+    // coordinates are rounded; what that does to the Jacobian is not a volume
+    let distance = x.iter().fold(0.0_f64, |d, x| d.max(x.max_abs()));
+    let size = quality::normalize(x);
+    if size == 0.0 {
+        return Volume::Flat;
     }
-
-    /// The judgement on the cell with its nodes at `x`.
-    fn judge(&self, x: &[Vec3]) -> Volume {
-        let origin = x.first().copied().unwrap_or(Vec3::ZERO);
-        let size = x
-            .iter()
-            .fold(0.0_f64, |h, &x| h.max((x - origin).max_abs()));
-        if size == 0.0 {
-            return Volume::Flat;
-        }
-        // coordinates are rounded; what that does to the Jacobian is not a volume
-        let distance = x.iter().fold(0.0_f64, |d, x| d.max(x.max_abs()));
-        let zero = FLAT + 8.0 * f64::EPSILON * (distance / size);
-        let scaled: Vec<Vec3> = x.iter().map(|&x| (x - origin) / size).collect();
-        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for dshape in &self.dshapes {
-            let (mut t1, mut t2, mut t3) = (Vec3::ZERO, Vec3::ZERO, Vec3::ZERO);
-            for (dn, &x) in dshape.iter().zip(&scaled) {
-                t1 += x * dn.x;
-                t2 += x * dn.y;
-                t3 += x * dn.z;
-            }
-            let j = match self.dim {
-                3 => t1.dot(t2.cross(t3)),
-                2 if self.plane => t1.cross(t2).z,
-                2 => t1.cross(t2).norm(),
-                _ => t1.norm(),
-            };
-            least = least.min(j);
-            most = most.max(j);
-        }
-        if least > zero {
-            Volume::Good
-        } else if most < -zero {
-            Volume::Inverted
-        } else if least < -zero {
-            Volume::Folded
-        } else {
-            Volume::Flat
-        }
+    let zero = FLAT + 8.0 * f64::EPSILON * (distance / size);
+    let (least, most) = jacobian.range(x);
+    if least > zero {
+        Volume::Good
+    } else if most < -zero {
+        Volume::Inverted
+    } else if least < -zero {
+        Volume::Folded
+    } else {
+        Volume::Flat
     }
 }
 
 fn volumes(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
     let dim = mesh.dim();
-    let z = mesh.points.first().map_or(0.0, |x| x.z);
-    let plane = mesh.points.iter().all(|x| x.z == z);
+    let plane = quality::is_plane(mesh);
     let [mut flat, mut folded, mut inverted] = [const {
         Sample {
             count: 0,
@@ -395,7 +296,7 @@ fn volumes(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
             x.clear();
             x.extend(cell.iter().filter_map(|&n| mesh.points.get(n as usize)));
             ncell += 1;
-            match jacobian.judge(&x) {
+            match judge(&jacobian, &mut x) {
                 Volume::Good => {}
                 Volume::Flat => flat.push(label),
                 Volume::Folded => folded.push(label),
@@ -453,58 +354,12 @@ fn used_nodes(mesh: &Mesh) -> Vec<bool> {
     used
 }
 
-/// Counts nodes within the tolerance of an earlier one.
-///
-/// Only nodes without an earlier neighbour stay in the grid, of cells four tolerances wide; so few fit into a cell that
-/// the work grows with the number of nodes, however they lie.
 fn coincident(mesh: &Mesh, used: &[bool]) -> Option<MeshIssue> {
-    const NONE: u32 = u32::MAX;
-    let aabb = Aabb::around(mesh.points.iter().copied());
-    let tolerance = COINCIDENT * diagonal(&aabb);
-    if !(tolerance > 0.0 && tolerance.is_finite()) {
-        return None;
-    }
-    let width = 4.0 * tolerance;
-    let mut grid: HashMap<[i64; 3], u32> = HashMap::new();
-    let mut next = vec![NONE; mesh.nnode()];
-    let (mut count, mut pair) = (0, None);
-    for (node, &x) in mesh.points.iter().enumerate() {
-        if !used.get(node).copied().unwrap_or(false) {
-            continue;
-        }
-        let from = (x - aabb.min) / width;
-        let home = [from.x, from.y, from.z].map(|f| f.floor() as i64);
-        let low = [from.x, from.y, from.z].map(|f| (f - 0.25).floor() as i64);
-        let high = [from.x, from.y, from.z].map(|f| (f + 0.25).floor() as i64);
-        let near = (low[0]..=high[0]).flat_map(|i| {
-            (low[1]..=high[1]).flat_map(move |j| (low[2]..=high[2]).map(move |k| [i, j, k]))
-        });
-        let earlier = near.into_iter().find_map(|cell| {
-            let mut at = grid.get(&cell).copied().unwrap_or(NONE);
-            while let Some(&y) = mesh.points.get(at as usize) {
-                if ((x - y) / tolerance).norm() <= 1.0 {
-                    return Some(at);
-                }
-                at = next.get(at as usize).copied().unwrap_or(NONE);
-            }
-            None
-        });
-        match earlier {
-            Some(earlier) => {
-                count += 1;
-                pair = pair.or(Some([label(mesh, earlier as usize), label(mesh, node)]));
-            }
-            None => {
-                let head = grid.insert(home, node as u32).unwrap_or(NONE);
-                if let Some(next) = next.get_mut(node) {
-                    *next = head;
-                }
-            }
-        }
-    }
-    pair.map(|pair| MeshIssue::Coincident {
-        count,
-        pair,
+    let tolerance = COINCIDENT * mesh.diagonal();
+    let found = quality::coincident(mesh, used, tolerance)?;
+    Some(MeshIssue::Coincident {
+        count: found.count,
+        pair: found.pair.map(|node| label(mesh, node as usize)),
         tolerance,
     })
 }

@@ -22,6 +22,5 @@ pub mod pvd;
 mod rows;
 pub mod sta;
 pub mod vtu;
-mod xml;
 
 pub use rows::RowsError;

@@ -5,8 +5,8 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::xml::{Piece, Scanner, XmlError, escape};
 use crate::fs::{Fs, FsError};
+use crate::vtk::xml::{Piece, Scanner, XmlError, escape};
 
 /// One file of one frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,7 +202,7 @@ fn entries_of(text: &str) -> Result<Vec<Entry>, XmlError> {
 mod tests {
     use super::*;
     use crate::fs::RealFs;
-    use crate::writers::xml::assert_well_formed;
+    use crate::vtk::xml::assert_well_formed;
 
     fn with_files(names: &[&str]) -> tempfile::TempDir {
         let dir = tempfile::tempdir().unwrap();

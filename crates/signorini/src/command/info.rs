@@ -10,7 +10,7 @@ use signorini_io::fs::{Fs, RealFs};
 use signorini_io::readers::{self, Severity};
 use signorini_io::writers::json::Summary;
 use signorini_io::writers::pvd::Pvd;
-use signorini_io::writers::vtu::{self, Array};
+use signorini_io::writers::vtu::{self, Array, Vtu};
 use std::path::{Path, PathBuf};
 
 /// Tell what is in a mesh, a case, or a folder of results.
@@ -28,7 +28,7 @@ impl Info {
             let extension = self.path.extension().map(|e| e.to_ascii_lowercase());
             match extension.as_deref().and_then(|e| e.to_str()) {
                 Some("toml") => load(&self.path, &[]).map(|loaded| mesh(&loaded.mesh)),
-                Some("vtu") => fields(&self.path).map_err(Diagnostics::from),
+                Some("vtu") => grid_file(&self.path).map_err(Diagnostics::from),
                 _ => mesh_file(&self.path).map_err(Diagnostics::from),
             }
         };
@@ -169,12 +169,34 @@ fn ending(summary: &Summary) -> Vec<String> {
     lines
 }
 
+/// The mesh of a grid, and its arrays.
+fn grid_file(path: &Path) -> Result<Vec<String>, Diagnostic> {
+    let grid = grid(path)?;
+    // frames of contact alone hold no cells of a mesh: they have fields nevertheless
+    let mut lines = match readers::vtu::from_grid(&path.display().to_string(), &grid) {
+        Ok((found, notes)) => {
+            let notes = notes.iter().map(|note| format!("note: {note}"));
+            mesh(&found).into_iter().chain(notes).collect()
+        }
+        Err(error) => vec![format!("no mesh: {error}")],
+    };
+    lines.extend(arrays(&grid));
+    Ok(lines)
+}
+
+fn grid(path: &Path) -> Result<Vtu, Diagnostic> {
+    let bytes = read(path)?;
+    vtu::read(&bytes).map_err(|error| {
+        Diagnostic::error(&codes::UNREADABLE, format!("{}: {error}", path.display()))
+    })
+}
+
 /// The arrays of a frame with their ranges.
 fn fields(path: &Path) -> Result<Vec<String>, Diagnostic> {
-    let bytes = read(path)?;
-    let grid = vtu::read(&bytes).map_err(|error| {
-        Diagnostic::error(&codes::UNREADABLE, format!("{}: {error}", path.display()))
-    })?;
+    Ok(arrays(&grid(path)?))
+}
+
+fn arrays(grid: &Vtu) -> Vec<String> {
     let mut lines = Vec::new();
     for (place, arrays) in [("node", &grid.point_data), ("cell", &grid.cell_data)] {
         for array in arrays {
@@ -191,7 +213,7 @@ fn fields(path: &Path) -> Result<Vec<String>, Diagnostic> {
             ));
         }
     }
-    Ok(lines)
+    lines
 }
 
 /// Smallest and largest number of an array; numbers that are none are left out.

@@ -4,10 +4,11 @@ use super::cursor::Cursor;
 use super::kind::{Kind, supported};
 use crate::readers::MeshError;
 use crate::readers::error::{Place, excerpt};
+use crate::readers::labels::Lookup;
 use signorini_geometry::element::MAX_NODES;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId, Set};
 use signorini_geometry::tensor::Vec3;
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 type Result<T> = std::result::Result<T, MeshError>;
 
@@ -34,47 +35,6 @@ impl Labels {
         }
         self.list.push(label);
         self.set.as_mut().is_none_or(|set| set.insert(label))
-    }
-}
-
-/// From the number in the file to the node.
-enum Lookup {
-    Dense { first: u64, nodes: Vec<NodeId> },
-    Sparse(HashMap<u64, NodeId>),
-}
-
-impl Lookup {
-    const NONE: NodeId = NodeId::MAX;
-
-    fn new(labels: &[u64]) -> Self {
-        let first = labels.iter().copied().min().unwrap_or(0);
-        let last = labels.iter().copied().max().unwrap_or(0);
-        let span = (last - first) as usize;
-        if span < 4 * labels.len() {
-            let mut nodes = vec![Self::NONE; span + 1];
-            for (node, label) in labels.iter().enumerate() {
-                if let Some(entry) = nodes.get_mut((label - first) as usize) {
-                    *entry = node as NodeId;
-                }
-            }
-            return Self::Dense { first, nodes };
-        }
-        let pairs = labels.iter().enumerate();
-        Self::Sparse(
-            pairs
-                .map(|(node, &label)| (label, node as NodeId))
-                .collect(),
-        )
-    }
-
-    fn find(&self, label: u64) -> Option<NodeId> {
-        match self {
-            Self::Dense { first, nodes } => {
-                let at = usize::try_from(label.checked_sub(*first)?).ok()?;
-                nodes.get(at).copied().filter(|&n| n != Self::NONE)
-            }
-            Self::Sparse(map) => map.get(&label).copied(),
-        }
     }
 }
 

@@ -128,7 +128,7 @@ impl<'a> Cursor<'a> {
     fn truncated(&self, wanted: &'static str) -> MeshError {
         MeshError::Truncated {
             place: self.place(),
-            section: self.section.into(),
+            section: format!("${}", self.section),
             wanted,
         }
     }
@@ -143,7 +143,7 @@ impl<'a> Cursor<'a> {
         };
         MeshError::NotANumber {
             place: self.place(),
-            section: self.section.into(),
+            section: format!("${}", self.section),
             wanted,
             found: excerpt(found),
             hint,

@@ -558,7 +558,7 @@ fn nodes_alone_and_sections_out_of_order_are_refused() {
     let (before, elements) = V2.split_at(V2.find("$Elements").unwrap());
     assert_eq!(
         fault(before),
-        "box.msh: the mesh has 6 nodes but no elements; mesh the model before saving, and put what is to be saved into physical groups (or set Mesh.SaveAll = 1)"
+        "box.msh: the mesh has 6 nodes but no elements; mesh the model before saving it whole (in Gmsh: put what is to be saved into physical groups, or set Mesh.SaveAll = 1)"
     );
     let (head, nodes) = before.split_at(before.find("$Nodes").unwrap());
     assert_eq!(

@@ -24,19 +24,17 @@
 //!
 //! One more cell type: a line in [`nnode_of`].
 
-mod decode;
-
 use std::fmt::Write;
 use std::path::Path;
 
 use flate2::{Compress, Compression, FlushCompress, Status};
 use rayon::prelude::*;
 
-use super::xml::escape;
 use crate::fs::bytes::extend_le;
 use crate::fs::{Fs, FsError};
+use crate::vtk::xml::escape;
 
-pub use decode::{Array, Numbers, Vtu, VtuReadError, read, read_limited};
+pub use crate::vtk::{Array, Numbers, Vtu, VtuReadError, read, read_limited};
 
 /// The names of a symmetric tensor's components, in the order of the file.
 pub const TENSOR_COMPONENTS: [&str; 6] = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"];

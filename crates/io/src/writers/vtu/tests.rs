@@ -4,8 +4,8 @@ use serde_json::json;
 
 use super::*;
 use crate::fs::{FailingFs, RealFs, TornFs};
+use crate::vtk::xml::assert_well_formed;
 use crate::writers::pvd::{Pvd, PvdError};
-use crate::writers::xml::assert_well_formed;
 
 /// A unit brick with a vertex on it and every kind of field.
 struct Sample {

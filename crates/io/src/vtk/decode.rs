@@ -1,14 +1,10 @@
-//! Reads `.vtu` files with appended raw data, as this program writes them.
-//!
-//! Nothing is believed: every size is checked against the bytes that are there, and against the counts of the grid,
-//! before memory is asked for.
-//!
-//! Limits: appended raw data only, little-endian, one piece, no compressor but zlib.
+use std::borrow::Cow;
+use std::str::FromStr;
 
 use flate2::{Decompress, FlushDecompress, Status};
 
-use super::super::xml::{Piece, Scanner, Tag, XmlError};
-use crate::fs::bytes::decode_le;
+use super::stream::Stream;
+use super::xml::{Piece, Scanner, Tag, XmlError};
 
 /// No zlib stream is shorter than its content by more than this factor.
 const DEFLATE_LIMIT: u64 = 1032;
@@ -24,10 +20,18 @@ pub enum Numbers {
     I8(Vec<i8>),
     /// `UInt8`
     U8(Vec<u8>),
+    /// `Int16`
+    I16(Vec<i16>),
+    /// `UInt16`
+    U16(Vec<u16>),
     /// `Int32`
     I32(Vec<i32>),
+    /// `UInt32`
+    U32(Vec<u32>),
     /// `Int64`
     I64(Vec<i64>),
+    /// `UInt64`
+    U64(Vec<u64>),
     /// `String`
     Text(String),
 }
@@ -40,10 +44,33 @@ impl Numbers {
             Numbers::F32(v) => v.iter().map(|x| f64::from(*x)).collect(),
             Numbers::I8(v) => v.iter().map(|x| f64::from(*x)).collect(),
             Numbers::U8(v) => v.iter().map(|x| f64::from(*x)).collect(),
+            Numbers::I16(v) => v.iter().map(|x| f64::from(*x)).collect(),
+            Numbers::U16(v) => v.iter().map(|x| f64::from(*x)).collect(),
             Numbers::I32(v) => v.iter().map(|x| f64::from(*x)).collect(),
+            Numbers::U32(v) => v.iter().map(|x| f64::from(*x)).collect(),
             Numbers::I64(v) => v.iter().map(|x| *x as f64).collect(),
+            Numbers::U64(v) => v.iter().map(|x| *x as f64).collect(),
             Numbers::Text(_) => Vec::new(),
         }
+    }
+
+    /// Whole numbers; nothing for reals, text, and numbers beyond 2⁶³.
+    pub fn to_i64(&self) -> Option<Vec<i64>> {
+        Some(match self {
+            Numbers::I8(v) => v.iter().map(|x| i64::from(*x)).collect(),
+            Numbers::U8(v) => v.iter().map(|x| i64::from(*x)).collect(),
+            Numbers::I16(v) => v.iter().map(|x| i64::from(*x)).collect(),
+            Numbers::U16(v) => v.iter().map(|x| i64::from(*x)).collect(),
+            Numbers::I32(v) => v.iter().map(|x| i64::from(*x)).collect(),
+            Numbers::U32(v) => v.iter().map(|x| i64::from(*x)).collect(),
+            Numbers::I64(v) => v.clone(),
+            Numbers::U64(v) => v
+                .iter()
+                .map(|x| i64::try_from(*x))
+                .collect::<Result<_, _>>()
+                .ok()?,
+            Numbers::F64(_) | Numbers::F32(_) | Numbers::Text(_) => return None,
+        })
     }
 }
 
@@ -77,6 +104,8 @@ pub struct Vtu {
     pub cell_data: Vec<Array>,
     /// What is known about the whole frame.
     pub facts: Vec<Array>,
+    /// Names of arrays of kinds that are not read.
+    pub skipped: Vec<String>,
 }
 
 impl Vtu {
@@ -152,8 +181,24 @@ pub fn read(bytes: &[u8]) -> Result<Vtu, VtuReadError> {
 /// # Errors
 /// [`VtuReadError`].
 pub fn read_limited(bytes: &[u8], limit: u64) -> Result<Vtu, VtuReadError> {
+    let text = |bytes| {
+        std::str::from_utf8(bytes).map_err(|e| XmlError {
+            what: "bytes that are not UTF-8",
+            at: e.valid_up_to(),
+        })
+    };
+    let mut reader = Reader {
+        data: &[],
+        limit,
+        left: limit,
+        storage: Storage::default(),
+        vtu: Vtu::default(),
+    };
+    let Some(tag) = find(bytes, b"<AppendedData") else {
+        reader.document(text(bytes)?)?;
+        return Ok(reader.vtu);
+    };
     let missing = |what| VtuReadError::Missing { what };
-    let tag = find(bytes, b"<AppendedData").ok_or(missing("appended data"))?;
     let (head, rest) = bytes.split_at(tag);
     let start = rest
         .iter()
@@ -165,26 +210,13 @@ pub fn read_limited(bytes: &[u8], limit: u64) -> Result<Vtu, VtuReadError> {
         .trim_ascii_end()
         .strip_suffix(b"</VTKFile>")
         .map(<[u8]>::trim_ascii_end);
-    let data = tail
+    reader.data = tail
         .and_then(|tail| tail.strip_suffix(b"</AppendedData>"))
         .ok_or(missing("end"))?;
-    let text = |bytes| {
-        std::str::from_utf8(bytes).map_err(|e| XmlError {
-            what: "bytes that are not UTF-8",
-            at: e.valid_up_to(),
-        })
-    };
     // The head and the tag of the data, closed again, are a document of their own.
     let document = text(head)?.to_string()
         + text(appended)?.trim_end_matches('_')
         + "</AppendedData></VTKFile>";
-    let mut reader = Reader {
-        data,
-        limit,
-        left: limit,
-        is_compressed: false,
-        vtu: Vtu::default(),
-    };
     reader.document(&document)?;
     Ok(reader.vtu)
 }
@@ -215,18 +247,44 @@ enum Kind {
     F32,
     I8,
     U8,
+    I16,
+    U16,
     I32,
+    U32,
     I64,
+    U64,
 }
 
 impl Kind {
     fn width(self) -> u64 {
         match self {
-            Kind::F64 | Kind::I64 => 8,
-            Kind::F32 | Kind::I32 => 4,
+            Kind::F64 | Kind::I64 | Kind::U64 => 8,
+            Kind::F32 | Kind::I32 | Kind::U32 => 4,
+            Kind::I16 | Kind::U16 => 2,
             Kind::I8 | Kind::U8 => 1,
         }
     }
+}
+
+/// Where the values of an array are.
+enum Source {
+    /// Behind the document, from this offset on.
+    Appended(u64),
+    /// In its tag, as decimal numbers.
+    Ascii(String),
+    /// In its tag, in base64.
+    Base64(String),
+}
+
+/// How blocks of bytes are stored in the whole file.
+#[derive(Clone, Copy, Default)]
+struct Storage {
+    is_compressed: bool,
+    is_big_endian: bool,
+    /// Sizes have eight bytes, not four.
+    is_wide: bool,
+    /// What is appended is base64, not raw.
+    is_base64: bool,
 }
 
 /// One array as its tag describes it.
@@ -237,7 +295,7 @@ struct Slot {
     component_names: Vec<String>,
     /// Tuples, for arrays of the whole frame.
     ntuple: u64,
-    offset: u64,
+    source: Source,
 }
 
 impl Slot {
@@ -254,8 +312,17 @@ struct Reader<'a> {
     limit: u64,
     /// Bytes of content that may still be read.
     left: u64,
-    is_compressed: bool,
+    storage: Storage,
     vtu: Vtu,
+}
+
+/// Where an array belongs, by the element around it and by its name.
+enum Target {
+    Field(Place),
+    Points,
+    Connectivity,
+    Offsets,
+    Types,
 }
 
 impl Reader<'_> {
@@ -265,6 +332,7 @@ impl Reader<'_> {
         let mut layout = Layout::default();
         let mut npiece = 0;
         let mut fact = None;
+        let mut open: Option<(Target, Slot)> = None;
         while let Some(piece) = scanner.piece()? {
             match piece {
                 Piece::Open(tag) => {
@@ -276,38 +344,43 @@ impl Reader<'_> {
                             layout.npoint = count(&tag, "NumberOfPoints")?;
                             layout.ncell = count(&tag, "NumberOfCells")?;
                         }
-                        ("FieldData", "Array") => {
+                        ("FieldData", "Array") if tag.get("format") == Some("ascii") => {
                             fact = Some(tag.get("Name").unwrap_or_default().to_string())
                         }
-                        ("FieldData", "DataArray") => {
-                            layout.fields.push((Place::Facts, slot(&tag)?))
-                        }
-                        ("PointData", "DataArray") => {
-                            layout.fields.push((Place::Points, slot(&tag)?))
-                        }
-                        ("CellData", "DataArray") => {
-                            layout.fields.push((Place::Cells, slot(&tag)?))
-                        }
-                        ("Points", "DataArray") => layout.points = Some(slot(&tag)?),
-                        ("Cells", "DataArray") => match tag.get("Name") {
-                            Some("connectivity") => layout.connectivity = Some(slot(&tag)?),
-                            Some("offsets") => layout.offsets = Some(slot(&tag)?),
-                            Some("types") => layout.types = Some(slot(&tag)?),
-                            _ => return unsupported("an array of cells with another name"),
-                        },
-                        ("VTKFile", "AppendedData") if tag.get("encoding") != Some("raw") => {
-                            return unsupported("data that is not raw");
+                        (parent, "DataArray") => open = self.array(parent, &tag)?,
+                        ("VTKFile", "AppendedData") => {
+                            self.storage.is_base64 = match tag.get("encoding") {
+                                Some("raw") => false,
+                                Some("base64") => true,
+                                _ => return unsupported("data neither raw nor in base64"),
+                            };
                         }
                         _ => {}
                     }
                     path.push(tag.name);
                 }
-                Piece::Close(_) => {
+                Piece::Close(name) => {
                     path.pop();
+                    if name != "DataArray" {
+                        continue;
+                    }
+                    match open.take() {
+                        Some((Target::Field(place), slot)) => layout.fields.push((place, slot)),
+                        Some((Target::Points, slot)) => layout.points = Some(slot),
+                        Some((Target::Connectivity, slot)) => layout.connectivity = Some(slot),
+                        Some((Target::Offsets, slot)) => layout.offsets = Some(slot),
+                        Some((Target::Types, slot)) => layout.types = Some(slot),
+                        None => {}
+                    }
                 }
-                Piece::Text(codes) => {
+                Piece::Text(text) => {
                     if let Some(name) = fact.take() {
-                        self.text_fact(name, &codes)?;
+                        self.text_fact(name, &text)?;
+                    } else if path.last() == Some(&"DataArray")
+                        && let Some((_, slot)) = &mut open
+                        && let Source::Ascii(all) | Source::Base64(all) = &mut slot.source
+                    {
+                        all.push_str(&text);
                     }
                 }
             }
@@ -319,23 +392,55 @@ impl Reader<'_> {
         }
     }
 
-    fn file(&mut self, tag: &Tag<'_>) -> Result<(), VtuReadError> {
-        for (key, value) in [
-            ("type", "UnstructuredGrid"),
-            ("byte_order", "LittleEndian"),
-            ("header_type", "UInt64"),
-        ] {
-            if tag.get(key) != Some(value) {
-                return unsupported(&format!(
-                    "{key} is {:?}, not {value:?}",
-                    tag.get(key).unwrap_or("not given")
-                ));
+    /// An array's tag. Fields of kinds that are not read are left out; the grid itself must be read.
+    fn array(
+        &mut self,
+        parent: &str,
+        tag: &Tag<'_>,
+    ) -> Result<Option<(Target, Slot)>, VtuReadError> {
+        let target = match (parent, tag.get("Name")) {
+            ("FieldData", _) => Target::Field(Place::Facts),
+            ("PointData", _) => Target::Field(Place::Points),
+            ("CellData", _) => Target::Field(Place::Cells),
+            ("Points", _) => Target::Points,
+            ("Cells", Some("connectivity")) => Target::Connectivity,
+            ("Cells", Some("offsets")) => Target::Offsets,
+            ("Cells", Some("types")) => Target::Types,
+            // faces of polyhedra; cells that are some are refused by their type
+            _ => return Ok(None),
+        };
+        match (slot(tag), target) {
+            (Err(VtuReadError::Unsupported { .. }), Target::Field(_)) => {
+                let name = tag.get("Name").unwrap_or_default().to_string();
+                self.vtu.skipped.push(name);
+                Ok(None)
             }
+            (slot, target) => Ok(Some((target, slot?))),
         }
-        self.is_compressed = match tag.get("compressor") {
-            None => false,
+    }
+
+    fn file(&mut self, tag: &Tag<'_>) -> Result<(), VtuReadError> {
+        let other = |key: &str, found: &str| unsupported(&format!("{key} is {found:?}"));
+        let get = |key| tag.get(key).unwrap_or("not given");
+        match get("type") {
+            "UnstructuredGrid" => {}
+            found => return other("type", found),
+        }
+        self.storage.is_big_endian = match get("byte_order") {
+            "LittleEndian" => false,
+            "BigEndian" => true,
+            found => return other("byte_order", found),
+        };
+        // the first version of the format had no other
+        self.storage.is_wide = match get("header_type") {
+            "UInt64" => true,
+            "UInt32" | "not given" => false,
+            found => return other("header_type", found),
+        };
+        self.storage.is_compressed = match tag.get("compressor") {
+            None | Some("") => false,
             Some("vtkZLibDataCompressor") => true,
-            Some(other) => return unsupported(&format!("compressor {other:?}")),
+            Some(found) => return other("compressor", found),
         };
         Ok(())
     }
@@ -382,10 +487,12 @@ impl Reader<'_> {
         self.vtu.points = flat.as_chunks::<3>().0.to_vec();
 
         let slot = types.ok_or(missing("cell types"))?;
-        self.vtu.types = match self.numbers(&slot, Some(ncell))? {
-            Numbers::U8(types) => types,
-            _ => return Err(slot.damaged("cell types are UInt8")),
-        };
+        let types = self.indices(&slot, Some(ncell))?;
+        let types = types
+            .into_iter()
+            .map(u8::try_from)
+            .collect::<Result<_, _>>();
+        self.vtu.types = types.map_err(|_| slot.damaged("a cell type is beyond 255"))?;
 
         let slot = offsets.ok_or(missing("cell offsets"))?;
         let ends = self.indices(&slot, Some(ncell))?;
@@ -436,69 +543,141 @@ impl Reader<'_> {
 
     /// Whole numbers that count something.
     fn indices(&mut self, slot: &Slot, ntuple: Option<u64>) -> Result<Vec<usize>, VtuReadError> {
-        let wide: Vec<i64> = match self.numbers(slot, ntuple)? {
-            Numbers::I32(v) => v.into_iter().map(i64::from).collect(),
-            Numbers::I64(v) => v,
-            _ => return Err(slot.damaged("node numbers are Int32 or Int64")),
-        };
+        let wide = self.numbers(slot, ntuple)?.to_i64();
+        let wide = wide.ok_or(slot.damaged("its numbers are not whole, or too large"))?;
         let indices: Result<Vec<usize>, _> = wide.into_iter().map(usize::try_from).collect();
-        indices.map_err(|_| slot.damaged("a node number is negative"))
+        indices.map_err(|_| slot.damaged("a number in it is negative"))
     }
 
+    /// The values of an array, as many as its tag and the grid ask for.
     fn numbers(&mut self, slot: &Slot, ntuple: Option<u64>) -> Result<Numbers, VtuReadError> {
-        let bytes = self.bytes(slot, ntuple)?;
-        Ok(match slot.kind {
-            Kind::F64 => Numbers::F64(decode_le(&bytes, f64::from_le_bytes)),
-            Kind::F32 => Numbers::F32(decode_le(&bytes, f32::from_le_bytes)),
-            Kind::I8 => Numbers::I8(decode_le(&bytes, i8::from_le_bytes)),
-            Kind::U8 => Numbers::U8(bytes),
-            Kind::I32 => Numbers::I32(decode_le(&bytes, i32::from_le_bytes)),
-            Kind::I64 => Numbers::I64(decode_le(&bytes, i64::from_le_bytes)),
-        })
-    }
-
-    /// The bytes of an array, as many as its tag and the grid ask for.
-    fn bytes(&mut self, slot: &Slot, ntuple: Option<u64>) -> Result<Vec<u8>, VtuReadError> {
-        let block = usize::try_from(slot.offset)
-            .ok()
-            .and_then(|at| self.data.get(at..));
-        let mut block = block.ok_or(slot.damaged("it starts behind the end of the file"))?;
-        let expected = ntuple
-            .and_then(|n| {
-                n.checked_mul(slot.ncomponent)?
-                    .checked_mul(slot.kind.width())
-            })
+        let count = ntuple.and_then(|n| n.checked_mul(slot.ncomponent));
+        let nbyte = count.and_then(|n| n.checked_mul(slot.kind.width()));
+        let (count, nbyte) = count
+            .zip(nbyte)
             .ok_or(slot.damaged("its size is out of range"))?;
-        self.left = self
-            .left
-            .checked_sub(expected)
-            .ok_or(VtuReadError::TooLarge {
-                name: slot.name.clone(),
-                limit: self.limit,
-            })?;
-        if self.is_compressed {
-            return inflate(block, expected).map_err(|what| slot.damaged(what));
-        }
-        if take_u64(&mut block) != Some(expected) {
-            return Err(slot.damaged("its size is not the one of the grid"));
-        }
-        let bytes = usize::try_from(expected).ok().and_then(|n| block.get(..n));
-        Ok(bytes
-            .ok_or(slot.damaged("it ends behind the end of the file"))?
-            .to_vec())
+        self.left = self.left.checked_sub(nbyte).ok_or(VtuReadError::TooLarge {
+            name: slot.name.clone(),
+            limit: self.limit,
+        })?;
+        let stream = match &slot.source {
+            Source::Ascii(text) => return ascii(slot, text, count),
+            Source::Base64(text) => Stream::base64(text.as_bytes()),
+            Source::Appended(offset) => {
+                let data = usize::try_from(*offset)
+                    .ok()
+                    .and_then(|at| self.data.get(at..));
+                let data = data.ok_or(slot.damaged("it starts behind the end of the file"))?;
+                match self.storage.is_base64 {
+                    true => Stream::base64(data),
+                    false => Stream::Raw(data),
+                }
+            }
+        };
+        let block = block(stream, nbyte, self.storage);
+        let bytes = block.map_err(|what| slot.damaged(what))?;
+        let big = self.storage.is_big_endian;
+        Ok(match slot.kind {
+            Kind::F64 => Numbers::F64(decode(&bytes, big, f64::from_le_bytes, f64::from_be_bytes)),
+            Kind::F32 => Numbers::F32(decode(&bytes, big, f32::from_le_bytes, f32::from_be_bytes)),
+            Kind::I8 => Numbers::I8(decode(&bytes, big, i8::from_le_bytes, i8::from_be_bytes)),
+            Kind::U8 => Numbers::U8(bytes.into_owned()),
+            Kind::I16 => Numbers::I16(decode(&bytes, big, i16::from_le_bytes, i16::from_be_bytes)),
+            Kind::U16 => Numbers::U16(decode(&bytes, big, u16::from_le_bytes, u16::from_be_bytes)),
+            Kind::I32 => Numbers::I32(decode(&bytes, big, i32::from_le_bytes, i32::from_be_bytes)),
+            Kind::U32 => Numbers::U32(decode(&bytes, big, u32::from_le_bytes, u32::from_be_bytes)),
+            Kind::I64 => Numbers::I64(decode(&bytes, big, i64::from_le_bytes, i64::from_be_bytes)),
+            Kind::U64 => Numbers::U64(decode(&bytes, big, u64::from_le_bytes, u64::from_be_bytes)),
+        })
     }
 }
 
+/// Bytes to numbers, in either byte order.
+fn decode<T, const N: usize>(
+    bytes: &[u8],
+    is_big_endian: bool,
+    le: fn([u8; N]) -> T,
+    be: fn([u8; N]) -> T,
+) -> Vec<T> {
+    let from = if is_big_endian { be } else { le };
+    let chunks = bytes.as_chunks::<N>().0.iter();
+    chunks.map(|chunk| from(*chunk)).collect()
+}
+
+/// Decimal numbers, exactly as many as are asked for.
+fn ascii(slot: &Slot, text: &str, count: u64) -> Result<Numbers, VtuReadError> {
+    fn parse<T: FromStr>(text: &str, count: u64) -> Result<Vec<T>, &'static str> {
+        if count > text.len() as u64 / 2 + 1 {
+            return Err("its text is too short for its size");
+        }
+        let words = text.split_ascii_whitespace().map(str::parse);
+        let numbers = words.collect::<Result<Vec<T>, _>>();
+        let numbers = numbers.map_err(|_| "its text has something else than its numbers")?;
+        match numbers.len() as u64 == count {
+            true => Ok(numbers),
+            false => Err("its size is not the one of the grid"),
+        }
+    }
+    let numbers = match slot.kind {
+        Kind::F64 => parse(text, count).map(Numbers::F64),
+        Kind::F32 => parse(text, count).map(Numbers::F32),
+        Kind::I8 => parse(text, count).map(Numbers::I8),
+        Kind::U8 => parse(text, count).map(Numbers::U8),
+        Kind::I16 => parse(text, count).map(Numbers::I16),
+        Kind::U16 => parse(text, count).map(Numbers::U16),
+        Kind::I32 => parse(text, count).map(Numbers::I32),
+        Kind::U32 => parse(text, count).map(Numbers::U32),
+        Kind::I64 => parse(text, count).map(Numbers::I64),
+        Kind::U64 => parse(text, count).map(Numbers::U64),
+    };
+    numbers.map_err(|what| slot.damaged(what))
+}
+
+const TORN: &str = "it ends behind the end of the file, or is no base64";
+const SIZE: &str = "its size is not the one of the grid";
+
+/// The content of a block, `expected` bytes.
+fn block(
+    mut stream: Stream<'_>,
+    expected: u64,
+    storage: Storage,
+) -> Result<Cow<'_, [u8]>, &'static str> {
+    if storage.is_compressed {
+        return inflate(stream, expected, storage).map(Cow::Owned);
+    }
+    if sizes(&mut stream, 1, storage)?.first() != Some(&expected) {
+        return Err(SIZE);
+    }
+    stream.take(expected).ok_or(TORN)
+}
+
+/// Sizes in front of a block.
+fn sizes(stream: &mut Stream<'_>, count: u64, storage: Storage) -> Result<Vec<u64>, &'static str> {
+    let width = if storage.is_wide { 8 } else { 4 };
+    let nbyte = count.checked_mul(width).ok_or(TORN)?;
+    let bytes = stream.take(nbyte).ok_or(TORN)?;
+    let big = storage.is_big_endian;
+    if storage.is_wide {
+        return Ok(decode(&bytes, big, u64::from_le_bytes, u64::from_be_bytes));
+    }
+    let narrow = decode(&bytes, big, u32::from_le_bytes, u32::from_be_bytes);
+    Ok(narrow.into_iter().map(u64::from).collect())
+}
+
 /// The content of a compressed block, `expected` bytes.
-fn inflate(mut block: &[u8], expected: u64) -> Result<Vec<u8>, &'static str> {
-    const TORN: &str = "it ends behind the end of the file";
-    const SIZE: &str = "its size is not the one of the grid";
-    let mut header = || take_u64(&mut block).ok_or(TORN);
-    let (npiece, full, last) = (header()?, header()?, header()?);
+fn inflate(
+    mut stream: Stream<'_>,
+    expected: u64,
+    storage: Storage,
+) -> Result<Vec<u8>, &'static str> {
+    let head = sizes(&mut stream, 3, storage)?;
+    let &[npiece, full, last] = head.as_slice() else {
+        return Err(TORN);
+    };
     let content = match (npiece, last) {
         (0, _) => Some(0),
         (_, 0) => npiece.checked_mul(full),
-        (_, last) if last < full => (npiece - 1)
+        (_, last) if last <= full => (npiece - 1)
             .checked_mul(full)
             .and_then(|n| n.checked_add(last)),
         _ => None,
@@ -506,12 +685,8 @@ fn inflate(mut block: &[u8], expected: u64) -> Result<Vec<u8>, &'static str> {
     if content != Some(expected) {
         return Err(SIZE);
     }
-    let sizes_length = usize::try_from(npiece)
-        .ok()
-        .and_then(|n| n.checked_mul(8))
-        .ok_or(TORN)?;
-    let (sizes, mut streams) = block.split_at_checked(sizes_length).ok_or(TORN)?;
-    if expected > DEFLATE_LIMIT.saturating_mul(streams.len() as u64) {
+    let sizes = sizes(&mut stream, npiece, storage)?;
+    if expected > DEFLATE_LIMIT.saturating_mul(stream.bound()) {
         return Err("it claims more content than its bytes can hold");
     }
     let mut out = Vec::new();
@@ -520,12 +695,7 @@ fn inflate(mut block: &[u8], expected: u64) -> Result<Vec<u8>, &'static str> {
         .map_err(|_| "there is not enough memory for it")?;
     let mut state = Decompress::new(true);
     let mut piece = Vec::new();
-    for (i, size) in decode_le(sizes, u64::from_le_bytes).into_iter().enumerate() {
-        let stream;
-        (stream, streams) = usize::try_from(size)
-            .ok()
-            .and_then(|n| streams.split_at_checked(n))
-            .ok_or(TORN)?;
+    for (i, size) in sizes.into_iter().enumerate() {
         let content = if i as u64 + 1 == npiece && last > 0 {
             last
         } else {
@@ -534,11 +704,12 @@ fn inflate(mut block: &[u8], expected: u64) -> Result<Vec<u8>, &'static str> {
         if content > DEFLATE_LIMIT.saturating_mul(size) {
             return Err("it claims more content than its bytes can hold");
         }
+        let bytes = stream.take(size).ok_or(TORN)?;
         state.reset(true);
         piece.clear();
         // A little more than the content, so that a stream that is too long shows.
         piece.reserve_exact(content as usize + 16);
-        let status = state.decompress_vec(stream, &mut piece, FlushDecompress::Finish);
+        let status = state.decompress_vec(&bytes, &mut piece, FlushDecompress::Finish);
         let status = status.map_err(|_| "its compressed bytes are wrong")?;
         if status != Status::StreamEnd || piece.len() as u64 != content {
             return Err("its compressed bytes hold another amount of content");
@@ -548,24 +719,26 @@ fn inflate(mut block: &[u8], expected: u64) -> Result<Vec<u8>, &'static str> {
     Ok(out)
 }
 
-fn take_u64(bytes: &mut &[u8]) -> Option<u64> {
-    let (first, rest) = bytes.split_first_chunk::<8>()?;
-    *bytes = rest;
-    Some(u64::from_le_bytes(*first))
-}
-
 fn slot(tag: &Tag<'_>) -> Result<Slot, VtuReadError> {
     let name = tag.get("Name").unwrap_or_default().to_string();
-    if tag.get("format") != Some("appended") {
-        return unsupported(&format!("array {name:?} is not appended"));
-    }
+    let source = match tag.get("format") {
+        Some("appended") => Source::Appended(count(tag, "offset")?),
+        Some("binary") => Source::Base64(String::new()),
+        // what the format says where nothing is said
+        Some("ascii") | None => Source::Ascii(String::new()),
+        Some(other) => return unsupported(&format!("array {name:?} has format {other:?}")),
+    };
     let kind = match tag.get("type").unwrap_or_default() {
         "Float64" => Kind::F64,
         "Float32" => Kind::F32,
         "Int8" => Kind::I8,
         "UInt8" => Kind::U8,
+        "Int16" => Kind::I16,
+        "UInt16" => Kind::U16,
         "Int32" => Kind::I32,
+        "UInt32" => Kind::U32,
         "Int64" => Kind::I64,
+        "UInt64" => Kind::U64,
         other => return unsupported(&format!("array {name:?} has type {other:?}")),
     };
     let or_one = |key| {
@@ -582,14 +755,14 @@ fn slot(tag: &Tag<'_>) -> Result<Slot, VtuReadError> {
     let component_names = (0..ncomponent)
         .map_while(|i| tag.get(&format!("ComponentName{i}")).map(str::to_string))
         .collect();
-    let (ntuple, offset) = (or_one("NumberOfTuples")?, count(tag, "offset")?);
+    let ntuple = or_one("NumberOfTuples")?;
     Ok(Slot {
         name,
         kind,
         ncomponent,
         component_names,
         ntuple,
-        offset,
+        source,
     })
 }
 

@@ -1,0 +1,623 @@
+//! What a deck says, card by card, before any number or name in it is looked up.
+
+use super::card::{Card, Fields, key, not_a_number, real, text, whole};
+use super::kind::{Kind, supported};
+use super::lines::{Files, Lines, Spot};
+use crate::readers::MeshError;
+use crate::readers::error::excerpt;
+use signorini_geometry::tensor::Vec3;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+type Result<T> = std::result::Result<T, MeshError>;
+
+/// Cards that make nodes or elements out of others, or move them.
+const REFUSED: [(&str, &str); 10] = [
+    ("NCOPY", GENERATED),
+    ("NGEN", GENERATED),
+    ("NFILL", GENERATED),
+    ("NMAP", GENERATED),
+    ("ELGEN", GENERATED),
+    ("ELCOPY", GENERATED),
+    ("SYMMETRICMODELGENERATION", GENERATED),
+    ("IMPORT", GENERATED),
+    (
+        "SYSTEM",
+        "it moves the nodes that follow; write their coordinates in the global system",
+    ),
+    ("PARAMETER", "write numbers in place of its names"),
+];
+const GENERATED: &str =
+    "it makes nodes or elements out of others; export the deck with all of them written out";
+
+/// What a set holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Family {
+    Nodes,
+    Cells,
+    Faces,
+}
+
+impl Family {
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Nodes => "node set",
+            Self::Cells => "element set",
+            Self::Faces => "surface",
+        }
+    }
+}
+
+/// A side of an element as a surface names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// `S1`, `S2`, …
+    Number(u8),
+    /// `SPOS` or `SNEG`: a face of a shell.
+    Face,
+    /// Nothing: the sides that no other element has.
+    Free,
+}
+
+impl Side {
+    fn parse(name: &str) -> Option<Self> {
+        match name {
+            "" => return Some(Self::Free),
+            "SPOS" | "SNEG" | "SP" | "SN" => return Some(Self::Face),
+            _ => {}
+        }
+        let number = name.strip_prefix('S')?;
+        number.parse().ok().filter(|&n| n > 0).map(Self::Number)
+    }
+}
+
+/// What a line of a surface means.
+#[derive(Clone)]
+pub(super) enum Region {
+    Label(u64),
+    Name(String),
+}
+
+/// One card that makes a set or adds to it.
+#[derive(Clone)]
+pub(super) struct Definition {
+    pub name: String,
+    pub family: Family,
+    pub spot: Spot,
+    /// The instance whose numbers and names these are.
+    pub instance: Option<String>,
+    /// Nodes or elements that the card itself defines, by place.
+    pub added: Range<usize>,
+    pub labels: Vec<u64>,
+    /// First, last, step.
+    pub ranges: Vec<[u64; 3]>,
+    /// Sets of the same family (of nodes, for a surface of nodes).
+    pub names: Vec<String>,
+    /// Element sets whose nodes are meant.
+    pub elsets: Vec<String>,
+    pub sides: Vec<(Region, Side)>,
+}
+
+impl Definition {
+    fn new(name: &str, family: Family, spot: Spot) -> Self {
+        Self {
+            name: name.to_owned(),
+            family,
+            spot,
+            instance: None,
+            added: 0..0,
+            labels: Vec::new(),
+            ranges: Vec::new(),
+            names: Vec::new(),
+            elsets: Vec::new(),
+            sides: Vec::new(),
+        }
+    }
+}
+
+/// Nodes, elements and sets whose numbers and names stand for themselves: a part, an instance, the whole of a flat deck.
+#[derive(Default)]
+pub(super) struct Scope {
+    pub node_labels: Vec<u64>,
+    pub points: Vec<Vec3>,
+    pub node_spots: Vec<Spot>,
+    pub element_labels: Vec<u64>,
+    pub element_kinds: Vec<u32>,
+    pub element_spots: Vec<Spot>,
+    /// Node numbers of all elements, one after the other.
+    pub connectivity: Vec<u64>,
+    pub definitions: Vec<Definition>,
+}
+
+/// A part that is used.
+pub(super) struct Instance {
+    pub name: String,
+    pub spot: Spot,
+    /// The part, among the scopes.
+    pub part: usize,
+    /// What the instance has of its own, among the scopes.
+    pub own: usize,
+    pub translation: Vec3,
+    /// Two points of the axis, the angle in degrees.
+    pub rotation: Option<(Vec3, Vec3, f64)>,
+}
+
+/// A deck.
+pub(super) struct Deck {
+    pub kinds: Vec<Kind>,
+    /// The first is the deck itself, or its assembly.
+    pub scopes: Vec<Scope>,
+    pub instances: Vec<Instance>,
+    pub notes: Vec<String>,
+}
+
+/// Reads all cards.
+pub(super) fn read(files: &Files<'_>) -> Result<Deck> {
+    let mut reader = Reader {
+        lines: files.lines(),
+        deck: Deck {
+            kinds: Vec::new(),
+            scopes: vec![Scope::default()],
+            instances: Vec::new(),
+            notes: Vec::new(),
+        },
+        kinds: BTreeMap::new(),
+        parts: BTreeMap::new(),
+        instances: BTreeSet::new(),
+        here: 0,
+        open: None,
+        step: None,
+    };
+    reader.cards()?;
+    Ok(reader.deck)
+}
+
+struct Reader<'f> {
+    lines: Lines<'f>,
+    deck: Deck,
+    kinds: BTreeMap<String, u32>,
+    parts: BTreeMap<String, usize>,
+    instances: BTreeSet<String>,
+    /// The scope that cards fill.
+    here: usize,
+    /// The part or instance that is open: its keyword and its line.
+    open: Option<(&'static str, Spot)>,
+    /// The step that is open.
+    step: Option<Spot>,
+}
+
+impl Reader<'_> {
+    fn cards(&mut self) -> Result<()> {
+        let mut before: Option<MeshError> = None;
+        let mut ncard = 0;
+        while let Some(line) = self.lines.line() {
+            if !line.starts_with(b"*") {
+                before.get_or_insert_with(|| MeshError::NotACard {
+                    place: self.lines.place(),
+                    found: excerpt(line),
+                });
+                continue;
+            }
+            ncard += 1;
+            let card = Card::read(line, &mut self.lines);
+            self.card(&card)?;
+        }
+        match before {
+            Some(error) if ncard == 0 => return Err(error),
+            Some(MeshError::NotACard { place, found }) => self.deck.notes.push(format!(
+                "{place}: `{found}` and what follows stands before the first keyword: ignored"
+            )),
+            _ => {}
+        }
+        if let Some((keyword, spot)) = self.open {
+            return Err(MeshError::Truncated {
+                place: self.lines.place_of(spot),
+                section: format!("*{keyword}"),
+                wanted: "its *END",
+            });
+        }
+        if let Some(spot) = self.step {
+            let note = format!(
+                "{}: *STEP without *END STEP; was the deck cut off?",
+                self.lines.place_of(spot)
+            );
+            self.deck.notes.push(note);
+        }
+        Ok(())
+    }
+
+    fn card(&mut self, card: &Card) -> Result<()> {
+        match card.keyword.as_str() {
+            "NODE" => return self.nodes(card),
+            "ELEMENT" => return self.elements(card),
+            "NSET" => return self.set(card, Family::Nodes),
+            "ELSET" => return self.set(card, Family::Cells),
+            "SURFACE" => return self.surface(card),
+            "PART" => return self.part(card),
+            "INSTANCE" => return self.instance(card),
+            "ENDPART" => self.close(card, "PART")?,
+            "ENDINSTANCE" => self.close(card, "INSTANCE")?,
+            "INCLUDE" => {
+                card.need("INPUT", &self.lines)?;
+            }
+            "STEP" => self.step = Some(card.spot),
+            "ENDSTEP" => self.step = None,
+            keyword => {
+                if let Some((_, why)) = REFUSED.iter().find(|(known, _)| *known == keyword) {
+                    return Err(self.refused(card, why));
+                }
+            }
+        }
+        self.skip();
+        Ok(())
+    }
+
+    fn skip(&mut self) {
+        while self.lines.data().is_some() {}
+    }
+
+    fn refused(&self, card: &Card, why: &'static str) -> MeshError {
+        MeshError::Refused {
+            place: self.lines.place_of(card.spot),
+            card: card.keyword.clone(),
+            why,
+        }
+    }
+
+    fn not_a_number(&self, card: &Card, wanted: &'static str, found: &[u8]) -> MeshError {
+        not_a_number(&self.lines, card, wanted, found)
+    }
+
+    fn label(&self, card: &Card, wanted: &'static str, field: &[u8]) -> Result<u64> {
+        match whole(field) {
+            Some(0) => Err(MeshError::OutOfRange {
+                place: self.lines.place(),
+                wanted,
+                found: "0".into(),
+                range: "from 1 on",
+            }),
+            Some(label) => Ok(label),
+            None => Err(self.not_a_number(card, wanted, field)),
+        }
+    }
+
+    fn real(&self, card: &Card, wanted: &'static str, field: &[u8]) -> Result<f64> {
+        if field.is_empty() {
+            return Ok(0.0);
+        }
+        real(field).ok_or_else(|| self.not_a_number(card, wanted, field))
+    }
+
+    fn scope(&mut self) -> &mut Scope {
+        let here = self.here.min(self.deck.scopes.len() - 1);
+        &mut self.deck.scopes[here]
+    }
+
+    fn nodes(&mut self, card: &Card) -> Result<()> {
+        let is_cylindrical = match card.get("SYSTEM").map(key).as_deref() {
+            None | Some("" | "R") => false,
+            Some("C") => true,
+            Some(_) => {
+                let why = "only SYSTEM=R and SYSTEM=C are read; write Cartesian coordinates";
+                return Err(self.refused(card, why));
+            }
+        };
+        let first = self.scope().points.len();
+        while let Some(line) = self.lines.data() {
+            let mut fields = Fields::of(line);
+            let field = fields.next().unwrap_or_default();
+            let label = self.label(card, "a node number", field)?;
+            let mut x = [0.0; 3];
+            let mut ncoordinate = 0;
+            for ((field, x), axis) in (&mut fields).zip(&mut x).zip(['x', 'y', 'z']) {
+                *x = self.real(card, "a coordinate", field)?;
+                ncoordinate += usize::from(!field.is_empty());
+                if !x.is_finite() {
+                    return Err(MeshError::NotFinite {
+                        place: self.lines.place(),
+                        node: label,
+                        axis,
+                        found: excerpt(field),
+                    });
+                }
+            }
+            if ncoordinate == 0 {
+                return Err(MeshError::Truncated {
+                    place: self.lines.place(),
+                    section: format!("node {label} of *NODE"),
+                    wanted: "coordinates",
+                });
+            }
+            let [a, b, c] = x;
+            let x = if is_cylindrical {
+                let (sin, cos) = b.to_radians().sin_cos();
+                Vec3::new(a * cos, a * sin, c)
+            } else {
+                Vec3::new(a, b, c)
+            };
+            let spot = self.lines.spot;
+            let scope = self.scope();
+            scope.node_labels.push(label);
+            scope.points.push(x);
+            scope.node_spots.push(spot);
+        }
+        let end = self.scope().points.len();
+        if end >= u32::MAX as usize {
+            return Err(MeshError::Excess {
+                place: self.lines.place(),
+                what: "the nodes",
+            });
+        }
+        self.added(card, "NSET", Family::Nodes, first..end);
+        Ok(())
+    }
+
+    /// The set that a card puts what it defines into.
+    fn added(&mut self, card: &Card, parameter: &str, family: Family, added: Range<usize>) {
+        if let Some(name) = card.get(parameter).filter(|name| !name.is_empty()) {
+            let definition = Definition {
+                added,
+                ..Definition::new(name, family, card.spot)
+            };
+            self.scope().definitions.push(definition);
+        }
+    }
+
+    fn elements(&mut self, card: &Card) -> Result<()> {
+        let name = key(card.need("TYPE", &self.lines)?);
+        let number = match self.kinds.get(&name) {
+            Some(number) => *number,
+            None => {
+                let kind = Kind::find(&name).ok_or_else(|| MeshError::UnknownElement {
+                    place: self.lines.place_of(card.spot),
+                    found: excerpt(name.as_bytes()),
+                    known: supported(),
+                })?;
+                let number = self.deck.kinds.len() as u32;
+                self.deck.kinds.push(kind);
+                self.kinds.insert(name.clone(), number);
+                number
+            }
+        };
+        let nnode = (self.deck.kinds.get(number as usize)).map_or(0, |kind| kind.nnode);
+        let first = self.scope().element_labels.len();
+        let count_error = |place, element, found| MeshError::NodeCount {
+            place,
+            element,
+            kind: name.clone(),
+            found,
+            wanted: nnode,
+        };
+        // the element whose nodes are not complete yet: its number, its line, the nodes it has
+        let mut open: Option<(u64, Spot, usize)> = None;
+        while let Some(line) = self.lines.data() {
+            let mut fields = Fields::of(line);
+            let (label, spot, mut count) = match open.take() {
+                Some(element) => element,
+                None => {
+                    let field = fields.next().unwrap_or_default();
+                    let label = self.label(card, "an element number", field)?;
+                    let spot = self.lines.spot;
+                    let scope = self.scope();
+                    scope.element_labels.push(label);
+                    scope.element_kinds.push(number);
+                    scope.element_spots.push(spot);
+                    (label, spot, 0)
+                }
+            };
+            if nnode == 0 {
+                continue;
+            }
+            for field in fields.filter(|field| !field.is_empty()) {
+                let node = self.label(card, "a node number", field)?;
+                count += 1;
+                if count > nnode {
+                    return Err(count_error(self.lines.place(), label, count));
+                }
+                self.scope().connectivity.push(node);
+            }
+            if count < nnode {
+                open = Some((label, spot, count));
+            }
+        }
+        if let Some((label, spot, count)) = open {
+            return Err(count_error(self.lines.place_of(spot), label, count));
+        }
+        let end = self.scope().element_labels.len();
+        self.added(card, "ELSET", Family::Cells, first..end);
+        Ok(())
+    }
+
+    fn set(&mut self, card: &Card, family: Family) -> Result<()> {
+        let (parameter, wanted) = match family {
+            Family::Nodes => ("NSET", "a node number"),
+            _ => ("ELSET", "an element number"),
+        };
+        let name = card.need(parameter, &self.lines)?;
+        let mut set = Definition::new(name, family, card.spot);
+        set.instance = card.get("INSTANCE").map(str::to_owned);
+        if family == Family::Nodes {
+            set.elsets.extend(card.get("ELSET").map(str::to_owned));
+        }
+        let generate = card.get("GENERATE").is_some();
+        while let Some(line) = self.lines.data() {
+            let mut fields = Fields::of(line);
+            if generate {
+                let mut number = |default: Option<u64>| match (fields.next(), default) {
+                    (None | Some(b""), Some(default)) => Ok(default),
+                    (field, _) => {
+                        let field = field.unwrap_or_default();
+                        whole(field).ok_or_else(|| self.not_a_number(card, wanted, field))
+                    }
+                };
+                let first = number(None)?;
+                let (last, step) = (number(Some(first))?, number(Some(1))?);
+                if step == 0 || last < first {
+                    return Err(MeshError::OutOfRange {
+                        place: self.lines.place(),
+                        wanted: "the range of GENERATE",
+                        found: format!("{first}, {last}, {step}"),
+                        range: "first, last ≥ first, step ≥ 1",
+                    });
+                }
+                set.ranges.push([first, last, step]);
+                continue;
+            }
+            for field in fields.filter(|field| !field.is_empty()) {
+                match whole(field) {
+                    Some(label) => set.labels.push(label),
+                    None => set.names.push(name_of(field)),
+                }
+            }
+        }
+        self.scope().definitions.push(set);
+        Ok(())
+    }
+
+    fn surface(&mut self, card: &Card) -> Result<()> {
+        let name = card.need("NAME", &self.lines)?;
+        let mut surface = Definition::new(name, Family::Faces, card.spot);
+        surface.instance = card.get("INSTANCE").map(str::to_owned);
+        let kind = card.get("TYPE").map(key).unwrap_or_default();
+        let combined = card.get("COMBINE").or(card.get("CROP")).is_some();
+        if combined || !["", "ELEMENT", "NODE"].contains(&kind.as_str()) {
+            let how = if combined { "of surfaces" } else { &kind };
+            let note = format!(
+                "{}: surface `{}` is left out: surfaces made {how} are not read",
+                self.lines.place_of(card.spot),
+                excerpt(name.as_bytes())
+            );
+            self.deck.notes.push(note);
+            self.skip();
+            return Ok(());
+        }
+        while let Some(line) = self.lines.data() {
+            let mut fields = Fields::of(line);
+            let region = fields.next().unwrap_or_default();
+            if kind == "NODE" {
+                match whole(region) {
+                    Some(label) => surface.labels.push(label),
+                    None => surface.names.push(name_of(region)),
+                }
+                continue;
+            }
+            let named = text(fields.next().unwrap_or_default());
+            let side = Side::parse(&key(&named)).ok_or_else(|| MeshError::NotANumber {
+                place: self.lines.place(),
+                section: "*SURFACE".into(),
+                wanted: "a side such as S1",
+                found: excerpt(named.as_bytes()),
+                hint: "",
+            })?;
+            let region = match whole(region) {
+                Some(label) => Region::Label(label),
+                None => Region::Name(name_of(region)),
+            };
+            surface.sides.push((region, side));
+        }
+        self.scope().definitions.push(surface);
+        Ok(())
+    }
+
+    fn nesting(&self, card: &Card, found: &'static str, wanted: &'static str) -> MeshError {
+        MeshError::Nesting {
+            place: self.lines.place_of(card.spot),
+            card: card.keyword.clone(),
+            found,
+            wanted,
+        }
+    }
+
+    /// Opens a scope of its own for what follows.
+    fn enter(&mut self, card: &Card, keyword: &'static str) -> Result<usize> {
+        if self.open.is_some() {
+            let found = "inside another part or instance";
+            return Err(self.nesting(card, found, "end that one first"));
+        }
+        self.open = Some((keyword, card.spot));
+        self.deck.scopes.push(Scope::default());
+        self.here = self.deck.scopes.len() - 1;
+        Ok(self.here)
+    }
+
+    fn close(&mut self, card: &Card, keyword: &'static str) -> Result<()> {
+        if self.open.take().is_none_or(|(open, _)| open != keyword) {
+            return Err(self.nesting(card, "where nothing of that kind is open", "remove it"));
+        }
+        self.here = 0;
+        Ok(())
+    }
+
+    fn part(&mut self, card: &Card) -> Result<()> {
+        let name = card.need("NAME", &self.lines)?.to_owned();
+        let scope = self.enter(card, "PART")?;
+        if self.parts.insert(key(&name), scope).is_some() {
+            return Err(MeshError::DuplicateName {
+                place: self.lines.place_of(card.spot),
+                what: "part",
+                name,
+            });
+        }
+        self.skip();
+        Ok(())
+    }
+
+    fn instance(&mut self, card: &Card) -> Result<()> {
+        let name = card.need("NAME", &self.lines)?.to_owned();
+        let part = card.need("PART", &self.lines)?;
+        let known = || {
+            let names: Vec<&str> = self.parts.keys().map(String::as_str).take(10).collect();
+            match names.is_empty() {
+                true => "; the deck has no parts".to_owned(),
+                false => format!("; there are {}", names.join(", ")),
+            }
+        };
+        let Some(&part) = self.parts.get(&key(part)) else {
+            return Err(MeshError::Undefined {
+                place: self.lines.place_of(card.spot),
+                what: "part",
+                name: excerpt(part.as_bytes()),
+                known: known(),
+            });
+        };
+        if !self.instances.insert(key(&name)) {
+            return Err(MeshError::DuplicateName {
+                place: self.lines.place_of(card.spot),
+                what: "instance",
+                name,
+            });
+        }
+        let own = self.enter(card, "INSTANCE")?;
+        let mut lines = [[0.0; 7]; 2];
+        let mut nline = 0;
+        while let Some(line) = self.lines.data() {
+            let Some(numbers) = lines.get_mut(nline) else {
+                let found = "with more than a translation and a rotation";
+                return Err(self.nesting(card, found, "write two lines at most"));
+            };
+            for (field, number) in Fields::of(line).zip(numbers) {
+                *number = self.real(card, "a number of its position", field)?;
+            }
+            nline += 1;
+        }
+        let [[x, y, z, ..], [ax, ay, az, bx, by, bz, angle]] = lines;
+        let (a, b) = (Vec3::new(ax, ay, az), Vec3::new(bx, by, bz));
+        if nline == 2 && (b - a).normalized().is_none() {
+            return Err(self.nesting(card, "with an axis of no length", "give two points of it"));
+        }
+        self.deck.instances.push(Instance {
+            name,
+            spot: card.spot,
+            part,
+            own,
+            translation: Vec3::new(x, y, z),
+            rotation: (nline == 2).then_some((a, b, angle)),
+        });
+        Ok(())
+    }
+}
+
+/// The name in a field, without its quotes.
+fn name_of(field: &[u8]) -> String {
+    text(field).trim_matches('"').to_owned()
+}

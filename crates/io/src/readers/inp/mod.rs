@@ -1,0 +1,68 @@
+//! Decks of Abaqus and CalculiX (`.inp`): their mesh and its sets; all else in them is stepped over.
+//!
+//! ```text
+//! *NODE                    number, x, y, z                                           NSET=
+//! *ELEMENT, TYPE=C3D8      number, nodes; goes on over lines until they are complete ELSET=
+//! *NSET, *ELSET            numbers and names of sets; GENERATE: first, last, step    ▶ sets of nodes, of cells
+//! *SURFACE                 element or element set, S1 …; TYPE=NODE: nodes, node sets ▶ sets of faces, of nodes
+//! *INCLUDE, INPUT=file     the file stands in place of the line
+//! *PART, *INSTANCE         sets of an instance are called `instance.set`
+//! ```
+//!
+//! `**` starts a comment. Keywords, parameters and names may have any letters and blanks; a set keeps the name it has
+//! where it comes first. A card that ends with a comma goes on on the next line. Numbers are those of Fortran (`1.D5`).
+//! Cards may come in any order, but a set must be there before another one names it. Sets that come twice add up.
+//! Node sets, element sets and surfaces have names of their own: where two share one, see the notes.
+//!
+//! An instance is its part, moved and then turned. The first one keeps its numbers; those of others go on behind the
+//! highest, as a note tells. What the assembly has besides comes last.
+//!
+//! Elements in the plane, shells, membranes, rigid facets, bars and beams are cells of their shape: with solids in the
+//! mesh, its faces and edges. What they mean (plane stress, say) is told in a note; the case decides. Masses, springs
+//! and gaps are left out. Cards that make nodes or elements out of others are refused.
+//!
+//! Source: Abaqus Keywords Reference Guide; CalculiX CrunchiX User's Manual, chapters 6 and 7.
+//!
+//! To add an element: one line in the table of `kind.rs`.
+
+mod assemble;
+mod card;
+mod deck;
+mod kind;
+mod lines;
+#[cfg(test)]
+mod tests;
+
+use super::{MeshError, Place};
+use crate::fs::{Fs, RealFs};
+use lines::Files;
+use signorini_geometry::mesh::Mesh;
+
+/// Reads a mesh and what is worth telling about it. `name` is the path of the deck: files that it includes are looked
+/// for in its folder, and in the working folder.
+///
+/// # Errors
+/// Any fault in the mesh or its sets, with its file and line.
+///
+/// # Limits
+/// Files include each other ten deep. Memory stays below a fixed multiple of the size of the deck and its files.
+pub fn read(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
+    read_from(&RealFs, name, bytes)
+}
+
+/// As [`read`], with included files from another place than the disk.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_from(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
+    let is_blank = |b: &u8| b.is_ascii_whitespace();
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if text.iter().all(is_blank) {
+        return Err(MeshError::Empty {
+            place: Place::File(name.into()),
+        });
+    }
+    let files = Files::open(fs, name, bytes)?;
+    let deck = deck::read(&files)?;
+    assemble::assemble(&files, deck)
+}
