@@ -62,8 +62,11 @@ fn the_brick_of_the_paper_reads_completely() {
         case.sets[2].content,
         SetContent::Faces(vec![(1, Side::Axis(Axis::Z, Sense::Plus))])
     );
-    assert_eq!(case.materials[0].young.value, 500.0);
-    assert_eq!(case.materials[0].young.place.text(), Some("500.0"));
+    assert_eq!(case.materials[0].number("E"), Some(500.0));
+    assert_eq!(
+        case.materials[0].constants[0].values.place.text(),
+        Some("500.0")
+    );
     assert!(!case.bodies[0].rigid && case.bodies[1].rigid);
     let contact = &case.contacts[0];
     assert_eq!(*contact.method, Method::NodeToSegment);
@@ -491,8 +494,8 @@ fn options_change_the_case() {
             .0
     };
     assert_eq!(
-        changed("material.soft.E", "2000").materials[0].young.value,
-        2000.0
+        changed("material.soft.E", "2000").materials[0].number("E"),
+        Some(2000.0)
     );
     assert_eq!(changed("title", "two words").title, "two words");
     assert_eq!(changed("title", "\"two words\"").title, "two words");
@@ -528,8 +531,8 @@ fn options_change_the_case() {
         changed("sets.base.nodes.0", "7").sets[0].content,
         SetContent::Nodes(vec![7, 2, 3, 4])
     );
-    let young = changed("material.\"soft\".E", " 7.5 ").materials[0]
-        .young
+    let young = changed("material.\"soft\".E", " 7.5 ").materials[0].constants[0]
+        .values
         .clone();
     assert_eq!(young.place.line().unwrap(), "line 1 of --set");
     assert_eq!(young.place.text(), Some("7.5"));
@@ -547,7 +550,7 @@ fn later_options_win() {
     ]
     .map(|(path, value)| (path.to_owned(), value.to_owned()));
     let (case, _) = read_case("case.toml", PAPER_BRICK.as_bytes(), &set).unwrap();
-    assert_eq!(case.materials[0].young.value, 3.0);
+    assert_eq!(case.materials[0].number("E"), Some(3.0));
     assert_eq!(case.materials[0].model.value, "neo-hookean");
 }
 
