@@ -17,6 +17,15 @@ pub(super) struct Equations {
     response: Vec<f64>,
 }
 
+/// Which factor a solve goes by. The residual that is made small is that of the present operator in both cases.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Factor {
+    /// That of the present operator.
+    New,
+    /// That of the last one: an error where it is too far off, or gone.
+    Kept,
+}
+
 impl Equations {
     pub fn new(solver: Box<dyn LinearSolver>) -> Self {
         Self {
@@ -111,6 +120,7 @@ impl Equations {
         assembler: &Assembler,
         assembly: &Assembly,
         with_motion: bool,
+        factor: Factor,
         du: &mut [f64],
     ) -> Result<SolveReport, LinearError> {
         let values = assembly.values();
@@ -133,7 +143,9 @@ impl Equations {
         }
         self.left.clear();
         self.left.resize(self.dofs.len(), 0.0);
-        self.solver.factorize(&values)?;
+        if factor == Factor::New {
+            self.solver.factorize(&values)?;
+        }
         let report = self
             .solver
             .solve(&values, &self.right, &mut self.left, SOLVE_TOLERANCE)?;

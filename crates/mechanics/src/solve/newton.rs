@@ -1,6 +1,6 @@
 //! One increment by Newton's method.
 
-use super::equations::Equations;
+use super::equations::{Equations, Factor};
 use super::event::IterationRecord;
 use super::line_search;
 use crate::system::linear::LinearError;
@@ -335,7 +335,9 @@ impl Newton {
                     unsettled,
                 });
             }
-            self.solve_linear(motion)?;
+            // where only the size of the next correction is left to show, the last factor tells it
+            let nearly = iterations > 0 && !motion && judgement.small && settled;
+            self.solve_linear(motion, nearly)?;
             decrement = self.slope().abs().sqrt();
             alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
             correction = alpha * largest(&self.du);
@@ -470,13 +472,26 @@ impl Newton {
             .judge(system, dofs, &self.assembly, self.settings.force_tol)
     }
 
-    fn solve_linear(&mut self, motion: bool) -> Result<(), Failure> {
+    fn solve_linear(&mut self, motion: bool, keep_factor: bool) -> Result<(), Failure> {
         if !motion {
             self.du.fill(0.0);
         }
-        let outcome = self
-            .equations
-            .solve(&self.assembler, &self.assembly, motion, &mut self.du);
+        let (assembler, assembly) = (&self.assembler, &self.assembly);
+        let mut outcome = Err(LinearError::Order {
+            before: "factorize",
+        });
+        if keep_factor {
+            let kept = Factor::Kept;
+            outcome = self
+                .equations
+                .solve(assembler, assembly, motion, kept, &mut self.du);
+        }
+        if outcome.is_err() {
+            let new = Factor::New;
+            outcome = self
+                .equations
+                .solve(assembler, assembly, motion, new, &mut self.du);
+        }
         outcome
             .map(|_| ())
             .map_err(|source| self.linear_failure(source))

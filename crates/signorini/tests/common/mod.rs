@@ -46,26 +46,32 @@ pub fn repository() -> PathBuf {
 }
 
 pub fn model(name: &str, text: &str, set: &[(&str, &str)]) -> Model {
+    model_in(Path::new("."), name, text, set)
+}
+
+/// The model of a case whose mesh file is in this folder.
+pub fn model_in(folder: &Path, name: &str, text: &str, set: &[(&str, &str)]) -> Model {
     let set: Vec<(String, String)> = set
         .iter()
         .map(|(k, v)| (k.to_string(), v.to_string()))
         .collect();
     let (case, _) =
         read_case(name, text.as_bytes(), &set).unwrap_or_else(|e| panic!("{}", e.plain()));
-    let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap_or_else(|e| panic!("{}", e.plain()));
+    let (mesh, _) = read_mesh_of(&case, folder).unwrap_or_else(|e| panic!("{}", e.plain()));
     build(case, mesh).unwrap_or_else(|e| panic!("{}", e.plain()))
 }
 
+/// The folder of an example.
+pub fn folder(example: &str) -> PathBuf {
+    repository().join("examples").join(example)
+}
+
 pub fn text(example: &str) -> String {
-    let path = repository()
-        .join("examples")
-        .join(example)
-        .join("case.toml");
-    std::fs::read_to_string(&path).unwrap()
+    std::fs::read_to_string(folder(example).join("case.toml")).unwrap()
 }
 
 pub fn example(name: &str, set: &[(&str, &str)]) -> Model {
-    model(name, &text(name), set)
+    model_in(&folder(name), name, &text(name), set)
 }
 
 pub fn run(model: &mut Model) -> Run {
