@@ -9,7 +9,6 @@ use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
 use super::super::scalar::number;
 use super::Builder;
-use super::steps::directions;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes, listed};
 
 impl Builder {
@@ -226,6 +225,11 @@ impl Builder {
 
     pub(super) fn spring(&mut self, fields: Fields<'_>, place: Place) -> Spring {
         let direction = self.line(fields, "direction");
+        self.within(
+            direction.unwrap_or_default(),
+            "direction",
+            &fields.place("direction"),
+        );
         let ends = match <[Name; 2]>::try_from(fields.texts("between")) {
             Ok([one, other]) => SpringEnds::Between(one, other),
             Err(_) => SpringEnds::Ground(fields.text("on")),
@@ -317,7 +321,7 @@ impl Builder {
                 );
             }
         }
-        directions(fields, "dofs")
+        self.directions(fields, "dofs")
     }
 
     fn summands(&mut self, fields: Fields<'_>) -> Vec<Summand> {

@@ -178,6 +178,25 @@ impl Builder {
         numbers::<3>(value)
     }
 
+    /// A vector in the plane of a plane model.
+    fn vector_within(&mut self, fields: Fields<'_>, key: &str) -> Option<[f64; 3]> {
+        let vector = self.vector(fields, key)?;
+        self.within(vector, key, &fields.place(key));
+        Some(vector)
+    }
+
+    /// Refuses what leads out of a plane model.
+    fn within(&mut self, vector: [f64; 3], key: &str, place: &Place) {
+        if self.space.ndim() == 2 && vector[2] != 0.0 {
+            self.error(
+                &codes::CONTRADICTION,
+                format!("`{key}` leads out of the plane"),
+                place,
+                "a plane model has no z: write 0, or two entries",
+            );
+        }
+    }
+
     /// A direction: the name of an axis, or a vector that is not zero.
     fn line(&mut self, fields: Fields<'_>, key: &str) -> Option<[f64; 3]> {
         if let Some(word) = fields.text_if(key) {

@@ -59,8 +59,8 @@ impl Builder {
                 .into_iter()
                 .map(|(one, place)| Fix {
                     on: one.text("on"),
-                    u: directions(one, "u"),
-                    rot: directions(one, "rot"),
+                    u: self.directions(one, "u"),
+                    rot: self.directions(one, "rot"),
                     place,
                 })
                 .collect(),
@@ -74,8 +74,8 @@ impl Builder {
                 .into_iter()
                 .map(|(one, place)| Free {
                     on: one.text("on"),
-                    u: directions(one, "u"),
-                    rot: directions(one, "rot"),
+                    u: self.directions(one, "u"),
+                    rot: self.directions(one, "rot"),
                     place,
                 })
                 .collect(),
@@ -145,6 +145,9 @@ impl Builder {
 
     fn motion(&mut self, fields: Fields<'_>, place: Place) -> Move {
         let mut component = |key: &str| {
+            if self.space.ndim() == 2 && matches!(key, "uz" | "rx" | "ry") && fields.has(key) {
+                self.out_of_plane(&format!("`{key}`"), &fields.place(key));
+            }
             let table = fields.table(key);
             if let Some(name) = table.text_if("amplitude") {
                 Some(Motion::Amplitude {
@@ -165,6 +168,37 @@ impl Builder {
             on: fields.text("on"),
             place,
         }
+    }
+
+    /// Directions of displacements or rotations. A plane model has x and y, and turns about z.
+    pub(super) fn directions(&mut self, fields: Fields<'_>, key: &str) -> Directions {
+        let words = fields.texts(key);
+        let absent = match key {
+            "rot" => ["x", "y"].as_slice(),
+            _ => ["z"].as_slice(),
+        };
+        for word in &words {
+            if self.space.ndim() == 2 && absent.contains(&word.value.as_str()) {
+                self.out_of_plane(&format!("`{key}` = [\"{}\"]", word.value), &word.place);
+            }
+        }
+        let has = |axis: &str| {
+            words
+                .iter()
+                .any(|word| word.value == axis || word.value == "all")
+        };
+        Directions {
+            xyz: [has("x"), has("y"), has("z")],
+        }
+    }
+
+    fn out_of_plane(&mut self, what: &str, place: &Place) {
+        self.error(
+            &codes::CONTRADICTION,
+            format!("{what} leads out of the plane"),
+            place,
+            "a plane model moves along x and y, and turns about z",
+        );
     }
 
     fn load(&mut self, fields: Fields<'_>, place: Place) -> Load {
@@ -194,6 +228,29 @@ impl Builder {
         }
     }
 
+    /// A moment; in the plane it turns about z, and nothing turns in a body of revolution.
+    fn moment(&mut self, fields: Fields<'_>) -> Option<[f64; 3]> {
+        let place = fields.place("moment");
+        if self.space == Space::Axisymmetric {
+            self.error(
+                &codes::CONTRADICTION,
+                "a body of revolution takes no moment",
+                &place,
+                "its sections do not turn",
+            );
+        }
+        let moment = self.vector(fields, "moment")?;
+        if self.space.ndim() == 2 && moment[..2] != [0.0; 2] {
+            self.error(
+                &codes::CONTRADICTION,
+                "`moment` leads out of the plane",
+                &place,
+                "a plane model turns about z: write [0, 0, moment]",
+            );
+        }
+        Some(moment)
+    }
+
     fn load_kind(&mut self, fields: Fields<'_>) -> LoadKind {
         let vectors = [
             ("force", LoadKind::Force as fn([f64; 3]) -> LoadKind),
@@ -204,7 +261,11 @@ impl Builder {
             ("gravity", LoadKind::Gravity),
         ];
         if let Some((key, kind)) = vectors.into_iter().find(|(key, _)| fields.has(key)) {
-            return kind(self.vector(fields, key).unwrap_or_default());
+            let vector = match key {
+                "moment" => self.moment(fields),
+                _ => self.vector_within(fields, key),
+            };
+            return kind(vector.unwrap_or_default());
         }
         if fields.has("centrifugal") {
             let table = fields.table("centrifugal");
@@ -215,17 +276,5 @@ impl Builder {
             };
         }
         LoadKind::Pressure(fields.number("pressure"))
-    }
-}
-
-pub(super) fn directions(fields: Fields<'_>, key: &str) -> Directions {
-    let words = fields.texts(key);
-    let has = |axis: &str| {
-        words
-            .iter()
-            .any(|word| word.value == axis || word.value == "all")
-    };
-    Directions {
-        xyz: [has("x"), has("y"), has("z")],
     }
 }

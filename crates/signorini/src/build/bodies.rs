@@ -1,0 +1,163 @@
+//! Bodies: their cells, and what they are made of.
+
+use super::carriers::Carriers;
+use super::names::{Cells, Names};
+use super::quoted;
+use signorini_geometry::mesh::CellId;
+use signorini_geometry::tensor::Vec3;
+use signorini_io::case::{self, Body, Case, Name};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
+use signorini_mechanics::material::{self, Constants, ConstantsError, Material};
+use signorini_mechanics::model::{BodyKind, BodyPart};
+
+/// The bodies of a case, in its order.
+pub(super) fn bodies(
+    case: &Case,
+    names: &Names<'_>,
+    carriers: &Carriers,
+    found: &mut Diagnostics,
+) -> Vec<BodyPart> {
+    let one = |body| body_part(case, body, names, carriers, found);
+    case.bodies.iter().filter_map(one).collect()
+}
+
+fn body_part(
+    case: &Case,
+    body: &Body,
+    names: &Names<'_>,
+    carriers: &Carriers,
+    found: &mut Diagnostics,
+) -> Option<BodyPart> {
+    let mut cells = Cells::default();
+    for group in &body.groups {
+        cells.append(names.cells(group, found));
+    }
+    let name: Vec<&str> = body.groups.iter().map(|group| group.as_str()).collect();
+    let name = name.join("+");
+    if body.rigid {
+        let first = body.groups.first()?;
+        let kind = BodyKind::Rigid(carriers.get(first)?);
+        let cells = cells.all();
+        return Some(BodyPart { name, cells, kind });
+    }
+    let material = body.material.as_ref();
+    let part =
+        material.and_then(|m| case.materials.iter().find(|one| one.name.value == m.value))?;
+    let density = part.density.as_ref().map(|density| density.value);
+    let material = law(part, found).and_then(|inner| oriented(inner, body, found))?;
+    if cells.solids.is_empty() && !cells.bars.is_empty() {
+        let area = bars(body, found)?;
+        return Some(BodyPart {
+            name,
+            cells: cells.bars,
+            kind: BodyKind::Truss {
+                material,
+                density,
+                area,
+            },
+        });
+    }
+    if let Some(area) = &body.area {
+        let first = body.groups.first()?;
+        found.push(
+            Diagnostic::error(
+                &codes::CONTRADICTION,
+                format!("{} is made of solids, which have no `area`", quoted(first)),
+            )
+            .at(&area.place, "only bars, of line elements, have one"),
+        );
+    }
+    Some(BodyPart {
+        name,
+        cells: solids(cells, body, found),
+        kind: BodyKind::Solid {
+            material,
+            density,
+            integration: body.integration,
+            locking: body.locking.value,
+        },
+    })
+}
+
+/// The solids of a body; lines among them have been named by mistake.
+fn solids(cells: Cells, body: &Body, found: &mut Diagnostics) -> Vec<CellId> {
+    let mixed = !cells.bars.is_empty() && body.area.is_some();
+    if mixed {
+        found.push(
+            Diagnostic::error(&codes::WRONG_KIND, "a body of both solids and bars")
+                .at(&body.place, "here")
+                .help("make the line elements a [[body]] of their own"),
+        );
+    }
+    cells.solids
+}
+
+/// The cross-section of a body of bars.
+fn bars(body: &Body, found: &mut Diagnostics) -> Option<f64> {
+    if let Some(orientation) = &body.orientation {
+        found.push(
+            Diagnostic::error(
+                &codes::CONTRADICTION,
+                "`orientation` means nothing for bars",
+            )
+            .at(&orientation.place, "the first axis of a bar lies along it"),
+        );
+    }
+    if body.area.is_none() {
+        let first = body.groups.first()?;
+        found.push(
+            Diagnostic::error(
+                &codes::MISSING,
+                format!(
+                    "{} is made of line elements and has no `area`",
+                    quoted(first)
+                ),
+            )
+            .at(&body.place, "`area` is missing here")
+            .help("write  area = , the cross-section of its bars; or name a group of solids"),
+        );
+    }
+    body.area.as_ref().map(|area| area.value)
+}
+
+/// The law of a material with what wraps it.
+fn law(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Material>> {
+    let law = material::by_name(&part.model.value)?;
+    let mut constants = Constants::default();
+    for constant in &part.constants {
+        constants.set(constant.name, constant.values.value.clone());
+    }
+    match (law.make)(&constants) {
+        Ok(material) => Some(material),
+        Err(error) => {
+            found.push(unfit(&error, &part.name, place_of(part, &error)));
+            None
+        }
+    }
+}
+
+/// Where the constant stands that an error speaks of.
+fn place_of<'a>(part: &'a case::Material, error: &ConstantsError) -> &'a Place {
+    let (ConstantsError::Missing { name } | ConstantsError::Range { name, .. }) = error else {
+        return &part.model.place;
+    };
+    let constant = part.constants.iter().find(|one| one.name == *name);
+    constant.map_or(&part.model.place, |one| &one.values.place)
+}
+
+fn unfit(error: &ConstantsError, material: &Name, place: &Place) -> Diagnostic {
+    Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string())
+        .at(place, format!("in material {}", quoted(material)))
+}
+
+fn oriented(
+    inner: Box<dyn Material>,
+    body: &Body,
+    _found: &mut Diagnostics,
+) -> Option<Box<dyn Material>> {
+    let Some(orientation) = &body.orientation else {
+        return Some(inner);
+    };
+    let _axes = [orientation.x, orientation.y].map(Vec3::from);
+    Some(inner)
+}
