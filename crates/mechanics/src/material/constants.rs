@@ -44,6 +44,31 @@ impl Constants {
         constants
     }
 
+    /// A value for every constant of every law.
+    #[cfg(test)]
+    pub(crate) fn sample() -> Self {
+        let mut constants = Self::elastic(500.0, 0.3);
+        for (name, values) in [
+            ("c10", &[80.0][..]),
+            ("c01", &[30.0]),
+            ("bulk", &[700.0]),
+            ("mu", &[150.0, -20.0, 60.0]),
+            ("alpha", &[1.3, -2.0, 5.0]),
+            ("E1", &[900.0]),
+            ("E2", &[400.0]),
+            ("E3", &[250.0]),
+            ("nu12", &[0.3]),
+            ("nu13", &[0.25]),
+            ("nu23", &[0.4]),
+            ("G12", &[170.0]),
+            ("G13", &[140.0]),
+            ("G23", &[90.0]),
+        ] {
+            constants.set(name, values.to_vec());
+        }
+        constants
+    }
+
     /// Gives a constant its value.
     pub fn set(&mut self, name: impl Into<String>, values: Vec<f64>) {
         self.values.insert(name.into(), values);

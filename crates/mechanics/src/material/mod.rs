@@ -8,17 +8,41 @@
 //! | W | `energy` | per volume of the reference |
 //! | λ, μ | [`Lame`] | λ = Eν/((1+ν)(1−2ν)), μ = E/(2(1+ν)) (E1) |
 //!
-//! A law knows no degree of freedom. To add one: one file that implements [`Material`], one line in [`TABLE`]; the
-//! property tests of this room run over the table.
+//! A law is made of constants ([`TABLE`]), of a hardening ([`Plasticity`]), or of a law inside:
+//!
+//! ```text
+//! Reduced( Expanding( Oriented( law ) ) )
+//! ```
+//!
+//! from the outside in: stress-free directions, thermal expansion, turned axes.
+//!
+//! A law knows no degree of freedom. To add one: one file that implements [`Material`], one line in [`TABLE`] and the
+//! constants it needs in `Constants::sample`; the property tests of this room and of the solids run over the table.
 
 mod constants;
+mod expanding;
+mod frame;
+mod hardening;
+mod logarithmic;
 mod neo_hookean;
+mod ogden;
+mod oriented;
+mod orthotropic;
+mod plasticity;
+mod reduced;
 mod saint_venant_kirchhoff;
 #[cfg(test)]
 mod tests;
 
 pub use constants::{Constants, ConstantsError};
+pub use expanding::Expanding;
+pub use hardening::{Hardening, HardeningError, HardeningKind};
 pub use neo_hookean::NeoHookean;
+pub use ogden::Ogden;
+pub use oriented::Oriented;
+pub use orthotropic::Orthotropic;
+pub use plasticity::Plasticity;
+pub use reduced::Reduced;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 
 use signorini_geometry::tensor::Sym3;
@@ -76,7 +100,7 @@ pub struct Response {
     /// the strain, at fixed old history, is the stress. For elastic laws the stored energy; with plasticity the stored
     /// energy and what is dissipated.
     pub energy: f64,
-    /// The strain zz: what came in, or what a law with stress-free directions found.
+    /// The strain zz that a law with stress-free directions found; the others leave it alone.
     pub across: f64,
 }
 
@@ -198,7 +222,7 @@ pub struct Law {
 
 /// Every law, by its name in a case. At finite strain `linear-elastic` is the law of Saint Venant and Kirchhoff:
 /// rotations are exact, strains should stay small.
-pub static TABLE: [Law; 3] = [
+pub static TABLE: [Law; 6] = [
     Law {
         name: "linear-elastic",
         constants: &["E", "nu"],
@@ -222,6 +246,23 @@ pub static TABLE: [Law; 3] = [
             let (e, nu) = c.isotropic()?;
             Ok(Box::new(NeoHookean::new(e, nu)))
         },
+    },
+    Law {
+        name: "mooney-rivlin",
+        constants: &["c10", "c01", "bulk"],
+        make: |c| Ok(Box::new(Ogden::mooney_rivlin(c)?)),
+    },
+    Law {
+        name: "ogden",
+        constants: &["mu", "alpha", "bulk"],
+        make: |c| Ok(Box::new(Ogden::new(c)?)),
+    },
+    Law {
+        name: "orthotropic",
+        constants: &[
+            "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23",
+        ],
+        make: |c| Ok(Box::new(Orthotropic::new(c)?)),
     },
 ];
 

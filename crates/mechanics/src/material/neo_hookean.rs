@@ -40,13 +40,11 @@ impl Material for NeoHookean {
         if det <= 0.0 {
             return Err(MaterialError::Inverted { ratio: det });
         }
-        // ln J from det C − 1, which keeps its digits at small strain
-        let log = 0.5 * determinant_minus_one(&strain.value).ln_1p();
+        let (log, excess) = volume_terms(&strain.value, det);
         // I − C⁻¹ = 2 E C⁻¹, without cancellation; E and C commute
         let product = strain.value.to_mat3() * inverse.to_mat3();
         out.stress = Sym3::symmetric_part(product) * (2.0 * mu) + inverse * (lambda * log);
-        let trace = 2.0 * strain.value.trace();
-        out.energy = 0.5 * mu * trace - mu * log + 0.5 * lambda * log * log;
+        out.energy = 0.5 * mu * excess + 0.5 * lambda * log * log;
         if order == Order::Tangent {
             let b = inverse.to_mat3();
             let ci = inverse.to_pairs();
@@ -66,9 +64,25 @@ impl Material for NeoHookean {
     }
 }
 
-/// `det(I + 2E) − 1`, by invariants of `E`.
-fn determinant_minus_one(e: &Sym3) -> f64 {
+/// Largest component of `E` at which the logarithm is taken from invariants of `E`, and terms of its series.
+const SMALL: f64 = 0.01;
+const TERMS: i32 = 12;
+
+/// `ln J` and `tr C − 3 − ln det C`.
+///
+/// At small strain from `d = det C − 1` by invariants of `E`, without cancellation: `ln J = ½ ln(1 + d)`, and
+/// `tr C − 3 − ln det C = (tr C − 3 − d) + (d − ln(1 + d))`.
+fn volume_terms(e: &Sym3, det: f64) -> (f64, f64) {
     let trace = e.trace();
+    if e.to_pairs().iter().any(|e| e.abs() > SMALL) {
+        let log = det.ln();
+        return (0.5 * log, 2.0 * trace - log);
+    }
     let second = 0.5 * (trace * trace - e.double_dot(*e));
-    2.0 * trace + 4.0 * second + 8.0 * e.determinant()
+    let higher = 4.0 * second + 8.0 * e.determinant();
+    let d = 2.0 * trace + higher;
+    let series = (2..2 + TERMS)
+        .rev()
+        .fold(0.0, |sum, n| f64::from(n).recip() - d * sum);
+    (0.5 * d.ln_1p(), d * d * series - higher)
 }

@@ -39,7 +39,7 @@ fn single(name: &str, law: usize, nonlinear: bool) -> (Solid, Layout, Arc<[Vec3]
         nmultiplier: 0,
     };
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
-    let material = (TABLE[law].make)(&Constants::elastic(500.0, 0.3)).unwrap();
+    let material = (TABLE[law].make)(&Constants::sample()).unwrap();
     let mut solid = Solid::new(SolidParts {
         name: "body",
         mesh: &mesh,

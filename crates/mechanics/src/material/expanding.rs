@@ -1,0 +1,87 @@
+use super::{Kinematics, Material, MaterialError, Order, Response, Strain};
+use signorini_geometry::tensor::Sym3;
+
+/// A law with thermal expansion, the same in all directions.
+///
+/// With `x = α (T − T_ref)`, small strain: the law inside sees `ε − x I`. Finite strain: `F = θ F_e`, `θ = 1 + x`,
+///
+/// ```text
+/// W = θ³ W_e(E_e),    E_e = (E − ½(θ² − 1) I)/θ²,    S = θ S_e,    C = C_e/θ
+/// ```
+///
+/// with `W_e` per volume of the body free of stress at `T`. Goes inside [`super::Reduced`] and outside of or inside
+/// [`super::Oriented`].
+pub struct Expanding {
+    inner: Box<dyn Material>,
+    alpha: f64,
+    reference: f64,
+}
+
+impl Expanding {
+    /// Wraps a law: `alpha` per degree, free of stress at the temperature `reference`.
+    #[must_use]
+    pub fn new(inner: Box<dyn Material>, alpha: f64, reference: f64) -> Self {
+        Self {
+            inner,
+            alpha,
+            reference,
+        }
+    }
+}
+
+impl Material for Expanding {
+    fn nhistory(&self) -> usize {
+        self.inner.nhistory()
+    }
+
+    fn start(&self, history: &mut [f64]) {
+        self.inner.start(history);
+    }
+
+    fn respond(
+        &self,
+        strain: &Strain,
+        old: &[f64],
+        new: &mut [f64],
+        order: Order,
+        out: &mut Response,
+    ) -> Result<(), MaterialError> {
+        let x = self.alpha * (strain.temperature - self.reference);
+        let stretch = match strain.kinematics {
+            Kinematics::Small => 1.0,
+            Kinematics::Finite => 1.0 + x,
+        };
+        if stretch.is_nan() || stretch <= 0.0 {
+            return Err(MaterialError::Inverted { ratio: stretch });
+        }
+        let free = match strain.kinematics {
+            Kinematics::Small => x,
+            Kinematics::Finite => x * (1.0 + 0.5 * x),
+        };
+        let elastic = Strain {
+            value: (strain.value - Sym3::IDENTITY * free) * (stretch * stretch).recip(),
+            ..*strain
+        };
+        self.inner.respond(&elastic, old, new, order, out)?;
+        out.stress = out.stress * stretch;
+        out.energy *= stretch * stretch * stretch;
+        if order == Order::Tangent {
+            for value in out.tangent.as_flattened_mut() {
+                *value /= stretch;
+            }
+        }
+        Ok(())
+    }
+
+    fn modulus(&self) -> f64 {
+        self.inner.modulus()
+    }
+
+    fn is_symmetric(&self) -> bool {
+        self.inner.is_symmetric()
+    }
+
+    fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
+        self.inner.plastic_strain(history)
+    }
+}

@@ -1,0 +1,189 @@
+use super::hardening::{Hardening, HardeningError};
+use super::logarithmic::Logarithmic;
+use super::{Kinematics, Lame, Material, MaterialError, Order, Response, Strain};
+use signorini_geometry::tensor::Sym3;
+
+/// Von Mises plasticity with associated flow, of isotropic, kinematic or combined hardening.
+///
+/// ```text
+/// σ = K tr(ε) I + 2μ dev(ε − ε_p),        q(ξ) = √(3/2 ξ:ξ),  ξ = dev σ − a        elasticity, equivalent stress
+/// q(ξ) ≤ r(p),   ε̇_p = ṗ N,  N = 3/2 ξ/q,   ȧ = ⅔ k'(p) ε̇_p                        flow, motion of the centre
+/// ```
+///
+/// with the radius `r` and the centre's growth `k` of [`Hardening`]. An increment is integrated by backward Euler, which
+/// is the radial return: with the trial state `q*, N*` of a frozen flow, `N = N*` and
+///
+/// ```text
+/// q* = r(p + Δp) + k(p + Δp) − k(p) + 3μ Δp
+/// C = K I⊗I + 2μ (1 − 3μ Δp/q*) I_dev − 4μ² (1/(3μ + r' + k') − Δp/q*) N⊗N
+/// ```
+///
+/// the scalar equation being solved exactly through the rows of the table. Finite strain: the same in the logarithmic
+/// strain `H = ½ ln C` ([Miehe, Apel, Lambrecht 2002]), `H_p` in the place of `ε_p`; the table is then Kirchhoff stress
+/// over logarithmic plastic strain, true stress to the order of the elastic change of volume.
+///
+/// The energy is the potential of the increment: what is stored elastically plus the plastic work so far, `∫ (q + a:N) dp`;
+/// its gradient at fixed old history is the stress (Ortiz, Stainier 1999).
+///
+/// History, 14 numbers: plastic strain (six, tensor components in the order of [`Sym3::PAIRS`]), centre (six, as well),
+/// equivalent plastic strain, plastic work.
+///
+/// # Limits
+/// Exact for a strain increment of one direction; else of first order in the increment, as backward Euler is.
+///
+/// # Sources
+/// Simo, Hughes, *Computational Inelasticity* 1998, sections 3.3 and 3.4; Miehe, Apel, Lambrecht, *Comput. Methods Appl.
+/// Mech. Engrg.* 191 (2002) 5383–5425; Ortiz, Stainier, *Comput. Methods Appl. Mech. Engrg.* 171 (1999) 419–444.
+///
+/// [Miehe, Apel, Lambrecht 2002]: Self#sources
+#[derive(Clone, Debug)]
+pub struct Plasticity {
+    lame: Lame,
+    hardening: Hardening,
+}
+
+const NHISTORY: usize = 14;
+
+/// What a point remembers.
+#[derive(Clone, Copy)]
+struct Memory {
+    strain: Sym3,
+    centre: Sym3,
+    plastic: f64,
+    work: f64,
+}
+
+impl Memory {
+    fn read(history: &[f64]) -> Self {
+        let mut h = [0.0; NHISTORY];
+        for (to, from) in h.iter_mut().zip(history) {
+            *to = *from;
+        }
+        let [a, b, c, d, e, f, g, i, j, k, l, m, plastic, work] = h;
+        Self {
+            strain: Sym3::from_pairs([a, b, c, d, e, f]),
+            centre: Sym3::from_pairs([g, i, j, k, l, m]),
+            plastic,
+            work,
+        }
+    }
+
+    fn write(&self, history: &mut [f64]) {
+        let tensors = self
+            .strain
+            .to_pairs()
+            .into_iter()
+            .chain(self.centre.to_pairs());
+        for (to, from) in history
+            .iter_mut()
+            .zip(tensors.chain([self.plastic, self.work]))
+        {
+            *to = from;
+        }
+    }
+}
+
+impl Plasticity {
+    /// From Young's modulus `e > 0`, Poisson's ratio `−1 < nu < ½` and the hardening.
+    ///
+    /// # Errors
+    /// The table falls as steeply as elastic unloading, `−3μ`: stress would not be a function of strain.
+    pub fn new(e: f64, nu: f64, hardening: Hardening) -> Result<Self, HardeningError> {
+        let lame = Lame::new(e, nu);
+        hardening.check_slope(3.0 * lame.mu)?;
+        Ok(Self { lame, hardening })
+    }
+
+    /// The radial return, in whatever axes strain and memory are.
+    fn integrate(&self, strain: Sym3, memory: &mut Memory, order: Order, out: &mut Response) {
+        let mu = self.lame.mu;
+        self.lame.respond(&(strain - memory.strain), order, out);
+        let relative = deviator(out.stress) - memory.centre;
+        let q = relative.von_mises();
+        let excess = q - self.hardening.radius(memory.plastic);
+        if excess <= 0.0 {
+            out.energy += memory.work;
+            return;
+        }
+        let flow = self.hardening.flow(memory.plastic, excess, 3.0 * mu);
+        let direction = relative * (1.5 / q);
+        memory.work += flow.work + flow.plastic * memory.centre.double_dot(direction);
+        memory.strain = memory.strain + direction * flow.plastic;
+        memory.centre = memory.centre + direction * (2.0 / 3.0 * flow.centre);
+        memory.plastic += flow.plastic;
+        self.lame
+            .respond(&(strain - memory.strain), Order::Stress, out);
+        out.energy += memory.work;
+        if order == Order::Tangent {
+            let share = flow.plastic / q;
+            let deviatoric = 6.0 * mu * mu * share;
+            let rank_one = 4.0 * mu * mu * ((3.0 * mu + flow.slope).recip() - share);
+            let n = direction.to_pairs();
+            for (p, row) in out.tangent.iter_mut().enumerate() {
+                for (q, value) in row.iter_mut().enumerate() {
+                    *value -= rank_one * n[p] * n[q];
+                }
+                if p < 3 {
+                    for value in &mut row[..3] {
+                        *value += deviatoric / 3.0;
+                    }
+                    row[p] -= deviatoric;
+                } else {
+                    row[p] -= 0.5 * deviatoric;
+                }
+            }
+        }
+    }
+}
+
+impl Material for Plasticity {
+    fn nhistory(&self) -> usize {
+        NHISTORY
+    }
+
+    fn respond(
+        &self,
+        strain: &Strain,
+        old: &[f64],
+        new: &mut [f64],
+        order: Order,
+        out: &mut Response,
+    ) -> Result<(), MaterialError> {
+        let mut memory = Memory::read(old);
+        if strain.kinematics == Kinematics::Small {
+            self.integrate(strain.value, &mut memory, order, out);
+            memory.write(new);
+            return Ok(());
+        }
+        let logarithmic = Logarithmic::new(&strain.value)?;
+        let frame = &logarithmic.frame;
+        let [h1, h2, h3] = logarithmic.strain;
+        let mut local = Memory {
+            strain: frame.enter(memory.strain),
+            centre: frame.enter(memory.centre),
+            ..memory
+        };
+        self.integrate(Sym3::diagonal(h1, h2, h3), &mut local, order, out);
+        // turning there and back would change bits of a history that stays
+        if local.plastic > memory.plastic {
+            local.strain = frame.leave(local.strain);
+            local.centre = frame.leave(local.centre);
+            memory = local;
+        }
+        memory.write(new);
+        logarithmic.pull_back(order, out);
+        Ok(())
+    }
+
+    fn modulus(&self) -> f64 {
+        self.lame.lambda + 2.0 * self.lame.mu
+    }
+
+    fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
+        history.get(12).copied()
+    }
+}
+
+fn deviator(stress: Sym3) -> Sym3 {
+    stress - Sym3::IDENTITY * (stress.trace() / 3.0)
+}

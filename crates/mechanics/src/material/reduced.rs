@@ -1,0 +1,334 @@
+use super::{Kinematics, Material, MaterialError, Order, Response, Strain};
+use signorini_geometry::tensor::Sym3;
+
+/// A law for space with stress-free directions: thin sheets and bars.
+///
+/// The strains `f` of the free directions are found such that their stresses vanish; with `g` for the given ones,
+///
+/// ```text
+/// S_f(E_g, E_f) = 0,    C_red = C_gg − C_gf C_ff⁻¹ C_fg,    W_red(E_g) = min over E_f of W(E_g, E_f)
+/// ```
+///
+/// The strains of the free directions that come in are ignored, stress and tangent there are zero, `across` is what was
+/// found. The potential is minimized by Newton's method: a tangent that is not positive definite is shifted, a step is
+/// halved until the energy or its slope falls and `I + 2E` is positive definite.
+///
+/// History: that of the law inside, then the free strains (tensor components, in the order of [`Sym3::PAIRS`]), from
+/// which the next search starts. Wraps every other wrapper: a law inside sees all six strains.
+///
+/// # Limits
+/// The law inside must have a potential, and one with a minimum: the law of Saint Venant and Kirchhoff has none where
+/// its linear contraction exceeds the thickness; that is [`MaterialError::NotConverged`].
+pub struct Reduced {
+    inner: Box<dyn Material>,
+    /// Places of the free strains in [`Sym3::PAIRS`].
+    free: &'static [usize],
+}
+
+/// Places of zz, yz, xz.
+const ACROSS: [usize; 3] = [2, 4, 5];
+/// Places of all but xx.
+const LATERAL: [usize; 5] = [1, 2, 3, 4, 5];
+/// The most free strains.
+const MOST: usize = 5;
+
+/// Newton steps at a point; damped ones included.
+const STEPS: usize = 60;
+/// A step this small, relative to the strain's size, is the last: what it leaves is of the order of its square.
+const LAST: f64 = 1e-9;
+/// The share of the predicted decrease that a step must bring (Armijo).
+const DECREASE: f64 = 1e-4;
+/// The share of the slope that a step may leave where the energy has no digits to tell.
+const FLATTENING: f64 = 0.9;
+/// The shortest step, as a share of Newton's.
+const SHORTEST: f64 = 1e-9;
+/// The first shift of a tangent that is not positive definite, as a share of the modulus, and its growth.
+const SHIFT: (f64, f64) = (0.01, 4.0);
+
+const NOT_CONVERGED: MaterialError = MaterialError::NotConverged {
+    what: "state without stress across",
+};
+
+type Vector = [f64; MOST];
+type Matrix = [[f64; MOST]; MOST];
+
+impl Reduced {
+    /// Plane stress: `S_zz = S_yz = S_xz = 0`; xx, yy and xy are given.
+    #[must_use]
+    pub fn plane_stress(inner: Box<dyn Material>) -> Self {
+        Self {
+            inner,
+            free: &ACROSS,
+        }
+    }
+
+    /// Uniaxial stress along x: only xx is given.
+    #[must_use]
+    pub fn uniaxial(inner: Box<dyn Material>) -> Self {
+        Self {
+            inner,
+            free: &LATERAL,
+        }
+    }
+
+    /// The strain with its free components replaced.
+    fn with(&self, strain: &Strain, free: &[f64]) -> Strain {
+        let mut pairs = strain.value.to_pairs();
+        for (&p, &value) in self.free.iter().zip(free) {
+            pairs[p] = value;
+        }
+        Strain {
+            value: Sym3::from_pairs(pairs),
+            ..*strain
+        }
+    }
+
+    /// The strain to start from: the free components last found, without their shears where those do not fit.
+    fn first(&self, strain: &Strain, last: &[f64]) -> Result<Strain, MaterialError> {
+        let first = self.with(strain, last);
+        if is_possible(&first) {
+            return Ok(first);
+        }
+        let mut straight: Vector = [0.0; MOST];
+        for ((s, &p), &value) in straight.iter_mut().zip(self.free).zip(last) {
+            *s = if p < 3 { value } else { 0.0 };
+        }
+        let first = self.with(strain, &straight);
+        let ratio = (first.value * 2.0 + Sym3::IDENTITY).determinant();
+        if is_possible(&first) {
+            Ok(first)
+        } else {
+            Err(MaterialError::Inverted { ratio })
+        }
+    }
+
+    /// The factor of `C_ff`, shifted along its diagonal.
+    fn factor(&self, tangent: &[[f64; 6]; 6], shift: f64) -> Option<Matrix> {
+        let mut a = [[0.0; MOST]; MOST];
+        for (i, &p) in self.free.iter().enumerate() {
+            for (j, &q) in self.free.iter().enumerate() {
+                a[i][j] = tangent[p][q];
+            }
+            a[i][i] += shift;
+        }
+        cholesky(a, self.free.len())
+    }
+
+    /// The step towards stress-free directions, shears doubled.
+    fn step(&self, at: &Response) -> Result<Vector, MaterialError> {
+        let stress = at.stress.to_pairs();
+        let mut step = [0.0; MOST];
+        for (s, &p) in step.iter_mut().zip(self.free) {
+            *s = -stress[p];
+        }
+        let mut shift = 0.0;
+        for _ in 0..STEPS {
+            if let Some(factor) = self.factor(&at.tangent, shift) {
+                solve(&factor, self.free.len(), &mut step);
+                return Ok(step);
+            }
+            shift = if shift == 0.0 {
+                SHIFT.0 * self.inner.modulus()
+            } else {
+                SHIFT.1 * shift
+            };
+        }
+        Err(NOT_CONVERGED)
+    }
+
+    /// The work of the free stresses on a step.
+    fn slope(&self, at: &Response, step: &Vector) -> f64 {
+        let stress = at.stress.to_pairs();
+        self.free
+            .iter()
+            .zip(step)
+            .map(|(&p, s)| stress[p] * s)
+            .sum()
+    }
+
+    /// The strain a share of a step further.
+    fn moved(&self, strain: &Strain, step: &Vector, share: f64) -> Strain {
+        let mut pairs = strain.value.to_pairs();
+        for (&p, s) in self.free.iter().zip(step) {
+            pairs[p] += if p < 3 { share * s } else { 0.5 * share * s };
+        }
+        Strain {
+            value: Sym3::from_pairs(pairs),
+            ..*strain
+        }
+    }
+
+    /// What a last step is small against: the strain, at finite strain no more than what is left of the free stretches.
+    fn size(&self, strain: &Strain) -> f64 {
+        let largest = largest(&strain.value.to_pairs());
+        match (strain.value * 2.0 + Sym3::IDENTITY).inverse() {
+            Some((inverse, _)) if strain.kinematics == Kinematics::Finite => {
+                let inverse = inverse.to_pairs();
+                let normal = self.free.iter().filter(|p| **p < 3);
+                largest.min(normal.map(|p| inverse[*p]).sum::<f64>().recip())
+            }
+            _ => largest,
+        }
+    }
+
+    /// Takes the stress-free directions out of a response.
+    fn condense(&self, out: &mut Response) -> Result<(), MaterialError> {
+        let n = self.free.len();
+        let factor = self.factor(&out.tangent, 0.0).ok_or(NOT_CONVERGED)?;
+        let full = out.tangent;
+        for q in 0..6 {
+            let mut column = [0.0; MOST];
+            for (c, &p) in column.iter_mut().zip(self.free) {
+                *c = full[p][q];
+            }
+            solve(&factor, n, &mut column);
+            for (row, from) in out.tangent.iter_mut().zip(&full) {
+                for (c, &p) in column.iter().zip(self.free) {
+                    row[q] -= from[p] * c;
+                }
+            }
+        }
+        for &p in self.free {
+            out.tangent[p] = [0.0; 6];
+            for row in &mut out.tangent {
+                row[p] = 0.0;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Material for Reduced {
+    fn nhistory(&self) -> usize {
+        self.inner.nhistory() + self.free.len()
+    }
+
+    fn start(&self, history: &mut [f64]) {
+        let (inner, _) = history.split_at_mut(self.inner.nhistory());
+        self.inner.start(inner);
+    }
+
+    fn respond(
+        &self,
+        strain: &Strain,
+        old: &[f64],
+        new: &mut [f64],
+        order: Order,
+        out: &mut Response,
+    ) -> Result<(), MaterialError> {
+        let (old, last) = old.split_at(self.inner.nhistory());
+        let (new, found) = new.split_at_mut(self.inner.nhistory());
+        let mut at = self.first(strain, last)?;
+        self.inner.respond(&at, old, new, Order::Tangent, out)?;
+        let mut converged = false;
+        for _ in 0..STEPS {
+            let step = self.step(out)?;
+            if largest(&step) <= LAST * self.size(&at) {
+                at = self.moved(&at, &step, 1.0);
+                converged = true;
+                break;
+            }
+            let slope = self.slope(out, &step);
+            let mut share = 1.0;
+            loop {
+                let trial = self.moved(&at, &step, share);
+                let mut response = Response::default();
+                if is_possible(&trial)
+                    && self
+                        .inner
+                        .respond(&trial, old, new, Order::Tangent, &mut response)
+                        .is_ok()
+                {
+                    let noise = f64::EPSILON * out.energy.abs();
+                    let falls =
+                        response.energy <= out.energy + DECREASE * share * slope + 4.0 * noise;
+                    let left = self.slope(&response, &step);
+                    if falls || left.abs() <= FLATTENING * slope.abs() {
+                        (at, *out) = (trial, response);
+                        break;
+                    }
+                }
+                share *= 0.5;
+                if share < SHORTEST {
+                    return Err(NOT_CONVERGED);
+                }
+            }
+        }
+        if !converged {
+            return Err(NOT_CONVERGED);
+        }
+        self.inner.respond(&at, old, new, order, out)?;
+        let mut stress = out.stress.to_pairs();
+        let pairs = at.value.to_pairs();
+        for (slot, &p) in found.iter_mut().zip(self.free) {
+            *slot = pairs[p];
+            stress[p] = 0.0;
+        }
+        out.stress = Sym3::from_pairs(stress);
+        out.across = at.value.zz();
+        if order == Order::Tangent {
+            self.condense(out)?;
+        }
+        Ok(())
+    }
+
+    fn modulus(&self) -> f64 {
+        self.inner.modulus()
+    }
+
+    fn is_symmetric(&self) -> bool {
+        self.inner.is_symmetric()
+    }
+
+    fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
+        self.inner
+            .plastic_strain(history.get(..self.inner.nhistory())?)
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+/// Whether a body can have this strain: at finite strain, `C = I + 2E` is positive definite.
+fn is_possible(strain: &Strain) -> bool {
+    let c = strain.value * 2.0 + Sym3::IDENTITY;
+    strain.kinematics == Kinematics::Small
+        || (c.xx() > 0.0 && c.xx() * c.yy() - c.xy() * c.xy() > 0.0 && c.determinant() > 0.0)
+}
+
+/// The lower factor of the leading `n × n` block, if it is positive definite.
+fn cholesky(mut a: Matrix, n: usize) -> Option<Matrix> {
+    for j in 0..n {
+        for i in j..n {
+            let mut sum = a[i][j];
+            for k in 0..j {
+                sum -= a[i][k] * a[j][k];
+            }
+            if i > j {
+                a[i][j] = sum / a[j][j];
+            } else if sum > f64::EPSILON * a[j][j].abs() {
+                a[j][j] = sum.sqrt();
+            } else {
+                return None;
+            }
+        }
+    }
+    Some(a)
+}
+
+/// Solves with a lower factor in place.
+fn solve(factor: &Matrix, n: usize, b: &mut Vector) {
+    for i in 0..n {
+        for k in 0..i {
+            b[i] -= factor[i][k] * b[k];
+        }
+        b[i] /= factor[i][i];
+    }
+    for i in (0..n).rev() {
+        for k in i + 1..n {
+            b[i] -= factor[k][i] * b[k];
+        }
+        b[i] /= factor[i][i];
+    }
+}

@@ -1,0 +1,3 @@
+//! Plasticity against curves, loops and rate equations.
+
+use super::*;
