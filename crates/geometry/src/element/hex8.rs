@@ -51,30 +51,12 @@ impl ReferenceElement for Hex8 {
 
     fn sides(&self) -> &'static [Side] {
         static SIDES: [Side; 6] = [
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[0, 3, 2, 1],
-            },
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[4, 5, 6, 7],
-            },
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[0, 1, 5, 4],
-            },
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[1, 2, 6, 5],
-            },
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[2, 3, 7, 6],
-            },
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[3, 0, 4, 7],
-            },
+            Side::new(&quad4::Quad4, &[0, 3, 2, 1]),
+            Side::new(&quad4::Quad4, &[4, 5, 6, 7]),
+            Side::new(&quad4::Quad4, &[0, 1, 5, 4]),
+            Side::new(&quad4::Quad4, &[1, 2, 6, 5]),
+            Side::new(&quad4::Quad4, &[2, 3, 7, 6]),
+            Side::new(&quad4::Quad4, &[3, 0, 4, 7]),
         ];
         &SIDES
     }

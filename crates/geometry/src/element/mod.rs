@@ -19,17 +19,30 @@
 //! listed so that the normal of the side's own parametrisation, `t1 × t2` (in the plane `(t_y, -t_x)`), points out
 //! of the element.
 //!
+//! The quadratic elements have the corners of the linear ones, then a mid node on every edge in the order of
+//! [`ReferenceElement::edges`]; quad9 adds its centre, hex27 the centres of the sides S1 to S6 and then its own.
+//!
 //! To add an element: one file here and one line in [`TABLE`]; its orders in foreign files go into the tables of the
 //! readers and writers. The property tests below run over the whole table.
 
+mod hex20;
+mod hex27;
 mod hex8;
+mod lagrange;
 mod line2;
+mod line3;
 mod quad4;
+mod quad8;
+mod quad9;
 pub mod quadrature;
+mod serendipity;
 #[cfg(test)]
 mod tests;
+mod tet10;
 mod tet4;
 mod tri3;
+mod tri6;
+mod wedge15;
 mod wedge6;
 
 use crate::tensor::{Sym3, Vec3};
@@ -65,11 +78,24 @@ pub trait ReferenceElement: Send + Sync {
     /// The sides (faces in space, edges in the plane), normals pointing out. In Abaqus's order S1, S2, ….
     fn sides(&self) -> &'static [Side];
 
-    /// The edges as pairs of end nodes, in the order in which they bound the element (faces: round the boundary).
+    /// The edges as pairs of end nodes, in the order in which they bound the element (faces: round the boundary). In the
+    /// reference domain they are straight; a mid node lies halfway, and mid nodes follow the corners in this order.
     fn edges(&self) -> &'static [[usize; 2]];
 
-    /// The rule that integrates the stiffness of the undistorted element exactly.
+    /// The rule that integrates the stiffness of the undistorted element exactly; that of wedge15 has the customary nine
+    /// points, exact for products of linear strains.
     fn full_rule(&self) -> &'static Rule;
+
+    /// The rule of reduced integration: one order less in the serendipity elements, the full rule in all others.
+    fn reduced_rule(&self) -> &'static Rule {
+        self.full_rule()
+    }
+
+    /// The rule that integrates loads and areas over the element as a facet, curved or not. It integrates products of
+    /// two shape functions exactly on an undistorted facet.
+    fn surface_rule(&self) -> &'static Rule {
+        self.full_rule()
+    }
 
     /// Whether `xi` lies in the reference domain, exceeded by at most `tolerance`.
     fn contains(&self, xi: &Vec3, tolerance: f64) -> bool;
@@ -84,6 +110,15 @@ pub trait ReferenceElement: Send + Sync {
     fn nnode(&self) -> usize {
         self.nodes().len()
     }
+
+    /// The number of corners, the nodes in which edges end. They come first.
+    fn ncorner(&self) -> usize {
+        match self.dim() {
+            1 => 2,
+            2 => self.edges().len(),
+            _ => self.edges().len() + 2 - self.sides().len(), // Euler
+        }
+    }
 }
 
 /// One side of an element.
@@ -95,17 +130,31 @@ pub struct Side {
     pub nodes: &'static [usize],
 }
 
+impl Side {
+    const fn new(element: Element, nodes: &'static [usize]) -> Self {
+        Self { element, nodes }
+    }
+}
+
 /// A reference element, as everything refers to it.
 pub type Element = &'static dyn ReferenceElement;
 
 /// Every element there is.
-pub static TABLE: [Element; 6] = [
+pub static TABLE: [Element; 14] = [
     &line2::Line2,
+    &line3::Line3,
     &tri3::Tri3,
+    &tri6::Tri6,
     &quad4::Quad4,
+    &quad8::Quad8,
+    &quad9::Quad9,
     &tet4::Tet4,
+    &tet10::Tet10,
     &hex8::Hex8,
+    &hex20::Hex20,
+    &hex27::Hex27,
     &wedge6::Wedge6,
+    &wedge15::Wedge15,
 ];
 
 /// The element of this name.

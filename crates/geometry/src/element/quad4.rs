@@ -49,22 +49,10 @@ impl ReferenceElement for Quad4 {
 
     fn sides(&self) -> &'static [Side] {
         static SIDES: [Side; 4] = [
-            Side {
-                element: &line2::Line2,
-                nodes: &[0, 1],
-            },
-            Side {
-                element: &line2::Line2,
-                nodes: &[1, 2],
-            },
-            Side {
-                element: &line2::Line2,
-                nodes: &[2, 3],
-            },
-            Side {
-                element: &line2::Line2,
-                nodes: &[3, 0],
-            },
+            Side::new(&line2::Line2, &[0, 1]),
+            Side::new(&line2::Line2, &[1, 2]),
+            Side::new(&line2::Line2, &[2, 3]),
+            Side::new(&line2::Line2, &[3, 0]),
         ];
         &SIDES
     }

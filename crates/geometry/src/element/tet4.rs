@@ -38,22 +38,10 @@ impl ReferenceElement for Tet4 {
 
     fn sides(&self) -> &'static [Side] {
         static SIDES: [Side; 4] = [
-            Side {
-                element: &tri3::Tri3,
-                nodes: &[0, 2, 1],
-            },
-            Side {
-                element: &tri3::Tri3,
-                nodes: &[0, 1, 3],
-            },
-            Side {
-                element: &tri3::Tri3,
-                nodes: &[1, 2, 3],
-            },
-            Side {
-                element: &tri3::Tri3,
-                nodes: &[2, 0, 3],
-            },
+            Side::new(&tri3::Tri3, &[0, 2, 1]),
+            Side::new(&tri3::Tri3, &[0, 1, 3]),
+            Side::new(&tri3::Tri3, &[1, 2, 3]),
+            Side::new(&tri3::Tri3, &[2, 0, 3]),
         ];
         &SIDES
     }

@@ -33,18 +33,9 @@ impl ReferenceElement for Tri3 {
 
     fn sides(&self) -> &'static [Side] {
         static SIDES: [Side; 3] = [
-            Side {
-                element: &line2::Line2,
-                nodes: &[0, 1],
-            },
-            Side {
-                element: &line2::Line2,
-                nodes: &[1, 2],
-            },
-            Side {
-                element: &line2::Line2,
-                nodes: &[2, 0],
-            },
+            Side::new(&line2::Line2, &[0, 1]),
+            Side::new(&line2::Line2, &[1, 2]),
+            Side::new(&line2::Line2, &[2, 0]),
         ];
         &SIDES
     }
@@ -55,6 +46,10 @@ impl ReferenceElement for Tri3 {
 
     fn full_rule(&self) -> &'static Rule {
         &quadrature::TRI_1
+    }
+
+    fn surface_rule(&self) -> &'static Rule {
+        &quadrature::TRI_3
     }
 
     fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {

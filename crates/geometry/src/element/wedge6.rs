@@ -52,26 +52,11 @@ impl ReferenceElement for Wedge6 {
 
     fn sides(&self) -> &'static [Side] {
         static SIDES: [Side; 5] = [
-            Side {
-                element: &tri3::Tri3,
-                nodes: &[0, 2, 1],
-            },
-            Side {
-                element: &tri3::Tri3,
-                nodes: &[3, 4, 5],
-            },
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[0, 1, 4, 3],
-            },
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[1, 2, 5, 4],
-            },
-            Side {
-                element: &quad4::Quad4,
-                nodes: &[2, 0, 3, 5],
-            },
+            Side::new(&tri3::Tri3, &[0, 2, 1]),
+            Side::new(&tri3::Tri3, &[3, 4, 5]),
+            Side::new(&quad4::Quad4, &[0, 1, 4, 3]),
+            Side::new(&quad4::Quad4, &[1, 2, 5, 4]),
+            Side::new(&quad4::Quad4, &[2, 0, 3, 5]),
         ];
         &SIDES
     }

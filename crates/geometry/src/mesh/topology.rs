@@ -1,6 +1,7 @@
 //! Which faces there are: the faces behind lower-dimensional cells, the nodes of a set, the boundary of a body.
 
 use super::{CellId, Face, Mesh, NodeId, Set};
+use crate::element::Element;
 use std::collections::HashMap;
 use thiserror::Error;
 
@@ -33,10 +34,10 @@ pub struct FaceIndex {
     by_nodes: HashMap<[NodeId; 4], (Face, Option<Face>)>,
 }
 
-/// At most four nodes identify a side: corners come first in every element.
-fn key(nodes: &[NodeId]) -> [NodeId; 4] {
+/// At most four corners identify a side; mid nodes do not matter.
+fn key(corners: impl Iterator<Item = NodeId>) -> [NodeId; 4] {
     let mut key = [NodeId::MAX; 4];
-    for (k, &n) in key.iter_mut().zip(nodes) {
+    for (k, n) in key.iter_mut().zip(corners) {
         *k = n;
     }
     key.sort_unstable();
@@ -54,16 +55,14 @@ impl FaceIndex {
             };
             let nodes = mesh.cell(cell);
             for (number, side) in element.sides().iter().enumerate() {
-                let mut corners = [NodeId::MAX; 4];
-                for (c, &i) in corners.iter_mut().zip(side.nodes) {
-                    *c = nodes.get(i).copied().unwrap_or(NodeId::MAX);
-                }
+                let corners = side.nodes.iter().take(side.element.ncorner());
+                let corners = corners.filter_map(|&i| nodes.get(i).copied());
                 let face = Face {
                     cell,
                     side: number as u8,
                 };
                 by_nodes
-                    .entry(key(&corners))
+                    .entry(key(corners))
                     .and_modify(|found| found.1 = found.1.or(Some(face)))
                     .or_insert((face, None));
             }
@@ -71,10 +70,11 @@ impl FaceIndex {
         Self { by_nodes }
     }
 
-    /// The one or two faces with these nodes, in any order.
+    /// The one or two faces with the corners of this element with these nodes, whatever corner comes first.
     #[must_use]
-    pub fn find(&self, nodes: &[NodeId]) -> Option<(Face, Option<Face>)> {
-        self.by_nodes.get(&key(nodes)).copied()
+    pub fn find(&self, element: Element, nodes: &[NodeId]) -> Option<(Face, Option<Face>)> {
+        let corners = nodes.iter().copied().take(element.ncorner());
+        self.by_nodes.get(&key(corners)).copied()
     }
 
     /// The sides that only one cell has, sorted.
@@ -103,10 +103,10 @@ impl Mesh {
         let mut faces = Vec::with_capacity(set.faces.len());
         let label = |cell| self.cell_label(cell).unwrap_or(0);
         for &face in &set.faces {
-            let Some((_, nodes)) = self.face(face) else {
+            let Some((element, nodes)) = self.face(face) else {
                 continue;
             };
-            if let Some((first, Some(second))) = index.find(&nodes) {
+            if let Some((first, Some(second))) = index.find(element, &nodes) {
                 let other = if first == face { second } else { first };
                 return Err(SetError::Interior {
                     label: label(face.cell),
@@ -123,7 +123,7 @@ impl Mesh {
             if element.dim() + 1 != solid {
                 continue;
             }
-            match index.find(self.cell(cell)) {
+            match index.find(element, self.cell(cell)) {
                 None => {
                     return Err(SetError::NoSolidBehind {
                         label: label(cell),
@@ -165,7 +165,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::element::by_name;
+    use crate::element::{TABLE, by_name};
     use crate::tensor::Vec3;
 
     /// Two unit cubes side by side along x, and a quadrilateral on the top of the second.
@@ -225,7 +225,8 @@ mod tests {
                 element: "quad4"
             })
         );
-        let inner = index.find(&[1, 4, 10, 7]).unwrap();
+        let quad = by_name("quad4").unwrap();
+        let inner = index.find(quad, &[1, 4, 10, 7]).unwrap();
         let faces = Set {
             faces: vec![inner.0],
             ..Set::default()
@@ -234,5 +235,62 @@ mod tests {
             mesh.faces(&faces, &index),
             Err(SetError::Interior { label: 1, other: 2 })
         );
+    }
+
+    /// Two solids of one element that share their side 0, the second the mirror image of the first, and cells of lower
+    /// dimension on their sides, each begun at another corner.
+    #[test]
+    fn sides_are_found_by_their_corners_whatever_the_element_and_the_first_corner() {
+        for element in TABLE.into_iter().filter(|e| e.dim() > 1) {
+            let mut mesh = Mesh::default();
+            let n = element.nnode() as NodeId;
+            let shared = element.sides()[0].nodes;
+            let first: Vec<NodeId> = (0..n).collect();
+            let second: Vec<NodeId> = (0..n)
+                .map(|i| {
+                    if shared.contains(&(i as usize)) {
+                        i
+                    } else {
+                        n + i
+                    }
+                })
+                .collect();
+            mesh.points = vec![Vec3::ZERO; 2 * n as usize];
+            let solid = mesh.push_cell(element, &first, 1);
+            mesh.push_cell(element, &second, 2);
+            let index = FaceIndex::new(&mesh, mesh.cells(element.dim()));
+            let nside = element.sides().len();
+            assert_eq!(index.boundary().len(), 2 * (nside - 1), "{element:?}");
+            for (number, side) in element.sides().iter().enumerate() {
+                let face = Face {
+                    cell: solid,
+                    side: number as u8,
+                };
+                assert_eq!(mesh.face(face).unwrap().1.len(), side.nodes.len());
+                let ncorner = side.element.ncorner();
+                for turn in 0..ncorner {
+                    let mut nodes: Vec<NodeId> = side.nodes.iter().map(|&i| i as NodeId).collect();
+                    nodes[..ncorner].rotate_left(turn);
+                    let nmid = nodes.len().min(2 * ncorner) - ncorner;
+                    let mids = &mut nodes[ncorner..][..nmid];
+                    mids.rotate_left(turn.min(nmid));
+                    let (found, other) = index.find(side.element, &nodes).unwrap();
+                    assert_eq!((found, other.is_some()), (face, number == 0), "{element:?}");
+                    let mut mesh = mesh.clone();
+                    let cell = mesh.push_cell(side.element, &nodes, 3);
+                    let set = Set {
+                        cells: vec![cell],
+                        ..Set::default()
+                    };
+                    let faces = mesh.faces(&set, &index);
+                    assert_eq!(faces.is_err(), number == 0, "{element:?}");
+                    assert!(faces.is_err() || faces == Ok(vec![face]));
+                    let mut all = mesh.nodes_of(&set);
+                    all.sort_unstable();
+                    nodes.sort_unstable();
+                    assert_eq!(all, nodes, "{element:?}");
+                }
+            }
+        }
     }
 }

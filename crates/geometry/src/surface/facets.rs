@@ -21,7 +21,7 @@ pub struct Facets {
     nodes: Vec<NodeId>,
     neighbour_first: Vec<u32>,
     neighbours: Vec<u32>,
-    /// Nodes at which the surface ends.
+    /// Corners at which the surface ends.
     rim_nodes: Vec<NodeId>,
     faces: Vec<Face>,
 }
@@ -82,7 +82,7 @@ impl Facets {
         let mut facets_of: HashMap<NodeId, Vec<u32>> = HashMap::new();
         let mut edges: HashMap<[NodeId; 2], u32> = HashMap::new();
         for f in 0..nfacet {
-            for &n in self.nodes(f) {
+            for &n in self.corners(f) {
                 facets_of.entry(n).or_default().push(f);
             }
             for edge in self.edges(f) {
@@ -93,7 +93,7 @@ impl Facets {
         let mut near: Vec<u32> = Vec::new();
         for f in 0..nfacet {
             near.clear();
-            for n in self.nodes(f) {
+            for n in self.corners(f) {
                 near.extend(facets_of.get(n).into_iter().flatten());
             }
             near.sort_unstable();
@@ -123,6 +123,12 @@ impl Facets {
         }
     }
 
+    /// The nodes in which the edges of a facet end.
+    fn corners(&self, facet: u32) -> &[NodeId] {
+        let ncorner = self.element(facet).map_or(0, |e| e.ncorner());
+        self.nodes(facet).get(..ncorner).unwrap_or(&[])
+    }
+
     /// The reference element of a facet.
     #[must_use]
     pub fn element(&self, facet: u32) -> Option<Element> {
@@ -145,7 +151,8 @@ impl Facets {
     }
 
     /// `∫ N_i e dA` of every node over all facets, in the order of [`Facets::all_nodes`]; `dA` is a length in the plane,
-    /// and `e` the extent across it at a position (thickness, circumference; 1 in space).
+    /// and `e` the extent across it at a position (thickness, circumference; 1 in space). These are the forces of a unit
+    /// traction: at the corners of tri6 and quad8 they vanish or are negative.
     ///
     /// # Errors
     /// A facet without a normal.
@@ -154,26 +161,72 @@ impl Facets {
         x: &[Vec3],
         extent: &dyn Fn(Vec3) -> f64,
     ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
-        let mut areas: Vec<(NodeId, f64)> =
-            self.all_nodes().into_iter().map(|n| (n, 0.0)).collect();
-        let at = Placement { x, poses: &[] };
-        let mut jet = SurfaceJet::default();
+        self.gather(|facet| Ok(self.integrals(x, facet, extent)?.0))
+    }
+
+    /// Positive areas of every node that sum to the area, in the order and with the extent of [`Facets::nodal_areas`]:
+    /// those where the shape functions of a facet all have positive integrals over its reference domain; on tri6 and
+    /// quad8 the area of the facet in the ratio of `∫ N_i² e dA`.
+    ///
+    /// # Errors
+    /// A facet without a normal.
+    ///
+    /// # Source
+    /// Hinton, Rock, Zienkiewicz, Earthquake Eng. Struct. Dyn. 4, 1976.
+    pub fn lumped_areas(
+        &self,
+        x: &[Vec3],
+        extent: &dyn Fn(Vec3) -> f64,
+    ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
+        self.gather(|facet| {
+            let (consistent, squares) = self.integrals(x, facet, extent)?;
+            if self.element(facet).is_none_or(has_positive_integrals) {
+                return Ok(consistent);
+            }
+            let area: f64 = consistent.iter().sum();
+            let sum: f64 = squares.iter().sum();
+            Ok(squares.map(|s| s * (area / sum)))
+        })
+    }
+
+    /// Adds up what each facet gives its nodes, in the order of [`Facets::all_nodes`].
+    fn gather(
+        &self,
+        of_facet: impl Fn(u32) -> Result<[f64; MAX_FACET_NODES], SurfaceError>,
+    ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
+        let mut sums: Vec<(NodeId, f64)> = self.all_nodes().into_iter().map(|n| (n, 0.0)).collect();
         for facet in 0..self.elements.len() as u32 {
-            let Some(element) = self.element(facet) else {
-                continue;
-            };
-            for (xi, weight) in element.full_rule().iter() {
-                let anchor = Anchor { facet, local: *xi };
-                self.jet(&at, &anchor, &mut jet)?;
-                let area = weight * area_factor(&jet, self.ntan) * extent(jet.position);
-                for (i, node) in self.nodes(facet).iter().enumerate() {
-                    if let Ok(k) = areas.binary_search_by_key(node, |a| a.0) {
-                        areas[k].1 += jet.shape[i] * area;
-                    }
+            for (node, value) in self.nodes(facet).iter().zip(of_facet(facet)?) {
+                if let Ok(k) = sums.binary_search_by_key(node, |a| a.0) {
+                    sums[k].1 += value;
                 }
             }
         }
-        Ok(areas)
+        Ok(sums)
+    }
+
+    /// `∫ N_i e dA` and `∫ N_i² e dA` over a facet, 0 beyond its last node.
+    fn integrals(
+        &self,
+        x: &[Vec3],
+        facet: u32,
+        extent: &dyn Fn(Vec3) -> f64,
+    ) -> Result<([f64; MAX_FACET_NODES], [f64; MAX_FACET_NODES]), SurfaceError> {
+        let missing = SurfaceError::NoSuchFacet { facet };
+        let element = self.element(facet).ok_or(missing)?;
+        let at = Placement { x, poses: &[] };
+        let mut jet = SurfaceJet::default();
+        let (mut first, mut second) = ([0.0; MAX_FACET_NODES], [0.0; MAX_FACET_NODES]);
+        for (xi, weight) in element.surface_rule().iter() {
+            let anchor = Anchor { facet, local: *xi };
+            self.jet(&at, &anchor, &mut jet)?;
+            let area = weight * area_factor(&jet, self.ntan) * extent(jet.position);
+            for (i, n) in jet.shape.iter().take(jet.nnode).enumerate() {
+                first[i] += n * area;
+                second[i] += n * n * area;
+            }
+        }
+        Ok((first, second))
     }
 
     /// The edges of a facet as sorted pairs of end nodes.
@@ -243,6 +296,49 @@ impl Facets {
     }
 }
 
+/// Whether every shape function has a positive integral over the reference domain.
+fn has_positive_integrals(element: Element) -> bool {
+    let mut sums = [0.0; MAX_FACET_NODES];
+    let mut shape = [0.0; MAX_FACET_NODES];
+    let n = element.nnode();
+    for (xi, weight) in element.surface_rule().iter() {
+        element.shape(xi, &mut shape[..n]);
+        for (sum, n) in sums.iter_mut().zip(shape) {
+            *sum += weight * n;
+        }
+    }
+    sums[..n].iter().all(|&sum| sum > 1e-6)
+}
+
+/// A box around a facet. A polynomial facet lies in the convex hull of its control points: those of degree 2 are
+///
+/// ```text
+/// b_e = 2 x_e − ½ (x_a + x_b)                 on the edge from a to b with mid node e
+/// b_c = 4 ρ(0) − Σ x_e + ¼ Σ x_a              in the middle of a quadrilateral
+/// ```
+///
+/// and the corners, as a comparison of the quadratic Lagrange and Bernstein polynomials along each axis shows.
+fn box_around(element: Element, x: &[Vec3]) -> Aabb {
+    let ncorner = element.ncorner();
+    if x.len() <= ncorner {
+        return Aabb::around(x.iter().copied());
+    }
+    let (corners, mids) = x.split_at(ncorner);
+    let ends = element.edges().iter();
+    let edges = mids
+        .iter()
+        .zip(ends)
+        .map(|(&m, &[a, b])| m * 2.0 - (x[a] + x[b]) * 0.5);
+    let middle = (ncorner == 4).then(|| {
+        let mut shape = [0.0; MAX_FACET_NODES];
+        element.shape(&Vec3::ZERO, &mut shape[..x.len()]);
+        let centre: Vec3 = x.iter().zip(shape).map(|(&x, n)| x * n).sum();
+        let of_edges: Vec3 = mids.iter().take(4).copied().sum();
+        centre * 4.0 - of_edges + corners.iter().copied().sum::<Vec3>() * 0.25
+    });
+    Aabb::around(corners.iter().copied().chain(edges).chain(middle))
+}
+
 /// Area (length, in the plane) per unit of the parameters.
 fn area_factor(jet: &SurfaceJet, ntan: usize) -> f64 {
     if ntan == 1 {
@@ -266,8 +362,13 @@ impl ContactSurface for Facets {
     }
 
     fn aabb(&self, at: &Placement, facet: u32) -> Aabb {
-        let corners = self.nodes(facet).iter();
-        Aabb::around(corners.filter_map(|&n| at.x.get(n as usize).copied()))
+        let mut x = [Vec3::ZERO; MAX_FACET_NODES];
+        let nodes = self.nodes(facet);
+        for (x, &node) in x.iter_mut().zip(nodes) {
+            *x = at.x.get(node as usize).copied().unwrap_or_default();
+        }
+        let element = self.element(facet);
+        element.map_or(Aabb::EMPTY, |e| box_around(e, &x[..nodes.len()]))
     }
 
     fn size(&self, at: &Placement, facet: u32) -> f64 {
@@ -276,7 +377,7 @@ impl ContactSurface for Facets {
         };
         let mut jet = SurfaceJet::default();
         let mut area = 0.0;
-        for (xi, weight) in element.full_rule().iter() {
+        for (xi, weight) in element.surface_rule().iter() {
             let anchor = Anchor { facet, local: *xi };
             if self.jet(at, &anchor, &mut jet).is_ok() {
                 area += weight * area_factor(&jet, self.ntan);

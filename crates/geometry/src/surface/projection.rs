@@ -210,7 +210,7 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
         let mut size: f64 = 0.0;
         let mut nearest = (f64::INFINITY, nodes[0]);
         let mut corner_distance = [f64::INFINITY; 4];
-        let ncorner = ncorner(element);
+        let ncorner = element.ncorner();
         for (xi, distance) in nodes.iter().zip(&mut corner_distance).take(ncorner) {
             self.jet(*xi, jet)?;
             size = size.max(jet.tangent[0].norm()).max(jet.tangent[1].norm());
@@ -375,14 +375,6 @@ fn along_edge(jet: &SurfaceJet, d: &[f64; 2]) -> (Vec3, Vec3) {
         + c[pair(1, 1)] * (d[1] * d[1])
         + c[pair(0, 1)] * (2.0 * d[0] * d[1]);
     (t, h)
-}
-
-/// How many of the nodes are corners: they come first.
-fn ncorner(element: Element) -> usize {
-    match element.dim() {
-        1 => 2,
-        _ => element.edges().len(),
-    }
 }
 
 /// Whether the matrix `(11, 22, 12)` is safely positive definite.

@@ -55,7 +55,7 @@ impl Context<'_> {
         }
         let area: Vec<f64> = match &secondary {
             Some(surface) => surface
-                .nodal_areas(self.reference, &|x| self.space.extent(x))
+                .lumped_areas(self.reference, &|x| self.space.extent(x))
                 .map_err(surface_error)?
                 .into_iter()
                 .map(|(_, a)| a)

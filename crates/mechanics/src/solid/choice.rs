@@ -1,3 +1,10 @@
+use super::kernel::Remedy;
+use crate::material::{Kinematics, Material, Order, Response, Strain};
+use crate::system::Idealisation;
+use signorini_geometry::element::ReferenceElement;
+use signorini_geometry::tensor::Sym3;
+use std::fmt;
+
 /// How many quadrature points an element has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Integration {
@@ -22,4 +29,139 @@ pub enum Locking {
     FBar,
     /// Incompatible modes, condensed; small strain only, for they are unstable in compression at finite strain.
     Incompatible,
+}
+
+impl fmt::Display for Locking {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::None => "none",
+            Self::BBar => "b-bar",
+            Self::FBar => "f-bar",
+            Self::Incompatible => "incompatible",
+        })
+    }
+}
+
+impl Locking {
+    pub(super) const fn remedy(self) -> Remedy {
+        match self {
+            Self::Auto | Self::None => Remedy::None,
+            Self::BBar | Self::FBar => Remedy::Dilatation,
+            Self::Incompatible => Remedy::Modes,
+        }
+    }
+}
+
+/// Poisson's ratio from which on a material counts as nearly incompressible.
+const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
+
+/// Whether a material resists a change of volume far more than a change of shape: nearly incompressible, or plastic,
+/// as the plastic flow of metals keeps the volume.
+pub(super) fn keeps_volume(material: &dyn Material, kinematics: Kinematics) -> bool {
+    let mut start = vec![0.0; material.nhistory()];
+    material.start(&mut start);
+    if material.plastic_strain(&start).is_some() {
+        return true;
+    }
+    let mut new = start.clone();
+    let mut response = Response::default();
+    let strain = Strain::new(kinematics, Sym3::ZERO);
+    let outcome = material.respond(&strain, &start, &mut new, Order::Tangent, &mut response);
+    if outcome.is_err() {
+        return false;
+    }
+    let c = &response.tangent;
+    let bulk = (0..3).flat_map(|i| &c[i][..3]).sum::<f64>() / 9.0;
+    let shear = (3..6).map(|i| c[i][i]).sum::<f64>() / 3.0;
+    // ν = (3K − 2μ)/(2(3K + μ))
+    3.0 * bulk - 2.0 * shear >= NEARLY_INCOMPRESSIBLE * 2.0 * (3.0 * bulk + shear)
+}
+
+/// What is chosen among.
+#[derive(Clone, Copy)]
+pub(super) struct Situation {
+    pub element: &'static dyn ReferenceElement,
+    pub space: Idealisation,
+    pub integration: Integration,
+    pub kinematics: Kinematics,
+    /// See [`keeps_volume`].
+    pub keeps_volume: bool,
+}
+
+impl Situation {
+    fn is_simplest(&self) -> bool {
+        matches!(self.element.name(), "tri3" | "tet4" | "wedge6")
+    }
+
+    fn takes_modes(&self) -> bool {
+        matches!(self.element.name(), "quad4" | "hex8")
+    }
+
+    fn is_sheet(&self) -> bool {
+        matches!(self.space, Idealisation::PlaneStress { .. })
+    }
+
+    /// Whether fewer points already free the dilatation.
+    fn is_reduced(&self) -> bool {
+        let full = std::ptr::eq(self.element.full_rule(), self.element.reduced_rule());
+        self.integration == Integration::Reduced && !full
+    }
+
+    /// What a wish becomes here.
+    ///
+    /// # Errors
+    /// Why it cannot be had.
+    pub fn choose(&self, wish: Locking) -> Result<Locking, &'static str> {
+        let finite = self.kinematics == Kinematics::Finite;
+        let reason = match wish {
+            Locking::Auto => return Ok(self.suits()),
+            Locking::None => return Ok(wish),
+            Locking::BBar | Locking::FBar if self.is_sheet() => {
+                "in plane stress the thickness yields: there is no volumetric locking"
+            }
+            Locking::BBar | Locking::FBar if self.is_simplest() => {
+                "the volumetric strain of this element is constant already, or nearly so"
+            }
+            Locking::BBar | Locking::FBar if self.is_reduced() => {
+                "reduced integration already frees the volumetric strain"
+            }
+            Locking::BBar if finite => "b-bar is for small strain; f-bar is its counterpart",
+            Locking::FBar if !finite => "f-bar is for finite strain; b-bar is its counterpart",
+            Locking::Incompatible if finite => {
+                "incompatible modes become unstable in compression at finite strain"
+            }
+            Locking::Incompatible if !self.takes_modes() => {
+                "incompatible modes exist for quad4 and hex8"
+            }
+            _ => return Ok(wish),
+        };
+        Err(reason)
+    }
+
+    /// The table at the head of the room.
+    fn suits(&self) -> Locking {
+        let small = self.kinematics == Kinematics::Small;
+        let frees = self.keeps_volume && !self.is_sheet();
+        if self.is_simplest() || self.is_reduced() {
+            Locking::None
+        } else if frees && small {
+            Locking::BBar
+        } else if frees {
+            Locking::FBar
+        } else if self.takes_modes() && small {
+            Locking::Incompatible
+        } else {
+            Locking::None
+        }
+    }
+
+    /// Terms of the polynomial onto which the dilatation is projected: constant, or linear where the displacements hold
+    /// enough bubbles for it.
+    pub fn ndilatation(&self) -> usize {
+        match self.element.name() {
+            "quad9" | "hex27" => 1 + self.element.dim(),
+            _ => 1,
+        }
+    }
 }

@@ -23,7 +23,9 @@
 //! against locking yet.
 
 mod choice;
+mod dense;
 mod kernel;
+mod report;
 mod term;
 #[cfg(test)]
 mod tests;

@@ -1,17 +1,20 @@
-use super::kernel::{Element, Failure, Kernel, Output, Points, kernel};
+use super::choice::{Situation, keeps_volume};
+use super::kernel::{Element, Failure, Kernel, Output, Points, Remedy, Sample, kernel};
+use super::report::{self, Has};
 use super::{Integration, Locking};
-use crate::material::{Kinematics, Material, Order as MaterialOrder};
+use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced};
 use crate::system::{
-    Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink, Sink, State,
-    StepContext, Symmetry, Term, TermError, Work,
+    Archive, ArchiveError, Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink,
+    Sink, State, StepContext, Symmetry, Term, TermError, Work,
 };
+use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 use thiserror::Error;
 
 /// Cells evaluated together: enough to be worth a task, few enough to stay in cache.
-const CHUNK: usize = 64;
+const CHUNK: usize = 16;
 
 /// The cells of one material.
 pub struct Solid {
@@ -21,6 +24,8 @@ pub struct Solid {
     material: Box<dyn Material>,
     kinematics: Kinematics,
     space: Idealisation,
+    temperature: Option<Arc<NodalField>>,
+    step: StepContext,
     blocks: Vec<Cells>,
     // (block, first cell, last cell)
     chunks: Vec<(usize, usize, usize)>,
@@ -50,10 +55,20 @@ pub struct SolidParts<'a> {
     pub temperature: Option<Arc<NodalField>>,
 }
 
+/// What is done against locking at one size of strains.
+struct Treatment {
+    /// What became of the wish; why it cannot be had.
+    locking: Result<Locking, &'static str>,
+    kernel: Kernel,
+}
+
 /// Cells of one element.
 struct Cells {
+    element: &'static str,
     points: Points,
-    kernel: Kernel,
+    small: Treatment,
+    finite: Treatment,
+    ndilatation: usize,
     nnode: usize,
     nodes: Vec<NodeId>,
     labels: Vec<u64>,
@@ -61,10 +76,14 @@ struct Cells {
     ids: Vec<CellId>,
     // from quadrature points to nodes: `nnode` rows of `npoint`
     extrapolation: Vec<f64>,
+    // numbers of history of a cell: those of its points, then its incompatible modes
+    nhistory: usize,
+    // accepted history of all cells
+    history: Vec<f64>,
 }
 
 /// Why a body cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum SolidError {
     /// An element that is no solid in this space.
     #[error("element {label} of body \"{body}\" is a {element}: no solid in {ndim} dimensions")]
@@ -78,6 +97,50 @@ pub enum SolidError {
         /// Dimension of the problem.
         ndim: usize,
     },
+    /// An element that is no bar.
+    #[error("element {label} of truss \"{body}\" is a {element}: bars are line2 or line3")]
+    NotBar {
+        /// Name of the body.
+        body: String,
+        /// Number of the element in the input.
+        label: u64,
+        /// Its type.
+        element: &'static str,
+    },
+    /// A bar without length or a body without cross-section.
+    #[error("element {label} of truss \"{body}\" has no {what}")]
+    NoSize {
+        /// Name of the body.
+        body: String,
+        /// Number of the element in the input.
+        label: u64,
+        /// Length, or cross-section.
+        what: &'static str,
+    },
+    /// A remedy that an element does not have.
+    #[error("locking = \"{locking}\" is not possible for the {element} of body \"{body}\": {reason}")]
+    Locking {
+        /// Name of the body.
+        body: String,
+        /// Type of the elements.
+        element: &'static str,
+        /// What was asked for.
+        locking: Locking,
+        /// Why it cannot be had.
+        reason: &'static str,
+    },
+    /// An axisymmetric element that reaches beyond the axis.
+    #[error(
+        "element {label} of body \"{body}\" reaches to the radius {radius:.6e}: in an axisymmetric model x is the radius, 0 or more"
+    )]
+    Radius {
+        /// Name of the body.
+        body: String,
+        /// Number of the element in the input.
+        label: u64,
+        /// The radius.
+        radius: f64,
+    },
 }
 
 /// Scratch of one thread.
@@ -85,18 +148,29 @@ pub enum SolidError {
 struct Scratch {
     x: Vec<Vec3>,
     u: Vec<f64>,
+    temperature: Vec<f64>,
     dofs: Vec<Dof>,
     force: Vec<f64>,
     stiffness: Vec<f64>,
-    stress: Vec<Sym3>,
-    volume: Vec<f64>,
+    samples: Vec<Sample>,
+    new: Vec<f64>,
+    inner: Vec<f64>,
+}
+
+/// What is wanted of the cells.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    Forces,
+    Stiffness,
+    Samples,
 }
 
 impl Solid {
     /// The body made of these parts.
     ///
     /// # Errors
-    /// A cell that is no solid of the problem's dimension.
+    /// A cell that is no solid of this space; one beyond the axis of a body of revolution; a remedy that its element has
+    /// at no size of strains.
     pub fn new(parts: SolidParts<'_>) -> Result<Self, SolidError> {
         let SolidParts {
             name,
@@ -106,34 +180,42 @@ impl Solid {
             layout,
             space,
             material,
-            ..
+            integration,
+            locking,
+            temperature,
         } = parts;
+        let material: Box<dyn Material> = match space {
+            Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
+            _ => material,
+        };
+        let keeps_volume = |kinematics| keeps_volume(material.as_ref(), kinematics);
+        let keeps_volume = [Kinematics::Small, Kinematics::Finite].map(keeps_volume);
         let mut blocks: Vec<(u32, Cells)> = Vec::new();
         for &id in cells {
             let (Some(element), Some(label)) = (mesh.element(id), mesh.cell_label(id)) else {
                 continue;
             };
-            let refused = || SolidError::NotSolid {
-                body: name.to_string(),
-                label,
-                element: element.name(),
-                ndim: layout.ndim,
-            };
-            let found = blocks.iter().position(|(b, _)| *b == id.block);
-            let at = match found {
+            let at = match blocks.iter().position(|(b, _)| *b == id.block) {
                 Some(at) => at,
                 None => {
-                    let of_space = kernel(element.name()).filter(|_| element.dim() == layout.ndim);
-                    let points = Points::new(element, element.full_rule());
-                    let cells = Cells {
-                        extrapolation: extrapolation(element, points.rule),
-                        points,
-                        kernel: of_space.ok_or_else(refused)?,
-                        nnode: element.nnode(),
-                        nodes: Vec::new(),
-                        labels: Vec::new(),
-                        ids: Vec::new(),
+                    let situation = |kinematics: Kinematics| Situation {
+                        element,
+                        space,
+                        integration,
+                        kinematics,
+                        keeps_volume: keeps_volume[kinematics as usize],
                     };
+                    let cells = Cells::new(situation, locking, material.nhistory());
+                    let cells = cells.filter(|_| element.dim() == layout.ndim);
+                    let cells = cells.ok_or_else(|| SolidError::NotSolid {
+                        body: name.to_string(),
+                        label,
+                        element: element.name(),
+                        ndim: layout.ndim,
+                    })?;
+                    if let (Err(reason), Err(_)) = (cells.finite.locking, cells.small.locking) {
+                        return Err(cells.refusal(name, locking, reason));
+                    }
                     blocks.push((id.block, cells));
                     blocks.len() - 1
                 }
@@ -143,9 +225,13 @@ impl Solid {
             of_block.labels.push(label);
             of_block.ids.push(id);
         }
-        let blocks: Vec<Cells> = blocks.into_iter().map(|(_, c)| c).collect();
+        let mut blocks: Vec<Cells> = blocks.into_iter().map(|(_, c)| c).collect();
         let mut chunks = Vec::new();
-        for (number, block) in blocks.iter().enumerate() {
+        for (number, block) in blocks.iter_mut().enumerate() {
+            if space == Idealisation::Axisymmetric {
+                block.radii(name, &reference)?;
+            }
+            block.start(material.as_ref());
             let ncell = block.labels.len();
             chunks.extend(
                 (0..ncell)
@@ -160,6 +246,13 @@ impl Solid {
             material,
             kinematics: Kinematics::Finite,
             space,
+            temperature,
+            step: StepContext {
+                number: 0,
+                start: 0.0,
+                duration: 1.0,
+                nonlinear: true,
+            },
             blocks,
             chunks,
         })
@@ -170,135 +263,251 @@ impl Solid {
         self.kinematics = kinematics;
     }
 
+    /// What is done against locking at this size of strains: each type of element with what was chosen for it.
+    ///
+    /// # Errors
+    /// What was asked for does not exist there.
+    pub fn locking(
+        &self,
+        kinematics: Kinematics,
+    ) -> Result<Vec<(&'static str, Locking)>, SolidError> {
+        let chosen = self.blocks.iter().map(|block| {
+            let treatment = block.treatment(kinematics);
+            match treatment.locking {
+                Ok(locking) => Ok((block.element, locking)),
+                Err(reason) => {
+                    // only a wish can be refused, and a wish for something granted at the other size of strains
+                    let other = [&block.small, &block.finite];
+                    let asked = other.iter().find_map(|t| t.locking.ok());
+                    let asked = asked.unwrap_or_default();
+                    Err(block.refusal(&self.name, asked, reason))
+                }
+            }
+        });
+        chosen.collect()
+    }
+
     /// Runs the kernel over the cells of a chunk and hands each result to `take`.
     fn each(
         &self,
         chunk: usize,
         trial: &State,
-        order: MaterialOrder,
-        with_stress: bool,
+        wanted: Wanted,
         scratch: &mut Scratch,
         mut take: impl FnMut(&Cells, usize, f64, &Scratch),
     ) -> Result<(), TermError> {
-        let Some(&(block, first, last)) = self.chunks.get(chunk) else {
+        let Some(&(number, first, last)) = self.chunks.get(chunk) else {
             return Ok(());
         };
-        let block = &self.blocks[block];
-        let ndim = self.layout.ndim;
-        let n = block.nnode * ndim;
-        let npoint = block.points.rule.npoint();
-        scratch.force.resize(n, 0.0);
-        let wanted = order == MaterialOrder::Tangent && !with_stress;
-        scratch
-            .stiffness
-            .resize(if wanted { n * n } else { 0 }, 0.0);
-        scratch.stress.resize(npoint, Sym3::ZERO);
-        scratch.volume.resize(npoint, 0.0);
+        let block = &self.blocks[number];
+        scratch.size(block, self.layout.ndim, wanted);
         for cell in first..last {
-            let nodes = &block.nodes[cell * block.nnode..(cell + 1) * block.nnode];
-            scratch.x.clear();
-            scratch.u.clear();
-            scratch.dofs.clear();
-            for &node in nodes {
-                scratch.x.push(self.reference[node as usize]);
-                for axis in 0..ndim {
-                    let dof = self.layout.node(node, axis);
-                    scratch.dofs.push(dof);
-                    scratch.u.push(trial.u[dof as usize]);
-                }
+            let energy = self.cell(block, cell, trial, wanted, scratch)?;
+            take(block, cell, energy, scratch);
+        }
+        Ok(())
+    }
+
+    /// Runs the kernel over one cell: results are in the scratch, the energy comes back.
+    fn cell(
+        &self,
+        block: &Cells,
+        cell: usize,
+        trial: &State,
+        wanted: Wanted,
+        scratch: &mut Scratch,
+    ) -> Result<f64, TermError> {
+        let nodes = block.nodes_of(cell);
+        scratch.x.clear();
+        scratch.u.clear();
+        scratch.dofs.clear();
+        scratch.temperature.clear();
+        for &node in nodes {
+            scratch.x.push(self.reference[node as usize]);
+            for axis in 0..self.layout.ndim {
+                let dof = self.layout.node(node, axis);
+                scratch.dofs.push(dof);
+                scratch.u.push(trial.u[dof as usize]);
             }
-            let element = Element {
-                reference: &block.points,
-                x: &scratch.x,
-                u: &scratch.u,
-                material: self.material.as_ref(),
-                kinematics: self.kinematics,
-                thickness: self.space.extent(Vec3::ZERO),
+        }
+        if let Some(field) = &self.temperature {
+            let at = |&node: &NodeId| field.at(&self.step, trial.time, node);
+            scratch.temperature.extend(nodes.iter().map(at));
+        }
+        let element = Element {
+            reference: &block.points,
+            x: &scratch.x,
+            u: &scratch.u,
+            material: self.material.as_ref(),
+            kinematics: self.kinematics,
+            space: self.space,
+            temperature: &scratch.temperature,
+            ndilatation: block.ndilatation,
+            old: &block.history[cell * block.nhistory..(cell + 1) * block.nhistory],
+        };
+        let mut out = Output {
+            force: &mut scratch.force,
+            stiffness: &mut scratch.stiffness,
+            energy: 0.0,
+            new: &mut scratch.new,
+            samples: &mut scratch.samples,
+            scratch: &mut scratch.inner,
+        };
+        let order = match wanted {
+            Wanted::Stiffness => MaterialOrder::Tangent,
+            Wanted::Forces | Wanted::Samples => MaterialOrder::Stress,
+        };
+        let kernel = block.treatment(self.kinematics).kernel;
+        let outcome = kernel(&element, order, &mut out);
+        let energy = out.energy;
+        let label = block.labels[cell];
+        outcome.map_err(|failure| self.failure(label, failure))?;
+        if !energy.is_finite() || !scratch.force.iter().all(|f| f.is_finite()) {
+            return Err(TermError::NotFinite {
+                what: format!("the force of element {label} of body \"{}\"", self.name),
+            });
+        }
+        Ok(energy)
+    }
+
+    fn failure(&self, element: u64, failure: Failure) -> TermError {
+        let body = self.name.clone();
+        match failure {
+            Failure::Inverted { ratio } => TermError::Inverted {
+                body,
+                element,
+                ratio,
+            },
+            Failure::Material(error) => TermError::Material {
+                body,
+                element,
+                message: error.to_string(),
+            },
+        }
+    }
+
+    fn archived(&self, block: usize) -> String {
+        format!("solid.{}.{block}.history", self.name)
+    }
+}
+
+impl Cells {
+    /// No cells yet; `None` where there is no kernel for the element.
+    fn new(
+        situation: impl Fn(Kinematics) -> Situation,
+        wish: Locking,
+        nhistory: usize,
+    ) -> Option<Self> {
+        let treatment = |kinematics| {
+            let situation = situation(kinematics);
+            let locking = situation.choose(wish);
+            let remedy = locking.map_or(Remedy::None, Locking::remedy);
+            let kernel = kernel(situation.element.name(), situation.space, remedy)?;
+            Some(Treatment { locking, kernel })
+        };
+        let (small, finite) = (
+            treatment(Kinematics::Small)?,
+            treatment(Kinematics::Finite)?,
+        );
+        let Situation {
+            element,
+            integration,
+            ..
+        } = situation(Kinematics::Small);
+        let rule = match integration {
+            Integration::Full => element.full_rule(),
+            Integration::Reduced => element.reduced_rule(),
+        };
+        let modes = match small.locking {
+            Ok(Locking::Incompatible) => element.dim() * element.dim(),
+            _ => 0,
+        };
+        Some(Self {
+            element: element.name(),
+            extrapolation: report::extrapolation(element, rule),
+            points: Points::new(element, rule),
+            small,
+            finite,
+            ndilatation: situation(Kinematics::Small).ndilatation(),
+            nnode: element.nnode(),
+            nodes: Vec::new(),
+            labels: Vec::new(),
+            ids: Vec::new(),
+            nhistory: rule.npoint() * nhistory + modes,
+            history: Vec::new(),
+        })
+    }
+
+    const fn treatment(&self, kinematics: Kinematics) -> &Treatment {
+        match kinematics {
+            Kinematics::Small => &self.small,
+            Kinematics::Finite => &self.finite,
+        }
+    }
+
+    fn refusal(&self, body: &str, locking: Locking, reason: &'static str) -> SolidError {
+        SolidError::Locking {
+            body: body.to_string(),
+            element: self.element,
+            locking,
+            reason,
+        }
+    }
+
+    fn nodes_of(&self, cell: usize) -> &[NodeId] {
+        &self.nodes[cell * self.nnode..(cell + 1) * self.nnode]
+    }
+
+    /// Gives every cell the history of the undeformed material.
+    fn start(&mut self, material: &dyn Material) {
+        let n = material.nhistory();
+        self.history = vec![0.0; self.labels.len() * self.nhistory];
+        if n == 0 || self.nhistory == 0 {
+            return;
+        }
+        let of_points = self.points.rule.npoint() * n;
+        for cell in self.history.chunks_exact_mut(self.nhistory) {
+            let points = cell[..of_points].chunks_exact_mut(n);
+            points.for_each(|point| material.start(point));
+        }
+    }
+
+    /// Checks that no node lies beyond the axis, and no quadrature point on it.
+    fn radii(&self, body: &str, reference: &[Vec3]) -> Result<(), SolidError> {
+        for (nodes, &label) in self.nodes.chunks_exact(self.nnode).zip(&self.labels) {
+            let radius = |node: NodeId| reference.get(node as usize).map_or(0.0, |x| x.x);
+            let at_point = |point| {
+                let shape = self.points.shape(point).iter();
+                let radius: f64 = shape.zip(nodes).map(|(n, &node)| n * radius(node)).sum();
+                radius
             };
-            let mut out = Output {
-                force: &mut scratch.force,
-                stiffness: &mut scratch.stiffness,
-                energy: 0.0,
-                stress: with_stress.then_some(&mut scratch.stress[..]),
-                volume: &mut scratch.volume,
-            };
-            let outcome = (block.kernel)(&element, order, &mut out);
-            let energy = out.energy;
-            match outcome {
-                Ok(()) => {}
-                Err(Failure::Inverted { ratio }) => {
-                    return Err(TermError::Inverted {
-                        body: self.name.clone(),
-                        element: block.labels[cell],
-                        ratio,
-                    });
-                }
-                Err(Failure::Material(error)) => {
-                    return Err(TermError::Material {
-                        body: self.name.clone(),
-                        element: block.labels[cell],
-                        message: error.to_string(),
-                    });
-                }
-            }
-            if !energy.is_finite() || !scratch.force.iter().all(|f| f.is_finite()) {
-                return Err(TermError::NotFinite {
-                    what: format!(
-                        "the force of element {} of body \"{}\"",
-                        block.labels[cell], self.name
-                    ),
+            let nearest = nodes.iter().map(|&n| radius(n)).fold(f64::MAX, f64::min);
+            let inside = (0..self.points.rule.npoint()).map(at_point);
+            let inside = inside.fold(f64::MAX, f64::min);
+            if nearest < 0.0 || inside <= 0.0 {
+                return Err(SolidError::Radius {
+                    body: body.to_string(),
+                    label,
+                    radius: nearest.min(inside),
                 });
             }
-            take(block, cell, energy, scratch);
         }
         Ok(())
     }
 }
 
-/// The matrix that carries values at quadrature points to the nodes: exact for fields the element can represent where
-/// there are enough points, the mean elsewhere.
-fn extrapolation(
-    element: &dyn signorini_geometry::element::ReferenceElement,
-    rule: &signorini_geometry::element::quadrature::Rule,
-) -> Vec<f64> {
-    let (n, m) = (element.nnode(), rule.npoint());
-    let mean = vec![1.0 / m as f64; n * m];
-    if n != m {
-        return mean;
+impl Scratch {
+    fn size(&mut self, block: &Cells, ndim: usize, wanted: Wanted) {
+        let n = block.nnode * ndim;
+        let stiff = wanted == Wanted::Stiffness;
+        let npoint = block.points.rule.npoint();
+        self.force.resize(n, 0.0);
+        self.stiffness.resize(if stiff { n * n } else { 0 }, 0.0);
+        self.new.resize(block.nhistory, 0.0);
+        let sampled = wanted == Wanted::Samples;
+        self.samples
+            .resize(if sampled { npoint } else { 0 }, Sample::default());
     }
-    // invert N_i(ξ_p), row p, by Gauss–Jordan with pivoting
-    let mut a = vec![0.0; n * 2 * n];
-    let mut shape = vec![0.0; n];
-    for (p, xi) in rule.points.iter().enumerate() {
-        element.shape(xi, &mut shape);
-        a[p * 2 * n..p * 2 * n + n].copy_from_slice(&shape);
-        a[p * 2 * n + n + p] = 1.0;
-    }
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&i, &j| {
-            let size = |r: usize| a[r * 2 * n + k].abs();
-            size(i).total_cmp(&size(j))
-        });
-        let Some(pivot) = pivot.filter(|&p| a[p * 2 * n + k].abs() > 1e-10) else {
-            return mean;
-        };
-        for c in 0..2 * n {
-            a.swap(k * 2 * n + c, pivot * 2 * n + c);
-        }
-        let scale = a[k * 2 * n + k].recip();
-        a[k * 2 * n..(k + 1) * 2 * n]
-            .iter_mut()
-            .for_each(|v| *v *= scale);
-        for row in (0..n).filter(|&r| r != k) {
-            let factor = a[row * 2 * n + k];
-            for c in 0..2 * n {
-                a[row * 2 * n + c] -= factor * a[k * 2 * n + c];
-            }
-        }
-    }
-    (0..n)
-        .flat_map(|i| a[i * 2 * n + n..(i + 1) * 2 * n].to_vec())
-        .collect()
 }
 
 impl Term for Solid {
@@ -315,7 +524,11 @@ impl Term for Solid {
     }
 
     fn symmetry(&self) -> Symmetry {
-        Symmetry::Definite
+        if self.material.is_symmetric() {
+            Symmetry::Definite
+        } else {
+            Symmetry::Unsymmetric
+        }
     }
 
     fn part(&self) -> Part {
@@ -323,11 +536,16 @@ impl Term for Solid {
     }
 
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.kinematics = if step.nonlinear {
+        let kinematics = if step.nonlinear {
             Kinematics::Finite
         } else {
             Kinematics::Small
         };
+        self.locking(kinematics).map_err(|e| TermError::Refused {
+            message: e.to_string(),
+        })?;
+        self.kinematics = kinematics;
+        self.step = *step;
         Ok(())
     }
 
@@ -343,12 +561,12 @@ impl Term for Solid {
         work: &mut Work,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
-        let scratch = work.of::<Scratch>();
-        let order = match order {
-            Order::Residual => MaterialOrder::Stress,
-            Order::Tangent => MaterialOrder::Tangent,
+        let wanted = match order {
+            Order::Residual => Wanted::Forces,
+            Order::Tangent => Wanted::Stiffness,
         };
-        self.each(chunk, trial, order, false, scratch, |_, _, _, s| {
+        let scratch = work.of::<Scratch>();
+        self.each(chunk, trial, wanted, scratch, |_, _, _, s| {
             out.add(&s.dofs, &s.force, &s.stiffness);
         })
     }
@@ -361,62 +579,82 @@ impl Term for Solid {
     ) -> Result<Option<f64>, TermError> {
         let mut total = 0.0;
         let scratch = work.of::<Scratch>();
-        self.each(
-            chunk,
-            trial,
-            MaterialOrder::Stress,
-            false,
-            scratch,
-            |_, _, e, _| {
-                total += e;
-            },
-        )?;
+        self.each(chunk, trial, Wanted::Forces, scratch, |_, _, energy, _| {
+            total += energy;
+        })?;
         Ok(Some(total))
     }
 
+    /// Evaluates once more, from the last accepted history: trial history is kept nowhere, so that evaluation is pure.
+    fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        let next = |block: &Cells| -> Result<Vec<f64>, TermError> {
+            let n = block.nhistory;
+            let mut next = vec![0.0; block.history.len()];
+            if n == 0 {
+                return Ok(next);
+            }
+            let chunks = next.par_chunks_mut(CHUNK * n).enumerate();
+            chunks.try_for_each_init(Scratch::default, |scratch, (chunk, next)| {
+                scratch.size(block, self.layout.ndim, Wanted::Forces);
+                for (k, to) in next.chunks_exact_mut(n).enumerate() {
+                    let cell = chunk * CHUNK + k;
+                    // what a kernel does not write stays as it was
+                    scratch.new.copy_from_slice(&block.history[cell * n..(cell + 1) * n]);
+                    self.cell(block, cell, state, Wanted::Forces, scratch)?;
+                    to.copy_from_slice(&scratch.new);
+                }
+                Ok(())
+            })?;
+            Ok(next)
+        };
+        let histories: Result<Vec<_>, _> = self.blocks.iter().map(next).collect();
+        for (block, history) in self.blocks.iter_mut().zip(histories?) {
+            block.history = history;
+        }
+        Ok(())
+    }
+
+    fn save(&self, out: &mut Archive) {
+        for (number, block) in self.blocks.iter().enumerate() {
+            if block.nhistory > 0 {
+                out.put(self.archived(number), &block.history);
+            }
+        }
+    }
+
+    fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+        for number in 0..self.blocks.len() {
+            let name = self.archived(number);
+            let block = &mut self.blocks[number];
+            if block.nhistory > 0 {
+                from.get(&name, &mut block.history)?;
+            }
+        }
+        Ok(())
+    }
+
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        let mut start = vec![0.0; self.material.nhistory()];
+        self.material.start(&mut start);
+        let has = Has {
+            plastic_strain: self.material.plastic_strain(&start).is_some(),
+        };
+        report::make_room(frame, has);
         let mut scratch = Scratch::default();
         for chunk in 0..self.chunks.len() {
-            let order = MaterialOrder::Stress;
-            self.each(
-                chunk,
-                state,
-                order,
-                true,
-                &mut scratch,
-                |block, cell, _, s| {
-                    let volume: f64 = s.volume.iter().sum();
-                    let mean = s
-                        .stress
-                        .iter()
-                        .zip(&s.volume)
-                        .fold(Sym3::ZERO, |sum, (t, v)| sum + *t * (v / volume));
-                    let id = block.ids[cell];
-                    let cells = frame.cell_stress.get_mut(id.block as usize);
-                    if let Some(to) = cells.and_then(|c| c.get_mut(id.index as usize)) {
-                        *to = mean;
-                    }
-                    let npoint = s.stress.len();
-                    let nodes = &block.nodes[cell * block.nnode..(cell + 1) * block.nnode];
-                    for (&node, weights) in
-                        nodes.iter().zip(block.extrapolation.chunks_exact(npoint))
-                    {
-                        let value = weights
-                            .iter()
-                            .zip(&s.stress)
-                            .fold(Sym3::ZERO, |sum, (w, t)| sum + *t * *w);
-                        let node = node as usize;
-                        if let (Some(to), Some(weight)) = (
-                            frame.stress.get_mut(node),
-                            frame.stress_weight.get_mut(node),
-                        ) {
-                            // running mean
-                            *weight += 1.0;
-                            *to = *to + (value - *to) * weight.recip();
-                        }
-                    }
-                },
-            )?;
+            let wanted = Wanted::Samples;
+            self.each(chunk, state, wanted, &mut scratch, |block, cell, _, s| {
+                let (id, nodes) = (block.ids[cell], block.nodes_of(cell));
+                report::add(frame, id, nodes, &block.extrapolation, &s.samples, has);
+            })?;
+        }
+        if let Some(field) = &self.temperature {
+            frame.temperature.resize(frame.stress.len(), 0.0);
+            for &node in self.blocks.iter().flat_map(|b| &b.nodes) {
+                if let Some(to) = frame.temperature.get_mut(node as usize) {
+                    *to = field.at(&self.step, state.time, node);
+                }
+            }
         }
         Ok(())
     }

@@ -67,6 +67,12 @@ pub enum TermError {
         /// Where: element or node, material, load.
         what: String,
     },
+    /// A step asks for what a term does not have.
+    #[error("{message}")]
+    Refused {
+        /// Who refuses what, and why.
+        message: String,
+    },
     /// A contact surface has no answer.
     #[error("contact \"{interface}\": {message}")]
     Surface {

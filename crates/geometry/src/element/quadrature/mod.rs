@@ -2,14 +2,18 @@
 //!
 //! | rule | points | exact for polynomials of degree |
 //! |---|---|---|
-//! | [`LINE_2`] | 2, Gauss–Legendre | 3 |
-//! | [`QUAD_4`], [`HEX_8`] | products of it | 3 in each direction |
+//! | [`LINE_2`], [`LINE_3`] | 2, 3, Gauss–Legendre | 3, 5 |
+//! | [`QUAD_4`], [`HEX_8`] | products of [`LINE_2`] | 3 in each direction |
+//! | [`QUAD_9`], [`HEX_27`] | products of [`LINE_3`] | 5 in each direction |
 //! | [`TRI_1`], [`TET_1`] | 1, the centroid | 1 |
-//! | [`TRI_3`] | 3, inside | 2 |
+//! | [`TRI_3`], [`TET_4`] | 3, 4, inside | 2 |
+//! | [`TRI_6`] | 6, inside | 4 |
 //! | [`WEDGE_6`] | [`TRI_3`] × [`LINE_2`] | 2 in the triangle, 3 along the axis |
+//! | [`WEDGE_9`] | [`TRI_3`] × [`LINE_3`] | 2 in the triangle, 5 along the axis |
 //!
-//! Weights sum to the measure of the reference domain. Sources: Zienkiewicz, Taylor, *The Finite Element Method*,
-//! vol. 1, tables 5.1 to 5.3; Hughes, *The Finite Element Method*, section 3.8.
+//! Weights sum to the measure of the reference domain. Products run through their first factor fastest. Sources:
+//! Zienkiewicz, Taylor, *The Finite Element Method*, vol. 1, tables 5.1 to 5.3; Hughes, *The Finite Element Method*,
+//! section 3.8; Dunavant, IJNME 21, 1985, table II ([`TRI_6`]).
 
 use crate::tensor::Vec3;
 
@@ -37,76 +41,153 @@ impl Rule {
 
 /// 1/√3.
 const G: f64 = 0.577_350_269_189_625_8;
+/// √(3/5).
+const H: f64 = 0.774_596_669_241_483_4;
 
-const fn at(x: f64, y: f64, z: f64) -> Vec3 {
-    Vec3::new(x, y, z)
-}
+const GAUSS_2: ([f64; 2], [f64; 2]) = ([-G, G], [1.0; 2]);
+const GAUSS_3: ([f64; 3], [f64; 3]) = ([-H, 0.0, H], [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0]);
 
 /// Gauss–Legendre with two points on `[-1, 1]`.
 pub static LINE_2: Rule = Rule {
-    points: &[at(-G, 0.0, 0.0), at(G, 0.0, 0.0)],
-    weights: &[1.0; 2],
+    points: &along_line(&GAUSS_2.0),
+    weights: &GAUSS_2.1,
 };
 
-/// 2 × 2 Gauss points, `ξ` fastest.
+/// Gauss–Legendre with three points on `[-1, 1]`.
+pub static LINE_3: Rule = Rule {
+    points: &along_line(&GAUSS_3.0),
+    weights: &GAUSS_3.1,
+};
+
+/// 2 × 2 Gauss points.
 pub static QUAD_4: Rule = Rule {
-    points: &[
-        at(-G, -G, 0.0),
-        at(G, -G, 0.0),
-        at(-G, G, 0.0),
-        at(G, G, 0.0),
-    ],
-    weights: &[1.0; 4],
+    points: &product_points::<2, 2, 4>(LINE_2.points, &GAUSS_2.0, 1),
+    weights: &product_weights::<2, 2, 4>(LINE_2.weights, &GAUSS_2.1),
 };
 
-/// 2 × 2 × 2 Gauss points, `ξ` fastest.
+/// 3 × 3 Gauss points.
+pub static QUAD_9: Rule = Rule {
+    points: &product_points::<3, 3, 9>(LINE_3.points, &GAUSS_3.0, 1),
+    weights: &product_weights::<3, 3, 9>(LINE_3.weights, &GAUSS_3.1),
+};
+
+/// 2 × 2 × 2 Gauss points.
 pub static HEX_8: Rule = Rule {
-    points: &[
-        at(-G, -G, -G),
-        at(G, -G, -G),
-        at(-G, G, -G),
-        at(G, G, -G),
-        at(-G, -G, G),
-        at(G, -G, G),
-        at(-G, G, G),
-        at(G, G, G),
-    ],
-    weights: &[1.0; 8],
+    points: &product_points::<4, 2, 8>(QUAD_4.points, &GAUSS_2.0, 2),
+    weights: &product_weights::<4, 2, 8>(QUAD_4.weights, &GAUSS_2.1),
+};
+
+/// 3 × 3 × 3 Gauss points.
+pub static HEX_27: Rule = Rule {
+    points: &product_points::<9, 3, 27>(QUAD_9.points, &GAUSS_3.0, 2),
+    weights: &product_weights::<9, 3, 27>(QUAD_9.weights, &GAUSS_3.1),
 };
 
 /// The centroid of the triangle.
 pub static TRI_1: Rule = Rule {
-    points: &[at(1.0 / 3.0, 1.0 / 3.0, 0.0)],
+    points: &[Vec3::new(1.0 / 3.0, 1.0 / 3.0, 0.0)],
     weights: &[0.5],
 };
 
 /// Three points inside the triangle.
 pub static TRI_3: Rule = Rule {
-    points: &[at(A, A, 0.0), at(B, A, 0.0), at(A, B, 0.0)],
-    weights: &[A; 3],
+    points: &around_triangle(1.0 / 6.0),
+    weights: &[1.0 / 6.0; 3],
+};
+
+/// Six points inside the triangle.
+pub static TRI_6: Rule = Rule {
+    points: &{
+        let [a, b, c] = around_triangle(0.445_948_490_915_965);
+        let [d, e, f] = around_triangle(0.091_576_213_509_770_74);
+        [a, b, c, d, e, f]
+    },
+    weights: &{
+        const NEAR: f64 = 0.111_690_794_839_005_73;
+        const FAR: f64 = 0.054_975_871_827_660_93;
+        [NEAR, NEAR, NEAR, FAR, FAR, FAR]
+    },
 };
 
 /// The centroid of the tetrahedron.
 pub static TET_1: Rule = Rule {
-    points: &[at(0.25, 0.25, 0.25)],
+    points: &[Vec3::new(0.25, 0.25, 0.25)],
     weights: &[1.0 / 6.0],
 };
 
-/// Three points of the triangle times two along the axis, the triangle's fastest.
-pub static WEDGE_6: Rule = Rule {
-    points: &[
-        at(A, A, -G),
-        at(B, A, -G),
-        at(A, B, -G),
-        at(A, A, G),
-        at(B, A, G),
-        at(A, B, G),
-    ],
-    weights: &[A; 6],
+/// Four points inside the tetrahedron, at `(5 − √5)/20` from three of its sides.
+pub static TET_4: Rule = Rule {
+    points: &{
+        const A: f64 = 0.138_196_601_125_010_5;
+        const B: f64 = 1.0 - 3.0 * A;
+        [
+            Vec3::new(A, A, A),
+            Vec3::new(B, A, A),
+            Vec3::new(A, B, A),
+            Vec3::new(A, A, B),
+        ]
+    },
+    weights: &[1.0 / 24.0; 4],
 };
 
-const A: f64 = 1.0 / 6.0;
-const B: f64 = 2.0 / 3.0;
+/// Three points of the triangle times two along the axis.
+pub static WEDGE_6: Rule = Rule {
+    points: &product_points::<3, 2, 6>(TRI_3.points, &GAUSS_2.0, 2),
+    weights: &product_weights::<3, 2, 6>(TRI_3.weights, &GAUSS_2.1),
+};
+
+/// Three points of the triangle times three along the axis.
+pub static WEDGE_9: Rule = Rule {
+    points: &product_points::<3, 3, 9>(TRI_3.points, &GAUSS_3.0, 2),
+    weights: &product_weights::<3, 3, 9>(TRI_3.weights, &GAUSS_3.1),
+};
+
+const fn along_line<const N: usize>(s: &[f64; N]) -> [Vec3; N] {
+    product_points::<1, N, N>(&[Vec3::ZERO], s, 0)
+}
+
+/// The points of area coordinates `(a, a, 1 − 2a)` in any order.
+const fn around_triangle(a: f64) -> [Vec3; 3] {
+    let b = 1.0 - 2.0 * a;
+    [
+        Vec3::new(a, a, 0.0),
+        Vec3::new(b, a, 0.0),
+        Vec3::new(a, b, 0.0),
+    ]
+}
+
+/// `M = P·Q` points: those of a rule, repeated at every `s` along one more axis.
+const fn product_points<const P: usize, const Q: usize, const M: usize>(
+    points: &[Vec3],
+    s: &[f64; Q],
+    axis: usize,
+) -> [Vec3; M] {
+    let mut out = [Vec3::ZERO; M];
+    let mut k = 0;
+    while k < M {
+        out[k] = points[k % P];
+        match axis {
+            0 => out[k].x = s[k / P],
+            1 => out[k].y = s[k / P],
+            _ => out[k].z = s[k / P],
+        }
+        k += 1;
+    }
+    out
+}
+
+const fn product_weights<const P: usize, const Q: usize, const M: usize>(
+    weights: &[f64],
+    w: &[f64; Q],
+) -> [f64; M] {
+    let mut out = [0.0; M];
+    let mut k = 0;
+    while k < M {
+        out[k] = weights[k % P] * w[k / P];
+        k += 1;
+    }
+    out
+}
 
 #[cfg(test)]
 mod tests {
@@ -116,51 +197,77 @@ mod tests {
         rule.iter().map(|(x, w)| w * f(x)).sum()
     }
 
+    /// The integral over `[-1, 1]`.
+    fn along_axis(p: i32) -> f64 {
+        f64::from(1 - p % 2) * 2.0 / f64::from(p + 1)
+    }
+
+    /// The integral of `x^a y^b z^c` over the reference triangle (`c = 0`) or tetrahedron.
+    fn over_simplex(dim: i32, [a, b, c]: [i32; 3]) -> f64 {
+        let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
+        factorial(a) * factorial(b) * factorial(c) / factorial(a + b + c + dim)
+    }
+
     #[test]
-    fn products_of_gauss_points_integrate_cubics_in_each_direction() {
-        for (rule, dim) in [(&LINE_2, 1), (&QUAD_4, 2), (&HEX_8, 3)] {
-            for px in 0..=3 {
-                for py in 0..=if dim > 1 { 3 } else { 0 } {
-                    for pz in 0..=if dim > 2 { 3 } else { 0 } {
-                        let powers = [px, py, pz];
-                        let exact: f64 = powers[..dim]
-                            .iter()
-                            .map(|p| {
-                                if p % 2 == 0 {
-                                    2.0 / f64::from(p + 1)
-                                } else {
-                                    0.0
-                                }
-                            })
-                            .product();
-                        let got = integral(rule, |x| x.x.powi(px) * x.y.powi(py) * x.z.powi(pz));
-                        assert!(
-                            (got - exact).abs() < 1e-14,
-                            "{dim} {powers:?}: {got} {exact}"
-                        );
-                    }
+    fn products_of_gauss_points_integrate_their_degree_in_each_direction() {
+        for (rule, dim, degree) in [
+            (&LINE_2, 1, 3),
+            (&LINE_3, 1, 5),
+            (&QUAD_4, 2, 3),
+            (&QUAD_9, 2, 5),
+            (&HEX_8, 3, 3),
+            (&HEX_27, 3, 5),
+        ] {
+            let powers = |axis: usize| 0..=if axis < dim { degree } else { 0 };
+            for a in powers(0) {
+                for (b, c) in powers(1).flat_map(|b| powers(2).map(move |c| (b, c))) {
+                    let exact: f64 = [a, b, c][..dim].iter().map(|&p| along_axis(p)).product();
+                    let got = integral(rule, |x| x.x.powi(a) * x.y.powi(b) * x.z.powi(c));
+                    assert!(
+                        (got - exact).abs() < 1e-14,
+                        "{dim} {a} {b} {c}: {got} {exact}"
+                    );
                 }
             }
+            let beyond = integral(rule, |x| x.x.powi(degree + 1)) / 2f64.powi(dim as i32 - 1);
+            assert!((beyond - along_axis(degree + 1)).abs() > 1e-2);
         }
     }
 
     #[test]
-    fn simplex_rules_integrate_their_degree() {
-        let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
-        for (rule, degree) in [(&TRI_1, 1), (&TRI_3, 2)] {
+    fn simplex_rules_integrate_their_total_degree() {
+        for (rule, dim, degree) in [
+            (&TRI_1, 2, 1),
+            (&TRI_3, 2, 2),
+            (&TRI_6, 2, 4),
+            (&TET_1, 3, 1),
+            (&TET_4, 3, 2),
+        ] {
+            let error = |p: [i32; 3]| {
+                let got = integral(rule, |x| x.x.powi(p[0]) * x.y.powi(p[1]) * x.z.powi(p[2]));
+                (got - over_simplex(dim, p)).abs()
+            };
             for a in 0..=degree {
                 for b in 0..=degree - a {
-                    let exact = factorial(a) * factorial(b) / factorial(a + b + 2);
-                    let got = integral(rule, |x| x.x.powi(a) * x.y.powi(b));
-                    assert!((got - exact).abs() < 1e-15, "{a} {b}");
+                    for c in 0..=if dim == 3 { degree - a - b } else { 0 } {
+                        assert!(error([a, b, c]) < 1e-15, "{a} {b} {c}");
+                    }
+                }
+            }
+            assert!(error([degree + 1, 0, 0]) > 1e-6);
+        }
+    }
+
+    #[test]
+    fn wedge_rules_integrate_quadratics_of_the_triangle_times_powers_along_the_axis() {
+        for (rule, along) in [(&WEDGE_6, 3), (&WEDGE_9, 5)] {
+            for (a, b) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)] {
+                for c in 0..=along {
+                    let exact = over_simplex(2, [a, b, 0]) * along_axis(c);
+                    let got = integral(rule, |x| x.x.powi(a) * x.y.powi(b) * x.z.powi(c));
+                    assert!((got - exact).abs() < 1e-15, "{a} {b} {c}");
                 }
             }
         }
-        for axis in 0..3 {
-            assert!((integral(&TET_1, |x| x[axis]) - 1.0 / 24.0).abs() < 1e-16);
-        }
-        assert!((integral(&TET_1, |_| 1.0) - 1.0 / 6.0).abs() < 1e-16);
-        let wedge = integral(&WEDGE_6, |x| x.x * x.x * x.z * x.z);
-        assert!((wedge - 1.0 / 12.0 * 2.0 / 3.0).abs() < 1e-15);
     }
 }

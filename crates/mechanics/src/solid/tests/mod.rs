@@ -10,6 +10,8 @@ use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::sync::Arc;
 
+mod speed;
+
 const ELEMENTS: [&str; 5] = ["tri3", "quad4", "tet4", "hex8", "wedge6"];
 
 /// Numbers in [-1, 1] that look random and are the same in every run.

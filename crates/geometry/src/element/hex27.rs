@@ -1,0 +1,94 @@
+use super::hex8::Hex8;
+use super::lagrange::{self, Product};
+use super::quadrature::{self, Rule};
+use super::{ReferenceElement, Side, quad9};
+use crate::tensor::{Sym3, Vec3};
+
+/// The triquadratic hexahedron of 27 nodes, `ξ, η, ζ ∈ [-1, 1]`: those of hex20, then the centres of the sides S1 to S6,
+/// then the centre.
+pub(super) struct Hex27;
+
+const NODES: [Vec3; 27] = [
+    Vec3::new(-1.0, -1.0, -1.0),
+    Vec3::new(1.0, -1.0, -1.0),
+    Vec3::new(1.0, 1.0, -1.0),
+    Vec3::new(-1.0, 1.0, -1.0),
+    Vec3::new(-1.0, -1.0, 1.0),
+    Vec3::new(1.0, -1.0, 1.0),
+    Vec3::new(1.0, 1.0, 1.0),
+    Vec3::new(-1.0, 1.0, 1.0),
+    Vec3::new(0.0, -1.0, -1.0),
+    Vec3::new(1.0, 0.0, -1.0),
+    Vec3::new(0.0, 1.0, -1.0),
+    Vec3::new(-1.0, 0.0, -1.0),
+    Vec3::new(0.0, -1.0, 1.0),
+    Vec3::new(1.0, 0.0, 1.0),
+    Vec3::new(0.0, 1.0, 1.0),
+    Vec3::new(-1.0, 0.0, 1.0),
+    Vec3::new(-1.0, -1.0, 0.0),
+    Vec3::new(1.0, -1.0, 0.0),
+    Vec3::new(1.0, 1.0, 0.0),
+    Vec3::new(-1.0, 1.0, 0.0),
+    Vec3::new(0.0, 0.0, -1.0),
+    Vec3::new(0.0, 0.0, 1.0),
+    Vec3::new(0.0, -1.0, 0.0),
+    Vec3::new(1.0, 0.0, 0.0),
+    Vec3::new(0.0, 1.0, 0.0),
+    Vec3::new(-1.0, 0.0, 0.0),
+    Vec3::new(0.0, 0.0, 0.0),
+];
+
+const SHAPE: Product<3> = Product {
+    factor: lagrange::quadratic,
+    nodes: &NODES,
+};
+
+impl ReferenceElement for Hex27 {
+    fn name(&self) -> &'static str {
+        "hex27"
+    }
+
+    fn dim(&self) -> usize {
+        3
+    }
+
+    fn nodes(&self) -> &'static [Vec3] {
+        &NODES
+    }
+
+    fn shape(&self, xi: &Vec3, n: &mut [f64]) {
+        SHAPE.shape(xi, n);
+    }
+
+    fn dshape(&self, xi: &Vec3, dn: &mut [Vec3]) {
+        SHAPE.dshape(xi, dn);
+    }
+
+    fn ddshape(&self, xi: &Vec3, ddn: &mut [Sym3]) {
+        SHAPE.ddshape(xi, ddn);
+    }
+
+    fn sides(&self) -> &'static [Side] {
+        static SIDES: [Side; 6] = [
+            Side::new(&quad9::Quad9, &[0, 3, 2, 1, 11, 10, 9, 8, 20]),
+            Side::new(&quad9::Quad9, &[4, 5, 6, 7, 12, 13, 14, 15, 21]),
+            Side::new(&quad9::Quad9, &[0, 1, 5, 4, 8, 17, 12, 16, 22]),
+            Side::new(&quad9::Quad9, &[1, 2, 6, 5, 9, 18, 13, 17, 23]),
+            Side::new(&quad9::Quad9, &[2, 3, 7, 6, 10, 19, 14, 18, 24]),
+            Side::new(&quad9::Quad9, &[3, 0, 4, 7, 11, 16, 15, 19, 25]),
+        ];
+        &SIDES
+    }
+
+    fn edges(&self) -> &'static [[usize; 2]] {
+        Hex8.edges()
+    }
+
+    fn full_rule(&self) -> &'static Rule {
+        &quadrature::HEX_27
+    }
+
+    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
+        Hex8.contains(xi, tolerance)
+    }
+}

@@ -1,0 +1,73 @@
+use super::lagrange::{self, Product};
+use super::quad4::Quad4;
+use super::quadrature::{self, Rule};
+use super::{ReferenceElement, Side, line3};
+use crate::tensor::{Sym3, Vec3};
+
+/// The biquadratic quadrilateral of nine nodes, `ξ, η ∈ [-1, 1]`: those of quad8, then the centre.
+pub(super) struct Quad9;
+
+const NODES: [Vec3; 9] = [
+    Vec3::new(-1.0, -1.0, 0.0),
+    Vec3::new(1.0, -1.0, 0.0),
+    Vec3::new(1.0, 1.0, 0.0),
+    Vec3::new(-1.0, 1.0, 0.0),
+    Vec3::new(0.0, -1.0, 0.0),
+    Vec3::new(1.0, 0.0, 0.0),
+    Vec3::new(0.0, 1.0, 0.0),
+    Vec3::new(-1.0, 0.0, 0.0),
+    Vec3::new(0.0, 0.0, 0.0),
+];
+
+const SHAPE: Product<2> = Product {
+    factor: lagrange::quadratic,
+    nodes: &NODES,
+};
+
+impl ReferenceElement for Quad9 {
+    fn name(&self) -> &'static str {
+        "quad9"
+    }
+
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn nodes(&self) -> &'static [Vec3] {
+        &NODES
+    }
+
+    fn shape(&self, xi: &Vec3, n: &mut [f64]) {
+        SHAPE.shape(xi, n);
+    }
+
+    fn dshape(&self, xi: &Vec3, dn: &mut [Vec3]) {
+        SHAPE.dshape(xi, dn);
+    }
+
+    fn ddshape(&self, xi: &Vec3, ddn: &mut [Sym3]) {
+        SHAPE.ddshape(xi, ddn);
+    }
+
+    fn sides(&self) -> &'static [Side] {
+        static SIDES: [Side; 4] = [
+            Side::new(&line3::Line3, &[0, 1, 4]),
+            Side::new(&line3::Line3, &[1, 2, 5]),
+            Side::new(&line3::Line3, &[2, 3, 6]),
+            Side::new(&line3::Line3, &[3, 0, 7]),
+        ];
+        &SIDES
+    }
+
+    fn edges(&self) -> &'static [[usize; 2]] {
+        Quad4.edges()
+    }
+
+    fn full_rule(&self) -> &'static Rule {
+        &quadrature::QUAD_9
+    }
+
+    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
+        Quad4.contains(xi, tolerance)
+    }
+}

@@ -1,0 +1,98 @@
+//! Small dense systems and the logarithm of a tensor.
+
+use signorini_geometry::tensor::{Sym3, Vec3};
+
+/// Solves `a x = b` by elimination with pivoting, `b` of `nright` columns becoming `x`. Both are row-major; `a` is lost.
+/// `None` where a pivot is no longer a number of the matrix's own size.
+pub(super) fn solve(a: &mut [f64], n: usize, b: &mut [f64], nright: usize) -> Option<()> {
+    let size = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| a[i * n + k].abs().total_cmp(&a[j * n + k].abs()))?;
+        let value = a[pivot * n + k];
+        if !(value.abs() > f64::EPSILON * size && value.is_finite()) {
+            return None;
+        }
+        if pivot != k {
+            (0..n).for_each(|c| a.swap(k * n + c, pivot * n + c));
+            (0..nright).for_each(|c| b.swap(k * nright + c, pivot * nright + c));
+        }
+        for row in k + 1..n {
+            let factor = a[row * n + k] / value;
+            if factor == 0.0 {
+                continue;
+            }
+            (k..n).for_each(|c| a[row * n + c] -= factor * a[k * n + c]);
+            (0..nright).for_each(|c| b[row * nright + c] -= factor * b[k * nright + c]);
+        }
+    }
+    for k in (0..n).rev() {
+        for c in 0..nright {
+            let known: f64 = (k + 1..n).map(|j| a[k * n + j] * b[j * nright + c]).sum();
+            b[k * nright + c] = (b[k * nright + c] - known) / a[k * n + k];
+        }
+    }
+    Some(())
+}
+
+/// `½ ln(I + 2e)`, by Jacobi's rotations: exact to round-off for small `e`, too.
+pub(super) fn half_logarithm(e: Sym3) -> Sym3 {
+    let mut a = e.to_mat3().rows;
+    let mut axes = [Vec3::unit(0), Vec3::unit(1), Vec3::unit(2)];
+    // three sweeps leave round-off of a cubic process; a few more cost nothing
+    for _ in 0..8 {
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            if a[p][q] == 0.0 {
+                continue;
+            }
+            let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+            let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
+            let c = 1.0 / t.hypot(1.0);
+            let s = t * c;
+            for row in &mut a {
+                (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
+            }
+            (a[p], a[q]) = (a[p] * c - a[q] * s, a[p] * s + a[q] * c);
+            (axes[p], axes[q]) = (axes[p] * c - axes[q] * s, axes[p] * s + axes[q] * c);
+            a[p][q] = 0.0;
+            a[q][p] = 0.0;
+        }
+    }
+    let principal = axes.into_iter().enumerate().map(|(k, n)| {
+        let value = 0.5 * (2.0 * a[k][k]).ln_1p();
+        Sym3::new(n.x * n.x, n.y * n.y, n.z * n.z, n.x * n.y, n.y * n.z, n.x * n.z) * value
+    });
+    principal.fold(Sym3::ZERO, |sum, t| sum + t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_geometry::tensor::Mat3;
+
+    #[test]
+    fn a_solved_system_is_solved_and_a_singular_one_is_told() {
+        let a = [0.0, 2.0, 1.0, 1.0, -1.0, 3.0, 4.0, 0.5, -2.0];
+        let (mut lost, mut x) = (a, [3.0, 1.0, 5.0]);
+        solve(&mut lost, 3, &mut x, 1).unwrap();
+        for (row, b) in a.chunks_exact(3).zip([3.0, 1.0, 5.0]) {
+            let product: f64 = row.iter().zip(x).map(|(a, x)| a * x).sum();
+            assert!((product - b).abs() < 1e-14);
+        }
+        let mut singular = [1.0, 2.0, 2.0, 4.0];
+        assert!(solve(&mut singular, 2, &mut [1.0, 1.0], 1).is_none());
+    }
+
+    #[test]
+    fn the_logarithm_of_a_turned_stretch_is_the_turned_logarithm() {
+        let turn = Mat3::rotation(Vec3::new(0.3, -1.1, 0.7));
+        for scale in [1.0, 1e-9] {
+            let stretch = [0.7 * scale, -0.3 * scale, 0.1 * scale];
+            let [a, b, c] = stretch;
+            let e = Sym3::diagonal(a, b, c).congruence(turn);
+            let [a, b, c] = stretch.map(|v| 0.5 * (2.0 * v).ln_1p());
+            let exact = Sym3::diagonal(a, b, c).congruence(turn);
+            let off = (half_logarithm(e) - exact).to_pairs();
+            assert!(off.iter().all(|d| d.abs() < 1e-15 * scale), "{off:?}");
+        }
+    }
+}

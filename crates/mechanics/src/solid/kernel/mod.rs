@@ -1,0 +1,280 @@
+//! One element: forces, stiffness, energy, samples. Loop bounds are constants here and nowhere else.
+//!
+//! | constant | meaning |
+//! |---|---|
+//! | `NN` | nodes |
+//! | `ND` | displacements of a node |
+//! | `NG` | rows of the gradient: `ND`, and one more for the hoop `N_I/R` of axisymmetry |
+
+#![allow(clippy::needless_range_loop)] // indices are those of tensors, and several arrays share them
+
+mod dilatation;
+mod gradient;
+mod modes;
+mod plain;
+mod stiffness;
+
+use super::dense;
+use crate::material::{Kinematics, Material, MaterialError, Order, Response, Strain};
+use crate::system::Idealisation;
+use signorini_geometry::element::ReferenceElement;
+use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
+
+/// What the kernel of one element type computes.
+pub(super) type Kernel = fn(&Element<'_>, Order, &mut Output<'_>) -> Result<(), Failure>;
+
+/// An element with its nodes.
+pub(super) struct Element<'a> {
+    pub reference: &'a Points,
+    pub x: &'a [Vec3],
+    pub u: &'a [f64],
+    pub material: &'a dyn Material,
+    pub kinematics: Kinematics,
+    pub space: Idealisation,
+    /// Temperatures of the nodes; empty where there are none.
+    pub temperature: &'a [f64],
+    /// Terms of the polynomial onto which the dilatation is projected.
+    pub ndilatation: usize,
+    /// History at the start of the increment: of each point, then the incompatible modes.
+    pub old: &'a [f64],
+}
+
+/// Results of one element. Forces and stiffness are those of displacements, node by node.
+pub(super) struct Output<'a> {
+    pub force: &'a mut [f64],
+    /// Row-major; empty where it is not wanted.
+    pub stiffness: &'a mut [f64],
+    pub energy: f64,
+    /// History at the end of the increment.
+    pub new: &'a mut [f64],
+    /// What is known at the quadrature points; empty where it is not wanted.
+    pub samples: &'a mut [Sample],
+    pub scratch: &'a mut Vec<f64>,
+}
+
+/// What is known at a quadrature point.
+#[derive(Clone, Copy)]
+pub(super) struct Sample {
+    /// Cauchy stress.
+    pub stress: Sym3,
+    /// Linearized, or logarithmic at finite strain.
+    pub strain: Sym3,
+    pub plastic_strain: f64,
+    /// Present volume that belongs to the point.
+    pub volume: f64,
+}
+
+/// Why an element has no response.
+pub(super) enum Failure {
+    Inverted { ratio: f64 },
+    Material(MaterialError),
+}
+
+impl From<MaterialError> for Failure {
+    fn from(error: MaterialError) -> Self {
+        match error {
+            MaterialError::Inverted { ratio } => Self::Inverted { ratio },
+            other => Self::Material(other),
+        }
+    }
+}
+
+/// Shape functions at the quadrature points of a reference element: the same for all its cells.
+pub(super) struct Points {
+    pub rule: &'static Rule,
+    shape: Vec<f64>,
+    dshape: Vec<Vec3>,
+    shape_at_centre: Vec<f64>,
+    dshape_at_centre: Vec<Vec3>,
+    nnode: usize,
+}
+
+impl Points {
+    pub fn new(element: &dyn ReferenceElement, rule: &'static Rule) -> Self {
+        let (nnode, npoint) = (element.nnode(), rule.npoint());
+        let mut points = Self {
+            rule,
+            shape: vec![0.0; nnode * npoint],
+            dshape: vec![Vec3::ZERO; nnode * npoint],
+            shape_at_centre: vec![0.0; nnode],
+            dshape_at_centre: vec![Vec3::ZERO; nnode],
+            nnode,
+        };
+        for (point, xi) in rule.points.iter().enumerate() {
+            let at = point * nnode..(point + 1) * nnode;
+            element.shape(xi, &mut points.shape[at.clone()]);
+            element.dshape(xi, &mut points.dshape[at]);
+        }
+        let centre = element.centre();
+        element.shape(&centre, &mut points.shape_at_centre);
+        element.dshape(&centre, &mut points.dshape_at_centre);
+        points
+    }
+
+    /// Shape functions at a point.
+    pub fn shape(&self, point: usize) -> &[f64] {
+        &self.shape[point * self.nnode..(point + 1) * self.nnode]
+    }
+
+    fn dshape(&self, point: usize) -> &[Vec3] {
+        &self.dshape[point * self.nnode..(point + 1) * self.nnode]
+    }
+}
+
+/// What is done against locking, as the kernels know it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Remedy {
+    None,
+    Dilatation,
+    Modes,
+}
+
+/// The kernels of an element: without remedy, with a projected dilatation, with incompatible modes.
+struct Kernels {
+    name: &'static str,
+    plain: Kernel,
+    dilatation: Option<Kernel>,
+    modes: Option<Kernel>,
+}
+
+const fn kernels<const NN: usize, const ND: usize, const NG: usize>(name: &'static str) -> Kernels {
+    Kernels {
+        name,
+        plain: plain::respond::<NN, ND, NG>,
+        dilatation: Some(dilatation::respond::<NN, ND, NG>),
+        modes: None,
+    }
+}
+
+/// A linear element that has no remedy: its dilatation is constant, or nearly so.
+const fn bare<const NN: usize, const ND: usize, const NG: usize>(name: &'static str) -> Kernels {
+    Kernels {
+        name,
+        plain: plain::respond::<NN, ND, NG>,
+        dilatation: None,
+        modes: None,
+    }
+}
+
+/// An element with incompatible modes, `NT` functions in all.
+const fn with_modes<const NN: usize, const NT: usize, const ND: usize, const NG: usize>(
+    name: &'static str,
+) -> Kernels {
+    Kernels {
+        modes: Some(modes::respond::<NN, NT, ND, NG>),
+        ..kernels::<NN, ND, NG>(name)
+    }
+}
+
+static PLANE: [Kernels; 5] = [
+    bare::<3, 2, 2>("tri3"),
+    with_modes::<4, 6, 2, 2>("quad4"),
+    kernels::<6, 2, 2>("tri6"),
+    kernels::<8, 2, 2>("quad8"),
+    kernels::<9, 2, 2>("quad9"),
+];
+
+static AXISYMMETRIC: [Kernels; 5] = [
+    bare::<3, 2, 3>("tri3"),
+    with_modes::<4, 6, 2, 3>("quad4"),
+    kernels::<6, 2, 3>("tri6"),
+    kernels::<8, 2, 3>("quad8"),
+    kernels::<9, 2, 3>("quad9"),
+];
+
+static SPACE: [Kernels; 7] = [
+    bare::<4, 3, 3>("tet4"),
+    bare::<6, 3, 3>("wedge6"),
+    with_modes::<8, 11, 3, 3>("hex8"),
+    kernels::<10, 3, 3>("tet10"),
+    kernels::<15, 3, 3>("wedge15"),
+    kernels::<20, 3, 3>("hex20"),
+    kernels::<27, 3, 3>("hex27"),
+];
+
+/// The kernel of an element, by its name; `None` where there is none.
+pub(super) fn kernel(name: &str, space: Idealisation, remedy: Remedy) -> Option<Kernel> {
+    let table: &[Kernels] = match space {
+        Idealisation::Space => &SPACE,
+        Idealisation::PlaneStrain { .. } | Idealisation::PlaneStress { .. } => &PLANE,
+        Idealisation::Axisymmetric => &AXISYMMETRIC,
+    };
+    let found = table.iter().find(|k| k.name == name)?;
+    match remedy {
+        Remedy::None => Some(found.plain),
+        Remedy::Dilatation => found.dilatation,
+        Remedy::Modes => found.modes,
+    }
+}
+
+impl Element<'_> {
+    fn is_finite(&self) -> bool {
+        self.kinematics == Kinematics::Finite
+    }
+
+    fn npoint(&self) -> usize {
+        self.reference.rule.npoint()
+    }
+
+    /// The temperature at a point.
+    fn temperature(&self, point: usize) -> f64 {
+        let shape = self.reference.shape(point).iter();
+        shape.zip(self.temperature).map(|(n, t)| n * t).sum()
+    }
+
+    /// The material's answer at a point to a strain.
+    #[inline]
+    fn respond(
+        &self,
+        point: usize,
+        value: Sym3,
+        order: Order,
+        new: &mut [f64],
+        response: &mut Response,
+    ) -> Result<(), MaterialError> {
+        let strain = Strain {
+            kinematics: self.kinematics,
+            value,
+            temperature: self.temperature(point),
+        };
+        let nhistory = self.material.nhistory();
+        let at = point * nhistory..(point + 1) * nhistory;
+        let (old, new) = (&self.old[at.clone()], &mut new[at]);
+        self.material.respond(&strain, old, new, order, response)
+    }
+
+    /// What is known at a point where the deformation gradient that the material sees is `f = I + h`, and `volume`
+    /// belongs to it.
+    fn sample(&self, point: usize, h: Mat3, volume: f64, new: &[f64], response: &Response) -> Sample {
+        let nhistory = self.material.nhistory();
+        let history = &new[point * nhistory..(point + 1) * nhistory];
+        let sheet = matches!(self.space, Idealisation::PlaneStress { .. });
+        let mut h = h;
+        let mut volume = volume;
+        if sheet {
+            // the thickness follows from what was found across
+            let strain = response.across;
+            h.rows[2].z = if self.is_finite() {
+                2.0 * strain / (1.0 + (1.0 + 2.0 * strain).max(0.0).sqrt())
+            } else {
+                strain
+            };
+            if self.is_finite() {
+                volume *= 1.0 + h.rows[2].z;
+            }
+        }
+        let (mut stress, mut strain) = (response.stress, Sym3::symmetric_part(h));
+        if self.is_finite() {
+            let f = Mat3::IDENTITY + h;
+            stress = stress.congruence(f) * f.determinant().recip(); // (E4)
+            strain = dense::half_logarithm(strain + Sym3::gram(h.transpose()) * 0.5);
+        }
+        Sample {
+            stress,
+            strain,
+            plastic_strain: self.material.plastic_strain(history).unwrap_or(0.0),
+            volume,
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! The element as it is.
+
+use super::gradient::{deformation, displacement_gradient, place, strain};
+use super::stiffness::{add_force, add_stiffness, contract, mirror};
+use super::{Element, Failure, Output};
+use crate::material::{Order, Response};
+
+pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
+    element: &Element<'_>,
+    order: Order,
+    out: &mut Output<'_>,
+) -> Result<(), Failure> {
+    let finite = element.is_finite();
+    let symmetric = element.material.is_symmetric();
+    out.energy = 0.0;
+    out.force.fill(0.0);
+    out.stiffness.fill(0.0);
+    let mut response = Response::default();
+    for point in 0..element.npoint() {
+        let at = place::<NN, ND, NG>(element, point)?;
+        let h = displacement_gradient::<NN, ND, NG>(&at.gradient, element.u);
+        let (f, ratio) = deformation::<ND, NG>(h, finite)?;
+        element.respond(point, strain(h, finite), order, out.new, &mut response)?;
+        out.energy += at.weight * response.energy;
+        if let Some(sample) = out.samples.get_mut(point) {
+            *sample = element.sample(point, h, at.weight * ratio, out.new, &response);
+            continue;
+        }
+        let force = contract::<NN, ND, NG>(&at.gradient, &f, &response.stress);
+        add_force(out.force, at.weight, &force); // (E1)
+        if order == Order::Tangent {
+            let f = finite.then_some(&f);
+            let (stress, tangent) = (&response.stress, &response.tangent);
+            add_stiffness::<NN, ND, NG>(&at.gradient, f, at.weight, stress, tangent, symmetric, out);
+        }
+    }
+    if symmetric && !out.stiffness.is_empty() {
+        mirror(out.stiffness, NN * ND, ND);
+    }
+    Ok(())
+}
