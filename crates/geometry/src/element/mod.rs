@@ -91,8 +91,8 @@ pub trait ReferenceElement: Send + Sync {
         self.full_rule()
     }
 
-    /// The rule that integrates loads and areas over the element as a facet, curved or not. It integrates products of
-    /// two shape functions exactly on an undistorted facet.
+    /// The rule that integrates loads and areas over the element as a facet, curved or not, and masses over a solid. It
+    /// integrates products of two shape functions exactly on an undistorted facet.
     fn surface_rule(&self) -> &'static Rule {
         self.full_rule()
     }

@@ -54,6 +54,10 @@ impl ReferenceElement for Tet4 {
         &quadrature::TET_1
     }
 
+    fn surface_rule(&self) -> &'static Rule {
+        &quadrature::TET_4
+    }
+
     fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
         (0..3).all(|axis| xi[axis] >= -tolerance) && xi.x + xi.y + xi.z <= 1.0 + tolerance
     }

@@ -1,13 +1,55 @@
-//! What acts from outside: dead forces on nodes and rigid bodies.
+//! What acts from outside: forces, pressures, and what bodies feel by their mass.
 //!
-//! A load goes evenly from its value at the start of a step to its value at the end (E1):
-//! `F(t) = F_0 + (F_1 − F_0) (t − t_0)/T`. As an external force it enters the residual with a minus sign, and its
-//! potential is `−F·u`. Prescribed motion needs no term: it is data of a step ([`crate::solve::Prescription`]).
+//! | symbol | name in code | |
+//! |---|---|---|
+//! | φ(t) | [`Schedule`] | factor of a load over time, from its [`Course`] |
+//! | N_I | `shape` | shape functions of a face or cell, at its quadrature points |
+//! | t1, t2 | `tangents` | of a face; `n dA = t1 × t2 dξ` points out |
+//! | dV | `volume` | of a cell at the start, with the extent of a plane model |
+//! | p, ρ, ω | `pressure`, `factors`, `speed` | |
+//! | c, a, P | `point`, `axis`, `projector` | axis of rotation; `P = I − a aᵀ` |
 //!
-//! To add a load: a file with a term, and one line where models are built. Limits: dead loads only.
+//! Loads enter the residual with a minus sign. The factor follows from step and time alone; a load that replaces
+//! another of its name comes from zero while that fades (E1). Dead loads keep direction and size, so that one term,
+//! [`NodalForces`], serves them all, from nodal forces that [`spread`] finds once. Their potential is `−φ f·u`:
+//!
+//! ```text
+//! f_I  = ∫ N_I t dA,   ∫ N_I b dV                              (E2)   over the reference, t and b fixed in space
+//! f_I  = −φ p ∫ N_I t1 × t2 dξ                                 (E3)   over the present faces
+//! −∂f_I/∂u_J = φ p ∫ N_I (−[t2]× N_J,ξ + [t1]× ∂t2/∂u_J) dξ    (E4)
+//!        t2 = ∂x/∂η in space; e_z · thickness in the plane; 2πr e_z with the present r where it is axisymmetric
+//! f_I  = φ ω² ∫ ρ N_I P(x − c) dV,   −∂f_I/∂u_J = −φ ω² ∫ ρ N_I N_J P dV,   Π = −½ φ ω² ∫ ρ |P(x − c)|² dV    (E5)
+//! f_i  = (J⁻¹ M) × r_i,   J = Σ (r²I − r rᵀ)                   (E6)   a moment on nodes, r from their centre
+//! ```
+//!
+//! Nodes of rigid bodies are loaded as others are: the system hands the forces on, with their moments.
+//!
+//! A following pressure has a potential only where its faces are closed or their rims held. Nothing here knows that, so
+//! it claims none, and its stiffness is unsymmetric. Nor has a moment fixed in space, on what may turn about more than
+//! one axis.
+//!
+//! Prescribed motion needs no term: it is data of a step ([`crate::solve::Prescription`]).
+//!
+//! Limits: in plane stress (E3) takes the thickness of the start, and so neglects that a stretched sheet gets thinner.
+//! The mass of (E5) is consistent, and that of the start. A jump within a table happens at the first increment that
+//! ends at it or after. Sources: Bonet and Wood 2008, sections 8.5.2 and 9.3 (following pressure); Schweizerhof and
+//! Ramm, Comput. Struct. 18, 1984 (its potentials).
+//!
+//! To add a load: a file with a term, and one line where models are built; a dead one needs no term but a function of
+//! [`spread`].
 
+mod centrifugal;
 mod course;
+mod following_pressure;
+mod local;
 mod nodal_forces;
+mod region;
+pub mod spread;
+#[cfg(test)]
+mod tests;
 
-pub use course::Course;
+pub use centrifugal::{Centrifugal, Spin};
+pub use course::{Course, Schedule};
+pub use following_pressure::FollowingPressure;
 pub use nodal_forces::NodalForces;
+pub use region::Region;

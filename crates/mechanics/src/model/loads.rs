@@ -1,61 +1,341 @@
 //! Loads of all steps, as terms.
 
-use super::{Context, Load, LoadPart, ModelError};
-use crate::load::NodalForces;
-use crate::system::{Dof, NO_DOF, Term};
-use std::collections::{BTreeMap, BTreeSet};
+use super::{BodyKind, BodyPart, Context, Load, LoadError, LoadPart, ModelError};
+use crate::load::spread::{self, NodalVectors};
+use crate::load::{Centrifugal, Course, FollowingPressure, NodalForces, Region, Schedule, Spin};
+use crate::solve::Step;
+use crate::system::{Dof, Idealisation, NO_DOF, StepContext, Term};
+use signorini_geometry::mesh::{CellId, Face, NodeId};
+use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeSet;
 
-/// The terms of these loads, step by step.
+/// The terms of these loads, given step by step.
 pub(super) fn terms(
     context: &Context<'_>,
-    steps: Vec<Vec<LoadPart>>,
+    steps: &[Step],
+    loads: Vec<Vec<LoadPart>>,
 ) -> Result<Vec<Box<dyn Term>>, ModelError> {
-    let mut loads: BTreeMap<String, Vec<(Dof, f64)>> = BTreeMap::new();
-    let mut ends: Vec<BTreeMap<Dof, f64>> = Vec::new();
-    for step in steps {
-        for part in step {
-            let forces = forces(context, &part.load)?;
-            loads.insert(part.name, forces);
-        }
-        let mut end = BTreeMap::new();
-        for (dof, force) in loads.values().flatten() {
-            *end.entry(*dof).or_insert(0.0) += force;
-        }
-        ends.push(end);
+    let mut terms = Vec::new();
+    for (part, schedule) in schedules(steps, loads)? {
+        terms.extend(context.load(&part, schedule, steps)?);
     }
-    let dofs: BTreeSet<Dof> = ends.iter().flat_map(|e| e.keys().copied()).collect();
-    if dofs.is_empty() {
-        return Ok(Vec::new());
-    }
-    let row = |end: &BTreeMap<Dof, f64>| {
-        let value = |dof| end.get(dof).copied().unwrap_or(0.0);
-        dofs.iter().map(value).collect()
-    };
-    let rows = ends.iter().map(row).collect();
-    let dofs = dofs.iter().copied().collect();
-    Ok(vec![Box::new(NodalForces::new(dofs, rows))])
+    Ok(terms)
 }
 
-fn forces(context: &Context<'_>, load: &Load) -> Result<Vec<(Dof, f64)>, ModelError> {
-    let layout = &context.layout;
-    let mut out = Vec::new();
-    match load {
-        Load::Carrier {
-            carrier,
-            force,
-            moment,
-        } => {
-            out.extend((0..3).map(|c| (layout.translation(*carrier, c), force[c])));
-            out.extend((0..3).map(|c| (layout.rotation(*carrier, c), moment[c])));
+/// Every load ever given, with its factor over time.
+fn schedules(
+    steps: &[Step],
+    loads: Vec<Vec<LoadPart>>,
+) -> Result<Vec<(LoadPart, Schedule)>, ModelError> {
+    let mut all: Vec<(LoadPart, Schedule)> = Vec::new();
+    let mut start = 0.0;
+    for (number, (step, parts)) in steps.iter().zip(loads).enumerate() {
+        let here = StepContext {
+            number,
+            start,
+            duration: step.duration,
+            nonlinear: step.nonlinear,
+        };
+        start += step.duration;
+        let mut names = BTreeSet::new();
+        if let Some(twice) = parts.iter().find(|p| !names.insert(&p.name)) {
+            let step = step.name.clone();
+            return Err(ModelError::Load {
+                load: twice.name.clone(),
+                source: LoadError::Twice { step },
+            });
         }
-        Load::Nodes(nodes) => {
-            for &(node, force) in nodes {
-                context.on_rigid(node)?;
-                out.extend((0..3).map(|c| (layout.node(node, c), force[c])));
+        for (before, schedule) in &mut all {
+            let Some(after) = parts.iter().find(|p| p.name == before.name) else {
+                schedule.stay(&here);
+                continue;
+            };
+            // a table speaks for what is there already
+            if after.course != Course::Ramp && place(&after.load) == place(&before.load) {
+                schedule.stop();
+            } else {
+                schedule.fade();
             }
         }
-        _ => {}
+        for part in parts {
+            let mut schedule = Schedule::idle(number);
+            schedule.begin(&part.course, &here);
+            all.push((part, schedule));
+        }
     }
-    out.retain(|(dof, force)| *dof != NO_DOF && *force != 0.0);
-    Ok(out)
+    Ok(all)
+}
+
+/// Of what kind a load is, and where it acts.
+#[derive(PartialEq)]
+enum Place {
+    Nodes(BTreeSet<NodeId>),
+    Carrier(RigidId),
+    Force(BTreeSet<Face>),
+    Moment(BTreeSet<NodeId>),
+    Traction(BTreeSet<Face>),
+    Pressure(BTreeSet<Face>, bool),
+    Body(BTreeSet<CellId>),
+    Gravity(BTreeSet<CellId>),
+    Centrifugal(BTreeSet<CellId>),
+}
+
+fn place(load: &Load) -> Place {
+    match load {
+        Load::Nodes(forces) => Place::Nodes(forces.iter().map(|(n, _)| *n).collect()),
+        Load::Carrier { carrier, .. } => Place::Carrier(*carrier),
+        Load::Force { faces, .. } => Place::Force(set(faces)),
+        Load::Moment { nodes, .. } => Place::Moment(set(nodes)),
+        Load::Traction { faces, .. } => Place::Traction(set(faces)),
+        Load::Pressure { faces, follows, .. } => Place::Pressure(set(faces), *follows),
+        Load::Body { cells, .. } => Place::Body(set(cells)),
+        Load::Gravity { cells, .. } => Place::Gravity(set(cells)),
+        Load::Centrifugal { cells, .. } => Place::Centrifugal(set(cells)),
+    }
+}
+
+fn set<T: Copy + Ord>(members: &[T]) -> BTreeSet<T> {
+    members.iter().copied().collect()
+}
+
+/// What loads want to know of a body.
+pub(super) struct Substance {
+    name: String,
+    density: Option<f64>,
+    /// Cross-section of bars.
+    section: Option<f64>,
+}
+
+impl From<&BodyPart> for Substance {
+    fn from(body: &BodyPart) -> Self {
+        let (density, section) = match body.kind {
+            BodyKind::Solid { density, .. } => (density, None),
+            BodyKind::Truss { density, area, .. } => (density, Some(area)),
+            BodyKind::Rigid(_) => (None, None),
+        };
+        Self {
+            name: body.name.clone(),
+            density,
+            section,
+        }
+    }
+}
+
+/// What the measure of a cell is multiplied by.
+#[derive(Clone, Copy, PartialEq)]
+enum Per {
+    Volume,
+    Mass,
+}
+
+impl Context<'_> {
+    /// The term of a load; none where it has no size.
+    fn load(
+        &self,
+        part: &LoadPart,
+        schedule: Schedule,
+        steps: &[Step],
+    ) -> Result<Option<Box<dyn Term>>, ModelError> {
+        let (space, reference, name) = (self.space, &self.reference[..], &part.name[..]);
+        let named = |source| ModelError::Load {
+            load: name.into(),
+            source,
+        };
+        let forces = match &part.load {
+            Load::Nodes(nodes) => {
+                for &(node, _) in nodes {
+                    self.on_rigid(node)?;
+                }
+                self.at_nodes(nodes.iter().copied())
+            }
+            Load::Carrier {
+                carrier,
+                force,
+                moment,
+            } => return Ok(self.on_carrier(name, *carrier, [*force, *moment], schedule, steps)),
+            Load::Force { faces, total } => {
+                let faces = self.faces(faces).map_err(named)?;
+                let area = spread::area(&faces, space, reference);
+                if area <= 0.0 {
+                    return Err(named(LoadError::NoArea));
+                }
+                let traction = *total / area;
+                let forces = spread::over_faces(&faces, space, reference, |n| traction * n.norm());
+                self.at_nodes(forces)
+            }
+            Load::Moment { nodes, moment } => {
+                for &node in nodes {
+                    self.on_rigid(node)?;
+                }
+                self.at_nodes(self.moment(nodes, *moment).map_err(named)?)
+            }
+            Load::Traction { faces, traction } => {
+                let faces = self.faces(faces).map_err(named)?;
+                let forces = spread::over_faces(&faces, space, reference, |n| *traction * n.norm());
+                self.at_nodes(forces)
+            }
+            Load::Pressure {
+                faces,
+                pressure,
+                follows,
+            } => {
+                let faces = self.faces(faces).map_err(named)?;
+                if *follows && *pressure != 0.0 {
+                    let what = (faces, *pressure);
+                    let (layout, reference) = (self.layout, self.reference.clone());
+                    let term =
+                        FollowingPressure::new(name, what, schedule, layout, space, reference);
+                    return Ok(Some(Box::new(term)));
+                }
+                let forces = spread::over_faces(&faces, space, reference, |n| n * -*pressure);
+                self.at_nodes(forces)
+            }
+            Load::Body { cells, force } => {
+                let cells = self.cells(cells, Per::Volume).map_err(named)?;
+                self.at_nodes(spread::over_cells(&cells, space, reference, *force))
+            }
+            Load::Gravity {
+                cells,
+                acceleration,
+            } => {
+                let cells = self.cells(cells, Per::Mass).map_err(named)?;
+                self.at_nodes(spread::over_cells(&cells, space, reference, *acceleration))
+            }
+            Load::Centrifugal {
+                cells,
+                speed,
+                point,
+                axis,
+            } => {
+                let cells = self.cells(cells, Per::Mass).map_err(named)?;
+                let spin = self.spin(*speed, *point, *axis).map_err(named)?;
+                let (layout, reference) = (self.layout, self.reference.clone());
+                let term =
+                    Centrifugal::new(name, (cells, spin), schedule, layout, space, reference);
+                return Ok((*speed != 0.0).then(|| Box::new(term) as Box<dyn Term>));
+            }
+        };
+        let term = self.dead(name, &forces, schedule);
+        Ok(term.map(|t| Box::new(t) as Box<dyn Term>))
+    }
+
+    /// A dead load.
+    fn dead(&self, name: &str, forces: &[(Dof, f64)], schedule: Schedule) -> Option<NodalForces> {
+        let load = NodalForces::new(name, forces, schedule);
+        (!forces.is_empty()).then(|| load.following(self.elimination, &self.layout))
+    }
+
+    /// Forces on nodes as forces on unknowns.
+    fn at_nodes(&self, forces: impl IntoIterator<Item = (NodeId, Vec3)>) -> Vec<(Dof, f64)> {
+        let components = |(node, force): (NodeId, Vec3)| {
+            (0..3).map(move |axis| (self.layout.node(node, axis), force[axis]))
+        };
+        acting(forces.into_iter().flat_map(components))
+    }
+
+    fn on_carrier(
+        &self,
+        name: &str,
+        carrier: RigidId,
+        [force, moment]: [Vec3; 2],
+        schedule: Schedule,
+        steps: &[Step],
+    ) -> Option<Box<dyn Term>> {
+        let layout = &self.layout;
+        let along = (0..3).map(|c| (layout.translation(carrier, c), force[c]));
+        let about = (0..3).map(|c| (layout.rotation(carrier, c), moment[c]));
+        let turns = acting(about.clone());
+        let swivels = steps.iter().map(|step| {
+            let held = |dof: Dof| step.prescriptions.iter().any(|p| p.dof == dof);
+            let rotations = (0..3).map(|c| layout.rotation(carrier, c));
+            let free = rotations.filter(|&dof| dof != NO_DOF && !held(dof)).count();
+            free > 1 && turns.iter().any(|(dof, _)| !held(*dof))
+        });
+        let swivels = swivels.collect();
+        let load = self.dead(name, &acting(along.chain(about)), schedule)?;
+        Some(Box::new(load.swivelling(swivels)))
+    }
+
+    fn moment(&self, nodes: &[NodeId], mut moment: Vec3) -> Result<NodalVectors, LoadError> {
+        if self.space.ndim() == 2 {
+            moment = Vec3::unit(2) * moment.z;
+        }
+        spread::moment(nodes, self.reference, moment).ok_or(LoadError::NoArm)
+    }
+
+    fn spin(&self, speed: f64, point: Vec3, axis: Vec3) -> Result<Spin, LoadError> {
+        let axis = axis.normalized().ok_or(LoadError::NoAxis)?;
+        let revolves = axis.cross(Vec3::unit(1)) == Vec3::ZERO && point.x == 0.0;
+        if self.space == Idealisation::Axisymmetric && !revolves {
+            return Err(LoadError::OtherAxis);
+        }
+        Ok(Spin { speed, point, axis })
+    }
+
+    /// The body of a cell that a load acts on.
+    fn body(&self, cell: CellId) -> Result<&Substance, LoadError> {
+        let body = self.owner.get(&cell);
+        let body = body.and_then(|&b| self.substances.get(b));
+        body.ok_or_else(|| LoadError::Outside {
+            element: self.number(cell),
+        })
+    }
+
+    /// Faces of bodies that a load acts on.
+    fn faces(&self, faces: &[Face]) -> Result<Region, LoadError> {
+        let mut region = Region::default();
+        for &face in &set(faces) {
+            self.body(face.cell)?;
+            let side = self.mesh.face(face);
+            let side = side.filter(|(e, _)| e.dim() + 1 == self.layout.ndim);
+            let (element, nodes) = side.ok_or_else(|| LoadError::NoFace {
+                element: self.number(face.cell),
+                side: usize::from(face.side) + 1,
+            })?;
+            region.push(element, &nodes, 1.0);
+        }
+        some(region)
+    }
+
+    /// Cells of bodies that a load acts on.
+    fn cells(&self, cells: &[CellId], per: Per) -> Result<Region, LoadError> {
+        let mut region = Region::default();
+        for &cell in &set(cells) {
+            let body = self.body(cell)?;
+            let has_volume = |dim| dim == self.layout.ndim || body.section.is_some();
+            let element = self.mesh.element(cell).filter(|e| has_volume(e.dim()));
+            let element = element.ok_or_else(|| LoadError::NoVolume {
+                element: self.number(cell),
+            })?;
+            let density = match per {
+                Per::Volume => Some(1.0),
+                Per::Mass => body.density,
+            };
+            let density = density.ok_or_else(|| LoadError::NoDensity {
+                body: body.name.clone(),
+            })?;
+            let factor = density * body.section.unwrap_or(1.0);
+            region.push(element, self.mesh.cell(cell), factor);
+        }
+        some(region)
+    }
+
+    /// The number of a cell in the input.
+    fn number(&self, cell: CellId) -> u64 {
+        self.mesh.cell_label(cell).unwrap_or(0)
+    }
+}
+
+/// What acts, on unknowns that exist.
+fn acting(forces: impl IntoIterator<Item = (Dof, f64)>) -> Vec<(Dof, f64)> {
+    let acts = |(dof, force): &(Dof, f64)| *dof != NO_DOF && *force != 0.0;
+    forces.into_iter().filter(acts).collect()
+}
+
+fn some(region: Region) -> Result<Region, LoadError> {
+    if region.is_empty() {
+        return Err(LoadError::Nowhere);
+    }
+    Ok(region)
 }

@@ -21,7 +21,7 @@ mod loads;
 mod parts;
 mod steps;
 
-pub use error::ModelError;
+pub use error::{LoadError, ModelError};
 pub use parts::{
     BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart, ContactPart, Load,
     LoadPart, Parts, SidePart, SpringPart, StepPart, Target, Unknown,
@@ -32,6 +32,7 @@ use crate::solid::{Solid, SolidParts};
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
 use held::Held;
+use loads::Substance;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::Carrier;
 use signorini_geometry::tensor::Vec3;
@@ -105,6 +106,7 @@ impl Model {
         if modulus.iter().all(Option::is_none) {
             return Err(ModelError::NothingDeforms);
         }
+        let substances: Vec<Substance> = bodies.iter().map(Substance::from).collect();
         let body_of_node = nodes_by_body(mesh, &bodies);
         let held = Held::new(mesh, &bodies);
         let temperature = temperatures(temperature, &steps);
@@ -139,6 +141,7 @@ impl Model {
             reference: &reference,
             owner: &owner,
             modulus: &modulus,
+            substances: &substances,
             elimination: &elimination,
             carriers: &carriers,
             space,
@@ -242,9 +245,10 @@ fn label(mesh: &Mesh, node: NodeId) -> u64 {
 /// What the parts of a model are made from.
 struct Context<'a> {
     mesh: &'a Mesh,
-    reference: &'a [Vec3],
+    reference: &'a Arc<[Vec3]>,
     owner: &'a HashMap<CellId, usize>,
     modulus: &'a [Option<f64>],
+    substances: &'a [Substance],
     elimination: &'a Elimination,
     carriers: &'a [CarrierPart],
     space: Idealisation,

@@ -106,7 +106,8 @@ impl Context<'_> {
                 prescriptions: prescriptions.collect(),
             });
         }
-        Ok((steps, loads::terms(self, loads)?))
+        let terms = loads::terms(self, &steps, loads)?;
+        Ok((steps, terms))
     }
 
     /// The unknowns of a carrier along which a load acts.

@@ -8,7 +8,7 @@ use super::{
     Event, Flow, IncrementRecord, Increments, IterationRecord, LineSearch, Motion, NewtonSettings,
     Outcome, Prescription, RunError, Step, Stepper, StepperSettings,
 };
-use crate::load::NodalForces;
+use crate::load::{NodalForces, Schedule};
 use crate::system::{
     Dof, Elimination, Layout, Order, Part, PatternSink, Sink, State, Symmetry, System, Term,
     TermError, Verdict, Work,
@@ -222,8 +222,11 @@ impl Term for Fault {
 
 /// A dead force along x on a node; its value at the end of each step.
 fn load(node: NodeId, ends: &[f64]) -> Box<dyn Term> {
-    let ends = ends.iter().map(|&f| vec![f]).collect();
-    Box::new(NodalForces::new(vec![x(node)], ends))
+    Box::new(NodalForces::new(
+        "load",
+        &[(x(node), 1.0)],
+        Schedule::ramps(ends),
+    ))
 }
 
 /// Nodes in the plane, of which only the displacement along x is in use.

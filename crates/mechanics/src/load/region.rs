@@ -1,0 +1,160 @@
+use crate::system::Idealisation;
+use signorini_geometry::element::Element;
+use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::Vec3;
+
+/// Pieces evaluated together: enough to be worth a task, few enough to stay in cache.
+const CHUNK: usize = 64;
+
+/// Where a load acts: faces or cells, sorted by their elements.
+#[derive(Default)]
+pub struct Region {
+    patches: Vec<Patch>,
+}
+
+/// Pieces of one element.
+pub(super) struct Patch {
+    element: Element,
+    rule: &'static Rule,
+    /// At each quadrature point, those of all nodes.
+    shape: Vec<f64>,
+    dshape: Vec<Vec3>,
+    nodes: Vec<NodeId>,
+    /// What the measure of each piece is multiplied by.
+    factors: Vec<f64>,
+}
+
+/// A quadrature point of a reference element.
+pub(super) struct Sample<'a> {
+    pub shape: &'a [f64],
+    pub dshape: &'a [Vec3],
+    pub weight: f64,
+}
+
+impl Region {
+    /// Adds a face or a cell. Its measure counts `factor` times: the cross-section of a bar, a density.
+    pub fn push(&mut self, element: Element, nodes: &[NodeId], factor: f64) {
+        debug_assert_eq!(nodes.len(), element.nnode());
+        let found = self.patches.iter().position(|p| *p.element == *element);
+        let at = found.unwrap_or_else(|| {
+            self.patches.push(Patch::new(element));
+            self.patches.len() - 1
+        });
+        let patch = &mut self.patches[at];
+        patch.nodes.extend_from_slice(nodes);
+        patch.factors.push(factor);
+    }
+
+    /// Whether nothing is in it.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.patches.is_empty()
+    }
+
+    pub(super) fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
+    /// Patch, first and last piece of each chunk.
+    pub(super) fn chunks(&self) -> Vec<(usize, usize, usize)> {
+        let of_patch = |(number, patch): (usize, &Patch)| {
+            let n = patch.npiece();
+            let starts = (0..n).step_by(CHUNK);
+            starts
+                .map(move |first| (number, first, (first + CHUNK).min(n)))
+                .collect::<Vec<_>>()
+        };
+        self.patches.iter().enumerate().flat_map(of_patch).collect()
+    }
+
+    /// Nodes, quadrature points and factor of every piece.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = (&Patch, &[NodeId], f64)> {
+        self.patches.iter().flat_map(|patch| {
+            let nodes = patch.nodes.chunks_exact(patch.nnode());
+            let factors = patch.factors.iter();
+            nodes.zip(factors).map(move |(n, &f)| (patch, n, f))
+        })
+    }
+}
+
+impl Patch {
+    fn new(element: Element) -> Self {
+        let rule = element.surface_rule();
+        let n = element.nnode();
+        let mut shape = vec![0.0; n * rule.npoint()];
+        let mut dshape = vec![Vec3::ZERO; n * rule.npoint()];
+        let at_points = shape.chunks_exact_mut(n).zip(dshape.chunks_exact_mut(n));
+        for (xi, (shape, dshape)) in rule.points.iter().zip(at_points) {
+            element.shape(xi, shape);
+            element.dshape(xi, dshape);
+        }
+        Self {
+            element,
+            rule,
+            shape,
+            dshape,
+            nodes: Vec::new(),
+            factors: Vec::new(),
+        }
+    }
+
+    pub fn nnode(&self) -> usize {
+        self.element.nnode()
+    }
+
+    fn npiece(&self) -> usize {
+        self.factors.len()
+    }
+
+    /// Nodes of some of its pieces, and their factors.
+    pub fn pieces(&self, first: usize, last: usize) -> impl Iterator<Item = (&[NodeId], f64)> {
+        let n = self.nnode();
+        let nodes = self.nodes[first * n..last * n].chunks_exact(n);
+        nodes.zip(self.factors[first..last].iter().copied())
+    }
+
+    pub fn samples(&self) -> impl Iterator<Item = Sample<'_>> {
+        let n = self.nnode();
+        let at_points = self.shape.chunks_exact(n).zip(self.dshape.chunks_exact(n));
+        at_points
+            .zip(self.rule.weights)
+            .map(|((shape, dshape), &weight)| Sample {
+                shape,
+                dshape,
+                weight,
+            })
+    }
+
+    /// dV of a cell at a quadrature point, from the positions of its nodes: a volume, in the plane an area times its
+    /// extent, of a bar a length.
+    pub fn volume(&self, space: Idealisation, sample: &Sample<'_>, x: &[Vec3]) -> f64 {
+        let t = |a| sample.tangent(x, a);
+        let measure = match self.element.dim() {
+            3 => t(0).cross(t(1)).dot(t(2)),
+            2 => t(0).cross(t(1)).z * space.extent(sample.position(x)),
+            _ => t(0).norm(),
+        };
+        measure * sample.weight
+    }
+}
+
+impl Sample<'_> {
+    pub fn position(&self, x: &[Vec3]) -> Vec3 {
+        x.iter().zip(self.shape).map(|(x, n)| *x * *n).sum()
+    }
+
+    /// ∂x/∂ξ_a
+    pub fn tangent(&self, x: &[Vec3], a: usize) -> Vec3 {
+        x.iter().zip(self.dshape).map(|(x, dn)| *x * dn[a]).sum()
+    }
+
+    /// t1 and t2 of a face (E3): `t1 × t2` is its directed area. In the plane t2 is what lies across it.
+    pub fn tangents(&self, space: Idealisation, x: &[Vec3]) -> (Vec3, Vec3) {
+        let across = match space {
+            Idealisation::Space => self.tangent(x, 1),
+            _ => Vec3::unit(2) * space.extent(self.position(x)),
+        };
+        (self.tangent(x, 0), across)
+    }
+}
