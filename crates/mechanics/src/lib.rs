@@ -1,12 +1,13 @@
 //! Everything between a mesh and a result: unknowns, materials, solids, loads, contact, solution.
 //!
 //! ```text
-//! system ◀── solid, load, contact ◀── model          solve ──▶ system
+//! system ◀── solid, load, contact, connector ◀── model          solve ──▶ system
 //! ```
 //!
 //! `solve` knows nothing of solids or contact: all it sees is [`system::Term`]. `material` and `contact::law` have never
 //! heard of a degree of freedom.
 
+pub mod connector;
 pub mod contact;
 pub mod load;
 pub mod material;

@@ -33,7 +33,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 27] = [
+const ROOMS: [Room; 28] = [
     room("geometry", &[]),
     room("geometry::tensor", &[]),
     room("geometry::element", &["geometry::tensor"]),
@@ -56,6 +56,7 @@ const ROOMS: [Room; 27] = [
         &["mechanics::system", "mechanics::material", "geometry"],
     ),
     room("mechanics::load", &["mechanics::system", "geometry"]),
+    room("mechanics::connector", &["mechanics::system", "geometry"]),
     room("mechanics::contact", &["mechanics::system", "geometry"]),
     room("mechanics::contact::law", &[]),
     room("mechanics::contact::friction", &[]),

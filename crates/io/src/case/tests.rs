@@ -112,9 +112,7 @@ fn what_is_not_supported_yet_is_refused_by_name_and_nothing_else_is() {
     };
     assert_eq!(
         refused(HERTZ),
-        [
-            "`method = \"mortar\"` is not supported yet"
-        ]
+        ["`method = \"mortar\"` is not supported yet"]
     );
     assert_eq!(
         refused(SLIDING),
@@ -647,6 +645,24 @@ fn a_resolved_case_can_say_every_key() {
             assert!(said || name == "format", "{path}.{name}");
         }
     });
+}
+
+#[test]
+fn every_law_has_its_word_and_keys_for_its_constants() {
+    let material = CASE.key("material").unwrap();
+    let Shape::Named(words) = material.shape else {
+        panic!("materials have names");
+    };
+    let Shape::Choice(laws) = words.key("model").unwrap().shape else {
+        panic!("a model is a word");
+    };
+    let built = laws.iter().filter(|law| law.later.is_none());
+    let built: Vec<&str> = built.map(|law| law.word).collect();
+    let table = &signorini_mechanics::material::TABLE;
+    assert_eq!(built, table.iter().map(|law| law.name).collect::<Vec<_>>());
+    for constant in table.iter().flat_map(|law| law.constants) {
+        assert!(words.key(constant).is_some(), "{constant}");
+    }
 }
 
 #[test]

@@ -1,46 +1,702 @@
 //! Who follows whom: rigid bodies, couplings, equations.
+//!
+//! Followers are found first, because steps must not prescribe them. Then come the steps, because an equation must not
+//! make anything depend that a step prescribes. Then the equations are solved for what may depend.
 
-use super::{BodyKind, BodyPart, CarrierPart, ModelError, label};
-use crate::system::{Elimination, RigidBody};
+use super::reduction::{Column, Reduced, Row, reduce};
+use super::{
+    BodyKind, BodyPart, CarrierPart, ConstraintKind, ConstraintPart, ModelError, SpringPart,
+    Unknown, label,
+};
+use crate::connector::{
+    ConnectorError, Distributing, DistributingParts, Plane, Springs, SpringsParts,
+};
+use crate::solve::{Motion, Step};
+use crate::system::{
+    Dof, DofName, Elimination, Idealisation, Layout, NO_DOF, Relation, RigidBody, Term, interpolate,
+};
 use signorini_geometry::mesh::{Mesh, NodeId};
-use signorini_geometry::tensor::Vec3;
-use std::collections::{BTreeSet, HashMap};
+use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::{Mat3, Vec3};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
+use thiserror::Error;
 
-/// The carriers with the nodes of the rigid bodies that move with them.
-pub(super) fn elimination(
-    mesh: &Mesh,
-    bodies: &[BodyPart],
-    carriers: &[CarrierPart],
-) -> Result<Elimination, ModelError> {
-    let mut nodes: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); carriers.len()];
-    let mut taken: HashMap<NodeId, (usize, &str)> = HashMap::new();
-    for body in bodies {
-        let BodyKind::Rigid(carrier) = body.kind else {
-            continue;
-        };
-        let carrier = carrier as usize;
-        for &node in body.cells.iter().flat_map(|&c| mesh.cell(c)) {
-            let (first, name) = *taken.entry(node).or_insert((carrier, &body.name));
-            if first != carrier {
-                return Err(ModelError::RigidBodiesShare {
-                    first: name.to_string(),
-                    second: body.name.clone(),
-                    node: label(mesh, node),
-                });
-            }
-            if let Some(of) = nodes.get_mut(carrier) {
-                of.insert(node);
-            }
+/// Why a constraint, spring or reference makes no sense.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ConstraintError {
+    /// A connector that cannot be made.
+    #[error("\"{name}\": {source}")]
+    Connector {
+        /// Name of the constraint or spring.
+        name: String,
+        /// Why.
+        source: ConnectorError,
+    },
+    /// A node that follows two carriers.
+    #[error(
+        "constraint \"{constraint}\": node {node} follows \"{carrier}\" already; it cannot follow two"
+    )]
+    TwoLeaders {
+        /// Name of the constraint.
+        constraint: String,
+        /// The node, as numbered in the input.
+        node: u64,
+        /// What it follows.
+        carrier: String,
+    },
+    /// A support or motion of a displacement that follows a carrier.
+    #[error("node {node} follows \"{carrier}\": support or move that instead")]
+    OnFollower {
+        /// The node, as numbered in the input.
+        node: u64,
+        /// What it follows.
+        carrier: String,
+    },
+    /// Equations that say different things of the same unknowns.
+    #[error("constraint \"{constraint}\" contradicts the constraints before it")]
+    Contradictory {
+        /// Name of the constraint.
+        constraint: String,
+    },
+    /// An equation in which everything is prescribed, differently.
+    #[error(
+        "constraint \"{constraint}\" leaves nothing free: what it ties together is prescribed or depends on \
+        other constraints already, {what} among it"
+    )]
+    OverConstrained {
+        /// Name of the constraint.
+        constraint: String,
+        /// Something it speaks of.
+        what: String,
+    },
+    /// A rotation that would depend on the place of a node that turns with a carrier.
+    #[error(
+        "constraint \"{constraint}\" would make a rotation of \"{carrier}\" depend on the place of a node that \
+        turns with a carrier; couple the rotations, or free a translation"
+    )]
+    Turning {
+        /// Name of the constraint.
+        constraint: String,
+        /// Whose rotation.
+        carrier: String,
+    },
+    /// A reference that is moved or loaded, and that nothing follows.
+    #[error("step \"{step}\" moves or loads the reference \"{reference}\", which nothing follows")]
+    Idle {
+        /// Name of the step.
+        step: String,
+        /// Name of the reference.
+        reference: String,
+    },
+    /// A reference of an axisymmetric model that would leave its axis.
+    #[error(
+        "step \"{step}\" moves, turns or loads the reference \"{reference}\" of an axisymmetric model across \
+        the axis; it can only move along it"
+    )]
+    OffAxis {
+        /// Name of the step.
+        step: String,
+        /// Name of the reference.
+        reference: String,
+    },
+}
+
+impl ConstraintError {
+    fn connector(name: &str) -> impl Fn(ConnectorError) -> Self {
+        move |source| Self::Connector {
+            name: name.to_string(),
+            source,
         }
     }
-    let rigid = carriers.iter().zip(nodes).map(|(carrier, nodes)| {
-        let points = nodes.iter().filter_map(|&n| mesh.points.get(n as usize));
-        let sum: Vec3 = points.copied().sum();
-        let mean = sum / nodes.len().max(1) as f64;
-        RigidBody {
-            reference: carrier.at.unwrap_or(mean),
-            nodes: nodes.into_iter().collect(),
-        }
-    });
-    Ok(Elimination::new(rigid.collect(), mesh.nnode()))
 }
+
+/// What constraints mean for carriers and for numbers of unknowns.
+#[derive(Debug, Default)]
+pub(super) struct Ties {
+    /// Components of carriers that are free unless a step says otherwise.
+    pub free: BTreeSet<Dof>,
+    /// Whether something follows each carrier.
+    pub followed: Vec<bool>,
+    /// Nodes of rigid bodies.
+    pub rigid: BTreeSet<NodeId>,
+    /// Nodes that a constraint or spring holds.
+    pub nodes: BTreeSet<NodeId>,
+    /// The first multiplier of each constraint.
+    first: Vec<usize>,
+    /// The dof by which right-hand sides grow, and its value at the end of the first step.
+    course: Option<(Dof, f64)>,
+}
+
+/// The mesh and the parts that say who follows whom.
+#[derive(Clone, Copy)]
+pub(super) struct Followers<'a> {
+    pub mesh: &'a Mesh,
+    pub space: Idealisation,
+    pub bodies: &'a [BodyPart],
+    pub carriers: &'a [CarrierPart],
+    pub constraints: &'a [ConstraintPart],
+    pub springs: &'a [SpringPart],
+}
+
+impl Followers<'_> {
+    /// The unknowns of the model.
+    pub fn layout(&self) -> Layout {
+        let mut layout = Layout {
+            ndim: self.space.ndim(),
+            nnode: self.mesh.nnode(),
+            nrigid: self.carriers.len(),
+            nmultiplier: 0,
+        };
+        let numbers = self
+            .constraints
+            .iter()
+            .map(|c| self.nmultiplier(&layout, c));
+        layout.nmultiplier = numbers.sum::<usize>() + usize::from(self.largest_rhs() > 0.0);
+        layout
+    }
+
+    fn nmultiplier(&self, layout: &Layout, constraint: &ConstraintPart) -> usize {
+        match &constraint.kind {
+            ConstraintKind::Plane { nodes } => Plane::nmultiplier(layout, distinct(nodes).len()),
+            ConstraintKind::Distributing { .. } => Distributing::nmultiplier(self.space),
+            _ => 0,
+        }
+    }
+
+    fn largest_rhs(&self) -> f64 {
+        self.constraints.iter().fold(0.0, |m, c| match c.kind {
+            ConstraintKind::Equation { rhs, .. } => rhs.abs().max(m),
+            _ => m,
+        })
+    }
+
+    /// The carriers with what follows them as rigid bodies do, and what else is tied.
+    pub fn elimination(&self, layout: &Layout) -> Result<(Elimination, Ties), ModelError> {
+        let mut nodes = self.rigid_nodes()?;
+        let on_rigid = nodes.iter().flatten().copied().collect();
+        let rigid: Vec<bool> = nodes.iter().map(|n| !n.is_empty()).collect();
+        let references = self.references(&nodes);
+        let whole = |axes: &[bool; 3]| axes[..layout.ndim].iter().all(|a| *a);
+        // whole nodes first, single directions afterwards
+        for constraint in self.constraints {
+            if let ConstraintKind::Kinematic {
+                nodes: on,
+                carrier,
+                axes,
+            } = &constraint.kind
+                && whole(axes)
+                && let Some(of) = nodes.get_mut(*carrier as usize)
+            {
+                of.extend(on);
+            }
+        }
+        let bodies = references
+            .iter()
+            .zip(nodes)
+            .map(|(&reference, nodes)| RigidBody {
+                reference,
+                nodes: nodes.into_iter().collect(),
+            });
+        let mut elimination = Elimination::new(bodies.collect(), layout.nnode);
+        let mut ties = self.ties(layout, &rigid);
+        ties.rigid = on_rigid;
+        for constraint in self.constraints {
+            match &constraint.kind {
+                ConstraintKind::Kinematic {
+                    nodes,
+                    carrier,
+                    axes,
+                } => {
+                    if !whole(axes) {
+                        let points = &self.mesh.points;
+                        elimination.couple(layout, points, nodes, *axes, *carrier);
+                    }
+                    elimination.pull(*carrier);
+                    let mut free = self.moved(layout, &references, nodes, *axes, *carrier);
+                    free.retain(|_| !rigid.get(*carrier as usize).is_some_and(|r| *r));
+                    ties.free.extend(free);
+                }
+                ConstraintKind::Distributing { carrier, .. } => elimination.pull(*carrier),
+                _ => {}
+            }
+        }
+        self.check_leaders(layout, &elimination)?;
+        for constraint in self.constraints {
+            if let ConstraintKind::Equation { terms, .. } = &constraint.kind {
+                for &(unknown, _) in terms {
+                    ties.free.extend(free_by(unknown, &elimination, layout));
+                }
+            }
+        }
+        if self.space == Idealisation::Axisymmetric {
+            let axial = |dof: &Dof| matches!(layout.name(*dof), Some(DofName::Translation(_, 1)));
+            ties.free.retain(axial);
+        }
+        Ok((elimination, ties))
+    }
+
+    /// Nodes of the rigid bodies of each carrier.
+    fn rigid_nodes(&self) -> Result<Vec<BTreeSet<NodeId>>, ModelError> {
+        let mut nodes: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); self.carriers.len()];
+        let mut taken: HashMap<NodeId, (usize, &str)> = HashMap::new();
+        for body in self.bodies {
+            let BodyKind::Rigid(carrier) = body.kind else {
+                continue;
+            };
+            let carrier = carrier as usize;
+            for &node in body.cells.iter().flat_map(|&c| self.mesh.cell(c)) {
+                let (first, name) = *taken.entry(node).or_insert((carrier, &body.name));
+                if first != carrier {
+                    return Err(ModelError::RigidBodiesShare {
+                        first: name.to_string(),
+                        second: body.name.clone(),
+                        node: label(self.mesh, node),
+                    });
+                }
+                if let Some(of) = nodes.get_mut(carrier) {
+                    of.insert(node);
+                }
+            }
+        }
+        Ok(nodes)
+    }
+
+    /// Where the carriers are at the start.
+    fn references(&self, nodes: &[BTreeSet<NodeId>]) -> Vec<Vec3> {
+        let place = |(carrier, nodes): (&CarrierPart, &BTreeSet<NodeId>)| {
+            let points = nodes
+                .iter()
+                .filter_map(|&n| self.mesh.points.get(n as usize));
+            let sum: Vec3 = points.copied().sum();
+            let mean = sum / nodes.len().max(1) as f64;
+            carrier.at.unwrap_or(mean)
+        };
+        self.carriers.iter().zip(nodes).map(place).collect()
+    }
+
+    fn ties(&self, layout: &Layout, rigid: &[bool]) -> Ties {
+        let mut ties = Ties {
+            followed: rigid.to_vec(),
+            ..Ties::default()
+        };
+        let mut next = 0;
+        for constraint in self.constraints {
+            ties.first.push(next);
+            next += self.nmultiplier(layout, constraint);
+            let mut follows = |carrier: RigidId| {
+                if let Some(followed) = ties.followed.get_mut(carrier as usize) {
+                    *followed = true;
+                }
+            };
+            match &constraint.kind {
+                ConstraintKind::Kinematic { nodes, carrier, .. } => {
+                    follows(*carrier);
+                    ties.nodes.extend(nodes);
+                }
+                ConstraintKind::Distributing { nodes, carrier } => {
+                    follows(*carrier);
+                    ties.nodes.extend(nodes.iter().map(|n| n.0));
+                    if !rigid.get(*carrier as usize).is_some_and(|r| *r) {
+                        ties.free.extend(components(layout, *carrier));
+                    }
+                }
+                ConstraintKind::Equation { terms, .. } => {
+                    for (unknown, _) in terms {
+                        match *unknown {
+                            Unknown::Node(node, _) => drop(ties.nodes.insert(node)),
+                            Unknown::Carrier(carrier, _) => follows(carrier),
+                        }
+                    }
+                }
+                ConstraintKind::Equal { nodes, .. } | ConstraintKind::Plane { nodes } => {
+                    ties.nodes.extend(nodes);
+                }
+            }
+        }
+        for &(a, b) in self.springs.iter().flat_map(|s| &s.ends) {
+            ties.nodes.insert(a);
+            ties.nodes.extend(b);
+        }
+        let rhs = self.largest_rhs();
+        ties.course = (rhs > 0.0).then(|| (layout.multiplier(next), rhs));
+        ties
+    }
+
+    /// The components of a carrier by which a coupling moves its nodes: others are nobody's unknowns.
+    fn moved(
+        &self,
+        layout: &Layout,
+        references: &[Vec3],
+        nodes: &[NodeId],
+        axes: [bool; 3],
+        carrier: RigidId,
+    ) -> Vec<Dof> {
+        let at = references
+            .get(carrier as usize)
+            .copied()
+            .unwrap_or_default();
+        let arms = || {
+            let points = nodes
+                .iter()
+                .filter_map(|&n| self.mesh.points.get(n as usize));
+            points.map(|&x| x - at)
+        };
+        let extent = arms().fold(0.0, |m: f64, a| m.max(a.max_abs()));
+        let along = (0..3)
+            .filter(|&c| axes[c])
+            .map(|c| layout.translation(carrier, c));
+        let turns = |about: usize| {
+            let moves = |a: Vec3| {
+                let row = Mat3::skew(a).rows.map(|row| row[about].abs());
+                (0..layout.ndim).any(|c| axes[c] && row[c] > STILL * extent)
+            };
+            arms().any(moves)
+        };
+        let about = (0..3)
+            .filter(|&c| turns(c))
+            .map(|c| layout.rotation(carrier, c));
+        along.chain(about).filter(|&d| d != NO_DOF).collect()
+    }
+
+    /// Nodes of couplings follow the carrier that their coupling names.
+    fn check_leaders(&self, layout: &Layout, elimination: &Elimination) -> Result<(), ModelError> {
+        for constraint in self.constraints {
+            let ConstraintKind::Kinematic {
+                nodes,
+                carrier,
+                axes,
+            } = &constraint.kind
+            else {
+                continue;
+            };
+            for &node in nodes {
+                for axis in (0..layout.ndim).filter(|&c| axes[c]) {
+                    let leader = elimination.leader(layout.node(node, axis), layout);
+                    if let Some(turn) = leader.filter(|t| t.carrier != *carrier) {
+                        return Err(ConstraintError::TwoLeaders {
+                            constraint: constraint.name.clone(),
+                            node: label(self.mesh, node),
+                            carrier: self.carrier_name(turn.carrier),
+                        }
+                        .into());
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn carrier_name(&self, carrier: RigidId) -> String {
+        let part = self.carriers.get(carrier as usize);
+        part.map(|c| c.name.clone()).unwrap_or_default()
+    }
+
+    /// Solves the equations for what no step prescribes, and lets steps bring the right-hand sides.
+    pub fn relate(
+        &self,
+        layout: &Layout,
+        ties: &Ties,
+        elimination: &mut Elimination,
+        steps: &mut [Step],
+    ) -> Result<(), ModelError> {
+        if let Some((dof, to)) = ties.course {
+            for (number, step) in steps.iter_mut().enumerate() {
+                let motion = if number == 0 {
+                    Motion::Ramp(to)
+                } else {
+                    Motion::Hold
+                };
+                step.prescriptions
+                    .push(crate::solve::Prescription { dof, motion });
+            }
+        }
+        let motions: Vec<BTreeMap<Dof, &Motion>> = steps
+            .iter()
+            .map(|s| s.prescriptions.iter().map(|p| (p.dof, &p.motion)).collect())
+            .collect();
+        let rows = self.rows(layout, ties, elimination, &motions);
+        let prescribed: BTreeSet<Dof> = motions.iter().flat_map(|m| m.keys().copied()).collect();
+        let rank = |dof: Dof| match layout.name(dof) {
+            _ if prescribed.contains(&dof) => None,
+            Some(DofName::Node(..)) => Some(0),
+            Some(DofName::Translation(..)) => Some(1),
+            Some(DofName::Rotation(..)) => Some(2),
+            _ => None,
+        };
+        let Reduced { solved, left } = reduce(rows, rank);
+        let name = |owner: usize| {
+            let part = self.constraints.get(owner);
+            part.map(|c| c.name.clone()).unwrap_or_default()
+        };
+        let course = ties.course.map(|c| Column::Dof(c.0));
+        for row in left {
+            let durations = steps.iter().map(|s| s.duration);
+            if holds(&row, &motions, durations) {
+                continue;
+            }
+            let constraint = name(row.owner);
+            let what = row.terms.keys().find(|c| Some(**c) != course);
+            return Err(match what {
+                None => ConstraintError::Contradictory { constraint },
+                Some(column) => ConstraintError::OverConstrained {
+                    constraint,
+                    what: self.column_name(layout, *column),
+                },
+            }
+            .into());
+        }
+        let mut relations: Vec<Relation> = Vec::new();
+        for (dof, row) in &solved {
+            let relation = row.relation(*dof);
+            if let (Some(DofName::Rotation(carrier, _)), false) =
+                (layout.name(*dof), relation.turns.is_empty())
+            {
+                return Err(ConstraintError::Turning {
+                    constraint: name(row.owner),
+                    carrier: self.carrier_name(carrier),
+                }
+                .into());
+            }
+            relations.push(relation);
+        }
+        elimination.relate(layout, relations, ties.course.map(|c| c.0));
+        Ok(())
+    }
+
+    /// The equations, in terms of what follows no carrier, and of turns.
+    fn rows(
+        &self,
+        layout: &Layout,
+        ties: &Ties,
+        elimination: &Elimination,
+        motions: &[BTreeMap<Dof, &Motion>],
+    ) -> Vec<Row> {
+        let still = |carrier: RigidId| {
+            let rotations = (0..3).map(|c| layout.rotation(carrier, c));
+            let held = |dof: Dof| motions.iter().all(|m| m.get(&dof) == Some(&&Motion::Hold));
+            rotations.filter(|&d| d != NO_DOF).all(held)
+        };
+        let add = |row: &mut Row, dof: Dof, coefficient: f64| {
+            if dof == NO_DOF {
+                return;
+            }
+            match elimination.leader(dof, layout) {
+                None => row.add(Column::Dof(dof), coefficient),
+                Some(turn) => {
+                    let translation = layout.translation(turn.carrier, turn.axis);
+                    row.add(Column::Dof(translation), coefficient);
+                    if !still(turn.carrier) {
+                        row.add(Column::Turn(turn), coefficient);
+                    }
+                }
+            }
+        };
+        let mut rows = Vec::new();
+        for (owner, constraint) in self.constraints.iter().enumerate() {
+            let new = || Row {
+                owner,
+                ..Row::default()
+            };
+            match &constraint.kind {
+                ConstraintKind::Equation { terms, rhs } => {
+                    let largest = terms.iter().fold(0.0f64, |m, t| t.1.abs().max(m));
+                    let scale = if largest > 0.0 { largest } else { 1.0 };
+                    let mut row = new();
+                    for &(unknown, coefficient) in terms {
+                        add(&mut row, dof_of(unknown, layout), coefficient / scale);
+                    }
+                    if let Some((course, to)) = ties.course.filter(|_| *rhs != 0.0) {
+                        row.add(Column::Dof(course), -rhs / (to * scale));
+                    }
+                    rows.push(row);
+                }
+                ConstraintKind::Equal { nodes, axes } => {
+                    let nodes = distinct(nodes);
+                    for axis in (0..layout.ndim).filter(|&c| axes[c]) {
+                        for pair in nodes.iter().skip(1).zip(nodes.iter().take(1).cycle()) {
+                            let mut row = new();
+                            add(&mut row, layout.node(*pair.0, axis), 1.0);
+                            add(&mut row, layout.node(*pair.1, axis), -1.0);
+                            rows.push(row);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+        rows
+    }
+
+    fn column_name(&self, layout: &Layout, column: Column) -> String {
+        let axis = |k: usize| ["x", "y", "z"].get(k).copied().unwrap_or("?");
+        let dof = match column {
+            Column::Turn(turn) => {
+                return format!("the rotation of \"{}\"", self.carrier_name(turn.carrier));
+            }
+            Column::Dof(dof) => dof,
+        };
+        match layout.name(dof) {
+            Some(DofName::Node(node, k)) => {
+                format!(
+                    "displacement {} of node {}",
+                    axis(k),
+                    label(self.mesh, node)
+                )
+            }
+            Some(DofName::Translation(c, k)) => {
+                format!("displacement {} of \"{}\"", axis(k), self.carrier_name(c))
+            }
+            Some(DofName::Rotation(c, k)) => {
+                format!("rotation {} of \"{}\"", axis(k), self.carrier_name(c))
+            }
+            _ => "a right-hand side".to_owned(),
+        }
+    }
+
+    /// Springs and couplings by multipliers, as terms.
+    pub fn connectors(
+        &self,
+        layout: &Layout,
+        ties: &Ties,
+        elimination: &Elimination,
+        reference: &Arc<[Vec3]>,
+    ) -> Result<Vec<Box<dyn Term>>, ModelError> {
+        let mut terms: Vec<Box<dyn Term>> = Vec::new();
+        for spring in self.springs {
+            let springs = Springs::new(SpringsParts {
+                name: &spring.name,
+                ends: &spring.ends,
+                stiffness: spring.stiffness,
+                direction: spring.direction,
+                reference,
+                layout: *layout,
+            });
+            terms.push(Box::new(
+                springs.map_err(ConstraintError::connector(&spring.name))?,
+            ));
+        }
+        for (constraint, &first) in self.constraints.iter().zip(&ties.first) {
+            let name = &constraint.name;
+            match &constraint.kind {
+                ConstraintKind::Plane { nodes } => {
+                    let nodes = distinct(nodes);
+                    let plane = Plane::new(name, &nodes, reference.clone(), *layout, first);
+                    terms.push(Box::new(plane.map_err(ConstraintError::connector(name))?));
+                }
+                ConstraintKind::Distributing { nodes, carrier } => {
+                    let body = elimination.bodies().get(*carrier as usize);
+                    let coupling = Distributing::new(DistributingParts {
+                        name,
+                        nodes,
+                        carrier: *carrier,
+                        at: body.map(|b| b.reference).unwrap_or_default(),
+                        reference,
+                        layout: *layout,
+                        space: self.space,
+                        first,
+                    });
+                    terms.push(Box::new(
+                        coupling.map_err(ConstraintError::connector(name))?,
+                    ));
+                }
+                _ => {}
+            }
+        }
+        Ok(terms)
+    }
+}
+
+/// Part of a coupling's extent below which an arm turns nothing.
+const STILL: f64 = 1e-9;
+/// Relative error with which prescribed motions may satisfy an equation.
+const SATISFIED: f64 = 1e-9;
+
+/// The nodes without repetitions, in their order.
+fn distinct(nodes: &[NodeId]) -> Vec<NodeId> {
+    let mut seen = BTreeSet::new();
+    nodes.iter().copied().filter(|n| seen.insert(*n)).collect()
+}
+
+/// All components of a carrier.
+pub(super) fn components(layout: &Layout, carrier: RigidId) -> impl Iterator<Item = Dof> + use<> {
+    let layout = *layout;
+    let along = (0..3).map(move |c| layout.translation(carrier, c));
+    let about = (0..3).map(move |c| layout.rotation(carrier, c));
+    along.chain(about).filter(|&d| d != NO_DOF)
+}
+
+fn dof_of(unknown: Unknown, layout: &Layout) -> Dof {
+    match unknown {
+        Unknown::Node(node, axis) => layout.node(node, axis),
+        Unknown::Carrier(carrier, k) if k < 3 => layout.translation(carrier, k),
+        Unknown::Carrier(carrier, k) => layout.rotation(carrier, k - 3),
+    }
+}
+
+/// The component of a carrier that an equation frees by speaking of it.
+fn free_by(unknown: Unknown, elimination: &Elimination, layout: &Layout) -> Option<Dof> {
+    let dof = dof_of(unknown, layout);
+    let of = match (unknown, elimination.leader(dof, layout)) {
+        (Unknown::Carrier(..), _) => dof,
+        (_, Some(turn)) => layout.translation(turn.carrier, turn.axis),
+        (_, None) => NO_DOF,
+    };
+    (of != NO_DOF).then_some(of)
+}
+
+/// Whether the prescribed motions of all steps satisfy an equation in which everything is prescribed.
+fn holds(
+    row: &Row,
+    motions: &[BTreeMap<Dof, &Motion>],
+    durations: impl Iterator<Item = f64>,
+) -> bool {
+    let mut terms = Vec::new();
+    for (column, c) in &row.terms {
+        match column {
+            Column::Dof(dof) => terms.push((*dof, *c)),
+            Column::Turn(_) => return false,
+        }
+    }
+    let mut start: HashMap<Dof, Option<f64>> = terms.iter().map(|t| (t.0, Some(0.0))).collect();
+    let mut total = 0.0;
+    for (motions, duration) in motions.iter().zip(durations) {
+        let value = |dof: Dof, time: f64| -> Option<f64> {
+            let from = start.get(&dof).copied().flatten();
+            match motions.get(&dof)? {
+                Motion::Hold => from,
+                Motion::Ramp(to) => from.map(|from| from + (to - from) * time / duration),
+                Motion::Table(table) => Some(interpolate(table, time)),
+                Motion::TotalTable(table) => Some(interpolate(table, total + time)),
+            }
+        };
+        let mut times = vec![0.0, duration];
+        for (dof, _) in &terms {
+            match motions.get(dof) {
+                Some(Motion::Table(table)) => times.extend(table.iter().map(|r| r[0])),
+                Some(Motion::TotalTable(table)) => times.extend(table.iter().map(|r| r[0] - total)),
+                _ => {}
+            }
+        }
+        for time in times.into_iter().filter(|t| (0.0..=duration).contains(t)) {
+            let (mut sum, mut size) = (0.0, 0.0);
+            for &(dof, c) in &terms {
+                let Some(value) = value(dof, time) else {
+                    return false;
+                };
+                sum += c * value;
+                size += (c * value).abs();
+            }
+            if sum.abs() > SATISFIED * size {
+                return false;
+            }
+        }
+        let ends: Vec<_> = terms.iter().map(|t| (t.0, value(t.0, duration))).collect();
+        start.extend(ends);
+        total += duration;
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,3 +1,4 @@
+use super::ConstraintError;
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
 use thiserror::Error;
@@ -27,6 +28,9 @@ pub enum ModelError {
     /// An element that is no solid.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// A constraint, spring or reference that makes no sense.
+    #[error(transparent)]
+    Constraint(#[from] ConstraintError),
     /// Two rigid bodies that share a node.
     #[error("the rigid bodies \"{first}\" and \"{second}\" share node {node}")]
     RigidBodiesShare {

@@ -52,6 +52,7 @@ impl Held {
         layout: &Layout,
         steps: &[Step],
         elimination: &Elimination,
+        tied: &BTreeSet<NodeId>,
         touching: &BTreeSet<NodeId>,
     ) -> Result<Vec<String>, ModelError> {
         let root = |node: NodeId| self.root.get(node as usize).copied();
@@ -65,6 +66,7 @@ impl Held {
         for body in elimination.bodies() {
             supported.extend(body.nodes.iter().filter_map(|&n| root(n)));
         }
+        supported.extend(tied.iter().filter_map(|&n| root(n)));
         let touched: BTreeSet<NodeId> = touching.iter().filter_map(|&n| root(n)).collect();
         let mut by_contact = Vec::new();
         for (name, sample) in names.iter().zip(&self.sample) {

@@ -223,7 +223,7 @@ impl Context<'_> {
     /// A dead load.
     fn dead(&self, name: &str, forces: &[(Dof, f64)], schedule: Schedule) -> Option<NodalForces> {
         let load = NodalForces::new(name, forces, schedule);
-        (!forces.is_empty()).then(|| load.following(self.elimination, &self.layout))
+        (!forces.is_empty()).then(|| load.following(&self.elimination, &self.layout))
     }
 
     /// Forces on nodes as forces on unknowns.

@@ -11,7 +11,13 @@
 //!   deformable side: a pressure `p` then penetrates `p h/(10 M)` (E1). Per node it is multiplied by the mean tributary
 //!   area, or by `h²` (`h · thickness` in the plane) where the secondary side is bare nodes;
 //! * the reach of the search, twice the largest facet;
-//! * motions of rigid bodies that no step names: held.
+//! * motions of rigid bodies that no step, load or equation names: held. References of kinematic and distributing
+//!   couplings are free: along what moves their nodes, and altogether, respectively. In an axisymmetric model carriers
+//!   move along the axis and in no other way.
+//!
+//! Translations and rotations of a carrier are prescribed by components. The rotation that results is composed of the
+//! increments of the rotation vector: what `rx, ry, rz` prescribe is the integral of its rate, so that components
+//! ramped together turn about a fixed axis, by as many turns as one likes.
 
 mod constraints;
 mod contact;
@@ -19,8 +25,10 @@ mod error;
 mod held;
 mod loads;
 mod parts;
+mod reduction;
 mod steps;
 
+pub use constraints::ConstraintError;
 pub use error::{LoadError, ModelError};
 pub use parts::{
     BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart, ContactPart, Load,
@@ -31,6 +39,7 @@ use crate::contact::{Interface, Measure};
 use crate::solid::{Solid, SolidParts};
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
+use constraints::{Followers, Ties};
 use held::Held;
 use loads::Substance;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -83,21 +92,25 @@ impl Model {
             space,
             bodies,
             carriers,
-            springs: _,
-            constraints: _,
+            springs,
+            constraints,
             contacts,
             temperature,
             steps,
         } = parts;
         let reference: Arc<[Vec3]> = mesh.points.clone().into();
         let owner = owners(mesh, &bodies)?;
-        let elimination = Arc::new(constraints::elimination(mesh, &bodies, &carriers)?);
-        let layout = Layout {
-            ndim: space.ndim(),
-            nnode: mesh.nnode(),
-            nrigid: elimination.bodies().len(),
-            nmultiplier: 0,
+        let followers = Followers {
+            mesh,
+            space,
+            bodies: &bodies,
+            carriers: &carriers,
+            constraints: &constraints,
+            springs: &springs,
         };
+        let layout = followers.layout();
+        let (elimination, ties) = followers.elimination(&layout)?;
+        let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
         let names: Vec<String> = bodies.iter().map(|b| b.name.clone()).collect();
         let modulus: Vec<Option<f64>> = bodies
             .iter()
@@ -110,6 +123,24 @@ impl Model {
         let body_of_node = nodes_by_body(mesh, &bodies);
         let held = Held::new(mesh, &bodies);
         let temperature = temperatures(temperature, &steps);
+
+        let mut context = Context {
+            mesh,
+            reference: &reference,
+            owner: &owner,
+            modulus: &modulus,
+            substances: &substances,
+            elimination: Arc::new(elimination),
+            carriers: &carriers,
+            space,
+            layout,
+            ties: &ties,
+        };
+        let (mut steps, loads) = context.steps(steps)?;
+        let elimination = Arc::make_mut(&mut context.elimination);
+        followers.relate(&layout, &ties, elimination, &mut steps)?;
+        let loads = loads::terms(&context, &steps, loads)?;
+        let elimination = context.elimination.clone();
 
         let mut terms: Vec<Box<dyn Term>> = Vec::new();
         for body in bodies {
@@ -136,17 +167,7 @@ impl Model {
             })?;
             terms.push(Box::new(solid));
         }
-        let context = Context {
-            mesh,
-            reference: &reference,
-            owner: &owner,
-            modulus: &modulus,
-            substances: &substances,
-            elimination: &elimination,
-            carriers: &carriers,
-            space,
-            layout,
-        };
+        terms.extend(connectors);
         let mut summaries = Vec::new();
         let mut touching = BTreeSet::new();
         for contact in contacts {
@@ -161,9 +182,15 @@ impl Model {
             terms.push(Box::new(Interface::new(parts, layout, elimination.clone())));
             summaries.push(summary);
         }
-        let (steps, loads) = context.steps(steps)?;
         terms.extend(loads);
-        let held_by_contact = held.judge(&names, &layout, &steps, &elimination, &touching)?;
+        let held_by_contact = held.judge(
+            &names,
+            &layout,
+            &steps,
+            &elimination,
+            &ties.nodes,
+            &touching,
+        )?;
 
         let unused = (0..mesh.nnode() as NodeId)
             .filter(|n| body_of_node.get(*n as usize).is_none_or(|b| *b == u32::MAX))
@@ -249,8 +276,9 @@ struct Context<'a> {
     owner: &'a HashMap<CellId, usize>,
     modulus: &'a [Option<f64>],
     substances: &'a [Substance],
-    elimination: &'a Elimination,
+    elimination: Arc<Elimination>,
     carriers: &'a [CarrierPart],
     space: Idealisation,
     layout: Layout,
+    ties: &'a Ties,
 }

@@ -1,23 +1,56 @@
-use super::{Change, Context, Load, LoadPart, ModelError, StepPart, Target, label, loads};
+use super::ConstraintError;
+use super::constraints::components;
+use super::{Change, Context, Load, LoadPart, ModelError, StepPart, Target, label};
 use crate::solve::{Motion, Prescription, Step};
-use crate::system::{Dof, DofName, NO_DOF, Term};
+use crate::system::{Dof, DofName, Idealisation, NO_DOF};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+/// Component of a carrier along the axis of an axisymmetric model.
+const AXIAL: usize = 1;
+
 impl Context<'_> {
     pub(super) fn on_rigid(&self, node: NodeId) -> Result<(), ModelError> {
-        match self.elimination.body_of(node) {
+        let body = self.elimination.body_of(node);
+        match body.filter(|_| self.ties.rigid.contains(&node)) {
             None => Ok(()),
             Some(body) => Err(ModelError::OnRigidNode {
                 node: label(self.mesh, node),
-                body: self
-                    .carriers
-                    .get(body as usize)
-                    .map(|c| c.name.clone())
-                    .unwrap_or_default(),
+                body: self.carrier_name(body),
             }),
         }
+    }
+
+    fn carrier_name(&self, carrier: RigidId) -> String {
+        let part = self.carriers.get(carrier as usize);
+        part.map(|c| c.name.clone()).unwrap_or_default()
+    }
+
+    /// Supports and motions are not for displacements that follow a carrier.
+    fn leads(&self, node: NodeId, component: usize) -> Result<(), ModelError> {
+        self.on_rigid(node)?;
+        let dof = self.layout.node(node, component);
+        match self.elimination.leader(dof, &self.layout) {
+            None => Ok(()),
+            Some(turn) => Err(ConstraintError::OnFollower {
+                node: label(self.mesh, node),
+                carrier: self.carrier_name(turn.carrier),
+            }
+            .into()),
+        }
+    }
+
+    /// A carrier that is moved or loaded has followers, and stays on the axis of an axisymmetric model.
+    fn may_move(&self, step: &str, carrier: RigidId, component: usize) -> Result<(), ModelError> {
+        let (step, reference) = (step.to_string(), self.carrier_name(carrier));
+        if !self.ties.followed.get(carrier as usize).is_some_and(|f| *f) {
+            return Err(ConstraintError::Idle { step, reference }.into());
+        }
+        if self.space == Idealisation::Axisymmetric && component != AXIAL {
+            return Err(ConstraintError::OffAxis { step, reference }.into());
+        }
+        Ok(())
     }
 
     /// The raw dofs of a component of a target.
@@ -29,7 +62,7 @@ impl Context<'_> {
             Target::Nodes(_) if component >= 3 => Vec::new(),
             Target::Nodes(nodes) => {
                 for &node in nodes {
-                    self.on_rigid(node)?;
+                    self.leads(node, component)?;
                 }
                 nodes.iter().map(|&n| layout.node(n, component)).collect()
             }
@@ -37,17 +70,15 @@ impl Context<'_> {
         Ok(dofs.into_iter().filter(|&d| d != NO_DOF).collect())
     }
 
-    /// What is prescribed in each step, and the loads of all steps as terms.
+    /// What is prescribed in each step, and the loads of each.
     pub(super) fn steps(
         &self,
         parts: Vec<StepPart>,
-    ) -> Result<(Vec<Step>, Vec<Box<dyn Term>>), ModelError> {
+    ) -> Result<(Vec<Step>, Vec<Vec<LoadPart>>), ModelError> {
         let mut prescribed: BTreeMap<Dof, Motion> = BTreeMap::new();
         for body in 0..self.layout.nrigid as RigidId {
-            for component in 0..6 {
-                for dof in self.dofs(&Target::Rigid(body), component)? {
-                    prescribed.insert(dof, Motion::Hold);
-                }
+            for dof in components(&self.layout, body).filter(|d| !self.ties.free.contains(d)) {
+                prescribed.insert(dof, Motion::Hold);
             }
         }
         // what the user has prescribed, as against what is held because nobody says otherwise
@@ -65,6 +96,11 @@ impl Context<'_> {
                 match change {
                     Change::Prescribe(target, components) => {
                         for (component, motion) in components {
+                            if let (Target::Rigid(carrier), true) =
+                                (target, *motion != Motion::Hold)
+                            {
+                                self.may_move(&part.name, *carrier, *component)?;
+                            }
                             for dof in self.dofs(target, *component)? {
                                 let before = here.insert(dof, motion.clone());
                                 if before.is_some_and(|b| b != *motion) {
@@ -77,6 +113,12 @@ impl Context<'_> {
                     }
                     Change::Release(target, components) => {
                         for &component in components {
+                            if let (Target::Rigid(_), Idealisation::Axisymmetric) =
+                                (target, self.space)
+                                && component != AXIAL
+                            {
+                                continue;
+                            }
                             for dof in self.dofs(target, component)? {
                                 prescribed.remove(&dof);
                                 named.remove(&dof);
@@ -85,12 +127,10 @@ impl Context<'_> {
                     }
                 }
             }
-            for load in &part.loads {
-                // a carrier that is loaded along an axis may move along it
-                for dof in self.loaded(&load.load) {
-                    if !named.contains(&dof) {
-                        prescribed.remove(&dof);
-                    }
+            // a carrier that is loaded along an axis may move along it
+            for dof in self.loaded(&part.loads, &part.name)? {
+                if !named.contains(&dof) {
+                    prescribed.remove(&dof);
                 }
             }
             loads.push(part.loads);
@@ -106,28 +146,33 @@ impl Context<'_> {
                 prescriptions: prescriptions.collect(),
             });
         }
-        let terms = loads::terms(self, &steps, loads)?;
-        Ok((steps, terms))
+        Ok((steps, loads))
     }
 
-    /// The unknowns of a carrier along which a load acts.
-    fn loaded(&self, load: &Load) -> Vec<Dof> {
-        let Load::Carrier {
-            carrier,
-            force,
-            moment,
-        } = load
-        else {
-            return Vec::new();
-        };
+    /// The unknowns of carriers along which loads act.
+    fn loaded(&self, loads: &[LoadPart], step: &str) -> Result<Vec<Dof>, ModelError> {
         let layout = &self.layout;
-        let along = (0..3).filter(|&c| force[c] != 0.0);
-        let about = (0..3).filter(|&c| moment[c] != 0.0);
-        along
-            .map(|c| layout.translation(*carrier, c))
-            .chain(about.map(|c| layout.rotation(*carrier, c)))
-            .filter(|&dof| dof != NO_DOF)
-            .collect()
+        let mut dofs = Vec::new();
+        for part in loads {
+            let Load::Carrier {
+                carrier,
+                force,
+                moment,
+            } = part.load
+            else {
+                continue;
+            };
+            let values = force.to_array().into_iter().chain(moment.to_array());
+            for (component, _) in values.enumerate().filter(|(_, value)| *value != 0.0) {
+                self.may_move(step, carrier, component)?;
+                dofs.push(match component {
+                    0..3 => layout.translation(carrier, component),
+                    _ => layout.rotation(carrier, component - 3),
+                });
+            }
+        }
+        dofs.retain(|&dof| dof != NO_DOF);
+        Ok(dofs)
     }
 
     fn clash(&self, step: &str, dof: Dof) -> ModelError {

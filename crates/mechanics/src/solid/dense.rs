@@ -59,7 +59,14 @@ pub(super) fn half_logarithm(e: Sym3) -> Sym3 {
     }
     let principal = axes.into_iter().enumerate().map(|(k, n)| {
         let value = 0.5 * (2.0 * a[k][k]).ln_1p();
-        Sym3::new(n.x * n.x, n.y * n.y, n.z * n.z, n.x * n.y, n.y * n.z, n.x * n.z) * value
+        Sym3::new(
+            n.x * n.x,
+            n.y * n.y,
+            n.z * n.z,
+            n.x * n.y,
+            n.y * n.z,
+            n.x * n.z,
+        ) * value
     });
     principal.fold(Sym3::ZERO, |sum, t| sum + t)
 }

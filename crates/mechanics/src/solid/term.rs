@@ -118,7 +118,9 @@ pub enum SolidError {
         what: &'static str,
     },
     /// A remedy that an element does not have.
-    #[error("locking = \"{locking}\" is not possible for the {element} of body \"{body}\": {reason}")]
+    #[error(
+        "locking = \"{locking}\" is not possible for the {element} of body \"{body}\": {reason}"
+    )]
     Locking {
         /// Name of the body.
         body: String,
@@ -599,7 +601,9 @@ impl Term for Solid {
                 for (k, to) in next.chunks_exact_mut(n).enumerate() {
                     let cell = chunk * CHUNK + k;
                     // what a kernel does not write stays as it was
-                    scratch.new.copy_from_slice(&block.history[cell * n..(cell + 1) * n]);
+                    scratch
+                        .new
+                        .copy_from_slice(&block.history[cell * n..(cell + 1) * n]);
                     self.cell(block, cell, state, Wanted::Forces, scratch)?;
                     to.copy_from_slice(&scratch.new);
                 }

@@ -58,10 +58,7 @@ impl Equations {
         for dof in 0..layout.ndof() as Dof {
             let name = layout.name(dof);
             let in_bulk = match name {
-                Some(DofName::Node(node, _)) => {
-                    system.elimination.body_of(node).is_none()
-                        && assembler.bulk().position(node, node).is_some()
-                }
+                Some(DofName::Node(node, _)) => assembler.bulk().position(node, node).is_some(),
                 _ => false,
             };
             let used = in_bulk || assembler.interface().position(dof, dof).is_some();

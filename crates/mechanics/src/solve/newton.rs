@@ -310,7 +310,8 @@ impl Newton {
             });
             let settled = repeat.is_none() || iterations == 0;
             unsettled = repeat.or(unsettled);
-            let moved = largest_difference(&self.trial.u, &base.u);
+            let nmotion = system.layout.nmotion();
+            let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
             let still = judgement.round_off || (iterations > 0 && correction <= CORRECTION * moved);
             if !motion && judgement.small && settled && still {
                 return Ok(Converged {
@@ -340,7 +341,7 @@ impl Newton {
             self.solve_linear(motion, nearly)?;
             decrement = self.slope().abs().sqrt();
             alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
-            correction = alpha * largest(&self.du);
+            correction = alpha * largest(&self.du[..nmotion]);
             motion = false;
         }
         unreachable!("the loop ends by returning")
@@ -407,9 +408,9 @@ impl Newton {
     fn begin(&mut self, system: &System, base: &State, goal: &Goal<'_>) -> bool {
         self.du.clear();
         self.du.resize(system.layout.ndof(), 0.0);
-        let is_node = |dof| matches!(system.layout.name(dof), Some(DofName::Node(..)));
+        let is_felt = |dof| system.elimination.is_felt(dof, &system.layout);
         let step = |dof: Dof, to: f64| to - base.u.get(dof as usize).copied().unwrap_or(to);
-        for &(dof, to) in goal.targets.iter().filter(|(d, _)| !is_node(*d)) {
+        for &(dof, to) in goal.targets.iter().filter(|(d, _)| !is_felt(*d)) {
             self.du[dof as usize] = step(dof, to);
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
@@ -417,7 +418,7 @@ impl Newton {
         self.looked = false;
         self.du.fill(0.0);
         let mut motion = false;
-        for &(dof, to) in goal.targets.iter().filter(|(d, _)| is_node(*d)) {
+        for &(dof, to) in goal.targets.iter().filter(|(d, _)| is_felt(*d)) {
             self.du[dof as usize] = step(dof, to);
             motion |= self.du[dof as usize] != 0.0;
         }

@@ -112,15 +112,16 @@ struct Cliques<'a> {
 
 impl PatternSink for Cliques<'_> {
     fn bulk(&mut self, nodes: &[NodeId]) {
-        if nodes.iter().all(|&n| self.elimination.body_of(n).is_none()) {
-            self.bulk.extend_from_slice(nodes);
-            self.bulk_offsets.push(self.bulk.len());
-            return;
-        }
         let layout = *self.layout;
         let of_node = |&n: &NodeId| (0..layout.ndim).map(move |c| layout.node(n, c));
-        let dofs: Vec<Dof> = nodes.iter().flat_map(of_node).collect();
-        self.interface(&dofs);
+        let mut dofs = nodes.iter().flat_map(of_node);
+        if dofs.any(|d| self.elimination.depends(d, &layout)) {
+            let dofs: Vec<Dof> = nodes.iter().flat_map(of_node).collect();
+            self.interface(&dofs);
+            return;
+        }
+        self.bulk.extend_from_slice(nodes);
+        self.bulk_offsets.push(self.bulk.len());
     }
 
     fn interface(&mut self, dofs: &[Dof]) {
@@ -189,7 +190,7 @@ impl Assembler {
         elimination: &Elimination,
         terms: &[Box<dyn Term>],
     ) -> bool {
-        // solids that share nodes with rigid bodies have entries here, too
+        // solids with unknowns that follow others have entries here, too
         let cliques = collect(layout, elimination, terms);
         let (dofs, offsets) = (&cliques.interface, &cliques.interface_offsets);
         let now = Pattern::from_cliques(layout.ndof(), dofs, offsets);
@@ -253,11 +254,18 @@ impl Assembler {
                     trial,
                     bulk,
                     interface,
+                    order,
                     expanded: &mut *expanded,
                     out: &mut *out,
                 };
                 scatter.add(&slot.buffer, task);
             }
+        }
+        if let Some(magnitude) = elimination
+            .course()
+            .and_then(|c| out.magnitude.get_mut(c as usize))
+        {
+            *magnitude = 0.0;
         }
         Ok(())
     }
@@ -307,6 +315,7 @@ struct Scatter<'a> {
     trial: &'a State,
     bulk: &'a BlockPattern,
     interface: &'a Pattern,
+    order: Order,
     expanded: &'a mut Expanded,
     out: &'a mut Assembly,
 }
@@ -314,7 +323,11 @@ struct Scatter<'a> {
 impl Scatter<'_> {
     fn add(&mut self, buffer: &Buffer, task: &mut Task) {
         for &(dof, error) in &buffer.errors {
-            if let Some(to) = self.out.uncertainty.get_mut(dof as usize) {
+            if self.elimination.depends(dof, self.layout) {
+                let out = &mut self.out.uncertainty;
+                self.elimination
+                    .spread(dof, error, self.trial, self.layout, out);
+            } else if let Some(to) = self.out.uncertainty.get_mut(dof as usize) {
                 *to += error;
             }
         }
@@ -335,6 +348,7 @@ impl Scatter<'_> {
                     dofs,
                     force,
                     stiffness,
+                    self.order == Order::Tangent,
                     self.trial,
                     self.layout,
                     &mut expanded,
@@ -412,9 +426,8 @@ impl Scatter<'_> {
                 if *column == NO_DOF || *value == 0.0 {
                     continue;
                 }
-                let position = self.interface.position(*row, *column);
-                debug_assert!(position.is_some(), "a row outside its own pattern");
-                if let Some(position) = position {
+                // a dead force that turns with nothing but itself finds no place, and needs none
+                if let Some(position) = self.interface.position(*row, *column) {
                     self.out.interface[position] += value;
                 }
             }

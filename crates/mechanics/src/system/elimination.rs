@@ -1,11 +1,12 @@
-//! Unknowns that follow others: the nodes of rigid bodies.
+//! Unknowns that follow others: rigid bodies and couplings (E1), equations (E3).
 
+use super::sparsity::NONE;
 use super::{Dof, Layout, NO_DOF, State};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 
-/// A rigid body: its reference point, and the nodes that move with it.
+/// What nodes move with: a reference point, and the nodes that follow it in all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidBody {
     /// Reference point at the start: forces and moments of the body are about it.
@@ -14,15 +15,44 @@ pub struct RigidBody {
     pub nodes: Vec<NodeId>,
 }
 
-/// Which nodes follow which rigid body.
+/// A displacement of a node that follows a carrier, without the translation: `(R a_0 − a_0)` along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Turn {
+    /// The node.
+    pub node: NodeId,
+    /// The direction.
+    pub axis: usize,
+    /// What it follows.
+    pub carrier: RigidId,
+}
+
+/// A raw dof that is a combination of others (E3). What stands on the right depends on nothing itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Relation {
+    /// The dependent dof.
+    pub dof: Dof,
+    /// Dofs with their coefficients.
+    pub terms: Vec<(Dof, f64)>,
+    /// What turning carriers contribute; none where `dof` is a rotation.
+    pub turns: Vec<(Turn, f64)>,
+}
+
+/// Which unknowns follow which.
 #[derive(Clone, Debug, Default)]
 pub struct Elimination {
     bodies: Vec<RigidBody>,
-    // body of each node, or NONE; empty where there is no rigid body
-    body_of: Vec<RigidId>,
+    /// Whether a carrier moves nodes of deformable bodies.
+    pulls: Vec<bool>,
+    /// What each node follows along each axis, or `NONE`; empty where nothing follows a carrier.
+    leader: Vec<[RigidId; 3]>,
+    /// Single directions that follow a carrier, besides the nodes of `bodies`, with their arms at the start; sorted.
+    coupled: Vec<(Turn, Vec3)>,
+    /// Relation of each raw dof, or `NONE`; empty where there is none.
+    relation_of: Vec<u32>,
+    relations: Vec<Relation>,
+    /// The unknown by which right-hand sides grow.
+    course: Option<Dof>,
 }
-
-const NONE: RigidId = RigidId::MAX;
 
 /// A local contribution after its dependent unknowns have been replaced.
 #[derive(Debug, Default)]
@@ -30,220 +60,500 @@ pub(super) struct Expanded {
     pub dofs: Vec<Dof>,
     pub force: Vec<f64>,
     pub stiffness: Vec<f64>,
-    // transformation, one row for each local dof: columns and values
-    rows: Vec<Row>,
+    /// Transformation, one row for each local dof: `terms[start[i]..start[i + 1]]`, place in `dofs` and coefficient.
+    start: Vec<usize>,
+    terms: Vec<(usize, f64)>,
+    /// Turns with the forces on them.
+    turns: Vec<(Turn, f64)>,
+    /// Place of each raw dof in `dofs`, or `NONE`.
+    place: Vec<u32>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Row {
-    // up to one translation and three rotations: place in `dofs`, coefficient
-    terms: [(usize, f64); 4],
-    n: usize,
+impl Expanded {
+    fn clear(&mut self, ndof: usize) {
+        for &dof in &self.dofs {
+            self.place[dof as usize] = NONE;
+        }
+        self.place.resize(ndof, NONE);
+        self.dofs.clear();
+        self.start.clear();
+        self.start.push(0);
+        self.terms.clear();
+        self.turns.clear();
+        self.force.clear();
+        self.stiffness.clear();
+    }
+
+    /// The place of a dof, appended where it is not yet there.
+    fn place(&mut self, dof: Dof) -> usize {
+        let place = &mut self.place[dof as usize];
+        if *place == NONE {
+            *place = self.dofs.len() as u32;
+            self.dofs.push(dof);
+        }
+        *place as usize
+    }
+}
+
+/// Takes the terms of a dependent dof.
+trait Resolve {
+    fn term(&mut self, dof: Dof, coefficient: f64);
+    fn turn(&mut self, _turn: Turn, _coefficient: f64) {}
+}
+
+impl<F: FnMut(Dof, f64)> Resolve for F {
+    fn term(&mut self, dof: Dof, coefficient: f64) {
+        self(dof, coefficient);
+    }
+}
+
+/// Writes the row of a local dof.
+struct Row<'a> {
+    out: &'a mut Expanded,
+    force: f64,
+}
+
+impl Resolve for Row<'_> {
+    fn term(&mut self, dof: Dof, coefficient: f64) {
+        let place = self.out.place(dof);
+        self.out.terms.push((place, coefficient));
+    }
+
+    fn turn(&mut self, turn: Turn, coefficient: f64) {
+        self.out.turns.push((turn, coefficient * self.force));
+    }
 }
 
 impl Elimination {
     /// The elimination for these bodies in a mesh of `nnode` nodes.
     #[must_use]
     pub fn new(bodies: Vec<RigidBody>, nnode: usize) -> Self {
-        let mut body_of = Vec::new();
-        if !bodies.is_empty() {
-            body_of.resize(nnode, NONE);
+        let mut leader = Vec::new();
+        if bodies.iter().any(|b| !b.nodes.is_empty()) {
+            leader.resize(nnode, [NONE; 3]);
             for (id, body) in bodies.iter().enumerate() {
                 for &node in &body.nodes {
-                    if let Some(of) = body_of.get_mut(node as usize) {
-                        *of = id as RigidId;
+                    if let Some(of) = leader.get_mut(node as usize) {
+                        *of = [id as RigidId; 3];
                     }
                 }
             }
         }
-        Self { bodies, body_of }
+        Self {
+            pulls: vec![false; bodies.len()],
+            bodies,
+            leader,
+            ..Self::default()
+        }
     }
 
-    /// The rigid bodies.
+    /// Lets nodes follow a carrier along some axes only. Directions that follow one already keep it.
+    pub fn couple(
+        &mut self,
+        layout: &Layout,
+        reference: &[Vec3],
+        nodes: &[NodeId],
+        axes: [bool; 3],
+        carrier: RigidId,
+    ) {
+        self.leader.resize(layout.nnode, [NONE; 3]);
+        let Some(body) = self.bodies.get(carrier as usize) else {
+            return;
+        };
+        for &node in nodes {
+            let leader = self.leader.get_mut(node as usize);
+            let (Some(leader), Some(&start)) = (leader, reference.get(node as usize)) else {
+                continue;
+            };
+            for axis in (0..layout.ndim).filter(|&axis| axes[axis]) {
+                if leader[axis] == NONE {
+                    leader[axis] = carrier;
+                    let turn = Turn {
+                        node,
+                        axis,
+                        carrier,
+                    };
+                    self.coupled.push((turn, start - body.reference));
+                }
+            }
+        }
+        self.coupled.sort_unstable_by_key(|c| c.0);
+    }
+
+    /// Says that a carrier moves nodes of deformable bodies: its prescribed motion is felt by elements.
+    pub fn pull(&mut self, carrier: RigidId) {
+        if let Some(pulls) = self.pulls.get_mut(carrier as usize) {
+            *pulls = true;
+        }
+    }
+
+    /// Makes dofs depend on others. Right-hand sides are multiples of a prescribed dof, their `course`: its motion goes
+    /// the way of every prescribed motion, but it is no unknown whose forces say how large forces are.
+    pub fn relate(&mut self, layout: &Layout, relations: Vec<Relation>, course: Option<Dof>) {
+        self.course = course;
+        self.relation_of.clear();
+        if !relations.is_empty() {
+            self.relation_of.resize(layout.ndof(), NONE);
+        }
+        for (number, relation) in relations.iter().enumerate() {
+            if let Some(of) = self.relation_of.get_mut(relation.dof as usize) {
+                *of = number as u32;
+            }
+            let carriers = relation.terms.iter().filter_map(|t| layout.carrier(t.0));
+            let turning = relation.turns.iter().map(|t| t.0.carrier);
+            for carrier in carriers.chain(turning).chain(layout.carrier(relation.dof)) {
+                if let Some(pulls) = self.pulls.get_mut(carrier as usize) {
+                    *pulls = true;
+                }
+            }
+        }
+        self.relations = relations;
+    }
+
+    /// The dof by which right-hand sides grow.
+    #[must_use]
+    pub const fn course(&self) -> Option<Dof> {
+        self.course
+    }
+
+    /// What nodes move with.
     #[must_use]
     pub fn bodies(&self) -> &[RigidBody] {
         &self.bodies
     }
 
-    /// The rigid body that a node follows.
+    /// The carrier that a node follows in all directions.
     #[inline]
     #[must_use]
     pub fn body_of(&self, node: NodeId) -> Option<RigidId> {
-        let body = self.body_of.get(node as usize).copied()?;
-        (body != NONE).then_some(body)
+        let leader = self.leader.get(node as usize)?;
+        let whole = leader[0] != NONE && leader[0] == leader[1] && leader[0] == leader[2];
+        whole.then_some(leader[0])
     }
 
-    /// Whether the displacement behind a raw dof follows a rigid body.
+    /// What a displacement follows as a rigid body does.
+    #[inline]
+    #[must_use]
+    pub fn leader(&self, dof: Dof, layout: &Layout) -> Option<Turn> {
+        if self.leader.is_empty() || dof == NO_DOF {
+            return None;
+        }
+        let (node, axis) = (dof / layout.ndim as u32, dof as usize % layout.ndim);
+        let carrier = self.leader.get(node as usize)?[axis];
+        (carrier != NONE).then_some(Turn {
+            node,
+            axis,
+            carrier,
+        })
+    }
+
+    /// The relation that gives a dof.
+    #[inline]
+    fn relation(&self, dof: Dof) -> Option<&Relation> {
+        let number = *self.relation_of.get(dof as usize)?;
+        self.relations.get(number as usize)
+    }
+
+    /// Whether a raw dof follows others.
     #[inline]
     #[must_use]
     pub fn depends(&self, dof: Dof, layout: &Layout) -> bool {
-        !self.body_of.is_empty()
-            && dof != NO_DOF
-            && self.body_of(dof / layout.ndim as u32).is_some()
+        if self.leader.is_empty() && self.relation_of.is_empty() {
+            return false;
+        }
+        self.leader(dof, layout).is_some() || self.relation(dof).is_some()
     }
 
-    /// Puts the displacements of dependent nodes where the poses say.
+    /// Whether elements feel it at once when a dof is moved: all but the motion of rigid bodies.
+    #[must_use]
+    pub fn is_felt(&self, dof: Dof, layout: &Layout) -> bool {
+        layout
+            .carrier(dof)
+            .is_none_or(|c| self.pulls.get(c as usize).copied().unwrap_or(false))
+    }
+
+    /// The increment of a dof that follows no carrier.
+    pub(super) fn increment(&self, dof: Dof, du: &[f64]) -> f64 {
+        let mut value = 0.0;
+        if dof != NO_DOF {
+            self.linear(dof, 1.0, &mut |d: Dof, c: f64| value += c * at(du, d));
+        }
+        value
+    }
+
+    /// Puts dependent displacements, translations and the origins of poses where they belong (E1), (E3). The rotations
+    /// of the poses are in place.
     pub(super) fn follow(&self, state: &mut State, layout: &Layout, reference: &[Vec3]) {
-        for (body, pose) in self.bodies.iter().zip(&state.poses) {
+        for relation in &self.relations {
+            let linear = relation.terms.iter().map(|&(d, c)| c * at(&state.u, d));
+            let turns = relation.turns.iter();
+            let turned =
+                turns.map(|&(t, c)| c * self.turned(state, reference, t.carrier, t.node)[t.axis]);
+            let value = linear.sum::<f64>() + turned.sum::<f64>();
+            put(&mut state.u, relation.dof, value);
+        }
+        for (id, (body, pose)) in self.bodies.iter().zip(&mut state.poses).enumerate() {
+            for axis in 0..layout.ndim {
+                let moved = at(&state.u, layout.translation(id as RigidId, axis));
+                pose.origin[axis] = body.reference[axis] + moved;
+            }
+        }
+        for (id, body) in self.bodies.iter().enumerate() {
+            let id = id as RigidId;
             for &node in &body.nodes {
-                let Some(&start) = reference.get(node as usize) else {
-                    continue;
-                };
-                let arm = start - body.reference;
-                // exact for a pure translation: the rotated arm is not subtracted from positions
-                let turned = pose.rotation * arm - arm;
-                let moved = pose.origin - body.reference + turned;
+                let turned = self.turned(state, reference, id, node);
                 for axis in 0..layout.ndim {
-                    if let Some(u) = state.u.get_mut(layout.node(node, axis) as usize) {
-                        *u = moved[axis];
-                    }
+                    let moved = at(&state.u, layout.translation(id, axis));
+                    put(&mut state.u, layout.node(node, axis), moved + turned[axis]);
+                }
+            }
+        }
+        for (turn, _) in &self.coupled {
+            let turned = self.turned(state, reference, turn.carrier, turn.node)[turn.axis];
+            let moved = at(&state.u, layout.translation(turn.carrier, turn.axis));
+            put(
+                &mut state.u,
+                layout.node(turn.node, turn.axis),
+                moved + turned,
+            );
+        }
+    }
+
+    /// `R a_0 − a_0`; exactly zero as long as nothing turns.
+    fn turned(&self, state: &State, reference: &[Vec3], carrier: RigidId, node: NodeId) -> Vec3 {
+        let start = reference.get(node as usize);
+        let body = self.bodies.get(carrier as usize);
+        let (Some(&start), Some(body), Some(pose)) =
+            (start, body, state.poses.get(carrier as usize))
+        else {
+            return Vec3::ZERO;
+        };
+        let arm = start - body.reference;
+        pose.rotation * arm - arm
+    }
+
+    /// The raw dofs that take the place of these ones, appended to `out`.
+    pub fn independent(&self, dofs: &[Dof], layout: &Layout, out: &mut Vec<Dof>) {
+        let first = out.len();
+        let mut dependent = false;
+        for &dof in dofs.iter().filter(|&&d| d != NO_DOF) {
+            if let Some(turn) = self.leader(dof, layout) {
+                let of = layout.translation(turn.carrier, turn.axis);
+                self.linear(of, 1.0, &mut |d: Dof, _: f64| out.push(d));
+                self.rotations(turn.carrier, layout, out);
+                if let Some(relation) = self.relation(of) {
+                    self.turning(relation, layout, out);
+                }
+            } else if let Some(relation) = self.relation(dof) {
+                self.linear(dof, 1.0, &mut |d: Dof, _: f64| out.push(d));
+                self.turning(relation, layout, out);
+            } else {
+                out.push(dof);
+                continue;
+            }
+            dependent = true;
+        }
+        if dependent {
+            out[first..].sort_unstable();
+            let mut kept = first;
+            for k in first..out.len() {
+                if kept == first || out[kept - 1] != out[k] {
+                    out[kept] = out[k];
+                    kept += 1;
+                }
+            }
+            out.truncate(kept);
+        }
+    }
+
+    /// The unknowns behind the rotation of a carrier, appended.
+    fn rotations(&self, carrier: RigidId, layout: &Layout, out: &mut Vec<Dof>) {
+        for dof in (0..3)
+            .map(|c| layout.rotation(carrier, c))
+            .filter(|&d| d != NO_DOF)
+        {
+            self.linear(dof, 1.0, &mut |d: Dof, _: f64| out.push(d));
+        }
+    }
+
+    fn turning(&self, relation: &Relation, layout: &Layout, out: &mut Vec<Dof>) {
+        for (turn, _) in &relation.turns {
+            self.rotations(turn.carrier, layout, out);
+        }
+    }
+
+    /// The terms of a dof that follows no carrier itself, without turns.
+    fn linear(&self, dof: Dof, weight: f64, out: &mut impl Resolve) {
+        match self.relation(dof) {
+            None => out.term(dof, weight),
+            Some(relation) => {
+                for &(d, c) in &relation.terms {
+                    out.term(d, weight * c);
                 }
             }
         }
     }
 
-    /// The raw dofs that take the place of these ones, appended to `out`.
-    pub fn independent(&self, dofs: &[Dof], layout: &Layout, out: &mut Vec<Dof>) {
-        let mut last = None;
-        for &dof in dofs {
-            if !self.depends(dof, layout) {
-                out.push(dof);
-                continue;
-            }
-            let body = self.body_of(dof / layout.ndim as u32);
-            if body != last {
-                out.extend(body.into_iter().flat_map(|b| rigid_dofs(layout, b)));
-                last = body;
+    /// All terms of a dof, differentials of its turns included.
+    fn resolve(&self, dof: Dof, state: &State, layout: &Layout, out: &mut impl Resolve) {
+        let mut of = dof;
+        if let Some(turn) = self.leader(dof, layout) {
+            of = layout.translation(turn.carrier, turn.axis);
+            self.resolve_turn(turn, 1.0, state, layout, out);
+        }
+        self.linear(of, 1.0, out);
+        if let Some(relation) = self.relation(of) {
+            for &(turn, c) in &relation.turns {
+                self.resolve_turn(turn, c, state, layout, out);
             }
         }
-        out.retain(|&d| d != NO_DOF);
     }
 
-    /// Replaces dependent unknowns in a local force and stiffness, equations (E1) and (E2). The stiffness, row-major,
-    /// is empty when only the force is wanted.
+    /// `dx = dθ × a = −[a]× dθ` (E1).
+    fn resolve_turn(
+        &self,
+        turn: Turn,
+        weight: f64,
+        state: &State,
+        layout: &Layout,
+        out: &mut impl Resolve,
+    ) {
+        let row = Mat3::skew(self.arm(state, turn)).rows[turn.axis];
+        for about in (0..3).filter(|&about| about != turn.axis) {
+            let rotation = layout.rotation(turn.carrier, about);
+            if rotation != NO_DOF {
+                self.linear(rotation, -weight * row[about], out);
+            }
+        }
+        out.turn(turn, weight);
+    }
+
+    /// The arm `R a_0` of what follows.
+    fn arm(&self, state: &State, turn: Turn) -> Vec3 {
+        let pose = state.poses.get(turn.carrier as usize);
+        let Some(pose) = pose else {
+            return Vec3::ZERO;
+        };
+        // a node that follows in some directions only lies elsewhere
+        match self.coupled.binary_search_by_key(&turn, |c| c.0) {
+            Ok(k) => pose.rotation * self.coupled[k].1,
+            Err(_) => {
+                let x = state.x.get(turn.node as usize).copied();
+                x.unwrap_or(pose.origin) - pose.origin
+            }
+        }
+    }
+
+    /// Spreads a bound on rounding errors at a dependent dof over what it follows.
+    pub(super) fn spread(
+        &self,
+        dof: Dof,
+        error: f64,
+        state: &State,
+        layout: &Layout,
+        out: &mut [f64],
+    ) {
+        let mut add = |d: Dof, c: f64| {
+            if let Some(to) = out.get_mut(d as usize) {
+                *to += error * c.abs();
+            }
+        };
+        self.resolve(dof, state, layout, &mut add);
+    }
+
+    /// Replaces dependent unknowns in a local force and stiffness, equations (E1) to (E3). The stiffness, row-major, is
+    /// empty where there is none; that of the turning forces is added whenever it is `wanted`.
+    #[expect(clippy::too_many_arguments)]
     pub(super) fn expand(
         &self,
         dofs: &[Dof],
         force: &[f64],
         stiffness: &[f64],
+        wanted: bool,
         state: &State,
         layout: &Layout,
         out: &mut Expanded,
     ) {
-        out.dofs.clear();
-        out.rows.clear();
-        for &dof in dofs {
-            let mut row = Row {
-                terms: [(0, 0.0); 4],
-                n: 0,
-            };
-            if self.depends(dof, layout) {
-                let node = dof / layout.ndim as u32;
-                let axis = dof as usize % layout.ndim;
-                if let Some(body) = self.body_of(node) {
-                    let arm = arm(state, node, body);
-                    row.push(place(&mut out.dofs, layout.translation(body, axis)), 1.0);
-                    // dx = dθ × a = −[a]× dθ (E1)
-                    let turn = Mat3::skew(arm).rows[axis];
-                    for about in 0..3 {
-                        let rotation = layout.rotation(body, about);
-                        if rotation != NO_DOF {
-                            row.push(place(&mut out.dofs, rotation), -turn[about]);
-                        }
-                    }
-                }
-            } else {
-                out.dofs.push(dof);
-                row.push(out.dofs.len() - 1, 1.0);
+        out.clear(layout.ndof());
+        for (&dof, &force) in dofs.iter().zip(force) {
+            if dof != NO_DOF {
+                self.resolve(dof, state, layout, &mut Row { out, force });
             }
-            out.rows.push(row);
+            out.start.push(out.terms.len());
         }
         let (n, m) = (dofs.len(), out.dofs.len());
-        out.force.clear();
         out.force.resize(m, 0.0);
-        for (row, f) in out.rows.iter().zip(force) {
-            for &(k, c) in &row.terms[..row.n] {
+        for (ends, f) in out.start.windows(2).zip(force) {
+            for &(k, c) in &out.terms[ends[0]..ends[1]] {
                 out.force[k] += c * f;
             }
         }
-        out.stiffness.clear();
-        if stiffness.is_empty() {
+        if !wanted {
             return;
         }
         out.stiffness.resize(m * m, 0.0);
-        for (i, row) in out.rows.iter().enumerate() {
-            for (j, column) in out.rows.iter().enumerate() {
-                let value = stiffness[i * n + j];
-                if value == 0.0 {
-                    continue;
-                }
-                for &(p, a) in &row.terms[..row.n] {
-                    for &(q, b) in &column.terms[..column.n] {
-                        out.stiffness[p * m + q] += a * b * value;
+        if !stiffness.is_empty() {
+            for (i, row) in out.start.windows(2).enumerate() {
+                for (j, column) in out.start.windows(2).enumerate() {
+                    let value = stiffness[i * n + j];
+                    if value == 0.0 {
+                        continue;
+                    }
+                    for &(p, a) in &out.terms[row[0]..row[1]] {
+                        for &(q, b) in &out.terms[column[0]..column[1]] {
+                            out.stiffness[p * m + q] += a * b * value;
+                        }
                     }
                 }
             }
         }
-        self.turning(dofs, force, state, layout, out);
+        self.turning_forces(state, layout, out);
     }
 
     /// The change of the moments with the arms, (E2).
-    fn turning(
-        &self,
-        dofs: &[Dof],
-        force: &[f64],
-        state: &State,
-        layout: &Layout,
-        out: &mut Expanded,
-    ) {
+    fn turning_forces(&self, state: &State, layout: &Layout, out: &mut Expanded) {
         let m = out.dofs.len();
-        for (&dof, &f) in dofs.iter().zip(force) {
-            if !self.depends(dof, layout) {
-                continue;
-            }
-            let node = dof / layout.ndim as u32;
-            let Some(body) = self.body_of(node) else {
-                continue;
-            };
-            let single = Vec3::unit(dof as usize % layout.ndim) * f;
-            let term = Mat3::skew(single) * Mat3::skew(arm(state, node, body));
+        let Expanded {
+            turns,
+            place,
+            stiffness,
+            ..
+        } = out;
+        for &(turn, f) in turns.iter() {
+            let single = Vec3::unit(turn.axis) * f;
+            let term = Mat3::skew(single) * Mat3::skew(self.arm(state, turn));
             for i in 0..3 {
                 for j in 0..3 {
-                    let (p, q) = (layout.rotation(body, i), layout.rotation(body, j));
-                    if p != NO_DOF && q != NO_DOF {
-                        let (p, q) = (place(&mut out.dofs, p), place(&mut out.dofs, q));
-                        out.stiffness[p * m + q] += term.rows[i][j];
+                    let (p, q) = (
+                        layout.rotation(turn.carrier, i),
+                        layout.rotation(turn.carrier, j),
+                    );
+                    let value = term.rows[i][j];
+                    if value == 0.0 || p == NO_DOF || q == NO_DOF {
+                        continue;
                     }
+                    self.linear(p, 1.0, &mut |p: Dof, a: f64| {
+                        self.linear(q, 1.0, &mut |q: Dof, b: f64| {
+                            let (p, q) = (place[p as usize] as usize, place[q as usize] as usize);
+                            if let Some(to) =
+                                stiffness.get_mut(p * m + q).filter(|_| p < m && q < m)
+                            {
+                                *to += a * b * value;
+                            }
+                        });
+                    });
                 }
             }
         }
     }
 }
 
-impl Row {
-    fn push(&mut self, place: usize, coefficient: f64) {
-        self.terms[self.n] = (place, coefficient);
-        self.n += 1;
+fn at(values: &[f64], dof: Dof) -> f64 {
+    values.get(dof as usize).copied().unwrap_or(0.0)
+}
+
+fn put(values: &mut [f64], dof: Dof, value: f64) {
+    if let Some(to) = values.get_mut(dof as usize) {
+        *to = value;
     }
-}
-
-fn arm(state: &State, node: NodeId, body: RigidId) -> Vec3 {
-    let x = state.x.get(node as usize).copied().unwrap_or_default();
-    let origin = state.poses.get(body as usize).map_or(x, |p| p.origin);
-    x - origin
-}
-
-fn rigid_dofs(layout: &Layout, body: RigidId) -> impl Iterator<Item = Dof> + use<> {
-    let layout = *layout;
-    (0..3)
-        .map(move |c| layout.translation(body, c))
-        .chain((0..3).map(move |c| layout.rotation(body, c)))
-}
-
-/// The place of a dof in the list, appended where it is not yet there.
-fn place(dofs: &mut Vec<Dof>, dof: Dof) -> usize {
-    dofs.iter().position(|&d| d == dof).unwrap_or_else(|| {
-        dofs.push(dof);
-        dofs.len() - 1
-    })
 }

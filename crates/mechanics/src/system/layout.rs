@@ -86,6 +86,22 @@ impl Layout {
         (self.first_multiplier() + number) as Dof
     }
 
+    /// The number of displacements and rotations: the raw dofs before the multipliers.
+    #[must_use]
+    pub const fn nmotion(&self) -> usize {
+        self.first_multiplier()
+    }
+
+    /// The rigid body whose translation or rotation a raw dof is.
+    #[must_use]
+    pub const fn carrier(&self, dof: Dof) -> Option<RigidId> {
+        let d = dof as usize;
+        if d < self.nnode * self.ndim || d >= self.first_multiplier() {
+            return None;
+        }
+        Some(((d - self.nnode * self.ndim) / self.nrigid_dof()) as RigidId)
+    }
+
     /// What a raw dof is; `None` beyond the last.
     #[must_use]
     pub fn name(&self, dof: Dof) -> Option<DofName> {
@@ -138,6 +154,11 @@ mod tests {
                     DofName::Multiplier(i) => layout.multiplier(i),
                 };
                 assert_eq!(back, dof);
+                let carrier = match layout.name(dof).unwrap() {
+                    DofName::Translation(b, _) | DofName::Rotation(b, _) => Some(b),
+                    _ => None,
+                };
+                assert_eq!(layout.carrier(dof), carrier);
                 seen += 1;
             }
             assert_eq!(seen, 5 * ndim + 2 * layout.nrigid_dof() + 3);

@@ -23,7 +23,12 @@
 //! Nodes of a rigid body are *dependent*: `x = c + R a_0`, hence `dx = dc − [a]× dθ` with the arm `a = x − c` (E1).
 //! A force `f` on such a node acts on the body as `f` and `a × f`, whose variation at constant `f` is
 //! `[f]× [a]× dθ` (E2): without that term the tangent is off by about one per cent. Rotations compose,
-//! `R ← exp(dθ) R`; angles are never added.
+//! `R ← exp(dθ) R`; angles are never added. A node may follow in some directions only (kinematic couplings), or a dof
+//! may be a combination `u = Σ c_k u_k + Σ c_i (R a_0 − a_0)_i` of others, the turns of followers among them (E3):
+//! its increment and the forces on it go the same way, and (E2) holds for each turn.
+//!
+//! What combines goes into the interface part: an element with a dependent dof has its entries there, so that the bulk
+//! keeps its blocks and plain models pay nothing.
 //!
 //! Results do not depend on the number of threads: chunks are evaluated in parallel and added in a fixed order.
 
@@ -43,7 +48,7 @@ mod whole;
 
 pub use assembly::{Assembler, Assembly};
 pub use course::{NodalField, interpolate};
-pub use elimination::{Elimination, RigidBody};
+pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{ContactFrame, Frame, Resultant, RigidFrame, Status};
 pub use idealisation::Idealisation;
 pub use layout::{Dof, DofName, Layout, NO_DOF};

@@ -58,13 +58,10 @@ impl State {
             *u += alpha * d;
         }
         for (body, pose) in self.poses.iter_mut().enumerate() {
-            let body = body as u32;
-            let at = |dof: u32| alpha * du.get(dof as usize).copied().unwrap_or(0.0);
-            let read = |dof: &dyn Fn(usize) -> u32| Vec3::new(at(dof(0)), at(dof(1)), at(dof(2)));
-            pose.origin += read(&|c| layout.translation(body, c));
-            let turn = read(&|c| layout.rotation(body, c));
+            let increment = |axis| elimination.increment(layout.rotation(body as u32, axis), du);
+            let turn = Vec3::new(increment(0), increment(1), increment(2)) * alpha;
             if turn != Vec3::ZERO {
-                pose.rotation = Mat3::rotation(turn) * pose.rotation;
+                pose.rotation = orthonormalized(Mat3::rotation(turn) * pose.rotation);
             }
         }
         elimination.follow(self, layout, reference);
@@ -107,4 +104,9 @@ impl State {
         }
         Ok(())
     }
+}
+
+/// One step towards the nearest rotation, `R ← R (3 − Rᵀ R)/2`: the rounding errors of many turns do not add up.
+fn orthonormalized(r: Mat3) -> Mat3 {
+    r * (Mat3::IDENTITY * 1.5 - r.transpose() * r * 0.5)
 }

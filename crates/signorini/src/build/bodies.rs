@@ -7,7 +7,10 @@ use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, Body, Case, Name};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
-use signorini_mechanics::material::{self, Constants, ConstantsError, Material};
+use signorini_mechanics::material::{
+    self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Oriented,
+    Plasticity,
+};
 use signorini_mechanics::model::{BodyKind, BodyPart};
 
 /// The bodies of a case, in its order.
@@ -120,8 +123,20 @@ fn bars(body: &Body, found: &mut Diagnostics) -> Option<f64> {
     body.area.as_ref().map(|area| area.value)
 }
 
-/// The law of a material with what wraps it.
+/// The law of a material, with plasticity and thermal expansion.
 fn law(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Material>> {
+    let inner = match &part.plasticity {
+        Some(plasticity) => plastic(part, plasticity, found),
+        None => elastic(part, found),
+    };
+    let inner = inner?;
+    Some(match &part.expansion {
+        Some(one) => Box::new(Expanding::new(inner, one.alpha, one.reference.value)),
+        None => inner,
+    })
+}
+
+fn elastic(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Material>> {
     let law = material::by_name(&part.model.value)?;
     let mut constants = Constants::default();
     for constant in &part.constants {
@@ -131,6 +146,34 @@ fn law(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Materia
         Ok(material) => Some(material),
         Err(error) => {
             found.push(unfit(&error, &part.name, place_of(part, &error)));
+            None
+        }
+    }
+}
+
+fn plastic(
+    part: &case::Material,
+    plasticity: &case::Plasticity,
+    found: &mut Diagnostics,
+) -> Option<Box<dyn Material>> {
+    let modulus = plasticity.modulus.as_ref().map_or(0.0, |m| m.value);
+    let kind = match plasticity.hardening.value {
+        case::Hardening::Isotropic => HardeningKind::Isotropic,
+        case::Hardening::Kinematic => HardeningKind::Kinematic,
+        case::Hardening::Combined => HardeningKind::Combined { modulus },
+    };
+    let (young, poisson) = (part.number("E")?, part.number("nu")?);
+    let made = Hardening::new(kind, plasticity.table.value.clone())
+        .and_then(|hardening| Plasticity::new(young, poisson, hardening));
+    match made {
+        Ok(material) => Some(Box::new(material)),
+        Err(error) => {
+            found.push(
+                Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string()).at(
+                    &plasticity.table.place,
+                    format!("in material {}", quoted(&part.name)),
+                ),
+            );
             None
         }
     }
@@ -153,11 +196,20 @@ fn unfit(error: &ConstantsError, material: &Name, place: &Place) -> Diagnostic {
 fn oriented(
     inner: Box<dyn Material>,
     body: &Body,
-    _found: &mut Diagnostics,
+    found: &mut Diagnostics,
 ) -> Option<Box<dyn Material>> {
     let Some(orientation) = &body.orientation else {
         return Some(inner);
     };
-    let _axes = [orientation.x, orientation.y].map(Vec3::from);
-    Some(inner)
+    let [x, y] = [orientation.x, orientation.y].map(Vec3::from);
+    match Oriented::new(inner, x, y) {
+        Ok(material) => Some(Box::new(material)),
+        Err(error) => {
+            found.push(
+                Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string())
+                    .at(&orientation.place, ""),
+            );
+            None
+        }
+    }
 }

@@ -80,9 +80,9 @@ const MATERIALS: &[Choice] = &[
     word("linear-elastic"),
     word("saint-venant-kirchhoff"),
     word("neo-hookean"),
-    Choice::later("mooney-rivlin", "neo-hookean with E and nu"),
-    Choice::later("ogden", "neo-hookean with E and nu"),
-    Choice::later("orthotropic", ""),
+    word("mooney-rivlin"),
+    word("ogden"),
+    word("orthotropic"),
 ];
 
 static EXPANSION: Table = Table {

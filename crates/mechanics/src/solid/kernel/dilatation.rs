@@ -134,8 +134,7 @@ impl Projection {
             a[i * nterm..(i + 1) * nterm].copy_from_slice(&gram[i][..nterm]);
             inverse[i * nterm + i] = 1.0;
         }
-        dense::solve(&mut a, nterm, &mut inverse, nterm)
-            .ok_or(Failure::Inverted { ratio: 0.0 })?;
+        dense::solve(&mut a, nterm, &mut inverse, nterm).ok_or(Failure::Inverted { ratio: 0.0 })?;
         Ok(Self { inverse, nterm })
     }
 
@@ -199,7 +198,9 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
         let mut dm = here.divergence();
         for (node, dm) in dm.iter_mut().enumerate() {
             for i in 0..ND {
-                let mean: f64 = (0..nterm).map(|t| factors[t] * divergences[t][node][i]).sum();
+                let mean: f64 = (0..nterm)
+                    .map(|t| factors[t] * divergences[t][node][i])
+                    .sum();
                 dm[i] = (mean - dm[i]) / 3.0;
             }
         }

@@ -246,7 +246,14 @@ impl Element<'_> {
 
     /// What is known at a point where the deformation gradient that the material sees is `f = I + h`, and `volume`
     /// belongs to it.
-    fn sample(&self, point: usize, h: Mat3, volume: f64, new: &[f64], response: &Response) -> Sample {
+    fn sample(
+        &self,
+        point: usize,
+        h: Mat3,
+        volume: f64,
+        new: &[f64],
+        response: &Response,
+    ) -> Sample {
         let nhistory = self.material.nhistory();
         let history = &new[point * nhistory..(point + 1) * nhistory];
         let sheet = matches!(self.space, Idealisation::PlaneStress { .. });

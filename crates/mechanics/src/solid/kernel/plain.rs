@@ -31,7 +31,15 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
         if order == Order::Tangent {
             let f = finite.then_some(&f);
             let (stress, tangent) = (&response.stress, &response.tangent);
-            add_stiffness::<NN, ND, NG>(&at.gradient, f, at.weight, stress, tangent, symmetric, out);
+            add_stiffness::<NN, ND, NG>(
+                &at.gradient,
+                f,
+                at.weight,
+                stress,
+                tangent,
+                symmetric,
+                out,
+            );
         }
     }
     if symmetric && !out.stiffness.is_empty() {

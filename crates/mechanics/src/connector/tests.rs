@@ -1,0 +1,370 @@
+//! Connectors between loose nodes, nodes of rigid bodies, nodes that follow along one axis, and nodes in equations.
+
+use super::*;
+use crate::system::linear::apply;
+use crate::system::{
+    Assembler, Assembly, Elimination, Idealisation, Layout, Order, Relation, RigidBody,
+    StepContext, Term,
+};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::Vec3;
+use std::sync::Arc;
+
+fn noise(k: usize) -> f64 {
+    let x = (k as f64 * 12.9898 + 4.1414).sin() * 43758.5453;
+    2.0 * (x - x.floor()) - 1.0
+}
+
+struct Scene {
+    layout: Layout,
+    reference: Arc<[Vec3]>,
+    elimination: Elimination,
+    terms: Vec<Box<dyn Term>>,
+    state: State,
+}
+
+/// Nodes of the scene: 0 to 7 in a plane, 8 to 15 anywhere.
+const NNODE: usize = 16;
+
+impl Scene {
+    /// Nodes 3 and 9 belong to the rigid body 0; node 10 follows it along y only; node 11 has a displacement in an
+    /// equation with node 9 and others; the first rotation of carrier 1 depends on a node.
+    fn new(ndim: usize, nonlinear: bool, which: &str) -> Self {
+        let space = match ndim {
+            2 => Idealisation::PlaneStrain { thickness: 1.0 },
+            _ => Idealisation::Space,
+        };
+        let mut layout = Layout {
+            ndim,
+            nnode: NNODE,
+            nrigid: 2,
+            nmultiplier: 0,
+        };
+        layout.nmultiplier = 8 + 6;
+        let reference: Arc<[Vec3]> = (0..NNODE)
+            .map(|k| {
+                let mut x = Vec3::new(noise(3 * k), noise(3 * k + 1), noise(3 * k + 2));
+                if k < 8 {
+                    x.z = 0.2 + 0.3 * x.x - 0.1 * x.y;
+                }
+                if ndim == 2 {
+                    x.z = 0.0;
+                    if k < 8 {
+                        x.y = 0.1 + 0.3 * x.x;
+                    }
+                }
+                x
+            })
+            .collect();
+        let body = |at: usize, nodes: &[NodeId]| RigidBody {
+            reference: Vec3::new(
+                noise(at),
+                noise(at + 1),
+                if ndim == 3 { noise(at + 2) } else { 0.0 },
+            ),
+            nodes: nodes.to_vec(),
+        };
+        let mut elimination = Elimination::new(vec![body(500, &[3, 9]), body(600, &[])], NNODE);
+        elimination.couple(&layout, &reference, &[10], [false, true, false], 0);
+        let turn = elimination.leader(layout.node(9, 0), &layout).unwrap();
+        let single = elimination.leader(layout.node(10, 1), &layout).unwrap();
+        let relations = vec![
+            Relation {
+                dof: layout.node(11, 0),
+                terms: vec![
+                    (layout.translation(0, 0), 0.7),
+                    (layout.node(5, 1), -0.4),
+                    (layout.multiplier(13), 0.3),
+                ],
+                turns: vec![(turn, 0.7), (single, 0.2)],
+            },
+            Relation {
+                dof: layout.translation(0, 1),
+                terms: vec![(layout.node(6, 0), 0.5), (layout.node(12, 1), 0.25)],
+                turns: Vec::new(),
+            },
+            Relation {
+                dof: layout.rotation(0, 2),
+                terms: vec![(layout.node(7, 0), 0.6), (layout.rotation(1, 2), -0.3)],
+                turns: Vec::new(),
+            },
+        ];
+        elimination.relate(&layout, relations, None);
+        let all: Vec<(NodeId, f64)> = [0, 3, 8, 9, 10, 11, 12]
+            .iter()
+            .map(|&n| (n, 1.0 + 0.5 * noise(900 + n as usize)))
+            .collect();
+        let mut term: Box<dyn Term> = match which {
+            "plane" => {
+                let nodes: Vec<NodeId> = (0..8).collect();
+                Box::new(Plane::new("plane", &nodes, reference.clone(), layout, 0).unwrap())
+            }
+            "distributing" => Box::new(
+                Distributing::new(DistributingParts {
+                    name: "mean",
+                    nodes: &all,
+                    carrier: 1,
+                    at: elimination.bodies()[1].reference,
+                    reference: &reference,
+                    layout,
+                    space,
+                    first: 7,
+                })
+                .unwrap(),
+            ),
+            _ => Box::new(
+                Springs::new(SpringsParts {
+                    name: "springs",
+                    ends: &[
+                        (3, Some(12)),
+                        (9, Some(11)),
+                        (10, Some(5)),
+                        (13, Some(14)),
+                        (3, Some(6)),
+                    ],
+                    stiffness: 3.0,
+                    direction: None,
+                    reference: &reference,
+                    layout,
+                })
+                .unwrap(),
+            ),
+        };
+        let state = State::initial(&layout, &reference, &elimination);
+        let step = StepContext {
+            number: 0,
+            start: 0.0,
+            duration: 1.0,
+            nonlinear,
+        };
+        term.begin_step(&step, &state).unwrap();
+        let mut scene = Self {
+            layout,
+            reference,
+            elimination,
+            terms: vec![term],
+            state,
+        };
+        for round in 0..2 {
+            let du: Vec<f64> = (0..layout.ndof())
+                .map(|k| 0.4 * noise(5000 + 89 * round + k))
+                .collect();
+            scene.state = scene.moved(&du, 1.0);
+        }
+        scene
+    }
+
+    fn moved(&self, du: &[f64], by: f64) -> State {
+        let mut state = self.state.clone();
+        let (layout, x, e) = (&self.layout, &self.reference, &self.elimination);
+        state.advance_from(&self.state, du, by, layout, x, e);
+        state
+    }
+
+    fn assemble(&self, state: &State, order: Order) -> (Assembler, Assembly) {
+        let mut assembler = Assembler::new(&self.layout, &self.elimination, &self.terms);
+        let mut out = Assembly::default();
+        let (layout, e, terms) = (&self.layout, &self.elimination, &self.terms);
+        assembler
+            .assemble(layout, e, terms, state, order, &mut out)
+            .unwrap();
+        (assembler, out)
+    }
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |m, v| m.max(v.abs()))
+}
+
+const STENCIL: [(f64, f64); 4] = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
+
+#[test]
+fn tangents_match_differences_whatever_the_nodes_follow() {
+    for ndim in [2, 3] {
+        for nonlinear in [true, false] {
+            for which in ["springs", "plane", "distributing"] {
+                let scene = Scene::new(ndim, nonlinear, which);
+                let n = scene.layout.ndof();
+                let (assembler, out) = scene.assemble(&scene.state, Order::Tangent);
+                let h = 1e-3;
+                let (mut error, mut size) = (0.0f64, 0.0f64);
+                for dof in 0..n as Dof {
+                    if scene.elimination.depends(dof, &scene.layout) {
+                        assert_eq!(out.residual[dof as usize], 0.0);
+                        continue;
+                    }
+                    let mut e = vec![0.0; n];
+                    e[dof as usize] = 1.0;
+                    let mut column = vec![0.0; n];
+                    let (bulk, interface) = (assembler.bulk(), assembler.interface());
+                    apply(bulk, interface, &out.values(), &e, &mut column);
+                    for (step, weight) in STENCIL {
+                        let there = scene.moved(&e, step * h);
+                        let (_, out) = scene.assemble(&there, Order::Residual);
+                        for (c, r) in column.iter_mut().zip(&out.residual) {
+                            *c -= weight * r / (12.0 * h);
+                        }
+                    }
+                    error = error.max(largest(column.iter().copied()));
+                    size = size.max(largest(out.residual.iter().copied()));
+                }
+                println!("{which} {ndim} {nonlinear}: {error:e} of {size}");
+                assert!(size > 0.01 && error < 1e-7, "{which} {ndim}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_force_of_springs_is_the_gradient_of_their_energy() {
+    for (ndim, nonlinear) in [(2, true), (3, true), (3, false)] {
+        let scene = Scene::new(ndim, nonlinear, "springs");
+        let (mut assembler, out) = scene.assemble(&scene.state, Order::Residual);
+        let h = 1e-3;
+        for dof in 0..scene.layout.ndof() {
+            if scene.elimination.depends(dof as Dof, &scene.layout) {
+                continue;
+            }
+            let mut e = vec![0.0; scene.layout.ndof()];
+            e[dof] = 1.0;
+            let mut slope = 0.0;
+            for (step, weight) in STENCIL {
+                let energy = assembler.energy(&scene.terms, &scene.moved(&e, step * h));
+                slope += weight * energy.unwrap().unwrap() / (12.0 * h);
+            }
+            assert!((slope - out.residual[dof]).abs() < 1e-8, "{dof}");
+        }
+    }
+}
+
+/// Forces of a term on nodes and carriers, without anything that follows: their sum and moment vanish.
+#[test]
+fn a_distributing_coupling_is_in_balance_and_follows_a_rigid_motion() {
+    let mut scene = Scene::new(3, true, "distributing");
+    scene.elimination = Elimination::new(
+        scene
+            .elimination
+            .bodies()
+            .iter()
+            .map(|b| RigidBody {
+                reference: b.reference,
+                nodes: Vec::new(),
+            })
+            .collect(),
+        NNODE,
+    );
+    let n = scene.layout.ndof();
+    scene.state = State::initial(&scene.layout, &scene.reference, &scene.elimination);
+    let zero = scene.state.clone();
+    // all nodes turn with the carrier
+    let theta = Vec3::new(0.9, -1.7, 1.1);
+    let rotation = signorini_geometry::tensor::Mat3::rotation(theta);
+    let origin = zero.poses[1].origin;
+    let shift = Vec3::new(0.3, 4.0, -2.0);
+    let mut du = vec![0.0; n];
+    for node in 0..NNODE as NodeId {
+        let arm = scene.reference[node as usize] - origin;
+        for c in 0..3 {
+            du[scene.layout.node(node, c) as usize] = (rotation * arm - arm + shift)[c];
+        }
+    }
+    for c in 0..3 {
+        du[scene.layout.translation(1, c) as usize] = shift[c];
+        du[scene.layout.rotation(1, c) as usize] = theta[c];
+    }
+    for k in 7..13 {
+        du[scene.layout.multiplier(k) as usize] = noise(k);
+    }
+    let moved = scene.moved(&du, 1.0);
+    let (_, out) = scene.assemble(&moved, Order::Residual);
+    let gaps = (7..13).map(|k| out.residual[scene.layout.multiplier(k) as usize]);
+    assert!(largest(gaps) < 1e-14);
+    let read = |dof: &dyn Fn(usize) -> Dof| {
+        Vec3::new(
+            out.residual[dof(0) as usize],
+            out.residual[dof(1) as usize],
+            out.residual[dof(2) as usize],
+        )
+    };
+    let mut force = read(&|c| scene.layout.translation(1, c));
+    let mut moment = read(&|c| scene.layout.rotation(1, c)) + moved.poses[1].origin.cross(force);
+    assert!(force.norm() > 0.1);
+    for node in 0..NNODE as NodeId {
+        let f = read(&|c| scene.layout.node(node, c));
+        force += f;
+        moment += moved.x[node as usize].cross(f);
+    }
+    assert!(
+        force.max_abs() < 1e-14 && moment.max_abs() < 1e-13,
+        "{force:?} {moment:?}"
+    );
+}
+
+#[test]
+fn what_cannot_be_made_is_refused() {
+    let scene = Scene::new(3, true, "springs");
+    let springs = |ends: &[(NodeId, Option<NodeId>)], direction| {
+        let parts = SpringsParts {
+            name: "s",
+            ends,
+            stiffness: 1.0,
+            direction,
+            reference: &scene.reference,
+            layout: scene.layout,
+        };
+        Springs::new(parts).err()
+    };
+    let none = ConnectorError::NoLength { number: 1 };
+    assert_eq!(springs(&[(4, Some(4))], None), Some(none));
+    assert_eq!(
+        springs(&[(4, None)], None),
+        Some(ConnectorError::NoDirection { number: 1 })
+    );
+    assert_eq!(springs(&[(4, Some(4))], Some(Vec3::unit(0))), None);
+    let line: Arc<[Vec3]> = (0..5)
+        .map(|k| Vec3::new(0.3, 0.5, 0.1) * f64::from(k))
+        .collect();
+    let layout = Layout {
+        nnode: 5,
+        ..scene.layout
+    };
+    let nodes = [0, 1, 2, 3, 4];
+    let plane = Plane::new("p", &nodes, line.clone(), layout, 0)
+        .err()
+        .unwrap();
+    assert!(matches!(plane, ConnectorError::Narrow { point: false, .. }));
+    let distributing = |nodes: &[(NodeId, f64)]| {
+        let parts = DistributingParts {
+            name: "d",
+            nodes,
+            carrier: 0,
+            at: Vec3::ZERO,
+            reference: &line,
+            layout,
+            space: Idealisation::Space,
+            first: 0,
+        };
+        Distributing::new(parts).err().unwrap()
+    };
+    let error = distributing(&[(0, 1.0), (1, 2.0), (3, 1.0)]);
+    assert!(
+        matches!(error, ConnectorError::Narrow { point: false, .. }),
+        "{error}"
+    );
+    let error = distributing(&[(2, 1.0)]);
+    assert!(
+        matches!(error, ConnectorError::Narrow { point: true, .. }),
+        "{error}"
+    );
+    assert!(matches!(
+        distributing(&[(0, -1.0)]),
+        ConnectorError::Number { .. }
+    ));
+    let mut bent = scene.reference.to_vec();
+    bent[6].z += 0.01;
+    let nodes: Vec<NodeId> = (0..8).collect();
+    let plane = Plane::new("p", &nodes, bent.into(), scene.layout, 0)
+        .err()
+        .unwrap();
+    assert!(matches!(plane, ConnectorError::Uneven { .. }), "{plane}");
+}

@@ -1,0 +1,786 @@
+//! Blocks whose nodes follow others: closed forms, balance, refusals, restarts.
+
+use super::*;
+use crate::contact::Measure;
+use crate::material::{NeoHookean, SaintVenantKirchhoff};
+use crate::model::Parts;
+use crate::model::{Change, ContactPart, Load, LoadPart, Model, SidePart, StepPart, Target};
+use crate::solve::{Event, Flow, Increments, NewtonSettings, Outcome, Stepper, StepperSettings};
+use crate::system::{Archive, Assembler, Assembly, Frame, Order, State};
+use signorini_geometry::element::by_name;
+use signorini_geometry::mesh::{CellId, Face};
+use std::f64::consts::{PI, TAU};
+
+/// A box of hexahedra from `from` on: its cells.
+fn block(mesh: &mut Mesh, [nx, ny, nz]: [u32; 3], from: Vec3, size: Vec3) -> Vec<CellId> {
+    let first = mesh.nnode() as NodeId;
+    for k in 0..=nz {
+        for j in 0..=ny {
+            for i in 0..=nx {
+                let part = |n: u32, of: u32| f64::from(n) / f64::from(of);
+                let at = [
+                    part(i, nx) * size.x,
+                    part(j, ny) * size.y,
+                    part(k, nz) * size.z,
+                ];
+                mesh.points.push(from + Vec3::from(at));
+                mesh.node_labels.push(mesh.points.len() as u64);
+            }
+        }
+    }
+    let node = |i: u32, j: u32, k: u32| first + i + (nx + 1) * (j + (ny + 1) * k);
+    let mut cells = Vec::new();
+    for k in 0..nz {
+        for j in 0..ny {
+            for i in 0..nx {
+                let face = |k| {
+                    [
+                        node(i, j, k),
+                        node(i + 1, j, k),
+                        node(i + 1, j + 1, k),
+                        node(i, j + 1, k),
+                    ]
+                };
+                let nodes = [face(k), face(k + 1)].concat();
+                cells.push(mesh.push_cell(
+                    by_name("hex8").unwrap(),
+                    &nodes,
+                    cells.len() as u64 + 1,
+                ));
+            }
+        }
+    }
+    cells
+}
+
+fn nodes_at(mesh: &Mesh, axis: usize, at: f64) -> Vec<NodeId> {
+    let on = |n: &NodeId| (mesh.points[*n as usize][axis] - at).abs() < 1e-9;
+    (0..mesh.nnode() as NodeId).filter(on).collect()
+}
+
+fn solid(name: &str, cells: Vec<CellId>) -> BodyPart {
+    BodyPart {
+        name: name.into(),
+        cells,
+        kind: BodyKind::solid(Box::new(NeoHookean::new(1000.0, 0.3))),
+    }
+}
+
+fn constraint(name: &str, kind: ConstraintKind) -> ConstraintPart {
+    ConstraintPart {
+        name: name.into(),
+        kind,
+    }
+}
+
+fn prescribe(target: Target, motions: &[(usize, f64)]) -> Change {
+    let motion = |&(c, to): &(usize, f64)| {
+        (
+            c,
+            if to == 0.0 {
+                Motion::Hold
+            } else {
+                Motion::Ramp(to)
+            },
+        )
+    };
+    Change::Prescribe(target, motions.iter().map(motion).collect())
+}
+
+fn step(increments: usize, nonlinear: bool, changes: Vec<Change>) -> StepPart {
+    StepPart {
+        name: "step".into(),
+        duration: 1.0,
+        increments: Increments::Fixed(increments),
+        nonlinear,
+        changes,
+        loads: Vec::new(),
+        temperatures: Vec::new(),
+    }
+}
+
+fn settings() -> StepperSettings {
+    StepperSettings {
+        newton: NewtonSettings {
+            force_tol: 1e-10,
+            ..NewtonSettings::default()
+        },
+        ..StepperSettings::default()
+    }
+}
+
+struct Ran {
+    model: Model,
+    state: State,
+    frames: Vec<Frame>,
+    iterations: Vec<usize>,
+}
+
+fn run(parts: Parts<'_>) -> Ran {
+    let mut model = Model::assemble(parts).unwrap();
+    let mut stepper = Stepper::new(&model.system, settings());
+    let (mut frames, mut iterations) = (Vec::new(), Vec::new());
+    let outcome = stepper.run(&mut model.system, &model.steps, &mut |event: &Event<'_>| {
+        if let Event::Increment { frame, record } = event {
+            frames.push((*frame).clone());
+            iterations.push(record.iterations);
+        }
+        Flow::Continue
+    });
+    assert_eq!(outcome.unwrap(), Outcome::Finished);
+    println!("iterations {iterations:?}");
+    Ran {
+        state: stepper.state().clone(),
+        model,
+        frames,
+        iterations,
+    }
+}
+
+impl Ran {
+    fn last(&self) -> &Frame {
+        self.frames.last().unwrap()
+    }
+
+    /// What acts on raw dofs at the end.
+    fn residual(&self) -> Vec<f64> {
+        let system = &self.model.system;
+        let (layout, e, terms) = (&system.layout, &system.elimination, &system.terms);
+        let mut out = Assembly::default();
+        Assembler::new(layout, e, terms)
+            .assemble(layout, e, terms, &self.state, Order::Residual, &mut out)
+            .unwrap();
+        out.residual
+    }
+
+    /// Force and moment about the origin of the reactions at nodes.
+    fn reactions(&self) -> (Vec3, Vec3) {
+        let (mut force, mut moment) = (Vec3::ZERO, Vec3::ZERO);
+        for (f, x) in self.last().reaction_force.iter().zip(&self.state.x) {
+            force += *f;
+            moment += x.cross(*f);
+        }
+        (force, moment)
+    }
+
+    /// Force and moment that hold a carrier.
+    fn held(&self, carrier: RigidId) -> (Vec3, Vec3) {
+        let (r, layout) = (self.residual(), &self.model.system.layout);
+        let read = |dof: &dyn Fn(usize) -> Dof| {
+            Vec3::new(r[dof(0) as usize], r[dof(1) as usize], r[dof(2) as usize])
+        };
+        (
+            read(&|c| layout.translation(carrier, c)),
+            read(&|c| layout.rotation(carrier, c)),
+        )
+    }
+}
+
+fn cube(n: u32) -> (Mesh, Vec<CellId>) {
+    let mut mesh = Mesh::default();
+    let cells = block(&mut mesh, [n; 3], Vec3::ZERO, Vec3::new(1.0, 1.0, 1.0));
+    (mesh, cells)
+}
+
+const ALL: [(usize, f64); 3] = [(0, 0.0), (1, 0.0), (2, 0.0)];
+
+#[test]
+fn equal_displacements_share_what_one_node_is_moved_by() {
+    let (mesh, cells) = cube(2);
+    let top = nodes_at(&mesh, 2, 1.0);
+    let base = Target::Nodes(nodes_at(&mesh, 2, 0.0));
+    for nonlinear in [false, true] {
+        let head = Target::Nodes(vec![top[4]]);
+        let kind = ConstraintKind::Equal {
+            nodes: top.clone(),
+            axes: [false, false, true],
+        };
+        let ran = run(Parts {
+            bodies: vec![solid("cube", cells.clone())],
+            constraints: vec![constraint("flat", kind)],
+            steps: vec![step(
+                2,
+                nonlinear,
+                vec![prescribe(base.clone(), &ALL), prescribe(head, &[(2, -0.1)])],
+            )],
+            ..Parts::new(&mesh, Idealisation::Space)
+        });
+        for &node in &top {
+            assert_eq!(ran.last().displacement[node as usize].z, -0.1);
+        }
+        let (force, _) = ran.reactions();
+        let head = ran.last().reaction_force[top[4] as usize];
+        assert!(head.z < -50.0, "{head:?}");
+        assert!(force.max_abs() < 1e-9 * head.norm(), "{force:?}");
+        // the others carry none by themselves
+        assert_eq!(ran.last().reaction_force[top[0] as usize], Vec3::ZERO);
+    }
+}
+
+/// Right minus left is a stretch that grows over the first step, in a chain of equations with a node that nothing uses.
+#[test]
+fn periodic_equations_stretch_a_bar_by_their_right_hand_side_evenly() {
+    let mut mesh = Mesh::default();
+    let cells = block(&mut mesh, [3, 2, 2], Vec3::ZERO, Vec3::new(3.0, 1.0, 1.0));
+    mesh.points.push(Vec3::new(9.0, 9.0, 9.0));
+    mesh.node_labels.push(999);
+    let dummy = mesh.nnode() as NodeId - 1;
+    let (left, right) = (nodes_at(&mesh, 0, 0.0), nodes_at(&mesh, 0, 3.0));
+    let node = |n| Unknown::Node(n, 0);
+    let mut constraints: Vec<_> = left
+        .iter()
+        .zip(&right)
+        .map(|(&l, &r)| {
+            let terms = vec![(node(r), 2.0), (node(l), -2.0), (node(dummy), -2.0)];
+            constraint("periodic", ConstraintKind::Equation { terms, rhs: 0.0 })
+        })
+        .collect();
+    constraints.push(constraint(
+        "strain",
+        ConstraintKind::Equation {
+            terms: vec![(node(dummy), 4.0)],
+            rhs: 0.12,
+        },
+    ));
+    let fix = |axis: usize| prescribe(Target::Nodes(nodes_at(&mesh, axis, 0.0)), &[(axis, 0.0)]);
+    let one = prescribe(Target::Nodes(vec![left[0]]), &[(0, 0.0)]);
+    let material = Box::new(SaintVenantKirchhoff::new(1000.0, 0.3));
+    let body = BodyPart {
+        name: "bar".into(),
+        cells,
+        kind: BodyKind::solid(material),
+    };
+    let mut second = step(1, false, Vec::new());
+    second.name = "wait".into();
+    let ran = run(Parts {
+        bodies: vec![body],
+        constraints,
+        steps: vec![step(4, false, vec![fix(1), fix(2), one]), second],
+        ..Parts::new(&mesh, Idealisation::Space)
+    });
+    for (frame, stretch) in ran.frames.iter().zip([0.0075, 0.015, 0.0225, 0.03, 0.03]) {
+        for (&l, &r) in left.iter().zip(&right) {
+            let u = |n: NodeId| frame.displacement[n as usize].x;
+            assert!((u(r) - u(l) - stretch).abs() < 1e-14);
+        }
+        for cell in &frame.cell_stress[0] {
+            assert!(
+                (cell.xx() - 1000.0 * stretch / 3.0).abs() < 1e-9,
+                "{cell:?}"
+            );
+        }
+        let (force, _) = (frame.reaction_force[left[0] as usize], ());
+        assert!(
+            force.x.abs() < 1e-9,
+            "stretching a cell against itself takes no support"
+        );
+    }
+}
+
+fn carrier(name: &str, at: [f64; 3]) -> CarrierPart {
+    CarrierPart {
+        name: name.into(),
+        at: Some(Vec3::from(at)),
+    }
+}
+
+#[test]
+fn a_kinematic_coupling_twists_a_cube_by_a_right_angle_and_hands_on_force_and_moment() {
+    let (mesh, cells) = cube(2);
+    let base = Target::Nodes(nodes_at(&mesh, 2, 0.0));
+    let top = nodes_at(&mesh, 2, 1.0);
+    let kind = ConstraintKind::Kinematic {
+        nodes: top.clone(),
+        carrier: 0,
+        axes: [true; 3],
+    };
+    let turn = [
+        (0, 0.0),
+        (1, 0.0),
+        (2, 0.0),
+        (3, 0.0),
+        (4, 0.0),
+        (5, PI / 2.0),
+    ];
+    let ran = run(Parts {
+        bodies: vec![solid("cube", cells)],
+        carriers: vec![carrier("head", [0.3, 0.6, 1.2])],
+        constraints: vec![constraint("grip", kind)],
+        steps: vec![step(
+            10,
+            true,
+            vec![prescribe(base, &ALL), prescribe(Target::Rigid(0), &turn)],
+        )],
+        ..Parts::new(&mesh, Idealisation::Space)
+    });
+    for &node in &top {
+        let arm = mesh.points[node as usize] - Vec3::new(0.3, 0.6, 1.2);
+        let expected = Vec3::new(0.3 - arm.y, 0.6 + arm.x, 1.2 + arm.z);
+        assert!((ran.state.x[node as usize] - expected).max_abs() < 1e-13);
+    }
+    let (force, moment) = ran.reactions();
+    let (held, twist) = ran.held(0);
+    let balance = moment + twist + ran.state.poses[0].origin.cross(held);
+    println!("{held:?} {twist:?} {:?} {balance:?}", force + held);
+    assert!(twist.z > 50.0);
+    assert!((force + held).max_abs() < 1e-8 && balance.max_abs() < 1e-8);
+    assert!(
+        ran.iterations.iter().all(|&i| i <= 8),
+        "{:?}",
+        ran.iterations
+    );
+}
+
+/// Nodes that follow along z only shrink across as they like; the reference that nobody names floats.
+#[test]
+fn a_coupling_along_one_axis_leaves_the_others_free() {
+    let (mesh, cells) = cube(2);
+    let fix = |axis: usize| prescribe(Target::Nodes(nodes_at(&mesh, axis, 0.0)), &[(axis, 0.0)]);
+    let top = nodes_at(&mesh, 2, 1.0);
+    let kind = ConstraintKind::Kinematic {
+        nodes: top.clone(),
+        carrier: 0,
+        axes: [false, false, true],
+    };
+    let mut pull = step(3, true, vec![fix(0), fix(1), fix(2)]);
+    pull.loads.push(LoadPart {
+        name: "pull".into(),
+        load: Load::Carrier {
+            carrier: 0,
+            force: Vec3::unit(2) * 120.0,
+            moment: Vec3::ZERO,
+        },
+        course: crate::load::Course::default(),
+    });
+    let ran = run(Parts {
+        bodies: vec![solid("cube", cells)],
+        carriers: vec![carrier("head", [0.5, 0.5, 1.0])],
+        constraints: vec![constraint("grip", kind)],
+        steps: vec![pull],
+        ..Parts::new(&mesh, Idealisation::Space)
+    });
+    let first = ran.last().displacement[top[0] as usize].z;
+    assert!(first > 0.1);
+    for &node in &top {
+        let u = ran.last().displacement[node as usize];
+        assert!(
+            (u.z - first).abs() < 1e-10,
+            "a homogeneous stretch keeps the top level"
+        );
+        let x = mesh.points[node as usize];
+        assert!(x.x == 0.0 || u.x < -0.01 * x.x);
+    }
+    let (force, _) = ran.reactions();
+    assert!(
+        (force + Vec3::unit(2) * 120.0).max_abs() < 1e-7,
+        "{force:?}"
+    );
+}
+
+/// Force and moment on the mean of nodes are statically equivalent forces on the nodes.
+#[test]
+fn a_distributing_coupling_acts_as_equivalent_forces_and_follows_the_mean() {
+    let (mesh, cells) = cube(2);
+    let base = Target::Nodes(nodes_at(&mesh, 2, 0.0));
+    let top = nodes_at(&mesh, 2, 1.0);
+    let at = Vec3::new(0.5, 0.5, 1.0);
+    let (force, moment) = (Vec3::new(1.0, -2.0, 3.0), Vec3::unit(2) * 4.0);
+    let mut loaded = step(1, false, vec![prescribe(base.clone(), &ALL)]);
+    loaded.loads.push(LoadPart {
+        name: "wrench".into(),
+        load: Load::Carrier {
+            carrier: 0,
+            force,
+            moment,
+        },
+        course: crate::load::Course::default(),
+    });
+    let coupled = |steps: StepPart| {
+        let kind = ConstraintKind::Distributing {
+            nodes: top.iter().map(|&n| (n, 2.0)).collect(),
+            carrier: 0,
+        };
+        run(Parts {
+            bodies: vec![solid("cube", cells.clone())],
+            carriers: vec![carrier("mean", at.to_array())],
+            constraints: vec![constraint("spread", kind)],
+            steps: vec![steps],
+            ..Parts::new(&mesh, Idealisation::Space)
+        })
+    };
+    let ran = coupled(loaded.clone());
+    let arms: f64 = top
+        .iter()
+        .map(|&n| (mesh.points[n as usize] - at).norm_squared())
+        .sum();
+    let forces = top.iter().map(|&n| {
+        let arm = mesh.points[n as usize] - at;
+        (
+            n,
+            force * (1.0 / top.len() as f64) + moment.cross(arm) * arms.recip(),
+        )
+    });
+    let mut direct = step(1, false, vec![prescribe(base, &ALL)]);
+    direct.loads.push(LoadPart {
+        name: "forces".into(),
+        load: Load::Nodes(forces.collect()),
+        course: crate::load::Course::default(),
+    });
+    let expected = run(Parts {
+        bodies: vec![solid("cube", cells.clone())],
+        steps: vec![direct],
+        ..Parts::new(&mesh, Idealisation::Space)
+    });
+    let largest = expected
+        .last()
+        .displacement
+        .iter()
+        .fold(0.0f64, |m, u| m.max(u.max_abs()));
+    for (a, b) in ran
+        .last()
+        .displacement
+        .iter()
+        .zip(&expected.last().displacement)
+    {
+        assert!((*a - *b).max_abs() < 1e-9 * largest, "{a:?} {b:?}");
+    }
+    let mean: Vec3 = top
+        .iter()
+        .map(|&n| ran.last().displacement[n as usize] * (1.0 / top.len() as f64))
+        .sum();
+    assert!((ran.last().rigid[0].displacement - mean).max_abs() < 1e-12 * largest);
+    // large: force and moment at the supports balance the load
+    let mut large = loaded;
+    (large.nonlinear, large.increments) = (true, Increments::Fixed(4));
+    large.loads[0].load = Load::Carrier {
+        carrier: 0,
+        force: force * 20.0,
+        moment: moment * 10.0,
+    };
+    let ran = coupled(large);
+    let (f, m) = ran.reactions();
+    let arm = ran.state.poses[0].origin;
+    let balance = m + moment * 10.0 + arm.cross(force * 20.0);
+    println!("{:?} {balance:?}", f + force * 20.0);
+    assert!((f + force * 20.0).max_abs() < 1e-8 && balance.max_abs() < 1e-8);
+    assert!(
+        ran.last().rigid[0].rotation.z > 0.05,
+        "{:?}",
+        ran.last().rigid[0]
+    );
+}
+
+/// A face pushed at a corner tilts and stays plane, in space and along a line in the plane.
+#[test]
+fn a_face_that_stays_plane_tilts() {
+    let (mesh, cells) = cube(3);
+    let base = Target::Nodes(nodes_at(&mesh, 2, 0.0));
+    let top = nodes_at(&mesh, 2, 1.0);
+    for nonlinear in [false, true] {
+        let corner = prescribe(Target::Nodes(vec![top[0]]), &[(2, -0.2)]);
+        let ran = run(Parts {
+            bodies: vec![solid("cube", cells.clone())],
+            constraints: vec![constraint(
+                "plane",
+                ConstraintKind::Plane { nodes: top.clone() },
+            )],
+            steps: vec![step(
+                3,
+                nonlinear,
+                vec![prescribe(base.clone(), &ALL), corner],
+            )],
+            ..Parts::new(&mesh, Idealisation::Space)
+        });
+        let x = |k: usize| {
+            let (start, u) = (
+                mesh.points[top[k] as usize],
+                ran.last().displacement[top[k] as usize],
+            );
+            if nonlinear {
+                start + u
+            } else {
+                Vec3::new(start.x, start.y, 1.0 + u.z)
+            }
+        };
+        let normal = (x(3) - x(0)).cross(x(12) - x(0)).normalized().unwrap();
+        for k in 0..16 {
+            assert!((x(k) - x(0)).dot(normal).abs() < 1e-11, "{k}");
+        }
+        assert!(normal.z < 0.999 && ran.reactions().0.max_abs() < 1e-8);
+    }
+}
+
+/// A rigid block beside a held solid, turned by three full turns.
+#[test]
+fn three_prescribed_turns_bring_a_rigid_body_back() {
+    let mut mesh = Mesh::default();
+    let cells = block(&mut mesh, [1; 3], Vec3::ZERO, Vec3::new(1.0, 1.0, 1.0));
+    let rigid = block(
+        &mut mesh,
+        [2, 1, 1],
+        Vec3::new(3.0, 0.0, 0.0),
+        Vec3::new(2.0, 1.0, 0.5),
+    );
+    let base = Target::Nodes(nodes_at(&mesh, 0, 0.0));
+    for axis in [Vec3::unit(2), Vec3::new(0.48, 0.6, 0.64)] {
+        let turn: Vec<_> = (0..3).map(|c| (c + 3, axis[c] * 3.0 * TAU)).collect();
+        let body = BodyPart {
+            name: "tool".into(),
+            cells: rigid.clone(),
+            kind: BodyKind::Rigid(0),
+        };
+        let ran = run(Parts {
+            bodies: vec![solid("cube", cells.clone()), body],
+            carriers: vec![carrier("tool", [3.0, 0.2, -0.3])],
+            steps: vec![step(
+                120,
+                true,
+                vec![
+                    prescribe(base.clone(), &ALL),
+                    prescribe(Target::Rigid(0), &turn),
+                ],
+            )],
+            ..Parts::new(&mesh, Idealisation::Space)
+        });
+        for (x, start) in ran.state.x.iter().zip(&mesh.points) {
+            assert!((*x - *start).max_abs() < 1e-10);
+        }
+        let turned = ran.state.poses[0].rotation - Mat3::IDENTITY;
+        assert!(turned.rows.iter().all(|r| r.max_abs() < 1e-10));
+        assert!(ran.frames[10].displacement[8 + 5].norm() > 0.5);
+    }
+}
+
+#[test]
+fn rotations_stay_rotations_over_thousands_of_increments() {
+    let layout = Layout {
+        ndim: 3,
+        nnode: 1,
+        nrigid: 1,
+        nmultiplier: 0,
+    };
+    let body = RigidBody {
+        reference: Vec3::ZERO,
+        nodes: vec![0],
+    };
+    let (elimination, reference) = (Elimination::new(vec![body], 1), [Vec3::new(1.0, 2.0, 3.0)]);
+    let mut state = State::initial(&layout, &reference, &elimination);
+    for k in 0..20_000 {
+        let base = state.clone();
+        let k = f64::from(k);
+        let du = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, (0.1 * k).sin(), k.cos(), 0.3];
+        state.advance_from(&base, &du, 1.0, &layout, &reference, &elimination);
+    }
+    let r = state.poses[0].rotation;
+    let off = r * r.transpose() - Mat3::IDENTITY;
+    assert!(
+        off.rows.iter().all(|r| r.max_abs() < 1e-15 * 4.0),
+        "{off:?}"
+    );
+}
+
+fn refusal(constraints: Vec<ConstraintPart>, changes: Vec<Change>) -> Result<(), ModelError> {
+    let (mesh, cells) = cube(1);
+    Model::assemble(Parts {
+        bodies: vec![solid("cube", cells)],
+        carriers: vec![carrier("a", [0.0; 3]), carrier("b", [0.0; 3])],
+        constraints,
+        steps: vec![step(1, true, changes)],
+        ..Parts::new(&mesh, Idealisation::Space)
+    })
+    .map(drop)
+}
+
+#[test]
+fn contradictions_and_too_many_constraints_are_refused_by_name() {
+    let equation = |name: &str, terms: &[(NodeId, f64)], rhs: f64| {
+        let terms = terms
+            .iter()
+            .map(|&(n, c)| (Unknown::Node(n, 0), c))
+            .collect();
+        constraint(name, ConstraintKind::Equation { terms, rhs })
+    };
+    let said = |constraints, changes| refusal(constraints, changes).err().map(|e| e.to_string());
+    let chain = [
+        ("one", [(0, 1.0), (1, -1.0)], 0.1),
+        ("two", [(1, 1.0), (2, -1.0)], 0.2),
+    ];
+    let with = |rhs: f64| {
+        let mut all: Vec<_> = chain
+            .iter()
+            .map(|(n, t, rhs)| equation(n, t, *rhs))
+            .collect();
+        all.push(equation("three", &[(0, 3.0), (2, -3.0)], rhs));
+        all
+    };
+    // 0.1 + 0.2 is 0.3 but for rounding
+    assert_eq!(said(with(0.9), Vec::new()), None);
+    let error = said(with(0.6), Vec::new()).unwrap();
+    assert!(error.contains("\"three\" contradicts"), "{error}");
+    let equal = |nodes: &[NodeId]| {
+        let kind = ConstraintKind::Equal {
+            nodes: nodes.to_vec(),
+            axes: [true, false, false],
+        };
+        vec![constraint("tie", kind)]
+    };
+    let fix = |nodes: &[NodeId], to: f64| prescribe(Target::Nodes(nodes.to_vec()), &[(0, to)]);
+    assert_eq!(said(equal(&[0, 1, 2, 3]), vec![fix(&[2], 0.1)]), None);
+    assert_eq!(said(equal(&[0, 1, 2, 3]), vec![fix(&[1, 2], 0.1)]), None);
+    let error = said(equal(&[0, 1, 2, 3]), vec![fix(&[1], 0.0), fix(&[2], 0.1)]).unwrap();
+    assert!(error.contains("\"tie\" leaves nothing free"), "{error}");
+    let kinematic = |name: &str, carrier, axes| {
+        constraint(
+            name,
+            ConstraintKind::Kinematic {
+                nodes: vec![4, 5, 6, 7],
+                carrier,
+                axes,
+            },
+        )
+    };
+    let error = said(
+        vec![
+            kinematic("grip", 0, [true; 3]),
+            kinematic("second", 1, [true, false, false]),
+        ],
+        Vec::new(),
+    );
+    assert!(
+        error
+            .as_deref()
+            .unwrap_or("")
+            .contains("follows \"a\" already"),
+        "{error:?}"
+    );
+    let error = said(
+        vec![kinematic("grip", 0, [true, false, false])],
+        vec![fix(&[4], 0.0)],
+    )
+    .unwrap();
+    assert!(error.contains("follows \"a\""), "{error}");
+    assert_eq!(
+        said(
+            vec![kinematic("grip", 0, [false, true, true])],
+            vec![fix(&[4], 0.0)]
+        ),
+        None
+    );
+    let error = said(Vec::new(), vec![prescribe(Target::Rigid(1), &[(0, 1.0)])]).unwrap();
+    assert!(error.contains("\"b\", which nothing follows"), "{error}");
+}
+
+/// Two blocks pressed together: the upper is gripped by a carrier, its lower face stays level by equations, so that
+/// contact rows act on dependent unknowns.
+fn pressed() -> Model {
+    let mut mesh = Mesh::default();
+    let size = Vec3::new(2.0, 2.0, 1.0);
+    let lower = block(&mut mesh, [3, 3, 2], Vec3::ZERO, size);
+    let upper = block(
+        &mut mesh,
+        [2, 2, 2],
+        Vec3::new(0.3, 0.35, 1.0),
+        Vec3::new(1.0, 1.0, 1.0),
+    );
+    let nlower = 16 * 3;
+    let of_upper = |nodes: Vec<NodeId>| {
+        nodes
+            .into_iter()
+            .filter(|&n| n >= nlower)
+            .collect::<Vec<_>>()
+    };
+    let sole = of_upper(nodes_at(&mesh, 2, 1.0));
+    let head = nodes_at(&mesh, 2, 2.0);
+    let faces = |cells: &[CellId], side| cells.iter().map(|&cell| Face { cell, side }).collect();
+    let contact = ContactPart {
+        name: "sole".into(),
+        secondary: SidePart::Faces(faces(&upper[..4], 0)),
+        primary: faces(&lower[9..], 1),
+        penalty: None,
+        measure: Some(Measure::Area),
+        reach: None,
+    };
+    let level = ConstraintKind::Equal {
+        nodes: sole,
+        axes: [false, false, true],
+    };
+    let grip = ConstraintKind::Kinematic {
+        nodes: head,
+        carrier: 0,
+        axes: [true; 3],
+    };
+    let base = Target::Nodes(nodes_at(&mesh, 2, 0.0));
+    let motions = [(0, 0.1), (1, 0.0), (2, -0.1), (3, 0.02), (4, 0.0), (5, 0.3)];
+    let steps = vec![step(
+        5,
+        true,
+        vec![prescribe(base, &ALL), prescribe(Target::Rigid(0), &motions)],
+    )];
+    Model::assemble(Parts {
+        bodies: vec![solid("lower", lower), solid("upper", upper)],
+        carriers: vec![carrier("head", [0.8, 0.85, 2.0])],
+        constraints: vec![constraint("level", level), constraint("grip", grip)],
+        contacts: vec![contact],
+        steps,
+        ..Parts::new(&mesh, Idealisation::Space)
+    })
+    .unwrap()
+}
+
+#[test]
+fn contact_acts_on_unknowns_that_follow_and_restarts_and_threads_change_no_bit() {
+    let leg = |model: &mut Model, stepper: &mut Stepper| {
+        let mut frame = None;
+        let outcome = stepper.run(&mut model.system, &model.steps, &mut |event: &Event<'_>| {
+            if let Event::Increment { frame: f, .. } = event {
+                frame = Some((*f).clone());
+                return Flow::Stop;
+            }
+            Flow::Continue
+        });
+        (outcome.unwrap() == Outcome::Stopped)
+            .then_some(frame)
+            .flatten()
+    };
+    let whole = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            let mut model = pressed();
+            let mut stepper = Stepper::new(&model.system, settings());
+            let (mut last, mut archive) = (None, Archive::default());
+            let mut k = 0;
+            while let Some(frame) = leg(&mut model, &mut stepper) {
+                last = Some(frame);
+                k += 1;
+                if k == 2 {
+                    stepper.save(&model.system, &mut archive);
+                }
+            }
+            (stepper.state().clone(), last.unwrap(), archive)
+        })
+    };
+    let (state, frame, archive) = whole(1);
+    assert!(whole(2).0 == state);
+    let mut model = pressed();
+    let mut stepper = Stepper::new(&model.system, settings());
+    stepper.load(&mut model.system, &archive).unwrap();
+    while leg(&mut model, &mut stepper).is_some() {}
+    assert!(*stepper.state() == state);
+    // the base feels what contact hands down
+    let force = frame.contacts[0].primary.force;
+    let base: Vec3 = frame.reaction_force.iter().copied().sum();
+    println!("{force:?} {base:?}");
+    assert!(
+        force.z < -10.0 && (force + base).max_abs() < 1e-7,
+        "{force:?} {base:?}"
+    );
+    let level: Vec<f64> = frame.contacts[0]
+        .nodes
+        .iter()
+        .map(|&n| state.x[n as usize].z)
+        .collect();
+    assert!(level.iter().all(|z| (z - level[0]).abs() < 1e-12));
+}
