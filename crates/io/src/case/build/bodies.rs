@@ -58,12 +58,13 @@ impl Builder {
         let missing: Vec<String> = missing.map(|key| format!("`{key}`")).collect();
         if !missing.is_empty() && !fields.has_unknown_key() {
             let what = missing.join(", ");
+            let are = if missing.len() == 1 { "is" } else { "are" };
             self.found.push(
                 Diagnostic::error(
                     &codes::MISSING,
                     format!("[material.{}] has no {what}", name.value),
                 )
-                .at(place, format!("{what} missing here"))
+                .at(place, format!("{what} {are} missing here"))
                 .note(format!("{} takes: {}", law.name, takes())),
             );
         }
