@@ -1,13 +1,13 @@
 // A quarter of a half ball (radius R) on a quarter of a block, in hexahedra that grow away from the first contact.
 //     gmsh -3 -format msh41 -bin sphere.geo -o sphere.msh
 R = 10;                 // radius
-angle = 22 * Pi / 180;  // the fine part of the ball, seen from its centre
+angle = 20 * Pi / 180;  // the fine part of the ball, seen from its centre
 depth = 0.40 * R;       // and its height on the axis
-n = 9;                  // elements along each edge of the fine part
-grow = 1.27;            // ratio of neighbours
+n = 10;                  // elements along each edge of the fine part
+grow = 1.26;            // ratio of neighbours
 W = 20; H = 20;         // width and height of the block
 gap = 0.01;             // between ball and block at the start
-m = 12; more = 1.35;    // elements along each edge of the block, ratio of neighbours
+m = 6; more = 1.6;      // elements of the block beyond its fine part, ratio of neighbours
 
 // ---- the ball: centre O, poles A (x), B (y), P (down); four hexahedra, one at each of these points
 s = Sin(angle); c = Cos(angle);
@@ -73,29 +73,39 @@ Surface Loop(2) = {6, 9, 10, 13, 16, 17};   Volume(2) = {2};
 Surface Loop(3) = {2, 5, 11, 14, 16, 18};   Volume(3) = {3};
 Surface Loop(4) = {3, 8, 12, 15, 17, 18};   Volume(4) = {4};
 
-// ---- the block
-Point(31) = {0, 0, -gap};  Point(32) = {W, 0, -gap};  Point(33) = {W, W, -gap};  Point(34) = {0, W, -gap};
-Line(31) = {31, 32};    Line(32) = {31, 34};    Line(33) = {34, 33};    Line(34) = {32, 33};
-Transfinite Curve{31:34} = m + 1 Using Progression more;
-Curve Loop(31) = {31, 34, -33, -32};
-Plane Surface(31) = {31};
-Transfinite Surface{31};
-Recombine Surface{31};
-For i In {1:m}
+// ---- the block: its fine part has nodes nearly below those of the ball, which node-to-segment contact asks for
+Point(31) = {0, 0, -gap};
+Point(32) = {R * s, 0, -gap};  Point(33) = {R * t, R * t, -gap};  Point(34) = {0, R * s, -gap};
+Point(35) = {W, 0, -gap};      Point(36) = {W, W, -gap};          Point(37) = {0, W, -gap};
+Line(31) = {31, 32};  Line(32) = {34, 33};  Line(33) = {31, 34};  Line(34) = {32, 33};
+Transfinite Curve{31:34} = n + 1 Using Progression grow;
+Line(35) = {32, 35};  Line(36) = {33, 36};  Line(37) = {34, 37};
+Transfinite Curve{35:37} = m + 1 Using Progression more;
+Line(38) = {35, 36};  Line(39) = {37, 36};
+Transfinite Curve{38, 39} = n + 1 Using Progression grow;
+Curve Loop(31) = {31, 34, -32, -33};  Plane Surface(31) = {31};
+Curve Loop(32) = {35, 38, -36, -34};  Plane Surface(32) = {32};
+Curve Loop(33) = {37, 39, -36, -32};  Plane Surface(33) = {33};
+Transfinite Surface{31:33};
+Recombine Surface{31:33};
+deep = 13; deeper = 1.33;  // layers of elements downwards, ratio of neighbours
+For i In {1:deep}
     one[i - 1] = 1;
-    below[i - 1] = (more^i - 1) / (more^m - 1);
+    below[i - 1] = (deeper^i - 1) / (deeper^deep - 1);
 EndFor
-low[] = Extrude {0, 0, -H} { Surface{31}; Layers{one[], below[]}; Recombine; };
+a[] = Extrude {0, 0, -H} { Surface{31}; Layers{one[], below[]}; Recombine; };
+b[] = Extrude {0, 0, -H} { Surface{32}; Layers{one[], below[]}; Recombine; };
+c[] = Extrude {0, 0, -H} { Surface{33}; Layers{one[], below[]}; Recombine; };
 
 Transfinite Surface{1:18};
 Recombine Surface{1:18};
 Transfinite Volume{1:4};
 
 Physical Volume("sphere") = {1:4};
-Physical Volume("block") = {low[1]};
+Physical Volume("block") = {a[1], b[1], c[1]};
 Physical Surface("sphere_surface") = {1};
 Physical Surface("sphere_top") = {10:12};
-Physical Surface("block_top") = {31};
-Physical Surface("block_bottom") = {low[0]};
-Physical Surface("sym_x") = {7:9, low[5]};
-Physical Surface("sym_y") = {4:6, low[2]};
+Physical Surface("block_top") = {31:33};
+Physical Surface("block_bottom") = {a[0], b[0], c[0]};
+Physical Surface("sym_x") = {7:9, a[5], c[2]};
+Physical Surface("sym_y") = {4:6, a[2], b[2]};

@@ -9,15 +9,16 @@
 //!
 //! by Newton's method with (E2) where it is positive definite and with the metric `m_ab` where it is not, an Armijo
 //! rule on `F` and a bounded step. A face alone is not enough: on a warped facet the closest point often lies on an
-//! edge, so the face (from two starts), every edge and every vertex compete, and the smallest distance wins; ties go
-//! to the face, then the edge. Neglected: nothing; limits: a facet folded over itself within its own size.
+//! edge, so the face (from two starts, from more where it has mid nodes), every edge and every vertex compete, and the
+//! smallest distance wins; ties go to the face, then the edge. Neglected: nothing; limits: a facet folded over itself
+//! within its own size.
 //!
 //! Source: Konyukhov and Schweizerhof 2013, chapter 3 (existence and uniqueness of the projection).
 
 use super::{
     Anchor, ContactSurface, Feature, Placement, Projection, SurfaceError, SurfaceJet, pair,
 };
-use crate::element::Element;
+use crate::element::{Element, MAX_FACET_NODES};
 use crate::tensor::Vec3;
 
 /// Iterations after which a start is given up.
@@ -208,15 +209,15 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
         let mut best: Option<Candidate> = None;
         let nodes = element.nodes();
         let mut size: f64 = 0.0;
-        let mut nearest = (f64::INFINITY, nodes[0]);
-        let mut corner_distance = [f64::INFINITY; 4];
-        let ncorner = element.ncorner();
-        for (xi, distance) in nodes.iter().zip(&mut corner_distance).take(ncorner) {
+        let mut nearest = [nodes[0]];
+        let mut smallest = f64::INFINITY;
+        let mut distances = [f64::INFINITY; MAX_FACET_NODES];
+        for (xi, distance) in nodes.iter().zip(&mut distances) {
             self.jet(*xi, jet)?;
             size = size.max(jet.tangent[0].norm()).max(jet.tangent[1].norm());
             *distance = (self.point - jet.position).norm();
-            if *distance < nearest.0 {
-                nearest = (*distance, *xi);
+            if *distance < smallest {
+                (smallest, nearest) = (*distance, [*xi]);
             }
         }
         let tie = TIE * size;
@@ -228,7 +229,11 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
 
         let bounds = |xi: &Vec3| element.contains(xi, ABANDON);
         let centre = element.centre();
-        for start in [centre, (centre + nearest.1) * 0.5] {
+        // a facet with mid nodes may bend towards the point in several places
+        let bent = nodes.len() > element.ncorner();
+        let towards = if bent { nodes } else { &nearest[..] };
+        let starts = towards.iter().map(|&node| (centre + node) * 0.5);
+        for start in std::iter::once(centre).chain(starts) {
             if let Some((xi, _)) = self.face(start, bounds, jet)?
                 && element.contains(&xi, INSIDE)
             {
@@ -256,7 +261,7 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
                 }
             }
         }
-        for (xi, distance) in nodes.iter().zip(corner_distance).take(ncorner) {
+        for (xi, distance) in nodes.iter().zip(distances).take(element.ncorner()) {
             offer(*xi, Feature::Vertex, distance);
         }
         Ok(best.filter(|b| b.2.is_finite()))

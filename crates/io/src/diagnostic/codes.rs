@@ -297,11 +297,18 @@ codes! {
     ["a typing error", "a mixture of units"]
     ["write one of mm-N-MPa, m-N-Pa, m-MN-MPa, um-uN-MPa"]
 
-    NO_EFFECT "S0404" Input "something without effect"
+    STIFF_ELEMENTS "S0404" Model "linear triangles, tetrahedra or wedges"
+    "Strain is constant, or nearly so, within linear triangles, tetrahedra and wedges. In bending they are too stiff by a \
+     large factor unless there are many over the thickness, and near incompressibility they lock."
+    ["the mesher's default is elements of first order"]
+    ["mesh with quad4 or hex8, or with elements of second order (tri6, tet10)", "refine until the answer stays the same",
+     "silence with  allow = [\"S0404\"]  if it is meant so"]
+
+    NO_EFFECT "S0405" Input "something without effect"
     "The case says something that changes nothing, such as temperatures where no material expands, or a step without any \
      change."
     ["something it belongs to was forgotten", "it was left over from another case"]
-    ["add what is missing, as the message says", "delete it", "silence with  allow = [\"S0404\"]  if it is meant so"]
+    ["add what is missing, as the message says", "delete it", "silence with  allow = [\"S0405\"]  if it is meant so"]
 
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \

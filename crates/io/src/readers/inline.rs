@@ -181,7 +181,7 @@ mod tests {
                 "[mesh] nodes, entry 2: coordinate y of node 2 is NaN; coordinates must be finite",
                 "[mesh] nodes, entry 3: node 2 is defined a second time; give every node a number of its own",
                 "[mesh] elements, entry 1: element 1 refers to node 9, which the mesh does not have; correct the element or add the node",
-                "[mesh] elements, entry 2: there is no element type `tri`; supported are line2, tri3, quad4, tet4, hex8, wedge6",
+                "[mesh] elements, entry 2: there is no element type `tri`; supported are line2, line3, tri3, tri6, quad4, quad8, quad9, tet4, tet10, hex8, hex20, hex27, wedge6, wedge15",
                 "[mesh] elements, entry 3: element 3 has 2 nodes; a tri3 has 3",
                 "[mesh] elements, entry 4: element 1 is defined a second time; give every element a number of its own",
                 "[mesh] elements, entry 4: element 1 has node 1 twice; collapsed elements are not supported: use a type with fewer nodes",

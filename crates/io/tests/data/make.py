@@ -70,3 +70,57 @@ gmsh.model.addPhysicalGroup(3, [e[1][1]], 1, "brick")
 gmsh.model.addPhysicalGroup(2, [e[0][1]], 2, "top")
 gmsh.model.mesh.generate(3)
 both("brick")
+
+
+# A quarter of a ring of radii 1 and 2, of second-order cells of one kind, in space one high. The test holds the areas
+# and volumes that Gmsh finds by its own shape functions and rules.
+def ring(kind, dim, recombine, incomplete, layers=1):
+    gmsh.clear()
+    gmsh.model.add(kind)
+    geo = gmsh.model.geo
+    for tag, (x, y) in enumerate([(0, 0), (1, 0), (2, 0), (0, 2), (0, 1)]):
+        geo.addPoint(x, y, 0, 1, tag + 1)
+    geo.addLine(2, 3, 1)
+    geo.addCircleArc(3, 1, 4, 2)
+    geo.addLine(4, 5, 3)
+    geo.addCircleArc(5, 1, 2, 4)
+    geo.addCurveLoop([1, 2, 3, 4], 1)
+    geo.addPlaneSurface([1], 1)
+    for curve, n in ((1, 2), (2, 3), (3, 2), (4, 3)):
+        geo.mesh.setTransfiniteCurve(curve, n)
+    geo.mesh.setTransfiniteSurface(1)
+    if recombine:
+        geo.mesh.setRecombine(2, 1)
+    outer = 2
+    if dim == 3:
+        solid = geo.extrude([(2, 1)], 0, 0, 1, [layers] if layers else [], recombine=bool(layers))
+        outer = solid[3][1]
+    geo.synchronize()
+    gmsh.model.addPhysicalGroup(dim, [1], 1, "ring")
+    gmsh.model.addPhysicalGroup(dim - 1, [outer], 2, "outer")
+    gmsh.option.setNumber("Mesh.SecondOrderIncomplete", incomplete)
+    gmsh.model.mesh.generate(dim)
+    gmsh.model.mesh.setOrder(2)
+    save(f"ring_{kind}_41_text", 4.1, 0)
+    save(f"ring_{kind}_22_binary", 2.2, 1)
+    sizes = []
+    for d in (dim, dim - 1):
+        size = count = 0
+        (types, tags, _) = gmsh.model.mesh.getElements(d, 1 if d == dim else outer)
+        for element, cells in zip(types, tags):
+            points, weights = gmsh.model.mesh.getIntegrationPoints(element, "Gauss10")
+            entity = 1 if d == dim else outer
+            _, determinants, _ = gmsh.model.mesh.getJacobians(element, points, entity)
+            size += sum(w * j for w, j in zip(list(weights) * len(cells), determinants))
+            count += len(cells)
+        sizes.append((count, size))
+    print(kind, len(gmsh.model.mesh.getNodes()[0]), *sizes)
+
+
+ring("tri6", 2, False, 0)
+ring("quad9", 2, True, 0)
+ring("quad8", 2, True, 1)
+ring("tet10", 3, False, 0, layers=0)
+ring("hex27", 3, True, 0)
+ring("hex20", 3, True, 1)
+ring("wedge15", 3, False, 1)

@@ -208,7 +208,6 @@ fn tangents_match_differences_whatever_the_nodes_follow() {
                     error = error.max(largest(column.iter().copied()));
                     size = size.max(largest(out.residual.iter().copied()));
                 }
-                println!("{which} {ndim} {nonlinear}: {error:e} of {size}");
                 assert!(size > 0.01 && error < 1e-7, "{which} {ndim}: {error:e}");
             }
         }

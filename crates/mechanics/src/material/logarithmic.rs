@@ -1,3 +1,5 @@
+#![allow(clippy::needless_range_loop)] // indices are those of tensors, and several arrays share them
+
 use super::frame::Frame;
 use super::{MaterialError, Order, Response};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -57,12 +59,7 @@ impl Logarithmic {
 
     /// Turns `T` and `M`, in the principal axes, into `S` and its tangent in the global ones.
     pub fn pull_back(&self, order: Order, out: &mut Response) {
-        let mut theta = [[0.0; 3]; 3];
-        for (i, row) in theta.iter_mut().enumerate() {
-            for (j, value) in row.iter_mut().enumerate() {
-                *value = self.first(i, j);
-            }
-        }
+        let theta = self.firsts();
         let t = out.stress.to_mat3();
         let scale = Sym3::PAIRS.map(|(i, j)| theta[i][j]);
         let mut stress = out.stress.to_pairs();
@@ -76,13 +73,14 @@ impl Logarithmic {
                     *value *= a * b;
                 }
             }
+            let second = self.seconds(&theta);
             for i in 0..3 {
                 for j in 0..3 {
                     for k in 0..3 {
                         let halves =
                             if i == k { 1.0 } else { 0.5 } * if k == j { 1.0 } else { 0.5 };
                         out.tangent[PLACE[i][k]][PLACE[k][j]] +=
-                            4.0 * halves * t.rows[i][j] * self.second(&theta, [i, k, j]);
+                            4.0 * halves * t.rows[i][j] * second[i][k][j];
                     }
                 }
             }
@@ -99,11 +97,41 @@ impl Logarithmic {
         2.0 * (self.values[i] - self.values[j])
     }
 
-    /// `ln[c_i, c_j]`.
-    fn first(&self, i: usize, j: usize) -> f64 {
-        let x = self.distance(i, j) / self.c(j);
-        let share = if x == 0.0 { 1.0 } else { x.ln_1p() / x };
-        share / self.c(j)
+    /// `θ_ij = ln[c_i, c_j]`.
+    fn firsts(&self) -> [[f64; 3]; 3] {
+        let mut theta = [[0.0; 3]; 3];
+        for i in 0..3 {
+            for j in 0..=i {
+                let x = self.distance(i, j) / self.c(j);
+                let share = if x == 0.0 { 1.0 } else { x.ln_1p() / x };
+                theta[i][j] = share / self.c(j);
+                theta[j][i] = theta[i][j];
+            }
+        }
+        theta
+    }
+
+    /// `ln[c_i, c_j, c_k]`, the same in any order.
+    fn seconds(&self, theta: &[[f64; 3]; 3]) -> [[[f64; 3]; 3]; 3] {
+        let mut all = [[[0.0; 3]; 3]; 3];
+        for i in 0..3 {
+            for j in i..3 {
+                for k in j..3 {
+                    let value = self.second(theta, [i, j, k]);
+                    for [a, b, c] in [
+                        [i, j, k],
+                        [j, k, i],
+                        [k, i, j],
+                        [k, j, i],
+                        [j, i, k],
+                        [i, k, j],
+                    ] {
+                        all[a][b][c] = value;
+                    }
+                }
+            }
+        }
+        all
     }
 
     /// `ln[c_i, c_j, c_k]`, from the first differences.
@@ -144,10 +172,10 @@ const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 /// Principal values and axes (rows), by Jacobi's method: axes are orthonormal however close the values are.
 fn principal(tensor: &Sym3) -> ([f64; 3], Mat3) {
-    let mut a = tensor.to_mat3().rows;
+    let mut a = tensor.to_mat3().rows.map(|r| [r.x, r.y, r.z]);
     let mut axes = Mat3::IDENTITY.rows;
     for _ in 0..SWEEPS {
-        if a[0].y == 0.0 && a[1].z == 0.0 && a[0].z == 0.0 {
+        if a[0][1] == 0.0 && a[1][2] == 0.0 && a[0][2] == 0.0 {
             break;
         }
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
@@ -157,8 +185,9 @@ fn principal(tensor: &Sym3) -> ([f64; 3], Mat3) {
                 continue;
             }
             let theta = (a[q][q] - a[p][p]) / (2.0 * off);
-            let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-            let (cos, sin) = (1.0 / t.hypot(1.0), t / t.hypot(1.0));
+            let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+            let cos = (t * t + 1.0).sqrt().recip();
+            let sin = t * cos;
             a[p][p] -= t * off;
             a[q][q] += t * off;
             (a[p][q], a[q][p]) = (0.0, 0.0);
@@ -170,7 +199,7 @@ fn principal(tensor: &Sym3) -> ([f64; 3], Mat3) {
             (axes[p], axes[q]) = (u * cos - v * sin, u * sin + v * cos);
         }
     }
-    ([a[0].x, a[1].y, a[2].z], Mat3::from_rows(axes))
+    ([a[0][0], a[1][1], a[2][2]], Mat3::from_rows(axes))
 }
 
 #[cfg(test)]
@@ -185,12 +214,7 @@ mod tests {
                     let c = [base, base * (1.0 + middle * spread), base * (1.0 + spread)];
                     let e = c.map(|c| 0.5 * (c - 1.0));
                     let at = Logarithmic::new(&Sym3::diagonal(e[0], e[1], e[2])).unwrap();
-                    let mut theta = [[0.0; 3]; 3];
-                    for i in 0..3 {
-                        for j in 0..3 {
-                            theta[i][j] = at.first(i, j);
-                        }
-                    }
+                    let seconds = at.seconds(&at.firsts());
                     let d = |a: f64, b: f64| ((a - b) / b).ln_1p() / (a - b);
                     let inverse = |a: f64| a.recip();
                     let lower = if middle == 0.0 {
@@ -204,16 +228,15 @@ mod tests {
                         d(c[2], c[1])
                     };
                     let expected = (upper - lower) / (c[2] - c[0]);
-                    for order in [[0, 1, 2], [2, 0, 1], [1, 0, 2], [0, 2, 1]] {
-                        let value = at.second(&theta, order);
-                        assert!((value / expected - 1.0).abs() < 1e-11, "{value} {expected}");
-                    }
+                    let value = seconds[0][1][2];
+                    assert!((value / expected - 1.0).abs() < 1e-11, "{value} {expected}");
+                    assert_eq!(value, seconds[2][0][1]);
                 }
             }
         }
         // ln[a, a, a] = −1/(2a²)
         let at = Logarithmic::new(&Sym3::IDENTITY).unwrap();
-        assert_eq!(at.second(&[[0.0; 3]; 3], [0, 1, 2]), -1.0 / 18.0);
+        assert_eq!(at.seconds(&at.firsts())[0][1][2], -1.0 / 18.0);
     }
 
     #[test]

@@ -17,7 +17,7 @@
 //! from the outside in: stress-free directions, thermal expansion, turned axes.
 //!
 //! A law knows no degree of freedom. To add one: one file that implements [`Material`], one line in [`TABLE`] and the
-//! constants it needs in `Constants::sample`; the property tests of this room and of the solids run over the table.
+//! constants it needs in `Constants::sample`; the property tests of this room run over the table.
 
 mod constants;
 mod expanding;

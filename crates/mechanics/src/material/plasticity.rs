@@ -19,7 +19,7 @@ use signorini_geometry::tensor::Sym3;
 /// ```
 ///
 /// the scalar equation being solved exactly through the rows of the table. Finite strain: the same in the logarithmic
-/// strain `H = ½ ln C` ([Miehe, Apel, Lambrecht 2002]), `H_p` in the place of `ε_p`; the table is then Kirchhoff stress
+/// strain `H = ½ ln C` (Miehe, Apel, Lambrecht 2002), `H_p` in the place of `ε_p`; the table is then Kirchhoff stress
 /// over logarithmic plastic strain, true stress to the order of the elastic change of volume.
 ///
 /// The energy is the potential of the increment: what is stored elastically plus the plastic work so far, `∫ (q + a:N) dp`;
@@ -34,8 +34,6 @@ use signorini_geometry::tensor::Sym3;
 /// # Sources
 /// Simo, Hughes, *Computational Inelasticity* 1998, sections 3.3 and 3.4; Miehe, Apel, Lambrecht, *Comput. Methods Appl.
 /// Mech. Engrg.* 191 (2002) 5383–5425; Ortiz, Stainier, *Comput. Methods Appl. Mech. Engrg.* 171 (1999) 419–444.
-///
-/// [Miehe, Apel, Lambrecht 2002]: Self#sources
 #[derive(Clone, Debug)]
 pub struct Plasticity {
     lame: Lame,
@@ -43,6 +41,8 @@ pub struct Plasticity {
 }
 
 const NHISTORY: usize = 14;
+/// Place of the equivalent plastic strain.
+const PLASTIC: usize = 12;
 
 /// What a point remembers.
 #[derive(Clone, Copy)]
@@ -55,16 +55,13 @@ struct Memory {
 
 impl Memory {
     fn read(history: &[f64]) -> Self {
-        let mut h = [0.0; NHISTORY];
-        for (to, from) in h.iter_mut().zip(history) {
-            *to = *from;
-        }
-        let [a, b, c, d, e, f, g, i, j, k, l, m, plastic, work] = h;
+        let number = |at: usize| history.get(at).copied().unwrap_or_default();
+        let tensor = |at: usize| Sym3::from_pairs(std::array::from_fn(|i| number(at + i)));
         Self {
-            strain: Sym3::from_pairs([a, b, c, d, e, f]),
-            centre: Sym3::from_pairs([g, i, j, k, l, m]),
-            plastic,
-            work,
+            strain: tensor(0),
+            centre: tensor(6),
+            plastic: number(PLASTIC),
+            work: number(PLASTIC + 1),
         }
     }
 
@@ -97,8 +94,9 @@ impl Plasticity {
     /// The radial return, in whatever axes strain and memory are.
     fn integrate(&self, strain: Sym3, memory: &mut Memory, order: Order, out: &mut Response) {
         let mu = self.lame.mu;
-        self.lame.respond(&(strain - memory.strain), order, out);
-        let relative = deviator(out.stress) - memory.centre;
+        let elastic = strain - memory.strain;
+        self.lame.respond(&elastic, order, out);
+        let relative = deviator(elastic) * (2.0 * mu) - memory.centre;
         let q = relative.von_mises();
         let excess = q - self.hardening.radius(memory.plastic);
         if excess <= 0.0 {
@@ -180,10 +178,10 @@ impl Material for Plasticity {
     }
 
     fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
-        history.get(12).copied()
+        history.get(PLASTIC).copied()
     }
 }
 
-fn deviator(stress: Sym3) -> Sym3 {
-    stress - Sym3::IDENTITY * (stress.trace() / 3.0)
+fn deviator(tensor: Sym3) -> Sym3 {
+    tensor - Sym3::IDENTITY * (tensor.trace() / 3.0)
 }

@@ -1,3 +1,5 @@
+#![allow(clippy::needless_range_loop)] // indices are those of tensors, and several arrays share them
+
 use super::{Kinematics, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::Sym3;
 
@@ -10,8 +12,9 @@ use signorini_geometry::tensor::Sym3;
 /// ```
 ///
 /// The strains of the free directions that come in are ignored, stress and tangent there are zero, `across` is what was
-/// found. The potential is minimized by Newton's method: a tangent that is not positive definite is shifted, a step is
-/// halved until the energy or its slope falls and `I + 2E` is positive definite.
+/// found. The potential is minimized by Newton's method, at finite strain in logarithms of the free stretches, in which
+/// it is convex more often and constant volume is a straight line: a tangent that is not positive definite is shifted, a
+/// step is halved until the energy or its slope falls and `I + 2E` is positive definite.
 ///
 /// History: that of the law inside, then the free strains (tensor components, in the order of [`Sym3::PAIRS`]), from
 /// which the next search starts. Wraps every other wrapper: a law inside sees all six strains.
@@ -21,7 +24,7 @@ use signorini_geometry::tensor::Sym3;
 /// its linear contraction exceeds the thickness; that is [`MaterialError::NotConverged`].
 pub struct Reduced {
     inner: Box<dyn Material>,
-    /// Places of the free strains in [`Sym3::PAIRS`].
+    /// Places of the free strains in [`Sym3::PAIRS`], normal ones first.
     free: &'static [usize],
 }
 
@@ -32,6 +35,8 @@ const LATERAL: [usize; 5] = [1, 2, 3, 4, 5];
 /// The most free strains.
 const MOST: usize = 5;
 
+/// Volume ratio, squared, from which on the last free strains are no start.
+const FAR: f64 = 2.0;
 /// Newton steps at a point; damped ones included.
 const STEPS: usize = 60;
 /// A step this small, relative to the strain's size, is the last: what it leaves is of the order of its square.
@@ -83,47 +88,58 @@ impl Reduced {
         }
     }
 
-    /// The strain to start from: the free components last found, without their shears where those do not fit.
+    /// The strain to start from: the free components last found; where the given ones left those behind, free
+    /// directions without shear that keep the volume.
     fn first(&self, strain: &Strain, last: &[f64]) -> Result<Strain, MaterialError> {
         let first = self.with(strain, last);
-        if is_possible(&first) {
+        let ratio = (first.value * 2.0 + Sym3::IDENTITY).determinant();
+        let near = (FAR.recip()..FAR).contains(&ratio);
+        if strain.kinematics == Kinematics::Small || near && is_possible(&first) {
             return Ok(first);
         }
-        let mut straight: Vector = [0.0; MOST];
-        for ((s, &p), &value) in straight.iter_mut().zip(self.free).zip(last) {
-            *s = if p < 3 { value } else { 0.0 };
+        let straight = self.with(strain, &[0.0; MOST]);
+        let ratio = (straight.value * 2.0 + Sym3::IDENTITY).determinant();
+        if !is_possible(&straight) {
+            return Err(MaterialError::Inverted { ratio });
         }
-        let first = self.with(strain, &straight);
-        let ratio = (first.value * 2.0 + Sym3::IDENTITY).determinant();
-        if is_possible(&first) {
-            Ok(first)
-        } else {
-            Err(MaterialError::Inverted { ratio })
-        }
+        let normal = self.free.iter().filter(|p| **p < 3).count();
+        let stretched = 0.5 * (ratio.powf(-(normal as f64).recip()) - 1.0);
+        let free: Vector = std::array::from_fn(|i| if i < normal { stretched } else { 0.0 });
+        Ok(self.with(strain, &free))
     }
 
-    /// The factor of `C_ff`, shifted along its diagonal.
-    fn factor(&self, tangent: &[[f64; 6]; 6], shift: f64) -> Option<Matrix> {
+    /// The factor of `C_ff` with more on its diagonal.
+    fn factor(&self, tangent: &[[f64; 6]; 6], diagonal: &Vector) -> Option<Matrix> {
         let mut a = [[0.0; MOST]; MOST];
         for (i, &p) in self.free.iter().enumerate() {
             for (j, &q) in self.free.iter().enumerate() {
                 a[i][j] = tangent[p][q];
             }
-            a[i][i] += shift;
+            a[i][i] += diagonal[i];
         }
         cholesky(a, self.free.len())
     }
 
-    /// The step towards stress-free directions, shears doubled.
-    fn step(&self, at: &Response) -> Result<Vector, MaterialError> {
+    /// Newton's step towards stress-free directions, shears doubled, in the coordinates of [`Self::moved`].
+    fn step(&self, strain: &Strain, at: &Response) -> Result<Vector, MaterialError> {
         let stress = at.stress.to_pairs();
-        let mut step = [0.0; MOST];
-        for (s, &p) in step.iter_mut().zip(self.free) {
-            *s = -stress[p];
+        let finite = strain.kinematics == Kinematics::Finite;
+        let c = (strain.value * 2.0 + Sym3::IDENTITY).to_pairs();
+        let (mut step, mut curvature, mut weight) = ([0.0; MOST], [0.0; MOST], [1.0; MOST]);
+        for (i, &p) in self.free.iter().enumerate() {
+            step[i] = -stress[p];
+            let (j, k) = Sym3::PAIRS[p];
+            if finite {
+                weight[i] = (c[j] * c[k]).recip();
+            }
+            if finite && j == k {
+                curvature[i] = 2.0 * stress[p] / c[p];
+            }
         }
         let mut shift = 0.0;
         for _ in 0..STEPS {
-            if let Some(factor) = self.factor(&at.tangent, shift) {
+            let diagonal = std::array::from_fn(|i| curvature[i] + shift * weight[i]);
+            if let Some(factor) = self.factor(&at.tangent, &diagonal) {
                 solve(&factor, self.free.len(), &mut step);
                 return Ok(step);
             }
@@ -146,11 +162,18 @@ impl Reduced {
             .sum()
     }
 
-    /// The strain a share of a step further.
+    /// The strain a share of a step further; at finite strain in logarithms of the free normal components of `C`, which
+    /// stay positive.
     fn moved(&self, strain: &Strain, step: &Vector, share: f64) -> Strain {
         let mut pairs = strain.value.to_pairs();
         for (&p, s) in self.free.iter().zip(step) {
-            pairs[p] += if p < 3 { share * s } else { 0.5 * share * s };
+            let s = share * s;
+            let half = 0.5 + pairs[p]; // ½ C
+            pairs[p] += match (p < 3, strain.kinematics) {
+                (true, Kinematics::Finite) => half * (s / half).exp_m1(),
+                (true, Kinematics::Small) => s,
+                (false, _) => 0.5 * s,
+            };
         }
         Strain {
             value: Sym3::from_pairs(pairs),
@@ -171,10 +194,62 @@ impl Reduced {
         }
     }
 
+    /// The strain without stress in the free directions.
+    fn find(
+        &self,
+        mut at: Strain,
+        old: &[f64],
+        new: &mut [f64],
+        out: &mut Response,
+    ) -> Result<Strain, MaterialError> {
+        self.inner.respond(&at, old, new, Order::Tangent, out)?;
+        for _ in 0..STEPS {
+            let step = self.step(&at, out)?;
+            if largest(&step) <= LAST * self.size(&at) {
+                return Ok(self.moved(&at, &step, 1.0));
+            }
+            at = self.search(&at, &step, old, new, out)?;
+        }
+        Err(NOT_CONVERGED)
+    }
+
+    /// The longest share of a step, by halves, that brings the potential or its slope down; `out` goes along.
+    fn search(
+        &self,
+        at: &Strain,
+        step: &Vector,
+        old: &[f64],
+        new: &mut [f64],
+        out: &mut Response,
+    ) -> Result<Strain, MaterialError> {
+        let slope = self.slope(out, step);
+        let noise = 4.0 * f64::EPSILON * out.energy.abs();
+        let mut trial = Response::default();
+        let mut share = 1.0;
+        while share > SHORTEST {
+            let there = self.moved(at, step, share);
+            let answers = is_possible(&there)
+                && (self.inner)
+                    .respond(&there, old, new, Order::Tangent, &mut trial)
+                    .is_ok();
+            if answers {
+                let falls = trial.energy <= out.energy + DECREASE * share * slope + noise;
+                if falls || self.slope(&trial, step).abs() <= FLATTENING * slope.abs() {
+                    *out = trial;
+                    return Ok(there);
+                }
+            }
+            share *= 0.5;
+        }
+        Err(NOT_CONVERGED)
+    }
+
     /// Takes the stress-free directions out of a response.
     fn condense(&self, out: &mut Response) -> Result<(), MaterialError> {
         let n = self.free.len();
-        let factor = self.factor(&out.tangent, 0.0).ok_or(NOT_CONVERGED)?;
+        let factor = self
+            .factor(&out.tangent, &[0.0; MOST])
+            .ok_or(NOT_CONVERGED)?;
         let full = out.tangent;
         for q in 0..6 {
             let mut column = [0.0; MOST];
@@ -218,45 +293,8 @@ impl Material for Reduced {
     ) -> Result<(), MaterialError> {
         let (old, last) = old.split_at(self.inner.nhistory());
         let (new, found) = new.split_at_mut(self.inner.nhistory());
-        let mut at = self.first(strain, last)?;
-        self.inner.respond(&at, old, new, Order::Tangent, out)?;
-        let mut converged = false;
-        for _ in 0..STEPS {
-            let step = self.step(out)?;
-            if largest(&step) <= LAST * self.size(&at) {
-                at = self.moved(&at, &step, 1.0);
-                converged = true;
-                break;
-            }
-            let slope = self.slope(out, &step);
-            let mut share = 1.0;
-            loop {
-                let trial = self.moved(&at, &step, share);
-                let mut response = Response::default();
-                if is_possible(&trial)
-                    && self
-                        .inner
-                        .respond(&trial, old, new, Order::Tangent, &mut response)
-                        .is_ok()
-                {
-                    let noise = f64::EPSILON * out.energy.abs();
-                    let falls =
-                        response.energy <= out.energy + DECREASE * share * slope + 4.0 * noise;
-                    let left = self.slope(&response, &step);
-                    if falls || left.abs() <= FLATTENING * slope.abs() {
-                        (at, *out) = (trial, response);
-                        break;
-                    }
-                }
-                share *= 0.5;
-                if share < SHORTEST {
-                    return Err(NOT_CONVERGED);
-                }
-            }
-        }
-        if !converged {
-            return Err(NOT_CONVERGED);
-        }
+        let first = self.first(strain, last)?;
+        let at = self.find(first, old, new, out)?;
         self.inner.respond(&at, old, new, order, out)?;
         let mut stress = out.stress.to_pairs();
         let pairs = at.value.to_pairs();

@@ -1,4 +1,4 @@
-use super::ConstraintError;
+use super::{ConstraintError, Unheld};
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
 use thiserror::Error;
@@ -81,12 +81,9 @@ pub enum ModelError {
         /// Name of the contact.
         contact: String,
     },
-    /// A body that nothing can hold.
-    #[error("body \"{body}\" is held by nothing: no support, no motion, no contact")]
-    FreeBody {
-        /// Its name.
-        body: String,
-    },
+    /// A body with a motion that nothing can stop.
+    #[error("{} is free to {}: no support and no contact stops it", .0, .0.motion)]
+    FreeBody(Unheld),
     /// One dof with two motions in one step.
     #[error(
         "step \"{step}\" prescribes the {component} displacement of node {node} twice, differently"

@@ -30,22 +30,23 @@ mod steps;
 
 pub use constraints::ConstraintError;
 pub use error::{LoadError, ModelError};
+pub use held::Unheld;
 pub use parts::{
     BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart, ContactPart, Load,
     LoadPart, Parts, SidePart, SpringPart, StepPart, Target, Unknown,
 };
 
 use crate::contact::{Interface, Measure};
-use crate::solid::{Solid, SolidParts};
+use crate::material::Kinematics;
+use crate::solid::{Locking, Solid, SolidParts, Truss, TrussParts};
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
 use constraints::{Followers, Ties};
 use held::Held;
 use loads::Substance;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::surface::Carrier;
 use signorini_geometry::tensor::Vec3;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// What a contact became.
@@ -67,6 +68,19 @@ pub struct ContactSummary {
     pub facet_size: f64,
 }
 
+/// What is done against locking in the elements of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LockingSummary {
+    /// Name of the body.
+    pub body: String,
+    /// Type of the elements.
+    pub element: &'static str,
+    /// In steps of which size of strains.
+    pub kinematics: Kinematics,
+    /// What is done.
+    pub locking: Locking,
+}
+
 /// A system with the steps it is to go through.
 pub struct Model {
     /// What is solved.
@@ -75,10 +89,12 @@ pub struct Model {
     pub steps: Vec<Step>,
     /// The contacts, with what was chosen for them.
     pub contacts: Vec<ContactSummary>,
+    /// What was chosen against locking, by body, size of strains and element.
+    pub locking: Vec<LockingSummary>,
     /// Nodes that no body uses: they take no part.
     pub unused: Vec<NodeId>,
-    /// Bodies that nothing but contact holds.
-    pub held_by_contact: Vec<String>,
+    /// Motions of bodies that nothing but contact stops.
+    pub held_by_contact: Vec<Unheld>,
 }
 
 impl Model {
@@ -111,7 +127,6 @@ impl Model {
         let layout = followers.layout();
         let (elimination, ties) = followers.elimination(&layout)?;
         let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
-        let names: Vec<String> = bodies.iter().map(|b| b.name.clone()).collect();
         let modulus: Vec<Option<f64>> = bodies
             .iter()
             .map(|b| b.kind.material().map(|m| m.modulus()))
@@ -121,7 +136,6 @@ impl Model {
         }
         let substances: Vec<Substance> = bodies.iter().map(Substance::from).collect();
         let body_of_node = nodes_by_body(mesh, &bodies);
-        let held = Held::new(mesh, &bodies);
         let temperature = temperatures(temperature, &steps);
 
         let mut context = Context {
@@ -139,58 +153,82 @@ impl Model {
         let (mut steps, loads) = context.steps(steps)?;
         let elimination = Arc::make_mut(&mut context.elimination);
         followers.relate(&layout, &ties, elimination, &mut steps)?;
-        let loads = loads::terms(&context, &steps, loads)?;
         let elimination = context.elimination.clone();
 
+        let mut held = Held::new(mesh, space, &bodies, &carriers, &elimination);
+        held.springs(&springs);
+        held.constraints(&constraints);
+        contacts.iter().for_each(|contact| held.contact(contact));
+        if let Some(first) = steps.first() {
+            held.supports(&layout, &first.prescriptions);
+        }
+        let held_by_contact = held.judge()?;
+
         let mut terms: Vec<Box<dyn Term>> = Vec::new();
+        let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
+        sizes.retain(|k| {
+            steps
+                .iter()
+                .any(|s| s.nonlinear == (*k == Kinematics::Finite))
+        });
+        let mut locking_chosen = Vec::new();
         for body in bodies {
-            let BodyKind::Solid {
-                material,
-                integration,
-                locking,
-                ..
-            } = body.kind
-            else {
-                continue;
-            };
-            let solid = Solid::new(SolidParts {
-                name: &body.name,
-                mesh,
-                reference: reference.clone(),
-                cells: &body.cells,
-                layout,
-                space,
-                material,
-                integration,
-                locking,
-                temperature: temperature.clone(),
-            })?;
-            terms.push(Box::new(solid));
+            let (name, cells) = (&*body.name, &*body.cells);
+            let (reference, temperature) = (reference.clone(), temperature.clone());
+            match body.kind {
+                BodyKind::Solid {
+                    material,
+                    integration,
+                    locking,
+                    ..
+                } => {
+                    let solid = Solid::new(SolidParts {
+                        name,
+                        mesh,
+                        reference,
+                        cells,
+                        layout,
+                        space,
+                        material,
+                        integration,
+                        locking,
+                        temperature,
+                    })?;
+                    for &kinematics in &sizes {
+                        let chosen = solid.locking(kinematics)?.into_iter();
+                        locking_chosen.extend(chosen.map(|(element, locking)| LockingSummary {
+                            body: name.to_string(),
+                            element,
+                            kinematics,
+                            locking,
+                        }));
+                    }
+                    terms.push(Box::new(solid));
+                }
+                BodyKind::Truss { material, area, .. } => {
+                    terms.push(Box::new(Truss::new(TrussParts {
+                        name,
+                        mesh,
+                        reference,
+                        cells,
+                        layout,
+                        space,
+                        material,
+                        area,
+                        temperature,
+                    })?));
+                }
+                BodyKind::Rigid(_) => {}
+            }
         }
         terms.extend(connectors);
         let mut summaries = Vec::new();
-        let mut touching = BTreeSet::new();
         for contact in contacts {
             let (parts, summary) = context.contact(contact)?;
-            touching.extend(parts.pair.points.iter().copied());
-            touching.extend((0..parts.pair.primary.nfacet() as u32).flat_map(|f| {
-                match parts.pair.primary.carrier(f) {
-                    Carrier::Nodes(nodes) => nodes.to_vec(),
-                    _ => Vec::new(),
-                }
-            }));
             terms.push(Box::new(Interface::new(parts, layout, elimination.clone())));
             summaries.push(summary);
         }
         terms.extend(loads);
-        let held_by_contact = held.judge(
-            &names,
-            &layout,
-            &steps,
-            &elimination,
-            &ties.nodes,
-            &touching,
-        )?;
 
         let unused = (0..mesh.nnode() as NodeId)
             .filter(|n| body_of_node.get(*n as usize).is_none_or(|b| *b == u32::MAX))
@@ -207,6 +245,7 @@ impl Model {
             },
             steps,
             contacts: summaries,
+            locking: locking_chosen,
             unused,
             held_by_contact,
         })

@@ -1,11 +1,13 @@
 use super::ConstraintError;
 use super::constraints::components;
-use super::{Change, Context, Load, LoadPart, ModelError, StepPart, Target, label};
+use super::{Change, Context, Load, LoadPart, ModelError, StepPart, Target, label, loads};
 use crate::solve::{Motion, Prescription, Step};
-use crate::system::{Dof, DofName, Idealisation, NO_DOF};
+use crate::system::{Dof, DofName, Idealisation, NO_DOF, Term};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+type Terms = Vec<Box<dyn Term>>;
 
 /// Component of a carrier along the axis of an axisymmetric model.
 const AXIAL: usize = 1;
@@ -70,11 +72,8 @@ impl Context<'_> {
         Ok(dofs.into_iter().filter(|&d| d != NO_DOF).collect())
     }
 
-    /// What is prescribed in each step, and the loads of each.
-    pub(super) fn steps(
-        &self,
-        parts: Vec<StepPart>,
-    ) -> Result<(Vec<Step>, Vec<Vec<LoadPart>>), ModelError> {
+    /// What is prescribed in each step, and the loads of all steps as terms.
+    pub(super) fn steps(&self, parts: Vec<StepPart>) -> Result<(Vec<Step>, Terms), ModelError> {
         let mut prescribed: BTreeMap<Dof, Motion> = BTreeMap::new();
         for body in 0..self.layout.nrigid as RigidId {
             for dof in components(&self.layout, body).filter(|d| !self.ties.free.contains(d)) {
@@ -146,7 +145,8 @@ impl Context<'_> {
                 prescriptions: prescriptions.collect(),
             });
         }
-        Ok((steps, loads))
+        let terms = loads::terms(self, &steps, loads)?;
+        Ok((steps, terms))
     }
 
     /// The unknowns of carriers along which loads act.

@@ -2,6 +2,7 @@ use super::kernel::Remedy;
 use crate::material::{Kinematics, Material, Order, Response, Strain};
 use crate::system::Idealisation;
 use signorini_geometry::element::ReferenceElement;
+use signorini_geometry::element::quadrature::{self, Rule};
 use signorini_geometry::tensor::Sym3;
 use std::fmt;
 
@@ -23,9 +24,9 @@ pub enum Locking {
     Auto,
     /// Nothing.
     None,
-    /// The volumetric strain is averaged over the element; small strain.
+    /// The volumetric strain is projected onto a coarser field; small strain.
     BBar,
-    /// The volume ratio is averaged over the element, in variational form; finite strain.
+    /// The volume ratio is projected onto a coarser field, in variational form; finite strain.
     FBar,
     /// Incompatible modes, condensed; small strain only, for they are unstable in compression at finite strain.
     Incompatible,
@@ -156,11 +157,24 @@ impl Situation {
         }
     }
 
+    /// The quadrature rule; more points than usual where fewer would leave motions free: beside the axis of revolution,
+    /// where the hoop is a strain of its own, and in tetrahedra whose dilatation counts only once.
+    pub fn rule(&self, projected: bool) -> &'static Rule {
+        let revolved = self.space == Idealisation::Axisymmetric;
+        match (self.element.name(), self.integration) {
+            ("tri3", _) if revolved => &quadrature::TRI_3,
+            ("tri6", _) if revolved => &quadrature::TRI_6,
+            ("tet10", _) if projected => &quadrature::TET_14,
+            (_, Integration::Full) => self.element.full_rule(),
+            (_, Integration::Reduced) => self.element.reduced_rule(),
+        }
+    }
+
     /// Terms of the polynomial onto which the dilatation is projected: constant, or linear where the displacements hold
     /// enough bubbles for it.
     pub fn ndilatation(&self) -> usize {
         match self.element.name() {
-            "quad9" | "hex27" => 1 + self.element.dim(),
+            "quad8" | "quad9" | "hex20" | "hex27" => 1 + self.element.dim(),
             _ => 1,
         }
     }

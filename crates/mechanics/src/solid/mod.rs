@@ -1,26 +1,65 @@
-//! Deformable solids: elements of a body, small strain or total Lagrangian, in space and in plane strain.
+//! Deformable bodies: solids in space, in the plane and of revolution, and bars; small strain or total Lagrangian.
 //!
 //! | symbol | name in code | shape |
 //! |---|---|---|
-//! | N_I,X | `gradient` | `nnode` × `ndim` |
-//! | H = ∂u/∂X, F = I + H | `h`, `f` | 3 × 3; in plane strain F_33 = 1 |
-//! | B_I | `b` | `nstrain` × `ndim` of each node; shears doubled |
-//! | w | `weight` | quadrature weight × det J × thickness |
+//! | N_I,X | `gradient` | `nnode` × `NG`: rows of the gradient, in axisymmetry with N_I/R as the third |
+//! | H = ∂u/∂X, F = I + H | `h`, `f` | 3 × 3; F_33 = 1 in the plane, 1 + u_r/R in axisymmetry |
+//! | w | `weight` | quadrature weight × det J × thickness, or × 2πR |
+//! | A | `moduli` | derivative of F S with respect to H |
 //!
-//! With the strain `E = ½(H + Hᵀ + HᵀH)` (the last term only at finite strain) and the stress `S` of the material,
+//! With the strain `E = ½(H + Hᵀ + HᵀH)` (the last term only at finite strain), the stress `S` and the tangent `C` of the
+//! material,
 //!
 //! ```text
-//! f_I  = Σ w B_Iᵀ S                                    (E1)
-//! K_IJ = Σ w (B_Iᵀ C B_J + (N_I,X · S N_J,X) I)         (E2)   second part only at finite strain
-//! B_I  : δE_ab (doubled for a ≠ b) = F_ia N_I,b + F_ib N_I,a  for the displacement i   (E3), F = I at small strain
-//! σ    = F S Fᵀ / det F                                 (E4)
+//! f_Ii    = Σ w F_ir S_ra N_I,a                                                                 (E1)
+//! K_Ii,Jk = Σ w N_I,a A_iakb N_J,b,   A_iakb = F_ir C_rasb F_ks + δ_ik S_ab                      (E2)
+//! δE_ab   = ½ (F_ia N_I,b + F_ib N_I,a) for the displacement i of node I                        (E3)
+//! σ       = F S Fᵀ / det F                                                                      (E4)
 //! ```
 //!
-//! `E` comes from `H`, not from `FᵀF − I`, so that small strains keep their digits. An element whose reference map or
-//! whose `F` has no positive determinant is an error that names it. Source: Bonet and Wood 2008, chapters 4, 8, 9.
+//! with `F = I` and without `δ_ik S_ab` at small strain. `E` comes from `H`, not from `FᵀF − I`, so that small strains
+//! keep their digits. An element whose reference map or whose `F` has no positive determinant is an error that names it.
+//! In plane stress the law is wrapped so that `S_zz` vanishes; the strain across follows, and with it the present
+//! thickness in (E4). In axisymmetry x is the radius, never negative; nodes may lie on the axis. Strains that are
+//! reported are those the material sees: linearized, or `½ ln(F Fᵀ)`.
 //!
-//! To add an element: its file in `geometry`, and one line in [`kernel`]'s table. Limits: full integration, no remedy
-//! against locking yet.
+//! # Locking
+//!
+//! | remedy | `locking` | what it is | where |
+//! |---|---|---|---|
+//! | B-bar, F-bar | `b-bar`, `f-bar` | the dilatation projected, [`kernel`]`::dilatation` (E5) to (E10) | not in plane stress |
+//! | incompatible modes | `incompatible` | condensed, [`kernel`]`::modes` (E11), (E12) | quad4, hex8; small strain |
+//! | reduced integration | | fewer points | quad8, hex20 |
+//!
+//! B-bar is for small strain and F-bar, its counterpart, for finite strain; both keep an energy and with it a symmetric
+//! tangent. The dilatation is projected onto constants (quad4, hex8, tri6, tet10, wedge15) or linear polynomials (quad8,
+//! quad9, hex20, hex27): the most that stays free of oscillating pressures. tri6, tet10 and wedge15 pay for it with
+//! one order of convergence of displacements. `auto` chooses, for each size of strains:
+//!
+//! | element | ordinary material, small | ordinary, finite | keeps its volume, small | keeps its volume, finite |
+//! |---|---|---|---|---|
+//! | tri3, tet4, wedge6 | none | none | none | none |
+//! | quad4, hex8 | incompatible | none | b-bar | f-bar |
+//! | quad4 in plane stress | incompatible | none | incompatible | none |
+//! | tri6, quad8, quad9, tet10, wedge15, hex20, hex27 | none | none | b-bar | f-bar |
+//! | the same in plane stress | none | none | none | none |
+//! | quad8, hex20 with reduced integration | none | none | none | none |
+//!
+//! A material *keeps its volume* where it is plastic or its bulk and shear moduli are those of `ν ≥ 0.45`. tri3, tet4
+//! and wedge6 have no remedy: their dilatation is constant already, or nearly so, and they stay stiff in bending and lock
+//! where volume is kept; quadratic elements are the way out. What was chosen can be read back, [`Solid::locking`].
+//!
+//! # History
+//!
+//! The accepted history of every quadrature point lies here, and beside it the incompatible modes. Evaluation is pure:
+//! it starts from the accepted history, and what comes out is kept only by `accept`, which evaluates once more.
+//!
+//! Sources: Bonet and Wood 2008, chapters 4, 8, 9; Hughes, IJNME 15, 1980 (B-bar); de Souza Neto, Perić, Dutko, Owen,
+//! IJSS 33, 1996, made variational after Broccardo, Micheloni, Krysl, IJNME 79, 2009 (F-bar); Taylor, Beresford, Wilson,
+//! IJNME 10, 1976 (incompatible modes); Simo, Taylor, Pister, CMAME 51, 1985 (mean dilatation).
+//!
+//! To add an element: its file in `geometry`, and one line in each of the [`kernel`]'s tables that has its dimension.
+//! Limits: quad4 and hex8 have no remedy in bending at finite strain; a material's history goes on unchanged where a step of small strain is followed by one of finite strain.
 
 mod choice;
 mod dense;
@@ -29,6 +68,8 @@ mod report;
 mod term;
 #[cfg(test)]
 mod tests;
+mod truss;
 
 pub use choice::{Integration, Locking};
 pub use term::{Solid, SolidError, SolidParts};
+pub use truss::{Truss, TrussParts};

@@ -50,6 +50,43 @@ fn linear(of: &dyn ReferenceElement) -> Option<element::Element> {
     candidates.min_by_key(|e| e.nnode())
 }
 
+/// The means over a cell.
+#[derive(Default)]
+pub(super) struct CellMeans {
+    volume: f64,
+    stress: Sym3,
+    strain: Sym3,
+    plastic_strain: Option<f64>,
+}
+
+impl CellMeans {
+    /// Takes a point into the means.
+    pub fn add(&mut self, volume: f64, stress: Sym3, strain: Sym3, plastic_strain: Option<f64>) {
+        self.volume += volume;
+        let share = volume / self.volume;
+        self.stress = self.stress + (stress - self.stress) * share;
+        self.strain = self.strain + (strain - self.strain) * share;
+        if let Some(value) = plastic_strain {
+            let mean = self.plastic_strain.unwrap_or(0.0);
+            self.plastic_strain = Some(mean + (value - mean) * share);
+        }
+    }
+
+    /// Writes them into a frame.
+    pub fn put(&self, frame: &mut Frame, id: CellId) {
+        let (block, cell) = (id.block as usize, id.index as usize);
+        put(frame.cell_stress.get_mut(block), cell, self.stress);
+        put(frame.cell_strain.get_mut(block), cell, self.strain);
+        if let Some(value) = self.plastic_strain {
+            if frame.cell_plastic_strain.is_empty() {
+                let cells = frame.cell_stress.iter().map(|c| vec![0.0; c.len()]);
+                frame.cell_plastic_strain = cells.collect();
+            }
+            put(frame.cell_plastic_strain.get_mut(block), cell, value);
+        }
+    }
+}
+
 /// Adds a cell's samples to a frame: its own means, and its share of those of its nodes.
 pub(super) fn add(
     frame: &mut Frame,
@@ -57,19 +94,17 @@ pub(super) fn add(
     nodes: &[NodeId],
     extrapolation: &[f64],
     samples: &[Sample],
-    has: Has,
 ) {
-    let volume: f64 = samples.iter().map(|s| s.volume).sum();
-    let mean = sum(samples, samples.iter().map(|s| s.volume / volume));
-    let (block, cell) = (id.block as usize, id.index as usize);
-    put(frame.cell_stress.get_mut(block), cell, mean.stress);
-    put(frame.cell_strain.get_mut(block), cell, mean.strain);
-    if has.plastic_strain {
-        let cells = frame.cell_plastic_strain.get_mut(block);
-        put(cells, cell, mean.plastic_strain);
+    let mut means = CellMeans::default();
+    for s in samples {
+        means.add(s.volume, s.stress, s.strain, s.plastic_strain);
+    }
+    means.put(frame, id);
+    let plastic = means.plastic_strain.is_some();
+    if plastic {
+        frame.plastic_strain.resize(frame.stress.len(), 0.0);
     }
     for (&node, weights) in nodes.iter().zip(extrapolation.chunks_exact(samples.len())) {
-        let value = sum(samples, weights.iter().copied());
         let node = node as usize;
         let Some(weight) = frame.stress_weight.get_mut(node) else {
             continue;
@@ -77,61 +112,27 @@ pub(super) fn add(
         // running mean
         *weight += 1.0;
         let share = weight.recip();
+        let pairs = || samples.iter().zip(weights);
         if let Some(to) = frame.stress.get_mut(node) {
-            *to = *to + (value.stress - *to) * share;
+            let value = pairs().fold(Sym3::ZERO, |sum, (s, w)| sum + s.stress * *w);
+            *to = *to + (value - *to) * share;
         }
         if let Some(to) = frame.strain.get_mut(node) {
-            *to = *to + (value.strain - *to) * share;
+            let value = pairs().fold(Sym3::ZERO, |sum, (s, w)| sum + s.strain * *w);
+            *to = *to + (value - *to) * share;
         }
-        if has.plastic_strain
-            && let Some(to) = frame.plastic_strain.get_mut(node)
-        {
+        if plastic && let Some(to) = frame.plastic_strain.get_mut(node) {
+            let value: f64 = pairs()
+                .map(|(s, w)| s.plastic_strain.unwrap_or(0.0) * w)
+                .sum();
             // an equivalent strain is never negative, extrapolated or not
-            *to += (value.plastic_strain.max(0.0) - *to) * share;
+            *to += (value.max(0.0) - *to) * share;
         }
     }
-}
-
-/// Which fields a body has.
-#[derive(Clone, Copy)]
-pub(super) struct Has {
-    pub plastic_strain: bool,
-}
-
-/// Makes room in a frame for the fields that not every model has.
-pub(super) fn make_room(frame: &mut Frame, has: Has) {
-    if has.plastic_strain {
-        frame.plastic_strain.resize(frame.stress.len(), 0.0);
-        let cells = frame.cell_stress.iter().map(|c| vec![0.0; c.len()]);
-        if frame.cell_plastic_strain.is_empty() {
-            frame.cell_plastic_strain = cells.collect();
-        }
-    }
-}
-
-fn sum(samples: &[Sample], weights: impl Iterator<Item = f64>) -> Sample {
-    let mut out = Sample::default();
-    for (sample, w) in samples.iter().zip(weights) {
-        out.stress = out.stress + sample.stress * w;
-        out.strain = out.strain + sample.strain * w;
-        out.plastic_strain += sample.plastic_strain * w;
-    }
-    out
 }
 
 fn put<T>(cells: Option<&mut Vec<T>>, cell: usize, value: T) {
     if let Some(to) = cells.and_then(|c| c.get_mut(cell)) {
         *to = value;
-    }
-}
-
-impl Default for Sample {
-    fn default() -> Self {
-        Self {
-            stress: Sym3::ZERO,
-            strain: Sym3::ZERO,
-            plastic_strain: 0.0,
-            volume: 0.0,
-        }
     }
 }

@@ -1,6 +1,6 @@
 use super::choice::{Situation, keeps_volume};
 use super::kernel::{Element, Failure, Kernel, Output, Points, Remedy, Sample, kernel};
-use super::report::{self, Has};
+use super::report;
 use super::{Integration, Locking};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced};
 use crate::system::{
@@ -116,6 +116,12 @@ pub enum SolidError {
         label: u64,
         /// Length, or cross-section.
         what: &'static str,
+    },
+    /// A bar in an axisymmetric model.
+    #[error("truss \"{body}\" is in an axisymmetric model: bars exist in space and in the plane")]
+    BarOfRevolution {
+        /// Name of the body.
+        body: String,
     },
     /// A remedy that an element does not have.
     #[error(
@@ -411,15 +417,9 @@ impl Cells {
             treatment(Kinematics::Small)?,
             treatment(Kinematics::Finite)?,
         );
-        let Situation {
-            element,
-            integration,
-            ..
-        } = situation(Kinematics::Small);
-        let rule = match integration {
-            Integration::Full => element.full_rule(),
-            Integration::Reduced => element.reduced_rule(),
-        };
+        let element = situation(Kinematics::Small).element;
+        let projected = [&small, &finite].map(|t| t.locking.map(Locking::remedy));
+        let rule = situation(Kinematics::Small).rule(projected.contains(&Ok(Remedy::Dilatation)));
         let modes = match small.locking {
             Ok(Locking::Incompatible) => element.dim() * element.dim(),
             _ => 0,
@@ -638,18 +638,12 @@ impl Term for Solid {
     }
 
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
-        let mut start = vec![0.0; self.material.nhistory()];
-        self.material.start(&mut start);
-        let has = Has {
-            plastic_strain: self.material.plastic_strain(&start).is_some(),
-        };
-        report::make_room(frame, has);
         let mut scratch = Scratch::default();
         for chunk in 0..self.chunks.len() {
             let wanted = Wanted::Samples;
             self.each(chunk, state, wanted, &mut scratch, |block, cell, _, s| {
                 let (id, nodes) = (block.ids[cell], block.nodes_of(cell));
-                report::add(frame, id, nodes, &block.extrapolation, &s.samples, has);
+                report::add(frame, id, nodes, &block.extrapolation, &s.samples);
             })?;
         }
         if let Some(field) = &self.temperature {

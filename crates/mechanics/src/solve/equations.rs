@@ -93,15 +93,18 @@ impl Equations {
         self.solver.analyze(&problem)
     }
 
-    /// A rigid body that may turn about some axes and is held about others carries a moment at equilibrium, and a moment
-    /// makes the stiffness against rotations unsymmetric.
+    /// A moment on a carrier makes the stiffness against its rotations unsymmetric. A rigid body that may turn about some
+    /// axes and is held about others carries one at equilibrium; a carrier of deformable nodes carries one as soon as
+    /// it may turn at all.
     fn turning(&self, system: &System) -> Symmetry {
         let layout = &system.layout;
         let partly = (0..layout.nrigid as u32).any(|body| {
             let rotations = (0..3).map(|axis| layout.rotation(body, axis));
             let free =
                 rotations.filter(|&d| self.equation.get(d as usize).is_some_and(|e| *e != NONE));
-            (1..3).contains(&free.count())
+            let felt = system.elimination.is_felt(layout.rotation(body, 2), layout);
+            let few = if felt { 4 } else { 3 };
+            (1..few).contains(&free.count())
         });
         if partly && layout.ndim == 3 {
             Symmetry::Unsymmetric

@@ -31,6 +31,7 @@
 
 mod equations;
 mod event;
+mod forecast;
 mod line_search;
 mod newton;
 mod stepping;
@@ -38,6 +39,7 @@ mod stepping;
 mod tests;
 
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
+pub use forecast::{Cost, forecast};
 pub use newton::{Failure, LineSearch, NewtonSettings};
 pub use stepping::{
     Increments, Motion, Outcome, Prescription, RunError, Step, Stepper, StepperSettings,

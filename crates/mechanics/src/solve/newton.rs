@@ -290,9 +290,18 @@ impl Newton {
         let mut alpha = 1.0;
         let mut decrement = 0.0;
         let mut unsettled = None;
+        let nmotion = system.layout.nmotion();
         for iterations in 0.. {
             self.prepare(system)?;
-            self.assemble(system, Order::Tangent)?;
+            let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
+            let little = iterations > 0 && correction <= CORRECTION * moved;
+            // after a small correction there is probably no need for a tangent
+            let first = if little {
+                Order::Residual
+            } else {
+                Order::Tangent
+            };
+            self.assemble(system, first)?;
             let judgement = self.judge(system);
             let (flips, repeat) = verdicts(system, &self.trial);
             report(&IterationRecord {
@@ -310,10 +319,7 @@ impl Newton {
             });
             let settled = repeat.is_none() || iterations == 0;
             unsettled = repeat.or(unsettled);
-            let nmotion = system.layout.nmotion();
-            let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
-            let still = judgement.round_off || (iterations > 0 && correction <= CORRECTION * moved);
-            if !motion && judgement.small && settled && still {
+            if !motion && judgement.small && settled && (judgement.round_off || little) {
                 return Ok(Converged {
                     iterations,
                     residual: judgement.residual,
@@ -335,6 +341,9 @@ impl Newton {
                     force: judgement.force,
                     unsettled,
                 });
+            }
+            if first == Order::Residual {
+                self.assemble(system, Order::Tangent)?;
             }
             // where only the size of the next correction is left to show, the last factor tells it
             let nearly = iterations > 0 && !motion && judgement.small && settled;

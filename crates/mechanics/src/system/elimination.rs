@@ -481,6 +481,14 @@ impl Elimination {
             }
             out.start.push(out.terms.len());
         }
+        // what follows in one direction only turns about that one, too, once a force acts on it
+        for k in 0..out.turns.len() {
+            let turn = out.turns[k].0;
+            let about = layout.rotation(turn.carrier, turn.axis);
+            if about != NO_DOF {
+                self.linear(about, 1.0, &mut |d: Dof, _: f64| _ = out.place(d));
+            }
+        }
         let (n, m) = (dofs.len(), out.dofs.len());
         out.force.resize(m, 0.0);
         for (ends, f) in out.start.windows(2).zip(force) {

@@ -3,7 +3,7 @@
 use super::carriers::Carriers;
 use super::names::{Cells, Names};
 use super::quoted;
-use signorini_geometry::mesh::CellId;
+use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, Body, Case, Name};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
@@ -12,6 +12,7 @@ use signorini_mechanics::material::{
     Plasticity,
 };
 use signorini_mechanics::model::{BodyKind, BodyPart};
+use std::collections::BTreeMap;
 
 /// The bodies of a case, in its order.
 pub(super) fn bodies(
@@ -212,4 +213,36 @@ fn oriented(
             None
         }
     }
+}
+
+/// Elements that are too stiff in bending.
+const STIFF: [&str; 3] = ["tri3", "tet4", "wedge6"];
+
+/// A warning for each deformable body of linear triangles, tetrahedra or wedges.
+pub(super) fn stiff_elements(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Diagnostics {
+    let mut found = Diagnostics::new();
+    for body in case.bodies.iter().filter(|b| !b.rigid) {
+        let groups = body.groups.iter();
+        let cells = groups.flat_map(|g| names.cells(g, &mut Diagnostics::new()).solids);
+        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        for element in cells.filter_map(|cell| mesh.element(cell)) {
+            if STIFF.contains(&element.name()) {
+                *kinds.entry(element.name()).or_default() += 1;
+            }
+        }
+        if kinds.is_empty() {
+            continue;
+        }
+        let counts: Vec<String> = kinds.iter().map(|(k, n)| format!("{n} {k}")).collect();
+        let group = body.groups.first().map_or("", |g| g.value.as_str());
+        found.push(
+            Diagnostic::warning(
+                &codes::STIFF_ELEMENTS,
+                format!("body \"{group}\" has {}: too stiff in bending", counts.join(", ")),
+            )
+            .at(&body.place, "")
+            .help("use quad4 or hex8, elements of second order, or several over the thickness; allow = [\"S0404\"] silences"),
+        );
+    }
+    found
 }

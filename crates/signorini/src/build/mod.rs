@@ -121,15 +121,20 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
             return Err(found);
         }
     };
-    for body in &model.held_by_contact {
+    for unheld in &model.held_by_contact {
         found.push(
             Diagnostic::warning(
                 &codes::HELD_BY_CONTACT,
-                format!("body \"{body}\" is held only by contact"),
+                format!("{unheld} is held only by contact"),
             )
+            .note(format!("without contact it is free to {}", unheld.motion))
             .help("hold it by a support, or prescribe its motion with `move` instead of `load`"),
         );
     }
+
+    found.append(bodies::stiff_elements(&case, &names, &mesh));
+    let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
+    found.silence(&allowed);
 
     let contacts: Vec<ContactInfo> = model
         .contacts

@@ -64,9 +64,12 @@ pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             of_contact(contact).map(|c| &c.place),
             "give one of the bodies a `material`, or a `penalty` to the contact",
         ),
-        ModelError::FreeBody { body } => (
+        ModelError::FreeBody(free) => (
             &codes::FREE_BODY,
-            of_body(body).map(|b| &b.place),
+            free.bodies
+                .first()
+                .and_then(|b| of_body(b))
+                .map(|b| &b.place),
             "add a [[step.fix]] or [[step.move]] on it in the first step",
         ),
         ModelError::Clash { step, .. } => (
@@ -106,6 +109,11 @@ fn of_solid_error(error: &SolidError) -> (&'static Code, &str, &'static str) {
         SolidError::NotBar { body, .. } => {
             (&codes::WRONG_KIND, body, "name a group of line elements")
         }
+        SolidError::BarOfRevolution { body, .. } => (
+            &codes::WRONG_KIND,
+            body,
+            "a line turned about the axis is a shell: mesh it with solids",
+        ),
         SolidError::NoSize { body, .. } => (
             &codes::BAD_ELEMENTS,
             body,

@@ -44,6 +44,8 @@ pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Pa
         Err(found) => return refused(&joined(warnings, found)),
     };
     let mut found = joined(warnings, std::mem::take(&mut model.warnings));
+    let is_by_contact = |one: &Diagnostic| one.code.id == codes::HELD_BY_CONTACT.id;
+    let is_held = !found.iter().any(is_by_contact);
     let output = signorini::run::check_output(&model);
     let preview = match preview::preview(&mut model) {
         Ok(preview) if output.is_ok() => preview,
@@ -58,6 +60,9 @@ pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Pa
     let out = Console::stdout();
     for line in &preview.lines {
         out.line(line);
+    }
+    if is_held {
+        out.line("supports hold every body");
     }
     if let Some(folder) = folder {
         let path = folder.join("check.vtu");

@@ -4,14 +4,25 @@ use signorini_geometry::element::Element;
 
 /// The type and the order of nodes that VTK has for an element.
 ///
-/// VTK's wedge has the normal of its first triangle pointing out, ours in, as Gmsh and Abaqus have it.
-const TABLE: [(&str, u8, &[usize]); 6] = [
+/// VTK's hexahedron of 27 nodes has the centres of its sides at -x, +x, -y, +y, -z, +z. Its wedge has the normal of the
+/// first triangle pointing in, by its shape functions and its quality measures as by ours; the faces and the volume that
+/// VTK 9.2 and older give it are turned inside out.
+#[rustfmt::skip]
+const TABLE: [(&str, u8, &[usize]); 14] = [
     ("line2", 3, &[0, 1]),
+    ("line3", 21, &[0, 1, 2]),
     ("tri3", 5, &[0, 1, 2]),
+    ("tri6", 22, &[0, 1, 2, 3, 4, 5]),
     ("quad4", 9, &[0, 1, 2, 3]),
+    ("quad8", 23, &[0, 1, 2, 3, 4, 5, 6, 7]),
+    ("quad9", 28, &[0, 1, 2, 3, 4, 5, 6, 7, 8]),
     ("tet4", 10, &[0, 1, 2, 3]),
+    ("tet10", 24, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
     ("hex8", 12, &[0, 1, 2, 3, 4, 5, 6, 7]),
-    ("wedge6", 13, &[0, 2, 1, 3, 5, 4]),
+    ("hex20", 25, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19]),
+    ("hex27", 29, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 25, 23, 22, 24, 20, 21, 26]),
+    ("wedge6", 13, &[0, 1, 2, 3, 4, 5]),
+    ("wedge15", 26, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]),
 ];
 
 /// VTK's type of a single point.
@@ -63,6 +74,7 @@ impl Cells {
 mod tests {
     use super::*;
     use signorini_geometry::element;
+    use signorini_io::fs::{Fs, RealFs};
     use signorini_io::writers::vtu;
 
     #[test]
@@ -76,5 +88,48 @@ mod tests {
             seen.sort_unstable();
             assert!(seen.iter().zip(&nodes).all(|(a, b)| *a == b + 10));
         }
+    }
+
+    /// Writes `sample_cells.vtu` with a cell of every element, curved where it can be, and `sample_cells.json` for
+    /// `scripts/check_vtu.py` into the folder SIGNORINI_SAMPLES. A map `(x + f(y, z), y + g(z), z)` keeps the measure.
+    #[test]
+    #[ignore = "writes files for viewers: into the folder SIGNORINI_SAMPLES, else a temporary one"]
+    fn a_sample_of_every_cell_is_written() {
+        let (mut cells, mut points, mut measures) = (Cells::default(), Vec::new(), Vec::new());
+        for element in element::TABLE {
+            let shift = points.len() as u32;
+            let nodes: Vec<u32> = (0..element.nnode() as u32).collect();
+            let bend = if element.nnode() > element.ncorner() {
+                0.2
+            } else {
+                0.0
+            };
+            for xi in element.nodes() {
+                let x = xi.x + bend * (xi.y * xi.y + 0.7 * xi.z * xi.z);
+                points.push([x, xi.y + 0.9 * bend * xi.z * xi.z, xi.z]);
+            }
+            assert!(cells.push(element, &nodes, shift));
+            measures.push(element.full_rule().weights.iter().sum::<f64>());
+        }
+        let folder = std::env::var_os("SIGNORINI_SAMPLES").map_or_else(
+            || std::env::temp_dir().join("signorini-samples"),
+            std::path::PathBuf::from,
+        );
+        RealFs.create_dir_all(&folder).unwrap();
+        let grid = vtu::Grid {
+            points: &points,
+            types: &cells.types,
+            offsets: &cells.offsets,
+            connectivity: &cells.connectivity,
+            ..vtu::Grid::default()
+        };
+        let path = folder.join("sample_cells.vtu");
+        vtu::write(&RealFs, &path, &grid, &vtu::Options::default()).unwrap();
+        let expected = format!(
+            r#"{{ "points": {points:?}, "types": {:?}, "measures": {measures:?} }}"#,
+            cells.types
+        );
+        let path = folder.join("sample_cells.json");
+        RealFs.write_atomic(&path, expected.as_bytes()).unwrap();
     }
 }

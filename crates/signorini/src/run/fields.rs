@@ -3,27 +3,47 @@
 use signorini_io::case::Output;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, closest, codes};
 
-/// The words, in the order in which messages list them.
-const WORDS: [&str; 8] = [
-    "displacement",
-    "reaction_force",
-    "stress",
-    "cauchy_stress",
-    "von_mises",
-    "principal",
-    "contact",
-    "contact_pressure",
-];
-
 /// The fields asked for; displacements and reactions are always written.
+///
+/// A field that a model does not have (no plasticity, no temperatures) is left away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fields {
-    /// Stresses, with what follows from them.
+    /// Stresses.
     pub stress: bool,
+    /// Strains.
+    pub strain: bool,
+    /// Principal stresses.
+    pub principal_stress: bool,
     /// The equivalent stress.
     pub von_mises: bool,
+    /// Equivalent plastic strains.
+    pub plastic_strain: bool,
+    /// Temperatures.
+    pub temperature: bool,
     /// Pressures and forces of contact.
     pub contact: bool,
+}
+
+/// What each word chooses, in the order in which messages list them. `stress` brings what follows from it.
+const WORDS: [(&str, fn(&mut Fields)); 12] = [
+    ("displacement", |_| {}),
+    ("reaction_force", |_| {}),
+    ("stress", all_of_stress),
+    ("cauchy_stress", all_of_stress),
+    ("strain", |f| f.strain = true),
+    ("principal_stress", |f| f.principal_stress = true),
+    ("principal", |f| f.principal_stress = true),
+    ("von_mises", |f| f.von_mises = true),
+    ("plastic_strain", |f| f.plastic_strain = true),
+    ("temperature", |f| f.temperature = true),
+    ("contact", |f| f.contact = true),
+    ("contact_pressure", |f| f.contact = true),
+];
+
+fn all_of_stress(fields: &mut Fields) {
+    fields.stress = true;
+    fields.principal_stress = true;
+    fields.von_mises = true;
 }
 
 impl Fields {
@@ -35,23 +55,21 @@ impl Fields {
         let mut fields = Self::default();
         let mut found = Diagnostics::new();
         for word in &output.fields {
-            match word.as_str() {
-                "displacement" | "reaction_force" => {}
-                "stress" | "cauchy_stress" | "principal" => fields.stress = true,
-                "von_mises" => fields.von_mises = true,
-                "contact" | "contact_pressure" => fields.contact = true,
-                unknown => {
-                    let remark = closest(unknown, WORDS).map_or_else(
+            match WORDS.iter().find(|(name, _)| *name == word.as_str()) {
+                Some((_, choose)) => choose(&mut fields),
+                None => {
+                    let names = WORDS.map(|(name, _)| name);
+                    let remark = closest(word, names).map_or_else(
                         || "no such field".into(),
                         |w| format!("did you mean \"{w}\"?"),
                     );
                     found.push(
                         Diagnostic::error(
                             &codes::NOT_A_CHOICE,
-                            format!("\"{unknown}\" is not a field"),
+                            format!("\"{}\" is not a field", word.value),
                         )
                         .at(&word.place, remark)
-                        .note(format!("fields: {}", WORDS.join(", "))),
+                        .note(format!("fields: {}", names.join(", "))),
                     );
                 }
             }

@@ -26,7 +26,6 @@ mod history;
 mod limits;
 pub mod narration;
 mod news;
-mod principal;
 mod probe;
 mod recorder;
 mod start;

@@ -1,6 +1,5 @@
 //! Values of fields at nodes: `displacement.z @ node 5`, `reaction_force.x @ set base`.
 
-use super::principal::principal;
 use crate::build::Model;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Sym3, Vec3};
@@ -15,12 +14,17 @@ fn vector(values: &[Vec3], node: usize, axis: usize) -> Option<f64> {
         .and_then(|v| v.to_array().get(axis).copied())
 }
 
-fn stress(frame: &Frame, node: usize, of: fn(&Sym3) -> f64) -> Option<f64> {
-    frame.stress.get(node).map(of)
+fn tensor(values: &[Sym3], node: usize, of: fn(&Sym3) -> f64) -> Option<f64> {
+    values.get(node).map(of)
+}
+
+fn principal(frame: &Frame, node: usize, number: usize) -> Option<f64> {
+    let values = frame.stress.get(node)?.eigenvalues();
+    values.get(number).copied()
 }
 
 /// Every quantity with its name; those of forces are summed over a set, the others averaged.
-const QUANTITIES: [(&str, Read); 23] = [
+const QUANTITIES: [(&str, Read); 34] = [
     ("displacement.x", |f, n| vector(&f.displacement, n, 0)),
     ("displacement.y", |f, n| vector(&f.displacement, n, 1)),
     ("displacement.z", |f, n| vector(&f.displacement, n, 2)),
@@ -42,16 +46,31 @@ const QUANTITIES: [(&str, Read); 23] = [
     ("contact_pressure", |f, n| {
         f.contact_pressure.get(n).copied()
     }),
-    ("stress.xx", |f, n| stress(f, n, Sym3::xx)),
-    ("stress.yy", |f, n| stress(f, n, Sym3::yy)),
-    ("stress.zz", |f, n| stress(f, n, Sym3::zz)),
-    ("stress.xy", |f, n| stress(f, n, Sym3::xy)),
-    ("stress.yz", |f, n| stress(f, n, Sym3::yz)),
-    ("stress.xz", |f, n| stress(f, n, Sym3::xz)),
-    ("von_mises", |f, n| stress(f, n, |s| s.von_mises())),
-    ("principal.min", |f, n| stress(f, n, |s| principal(s)[0])),
-    ("principal.mid", |f, n| stress(f, n, |s| principal(s)[1])),
-    ("principal.max", |f, n| stress(f, n, |s| principal(s)[2])),
+    ("stress.xx", |f, n| tensor(&f.stress, n, Sym3::xx)),
+    ("stress.yy", |f, n| tensor(&f.stress, n, Sym3::yy)),
+    ("stress.zz", |f, n| tensor(&f.stress, n, Sym3::zz)),
+    ("stress.xy", |f, n| tensor(&f.stress, n, Sym3::xy)),
+    ("stress.yz", |f, n| tensor(&f.stress, n, Sym3::yz)),
+    ("stress.xz", |f, n| tensor(&f.stress, n, Sym3::xz)),
+    ("strain.xx", |f, n| tensor(&f.strain, n, Sym3::xx)),
+    ("strain.yy", |f, n| tensor(&f.strain, n, Sym3::yy)),
+    ("strain.zz", |f, n| tensor(&f.strain, n, Sym3::zz)),
+    ("strain.xy", |f, n| tensor(&f.strain, n, Sym3::xy)),
+    ("strain.yz", |f, n| tensor(&f.strain, n, Sym3::yz)),
+    ("strain.xz", |f, n| tensor(&f.strain, n, Sym3::xz)),
+    ("von_mises", |f, n| tensor(&f.stress, n, |s| s.von_mises())),
+    ("principal_stress.1", |f, n| principal(f, n, 0)),
+    ("principal_stress.2", |f, n| principal(f, n, 1)),
+    ("principal_stress.3", |f, n| principal(f, n, 2)),
+    ("principal.max", |f, n| principal(f, n, 0)),
+    ("principal.mid", |f, n| principal(f, n, 1)),
+    ("principal.min", |f, n| principal(f, n, 2)),
+    // a model without plasticity has none anywhere
+    ("plastic_strain", |f, n| {
+        let none = f.plastic_strain.is_empty().then_some(0.0);
+        f.plastic_strain.get(n).copied().or(none)
+    }),
+    ("temperature", |f, n| f.temperature.get(n).copied()),
 ];
 
 /// How the values at several nodes become one.

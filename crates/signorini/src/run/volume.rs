@@ -1,10 +1,13 @@
 //! `frames/volume_NNNN.vtu`: the solids at one time.
 //!
 //! Points are where the nodes are at the start; `displacement`, the first vector, is what viewers warp by.
+//!
+//! A tensor at a node is the mean over the cells around it, of whatever body: at a node that two materials share, look
+//! at the cells. Bodies in contact have nodes of their own. A tensor in a cell is the mean over its volume. Equivalent
+//! and principal stresses are those of the mean tensor, at nodes and in cells alike, and not means themselves.
 
 use super::cells::Cells;
 use super::fields::Fields;
-use super::principal::principal;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::writers::vtu::{
@@ -53,46 +56,66 @@ impl Volume {
     /// # Errors
     /// Arrays of another mesh.
     pub fn encode(&self, frame: &Frame) -> Result<Vec<u8>, VtuError> {
+        self.encode_with(frame, &[], &[])
+    }
+
+    /// The bytes of a frame with more fields at nodes and in cells, these in the order of the mesh.
+    ///
+    /// # Errors
+    /// Arrays of another mesh.
+    pub fn encode_with(
+        &self,
+        frame: &Frame,
+        more_at_nodes: &[Field<'_>],
+        more_in_cells: &[Field<'_>],
+    ) -> Result<Vec<u8>, VtuError> {
         let displacement = vectors(&frame.displacement);
         let reaction = vectors(&frame.reaction_force);
         let force = vectors(&frame.contact_force);
-        let stress: Vec<SymTensor> = frame.stress.iter().map(tensor).collect();
-        let von_mises: Vec<f64> = frame.stress.iter().map(|s| s.von_mises()).collect();
-        let principals: Vec<[f64; 3]> = frame.stress.iter().map(principal).collect();
-        let of_cell = |cell: &CellId| {
-            let block = frame.cell_stress.get(cell.block as usize);
-            let stress = block.and_then(|b| b.get(cell.index as usize));
-            stress.copied().unwrap_or(Sym3::ZERO)
-        };
-        let cell_stress: Vec<Sym3> = self.source.iter().map(of_cell).collect();
-        let cell_von_mises: Vec<f64> = cell_stress.iter().map(|s| s.von_mises()).collect();
-        let cell_stress: Vec<SymTensor> = cell_stress.iter().map(tensor).collect();
+        let at_node = Derived::new(self.fields, &frame.stress, &frame.strain);
+        let in_cell = Derived::new(
+            self.fields,
+            &self.of_cells(&frame.cell_stress),
+            &self.of_cells(&frame.cell_strain),
+        );
+        let plastic = self.of_cells(&frame.cell_plastic_strain);
 
         let mut at_nodes = vec![
             Field::new("displacement", Values::Vector(&displacement)),
             Field::new("reaction_force", Values::Vector(&reaction)),
         ];
         let mut in_cells = Vec::new();
-        if self.fields.stress {
-            at_nodes.push(symmetric("stress", &stress));
-            at_nodes.push(Field {
-                component_names: &["min", "mid", "max"],
-                ..Field::new("principal", Values::Vector(&principals))
-            });
-            in_cells.push(symmetric("stress", &cell_stress));
+        at_node.append(self.fields, &mut at_nodes);
+        in_cell.append(self.fields, &mut in_cells);
+        if self.fields.plastic_strain && !frame.plastic_strain.is_empty() {
+            let values = Values::Scalar(&frame.plastic_strain);
+            at_nodes.push(Field::new("plastic_strain", values));
+            in_cells.push(Field::new("plastic_strain", Values::Scalar(&plastic)));
         }
-        if self.fields.stress || self.fields.von_mises {
-            at_nodes.push(Field::new("von_mises", Values::Scalar(&von_mises)));
-            in_cells.push(Field::new("von_mises", Values::Scalar(&cell_von_mises)));
+        if self.fields.temperature && !frame.temperature.is_empty() {
+            let values = Values::Scalar(&frame.temperature);
+            at_nodes.push(Field::new("temperature", values));
         }
         if self.fields.contact {
             let pressure = Values::Scalar(&frame.contact_pressure);
             at_nodes.push(Field::new("contact_pressure", pressure));
             at_nodes.push(Field::new("contact_force", Values::Vector(&force)));
         }
+        at_nodes.extend_from_slice(more_at_nodes);
+        in_cells.extend_from_slice(more_in_cells);
         at_nodes.push(Field::new("node_id", Values::Int64(&self.node_ids)));
         in_cells.push(Field::new("element_id", Values::Int64(&self.element_ids)));
         self.write(&at_nodes, &in_cells, frame)
+    }
+
+    /// Values of the cells in the order of the file; zero where a block has none.
+    fn of_cells<T: Copy + Default>(&self, values: &[Vec<T>]) -> Vec<T> {
+        let of_cell = |cell: &CellId| {
+            let block = values.get(cell.block as usize);
+            let value = block.and_then(|b| b.get(cell.index as usize));
+            value.copied().unwrap_or_default()
+        };
+        self.source.iter().map(of_cell).collect()
     }
 
     /// The bytes of a frame with nothing but displacements: for a state that has no stresses.
@@ -158,6 +181,48 @@ pub fn vectors(values: &[Vec3]) -> Vec<[f64; 3]> {
     values.iter().map(|v| v.to_array()).collect()
 }
 
+/// The tensors of all nodes or cells, with what follows from them; empty where not asked for.
+struct Derived {
+    stress: Vec<SymTensor>,
+    strain: Vec<SymTensor>,
+    principal: Vec<[f64; 3]>,
+    von_mises: Vec<f64>,
+}
+
+impl Derived {
+    fn new(fields: Fields, stress: &[Sym3], strain: &[Sym3]) -> Self {
+        Self {
+            stress: picked(fields.stress, stress, tensor),
+            strain: picked(fields.strain, strain, tensor),
+            principal: picked(fields.principal_stress, stress, Sym3::eigenvalues),
+            von_mises: picked(fields.von_mises, stress, Sym3::von_mises),
+        }
+    }
+
+    fn append<'a>(&'a self, fields: Fields, to: &mut Vec<Field<'a>>) {
+        if fields.stress {
+            to.push(symmetric("stress", &self.stress));
+        }
+        if fields.strain {
+            to.push(symmetric("strain", &self.strain));
+        }
+        if fields.principal_stress {
+            to.push(Field {
+                component_names: &["max", "mid", "min"],
+                ..Field::new("principal_stress", Values::Vector(&self.principal))
+            });
+        }
+        if fields.von_mises {
+            to.push(Field::new("von_mises", Values::Scalar(&self.von_mises)));
+        }
+    }
+}
+
+fn picked<T>(wanted: bool, from: &[Sym3], of: fn(Sym3) -> T) -> Vec<T> {
+    let from = if wanted { from } else { &[] };
+    from.iter().copied().map(of).collect()
+}
+
 fn symmetric<'a>(name: &'a str, values: &'a [SymTensor]) -> Field<'a> {
     Field {
         component_names: &vtu::TENSOR_COMPONENTS,
@@ -165,7 +230,7 @@ fn symmetric<'a>(name: &'a str, values: &'a [SymTensor]) -> Field<'a> {
     }
 }
 
-fn tensor(s: &Sym3) -> SymTensor {
+fn tensor(s: Sym3) -> SymTensor {
     SymTensor {
         xx: s.xx(),
         yy: s.yy(),

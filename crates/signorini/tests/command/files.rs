@@ -57,7 +57,7 @@ fn frames_have_the_documented_fields() {
         ("reaction_force", 3),
         ("stress", 6),
         ("von_mises", 1),
-        ("principal", 3),
+        ("principal_stress", 3),
         ("contact_pressure", 1),
         ("contact_force", 3),
     ] {

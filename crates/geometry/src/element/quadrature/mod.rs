@@ -8,12 +8,14 @@
 //! | [`TRI_1`], [`TET_1`] | 1, the centroid | 1 |
 //! | [`TRI_3`], [`TET_4`] | 3, 4, inside | 2 |
 //! | [`TRI_6`] | 6, inside | 4 |
+//! | [`TET_14`] | 14, inside | 5 |
 //! | [`WEDGE_6`] | [`TRI_3`] × [`LINE_2`] | 2 in the triangle, 3 along the axis |
 //! | [`WEDGE_9`] | [`TRI_3`] × [`LINE_3`] | 2 in the triangle, 5 along the axis |
 //!
 //! Weights sum to the measure of the reference domain. Products run through their first factor fastest. Sources:
 //! Zienkiewicz, Taylor, *The Finite Element Method*, vol. 1, tables 5.1 to 5.3; Hughes, *The Finite Element Method*,
-//! section 3.8; Dunavant, IJNME 21, 1985, table II ([`TRI_6`]).
+//! section 3.8; Dunavant, IJNME 21, 1985, table II ([`TRI_6`]);
+//! Walkington, *Quadrature on simplices of arbitrary dimension*, 2000 ([`TET_14`]).
 
 use crate::tensor::Vec3;
 
@@ -130,6 +132,49 @@ pub static TET_4: Rule = Rule {
     weights: &[1.0 / 24.0; 4],
 };
 
+/// Fourteen points inside the tetrahedron: twice four around a corner, and six around the edges.
+pub static TET_14: Rule = Rule {
+    points: &{
+        let [a, b, c, d] = around_tetrahedron(0.310_885_919_263_300_6);
+        let [e, f, g, h] = around_tetrahedron(0.092_735_250_310_891_23);
+        const NEAR: f64 = 0.045_503_704_125_649_65;
+        const FAR: f64 = 0.5 - NEAR;
+        [
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+            g,
+            h,
+            Vec3::new(NEAR, NEAR, FAR),
+            Vec3::new(NEAR, FAR, NEAR),
+            Vec3::new(FAR, NEAR, NEAR),
+            Vec3::new(FAR, FAR, NEAR),
+            Vec3::new(FAR, NEAR, FAR),
+            Vec3::new(NEAR, FAR, FAR),
+        ]
+    },
+    weights: &{
+        const A: f64 = 0.018_781_320_953_002_642;
+        const B: f64 = 0.012_248_840_519_393_658;
+        const C: f64 = 0.007_091_003_462_846_911;
+        [A, A, A, A, B, B, B, B, C, C, C, C, C, C]
+    },
+};
+
+/// The points of volume coordinates `(a, a, a, 1 − 3a)` in any order.
+const fn around_tetrahedron(a: f64) -> [Vec3; 4] {
+    let b = 1.0 - 3.0 * a;
+    [
+        Vec3::new(a, a, a),
+        Vec3::new(b, a, a),
+        Vec3::new(a, b, a),
+        Vec3::new(a, a, b),
+    ]
+}
+
 /// Three points of the triangle times two along the axis.
 pub static WEDGE_6: Rule = Rule {
     points: &product_points::<3, 2, 6>(TRI_3.points, &GAUSS_2.0, 2),
@@ -242,6 +287,7 @@ mod tests {
             (&TRI_6, 2, 4),
             (&TET_1, 3, 1),
             (&TET_4, 3, 2),
+            (&TET_14, 3, 5),
         ] {
             let error = |p: [i32; 3]| {
                 let got = integral(rule, |x| x.x.powi(p[0]) * x.y.powi(p[1]) * x.z.powi(p[2]));

@@ -67,7 +67,7 @@ const TYPES: [(Shape, Family); 8] = [
 ];
 
 /// Types that have an element here: number, name, and for each of our nodes its place in the file (none: the same).
-const ELEMENTS: [(u32, &str, &[usize]); 12] = [
+const ELEMENTS: [(u32, &str, &[usize]); 14] = [
     (1, "line2", &[]),
     (2, "tri3", &[]),
     (3, "quad4", &[]),
@@ -77,12 +77,21 @@ const ELEMENTS: [(u32, &str, &[usize]); 12] = [
     (8, "line3", &[]),
     (9, "tri6", &[]),
     (16, "quad8", &[]),
+    (10, "quad9", &[]),
     (11, "tet10", &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
     (
         17,
         "hex20",
         &[
             0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15,
+        ],
+    ),
+    (
+        12,
+        "hex27",
+        &[
+            0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 20, 25, 21, 23,
+            24, 22, 26,
         ],
     ),
     (

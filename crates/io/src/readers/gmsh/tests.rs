@@ -404,7 +404,7 @@ fn faults_are_told_with_place_cause_and_remedy() {
             V2,
             "3 4 2",
             "3 34 2",
-            "box.msh, line 23: there is no element type `34`; supported are line2 (1), tri3 (2), quad4 (3), tet4 (4), hex8 (5), wedge6 (6)",
+            "box.msh, line 23: there is no element type `34`; supported are line2 (1), tri3 (2), quad4 (3), tet4 (4), hex8 (5), wedge6 (6), line3 (8), tri6 (9), quad8 (16), quad9 (10), tet10 (11), hex20 (17), hex27 (12), wedge15 (18)",
         ),
         (
             V2,

@@ -3,7 +3,7 @@
 
 use super::super::discretization::{NodeToSegment, Pair, SurfacePair};
 use super::super::row::{Participant, Row};
-use super::{Random, facets, first_rows, largest, pair_up};
+use super::{Random, facets_of, first_rows, largest, pair_up, with_mid_nodes};
 use num_dual::{DualNum, HyperDual64};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Feature, Placement};
@@ -42,89 +42,196 @@ fn combine<D: Number>(weights: &[D], x: &[Point<D>]) -> Point<D> {
     })
 }
 
-/// Parameters of the corners of a line, a triangle, a quadrilateral.
-fn corners(nnode: usize) -> &'static [[f64; 2]] {
-    match nnode {
-        2 => &[[-1.0, 0.0], [1.0, 0.0]],
-        3 => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-        _ => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
-    }
+/// A kind of facet, from nothing but its nodes and its monomials.
+struct Kind {
+    name: &'static str,
+    ncorner: usize,
+    /// Parameters of the nodes.
+    at: Vec<[f64; 2]>,
+    powers: Vec<[i32; 2]>,
+    /// The coefficients of the monomials in each shape function.
+    coefficients: Vec<Vec<f64>>,
 }
 
-/// Position, tangents and mixed second derivative; the second tangent of a line is the third axis.
-fn place<D: Number>(x: &[Point<D>], [u, v]: [D; 2]) -> [Point<D>; 4] {
-    let (zero, one) = (D::from(0.0), D::from(1.0));
-    let mut weights = [Vec::new(), Vec::new(), Vec::new(), Vec::new()];
-    for (i, &[a, b]) in corners(x.len()).iter().enumerate() {
-        let values = match (x.len(), i) {
-            (2, _) => [(u * a + 1.0) * 0.5, D::from(0.5 * a), zero, zero],
-            (3, 0) => [one - u - v, -one, -one, zero],
-            (3, 1) => [u, one, zero, zero],
-            (3, _) => [v, zero, one, zero],
-            _ => [
-                (u * a + 1.0) * (v * b + 1.0) * 0.25,
-                (v * b + 1.0) * (0.25 * a),
-                (u * a + 1.0) * (0.25 * b),
-                D::from(0.25 * a * b),
-            ],
+/// Position, tangents and second derivatives 11, 22, 12; the second tangent of a line is the third axis.
+struct Place<D> {
+    rho: Point<D>,
+    t: [Point<D>; 2],
+    bend: [Point<D>; 3],
+}
+
+impl Kind {
+    fn new(name: &'static str) -> Self {
+        let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let (mut at, along): (Vec<[f64; 2]>, &[[i32; 2]]) = match &name[..name.len() - 1] {
+            "line" => (vec![[-1.0, 0.0], [1.0, 0.0]], &[[0, 0], [1, 0], [2, 0]]),
+            "tri" => (
+                vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+                &[[0, 0], [1, 0], [0, 1], [1, 1], [2, 0], [0, 2]],
+            ),
+            _ => (
+                square.to_vec(),
+                &[
+                    [0, 0],
+                    [1, 0],
+                    [0, 1],
+                    [1, 1],
+                    [2, 0],
+                    [0, 2],
+                    [2, 1],
+                    [1, 2],
+                    [2, 2],
+                ],
+            ),
         };
-        for (list, value) in weights.iter_mut().zip(values) {
-            list.push(value);
+        let ncorner = at.len();
+        if matches!(name, "line3" | "tri6" | "quad8" | "quad9") {
+            for k in 0..if ncorner == 2 { 1 } else { ncorner } {
+                let (a, b) = (at[k], at[(k + 1) % ncorner]);
+                at.push([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
+            }
+        }
+        if name == "quad9" {
+            at.push([0.0, 0.0]);
+        }
+        let powers = along[..at.len()].to_vec();
+        // the monomials at the nodes, beside them the unit matrix; Gauss and Jordan
+        let n = at.len();
+        let mut rows: Vec<Vec<f64>> = (0..n)
+            .map(|i| {
+                let monomials = powers
+                    .iter()
+                    .map(|p| at[i][0].powi(p[0]) * at[i][1].powi(p[1]));
+                let unit = (0..n).map(|j| f64::from(u8::from(i == j)));
+                monomials.chain(unit).collect()
+            })
+            .collect();
+        for k in 0..n {
+            let largest = (k..n).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()));
+            rows.swap(k, largest.unwrap());
+            let pivot: Vec<f64> = rows[k].iter().map(|v| v / rows[k][k]).collect();
+            for (i, row) in rows.iter_mut().enumerate() {
+                let factor = row[k];
+                for (v, p) in row.iter_mut().zip(&pivot) {
+                    *v = if i == k { *p } else { *v - factor * p };
+                }
+            }
+        }
+        let of_node = |j: usize| rows.iter().map(|row| row[n + j]).collect();
+        let coefficients = (0..n).map(of_node).collect();
+        Self {
+            name,
+            ncorner,
+            at,
+            powers,
+            coefficients,
         }
     }
-    let mut found = weights.map(|w| combine(&w, x));
-    if x.len() == 2 {
-        found[2] = [zero, zero, one];
+
+    fn place<D: Number>(&self, x: &[Point<D>], [u, v]: [D; 2]) -> Place<D> {
+        let power = |base: D, p: i32, times: i32| {
+            let factor: i32 = (0..times).map(|k| p - k).product();
+            if factor == 0 {
+                return D::from(0.0);
+            }
+            (0..p - times).fold(D::from(f64::from(factor)), |product, _| product * base)
+        };
+        let derivative = |a: i32, b: i32| {
+            let monomials = self
+                .powers
+                .iter()
+                .map(|p| power(u, p[0], a) * power(v, p[1], b));
+            let monomials: Vec<D> = monomials.collect();
+            let weights: Vec<D> = self
+                .coefficients
+                .iter()
+                .map(|c| {
+                    let terms = c.iter().zip(&monomials).map(|(&c, &m)| m * c);
+                    terms.fold(D::from(0.0), |sum, term| sum + term)
+                })
+                .collect();
+            combine(&weights, x)
+        };
+        let across = match self.ncorner {
+            2 => [0.0, 0.0, 1.0].map(D::from),
+            _ => derivative(0, 1),
+        };
+        Place {
+            rho: derivative(0, 0),
+            t: [derivative(1, 0), across],
+            bend: [derivative(2, 0), derivative(0, 2), derivative(1, 1)],
+        }
     }
-    found
-}
 
-fn normal<D: Number>(x: &[Point<D>], xi: [D; 2]) -> Point<D> {
-    let [_, t1, t2, _] = place(x, xi);
-    unit(cross(t1, t2))
-}
+    fn normal<D: Number>(&self, x: &[Point<D>], xi: [D; 2]) -> Point<D> {
+        let [t1, t2] = self.place(x, xi).t;
+        unit(cross(t1, t2))
+    }
 
-/// Newton in numbers with derivatives, from parameters that solve the projection in their real parts.
-fn gap_on_face<D: Number>(x: &[Point<D>], r: Point<D>, start: [f64; 2]) -> D {
-    let mut xi = start.map(D::from);
-    for _ in 0..5 {
-        let [rho, t1, t2, bend] = place(x, xi);
-        let w = minus(r, rho);
-        let (a, b, c) = (dot(t1, t1), dot(t2, t2), dot(t1, t2) - dot(w, bend));
-        let (p, q) = (dot(t1, w), dot(t2, w));
-        let det = a * b - c * c;
-        xi[0] += (b * p - c * q) / det;
-        if x.len() > 2 {
+    /// Newton in numbers with derivatives, from parameters that solve the projection in their real parts.
+    fn gap_on_face<D: Number>(&self, x: &[Point<D>], r: Point<D>, start: [f64; 2]) -> D {
+        let mut xi = start.map(D::from);
+        for _ in 0..4 {
+            let Place { rho, t, bend } = self.place(x, xi);
+            let w = minus(r, rho);
+            let a = dot(t[0], t[0]) - dot(w, bend[0]);
+            let b = dot(t[1], t[1]) - dot(w, bend[1]);
+            let c = dot(t[0], t[1]) - dot(w, bend[2]);
+            let (p, q) = (dot(t[0], w), dot(t[1], w));
+            if self.ncorner == 2 {
+                xi[0] += p / a;
+                continue;
+            }
+            let det = a * b - c * c;
+            xi[0] += (b * p - c * q) / det;
             xi[1] += (a * q - c * p) / det;
         }
+        let moved = (0..2).map(|a| (xi[a].re() - start[a]).abs());
+        assert!(moved.fold(0.0, f64::max) < 1e-11, "not the closest point");
+        dot(minus(r, self.place(x, xi).rho), self.normal(x, xi))
     }
-    let moved = (0..2).map(|a| (xi[a].re() - start[a]).abs());
-    assert!(moved.fold(0.0, f64::max) < 1e-11, "not the closest point");
-    dot(minus(r, place(x, xi)[0]), normal(x, xi))
-}
 
-fn gap_on_edge<D: Number>(a: Point<D>, b: Point<D>, r: Point<D>, sign: f64) -> D {
-    let e = minus(b, a);
-    let s = dot(minus(r, a), e) / dot(e, e);
-    let w = minus(minus(r, a), e.map(|c| c * s));
-    dot(w, w).sqrt() * sign
-}
-
-fn gap_on_vertex<D: Number>(a: Point<D>, r: Point<D>, sign: f64) -> D {
-    let w = minus(r, a);
-    dot(w, w).sqrt() * sign
+    /// The same along a straight line of the parameters.
+    fn gap_on_edge<D: Number>(
+        &self,
+        x: &[Point<D>],
+        r: Point<D>,
+        start: [f64; 2],
+        along: [f64; 2],
+    ) -> D {
+        let mut s = D::from(0.0);
+        let at = |s: D| {
+            let xi = [s * along[0] + start[0], s * along[1] + start[1]];
+            let Place { rho, t, bend } = self.place(x, xi);
+            let [a, b] = along;
+            let tangent: Point<D> = std::array::from_fn(|c| t[0][c] * a + t[1][c] * b);
+            let second: Point<D> = std::array::from_fn(|c| {
+                bend[0][c] * (a * a) + bend[1][c] * (b * b) + bend[2][c] * (2.0 * a * b)
+            });
+            (minus(r, rho), tangent, second)
+        };
+        for _ in 0..4 {
+            let (w, t, bend) = at(s);
+            s += dot(w, t) / (dot(t, t) - dot(w, bend));
+        }
+        assert!(s.re().abs() < 1e-11, "not the closest point");
+        let w = at(s).0;
+        dot(w, w).sqrt()
+    }
 }
 
 /// A surface, its configuration with the node that may touch it, and that node.
 struct Scene {
+    kind: Kind,
     surface: Vec<Vec<NodeId>>,
     pair: SurfacePair,
     x: Vec<Vec3>,
 }
 
 impl Scene {
-    fn new(mut x: Vec<Vec3>, surface: Vec<Vec<NodeId>>) -> Self {
-        let primary = Box::new(facets(&mut x, &surface));
+    fn new(kind: Kind, mut x: Vec<Vec3>, surface: Vec<Vec<NodeId>>) -> Self {
+        let named: Vec<_> = surface.iter().map(|n| (kind.name, n.clone())).collect();
+        let primary = Box::new(facets_of(&mut x, &named));
         let pair = SurfacePair {
             points: vec![x.len() as NodeId],
             secondary: None,
@@ -132,40 +239,44 @@ impl Scene {
             reach: 2.0,
         };
         x.push(Vec3::ZERO);
-        Self { surface, pair, x }
+        Self {
+            kind,
+            surface,
+            pair,
+            x,
+        }
     }
 
     fn node(&self) -> usize {
         self.x.len() - 1
     }
 
-    /// What the closest point lies on, as the corners of its facet: all of them, two, or one.
-    fn corners_of(&self, found: &Pair) -> Vec<usize> {
-        let nodes = &self.surface[found.anchor.facet as usize];
-        let at = corners(nodes.len());
+    /// The corner on which the closest point lies, or the two at the ends of its edge, and how far along it is.
+    fn corners_of(&self, found: &Pair) -> (Vec<usize>, f64) {
+        let at = &self.kind.at[..self.kind.ncorner];
         let (u, v) = (found.anchor.local.x, found.anchor.local.y);
-        match found.feature {
-            Feature::Face => (0..nodes.len()).collect(),
-            Feature::Vertex => {
-                let hit = |&k: &usize| (at[k][0] - u).hypot(at[k][1] - v) < 1e-12;
-                (0..nodes.len()).filter(hit).collect()
-            }
-            Feature::Edge { .. } => {
-                let n = nodes.len();
-                let hit = |&k: &usize| {
-                    let ([a, b], [c, d]) = (at[k], at[(k + 1) % n]);
-                    ((c - a) * (v - b) - (d - b) * (u - a)).abs() < 1e-12
-                };
-                let k = (0..n).find(hit).unwrap();
-                vec![k, (k + 1) % n]
-            }
+        let n = at.len();
+        if found.feature == Feature::Vertex {
+            let hit = |&k: &usize| (at[k][0] - u).hypot(at[k][1] - v) < 1e-12;
+            return ((0..n).filter(hit).collect(), 0.0);
         }
+        let hit = |&k: &usize| {
+            let ([a, b], [c, d]) = (at[k], at[(k + 1) % n]);
+            ((c - a) * (v - b) - (d - b) * (u - a)).abs() < 1e-12
+        };
+        let k = (0..n).find(hit).unwrap();
+        let ([a, b], [c, d]) = (at[k], at[(k + 1) % n]);
+        (
+            vec![k, (k + 1) % n],
+            (u - a).hypot(v - b) / (c - a).hypot(d - b),
+        )
     }
 
-    /// The sum of unit normals of the facets around an edge, or of those around a vertex weighted by their angles.
-    fn pseudonormal(&self, ends: &[NodeId]) -> Point<f64> {
-        let r = self.x[self.node()].to_array();
+    /// The sum of unit normals of the facets around an edge, at the fraction `s` of it, or of those around a vertex
+    /// weighted by their angles.
+    fn pseudonormal(&self, ends: &[NodeId], s: f64) -> Point<f64> {
         let mut sum = [0.0; 3];
+        let at = &self.kind.at[..self.kind.ncorner];
         for nodes in &self.surface {
             if !ends.iter().all(|n| nodes.contains(n)) {
                 continue;
@@ -174,23 +285,24 @@ impl Scene {
                 .iter()
                 .map(|&n| self.x[n as usize].to_array())
                 .collect();
-            let at = corners(nodes.len());
             let corner = |n: NodeId| nodes.iter().position(|&m| m == n).unwrap();
             let (xi, weight) = if let [a, b] = *ends {
                 let (a, b) = (corner(a), corner(b));
-                let e = minus(x[b], x[a]);
-                let s = dot(minus(r, x[a]), e) / dot(e, e);
                 let along = |c: usize| at[a][c] + s * (at[b][c] - at[a][c]);
                 ([along(0), along(1)], 1.0)
             } else {
                 let k = corner(ends[0]);
-                let n = nodes.len();
-                let p = minus(x[(k + 1) % n], x[k]);
-                let q = minus(x[(k + n - 1) % n], x[k]);
+                let n = at.len();
+                let [t1, t2] = self.kind.place(&x, at[k]).t;
+                let leaving = |other: usize| -> Point<f64> {
+                    let d = [0, 1].map(|c| at[other][c] - at[k][c]);
+                    std::array::from_fn(|c| t1[c] * d[0] + t2[c] * d[1])
+                };
+                let (p, q) = (leaving((k + 1) % n), leaving((k + n - 1) % n));
                 let angle = (dot(p, q) / (dot(p, p) * dot(q, q)).sqrt()).acos();
                 (at[k], if n == 2 { 1.0 } else { angle })
             };
-            let nu = normal(&x, xi);
+            let nu = self.kind.normal(&x, xi);
             sum = std::array::from_fn(|c| sum[c] + weight * nu[c]);
         }
         sum
@@ -210,26 +322,24 @@ impl Scene {
         let x: Vec<Point<HyperDual64>> =
             nodes.iter().map(|&n| seeded(self.x[n as usize])).collect();
         let r = seeded(self.x[self.node()]);
-        let ends = self.corners_of(found);
-        if let Feature::Face = found.feature {
-            return gap_on_face(&x, r, [found.anchor.local.x, found.anchor.local.y]);
+        let start = [found.anchor.local.x, found.anchor.local.y];
+        if found.feature == Feature::Face {
+            return self.kind.gap_on_face(&x, r, start);
         }
+        let (ends, s) = self.corners_of(found);
         let ids: Vec<NodeId> = ends.iter().map(|&k| nodes[k]).collect();
-        let away = match *ends {
-            [a] => minus(r, x[a]),
+        let away = minus(r, self.kind.place(&x, start.map(HyperDual64::from)).rho);
+        let sign = dot(away.map(|c| c.re), self.pseudonormal(&ids, s)).signum();
+        let at = &self.kind.at;
+        let distance = match *ends {
+            [a] => dot(minus(r, x[a]), minus(r, x[a])).sqrt(),
             [a, b] => {
-                let e = minus(x[b], x[a]);
-                let s = dot(minus(r, x[a]), e) / dot(e, e);
-                minus(minus(r, x[a]), e.map(|c| c * s))
+                let along = [0, 1].map(|c| at[b][c] - at[a][c]);
+                self.kind.gap_on_edge(&x, r, start, along)
             }
             _ => unreachable!("an edge has two ends"),
         };
-        let sign = dot(away.map(|c| c.re), self.pseudonormal(&ids)).signum();
-        match *ends {
-            [a] => gap_on_vertex(x[a], r, sign),
-            [a, b] => gap_on_edge(x[a], x[b], r, sign),
-            _ => unreachable!("an edge has two ends"),
-        }
+        distance * sign
     }
 
     /// Compares the row with the oracle; in the plane the third direction is no unknown.
@@ -319,9 +429,9 @@ impl Scene {
 }
 
 /// A line, a triangle, a quadrilateral, two of them joined, or as many as meet in a point, warped at random and bent.
-fn scene(kind: &str, bend: f64, random: &mut Random) -> (Scene, Vec3) {
+fn scene(kind: &str, element: &'static str, bend: f64, random: &mut Random) -> (Scene, Vec3) {
     let flat = |u: f64, v: f64| Vec3::new(u, v, bend * (u.abs() + if v > 0.0 { v } else { -v }));
-    let (mut x, surface): (Vec<Vec3>, Vec<Vec<NodeId>>) = match kind {
+    let (mut x, mut surface): (Vec<Vec3>, Vec<Vec<NodeId>>) = match kind {
         "line" => (
             vec![Vec3::ZERO, Vec3::new(-1.0, 0.0, 0.0)],
             vec![vec![0, 1]],
@@ -371,8 +481,13 @@ fn scene(kind: &str, bend: f64, random: &mut Random) -> (Scene, Vec3) {
         }
         _ => panic!("no scene is called {kind}"),
     };
+    let curved = matches!(element, "line3" | "tri6" | "quad8" | "quad9");
+    if curved {
+        with_mid_nodes(&mut x, &mut surface, element == "quad9");
+    }
     for x in &mut x {
-        let mut moved = random.vector() * 0.25;
+        // mid nodes are half as far apart
+        let mut moved = random.vector() * if curved { 0.15 } else { 0.25 };
         if kind.contains("line") {
             moved.z = 0.0;
         }
@@ -387,7 +502,7 @@ fn scene(kind: &str, bend: f64, random: &mut Random) -> (Scene, Vec3) {
         "four quadrilaterals" => x[4],
         _ => x.iter().copied().sum::<Vec3>() / x.len() as f64,
     };
-    (Scene::new(x, surface), middle)
+    (Scene::new(Kind::new(element), x, surface), middle)
 }
 
 #[test]
@@ -396,21 +511,32 @@ fn gap_gradient_and_hessian_match_dual_numbers() {
         direction: [0.0; 2],
     };
     let cases = [
-        ("line", Feature::Face, 200),
-        ("two lines", Feature::Vertex, 200),
-        ("triangle", Feature::Face, 200),
-        ("two triangles", edge, 200),
-        ("four triangles", Feature::Vertex, 200),
-        ("quadrilateral", Feature::Face, 400),
-        ("two quadrilaterals", edge, 200),
-        ("four quadrilaterals", Feature::Vertex, 200),
+        ("line", "line2", Feature::Face, 200),
+        ("line", "line3", Feature::Face, 100),
+        ("two lines", "line2", Feature::Vertex, 200),
+        ("two lines", "line3", Feature::Vertex, 100),
+        ("triangle", "tri3", Feature::Face, 200),
+        ("triangle", "tri6", Feature::Face, 100),
+        ("two triangles", "tri3", edge, 200),
+        ("two triangles", "tri6", edge, 40),
+        ("four triangles", "tri3", Feature::Vertex, 200),
+        ("four triangles", "tri6", Feature::Vertex, 20),
+        ("quadrilateral", "quad4", Feature::Face, 400),
+        ("quadrilateral", "quad8", Feature::Face, 60),
+        ("quadrilateral", "quad9", Feature::Face, 60),
+        ("two quadrilaterals", "quad4", edge, 200),
+        ("two quadrilaterals", "quad8", edge, 20),
+        ("two quadrilaterals", "quad9", edge, 20),
+        ("four quadrilaterals", "quad4", Feature::Vertex, 200),
+        ("four quadrilaterals", "quad8", Feature::Vertex, 10),
+        ("four quadrilaterals", "quad9", Feature::Vertex, 10),
     ];
-    for (seed, (kind, feature, wanted)) in (1..).zip(cases) {
+    for (seed, (kind, element, feature, wanted)) in (1..).zip(cases) {
         let mut random = Random::new(seed);
         let mut sides = [0, 0];
         for _ in 0..400 * wanted {
             let bend = 0.7 * random.signed();
-            let (mut scene, middle) = scene(kind, bend, &mut random);
+            let (mut scene, middle) = scene(kind, element, bend, &mut random);
             let mut away = random.vector() * 0.5;
             if kind.contains("line") {
                 away.z = 0.0;
@@ -422,6 +548,7 @@ fn gap_gradient_and_hessian_match_dual_numbers() {
                 break;
             }
         }
-        assert!(sides.iter().all(|&n| n >= wanted / 2), "{kind}: {sides:?}");
+        let enough = sides.iter().all(|&n| n >= wanted / 2);
+        assert!(enough, "{kind} of {element}: {sides:?}");
     }
 }

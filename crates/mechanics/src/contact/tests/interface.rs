@@ -4,7 +4,7 @@ use super::super::discretization::{NodeToSegment, Pairing, SurfacePair};
 use super::super::friction::Frictionless;
 use super::super::law::{Penalty, Scale};
 use super::super::{Interface, InterfaceParts, Measure};
-use super::{Random, facets, largest, pair_up};
+use super::{Random, facets, largest, pair_up, with_mid_nodes};
 use crate::system::{
     Archive, Dof, Elimination, Frame, Layout, NO_DOF, Order, Sink, State, Status, Term, Verdict,
     Work,
@@ -25,14 +25,25 @@ struct Scene {
     state: State,
 }
 
+/// Which facets a surface is made of.
+#[derive(Clone, Copy, Debug)]
+enum Mixture {
+    /// tri3 and quad4.
+    Linear,
+    /// tri6 and quad8.
+    Serendipity,
+    /// tri6 and quad9.
+    Quadratic,
+}
+
 /// Nodes and facets of a warped surface of quadrilaterals and triangles over a square of side `CELLS`.
-fn surface(random: &mut Random) -> (Vec<Vec3>, Vec<Vec<NodeId>>) {
+fn surface(mixture: Mixture, random: &mut Random) -> (Vec<Vec3>, Vec<Vec<NodeId>>) {
     let n = CELLS + 1;
     let node = |k: u32| {
         let (u, v) = (f64::from(k % n), f64::from(k / n));
         Vec3::new(u, v, 0.5 * (0.8 * u).sin() * (0.6 * v).cos()) + random.vector() * 0.25
     };
-    let x = (0..n * n).map(node).collect();
+    let mut x: Vec<Vec3> = (0..n * n).map(node).collect();
     let mut nodes = Vec::new();
     for k in 0..CELLS * CELLS {
         let a = k / CELLS * n + k % CELLS;
@@ -43,6 +54,15 @@ fn surface(random: &mut Random) -> (Vec<Vec3>, Vec<Vec<NodeId>>) {
         } else {
             nodes.push(quad.to_vec());
         }
+    }
+    let ncorner = x.len();
+    match mixture {
+        Mixture::Linear => {}
+        Mixture::Serendipity => with_mid_nodes(&mut x, &mut nodes, false),
+        Mixture::Quadratic => with_mid_nodes(&mut x, &mut nodes, true),
+    }
+    for x in &mut x[ncorner..] {
+        *x += random.vector() * 0.1;
     }
     (x, nodes)
 }
@@ -59,7 +79,7 @@ fn points(x: &[Vec3], nodes: &[Vec<NodeId>], random: &mut Random) -> Vec<Vec3> {
     let mut point = |k: usize| {
         let place = 0.5 * (random.signed() + 1.0) * surface.nfacet() as f64;
         let facet = place as u32;
-        let triangle = nodes[facet as usize].len() == 3;
+        let triangle = nodes[facet as usize].len() % 3 == 0 && nodes[facet as usize].len() < 9;
         let mut local = Vec3::new(random.signed(), random.signed(), 0.0) * 1.01;
         if triangle {
             local = (local + Vec3::new(1.01, 1.01, 0.0)) * 0.25;
@@ -120,8 +140,12 @@ impl Scene {
     }
 
     fn random(seed: u64) -> Self {
+        Self::mixed(Mixture::Linear, seed)
+    }
+
+    fn mixed(mixture: Mixture, seed: u64) -> Self {
         let mut random = Random::new(seed);
-        let (x, nodes) = surface(&mut random);
+        let (x, nodes) = surface(mixture, &mut random);
         let points = points(&x, &nodes, &mut random);
         Self::new(x, &nodes, &points, 3)
     }
@@ -242,9 +266,15 @@ fn an_interface_balances_forces_and_moments() {
 
 #[test]
 fn an_interface_has_the_force_of_its_energy_and_the_tangent_of_its_force() {
+    for mixture in [Mixture::Linear, Mixture::Serendipity, Mixture::Quadratic] {
+        follows_from_energy(mixture);
+    }
+}
+
+fn follows_from_energy(mixture: Mixture) {
     let mut tried = 0;
     for seed in 1..=4 {
-        let mut scene = Scene::random(seed);
+        let mut scene = Scene::mixed(mixture, seed);
         let mut random = Random::new(100 + seed);
         for _ in 0..6 {
             let v: Vec<f64> = (0..scene.layout.ndof()).map(|_| random.signed()).collect();
@@ -276,7 +306,7 @@ fn an_interface_has_the_force_of_its_energy_and_the_tangent_of_its_force() {
             assert!(error < 1e-7 * largest(&here.along), "{error:e}");
         }
     }
-    assert!(tried >= 12, "{tried}");
+    assert!(tried >= 12, "{mixture:?}: {tried}");
 }
 
 /// Whether a point touches a flat square of side 2 made of four facets (in the plane: a line of two).
@@ -462,7 +492,7 @@ fn a_loaded_interface_goes_on_with_the_same_choices() {
 fn results_do_not_depend_on_the_order_of_facets() {
     for seed in 1..=5 {
         let mut random = Random::new(seed);
-        let (x, mut nodes) = surface(&mut random);
+        let (x, mut nodes) = surface(Mixture::Linear, &mut random);
         let points = points(&x, &nodes, &mut random);
         let mut scene = Scene::new(x.clone(), &nodes, &points, 3);
         let (force, pairs) = (scene.force(), scene.interface.pairing().clone());

@@ -9,11 +9,12 @@ mod rigid;
 
 use super::discretization::{Discretization, Pairing, RowOrder, SurfacePair};
 use super::row::Rows;
-use signorini_geometry::element::by_name;
+use signorini_geometry::element::{Side, TABLE};
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
 use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{Facets, Placement};
 use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeMap;
 
 /// A small reproducible generator (xorshift64*).
 pub(crate) struct Random(u64);
@@ -37,32 +38,73 @@ impl Random {
     }
 }
 
-/// A surface of lines, triangles or quadrilaterals, told apart by how many nodes they have. Solids need nodes behind
-/// their faces: these are appended to `x`, and play no part.
+/// A surface of facets told apart by how many nodes they have; three are a triangle.
 pub(crate) fn facets(x: &mut Vec<Vec3>, nodes: &[Vec<NodeId>]) -> Facets {
-    let b = x.len() as NodeId;
-    x.extend([Vec3::ZERO; 4]);
+    let named = nodes.iter().map(|n| {
+        let name = match n.len() {
+            2 => "line2",
+            3 => "tri3",
+            4 => "quad4",
+            6 => "tri6",
+            8 => "quad8",
+            9 => "quad9",
+            n => panic!("no facet has {n} nodes"),
+        };
+        (name, n.clone())
+    });
+    facets_of(x, &named.collect::<Vec<_>>())
+}
+
+/// A surface of these elements. Solids need nodes behind their faces: one is appended to `x`, and plays no part.
+pub(crate) fn facets_of(x: &mut Vec<Vec3>, facets: &[(&str, Vec<NodeId>)]) -> Facets {
+    let behind = x.len() as NodeId;
+    x.push(Vec3::ZERO);
     let mut mesh = Mesh {
         points: x.clone(),
         node_labels: (1..=x.len() as u64).collect(),
         ..Mesh::default()
     };
     let mut faces = Vec::new();
-    for (k, n) in nodes.iter().enumerate() {
-        let (parent, cell, side) = match **n {
-            [p, q] => ("quad4", vec![p, q, b, b + 1], 0),
-            [p, q, r] => ("wedge6", vec![b, b + 1, b + 2, p, q, r], 1),
-            [p, q, r, s] => ("hex8", vec![b, b + 1, b + 2, b + 3, p, q, r, s], 1),
-            _ => panic!("no facet has {} nodes", n.len()),
-        };
-        let cell = mesh.push_cell(by_name(parent).unwrap(), &cell, k as u64 + 1);
+    for (name, nodes) in facets {
+        let is_facet = |side: &Side| side.element.name() == *name;
+        let mut solids = TABLE.into_iter();
+        let solid = solids.find(|e| e.sides().iter().any(is_facet)).unwrap();
+        let side = solid.sides().iter().position(is_facet).unwrap();
+        let mut cell = vec![behind; solid.nnode()];
+        for (&place, &node) in solid.sides()[side].nodes.iter().zip(nodes) {
+            cell[place] = node;
+        }
+        let cell = mesh.push_cell(solid, &cell, faces.len() as u64 + 1);
+        let side = side as u8;
         faces.push(Face { cell, side });
     }
     let surface = Facets::new(&mesh, &faces).unwrap();
-    for (k, n) in (0u32..).zip(nodes) {
-        assert_eq!(surface.nodes(k), n);
+    for (k, (_, nodes)) in (0u32..).zip(facets) {
+        assert_eq!(surface.nodes(k), nodes);
     }
     surface
+}
+
+/// The same facets with a mid node on every edge, and with one in the middle where `centre`.
+pub(crate) fn with_mid_nodes(x: &mut Vec<Vec3>, facets: &mut [Vec<NodeId>], centre: bool) {
+    let mut mids: BTreeMap<[NodeId; 2], NodeId> = BTreeMap::new();
+    for nodes in facets {
+        let corners = nodes.clone();
+        let n = corners.len();
+        for k in 0..if n == 2 { 1 } else { n } {
+            let (a, b) = (corners[k], corners[(k + 1) % n]);
+            let mid = *mids.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                x.push((x[a as usize] + x[b as usize]) * 0.5);
+                x.len() as NodeId - 1
+            });
+            nodes.push(mid);
+        }
+        if centre && n == 4 {
+            let middle = corners.iter().map(|&k| x[k as usize]).sum::<Vec3>() * 0.25;
+            nodes.push(x.len() as NodeId);
+            x.push(middle);
+        }
+    }
 }
 
 /// The choices made at a configuration without memory, with candidates up to `range`.

@@ -190,16 +190,23 @@ fn run(model: &mut Model) -> Vec<(Vec<Vec3>, Vec<Vec3>, usize)> {
     frames
 }
 
-/// A quarter of a tube from r = 1 to 2 under internal pressure, `n` quadrilaterals across.
-fn tube(n: usize, pressure: f64, nonlinear: bool) -> (Model, usize) {
+/// A tube from r = 1 to 2 under internal pressure, `n` quadrilaterals across: a quarter of it in the plane, or a piece
+/// of its length.
+fn tube(n: usize, space: Idealisation, pressure: f64, nonlinear: bool) -> Model {
     let mut mesh = Mesh::default();
     let around = 2 * n;
+    let revolves = space == Idealisation::Axisymmetric;
     for j in 0..=around {
-        let angle = 0.5 * PI * j as f64 / around as f64;
+        let part = j as f64 / around as f64;
+        let (sin, cos) = (0.5 * PI * part).sin_cos();
         for i in 0..=n {
             let r = 1.0 + i as f64 / n as f64;
-            mesh.points
-                .push(Vec3::new(r * angle.cos(), r * angle.sin(), 0.0));
+            let at = if revolves {
+                [r, part]
+            } else {
+                [r * cos, r * sin]
+            };
+            mesh.points.push(Vec3::new(at[0], at[1], 0.0));
             mesh.node_labels.push(mesh.points.len() as u64);
         }
     }
@@ -228,14 +235,17 @@ fn tube(n: usize, pressure: f64, nonlinear: bool) -> (Model, usize) {
     };
     let changes = vec![
         hold((0..=n).map(|i| node(i, 0)).collect(), &[1]),
-        hold((0..=n).map(|i| node(i, around)).collect(), &[0]),
+        hold(
+            (0..=n).map(|i| node(i, around)).collect(),
+            if revolves { &[1] } else { &[0] },
+        ),
     ];
     let parts = Parts {
         bodies: vec![solid("tube", cells, None)],
         steps: vec![step_with(changes, vec![load], nonlinear)],
-        ..Parts::new(&mesh, Idealisation::PlaneStrain { thickness: 1.0 })
+        ..Parts::new(&mesh, space)
     };
-    (Model::assemble(parts).unwrap(), n)
+    Model::assemble(parts).unwrap()
 }
 
 /// SOURCE: Lamé's solution, Timoshenko and Goodier, *Theory of Elasticity*, section 28, in plane strain.
@@ -246,35 +256,208 @@ fn lame(a: f64, b: f64, r: f64, pressure: f64) -> f64 {
 
 #[test]
 fn a_thick_tube_under_internal_pressure_is_that_of_lame() {
-    let mut errors = Vec::new();
-    for n in [8, 16] {
-        let (mut model, outer) = tube(n, 10.0, false);
-        let frames = run(&mut model);
-        let u = &frames.last().unwrap().0;
-        let error = |node: usize, r: f64| (u[node].x / lame(1.0, 2.0, r, 10.0) - 1.0).abs();
-        errors.push(error(0, 1.0).max(error(outer, 2.0)));
+    for space in TUBES {
+        let errors = [8, 16].map(|n| {
+            let mut model = tube(n, space, 10.0, false);
+            let frames = run(&mut model);
+            let u = &frames.last().unwrap().0;
+            let error = |node: usize, r: f64| (u[node].x / lame(1.0, 2.0, r, 10.0) - 1.0).abs();
+            error(0, 1.0).max(error(n, 2.0))
+        });
+        println!("relative errors of the radial displacement, {space:?}: {errors:?}");
+        assert!(
+            errors[1] < 0.01 && errors[1] < 0.3 * errors[0],
+            "{errors:?}"
+        );
     }
-    println!("relative errors of the radial displacement: {errors:?}");
-    assert!(
-        errors[1] < 0.01 && errors[1] < 0.3 * errors[0],
-        "{errors:?}"
-    );
 }
 
+const TUBES: [Idealisation; 2] = [
+    Idealisation::PlaneStrain { thickness: 1.0 },
+    Idealisation::Axisymmetric,
+];
+
 #[test]
-fn newton_converges_quadratically_under_a_large_following_pressure() {
-    let (mut model, _) = tube(4, 180.0, true);
-    let frames = run(&mut model);
-    let iterations: Vec<usize> = frames.iter().map(|f| f.2).collect();
-    let inner = frames.last().unwrap().0[0].x;
-    println!("inner displacement {inner}, iterations {iterations:?}");
-    assert!(inner > 0.3, "{inner}");
-    assert!(iterations.iter().all(|&i| i <= 6), "{iterations:?}");
+fn a_tube_inflated_by_a_large_following_pressure_is_the_same_in_the_plane_and_axisymmetric() {
+    let inner = TUBES.map(|space| {
+        let mut model = tube(12, space, 180.0, true);
+        let frames = run(&mut model);
+        let iterations: Vec<usize> = frames.iter().map(|f| f.2).collect();
+        assert!(iterations.iter().all(|&i| i <= 6), "{iterations:?}");
+        frames.last().unwrap().0[0].x
+    });
+    println!("inner displacement {inner:?}");
+    assert!(inner[0] > 0.5, "{inner:?}");
+    assert!((inner[0] / inner[1] - 1.0).abs() < 0.01, "{inner:?}");
 }
 
 #[test]
 fn a_moment_on_a_carrier_swivels_where_more_than_one_rotation_is_free() {
-    // a rigid cube on top of a deformable one
+    let (mesh, [soft, hard]) = stack();
+    let twist = |moment: Vec3| {
+        let load = Load::Carrier {
+            carrier: 0,
+            force: Vec3::ZERO,
+            moment,
+        };
+        let held = hold(vec![0, 1, 2, 3], &[0, 1, 2]);
+        let mut model = lid(&mesh, soft, hard, step_with(vec![held], vec![load], true));
+        run(&mut model);
+        let symmetry = model.system.terms.last().unwrap().symmetry();
+        symmetry == Symmetry::Unsymmetric
+    };
+    // carriers are free along what loads them, and held otherwise
+    assert!(!twist(Vec3::new(0.0, 0.0, 5.0)));
+    assert!(twist(Vec3::new(0.0, 4.0, 5.0)));
+}
+
+/// A unit cube of one element under one load, every node held: the sum of its reactions and their moment about the origin.
+fn supports(load: Load) -> [Vec3; 2] {
+    let hex = element::by_name("hex8").unwrap();
+    let single = Single::new(hex, Idealisation::Space, 0.0);
+    let held = hold((0..8).collect(), &[0, 1, 2]);
+    let parts = Parts {
+        bodies: vec![solid("cube", vec![single.cell], Some(3.0))],
+        steps: vec![step_with(vec![held], vec![load], true)],
+        ..Parts::new(&single.mesh, Idealisation::Space)
+    };
+    let mut model = Model::assemble(parts).unwrap();
+    let (_, reactions, _) = run(&mut model).pop().unwrap();
+    let moments = reactions.iter().zip(single.reference.iter());
+    let moment = moments.map(|(r, x)| x.cross(*r)).sum();
+    [reactions.iter().copied().sum(), moment]
+}
+
+#[test]
+fn what_every_kind_of_load_exerts_arrives_at_the_supports() {
+    // a cube from (1, -1, -1) to (3, 1, 1); side S4 is that of x = 3
+    let cell = CellId { block: 0, index: 0 };
+    let faces = vec![Face { cell, side: 3 }; 2];
+    let (cells, v) = (vec![cell; 2], Vec3::new(2.0, -3.0, 0.5));
+    let (face, centre) = (Vec3::unit(0) * 3.0, Vec3::unit(0) * 2.0);
+    let pressure = |follows| Load::Pressure {
+        faces: faces.clone(),
+        pressure: 2.5,
+        follows,
+    };
+    let push = Vec3::unit(0) * -10.0;
+    let total = Load::Force {
+        faces: faces.clone(),
+        total: v,
+    };
+    let traction = Load::Traction {
+        faces: faces.clone(),
+        traction: v,
+    };
+    let body = Load::Body {
+        cells: cells.clone(),
+        force: v,
+    };
+    let gravity = Load::Gravity {
+        cells: cells.clone(),
+        acceleration: v,
+    };
+    let spin = Load::Centrifugal {
+        cells,
+        speed: 2.0,
+        point: Vec3::new(0.0, 0.0, 9.0),
+        axis: Vec3::unit(2) * -3.0,
+    };
+    let moment = Load::Moment {
+        nodes: vec![0, 1, 2, 5],
+        moment: v,
+    };
+    for (load, force, moment) in [
+        (total, v, face.cross(v)),
+        (traction, v * 4.0, face.cross(v) * 4.0),
+        (pressure(false), push, Vec3::ZERO),
+        (pressure(true), push, Vec3::ZERO),
+        (body, v * 8.0, centre.cross(v) * 8.0),
+        (gravity, v * 24.0, centre.cross(v) * 24.0),
+        (spin, centre * (24.0 * 4.0), Vec3::ZERO),
+        (moment, Vec3::ZERO, v),
+    ] {
+        let what = format!("{load:?}");
+        let [r, m] = supports(load);
+        assert_near(r, -force, 1e-11, &what);
+        assert_near(m, -moment, 1e-11, &what);
+    }
+}
+
+#[test]
+fn bars_weigh_their_cross_section_times_their_length() {
+    let quad = element::by_name("quad4").unwrap();
+    let single = Single::new(quad, Idealisation::PlaneStrain { thickness: 9.0 }, 0.0);
+    let mut mesh = single.mesh.clone();
+    let bar = mesh.push_cell(element::by_name("line2").unwrap(), &[0, 2], 8);
+    let gravity = Load::Gravity {
+        cells: vec![bar],
+        acceleration: Vec3::new(0.0, -10.0, 0.0),
+    };
+    let truss = BodyPart {
+        name: "bar".into(),
+        cells: vec![bar],
+        kind: BodyKind::Truss {
+            material: Box::new(NeoHookean::new(E, NU)),
+            density: Some(3.0),
+            area: 0.2,
+        },
+    };
+    let parts = Parts {
+        bodies: vec![solid("square", vec![single.cell], None), truss],
+        steps: vec![step_with(
+            vec![hold(vec![0, 1], &[0, 1])],
+            vec![gravity],
+            true,
+        )],
+        ..Parts::new(&mesh, single.space)
+    };
+    let model = Model::assemble(parts).unwrap();
+    let weight = model.system.terms.last().unwrap();
+    let [force, _] = single.resultant(weight.as_ref(), &single.state(&[]));
+    let exact = Vec3::unit(1) * (-3.0 * 0.2 * 8.0f64.sqrt() * 10.0);
+    assert_near(force, exact, 1e-13, "weight");
+}
+
+#[test]
+fn loads_on_faces_and_cells_of_a_rigid_body_are_forces_on_the_body() {
+    let (mesh, [soft, hard]) = stack();
+    let shift = |load: Load| {
+        let changes = vec![
+            hold(vec![0, 1, 2, 3], &[0, 1, 2]),
+            Change::Release(Target::Rigid(0), vec![0, 1, 2]),
+        ];
+        let mut model = lid(&mesh, soft, hard, step_with(changes, vec![load], true));
+        run(&mut model).pop().unwrap().0
+    };
+    let force = Vec3::new(4.0, -2.0, -30.0);
+    let expected = shift(Load::Carrier {
+        carrier: 0,
+        force,
+        moment: Vec3::ZERO,
+    });
+    assert!(expected[10].z < -0.01, "{:?}", expected[10]);
+    let top = Face {
+        cell: hard,
+        side: 1,
+    };
+    let on_face = Load::Force {
+        faces: vec![top],
+        total: force,
+    };
+    let on_cell = Load::Body {
+        cells: vec![hard],
+        force,
+    };
+    for load in [on_face, on_cell] {
+        for (a, b) in shift(load).iter().zip(&expected) {
+            assert_near(*a, *b, 1e-7, "displacement");
+        }
+    }
+}
+
+/// A cube with another on top.
+fn stack() -> (Mesh, [CellId; 2]) {
     let mut mesh = Mesh::default();
     for z in 0..3 {
         for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
@@ -285,36 +468,24 @@ fn a_moment_on_a_carrier_swivels_where_more_than_one_rotation_is_free() {
     let hex = element::by_name("hex8").unwrap();
     let soft = mesh.push_cell(hex, &[0, 1, 2, 3, 4, 5, 6, 7], 1);
     let hard = mesh.push_cell(hex, &[4, 5, 6, 7, 8, 9, 10, 11], 2);
-    let twist = |moment: Vec3| {
-        let load = Load::Carrier {
-            carrier: 0,
-            force: Vec3::ZERO,
-            moment,
-        };
-        let rigid = BodyPart {
-            name: "lid".into(),
-            cells: vec![hard],
-            kind: BodyKind::Rigid(0),
-        };
-        let parts = Parts {
-            bodies: vec![solid("cube", vec![soft], None), rigid],
-            carriers: vec![CarrierPart {
-                name: "lid".into(),
-                at: None,
-            }],
-            steps: vec![step_with(
-                vec![hold(vec![0, 1, 2, 3], &[0, 1, 2])],
-                vec![load],
-                true,
-            )],
-            ..Parts::new(&mesh, Idealisation::Space)
-        };
-        let mut model = Model::assemble(parts).unwrap();
-        run(&mut model);
-        let symmetry = model.system.terms.last().unwrap().symmetry();
-        symmetry == Symmetry::Unsymmetric
+    (mesh, [soft, hard])
+}
+
+/// The lower cube deforms, the upper one is rigid.
+fn lid(mesh: &Mesh, soft: CellId, hard: CellId, step: StepPart) -> Model {
+    let rigid = BodyPart {
+        name: "lid".into(),
+        cells: vec![hard],
+        kind: BodyKind::Rigid(0),
     };
-    // carriers are free along what loads them, and held otherwise
-    assert!(!twist(Vec3::new(0.0, 0.0, 5.0)));
-    assert!(twist(Vec3::new(0.0, 4.0, 5.0)));
+    let parts = Parts {
+        bodies: vec![solid("cube", vec![soft], None), rigid],
+        carriers: vec![CarrierPart {
+            name: "lid".into(),
+            at: None,
+        }],
+        steps: vec![step],
+        ..Parts::new(mesh, Idealisation::Space)
+    };
+    Model::assemble(parts).unwrap()
 }

@@ -87,6 +87,54 @@ fn a_stretch_of_rubber_to_any_length_finds_its_thickness_in_one_step() {
 }
 
 #[test]
+fn sheets_and_bars_of_every_rubber_and_of_metal_stretch_to_any_length_in_one_step() {
+    for k in 0..7 {
+        let make = || {
+            let ogden = |bulk: f64| rubbers(bulk).into_iter().nth(1).map(|(law, _)| law);
+            let mooney = |bulk: f64| rubbers(bulk).into_iter().next().map(|(law, _)| law);
+            let law = match k {
+                0 => ogden(5.0),
+                1 => ogden(5e2),
+                2 => ogden(5e4),
+                3 => mooney(5.0),
+                4 => mooney(5e2),
+                5 => mooney(5e4),
+                _ => Some(super::plastic(HardeningKind::Isotropic)),
+            };
+            law.unwrap()
+        };
+        for sheet in [false, true] {
+            for stretch in [0.02f64, 0.1, 0.5, 0.9, 1.3, 3.0, 20.0] {
+                let law = if sheet {
+                    Reduced::plane_stress(make())
+                } else {
+                    Reduced::uniaxial(make())
+                };
+                let e = 0.5 * (stretch * stretch - 1.0);
+                let given = Sym3::new(e, if sheet { 0.3 * e } else { 0.0 }, 0.0, 0.0, 0.0, 0.0);
+                let mut history = vec![0.0; law.nhistory()];
+                let out = advance(&law, &finite(given), &mut history);
+                let free = history.split_off(make().nhistory());
+                let (yy, zz) = if sheet {
+                    (given.yy(), free[0])
+                } else {
+                    (free[0], free[1])
+                };
+                assert_eq!(zz, out.across);
+                let inside = fresh(make().as_ref(), &finite(Sym3::diagonal(e, yy, zz)));
+                let left = inside.stress.zz() * (1.0 + 2.0 * zz) / make().modulus();
+                // what one unit in the last place of E is to the stretch
+                let floor = 1e-15 / (1.0 + 2.0 * zz);
+                assert!(
+                    left.abs() < 1e-10 + floor,
+                    "{k} {sheet} {stretch}: {left:.1e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn saint_venant_kirchhoff_without_thickness_left_is_an_error() {
     let law = Reduced::plane_stress(Box::new(SaintVenantKirchhoff::new(500.0, 0.45)));
     let strain = finite(Sym3::diagonal(1.0, 1.0, 0.0));
@@ -126,8 +174,10 @@ fn mooney_rivlin_is_its_energy_by_invariants() {
     }
 }
 
-/// The nearly incompressible laws of Mooney and Rivlin and of Ogden, and the sum of `2μ/α f(α)` over the terms.
-fn rubbers(bulk: f64) -> [(Box<dyn Material>, Vec<(f64, f64)>); 2] {
+type Rubber = (Box<dyn Material>, Vec<(f64, f64)>);
+
+/// The laws of Mooney and Rivlin and of Ogden, and their terms `(μ, α)`.
+fn rubbers(bulk: f64) -> [Rubber; 2] {
     let mooney = constants(&[("c10", &[0.4]), ("c01", &[0.1]), ("bulk", &[bulk])]);
     // Treloar's rubber, Ogden 1972, in the form with 2μ/α²: μ_p α_p/2
     let (alpha, mu) = ([1.3, 5.0, -2.0], [0.4095, 0.003, 0.01]);
@@ -292,7 +342,7 @@ fn vectors_that_span_no_plane_are_refused() {
         x + Vec3::unit(0) * 1e-9,
     ] {
         assert!(Oriented::new(of_table("orthotropic"), x, y).is_err());
-        assert!(Oriented::new(of_table("orthotropic"), y, x).is_err() || y == x + Vec3::unit(0));
+        assert!(Oriented::new(of_table("orthotropic"), y, x).is_err());
     }
 }
 

@@ -128,7 +128,6 @@ fn run(parts: Parts<'_>) -> Ran {
         Flow::Continue
     });
     assert_eq!(outcome.unwrap(), Outcome::Finished);
-    println!("iterations {iterations:?}");
     Ran {
         state: stepper.state().clone(),
         model,
@@ -321,7 +320,6 @@ fn a_kinematic_coupling_twists_a_cube_by_a_right_angle_and_hands_on_force_and_mo
     let (force, moment) = ran.reactions();
     let (held, twist) = ran.held(0);
     let balance = moment + twist + ran.state.poses[0].origin.cross(held);
-    println!("{held:?} {twist:?} {:?} {balance:?}", force + held);
     assert!(twist.z > 50.0);
     assert!((force + held).max_abs() < 1e-8 && balance.max_abs() < 1e-8);
     assert!(
@@ -461,7 +459,6 @@ fn a_distributing_coupling_acts_as_equivalent_forces_and_follows_the_mean() {
     let (f, m) = ran.reactions();
     let arm = ran.state.poses[0].origin;
     let balance = m + moment * 10.0 + arm.cross(force * 20.0);
-    println!("{:?} {balance:?}", f + force * 20.0);
     assert!((f + force * 20.0).max_abs() < 1e-8 && balance.max_abs() < 1e-8);
     assert!(
         ran.last().rigid[0].rotation.z > 0.05,
@@ -772,7 +769,6 @@ fn contact_acts_on_unknowns_that_follow_and_restarts_and_threads_change_no_bit()
     // the base feels what contact hands down
     let force = frame.contacts[0].primary.force;
     let base: Vec3 = frame.reaction_force.iter().copied().sum();
-    println!("{force:?} {base:?}");
     assert!(
         force.z < -10.0 && (force + base).max_abs() < 1e-7,
         "{force:?} {base:?}"

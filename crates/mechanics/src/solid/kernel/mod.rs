@@ -54,13 +54,14 @@ pub(super) struct Output<'a> {
 }
 
 /// What is known at a quadrature point.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Sample {
     /// Cauchy stress.
     pub stress: Sym3,
     /// Linearized, or logarithmic at finite strain.
     pub strain: Sym3,
-    pub plastic_strain: f64,
+    /// Where the material has one.
+    pub plastic_strain: Option<f64>,
     /// Present volume that belongs to the point.
     pub volume: f64,
 }
@@ -280,7 +281,7 @@ impl Element<'_> {
         Sample {
             stress,
             strain,
-            plastic_strain: self.material.plastic_strain(history).unwrap_or(0.0),
+            plastic_strain: self.material.plastic_strain(history),
             volume,
         }
     }

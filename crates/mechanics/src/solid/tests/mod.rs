@@ -1,18 +1,50 @@
-//! Elements against differences, patches, rigid motions.
+//! Elements against differences, patches, rigid motions; remedies, history, reports.
 
 use super::*;
-use crate::material::{Constants, Kinematics, TABLE};
-use crate::system::{
-    Assembler, Assembly, Dof, Elimination, Idealisation, Layout, Order, Sink, State, Term, Work,
+use crate::material::{
+    Constants, Expanding, Hardening, HardeningKind, Kinematics, Material, MaterialError,
+    Order as MaterialOrder, Plasticity, Response, Strain, TABLE,
 };
-use signorini_geometry::element;
+use crate::system::{
+    Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, Layout, NodalField, Order,
+    Sink, State, StepContext, Symmetry, Term, TermError, Work,
+};
+use signorini_geometry::element::{self, Element};
 use signorini_geometry::mesh::Mesh;
-use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
 
+mod derivatives;
+mod history;
+mod locking;
+mod patch;
 mod speed;
+mod truss;
 
-const ELEMENTS: [&str; 5] = ["tri3", "quad4", "tet4", "hex8", "wedge6"];
+const PLANE: [&str; 5] = ["tri3", "quad4", "tri6", "quad8", "quad9"];
+const SPACE: [&str; 7] = [
+    "tet4", "wedge6", "hex8", "tet10", "wedge15", "hex20", "hex27",
+];
+const LOCKINGS: [Locking; 5] = [
+    Locking::Auto,
+    Locking::None,
+    Locking::BBar,
+    Locking::FBar,
+    Locking::Incompatible,
+];
+
+/// Every element in every idealisation that has it.
+fn elements() -> impl Iterator<Item = (Element, Idealisation)> {
+    let plane = [
+        Idealisation::PlaneStrain { thickness: 0.7 },
+        Idealisation::PlaneStress { thickness: 0.7 },
+        Idealisation::Axisymmetric,
+    ];
+    let flat = PLANE.iter().flat_map(move |e| plane.map(|s| (*e, s)));
+    let solid = SPACE.iter().map(|e| (*e, Idealisation::Space));
+    flat.chain(solid)
+        .map(|(e, s)| (element::by_name(e).unwrap(), s))
+}
 
 /// Numbers in [-1, 1] that look random and are the same in every run.
 fn noise(k: usize) -> f64 {
@@ -20,62 +52,152 @@ fn noise(k: usize) -> f64 {
     2.0 * (x - x.floor()) - 1.0
 }
 
-/// One distorted element.
-fn single(name: &str, law: usize, nonlinear: bool) -> (Solid, Layout, Arc<[Vec3]>) {
-    let element = element::by_name(name).unwrap();
+fn elastic(name: &str, nu: f64) -> Box<dyn Material> {
+    let law = TABLE.iter().find(|l| l.name == name).unwrap();
+    (law.make)(&Constants::elastic(500.0, nu)).unwrap()
+}
+
+/// A mesh of one distorted element. Bodies of revolution lie at radii around 2.
+fn one(element: Element, space: Idealisation) -> Mesh {
     let mut mesh = Mesh::default();
+    let radius = match space {
+        Idealisation::Axisymmetric => 2.0,
+        _ => 0.0,
+    };
+    let size = if element.nnode() > 8 { 0.05 } else { 0.1 };
     for (i, xi) in element.nodes().iter().enumerate() {
-        let mut x = *xi;
+        let mut x = *xi + Vec3::new(radius, 0.0, 0.0);
         for axis in 0..element.dim() {
-            x[axis] += 0.1 * noise(3 * i + axis);
+            x[axis] += size * noise(3 * i + axis);
         }
         mesh.points.push(x);
         mesh.node_labels.push(i as u64 + 1);
     }
     let nodes: Vec<u32> = (0..element.nnode() as u32).collect();
-    let cell = mesh.push_cell(element, &nodes, 7);
+    mesh.push_cell(element, &nodes, 7);
+    mesh
+}
+
+/// A body of all cells of a mesh.
+struct Body {
+    solid: Solid,
+    layout: Layout,
+    reference: Arc<[Vec3]>,
+}
+
+struct Wish {
+    space: Idealisation,
+    kinematics: Kinematics,
+    locking: Locking,
+    integration: Integration,
+}
+
+impl Wish {
+    fn plain(space: Idealisation, kinematics: Kinematics) -> Self {
+        Self {
+            space,
+            kinematics,
+            locking: Locking::None,
+            integration: Integration::Full,
+        }
+    }
+}
+
+fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, SolidError> {
+    let ndim = wish.space.ndim();
     let layout = Layout {
-        ndim: element.dim(),
+        ndim,
         nnode: mesh.nnode(),
         nrigid: 0,
         nmultiplier: 0,
     };
+    let cells: Vec<_> = mesh.cells(ndim).collect();
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
-    let material = (TABLE[law].make)(&Constants::sample()).unwrap();
     let mut solid = Solid::new(SolidParts {
         name: "body",
-        mesh: &mesh,
+        mesh,
         reference: reference.clone(),
-        cells: &[cell],
+        cells: &cells,
         layout,
-        space: match element.dim() {
-            2 => Idealisation::PlaneStrain { thickness: 1.0 },
-            _ => Idealisation::Space,
-        },
+        space: wish.space,
         material,
-        integration: Integration::Full,
-        locking: Locking::None,
+        integration: wish.integration,
+        locking: wish.locking,
         temperature: None,
+    })?;
+    solid.locking(wish.kinematics)?;
+    solid.set_kinematics(wish.kinematics);
+    Ok(Body {
+        solid,
+        layout,
+        reference,
     })
-    .unwrap();
-    solid.set_kinematics(if nonlinear {
-        Kinematics::Finite
-    } else {
-        Kinematics::Small
-    });
-    (solid, layout, reference)
 }
 
-#[derive(Default)]
-struct Local {
+impl Body {
+    fn state(&self, u: &[f64]) -> State {
+        state(&self.layout, &self.reference, u)
+    }
+
+    /// Displacements of all nodes as a function of their place.
+    fn field(&self, of: impl Fn(Vec3) -> Vec3) -> Vec<f64> {
+        let ndim = self.layout.ndim;
+        let moved = self.reference.iter().map(|x| of(*x).to_array());
+        moved.flat_map(|u| u.into_iter().take(ndim)).collect()
+    }
+
+    fn energy(&self, u: &[f64], work: &mut Work) -> f64 {
+        let state = self.state(u);
+        let chunks = 0..self.solid.nchunk();
+        let energies = chunks.map(|c| self.solid.energy(c, &state, work).unwrap().unwrap());
+        energies.sum()
+    }
+
+    /// Force and stiffness of everything, dense.
+    fn assemble(&self, u: &[f64], order: Order, work: &mut Work) -> Dense {
+        let n = self.layout.ndof();
+        let mut dense = Dense {
+            force: vec![0.0; n],
+            stiffness: vec![0.0; if order == Order::Tangent { n * n } else { 0 }],
+        };
+        let state = self.state(u);
+        for chunk in 0..self.solid.nchunk() {
+            let outcome = self.solid.evaluate(chunk, &state, order, work, &mut dense);
+            outcome.unwrap();
+        }
+        dense
+    }
+
+    fn report(&self, u: &[f64]) -> Frame {
+        let mut frame = Frame::new(self.layout.nnode, &[1]);
+        self.solid.report(&self.state(u), &mut frame).unwrap();
+        frame
+    }
+}
+
+/// A sink without sparsity.
+struct Dense {
     force: Vec<f64>,
     stiffness: Vec<f64>,
 }
 
-impl Sink for Local {
-    fn add(&mut self, _: &[Dof], force: &[f64], stiffness: &[f64]) {
-        self.force = force.to_vec();
-        self.stiffness = stiffness.to_vec();
+impl Sink for Dense {
+    fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]) {
+        let n = self.force.len();
+        for (&dof, f) in dofs.iter().zip(force) {
+            self.force[dof as usize] += f;
+        }
+        for (&row, values) in dofs.iter().zip(stiffness.chunks_exact(dofs.len())) {
+            for (&column, k) in dofs.iter().zip(values) {
+                self.stiffness[row as usize * n + column as usize] += k;
+            }
+        }
+    }
+}
+
+impl Dense {
+    fn scale(&self) -> f64 {
+        self.stiffness.iter().fold(0.0, |m, k| m.max(k.abs()))
     }
 }
 
@@ -88,183 +210,132 @@ fn state(layout: &Layout, reference: &[Vec3], u: &[f64]) -> State {
 }
 
 #[test]
-fn forces_are_the_gradient_of_energy_and_stiffness_that_of_forces() {
-    for name in ELEMENTS {
-        for law in 0..TABLE.len() {
-            for nonlinear in [false, true] {
-                let (solid, layout, reference) = single(name, law, nonlinear);
-                let u: Vec<f64> = (0..layout.ndof()).map(|k| 0.06 * noise(100 + k)).collect();
-                let mut work = Work::default();
-                let mut at = |u: &[f64]| {
-                    let state = state(&layout, &reference, u);
-                    let mut local = Local::default();
-                    solid
-                        .evaluate(0, &state, Order::Tangent, &mut work, &mut local)
-                        .unwrap();
-                    let energy = solid.energy(0, &state, &mut work).unwrap().unwrap();
-                    (local, energy)
-                };
-                let (local, _) = at(&u);
-                let n = layout.ndof();
-                let scale = local.stiffness.iter().fold(0.0f64, |m, k| m.max(k.abs()));
-                let h = 1e-5;
-                for j in 0..n {
-                    let mut shifted = u.clone();
-                    // fourth-order differences
-                    let mut value = |d: f64| {
-                        shifted[j] = u[j] + d;
-                        at(&shifted)
-                    };
-                    let (p1, m1, p2, m2) = (value(h), value(-h), value(2.0 * h), value(-2.0 * h));
-                    let slope =
-                        |a: f64, b: f64, c: f64, d: f64| (8.0 * (a - b) - (c - d)) / (12.0 * h);
-                    let force = slope(p1.1, m1.1, p2.1, m2.1);
-                    assert!(
-                        (force - local.force[j]).abs() < 1e-7 * scale,
-                        "{name} {law}"
-                    );
-                    for i in 0..n {
-                        let k = slope(p1.0.force[i], m1.0.force[i], p2.0.force[i], m2.0.force[i]);
-                        let error = (k - local.stiffness[i * n + j]).abs();
-                        assert!(
-                            error < 1e-9 * scale,
-                            "{name} {law} {nonlinear} {i} {j} {error:e}"
-                        );
-                        let transposed = local.stiffness[j * n + i];
-                        assert!((local.stiffness[i * n + j] - transposed).abs() < 1e-12 * scale);
-                    }
-                }
-            }
-        }
-    }
-}
-
-#[test]
 fn a_rigid_rotation_stores_no_energy_at_finite_strain() {
-    for name in ELEMENTS {
-        let (solid, layout, reference) = single(name, 2, true);
-        let turn = Mat3::rotation(Vec3::new(0.0, 0.0, 1.1));
-        let mut u = vec![0.0; layout.ndof()];
-        for (i, x) in reference.iter().enumerate() {
-            let moved = turn * *x - *x + Vec3::new(0.3, -0.2, 0.0);
-            for axis in 0..layout.ndim {
-                u[i * layout.ndim + axis] = moved[axis];
-            }
+    for (element, space) in elements() {
+        if space == Idealisation::Axisymmetric {
+            continue;
         }
-        let mut local = Local::default();
-        let state = state(&layout, &reference, &u);
-        let mut work = Work::default();
-        solid
-            .evaluate(0, &state, Order::Residual, &mut work, &mut local)
-            .unwrap();
-        assert!(local.force.iter().all(|f| f.abs() < 1e-11), "{name}");
-        assert!(local.stiffness.is_empty());
+        let mesh = one(element, space);
+        for locking in [Locking::None, Locking::FBar] {
+            let wish = Wish {
+                locking,
+                ..Wish::plain(space, Kinematics::Finite)
+            };
+            let Ok(body) = body(&mesh, elastic("neo-hookean", 0.3), &wish) else {
+                continue;
+            };
+            let turn = match space {
+                Idealisation::Space => Mat3::rotation(Vec3::new(0.4, -0.5, 1.1)),
+                _ => Mat3::rotation(Vec3::new(0.0, 0.0, 1.1)),
+            };
+            let u = body.field(|x| turn * x - x + Vec3::new(0.3, -0.2, 0.1));
+            let mut work = Work::default();
+            let at = body.assemble(&u, Order::Residual, &mut work);
+            let name = element.name();
+            assert!(at.force.iter().all(|f| f.abs() < 1e-11), "{name}");
+            assert!(body.energy(&u, &mut work) < 1e-20, "{name}");
+            assert!(at.stiffness.is_empty());
+        }
     }
 }
 
 #[test]
-fn a_homogeneous_strain_gives_its_stress_everywhere_and_no_force_inside() {
-    // five distorted quadrilaterals round an inner one: the classical patch
-    let mut mesh = Mesh::default();
-    for (x, y) in [
-        (0.0, 0.0),
-        (2.0, 0.0),
-        (2.0, 3.0),
-        (0.0, 3.0),
-        (0.4, 0.4),
-        (1.4, 0.6),
-        (1.5, 2.0),
-        (0.3, 1.6),
+fn auto_chooses_by_element_strain_space_and_material() {
+    let plane = Idealisation::PlaneStrain { thickness: 1.0 };
+    let sheet = Idealisation::PlaneStress { thickness: 1.0 };
+    let space = Idealisation::Space;
+    let (none, modes) = (Locking::None, Locking::Incompatible);
+    let (small, finite) = (Locking::BBar, Locking::FBar);
+    // ordinary small and finite, then of a material that keeps its volume
+    for (name, idealisation, integration, chosen) in [
+        ("tri3", plane, Integration::Full, [none; 4]),
+        (
+            "quad4",
+            plane,
+            Integration::Full,
+            [modes, none, small, finite],
+        ),
+        (
+            "quad4",
+            sheet,
+            Integration::Full,
+            [modes, none, modes, none],
+        ),
+        (
+            "hex8",
+            space,
+            Integration::Full,
+            [modes, none, small, finite],
+        ),
+        ("tet4", space, Integration::Full, [none; 4]),
+        (
+            "tet10",
+            space,
+            Integration::Full,
+            [none, none, small, finite],
+        ),
+        ("quad8", sheet, Integration::Full, [none; 4]),
+        (
+            "hex20",
+            space,
+            Integration::Full,
+            [none, none, small, finite],
+        ),
+        ("hex20", space, Integration::Reduced, [none; 4]),
     ] {
-        mesh.points.push(Vec3::new(x, y, 0.0));
-        mesh.node_labels.push(mesh.points.len() as u64);
-    }
-    let quad = element::by_name("quad4").unwrap();
-    let cells: Vec<_> = [
-        [0, 1, 5, 4],
-        [1, 2, 6, 5],
-        [2, 3, 7, 6],
-        [3, 0, 4, 7],
-        [4, 5, 6, 7],
-    ]
-    .iter()
-    .enumerate()
-    .map(|(k, nodes)| mesh.push_cell(quad, nodes, k as u64 + 1))
-    .collect();
-    let layout = Layout {
-        ndim: 2,
-        nnode: 8,
-        nrigid: 0,
-        nmultiplier: 0,
-    };
-    let reference: Arc<[Vec3]> = mesh.points.clone().into();
-    for nonlinear in [false, true] {
-        let material = (TABLE[2].make)(&Constants::elastic(1000.0, 0.25)).unwrap();
-        let mut solid = Solid::new(SolidParts {
-            name: "patch",
-            mesh: &mesh,
-            reference: reference.clone(),
-            cells: &cells,
-            layout,
-            space: Idealisation::PlaneStrain { thickness: 2.0 },
-            material,
-            integration: Integration::Full,
-            locking: Locking::None,
-            temperature: None,
-        })
-        .unwrap();
-        solid.set_kinematics(if nonlinear {
-            Kinematics::Finite
-        } else {
-            Kinematics::Small
-        });
-        let gradient = [[0.02, 0.01], [-0.03, -0.05]];
-        let u: Vec<f64> = reference
-            .iter()
-            .flat_map(|x| gradient.map(|g| g[0] * x.x + g[1] * x.y))
-            .collect();
-        let state = state(&layout, &reference, &u);
-        let terms: Vec<Box<dyn Term>> = vec![Box::new(solid)];
-        let elimination = Elimination::default();
-        let mut assembler = Assembler::new(&layout, &elimination, &terms);
-        let mut out = Assembly::default();
-        assembler
-            .assemble(
-                &layout,
-                &elimination,
-                &terms,
-                &state,
-                Order::Tangent,
-                &mut out,
-            )
-            .unwrap();
-        let inner = &out.residual[8..];
-        assert!(inner.iter().all(|r| r.abs() < 1e-12 * 1000.0), "{inner:?}");
-        let mut frame = crate::system::Frame::new(8, &[5]);
-        terms[0].report(&state, &mut frame).unwrap();
-        let first = frame.cell_stress[0][0];
-        for stress in frame.cell_stress[0].iter().chain(&frame.stress) {
-            let difference = (*stress - first).to_pairs();
-            assert!(difference.iter().all(|d| d.abs() < 1e-11), "{difference:?}");
+        let mesh = one(element::by_name(name).unwrap(), idealisation);
+        let laws = [elastic("neo-hookean", 0.3), derivatives::plastic()];
+        let keeping = elastic("neo-hookean", 0.49);
+        for (law, pair) in laws.into_iter().chain([keeping]).zip([0, 2, 2]) {
+            let wish = Wish {
+                locking: Locking::Auto,
+                integration,
+                ..Wish::plain(idealisation, Kinematics::Small)
+            };
+            let solid = body(&mesh, law, &wish).unwrap().solid;
+            let sizes = [Kinematics::Small, Kinematics::Finite];
+            let found = sizes.map(|k| solid.locking(k).unwrap()[0].1);
+            assert_eq!(found, chosen[pair..pair + 2], "{name} {idealisation:?}");
         }
-        assert!(
-            first.zz().abs() > 1.0,
-            "plane strain has a stress across the plane"
-        );
     }
 }
 
 #[test]
 fn an_element_turned_inside_out_is_named() {
-    let (solid, layout, reference) = single("hex8", 1, true);
-    let mut u = vec![0.0; layout.ndof()];
+    let mesh = one(element::by_name("hex8").unwrap(), Idealisation::Space);
+    let wish = Wish::plain(Idealisation::Space, Kinematics::Finite);
+    let body = body(&mesh, elastic("neo-hookean", 0.3), &wish).unwrap();
+    let mut u = vec![0.0; body.layout.ndof()];
     for i in 4..8 {
         u[3 * i + 2] = -2.5;
     }
-    let state = state(&layout, &reference, &u);
-    let outcome = solid.energy(0, &state, &mut Work::default());
+    let outcome = body.solid.energy(0, &body.state(&u), &mut Work::default());
     assert!(matches!(
         outcome,
-        Err(crate::system::TermError::Inverted { element: 7, .. })
+        Err(TermError::Inverted { element: 7, .. })
     ));
+}
+
+#[test]
+fn a_radius_below_zero_is_refused_and_one_of_zero_is_not() {
+    let quad = element::by_name("quad4").unwrap();
+    for (left, allowed) in [(0.0, true), (-0.01, false)] {
+        let mut mesh = Mesh::default();
+        for (k, x) in quad.nodes().iter().enumerate() {
+            let r = if x.x < 0.0 { left } else { 1.0 };
+            mesh.points.push(Vec3::new(r, x.y, 0.0));
+            mesh.node_labels.push(k as u64);
+        }
+        mesh.push_cell(quad, &[0, 1, 2, 3], 3);
+        let wish = Wish::plain(Idealisation::Axisymmetric, Kinematics::Small);
+        match body(&mesh, elastic("linear-elastic", 0.3), &wish) {
+            Ok(_) => assert!(allowed),
+            Err(SolidError::Radius {
+                label: 3, radius, ..
+            }) => {
+                assert!(!allowed && radius < 0.0);
+            }
+            Err(other) => panic!("{other}"),
+        }
+    }
 }

@@ -69,7 +69,7 @@ fn hexahedra_assembled_per_second() {
             fn add(&mut self, _: &[Dof], _: &[f64], _: &[f64]) {}
         }
         let mut work = Work::default();
-        let alone = best_of(12, || {
+        let alone = best_of(40, || {
             for chunk in 0..solid.nchunk() {
                 let order = Order::Tangent;
                 solid
@@ -81,7 +81,7 @@ fn hexahedra_assembled_per_second() {
         let elimination = Elimination::default();
         let mut assembler = Assembler::new(&layout, &elimination, &terms);
         let mut out = Assembly::default();
-        let whole = best_of(12, || {
+        let whole = best_of(40, || {
             let order = Order::Tangent;
             assembler
                 .assemble(&layout, &elimination, &terms, &state, order, &mut out)

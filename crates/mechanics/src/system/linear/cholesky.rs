@@ -54,6 +54,49 @@ enum Kind {
     Ldlt,
 }
 
+/// The pattern of the factor for this order of elimination.
+fn symbolic(matrix: &Matrix, order: &[u32]) -> Result<SymbolicCholesky<u32>, LinearError> {
+    let n = matrix.nequation();
+    let mut place = vec![0u32; n];
+    for (new, &old) in order.iter().enumerate() {
+        place[old as usize] = new as u32;
+    }
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &matrix.start, None, &matrix.row);
+    let ordering = SymmetricOrdering::Custom(PermRef::new_checked(order, &place, n));
+    factorize_symbolic_cholesky(
+        pattern,
+        Side::Lower,
+        ordering,
+        CholeskySymbolicParams::default(),
+    )
+    .map_err(|_| LinearError::TooLarge {
+        nequation: n,
+        nentry: matrix.row.len(),
+    })
+}
+
+/// The numbers that a factor stores, and the multiplications and additions that it takes: `Σ c²` over the columns, with
+/// `c` the length of each.
+pub(super) fn size(matrix: &Matrix, order: &[u32]) -> Result<(usize, f64), LinearError> {
+    let symbolic = symbolic(matrix, order)?;
+    let squared = |c: usize| (c as f64) * (c as f64);
+    let work = match symbolic.raw() {
+        SymbolicCholeskyRaw::Simplicial(raw) => {
+            let columns = raw.col_ptr().windows(2);
+            columns.map(|c| squared((c[1] - c[0]) as usize)).sum()
+        }
+        SymbolicCholeskyRaw::Supernodal(raw) => (0..raw.n_supernodes())
+            .map(|s| {
+                let width = (raw.supernode_end()[s] - raw.supernode_begin()[s]) as usize;
+                let rows = raw.col_ptr_for_row_idx();
+                let below = (rows[s + 1] - rows[s]) as usize;
+                (1..=width).map(|k| squared(k + below)).sum::<f64>()
+            })
+            .sum(),
+    };
+    Ok((symbolic.len_val(), work))
+}
+
 impl Cholesky {
     pub fn new(matrix: &Matrix, order: &[u32], sign: &[i8], par: Par) -> Result<Self, LinearError> {
         let n = matrix.nequation();
@@ -61,19 +104,7 @@ impl Cholesky {
             nequation: n,
             nentry,
         };
-        let mut place = vec![0u32; n];
-        for (new, &old) in order.iter().enumerate() {
-            place[old as usize] = new as u32;
-        }
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &matrix.start, None, &matrix.row);
-        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(order, &place, n));
-        let symbolic = factorize_symbolic_cholesky(
-            pattern,
-            Side::Lower,
-            ordering,
-            CholeskySymbolicParams::default(),
-        )
-        .map_err(|_| too_large(matrix.row.len()))?;
+        let symbolic = symbolic(matrix, order)?;
         let mut factor = Vec::new();
         factor
             .try_reserve_exact(symbolic.len_val())

@@ -506,7 +506,7 @@ fn spread(equation: &[u32], x: &[f64], raw: &mut [f64]) {
 }
 
 /// The node of each equation; none for those outside the bulk.
-fn node_of(problem: &Problem) -> Vec<u32> {
+pub(super) fn node_of(problem: &Problem) -> Vec<u32> {
     let mut node = vec![NONE; problem.nequation];
     let nbulk = problem.bulk.nrow() * problem.bulk.block;
     for (d, &e) in problem

@@ -14,6 +14,7 @@
 
 mod cholesky;
 mod direct;
+mod forecast;
 mod lu;
 mod matrix;
 mod metis;
@@ -23,6 +24,7 @@ mod ordering;
 mod tests;
 
 pub use direct::Direct;
+pub use forecast::Forecast;
 pub use operator::{apply, apply_absolute};
 
 use super::sparsity::{BlockPattern, NONE, Pattern};

@@ -1,10 +1,19 @@
-//! What can be said about a model before anything is solved: sizes, gaps, overlaps, memory.
+//! What can be said about a model before anything is solved: sizes, shapes of elements, free motions, gaps, overlaps,
+//! memory and time.
+
+mod cost;
+mod picture;
+mod quality;
+
+pub use picture::picture;
+pub use quality::Quality;
 
 use crate::build::Model;
-use crate::run::{Fields, Start, Volume, begin};
+use crate::run::{Start, begin};
 use crate::text::{count, plural, short};
+use signorini_geometry::mesh::{CellId, Mesh};
+use signorini_geometry::tensor::Vec3;
 use signorini_io::diagnostic::Diagnostics;
-use signorini_io::writers::vtu::VtuError;
 use signorini_mechanics::system::ContactFrame;
 use std::collections::BTreeSet;
 
@@ -13,21 +22,18 @@ use std::collections::BTreeSet;
 pub struct Preview {
     /// The undeformed state.
     pub start: Start,
+    /// The shapes of the elements.
+    pub quality: Quality,
     /// What there is to say, line by line.
     pub lines: Vec<String>,
 }
-
-/// Numbers of a stiffness matrix and its factor for each unknown, and bytes of each: rough values for solids of linear
-/// elements in space; the factor grows with the size of the model.
-const MATRIX_ENTRIES: f64 = 81.0;
-const FACTOR_GROWTH: f64 = 7.0;
-const BYTES: f64 = 12.0;
 
 /// Looks at a model.
 ///
 /// # Errors
 /// An undeformed state that cannot be evaluated: exit code 4.
 pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
+    let quality = Quality::new(&model.mesh);
     let start = begin(model)?;
     let mesh = &model.mesh;
     let mut lines = Vec::new();
@@ -38,6 +44,7 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
         .collect();
     lines.push(format!("elements: {}", cells.join(", ")));
     lines.push(plural(start.nunknown, "unknown"));
+    lines.extend(shapes(mesh, &quality));
     for body in &model.case.bodies {
         let groups: Vec<&str> = body.groups.iter().map(|g| g.value.as_str()).collect();
         let nodes = groups.iter().filter_map(|g| model.nodes_of(g)).flatten();
@@ -66,8 +73,12 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
         let contact = start.frame.contacts.iter().find(|c| c.name == info.name);
         lines.extend(contact.map(|c| gaps(c, model)));
     }
-    lines.push(format!("memory: about {}", bytes(memory(start.nunknown))));
-    Ok(Preview { start, lines })
+    lines.extend(cost::line(model));
+    Ok(Preview {
+        start,
+        quality,
+        lines,
+    })
 }
 
 /// The gaps of a contact in words.
@@ -91,36 +102,44 @@ fn gaps(contact: &ContactFrame, model: &Model) -> String {
     } else {
         format!("smallest gap {}{label}", short(gap))
     };
+    let area: f64 = near.iter().filter_map(|(k, _)| contact.area.get(*k)).sum();
+    let area = match contact.facets.is_empty() {
+        true => String::new(),
+        false => format!(" on an area of {}", short(area)),
+    };
     format!(
-        "  {} within reach, {touching} touching, {gap}",
+        "  {} within reach{area}, {touching} touching, {gap}",
         plural(near.len(), "point")
     )
 }
 
-/// The memory that a direct solution needs, in bytes.
-fn memory(nunknown: usize) -> f64 {
-    let n = nunknown as f64;
-    // nested dissection in space: the factor has about n log n to n^(4/3) entries
-    let factor = FACTOR_GROWTH * n * n.max(1.0).powf(1.0 / 3.0);
-    BYTES * (MATRIX_ENTRIES * n + factor) + 2e7
-}
-
-fn bytes(bytes: f64) -> String {
-    if bytes < 1e9 {
-        format!("{:.0} MB", (bytes / 1e6).max(1.0))
-    } else {
-        format!("{:.1} GB", bytes / 1e9)
-    }
-}
-
-/// `check.vtu`: the undeformed solids with what is known of contact.
-///
-/// # Errors
-/// Arrays of another mesh.
-pub fn picture(model: &Model, preview: &Preview) -> Result<Vec<u8>, VtuError> {
-    let fields = Fields {
-        contact: true,
-        ..Fields::default()
+/// The shapes of the elements in two lines.
+fn shapes(mesh: &Mesh, quality: &Quality) -> Vec<String> {
+    let Some((worst, eta)) = quality.worst() else {
+        return Vec::new();
     };
-    Volume::new(&model.mesh, fields).encode(&preview.start.frame)
+    let tenths: Vec<String> = quality.histogram.iter().map(|&n| count(n)).collect();
+    vec![
+        format!(
+            "quality (1 ideal, 0 flat): worst {eta:.2}, {} at {}",
+            mesh.element(worst).map_or("", |e| e.name()),
+            center(mesh, worst)
+        ),
+        format!("  elements by tenths from 0 to 1: {}", tenths.join(" | ")),
+    ]
+}
+
+/// `element 17 (x = 1.00, y = 0, z = 2.50)`.
+fn center(mesh: &Mesh, cell: CellId) -> String {
+    let nodes = mesh.cell(cell).iter();
+    let points = nodes.filter_map(|&n| mesh.points.get(n as usize).copied());
+    let (sum, n) = points.fold((Vec3::ZERO, 0.0), |(s, n), x| (s + x, n + 1.0));
+    let at = sum / f64::max(n, 1.0);
+    format!(
+        "element {} (x = {}, y = {}, z = {})",
+        mesh.cell_label(cell).unwrap_or(0),
+        short(at.x),
+        short(at.y),
+        short(at.z)
+    )
 }

@@ -1,0 +1,337 @@
+//! What becomes rows (E2).
+
+use super::null_space::null_space;
+use super::{Held, Motion, NCOMPONENT, Rows};
+use crate::model::{ConstraintKind, ConstraintPart, ContactPart, SidePart, SpringPart, Unknown};
+use crate::solve::Prescription;
+use crate::system::{DofName, Layout};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeSet;
+
+/// A row in the making: units with their coefficients.
+type Row = Vec<(usize, Motion)>;
+
+impl Held<'_> {
+    /// What is prescribed.
+    pub fn supports(&mut self, layout: &Layout, prescriptions: &[Prescription]) {
+        for p in prescriptions {
+            let unknown = match layout.name(p.dof) {
+                Some(DofName::Node(node, axis)) => Unknown::Node(node, axis),
+                Some(DofName::Translation(body, axis)) => Unknown::Carrier(body, axis),
+                Some(DofName::Rotation(body, axis)) => Unknown::Carrier(body, 3 + axis),
+                _ => continue,
+            };
+            self.equation(&[(unknown, 1.0)]);
+        }
+    }
+
+    /// Springs resist relative motion of their ends, along a direction or the line between them.
+    pub fn springs(&mut self, springs: &[SpringPart]) {
+        for spring in springs {
+            for &(a, b) in &spring.ends {
+                let line = b.and_then(|b| (self.point(b) - self.point(a)).normalized());
+                let Some(direction) = spring.direction.or(line) else {
+                    continue;
+                };
+                let ends = [(Some(a), 1.0), (b, -1.0)];
+                let ends = ends.into_iter().filter_map(|(n, k)| Some((n?, k)));
+                let row = ends.flat_map(|(node, sign)| {
+                    (0..3).map(move |axis| (Unknown::Node(node, axis), sign * direction[axis]))
+                });
+                self.equation(&row.collect::<Vec<_>>());
+            }
+        }
+    }
+
+    /// Equations and couplings.
+    pub fn constraints(&mut self, constraints: &[ConstraintPart]) {
+        for constraint in constraints {
+            match &constraint.kind {
+                ConstraintKind::Equation { terms, .. } => self.equation(terms),
+                ConstraintKind::Equal { nodes, axes } => {
+                    let pairs = nodes.iter().skip(1).zip(nodes);
+                    for (&a, &b) in pairs {
+                        for axis in (0..3).filter(|&axis| axes[axis]) {
+                            let ends = [(a, 1.0), (b, -1.0)];
+                            self.equation(&ends.map(|(n, k)| (Unknown::Node(n, axis), k)));
+                        }
+                    }
+                }
+                ConstraintKind::Kinematic {
+                    nodes,
+                    carrier,
+                    axes,
+                } => {
+                    for &node in nodes {
+                        self.follows(node, *carrier, *axes);
+                    }
+                }
+                ConstraintKind::Distributing { nodes, carrier } => {
+                    self.distributing(nodes, *carrier);
+                }
+                ConstraintKind::Plane { nodes } => self.stays_plane(nodes),
+            }
+        }
+    }
+
+    /// The two sides cannot approach along the normals of the primary side.
+    pub fn contact(&mut self, contact: &ContactPart) {
+        let secondary: BTreeSet<usize> = match &contact.secondary {
+            SidePart::Nodes(nodes) => nodes.iter().filter_map(|&n| self.unit(n)).collect(),
+            SidePart::Faces(faces) => {
+                let nodes = faces.iter().filter_map(|&f| self.mesh.face(f));
+                let units = nodes.flat_map(|(_, nodes)| nodes);
+                units.filter_map(|n| self.unit(n)).collect()
+            }
+        };
+        for &face in &contact.primary {
+            let Some((_, nodes)) = self.mesh.face(face) else {
+                continue;
+            };
+            let corners: Vec<Vec3> = nodes.iter().map(|&n| self.point(n)).collect();
+            let Some(normal) = normal(&corners) else {
+                continue;
+            };
+            let primary = nodes.first().and_then(|&n| self.unit(n));
+            for &unit in secondary.iter().filter(|&&u| Some(u) != primary) {
+                for &at in &corners {
+                    let mut row = vec![(unit, self.moves(unit, at, normal))];
+                    row.extend(primary.map(|p| (p, self.moves(p, at, normal * -1.0))));
+                    self.by_contact.push(row);
+                }
+            }
+        }
+    }
+
+    /// Motions that move no node are no motions: a bar that turns about itself.
+    pub(super) fn without_effect(&mut self) {
+        let mut gram = vec![[[0.0; NCOMPONENT]; NCOMPONENT]; self.first_carrier];
+        for (node, part) in (0..).zip(&self.part_of) {
+            let Some(unit) = *part else { continue };
+            for axis in 0..3 {
+                let row = self.moves(unit, self.point(node), Vec3::unit(axis));
+                super::add(&mut gram[unit], &outer(&row));
+            }
+        }
+        for (own, gram) in self.rows.own.iter_mut().zip(&gram) {
+            for vector in null_space(gram.as_flattened().to_vec(), NCOMPONENT) {
+                let row = std::array::from_fn(|i| vector.get(i).copied().unwrap_or(0.0));
+                super::add(own, &outer(&row));
+            }
+        }
+    }
+
+    /// Nodes of deformable cells that are nodes of a rigid body too.
+    pub(super) fn common_nodes(&mut self) {
+        for (id, body) in (0..).zip(self.elimination.bodies()) {
+            for &node in &body.nodes {
+                if let Some(part) = self.part_of.get(node as usize).copied().flatten() {
+                    self.ties(part, id, node, [true; 3]);
+                }
+            }
+        }
+    }
+
+    fn follows(&mut self, node: NodeId, carrier: RigidId, axes: [bool; 3]) {
+        if let Some(unit) = self.unit(node) {
+            self.ties(unit, carrier, node, axes);
+        }
+    }
+
+    fn ties(&mut self, unit: usize, carrier: RigidId, node: NodeId, axes: [bool; 3]) {
+        let Some(other) = self.carrier(carrier) else {
+            return;
+        };
+        let at = self.point(node);
+        for axis in (0..3).filter(|&axis| axes[axis]) {
+            let along = Vec3::unit(axis);
+            let row = vec![
+                (unit, self.moves(unit, at, along)),
+                (other, self.moves(other, at, along * -1.0)),
+            ];
+            self.rows.push(row);
+        }
+    }
+
+    /// The carrier has the mean displacement of the nodes and their mean rotation: `Σ w (u − u_c) = 0` and
+    /// `Σ w r × (u − u_c) = 0`, where `u_c` is what the carrier's motion would give the node.
+    fn distributing(&mut self, nodes: &[(NodeId, f64)], carrier: RigidId) {
+        let Some(carrier) = self.carrier(carrier) else {
+            return;
+        };
+        let total: f64 = nodes.iter().map(|(_, w)| w).sum();
+        let at = |n: NodeId| self.point(n);
+        let centre: Vec3 = nodes.iter().map(|&(n, w)| at(n) * (w / total)).sum();
+        let arms = nodes.iter().map(|&(n, _)| (at(n) - centre).norm());
+        let size = arms.fold(0.0, f64::max);
+        let mut rows: [Row; NCOMPONENT] = Default::default();
+        for &(node, weight) in nodes {
+            let (Some(unit), x) = (self.unit(node), at(node)) else {
+                continue;
+            };
+            let share = weight / total;
+            for (component, row) in rows.iter_mut().enumerate() {
+                let axis = Vec3::unit(component % 3);
+                let along = match component {
+                    0..3 => axis * share,
+                    // axis · (r × u) = u · (axis × r)
+                    _ if size > 0.0 => axis.cross(x - centre) * (share / size),
+                    _ => continue,
+                };
+                gather(row, unit, self.moves(unit, x, along));
+                gather(row, carrier, self.moves(carrier, x, along * -1.0));
+            }
+        }
+        rows.into_iter().for_each(|row| self.rows.push(row));
+    }
+
+    /// Each node keeps its place, along the normal, in the plane of three of them.
+    fn stays_plane(&mut self, nodes: &[NodeId]) {
+        let Some(&first) = nodes.first() else { return };
+        let farthest = |score: &dyn Fn(Vec3) -> f64| {
+            let nodes = nodes.iter().copied();
+            nodes.max_by(|&a, &b| score(self.point(a)).total_cmp(&score(self.point(b))))
+        };
+        let origin = self.point(first);
+        let Some(second) = farthest(&|x| (x - origin).norm()) else {
+            return;
+        };
+        let along = self.point(second) - origin;
+        let third = match self.space.ndim() {
+            3 => farthest(&|x| along.cross(x - origin).norm()),
+            _ => None,
+        };
+        let across = third.map_or(Vec3::unit(2), |n| self.point(n) - origin);
+        let normal = along.cross(across);
+        let squared = normal.norm_squared();
+        if squared == 0.0 {
+            return;
+        }
+        let unit = normal * (1.0 / squared.sqrt());
+        for &node in nodes {
+            let arm = self.point(node) - origin;
+            let s = arm.cross(across).dot(normal) / squared;
+            let t = third.map_or(0.0, |_| along.cross(arm).dot(normal) / squared);
+            let corners = [
+                (Some(node), 1.0),
+                (Some(first), s + t - 1.0),
+                (Some(second), -s),
+                (third, -t),
+            ];
+            let mut row = Row::new();
+            for (corner, factor) in corners {
+                let Some(corner) = corner else { continue };
+                let Some(of) = self.unit(corner) else {
+                    continue;
+                };
+                gather(
+                    &mut row,
+                    of,
+                    self.moves(of, self.point(corner), unit * factor),
+                );
+            }
+            self.rows.push(row);
+        }
+    }
+
+    /// A linear equation between unknowns; one that speaks of a node without body says nothing.
+    fn equation(&mut self, terms: &[(Unknown, f64)]) {
+        let mut row = Row::new();
+        for &(unknown, coefficient) in terms {
+            let found = match unknown {
+                Unknown::Node(node, axis) => self.unit(node).map(|unit| {
+                    let along = Vec3::unit(axis) * coefficient;
+                    (unit, self.moves(unit, self.point(node), along))
+                }),
+                Unknown::Carrier(id, component) => self.carrier(id).map(|unit| {
+                    let mut motion = [0.0; NCOMPONENT];
+                    if let Some(value) = motion.get_mut(component) {
+                        let turns = component >= 3;
+                        let scale = if turns { self.units[unit].length } else { 1.0 };
+                        *value = coefficient / scale;
+                    }
+                    (unit, motion)
+                }),
+            };
+            match found {
+                Some((unit, motion)) => gather(&mut row, unit, motion),
+                None => return,
+            }
+        }
+        // an equation says the same at any scale
+        let sizes = row.iter().flat_map(|(_, motion)| motion.map(f64::abs));
+        let largest = sizes.fold(0.0, f64::max);
+        if largest > 0.0 {
+            let values = row.iter_mut().flat_map(|(_, motion)| motion);
+            values.for_each(|value| *value /= largest);
+            self.rows.push(row);
+        }
+    }
+
+    /// The unit that a node moves with.
+    fn unit(&self, node: NodeId) -> Option<usize> {
+        let carrier = self.elimination.body_of(node);
+        carrier
+            .and_then(|id| self.carrier(id))
+            .or_else(|| self.part_of.get(node as usize).copied().flatten())
+    }
+
+    fn carrier(&self, id: RigidId) -> Option<usize> {
+        let unit = self.first_carrier + id as usize;
+        (unit < self.units.len()).then_some(unit)
+    }
+
+    fn point(&self, node: NodeId) -> Vec3 {
+        let point = self.mesh.points.get(node as usize);
+        point.copied().unwrap_or_default()
+    }
+
+    /// Coefficients of `along · u(x)` (E1).
+    fn moves(&self, unit: usize, x: Vec3, along: Vec3) -> Motion {
+        let Some(unit) = self.units.get(unit) else {
+            return [0.0; NCOMPONENT];
+        };
+        // along · (θ × r) = θ · (r × along)
+        let turn = (x - unit.centre).cross(along) * (1.0 / unit.length);
+        [along.x, along.y, along.z, turn.x, turn.y, turn.z]
+    }
+}
+
+impl Rows {
+    fn push(&mut self, row: Row) {
+        match row.as_slice() {
+            [] => {}
+            [(unit, motion)] => {
+                if let Some(own) = self.own.get_mut(*unit) {
+                    super::add(own, &outer(motion));
+                }
+            }
+            _ => self.shared.push(row),
+        }
+    }
+}
+
+/// Adds to the coefficients of a unit, which stand once in a row.
+fn gather(row: &mut Row, unit: usize, motion: Motion) {
+    match row.iter_mut().find(|(u, _)| *u == unit) {
+        Some((_, there)) => there.iter_mut().zip(motion).for_each(|(a, b)| *a += b),
+        None => row.push((unit, motion)),
+    }
+}
+
+fn outer(a: &Motion) -> [Motion; NCOMPONENT] {
+    a.map(|x| a.map(|y| x * y))
+}
+
+/// Normal of a face, from its corners.
+fn normal(corners: &[Vec3]) -> Option<Vec3> {
+    let normal = match *corners {
+        [a, b] => (b - a).cross(Vec3::unit(2)),
+        [a, b, c] => (b - a).cross(c - a),
+        [a, b, c, d, ..] => (c - a).cross(d - b),
+        _ => return None,
+    };
+    normal.normalized()
+}

@@ -1,0 +1,148 @@
+//! What a body remembers.
+
+use super::derivatives::Viscous;
+use super::*;
+
+fn remembering(element: &str, space: Idealisation, wish: Wish) -> Body {
+    let mesh = one(element::by_name(element).unwrap(), space);
+    body(&mesh, Box::new(Viscous), &wish).unwrap()
+}
+
+#[test]
+fn history_moves_on_when_accepted_and_comes_back_from_an_archive() {
+    for (element, locking, kinematics) in [
+        ("quad4", Locking::Incompatible, Kinematics::Small),
+        ("quad4", Locking::BBar, Kinematics::Small),
+        ("quad9", Locking::FBar, Kinematics::Finite),
+        ("tri6", Locking::None, Kinematics::Finite),
+    ] {
+        let space = Idealisation::PlaneStrain { thickness: 1.0 };
+        let make = || {
+            let wish = Wish {
+                locking,
+                ..Wish::plain(space, kinematics)
+            };
+            remembering(element, space, wish)
+        };
+        let mut body = make();
+        let n = body.layout.ndof();
+        let u: Vec<f64> = (0..n).map(|k| 0.03 * noise(k)).collect();
+        let mut work = Work::default();
+        let before = body.assemble(&u, Order::Residual, &mut work).force;
+        body.solid.reject();
+        assert_eq!(before, body.assemble(&u, Order::Residual, &mut work).force);
+        let state = body.state(&u);
+        body.solid.accept(&state).unwrap();
+        // held where it is, the viscous part has relaxed
+        let after = body.assemble(&u, Order::Residual, &mut work).force;
+        let moved = before.iter().zip(&after).map(|(a, b)| (a - b).abs());
+        assert!(moved.fold(0.0, f64::max) > 0.1);
+        let mut archive = Archive::default();
+        body.solid.save(&mut archive);
+        let mut resumed = make();
+        resumed.solid.load(&archive).unwrap();
+        let again = resumed.assemble(&u, Order::Residual, &mut work).force;
+        assert_eq!(after, again, "{element} {locking}");
+        let frame = body.report(&u);
+        assert!(
+            frame.cell_plastic_strain[0][0] > 0.0
+                && frame.plastic_strain.len() == body.layout.nnode
+        );
+    }
+}
+
+#[test]
+fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
+    struct Warm;
+    impl Material for Warm {
+        fn respond(
+            &self,
+            strain: &Strain,
+            _: &[f64],
+            _: &mut [f64],
+            _: MaterialOrder,
+            out: &mut Response,
+        ) -> Result<(), MaterialError> {
+            let t = strain.temperature;
+            out.stress = Sym3::diagonal(t, t, t);
+            Ok(())
+        }
+        fn modulus(&self) -> f64 {
+            1.0
+        }
+        fn is_symmetric(&self) -> bool {
+            false
+        }
+    }
+    let space = Idealisation::Space;
+    let mesh = one(element::by_name("hex8").unwrap(), space);
+    let wish = Wish::plain(space, Kinematics::Small);
+    let Body {
+        layout, reference, ..
+    } = body(&mesh, Box::new(Warm), &wish).unwrap();
+    // linear in space, and half way through the second step between its ends
+    let row = |scale: f64| reference.iter().map(|x| scale * (3.0 + x.x)).collect();
+    let field = NodalField {
+        ends: vec![row(0.0), row(1.0), row(3.0)],
+    };
+    let cells: Vec<_> = mesh.cells(3).collect();
+    let mut solid = Solid::new(SolidParts {
+        name: "body",
+        mesh: &mesh,
+        reference: reference.clone(),
+        cells: &cells,
+        layout,
+        space,
+        material: Box::new(Warm),
+        integration: Integration::Full,
+        locking: Locking::None,
+        temperature: Some(Arc::new(field)),
+    })
+    .unwrap();
+    assert_eq!(solid.symmetry(), Symmetry::Unsymmetric);
+    let mut at = state(&layout, &reference, &[0.0; 24]);
+    let step = StepContext {
+        number: 1,
+        start: 1.0,
+        duration: 4.0,
+        nonlinear: false,
+    };
+    solid.begin_step(&step, &at).unwrap();
+    at.time = 3.0;
+    let mut frame = Frame::new(8, &[1]);
+    solid.report(&at, &mut frame).unwrap();
+    for (node, x) in reference.iter().enumerate() {
+        let exact = 2.0 * (3.0 + x.x);
+        assert!((frame.temperature[node] - exact).abs() < 1e-13);
+        // the stress is linear in space, and so is its extrapolation but for the distortion of the element
+        assert!((frame.stress[node].xx() - exact).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn a_step_of_the_other_size_of_strains_is_refused_where_the_remedy_ends() {
+    let space = Idealisation::Space;
+    let mesh = one(element::by_name("hex8").unwrap(), space);
+    let wish = Wish {
+        locking: Locking::Incompatible,
+        ..Wish::plain(space, Kinematics::Small)
+    };
+    let mut body = body(&mesh, elastic("linear-elastic", 0.3), &wish).unwrap();
+    let at = body.state(&[0.0; 24]);
+    let mut step = StepContext {
+        number: 0,
+        start: 0.0,
+        duration: 1.0,
+        nonlinear: false,
+    };
+    body.solid.begin_step(&step, &at).unwrap();
+    step.nonlinear = true;
+    let refused = body.solid.begin_step(&step, &at);
+    let Err(TermError::Refused { message }) = refused else {
+        panic!("{refused:?}");
+    };
+    assert!(
+        message.contains("incompatible") && message.contains("hex8"),
+        "{message}"
+    );
+}

@@ -1,0 +1,444 @@
+//! Bars that carry normal force only.
+//!
+//! With the unit tangent `t` at the start, the length `s` along it and `h = du/ds`,
+//!
+//! ```text
+//! E = t·h + ½ h·h,  l² = 1 + 2E                     Green's strain along the bar; `t·h` alone at small strain  (E13)
+//! f_I  = Σ w A S N_I,s (t + h)                                                                              (E14)
+//! K_IJ = Σ w A N_I,s N_J,s (C (t + h)(t + h)ᵀ + S I)  `t` for `t + h` and no `S` at small strain             (E15)
+//! ```
+//!
+//! The law answers uniaxial stress. Source: Crisfield 1991, section 3.3.
+
+use super::SolidError;
+use super::report;
+use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
+use crate::system::{
+    Archive, ArchiveError, Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink,
+    Sink, State, StepContext, Symmetry, Term, TermError, Work,
+};
+use signorini_geometry::element::Element;
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::tensor::{Sym3, Vec3};
+use std::sync::Arc;
+
+/// Bars evaluated together.
+const CHUNK: usize = 64;
+/// The most unknowns of a bar: three nodes in space.
+const MOST: usize = 9;
+
+/// Bars of one material and cross-section.
+pub struct Truss {
+    name: String,
+    layout: Layout,
+    reference: Arc<[Vec3]>,
+    material: Box<dyn Material>,
+    area: f64,
+    kinematics: Kinematics,
+    temperature: Option<Arc<NodalField>>,
+    step: StepContext,
+    bars: Vec<Bar>,
+    // accepted history of all points, bar by bar
+    history: Vec<f64>,
+}
+
+/// What bars are made from.
+pub struct TrussParts<'a> {
+    /// Their name.
+    pub name: &'a str,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// Positions of the nodes at the start.
+    pub reference: Arc<[Vec3]>,
+    /// Their cells, line2 or line3.
+    pub cells: &'a [CellId],
+    /// Which unknown is which.
+    pub layout: Layout,
+    /// Space or plane; a bar of revolution does not exist.
+    pub space: Idealisation,
+    /// What they are made of: the law for three dimensions. It is taken to be isotropic where the cross-section shrinks.
+    pub material: Box<dyn Material>,
+    /// Cross-section at the start (area).
+    pub area: f64,
+    /// Temperatures, where there are any.
+    pub temperature: Option<Arc<NodalField>>,
+}
+
+struct Bar {
+    element: Element,
+    nodes: Vec<NodeId>,
+    label: u64,
+    id: CellId,
+    // where its history begins
+    history: usize,
+}
+
+/// A point of a bar.
+struct Point {
+    /// Derivatives of the shape functions along the bar.
+    slope: [f64; 3],
+    /// Length that belongs to it.
+    weight: f64,
+    /// t + h; t at small strain.
+    along: Vec3,
+    strain: f64,
+}
+
+#[derive(Default)]
+struct Scratch {
+    dofs: Vec<Dof>,
+    new: Vec<f64>,
+}
+
+/// Forces and stiffness of a bar.
+struct Local {
+    force: [f64; MOST],
+    stiffness: [f64; MOST * MOST],
+    energy: f64,
+}
+
+impl Truss {
+    /// The bars made of these parts.
+    ///
+    /// # Errors
+    /// A cell that is no line, or has no length; no cross-section; a body of revolution.
+    pub fn new(parts: TrussParts<'_>) -> Result<Self, SolidError> {
+        let TrussParts {
+            name,
+            mesh,
+            reference,
+            cells,
+            layout,
+            space,
+            material,
+            area,
+            temperature,
+        } = parts;
+        let body = name.to_string();
+        if space == Idealisation::Axisymmetric {
+            return Err(SolidError::BarOfRevolution { body });
+        }
+        let material = Reduced::uniaxial(material);
+        let mut truss = Self {
+            name: body.clone(),
+            layout,
+            reference,
+            area,
+            kinematics: Kinematics::Finite,
+            temperature,
+            step: StepContext {
+                number: 0,
+                start: 0.0,
+                duration: 1.0,
+                nonlinear: true,
+            },
+            bars: Vec::new(),
+            history: Vec::new(),
+            material: Box::new(material),
+        };
+        let nhistory = truss.material.nhistory();
+        for &id in cells {
+            let (Some(element), Some(label)) = (mesh.element(id), mesh.cell_label(id)) else {
+                continue;
+            };
+            if element.dim() != 1 || element.nnode() > 3 {
+                return Err(SolidError::NotBar {
+                    body,
+                    label,
+                    element: element.name(),
+                });
+            }
+            let bar = Bar {
+                element,
+                nodes: mesh.cell(id).to_vec(),
+                label,
+                id,
+                history: truss.history.len(),
+            };
+            let npoint = element.full_rule().npoint();
+            let long = (0..npoint).all(|p| truss.tangent(&bar, p).is_some());
+            let what = if area.is_nan() || area <= 0.0 {
+                "cross-section"
+            } else {
+                "length"
+            };
+            if !long || what == "cross-section" {
+                return Err(SolidError::NoSize { body, label, what });
+            }
+            truss.bars.push(bar);
+            for _ in 0..npoint {
+                let first = truss.history.len();
+                truss.history.resize(first + nhistory, 0.0);
+                truss.material.start(&mut truss.history[first..]);
+            }
+        }
+        Ok(truss)
+    }
+
+    /// Derivatives of the shape functions by the reference coordinate at a point, and `dX/dξ` as unit vector and length;
+    /// `None` where there is no length.
+    fn tangent(&self, bar: &Bar, point: usize) -> Option<([f64; 3], Vec3, f64)> {
+        let mut dn = [Vec3::ZERO; 3];
+        let n = bar.nodes.len();
+        bar.element
+            .dshape(&bar.element.full_rule().points[point], &mut dn[..n]);
+        let at = |(&node, dn): (&NodeId, &Vec3)| self.reference[node as usize] * dn.x;
+        let along: Vec3 = bar.nodes.iter().zip(&dn).map(at).sum();
+        let unit = along.normalized()?;
+        Some((dn.map(|d| d.x), unit, along.norm()))
+    }
+
+    /// (E13).
+    fn point(&self, bar: &Bar, point: usize, trial: &State) -> Option<Point> {
+        let (dn, unit, length) = self.tangent(bar, point)?;
+        let slope = dn.map(|d| d / length);
+        let mut h = Vec3::ZERO;
+        for (&node, slope) in bar.nodes.iter().zip(slope) {
+            for axis in 0..self.layout.ndim {
+                h[axis] += slope * trial.u[self.layout.node(node, axis) as usize];
+            }
+        }
+        let finite = self.kinematics == Kinematics::Finite;
+        Some(Point {
+            slope,
+            weight: bar.element.full_rule().weights[point] * length,
+            along: if finite { unit + h } else { unit },
+            strain: unit.dot(h) + if finite { 0.5 * h.norm_squared() } else { 0.0 },
+        })
+    }
+
+    fn temperature(&self, bar: &Bar, point: usize, time: f64) -> f64 {
+        let Some(field) = &self.temperature else {
+            return 0.0;
+        };
+        let mut shape = [0.0; 3];
+        let n = bar.nodes.len();
+        bar.element
+            .shape(&bar.element.full_rule().points[point], &mut shape[..n]);
+        let at = |(&node, n): (&NodeId, f64)| n * field.at(&self.step, time, node);
+        bar.nodes.iter().zip(shape).map(at).sum()
+    }
+
+    /// Hands every point of a bar with the material's answer to `take`; `new` becomes the bar's history.
+    fn points(
+        &self,
+        bar: &Bar,
+        trial: &State,
+        order: MaterialOrder,
+        new: &mut Vec<f64>,
+        mut take: impl FnMut(&Point, &Response, &[f64]),
+    ) -> Result<(), TermError> {
+        let nhistory = self.material.nhistory();
+        let npoint = bar.element.full_rule().npoint();
+        new.resize(npoint * nhistory, 0.0);
+        let mut response = Response::default();
+        for p in 0..npoint {
+            let inverted = || TermError::Inverted {
+                body: self.name.clone(),
+                element: bar.label,
+                ratio: 0.0,
+            };
+            let point = self.point(bar, p, trial).ok_or_else(inverted)?;
+            let strain = Strain {
+                kinematics: self.kinematics,
+                value: Sym3::diagonal(point.strain, 0.0, 0.0),
+                temperature: self.temperature(bar, p, trial.time),
+            };
+            let old = &self.history[bar.history + p * nhistory..][..nhistory];
+            let new = &mut new[p * nhistory..][..nhistory];
+            let answer = self
+                .material
+                .respond(&strain, old, new, order, &mut response);
+            answer.map_err(|error| TermError::Material {
+                body: self.name.clone(),
+                element: bar.label,
+                message: error.to_string(),
+            })?;
+            take(&point, &response, new);
+        }
+        Ok(())
+    }
+
+    /// (E14), (E15).
+    fn local(
+        &self,
+        bar: &Bar,
+        trial: &State,
+        order: MaterialOrder,
+        new: &mut Vec<f64>,
+    ) -> Result<Local, TermError> {
+        let ndim = self.layout.ndim;
+        let n = bar.nodes.len() * ndim;
+        let finite = self.kinematics == Kinematics::Finite;
+        let mut out = Local {
+            force: [0.0; MOST],
+            stiffness: [0.0; MOST * MOST],
+            energy: 0.0,
+        };
+        self.points(bar, trial, order, new, |point, response, _| {
+            let volume = point.weight * self.area;
+            let stress = response.stress.xx();
+            let modulus = response.tangent[0][0];
+            out.energy += volume * response.energy;
+            for i in 0..n {
+                let (node, axis) = (i / ndim, i % ndim);
+                let slope = volume * point.slope[node];
+                out.force[i] += slope * stress * point.along[axis];
+                if order == MaterialOrder::Stress {
+                    continue;
+                }
+                for j in 0..n {
+                    let mut value = modulus * point.along[axis] * point.along[j % ndim];
+                    if finite && axis == j % ndim {
+                        value += stress;
+                    }
+                    out.stiffness[i * n + j] += slope * point.slope[j / ndim] * value;
+                }
+            }
+        })?;
+        if !out.energy.is_finite() || !out.force.iter().all(|f| f.is_finite()) {
+            return Err(TermError::NotFinite {
+                what: format!("the force of bar {} of truss \"{}\"", bar.label, self.name),
+            });
+        }
+        Ok(out)
+    }
+
+    fn chunk(&self, chunk: usize) -> &[Bar] {
+        let end = (chunk + 1) * CHUNK;
+        self.bars
+            .get(chunk * CHUNK..end.min(self.bars.len()))
+            .unwrap_or(&[])
+    }
+
+    fn archived(&self) -> String {
+        format!("truss.{}.history", self.name)
+    }
+}
+
+impl Term for Truss {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn pattern(&self, out: &mut dyn PatternSink) {
+        self.bars.iter().for_each(|bar| out.bulk(&bar.nodes));
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::Definite
+    }
+
+    fn part(&self) -> Part {
+        Part::Bulk
+    }
+
+    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
+        self.kinematics = if step.nonlinear {
+            Kinematics::Finite
+        } else {
+            Kinematics::Small
+        };
+        self.step = *step;
+        Ok(())
+    }
+
+    fn nchunk(&self) -> usize {
+        self.bars.len().div_ceil(CHUNK)
+    }
+
+    fn evaluate(
+        &self,
+        chunk: usize,
+        trial: &State,
+        order: Order,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let scratch = work.of::<Scratch>();
+        let (order, stiff) = match order {
+            Order::Residual => (MaterialOrder::Stress, 0),
+            Order::Tangent => (MaterialOrder::Tangent, 1),
+        };
+        for bar in self.chunk(chunk) {
+            let local = self.local(bar, trial, order, &mut scratch.new)?;
+            let layout = &self.layout;
+            let of_node = |&node: &NodeId| (0..layout.ndim).map(move |c| layout.node(node, c));
+            scratch.dofs.clear();
+            scratch.dofs.extend(bar.nodes.iter().flat_map(of_node));
+            let n = scratch.dofs.len();
+            out.add(
+                &scratch.dofs,
+                &local.force[..n],
+                &local.stiffness[..stiff * n * n],
+            );
+        }
+        Ok(())
+    }
+
+    fn energy(
+        &self,
+        chunk: usize,
+        trial: &State,
+        work: &mut Work,
+    ) -> Result<Option<f64>, TermError> {
+        let scratch = work.of::<Scratch>();
+        let mut total = 0.0;
+        for bar in self.chunk(chunk) {
+            let order = MaterialOrder::Stress;
+            total += self.local(bar, trial, order, &mut scratch.new)?.energy;
+        }
+        Ok(Some(total))
+    }
+
+    fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        let mut next = Vec::with_capacity(self.history.len());
+        let mut new = Vec::new();
+        for bar in &self.bars {
+            self.points(bar, state, MaterialOrder::Stress, &mut new, |_, _, _| {})?;
+            next.extend_from_slice(&new);
+        }
+        self.history = next;
+        Ok(())
+    }
+
+    fn save(&self, out: &mut Archive) {
+        out.put(self.archived(), &self.history);
+    }
+
+    fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+        from.get(&self.archived(), &mut self.history)
+    }
+
+    /// The axial stress and strain as tensors `σ t tᵀ`, cell by cell; nodes have none, for bars meet at angles.
+    fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        let finite = self.kinematics == Kinematics::Finite;
+        let mut new = Vec::new();
+        for bar in &self.bars {
+            let mut mean = report::CellMeans::default();
+            let order = MaterialOrder::Stress;
+            self.points(bar, state, order, &mut new, |point, response, history| {
+                let stretch = point.along.norm();
+                let (mut stress, mut strain) = (response.stress.xx(), point.strain);
+                if finite {
+                    // force over the cross-section that is left
+                    stress *= stretch / (1.0 + 2.0 * response.across);
+                    strain = 0.5 * (2.0 * strain).ln_1p();
+                }
+                let t = point.along.normalized().unwrap_or_default();
+                let dyad = Sym3::new(
+                    t.x * t.x,
+                    t.y * t.y,
+                    t.z * t.z,
+                    t.x * t.y,
+                    t.y * t.z,
+                    t.x * t.z,
+                );
+                let plastic = self.material.plastic_strain(history);
+                mean.add(point.weight, dyad * stress, dyad * strain, plastic);
+            })?;
+            mean.put(frame, bar.id);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,86 @@
+//! What a direct solution costs, told from the pattern alone.
+
+use super::direct::node_of;
+use super::matrix::Matrix;
+use super::ordering::{self, Ordering};
+use super::{LinearError, Problem, cholesky};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use std::time::Instant;
+
+/// The size of a direct solution.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Forecast {
+    /// Equations.
+    pub nequation: usize,
+    /// Numbers in the operator as it is assembled.
+    pub noperator: usize,
+    /// Numbers in the matrix that is factorized: one triangle of it where it is symmetric.
+    pub nmatrix: usize,
+    /// Numbers in its factor.
+    pub nfactor: usize,
+    /// Multiplications and additions of a factorization.
+    pub work: f64,
+}
+
+impl Forecast {
+    /// Orders and analyzes a problem, as its solution would.
+    ///
+    /// # Errors
+    /// Those of [`super::LinearSolver::analyze`].
+    ///
+    /// # Limits
+    /// `None` for a matrix that is not symmetric: the fill of its factor depends on its values.
+    pub fn new(problem: &Problem) -> Result<Option<Self>, LinearError> {
+        problem.check()?;
+        let matrix = Matrix::new(problem)?;
+        if !matrix.symmetric {
+            return Ok(None);
+        }
+        let noperator = problem.bulk.nvalue() + problem.interface.nentry();
+        let mut forecast = Self {
+            nequation: problem.nequation,
+            noperator,
+            nmatrix: matrix.row.len(),
+            ..Self::default()
+        };
+        if problem.nequation > 0 {
+            let order = ordering::order(&matrix, &node_of(problem), problem.sign, Ordering::Auto)?;
+            (forecast.nfactor, forecast.work) = cholesky::size(&matrix, &order)?;
+        }
+        Ok(Some(forecast))
+    }
+
+    /// Seconds of a factorization on this machine, measured on a small dense product.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.work / (rate() * EFFICIENCY)
+    }
+
+    /// Bytes of the operator, its patterns, the matrix and the factor at the time when all of them are there.
+    #[must_use]
+    pub fn bytes(&self) -> f64 {
+        // patterns and permutations have a small number for each large one, and are kept twice
+        let (number, pattern) = (8.0, 4.0);
+        let operator = (number + pattern) * self.noperator as f64;
+        let matrix = (number + 2.0 * pattern) * self.nmatrix as f64;
+        operator + matrix + number * self.nfactor as f64
+    }
+}
+
+/// What a sparse factorization reaches of the speed of a dense product.
+const EFFICIENCY: f64 = 0.6;
+
+/// Multiplications and additions per second of a dense product on one thread.
+fn rate() -> f64 {
+    const SIZE: usize = 256;
+    let a = Mat::from_fn(SIZE, SIZE, |i, j| 1.0 / (1 + i + j) as f64);
+    let mut product = Mat::zeros(SIZE, SIZE);
+    let best = (0..4).map(|_| {
+        let clock = Instant::now();
+        matmul(&mut product, Accum::Replace, &a, &a, 1.0, Par::Seq);
+        clock.elapsed().as_secs_f64()
+    });
+    let best = best.fold(f64::INFINITY, f64::min);
+    (SIZE * SIZE * SIZE) as f64 / best.max(1e-9)
+}

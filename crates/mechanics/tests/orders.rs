@@ -1,0 +1,481 @@
+//! Convergence of every solid element to a manufactured solution.
+//!
+//! SOURCE      the method of manufactured solutions; Roache, *Verification and Validation*, 1998
+//! GOAL        errors fall with h^(p+1) in L2 and with h^p in the seminorm of H1, p the degree of the element; with the
+//!             remedies against locking also for ν = 0.4999, where plain elements stand still
+//! MESH        n and 2n cells along each edge of the unit square or cube, smoothly distorted
+//! CONDITIONS  small strain; u = Σ a sin(k·x + φ), on the boundary prescribed, inside by its body force; for ν = 0.4999
+//!             its divergence is zero (a·k = 0)
+//! EXPECTED    the slopes between the two meshes
+//! TOLERANCE   0.15 below the order: the coarser meshes are not yet asymptotic
+#![allow(clippy::unwrap_used)]
+
+use signorini_geometry::element::{Element, by_name};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_mechanics::load::Course;
+use signorini_mechanics::material::SaintVenantKirchhoff;
+use signorini_mechanics::model::{
+    BodyKind, BodyPart, Change, Load, LoadPart, Model, Parts, StepPart, Target,
+};
+use signorini_mechanics::solid::{Integration, Locking};
+use signorini_mechanics::solve::{
+    Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
+};
+use signorini_mechanics::system::Idealisation;
+use std::collections::{BTreeMap, HashMap};
+
+/// Gauss–Legendre with five points on [-1, 1].
+const GAUSS: [(f64, f64); 5] = [
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+];
+
+/// The cell that an element fills.
+#[derive(Clone, Copy, PartialEq)]
+enum Shape {
+    Triangle,
+    Quadrilateral,
+    Tetrahedron,
+    Wedge,
+    Hexahedron,
+}
+
+fn shape(name: &str) -> Shape {
+    match name.trim_end_matches(char::is_numeric) {
+        "tri" => Shape::Triangle,
+        "quad" => Shape::Quadrilateral,
+        "tet" => Shape::Tetrahedron,
+        "wedge" => Shape::Wedge,
+        _ => Shape::Hexahedron,
+    }
+}
+
+fn degree(name: &str) -> f64 {
+    match name {
+        "tri3" | "quad4" | "tet4" | "wedge6" | "hex8" => 1.0,
+        _ => 2.0,
+    }
+}
+
+impl Shape {
+    /// The element whose map places the nodes of all elements of the shape.
+    fn linear(self) -> Element {
+        by_name(match self {
+            Self::Triangle => "tri3",
+            Self::Quadrilateral => "quad4",
+            Self::Tetrahedron => "tet4",
+            Self::Wedge => "wedge6",
+            Self::Hexahedron => "hex8",
+        })
+        .unwrap()
+    }
+
+    /// Corners of a cube (in the plane: of its bottom) that make up the cells it is cut into.
+    fn cells(self) -> Vec<Vec<usize>> {
+        match self {
+            Self::Triangle => vec![vec![0, 1, 2], vec![0, 2, 3]],
+            Self::Quadrilateral => vec![vec![0, 1, 2, 3]],
+            Self::Hexahedron => vec![(0..8).collect()],
+            Self::Wedge => vec![vec![0, 1, 2, 4, 5, 6], vec![0, 2, 3, 4, 6, 7]],
+            Self::Tetrahedron => [
+                [0, 1, 2, 6],
+                [0, 2, 3, 6],
+                [0, 3, 7, 6],
+                [0, 7, 4, 6],
+                [0, 4, 5, 6],
+                [0, 5, 1, 6],
+            ]
+            .map(Vec::from)
+            .into(),
+        }
+    }
+
+    /// Points and weights that integrate far beyond the element's own rule.
+    fn rule(self) -> Vec<(Vec3, f64)> {
+        let mut rule = Vec::new();
+        for (x, wx) in GAUSS {
+            for (y, wy) in GAUSS {
+                if self == Self::Quadrilateral {
+                    rule.push((Vec3::new(x, y, 0.0), wx * wy));
+                    continue;
+                }
+                // a square, one side of which shrinks to a point
+                let (s, t) = (0.5 * (1.0 + x), 0.5 * (1.0 + y));
+                let flat = Vec3::new(s, t * (1.0 - s), 0.0);
+                let weight = 0.25 * wx * wy * (1.0 - s);
+                if self == Self::Triangle {
+                    rule.push((flat, weight));
+                    continue;
+                }
+                for (z, wz) in GAUSS {
+                    let r = 0.5 * (1.0 + z);
+                    rule.push(match self {
+                        Self::Wedge => (flat + Vec3::unit(2) * z, weight * wz),
+                        Self::Tetrahedron => (
+                            flat * (1.0 - r) + Vec3::unit(2) * r,
+                            weight * 0.5 * wz * (1.0 - r).powi(2),
+                        ),
+                        _ => (Vec3::new(x, y, z), wx * wy * wz),
+                    });
+                }
+            }
+        }
+        rule
+    }
+}
+
+const CORNERS: [[f64; 3]; 8] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [0.0, 1.0, 1.0],
+];
+
+/// A unit square or cube, `offset` away from the y axis, of `n` cells along each edge, smoothly distorted. Also the
+/// nodes on its boundary.
+fn unit(name: &str, n: usize, offset: f64) -> (Mesh, Vec<CellId>, Vec<NodeId>) {
+    let (element, shape) = (by_name(name).unwrap(), shape(name));
+    let (linear, dim) = (shape.linear(), element.dim());
+    let (mut mesh, mut cells, mut boundary) = (Mesh::default(), Vec::new(), Vec::new());
+    let mut known: HashMap<[i64; 3], NodeId> = HashMap::new();
+    let mut weights = vec![0.0; linear.nnode()];
+    let layers = if dim == 3 { n } else { 1 };
+    for place in 0..layers * n * n {
+        let at = [place % n, place / n % n, place / (n * n)].map(|c| c as f64);
+        for corners in shape.cells() {
+            let mut nodes = Vec::new();
+            for xi in element.nodes() {
+                linear.shape(xi, &mut weights);
+                let mut x = Vec3::ZERO;
+                for (&c, w) in corners.iter().zip(&weights) {
+                    x += (Vec3::from(at) + Vec3::from(CORNERS[c])) * (*w / n as f64);
+                }
+                let key = x.to_array().map(|c| (c * 1e6).round() as i64);
+                let node = *known.entry(key).or_insert_with(|| {
+                    let node = mesh.points.len() as NodeId;
+                    if key[..dim].iter().any(|&c| c == 0 || c == 1_000_000) {
+                        boundary.push(node);
+                    }
+                    mesh.points.push(distorted(x, dim) + Vec3::unit(0) * offset);
+                    mesh.node_labels.push(u64::from(node) + 1);
+                    node
+                });
+                nodes.push(node);
+            }
+            let label = cells.len() as u64 + 1;
+            cells.push(mesh.push_cell(element, &nodes, label));
+        }
+    }
+    (mesh, cells, boundary)
+}
+
+fn distorted(x: Vec3, dim: usize) -> Vec3 {
+    let wave = |a: f64, b: f64| 0.05 * (2.0 * a + 1.0).sin() * (3.0 * b).cos();
+    let mut moved = x + Vec3::new(wave(x.x, x.y), wave(x.y, x.x), 0.0);
+    if dim == 3 {
+        moved += Vec3::new(wave(x.x, x.z), 0.0, wave(x.z, x.y));
+    }
+    moved
+}
+
+/// A displacement field with its material.
+struct Field {
+    space: Idealisation,
+    /// Amplitude, wave vector and phase.
+    waves: [(Vec3, Vec3, f64); 2],
+    e: f64,
+    nu: f64,
+}
+
+impl Field {
+    /// Waves in space or plane; without divergence where the material is nearly incompressible.
+    fn new(space: Idealisation, nu: f64) -> Self {
+        let mut waves = [
+            (Vec3::new(0.02, 0.01, 0.03), Vec3::new(1.1, 1.6, 0.7), 0.3),
+            (Vec3::new(-0.01, 0.02, 0.01), Vec3::new(-0.8, 1.3, 1.2), 1.1),
+        ];
+        for (a, k, _) in &mut waves {
+            if space.ndim() == 2 {
+                (a.z, k.z) = (0.0, 0.0);
+            }
+            if nu > 0.49 {
+                *a = *a - *k * (a.dot(*k) / k.dot(*k));
+            }
+        }
+        let e = 3.0;
+        Self {
+            space,
+            waves,
+            e,
+            nu,
+        }
+    }
+
+    fn displacement(&self, x: Vec3) -> Vec3 {
+        let one = |(a, k, p): &(Vec3, Vec3, f64)| *a * (k.dot(x) + p).sin();
+        self.waves.iter().map(one).sum()
+    }
+
+    fn gradient(&self, x: Vec3) -> Mat3 {
+        let mut h = Mat3::ZERO;
+        for (a, k, p) in &self.waves {
+            let slope = (k.dot(x) + p).cos();
+            for (row, a) in h.rows.iter_mut().zip(a.to_array()) {
+                *row += *k * (a * slope);
+            }
+        }
+        h
+    }
+
+    fn stress(&self, x: Vec3) -> Mat3 {
+        let mut h = self.gradient(x);
+        if self.space == Idealisation::Axisymmetric {
+            h.rows[2].z = self.displacement(x).x / x.x;
+        }
+        let mu = self.e / (2.0 * (1.0 + self.nu));
+        let mut lambda = self.e * self.nu / ((1.0 + self.nu) * (1.0 - 2.0 * self.nu));
+        if let Idealisation::PlaneStress { .. } = self.space {
+            lambda = 2.0 * lambda * mu / (lambda + 2.0 * mu);
+        }
+        let trace: f64 = (0..3).map(|i| h.rows[i][i]).sum();
+        let mut stress = Mat3::ZERO;
+        for i in 0..3 {
+            for j in 0..3 {
+                stress.rows[i][j] = mu * (h.rows[i][j] + h.rows[j][i]);
+            }
+            stress.rows[i][i] += lambda * trace;
+        }
+        stress
+    }
+
+    /// −div σ, by differences of the stress of fourth order.
+    fn body_force(&self, x: Vec3) -> Vec3 {
+        let h = 1e-3;
+        let mut force = Vec3::ZERO;
+        for axis in 0..self.space.ndim() {
+            let at = |s: f64| self.stress(x + Vec3::unit(axis) * (s * h));
+            let [p, m, pp, mm] = [1.0, -1.0, 2.0, -2.0].map(at);
+            for i in 0..self.space.ndim() {
+                let d = |s: &Mat3| s.rows[i][axis];
+                force[i] -= (8.0 * (d(&p) - d(&m)) - (d(&pp) - d(&mm))) / (12.0 * h);
+            }
+        }
+        if self.space == Idealisation::Axisymmetric {
+            let s = self.stress(x);
+            force.x -= (s.rows[0].x - s.rows[2].z) / x.x;
+            force.y -= s.rows[0].y / x.x;
+        }
+        force
+    }
+}
+
+/// What is done with the elements.
+#[derive(Clone, Copy)]
+struct Choice {
+    integration: Integration,
+    locking: Locking,
+}
+
+/// What is known of a point of a cell.
+struct Point {
+    weights: Vec<f64>,
+    gradients: Vec<Vec3>,
+    x: Vec3,
+    volume: f64,
+}
+
+fn sample(mesh: &Mesh, space: Idealisation, cell: CellId, xi: &Vec3, w: f64) -> Point {
+    let element = mesh.element(cell).unwrap();
+    let n = element.nnode();
+    let (mut weights, mut slopes) = (vec![0.0; n], vec![Vec3::ZERO; n]);
+    element.shape(xi, &mut weights);
+    element.dshape(xi, &mut slopes);
+    let (mut x, mut jacobian) = (Vec3::ZERO, Mat3::ZERO);
+    for ((&node, n), d) in mesh.cell(cell).iter().zip(&weights).zip(&slopes) {
+        let at = mesh.points[node as usize];
+        x += at * *n;
+        for a in 0..element.dim() {
+            jacobian.rows[a] += at * d[a];
+        }
+    }
+    if element.dim() == 2 {
+        jacobian.rows[2] = Vec3::unit(2);
+    }
+    let (inverse, det) = jacobian.inverse().unwrap();
+    Point {
+        weights,
+        gradients: slopes.iter().map(|d| inverse * *d).collect(),
+        x,
+        volume: w * det * space.extent(x),
+    }
+}
+
+/// The displacements of the nodes where the body force acts and the boundary moves as in the field.
+fn solution(
+    mesh: &Mesh,
+    cells: &[CellId],
+    boundary: &[NodeId],
+    rule: &[(Vec3, f64)],
+    field: &Field,
+    choice: Choice,
+) -> Vec<f64> {
+    let mut forces: BTreeMap<NodeId, Vec3> = BTreeMap::new();
+    for &cell in cells {
+        for (xi, w) in rule {
+            let point = sample(mesh, field.space, cell, xi, *w);
+            let force = field.body_force(point.x) * point.volume;
+            for (&node, n) in mesh.cell(cell).iter().zip(&point.weights) {
+                *forces.entry(node).or_default() += force * *n;
+            }
+        }
+    }
+    let prescribe = |&node: &NodeId| {
+        let u = field.displacement(mesh.points[node as usize]);
+        let motions = (0..field.space.ndim()).map(|axis| (axis, Motion::Ramp(u[axis])));
+        Change::Prescribe(Target::Nodes(vec![node]), motions.collect())
+    };
+    let parts = Parts {
+        bodies: vec![BodyPart {
+            name: "block".into(),
+            cells: cells.to_vec(),
+            kind: BodyKind::Solid {
+                material: Box::new(SaintVenantKirchhoff::new(field.e, field.nu)),
+                density: None,
+                integration: choice.integration,
+                locking: choice.locking,
+            },
+        }],
+        steps: vec![StepPart {
+            name: "step".into(),
+            duration: 1.0,
+            increments: Increments::Fixed(1),
+            nonlinear: false,
+            changes: boundary.iter().map(prescribe).collect(),
+            loads: vec![LoadPart {
+                name: "body force".into(),
+                load: Load::Nodes(forces.into_iter().collect()),
+                course: Course::Ramp,
+            }],
+            temperatures: Vec::new(),
+        }],
+        ..Parts::new(mesh, field.space)
+    };
+    let mut model = Model::assemble(parts).unwrap();
+    let mut stepper = Stepper::new(&model.system, StepperSettings::default());
+    let mut quiet = |_: &Event<'_>| Flow::Continue;
+    let outcome = stepper.run(&mut model.system, &model.steps, &mut quiet);
+    assert_eq!(outcome.unwrap(), Outcome::Finished);
+    stepper.state().u.clone()
+}
+
+/// Errors in L2 and in the seminorm of H1 with `n` cells along an edge.
+fn errors(name: &str, n: usize, field: &Field, choice: Choice) -> [f64; 2] {
+    let away = field.space == Idealisation::Axisymmetric;
+    let (mesh, cells, boundary) = unit(name, n, if away { 0.5 } else { 0.0 });
+    let rule = shape(name).rule();
+    let u = solution(&mesh, &cells, &boundary, &rule, field, choice);
+    let dim = field.space.ndim();
+    let mut sums = [0.0; 2];
+    for &cell in &cells {
+        for (xi, w) in &rule {
+            let point = sample(&mesh, field.space, cell, xi, *w);
+            let mut difference = field.displacement(point.x);
+            let mut slope = field.gradient(point.x);
+            let shapes = point.weights.iter().zip(&point.gradients);
+            for (&node, (n, g)) in mesh.cell(cell).iter().zip(shapes) {
+                for axis in 0..dim {
+                    let u = u[node as usize * dim + axis];
+                    difference[axis] -= n * u;
+                    slope.rows[axis] = slope.rows[axis] - *g * u;
+                }
+            }
+            sums[0] += point.volume * difference.dot(difference);
+            sums[1] += point.volume * slope.rows.iter().map(|r| r.dot(*r)).sum::<f64>();
+        }
+    }
+    sums.map(f64::sqrt)
+}
+
+/// Asserts the order between meshes of `n` and `2n` cells.
+fn optimal(name: &str, n: usize, field: &Field, choice: Choice) {
+    let (coarse, fine) = (
+        errors(name, n, field, choice),
+        errors(name, 2 * n, field, choice),
+    );
+    let [l2, h1] = [0, 1].map(|k| f64::log2(coarse[k] / fine[k]));
+    println!(
+        "{name:7} {:?} {:?} {:?} nu {}: L2 {:.2e} order {l2:.2}, H1 {:.2e} order {h1:.2}",
+        field.space, choice.integration, choice.locking, field.nu, fine[0], fine[1]
+    );
+    let p = degree(name);
+    assert!(l2 > p + 1.0 - SHORT, "{name}: {l2} in L2");
+    assert!(h1 > p - SHORT, "{name}: {h1} in H1");
+}
+
+const SHORT: f64 = 0.15;
+const PLANE: [&str; 5] = ["tri3", "quad4", "tri6", "quad8", "quad9"];
+const SPACE: [&str; 7] = [
+    "tet4", "wedge6", "hex8", "tet10", "wedge15", "hex20", "hex27",
+];
+const PLAIN: Choice = Choice {
+    integration: Integration::Full,
+    locking: Locking::None,
+};
+const CURED: Choice = Choice {
+    integration: Integration::Full,
+    locking: Locking::Auto,
+};
+const REDUCED: Choice = Choice {
+    integration: Integration::Reduced,
+    locking: Locking::None,
+};
+
+/// Cells along an edge of the coarser mesh in space.
+fn coarse(name: &str) -> usize {
+    if degree(name) < 2.0 { 4 } else { 2 }
+}
+
+#[test]
+fn plane_elements_converge_at_their_order() {
+    let spaces = [
+        Idealisation::PlaneStrain { thickness: 0.7 },
+        Idealisation::PlaneStress { thickness: 0.7 },
+        Idealisation::Axisymmetric,
+    ];
+    for space in spaces {
+        let field = Field::new(space, 0.3);
+        for name in PLANE {
+            optimal(name, 6, &field, PLAIN);
+        }
+        optimal("quad8", 6, &field, REDUCED);
+    }
+}
+
+#[test]
+fn elements_in_space_converge_at_their_order() {
+    let field = Field::new(Idealisation::Space, 0.3);
+    for name in SPACE {
+        optimal(name, coarse(name), &field, PLAIN);
+    }
+    optimal("hex20", 2, &field, REDUCED);
+}
+
+#[test]
+fn remedies_keep_the_order_of_nearly_incompressible_elements() {
+    let field = Field::new(Idealisation::PlaneStrain { thickness: 1.0 }, 0.4999);
+    for name in ["quad4", "tri6", "quad8", "quad9"] {
+        optimal(name, 6, &field, CURED);
+    }
+    let field = Field::new(Idealisation::Space, 0.4999);
+    for name in ["hex8", "tet10", "wedge15", "hex20", "hex27"] {
+        optimal(name, coarse(name), &field, CURED);
+    }
+}

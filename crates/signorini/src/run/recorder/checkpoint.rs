@@ -1,0 +1,100 @@
+//! Checkpoints: the solution, and how far the files had got.
+
+use super::Recorder;
+use crate::run::error::OutputError;
+use crate::run::news::Detail;
+use signorini_io::checkpoint::{Archive, Stamp};
+use signorini_io::writers::json::{Event, StepSummary};
+use signorini_mechanics::solve::Stepper;
+use signorini_mechanics::system::System;
+use std::time::Instant;
+
+impl Recorder<'_> {
+    /// Whether a checkpoint is due.
+    pub fn is_due(&self) -> bool {
+        let (increments, at) = self.saved_at;
+        let since = self.counts.increments - increments;
+        let by_count = self
+            .setting
+            .checkpoint_increments
+            .is_some_and(|n| since >= n);
+        let by_clock = self
+            .setting
+            .checkpoint_wall
+            .is_some_and(|t| at.elapsed() >= t);
+        by_count || by_clock
+    }
+
+    /// Writes a checkpoint and returns what the solution needs to go on from it; none where the disk failed.
+    pub fn save(
+        &mut self,
+        stepper: &Stepper,
+        system: &System,
+    ) -> Option<signorini_mechanics::system::Archive> {
+        let mut solution = signorini_mechanics::system::Archive::default();
+        stepper.save(system, &mut solution);
+        // counted first: a resumed run tells of the checkpoint again
+        let clock = Instant::now();
+        match self.write_checkpoint(&solution, stepper.state().time) {
+            Ok((stamp, file)) => {
+                self.saved_at = (self.counts.increments, Instant::now());
+                self.write_seconds += clock.elapsed().as_secs_f64();
+                let step = usize::try_from(stamp.step).ok();
+                let event = Event::Checkpoint {
+                    step: self.step_name(step.unwrap_or(0)),
+                    inc: stamp.increment,
+                    time: stamp.time,
+                    file,
+                };
+                self.tell(&event, Detail::None);
+                Some(solution)
+            }
+            Err(error) => {
+                self.error.get_or_insert(error);
+                None
+            }
+        }
+    }
+
+    fn write_checkpoint(
+        &mut self,
+        solution: &signorini_mechanics::system::Archive,
+        time: f64,
+    ) -> Result<(Stamp, String), OutputError> {
+        let files = &mut self.files;
+        files.history.sync()?;
+        files.convergence.sync()?;
+        files.sta.sync()?;
+        files.events.sync()?;
+        let mut archive = Archive::new();
+        for (name, values) in &solution.arrays {
+            archive.put_f64(&format!("solve/{name}"), values)?;
+        }
+        let rows = [
+            files.history.nrow(),
+            files.convergence.nrow(),
+            files.sta.nrow(),
+            files.events.nrow(),
+        ];
+        archive.put_u64("run/rows", &rows)?;
+        let of_step = |s: &StepSummary| [s.increments, s.iterations, s.cutbacks];
+        let mut counts = vec![self.counts.increments];
+        counts.extend(self.counts.steps.iter().flat_map(of_step));
+        archive.put_u64("run/counts", &counts)?;
+        let step = self.step.map_or(-1.0, |step| step as f64);
+        archive.put_f64("run/clock", &[step, self.time, self.step_time])?;
+        archive.put_f64("run/frames", &self.counts.frames)?;
+        archive.put_f64("run/expectations", &self.expectations.save())?;
+        let step = self.step.unwrap_or(0);
+        let stamp = Stamp {
+            step: step as u64,
+            increment: self.counts.steps.get(step).map_or(0, |s| s.increments),
+            time,
+        };
+        let path = self
+            .checkpoints
+            .write(self.setting.fs.as_ref(), stamp, &archive)?;
+        let name = path.file_name().map(|n| n.to_string_lossy().into_owned());
+        Ok((stamp, format!("checkpoint/{}", name.unwrap_or_default())))
+    }
+}

@@ -1,0 +1,214 @@
+//! The files of a run: begun anew, or gone on with from a checkpoint.
+
+use super::{Counts, Recorder, Setting, frame_file};
+use crate::run::error::OutputError;
+use crate::run::expectations::Expectations;
+use crate::run::narration::Narrator;
+use crate::run::news::Listener;
+use signorini_io::checkpoint::{Archive, Checkpoints};
+use signorini_io::fs::Log;
+use signorini_io::writers::csv::{CONVERGENCE_COLUMNS, Table};
+use signorini_io::writers::json::{EventLog, StepSummary};
+use signorini_io::writers::pvd::{Entry, Pvd};
+use signorini_io::writers::sta::StatusTable;
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+/// The growing files.
+pub(super) struct Files {
+    pub(super) history: Table,
+    pub(super) convergence: Table,
+    pub(super) sta: StatusTable,
+    pub(super) events: EventLog,
+    pub(super) log: Box<dyn Log>,
+}
+
+/// The open files of a run, and where they stand.
+pub struct Opened {
+    setting: Setting,
+    files: Files,
+    results: Pvd,
+    contact: Pvd,
+    checkpoints: Checkpoints,
+    counts: Counts,
+    expectations: Expectations,
+    step: Option<usize>,
+    time: f64,
+    step_time: f64,
+}
+
+impl Opened {
+    /// Starts all files anew.
+    ///
+    /// # Errors
+    /// The disk.
+    pub fn create(
+        setting: Setting,
+        expectations: Expectations,
+        checkpoints: Checkpoints,
+    ) -> Result<Self, OutputError> {
+        let fs = setting.fs.as_ref();
+        let path = |name: &str| setting.tree.path(name);
+        let files = Files {
+            history: Table::create(fs, &path("history.csv"), setting.history.columns())?,
+            convergence: Table::create(fs, &path("convergence.csv"), &CONVERGENCE_COLUMNS)?,
+            sta: StatusTable::create(fs, &path(&sta(&setting.name)), &setting.name)?,
+            events: EventLog::create(fs, &path("events.jsonl"))?,
+            log: fs.open_log(&path("run.log"), 0)?,
+        };
+        let lists = [
+            Pvd::new(&path("results.pvd")),
+            Pvd::new(&path("contact.pvd")),
+        ];
+        let steps = setting.steps.iter().map(|s| StepSummary {
+            name: s.name.clone(),
+            ..StepSummary::default()
+        });
+        let counts = Counts {
+            steps: steps.collect(),
+            ..Counts::default()
+        };
+        Ok(Self::new(
+            setting,
+            files,
+            lists,
+            counts,
+            expectations,
+            checkpoints,
+        ))
+    }
+
+    /// Goes on with all files from a checkpoint: what was written after it is cut off.
+    ///
+    /// # Errors
+    /// The disk; files that do not have what the checkpoint counts on.
+    pub fn resume(
+        setting: Setting,
+        mut expectations: Expectations,
+        checkpoints: Checkpoints,
+        from: &Archive,
+    ) -> Result<Self, OutputError> {
+        let fs = setting.fs.as_ref();
+        let path = |name: &str| setting.tree.path(name);
+        let mut rows = [0; 4];
+        from.copy_u64("run/rows", &mut rows)?;
+        let [history, convergence, attempts, events] = rows;
+        let frames = from.get_f64("run/frames")?.to_vec();
+        let mut numbers = vec![0; 1 + 3 * setting.steps.len()];
+        from.copy_u64("run/counts", &mut numbers)?;
+        let (increments, of_steps) = numbers.split_first().unwrap_or((&0, &[]));
+        let steps = setting.steps.iter().zip(of_steps.chunks_exact(3));
+        let counts = Counts {
+            increments: *increments,
+            steps: steps
+                .map(|(step, n)| StepSummary {
+                    name: step.name.clone(),
+                    increments: n.first().copied().unwrap_or(0),
+                    iterations: n.get(1).copied().unwrap_or(0),
+                    cutbacks: n.get(2).copied().unwrap_or(0),
+                })
+                .collect(),
+            frames,
+        };
+        expectations.load(from.get_f64("run/expectations")?);
+        let mut clock = [0.0; 3];
+        from.copy_f64("run/clock", &mut clock)?;
+        let log = path("run.log");
+        let length = fs.read(&log).map_or(0, |bytes| bytes.len() as u64);
+        let columns = setting.history.columns();
+        let files = Files {
+            history: Table::resume(fs, &path("history.csv"), columns, history)?,
+            convergence: Table::resume(
+                fs,
+                &path("convergence.csv"),
+                &CONVERGENCE_COLUMNS,
+                convergence,
+            )?,
+            sta: StatusTable::resume(fs, &path(&sta(&setting.name)), &setting.name, attempts)?,
+            events: EventLog::resume(fs, &path("events.jsonl"), events)?,
+            log: fs.open_log(&log, length)?,
+        };
+        let list = |name: &str, kind: &str| -> Result<Pvd, OutputError> {
+            let entry = |(number, &time): (usize, &f64)| Entry {
+                time,
+                part: 0,
+                file: frame_file(kind, number),
+            };
+            let entries = counts.frames.iter().enumerate().map(entry).collect();
+            Ok(Pvd::with_entries(fs, &path(name), entries)?)
+        };
+        let results = list("results.pvd", "volume")?;
+        let contact = if setting.has_contact {
+            list("contact.pvd", "contact")?
+        } else {
+            Pvd::new(&path("contact.pvd"))
+        };
+        let [step, time, step_time] = clock;
+        Ok(Self {
+            step: (step >= 0.0).then_some(step as usize),
+            time,
+            step_time,
+            ..Self::new(
+                setting,
+                files,
+                [results, contact],
+                counts,
+                expectations,
+                checkpoints,
+            )
+        })
+    }
+
+    fn new(
+        setting: Setting,
+        files: Files,
+        [results, contact]: [Pvd; 2],
+        counts: Counts,
+        expectations: Expectations,
+        checkpoints: Checkpoints,
+    ) -> Self {
+        Self {
+            setting,
+            files,
+            results,
+            contact,
+            counts,
+            expectations,
+            checkpoints,
+            step: None,
+            time: 0.0,
+            step_time: 0.0,
+        }
+    }
+
+    /// Lets someone listen.
+    pub fn heard_by(self, listener: &mut dyn Listener) -> Recorder<'_> {
+        Recorder {
+            saved_at: (self.counts.increments, Instant::now()),
+            narrator: Narrator::default(),
+            listener,
+            contacts: BTreeMap::new(),
+            error: None,
+            stop: None,
+            write_seconds: 0.0,
+            flips: 0,
+            iterations: 0,
+            last_flips: 0,
+            worst: None,
+            setting: self.setting,
+            files: self.files,
+            results: self.results,
+            contact: self.contact,
+            checkpoints: self.checkpoints,
+            counts: self.counts,
+            expectations: self.expectations,
+            step: self.step,
+            time: self.time,
+            step_time: self.step_time,
+        }
+    }
+}
+
+fn sta(name: &str) -> String {
+    format!("{name}.sta")
+}

@@ -1,0 +1,299 @@
+//! Turns the events of a run into files and news.
+//!
+//! `files` opens them, `progress` records what the solution reports, `checkpoint` saves; here are frames and news.
+
+mod checkpoint;
+mod files;
+mod progress;
+
+pub use files::Opened;
+
+use files::Files;
+
+use crate::build::Model;
+use crate::run::contact_surface;
+use crate::run::error::OutputError;
+use crate::run::expectations::Expectations;
+use crate::run::fields::Fields;
+use crate::run::history::History;
+use crate::run::limits::{Limits, Stop};
+use crate::run::narration::{Level, Narrator};
+use crate::run::news::{Detail, Facts, Listener, News};
+use crate::run::tree::Tree;
+use crate::run::volume::Volume;
+use signorini_geometry::mesh::Mesh;
+use signorini_io::case::Every;
+use signorini_io::checkpoint::Checkpoints;
+use signorini_io::diagnostic::Diagnostics;
+use signorini_io::fs::Fs;
+use signorini_io::writers::json::{ContactSummary, Event, StepSummary};
+use signorini_io::writers::pvd::Pvd;
+use signorini_mechanics::solve::{Event as Happening, Flow, Observer, Step, Stepper};
+use signorini_mechanics::system::{Dof, Frame, Layout, System};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Iterations from which on an increment is called slow.
+pub const SLOW: usize = 8;
+
+/// What stays the same during a run.
+pub struct Setting {
+    pub fs: Arc<dyn Fs>,
+    pub tree: Tree,
+    pub name: String,
+    pub mesh: Arc<Mesh>,
+    pub layout: Layout,
+    pub steps: Vec<Step>,
+    pub history: History,
+    pub volume: Volume,
+    pub every: Every,
+    pub checkpoint_increments: Option<u64>,
+    pub checkpoint_wall: Option<Duration>,
+    pub limits: Limits,
+    /// Whether there is a contact to write frames of.
+    pub has_contact: bool,
+}
+
+impl Setting {
+    /// Checks what the case asks to be written, before anything is.
+    ///
+    /// # Errors
+    /// Histories, expectations and fields that name nothing.
+    pub fn check(model: &Model) -> Result<(History, Expectations, Fields), Diagnostics> {
+        let mut found = Diagnostics::new();
+        let fields = Fields::new(&model.case.output).map_err(|e| found.append(e));
+        let history = History::new(model).map_err(|e| found.append(e));
+        if let (Ok(fields), Ok(history)) = (fields, history) {
+            return match Expectations::new(model, history.columns()) {
+                Ok(expectations) => Ok((history, expectations, fields)),
+                Err(more) => {
+                    found.append(more);
+                    Err(found)
+                }
+            };
+        }
+        Err(found)
+    }
+}
+
+/// Where the records of a run stand.
+#[derive(Clone, Debug, Default)]
+pub struct Counts {
+    /// Accepted increments of all steps.
+    pub increments: u64,
+    /// Times of the frames written.
+    pub frames: Vec<f64>,
+    /// What every step took.
+    pub steps: Vec<StepSummary>,
+}
+
+/// Receives the events of the solution.
+pub struct Recorder<'l> {
+    pub setting: Setting,
+    files: Files,
+    results: Pvd,
+    contact: Pvd,
+    checkpoints: Checkpoints,
+    narrator: Narrator,
+    listener: &'l mut dyn Listener,
+    pub counts: Counts,
+    pub expectations: Expectations,
+    /// What every contact carried at the last accepted increment.
+    pub contacts: BTreeMap<String, ContactSummary>,
+    /// The first failure of the disk; nothing is written after it.
+    pub error: Option<OutputError>,
+    /// Why to stop.
+    pub stop: Option<Stop>,
+    /// Seconds spent on files.
+    pub write_seconds: f64,
+    saved_at: (u64, Instant),
+    step: Option<usize>,
+    flips: u64,
+    iterations: u64,
+    last_flips: usize,
+    worst: Option<Dof>,
+    time: f64,
+    step_time: f64,
+}
+
+impl Recorder<'_> {
+    /// Tells and records that the run starts.
+    pub fn start(&mut self, facts: &Facts, title: &str, findings: &Diagnostics) {
+        let event = Event::Start {
+            case: self.setting.name.clone(),
+            title: title.to_owned(),
+            version: crate::VERSION.into(),
+            threads: facts.threads as u64,
+            nodes: facts.nnode as u64,
+            elements: facts.cells.iter().map(|(_, n)| *n as u64).sum(),
+            unknowns: facts.nunknown as u64,
+        };
+        self.tell(&event, Detail::Start(facts));
+        for finding in findings {
+            self.tell(&super::event_of(finding), Detail::Finding(finding));
+        }
+    }
+
+    /// Tells what happened: to `events.jsonl`, `run.log` and the listener.
+    pub fn tell(&mut self, event: &Event, detail: Detail<'_>) {
+        self.record(event, detail);
+        self.tell_listener(event, detail);
+    }
+
+    /// Writes what happened into `events.jsonl` and `run.log`.
+    pub fn record(&mut self, event: &Event, detail: Detail<'_>) {
+        let lines = self.narrator.lines(&News { event, detail });
+        self.write(|files| {
+            files.events.append(event)?;
+            for line in lines.iter().filter(|line| line.level != Level::Verbose) {
+                files.log.append(format!("{}\n", line.text).as_bytes())?;
+            }
+            Ok(())
+        });
+    }
+
+    /// Tells what happened to the listener only.
+    pub fn tell_listener(&mut self, event: &Event, detail: Detail<'_>) {
+        if self.listener.hear(&News { event, detail }) == Flow::Stop {
+            self.stop.get_or_insert(Stop::Listener);
+        }
+    }
+
+    /// Writes into the growing files, unless the disk has failed before.
+    fn write(&mut self, write: impl FnOnce(&mut Files) -> Result<(), OutputError>) {
+        if self.error.is_some() {
+            return;
+        }
+        let clock = Instant::now();
+        if let Err(error) = write(&mut self.files) {
+            self.error = Some(error);
+        }
+        self.write_seconds += clock.elapsed().as_secs_f64();
+    }
+
+    /// Writes the undeformed state.
+    pub fn undeformed(&mut self, frame: &Frame) {
+        self.expectations
+            .begin(frame, &self.setting.history.row(frame, 0));
+        self.frame(frame);
+    }
+
+    /// Writes a frame and lists it.
+    fn frame(&mut self, frame: &Frame) {
+        if self.error.is_some() {
+            return;
+        }
+        let clock = Instant::now();
+        match self.write_frame(frame) {
+            Ok(files) => {
+                let event = Event::Frame {
+                    frame: self.counts.frames.len() as u64,
+                    time: frame.time,
+                    files,
+                };
+                self.counts.frames.push(frame.time);
+                self.write_seconds += clock.elapsed().as_secs_f64();
+                self.tell(&event, Detail::None);
+            }
+            Err(error) => self.error = Some(error),
+        }
+    }
+
+    fn write_frame(&mut self, frame: &Frame) -> Result<Vec<String>, OutputError> {
+        let fs = self.setting.fs.as_ref();
+        let number = self.counts.frames.len();
+        let volume = frame_file("volume", number);
+        let mut files = vec![volume.clone()];
+        fs.write_atomic(
+            &self.setting.tree.path(&volume),
+            &self.setting.volume.encode(frame)?,
+        )?;
+        if self.setting.has_contact {
+            let surface = frame_file("contact", number);
+            let bytes = contact_surface::encode(&self.setting.mesh, frame)?;
+            fs.write_atomic(&self.setting.tree.path(&surface), &bytes)?;
+            self.contact.add(fs, frame.time, &[&surface])?;
+            files.push(surface);
+        }
+        self.results.add(fs, frame.time, &[&volume])?;
+        Ok(files)
+    }
+
+    /// Writes the last try of an increment that failed, where it can be drawn.
+    pub fn failed(&mut self, system: &System, stepper: &Stepper) {
+        if self.error.is_some() {
+            return;
+        }
+        let trial = stepper.trial();
+        let nodes = 0..system.layout.nnode as u32;
+        let frame = Frame {
+            time: trial.time,
+            displacement: nodes.map(|node| system.displacement(trial, node)).collect(),
+            step_number: self.step.unwrap_or(0),
+            ..Frame::default()
+        };
+        if !frame.displacement.iter().all(|u| u.is_finite()) {
+            return;
+        }
+        let path = self.setting.tree.path("frames/failed.vtu");
+        let written = self
+            .setting
+            .volume
+            .encode_shape(&frame)
+            .map_err(OutputError::from);
+        let fs = self.setting.fs.as_ref();
+        if let Err(error) = written.and_then(|bytes| Ok(fs.write_atomic(&path, &bytes)?)) {
+            self.error = Some(error);
+        }
+    }
+
+    fn step_name(&self, step: usize) -> String {
+        let step = self.setting.steps.get(step);
+        step.map_or_else(String::new, |s| s.name.clone())
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn notice(&mut self, event: &Happening<'_>) -> Flow {
+        match event {
+            Happening::Step { step, .. } => {
+                // a restart begins the step once more
+                if self.step != Some(*step) {
+                    self.step = Some(*step);
+                    self.step_time = 0.0;
+                }
+                return Flow::Continue;
+            }
+            Happening::Iteration(record) => self.iteration(record),
+            Happening::Cutback {
+                step,
+                increment,
+                attempt,
+                cause,
+                next,
+            } => self.cutback([*step, *increment, *attempt], cause, *next),
+            Happening::Increment { record, frame } => {
+                self.increment(record, frame);
+                if self.is_due() {
+                    self.stop = self.stop.or_else(|| self.setting.limits.reached());
+                    return Flow::Stop;
+                }
+            }
+            _ => {}
+        }
+        if self.stop.is_none() {
+            self.stop = self.setting.limits.reached();
+        }
+        if self.stop.is_some() || self.error.is_some() {
+            Flow::Stop
+        } else {
+            Flow::Continue
+        }
+    }
+}
+
+/// The file of a frame, relative to the output folder.
+pub fn frame_file(kind: &str, number: usize) -> String {
+    format!("frames/{kind}_{number:04}.vtu")
+}

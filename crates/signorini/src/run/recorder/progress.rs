@@ -1,0 +1,224 @@
+//! Iterations, cut-backs and increments: what becomes of each in tables and news.
+
+use super::{Recorder, SLOW};
+use crate::run::news::{Detail, Effort};
+use signorini_io::case::Every;
+use signorini_io::writers::csv::Cell;
+use signorini_io::writers::json::{ContactState, ContactSummary, Event};
+use signorini_io::writers::sta::Attempt;
+use signorini_mechanics::solve::{Cause, IncrementRecord, IterationRecord, RunError};
+use signorini_mechanics::system::{ContactFrame, Dof, DofName, Frame};
+
+impl Recorder<'_> {
+    pub(super) fn iteration(&mut self, record: &IterationRecord) {
+        if record.iteration == 1 {
+            self.flips = 0;
+            self.iterations = 0;
+        } else {
+            self.iterations += 1;
+            self.flips += u64::from(record.flips > 0);
+            if let Some(step) = self.counts.steps.get_mut(record.step) {
+                step.iterations += 1;
+            }
+        }
+        if record.iteration > 1 && record.flips > 0 {
+            self.last_flips = record.flips;
+        }
+        if record.worst.is_some() && record.iteration > 1 {
+            self.worst = record.worst;
+        }
+        let name = self.step_name(record.step);
+        let label = self.worst_node(record.worst);
+        self.write(|files| {
+            files.convergence.row(&[
+                Cell::Text(&name),
+                Cell::Count(record.increment as u64),
+                Cell::Count(record.attempt as u64),
+                Cell::Count(record.iteration as u64),
+                Cell::Real(record.residual),
+                Cell::Real(record.correction),
+                Cell::Real(record.line_search),
+                Cell::Count(record.closed as u64),
+                Cell::Count(record.flips as u64),
+                label.map_or(Cell::Empty, Cell::Count),
+            ])?;
+            Ok(())
+        });
+        let event = Event::Iteration {
+            step: name,
+            inc: record.increment as u64,
+            att: record.attempt as u64,
+            iter: record.iteration as u64,
+            residual: record.residual,
+            correction: record.correction,
+            closed: record.closed as u64,
+            flips: record.flips as u64,
+        };
+        self.tell(&event, Detail::Iteration(record));
+    }
+
+    pub(super) fn cutback(&mut self, place: [usize; 3], cause: &Cause, next: f64) {
+        let [step, increment, attempt] = place;
+        if let Some(step) = self.counts.steps.get_mut(step) {
+            step.cutbacks += 1;
+        }
+        let row = Attempt {
+            step: step as u64 + 1,
+            increment: increment as u64,
+            attempt: attempt as u64,
+            converged: false,
+            discontinuity_iterations: self.flips,
+            equilibrium_iterations: self.iterations.saturating_sub(self.flips),
+            total_time: self.time,
+            step_time: self.step_time,
+            increment_time: cause.dt,
+        };
+        self.write(|files| Ok(files.sta.row(&row)?));
+        let event = Event::Cutback {
+            step: self.step_name(step),
+            inc: increment as u64,
+            att: attempt as u64,
+            time: self.time,
+            size: next,
+            why: cause.failure.to_string(),
+        };
+        self.tell(&event, Detail::Cutback(cause));
+    }
+
+    pub(super) fn increment(&mut self, record: &IncrementRecord, frame: &Frame) {
+        self.counts.increments += 1;
+        if let Some(step) = self.counts.steps.get_mut(record.step) {
+            step.increments += 1;
+        }
+        let name = self.step_name(record.step);
+        let row = self.setting.history.row(frame, record.iterations);
+        let attempt = Attempt {
+            step: record.step as u64 + 1,
+            increment: record.increment as u64,
+            attempt: record.attempts as u64,
+            converged: true,
+            discontinuity_iterations: self.flips,
+            equilibrium_iterations: self.iterations.saturating_sub(self.flips),
+            total_time: record.time,
+            step_time: record.step_time.0,
+            increment_time: record.dt,
+        };
+        self.write(|files| {
+            let head = [
+                Cell::Real(record.time),
+                Cell::Text(&name),
+                Cell::Count(record.increment as u64),
+                Cell::Count(record.iterations as u64),
+            ];
+            let numbers = row.iter().skip(head.len()).map(|&value| Cell::Real(value));
+            let cells: Vec<Cell<'_>> = head.into_iter().chain(numbers).collect();
+            files.history.row(&cells)?;
+            files.sta.row(&attempt)?;
+            Ok(())
+        });
+        self.expectations
+            .look(self.files.history.nrow(), frame, &row);
+        self.contacts = frame.contacts.iter().map(summary).collect();
+        let event = Event::Increment {
+            step: name,
+            inc: record.increment as u64,
+            time: record.time,
+            iters: record.iterations as u64,
+            contact: frame.contacts.iter().map(state).collect(),
+        };
+        let effort = Effort {
+            worst: self.worst_in_words(record),
+            closed: frame.contacts.iter().map(|c| c.nclosed()).sum(),
+        };
+        self.tell(&event, Detail::Increment(record, frame, &effort));
+        let from = self.time;
+        (self.time, self.step_time) = (record.time, record.step_time.0);
+        (self.last_flips, self.worst) = (0, None);
+        if self.wants_frame(record, from) {
+            self.frame(frame);
+        }
+    }
+
+    /// What an increment that was slow struggled with.
+    fn worst_in_words(&self, record: &IncrementRecord) -> Option<String> {
+        if record.iterations < SLOW {
+            return None;
+        }
+        let node = self.worst_node(self.worst).map(|n| format!("n{n}"));
+        let flips = match self.last_flips {
+            0 => None,
+            1 => Some("1 flip".to_owned()),
+            n => Some(format!("{n} flips")),
+        };
+        let words: Vec<String> = flips.into_iter().chain(node).collect();
+        (!words.is_empty()).then(|| words.join(" "))
+    }
+
+    /// Whether this increment is to be seen: by number or by time, and always at the end of a step.
+    fn wants_frame(&self, record: &IncrementRecord, from: f64) -> bool {
+        let (time, duration) = record.step_time;
+        if time >= duration {
+            return true;
+        }
+        match self.setting.every {
+            Every::Increments(n) => (record.increment as u64).is_multiple_of(n.max(1)),
+            Every::Time(every) => (record.time / every).floor() > (from / every).floor(),
+        }
+    }
+
+    /// Records the attempt at which a run failed for good.
+    pub fn gave_up(&mut self, error: &RunError) {
+        if let RunError::NotConverged {
+            increment, tried, ..
+        } = error
+        {
+            let attempt = Attempt {
+                step: self.step.unwrap_or(0) as u64 + 1,
+                increment: *increment as u64,
+                attempt: tried.len() as u64,
+                converged: false,
+                discontinuity_iterations: self.flips,
+                equilibrium_iterations: self.iterations.saturating_sub(self.flips),
+                total_time: self.time,
+                step_time: self.step_time,
+                increment_time: tried.last().copied().unwrap_or(0.0),
+            };
+            self.write(|files| Ok(files.sta.row(&attempt)?));
+        }
+    }
+
+    /// Ends the status table.
+    pub fn finish(&mut self, completed: bool) {
+        self.write(|files| Ok(files.sta.finish(completed)?));
+    }
+
+    fn worst_node(&self, dof: Option<Dof>) -> Option<u64> {
+        match self.setting.layout.name(dof?)? {
+            DofName::Node(node, _) => self.setting.mesh.node_labels.get(node as usize).copied(),
+            _ => None,
+        }
+    }
+}
+
+fn state(contact: &ContactFrame) -> (String, ContactState) {
+    let state = ContactState {
+        force: contact.secondary.force.to_array(),
+        area: contact.area_stick + contact.area_slip,
+        pressure_max: contact.pressure_max,
+        closed: contact.nclosed() as u64,
+    };
+    (contact.name.clone(), state)
+}
+
+fn summary(contact: &ContactFrame) -> (String, ContactSummary) {
+    let summary = ContactSummary {
+        force: contact.secondary.force.to_array(),
+        moment: contact.secondary.moment.to_array(),
+        pressure_max: contact.pressure_max,
+        gap_min: contact.gap_min,
+        area_open: contact.area_open,
+        area_stick: contact.area_stick,
+        area_slip: contact.area_slip,
+    };
+    (contact.name.clone(), summary)
+}
