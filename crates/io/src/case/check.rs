@@ -154,7 +154,7 @@ impl Checker<'_> {
                     }
                 }
             }
-            (Shape::Row(shapes), DeValue::Array(items)) => {
+            (Shape::Row(_, shapes), DeValue::Array(items)) => {
                 if items.len() == shapes.len() {
                     for (one, shape) in items.iter().zip(*shapes) {
                         self.value(one, shape, key, words);

@@ -94,7 +94,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    fn spanned_text(&self, value: &Ranged<DeValue<'_>>) -> Option<Spanned<String>> {
+    pub fn spanned_text(&self, value: &Ranged<DeValue<'_>>) -> Option<Spanned<String>> {
         let text = value.get_ref().as_str()?.to_owned();
         Some(Spanned::new(text, self.at(value.span())))
     }
@@ -139,9 +139,27 @@ impl<'a> Fields<'a> {
         self.get(key)?.get_ref().as_bool()
     }
 
-    /// A list of exactly `N` numbers.
-    pub fn vector<const N: usize>(&self, key: &str) -> Option<[f64; N]> {
-        numbers(self.get(key)?.get_ref())
+    /// The entries of a row of exactly `N`.
+    pub fn row<const N: usize>(&self, key: &str) -> Option<[&'a Ranged<DeValue<'a>>; N]> {
+        let items = self.get(key)?.get_ref().as_array()?;
+        items.iter().collect::<Vec<_>>().try_into().ok()
+    }
+
+    /// The rows of a list.
+    pub fn rows(&self, key: &str) -> impl Iterator<Item = &'a Ranged<DeValue<'a>>> {
+        let rows = self.get(key).and_then(|value| value.get_ref().as_array());
+        rows.into_iter().flat_map(|rows| rows.iter())
+    }
+
+    /// A number or a list of them.
+    pub fn numbers_if(&self, key: &str) -> Option<Spanned<Vec<f64>>> {
+        if let Some(Spanned { value, place }) = self.number_if(key) {
+            return Some(Spanned::new(vec![value], place));
+        }
+        self.get(key)?.get_ref().as_array()?;
+        let values = self.rows(key).map(|one| number(one.get_ref()));
+        let values: Option<Vec<f64>> = values.collect();
+        Some(Spanned::new(values?, self.place(key)))
     }
 
     /// A list of whole numbers.

@@ -56,7 +56,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity, SourceFile, codes};
 /// "#;
 /// let set = [("material.steel.nu".to_owned(), "0.25".to_owned())];
 /// let (case, warnings) = read_case("block.toml", text, &set).unwrap();
-/// assert_eq!(case.materials[0].poisson.value, 0.25);
+/// assert_eq!(case.materials[0].number("nu"), Some(0.25));
 /// assert!(warnings.is_empty());
 ///
 /// let errors = read_case("block.toml", b"mehs = 1", &[]).unwrap_err();

@@ -163,7 +163,7 @@ fn set<'a>(
 /// What a path creates on its way where nothing is.
 fn empty(shape: &Shape) -> DeValue<'static> {
     match shape {
-        Shape::Tables(_) | Shape::List(..) | Shape::Row(_) | Shape::Nodes => {
+        Shape::Tables(_) | Shape::List(..) | Shape::Row(..) | Shape::Nodes => {
             DeValue::Array(DeArray::new())
         }
         _ => DeValue::Table(DeTable::new()),

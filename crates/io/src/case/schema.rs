@@ -101,7 +101,7 @@ fn shape(form: &Shape) -> Value {
         Shape::List(item, least, most) => {
             json!({ "type": "array", "items": shape(item), "minItems": least, "maxItems": most })
         }
-        Shape::Row(items) => {
+        Shape::Row(_, items) => {
             let items: Vec<Value> = items.iter().map(shape).collect();
             json!({ "type": "array", "prefixItems": items, "minItems": items.len(), "maxItems": items.len() })
         }

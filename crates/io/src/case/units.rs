@@ -42,21 +42,25 @@ pub(super) fn plausibility(case: &Case) -> Diagnostics {
 }
 
 fn stiffness(material: &Material, units: &Units, label: &str) -> Diagnostics {
-    let pascal = material.young.value * units.stress;
+    let Some(young) = material.constants.iter().find(|one| one.name == "E") else {
+        return Diagnostics::new();
+    };
+    let value = young.values.first().copied().unwrap_or_default();
+    let pascal = value * units.stress;
     if (STIFFNESS.0..=STIFFNESS.1).contains(&pascal) {
         return Diagnostics::new();
     }
     let message = format!(
         "E = {} with units \"{label}\" is {} steel",
-        short(material.young.value),
+        short(value),
         times(pascal / STEEL)
     );
     // The same digits read as pascal, or as megapascal, are often what was meant.
     let meant = [(1.0, "Pa"), (1e6, "MPa"), (1e9, "GPa")]
         .into_iter()
-        .find(|(unit, _)| (STEEL / 300.0..=STIFFNESS.1).contains(&(material.young.value * unit)));
+        .find(|(unit, _)| (STEEL / 300.0..=STIFFNESS.1).contains(&(value * unit)));
     let remark = meant.map_or_else(String::new, |(unit, name)| {
-        let pascal = material.young.value * unit;
+        let pascal = value * unit;
         let (shown, shown_name) = if pascal >= 1e9 {
             (pascal / 1e9, "GPa")
         } else {
@@ -65,7 +69,7 @@ fn stiffness(material: &Material, units: &Units, label: &str) -> Diagnostics {
         let read = if name == "Pa" {
             format!("{shown} {shown_name}")
         } else {
-            format!("{} {name}", material.young.value)
+            format!("{} {name}", value)
         };
         format!(
             "{read} in {} is {}",
@@ -74,7 +78,7 @@ fn stiffness(material: &Material, units: &Units, label: &str) -> Diagnostics {
         )
     });
     Diagnostic::warning(&codes::IMPLAUSIBLE, message)
-        .at(&material.young.place, remark)
+        .at(&young.values.place, remark)
         .note("silence with  allow = [\"S0402\"]")
         .into()
 }

@@ -229,8 +229,10 @@ codes! {
     ["export the mesh again", "look at it: signorini info MESH"]
 
     WRONG_KIND "S0203" Input "a set of the wrong kind"
-    "Contact needs faces, a body needs solid elements, a support needs nodes. This set has none of them."
-    ["a set of nodes where a surface is needed", "a group of curves or points", "a surface group without solids behind it"]
+    "Contact and pressure need faces, a body needs solid elements, a support needs nodes, and only references and rigid \
+     bodies turn. This set is of another kind."
+    ["a set of nodes where a surface is needed", "a group of curves or points", "a surface group without solids behind it",
+     "rotations of the nodes of a solid"]
     ["name another set", "list what is in the sets: signorini info MESH"]
 
     MESH_NOTE "S0204" Input "something about the mesh worth knowing"
@@ -273,6 +275,16 @@ codes! {
     ["groups that overlap"]
     ["name groups that do not overlap"]
 
+    BAD_LOAD "S0307" Model "a load that cannot act"
+    "The load has nothing to act on: its faces have no area, its nodes cannot carry a moment, its elements are in no body."
+    ["a set that is smaller than it was meant", "a moment on nodes in one line", "a group that no body is made of"]
+    ["name another set", "look at what is in the sets: signorini info MESH"]
+
+    BAD_CONSTRAINT "S0308" Model "constraints that cannot hold"
+    "Constraints, supports and rigid bodies contradict each other, or bind the same displacement twice."
+    ["a node is bound by two constraints", "a bound node is supported too", "a reference without nodes"]
+    ["take the node out of one of the sets", "support the reference, not the nodes that follow it"]
+
     IMPLAUSIBLE "S0402" Input "a value that does not fit the units"
     "A material value would be far outside of what materials have, if the units of the case are what its label says. \
      Nothing is converted: numbers are used as they are."
@@ -291,6 +303,12 @@ codes! {
     ["the mesher's default is elements of first order"]
     ["mesh with quad4 or hex8, or with elements of second order (tri6, tet10)", "refine until the answer stays the same",
      "silence with  allow = [\"S0404\"]  if it is meant so"]
+
+    NO_EFFECT "S0405" Input "something without effect"
+    "The case says something that changes nothing, such as temperatures where no material expands, or a step without any \
+     change."
+    ["something it belongs to was forgotten", "it was left over from another case"]
+    ["add what is missing, as the message says", "delete it", "silence with  allow = [\"S0405\"]  if it is meant so"]
 
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \

@@ -1,7 +1,7 @@
 //! The mesh of a case, from its text or from a file, and whether it can be used.
 
 use signorini_geometry::mesh::Mesh;
-use signorini_io::case::{Case, MeshSource};
+use signorini_io::case::{Case, MeshSource, Space};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_io::readers::{self, MeshIssue, Severity};
 use std::path::Path;
@@ -106,4 +106,46 @@ fn judged(issue: &MeshIssue, place: &Place) -> Diagnostic {
     } else {
         message
     }
+}
+
+/// The message for a mesh that does not suit the dimension of the model.
+pub(super) fn unfit(case: &Case, mesh: &Mesh) -> Option<Diagnostic> {
+    let space = &case.model.space;
+    let (found, wanted) = (mesh.dim(), space.ndim());
+    let of_bars = || case.bodies.iter().any(|body| body.area.is_some());
+    if found != wanted && !(0 < found && found < wanted && of_bars()) {
+        let message = match (found, wanted) {
+            (2, 3) => "the mesh has no volume elements; did you save only the surface?",
+            (3, 2) => "the mesh has volume elements, the model is in the plane",
+            _ => "the mesh has no solid elements",
+        };
+        let help = match wanted {
+            3 => "export the volume elements, or choose  [model] space = \"plane-strain\"",
+            _ => "choose  [model] space = \"3d\"",
+        };
+        let message = Diagnostic::error(&codes::BAD_MESH, message);
+        let remark = format!("{wanted} dimensions here");
+        return Some(message.at(&space.place, remark).help(help));
+    }
+    if space.value == Space::Axisymmetric {
+        return off_axis(mesh).map(|message| message.at(&space.place, "x is the radius here"));
+    }
+    None
+}
+
+/// A node of an element on the wrong side of the axis, beyond what rounding explains.
+fn off_axis(mesh: &Mesh) -> Option<Diagnostic> {
+    let size = mesh.points.iter().map(|x| x.x.abs().max(x.y.abs()));
+    let size = size.fold(0.0, f64::max);
+    let nodes = mesh.blocks.iter().flat_map(|block| &block.nodes);
+    let at = |node: &u32| mesh.points.get(*node as usize).map(|x| (*node, x.x));
+    let (node, radius) = nodes.filter_map(at).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let label = mesh.node_labels.get(node as usize)?;
+    (radius < -1e-9 * size).then(|| {
+        Diagnostic::error(
+            &codes::BAD_MESH,
+            format!("node {label} lies at x = {radius}, beyond the axis of revolution"),
+        )
+        .help("mesh the half with x >= 0; the axis is x = 0")
+    })
 }

@@ -1,76 +1,152 @@
 //! What the names of a case stand for in its mesh.
 
-use super::quoted;
+use super::regions::inside;
+use super::{idealisation, quoted};
 use signorini_geometry::mesh::{CellId, Face, FaceIndex, Mesh, NodeId, Set, boundary};
-use signorini_io::case::{Axis, Case, Name, Sense, SetContent, Side};
+use signorini_geometry::surface::Facets;
+use signorini_geometry::tensor::Vec3;
+use signorini_io::case::{Case, Name, Region, SetContent, Side};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, closest, codes, listed};
 use signorini_io::readers::side_by_normal;
 use signorini_mechanics::model::SidePart;
+use signorini_mechanics::system::Idealisation;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// The name of everything, unless the mesh or the case has something of that name.
+pub(super) const ALL: &str = "all";
 
 /// Groups of the mesh and sets of the case, by name.
 pub(super) struct Names<'a> {
     mesh: &'a Mesh,
+    space: Idealisation,
     sets: BTreeMap<String, Set>,
+    nodes: HashMap<u64, NodeId>,
     index: FaceIndex,
+}
+
+/// Cells that bodies are made of.
+#[derive(Debug, Default)]
+pub(super) struct Cells {
+    /// Of the dimension of the model.
+    pub solids: Vec<CellId>,
+    /// Lines, which are bars where a body is made of nothing else.
+    pub bars: Vec<CellId>,
+}
+
+impl Cells {
+    pub fn append(&mut self, mut other: Self) {
+        self.solids.append(&mut other.solids);
+        self.bars.append(&mut other.bars);
+    }
+
+    pub fn all(mut self) -> Vec<CellId> {
+        if self.solids.is_empty() {
+            self.solids.append(&mut self.bars);
+        }
+        self.solids
+    }
 }
 
 impl<'a> Names<'a> {
     /// Resolves all sets of the case.
     pub fn new(case: &Case, mesh: &'a Mesh, found: &mut Diagnostics) -> Self {
+        let ndim = case.model.space.ndim();
+        let labels = mesh.node_labels.iter().enumerate();
         let mut names = Self {
             mesh,
+            space: idealisation(&case.model),
             sets: mesh.sets.clone(),
-            index: FaceIndex::new(mesh, mesh.cells(mesh.dim())),
+            nodes: labels
+                .map(|(node, &label)| (label, node as NodeId))
+                .collect(),
+            index: FaceIndex::new(mesh, mesh.cells(ndim)),
         };
-        let nodes: HashMap<u64, NodeId> = mesh
-            .node_labels
-            .iter()
-            .enumerate()
-            .map(|(node, &label)| (label, node as NodeId))
-            .collect();
+        let all = || Set {
+            cells: (1..=ndim).flat_map(|dim| mesh.cells(dim)).collect(),
+            ..Set::default()
+        };
+        names.sets.entry(ALL.to_owned()).or_insert_with(all);
         let mut cells: HashMap<u64, CellId> = HashMap::new();
-        for cell in mesh.cells(mesh.dim()) {
+        for cell in mesh.cells(ndim) {
             if let Some(label) = mesh.cell_label(cell) {
                 cells.insert(label, cell);
             }
         }
-        for part in &case.sets {
-            let mut set = Set::default();
-            match &part.content {
-                SetContent::Nodes(labels) => {
-                    set.nodes = labels
-                        .iter()
-                        .filter_map(|l| nodes.get(l))
-                        .copied()
-                        .collect();
-                    let unknown = labels.iter().filter(|l| !nodes.contains_key(l));
-                    let unknown: Vec<&u64> = unknown.collect();
-                    names.missing(part, "node", &unknown, found);
-                }
-                SetContent::Faces(faces) => {
-                    let mut unknown = Vec::new();
-                    for (label, side) in faces {
-                        match cells.get(label) {
-                            Some(&cell) => set.faces.extend(names.face(part, cell, side, found)),
-                            None => unknown.push(label),
-                        }
-                    }
-                    names.missing(part, "element", &unknown, found);
-                }
-                SetContent::Union(others) => {
-                    for other in others {
-                        if let Some(of) = names.get(other, found).cloned() {
-                            set.nodes.extend(of.nodes);
-                            set.cells.extend(of.cells);
-                            set.faces.extend(of.faces);
-                        }
-                    }
-                }
-            }
+        for part in in_order(&case.sets) {
+            let set = names.content(part, &cells, found);
             names.sets.insert(part.name.value.clone(), set);
         }
         names
+    }
+
+    fn content(
+        &self,
+        part: &signorini_io::case::Set,
+        cells: &HashMap<u64, CellId>,
+        found: &mut Diagnostics,
+    ) -> Set {
+        let mut set = Set::default();
+        match &part.content {
+            SetContent::Nodes(labels) => {
+                let known = labels.iter().filter_map(|label| self.nodes.get(label));
+                set.nodes = known.copied().collect();
+                let unknown = labels.iter().filter(|l| !self.nodes.contains_key(l));
+                let unknown: Vec<&u64> = unknown.collect();
+                self.missing(part, "node", &unknown, found);
+            }
+            SetContent::Faces(faces) => {
+                let mut unknown = Vec::new();
+                for (label, side) in faces {
+                    match cells.get(label) {
+                        Some(&cell) => set.faces.extend(self.face(part, cell, side, found)),
+                        None => unknown.push(label),
+                    }
+                }
+                self.missing(part, "element", &unknown, found);
+            }
+            SetContent::Union(others) => {
+                for other in others {
+                    if let Some(of) = self.get(other, found).cloned() {
+                        set.nodes.extend(of.nodes);
+                        set.cells.extend(of.cells);
+                        set.faces.extend(of.faces);
+                    }
+                }
+            }
+            SetContent::Region { region, of } => {
+                set.nodes = self.region(part, region, of.as_ref(), found);
+            }
+        }
+        set
+    }
+
+    /// The nodes of a part of space.
+    fn region(
+        &self,
+        part: &signorini_io::case::Set,
+        region: &Region,
+        of: Option<&Name>,
+        found: &mut Diagnostics,
+    ) -> Vec<NodeId> {
+        let among = match of {
+            Some(of) => self.nodes(of, found),
+            None => self.sets.get(ALL).map(|all| self.mesh.nodes_of(all)),
+        };
+        let Some(among) = among else {
+            return Vec::new();
+        };
+        let nodes = inside(self.mesh, region, &among);
+        if nodes.is_empty() {
+            found.push(
+                Diagnostic::error(
+                    &codes::WRONG_KIND,
+                    format!("set {} is empty", quoted(&part.name)),
+                )
+                .at(&part.place, "no node lies there")
+                .help("list the nodes near it: signorini info MESH; or widen it"),
+            );
+        }
+        nodes
     }
 
     fn missing(
@@ -103,22 +179,7 @@ impl<'a> Names<'a> {
         side: &Side,
         found: &mut Diagnostics,
     ) -> Option<Face> {
-        let text = match side {
-            Side::Numbered(number) => format!("S{number}"),
-            Side::Axis(axis, sense) => {
-                let sign = match sense {
-                    Sense::Plus => '+',
-                    Sense::Minus => '-',
-                };
-                let axis = match axis {
-                    Axis::X => 'x',
-                    Axis::Y => 'y',
-                    Axis::Z => 'z',
-                };
-                format!("{sign}{axis}")
-            }
-        };
-        match side_by_normal(self.mesh, cell, &text) {
+        match side_by_normal(self.mesh, cell, &side.to_string()) {
             Ok(side) => Some(Face { cell, side }),
             Err(error) => {
                 found.push(
@@ -151,21 +212,26 @@ impl<'a> Names<'a> {
         set
     }
 
-    /// The solid cells of a set.
-    pub fn solids(&self, name: &Name, found: &mut Diagnostics) -> Vec<CellId> {
+    /// The cells of a set that a body can be made of.
+    pub fn cells(&self, name: &Name, found: &mut Diagnostics) -> Cells {
         let Some(set) = self.get(name, found) else {
-            return Vec::new();
+            return Cells::default();
         };
-        let dim = self.mesh.dim();
-        let is_solid = |c: &&CellId| self.mesh.element(**c).is_some_and(|e| e.dim() == dim);
-        let cells: Vec<CellId> = set.cells.iter().filter(is_solid).copied().collect();
-        if cells.is_empty() {
+        let of = |dim| {
+            let has = |c: &&CellId| self.mesh.element(**c).is_some_and(|e| e.dim() == dim);
+            set.cells.iter().filter(has).copied().collect()
+        };
+        let cells = Cells {
+            solids: of(self.space.ndim()),
+            bars: of(1),
+        };
+        if cells.solids.is_empty() && cells.bars.is_empty() {
             found.push(
                 Diagnostic::error(
                     &codes::WRONG_KIND,
                     format!("{} has no solid elements", quoted(name)),
                 )
-                .at(&name.place, "a body is made of solid elements"),
+                .at(&name.place, "a body is made of solid elements, or of lines"),
             );
         }
         cells
@@ -184,9 +250,56 @@ impl<'a> Names<'a> {
         Some(nodes)
     }
 
+    /// The nodes of a set of nodes as they are listed, each once; those of other sets sorted.
+    pub fn nodes_in_order(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<NodeId>> {
+        let sorted = self.nodes(name, found)?;
+        let set = self.sets.get(&name.value)?;
+        if !set.cells.is_empty() || !set.faces.is_empty() {
+            return Some(sorted);
+        }
+        let mut seen = BTreeSet::new();
+        let listed = set.nodes.iter().copied();
+        Some(listed.filter(|node| seen.insert(*node)).collect())
+    }
+
+    /// The nodes of a set with their shares: by area over a surface, even for bare nodes.
+    pub fn weighted(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<(NodeId, f64)>> {
+        let nodes = self.nodes(name, found)?;
+        let even = 1.0 / nodes.len() as f64;
+        let areas = self.covering(name, &nodes).and_then(|faces| {
+            let extent = |at| self.space.extent(at);
+            let facets = Facets::new(self.mesh, &faces).ok()?;
+            facets.nodal_areas(&self.mesh.points, &extent).ok()
+        });
+        let areas = areas.filter(|areas| areas.iter().any(|(_, area)| *area > 0.0));
+        Some(match areas {
+            Some(areas) => areas.into_iter().filter(|(_, area)| *area > 0.0).collect(),
+            None => nodes.into_iter().map(|node| (node, even)).collect(),
+        })
+    }
+
+    /// Where the node of a number is.
+    pub fn point(&self, label: u64) -> Option<Vec3> {
+        let node = self.nodes.get(&label)?;
+        self.mesh.points.get(*node as usize).copied()
+    }
+
+    /// The number of a node in the input.
+    pub fn label(&self, node: NodeId) -> u64 {
+        let label = self.mesh.node_labels.get(node as usize);
+        label.copied().unwrap_or_default()
+    }
+
+    /// The distance of two nodes.
+    pub fn distance(&self, a: NodeId, b: NodeId) -> f64 {
+        let at = |node: NodeId| self.mesh.points.get(node as usize).copied();
+        let between = at(a).zip(at(b)).map(|(a, b)| (a - b).norm());
+        between.unwrap_or_default()
+    }
+
     /// The faces of a set: its own, those under its surface elements, the outside of its solids, or those between its
-    /// nodes.
-    pub fn faces(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<Face>> {
+    /// nodes. `what` needs them.
+    pub fn faces(&self, name: &Name, what: &str, found: &mut Diagnostics) -> Option<Vec<Face>> {
         let set = self.get(name, found)?;
         match self.resolve(set) {
             Ok(faces) if !faces.is_empty() => Some(faces),
@@ -194,7 +307,7 @@ impl<'a> Names<'a> {
                 found.push(
                     Diagnostic::error(
                         &codes::WRONG_KIND,
-                        format!("{} has no faces: the primary side needs some", quoted(name)),
+                        format!("{} has no faces: {what} needs some", quoted(name)),
                     )
                     .at(&name.place, "no whole face of a solid in it")
                     .help("name a surface, or faces as  { faces = [[element, \"S1\"], ..] }"),
@@ -210,16 +323,10 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The same without a message.
-    pub fn faces_quietly(&self, name: &Name) -> Option<Vec<Face>> {
-        let set = self.sets.get(&name.value)?;
-        self.resolve(set).ok().filter(|f| !f.is_empty())
-    }
-
     fn resolve(&self, set: &Set) -> Result<Vec<Face>, String> {
         let mesh = self.mesh;
         let mut faces = mesh.faces(set, &self.index).map_err(|e| e.to_string())?;
-        let dim = mesh.dim();
+        let dim = self.space.ndim();
         let is_solid = |c: &&CellId| mesh.element(**c).is_some_and(|e| e.dim() == dim);
         let solids: Vec<CellId> = set.cells.iter().filter(is_solid).copied().collect();
         if !solids.is_empty() {
@@ -243,20 +350,26 @@ impl<'a> Names<'a> {
         let set = self.get(name, found)?;
         let only_nodes = set.cells.is_empty() && set.faces.is_empty();
         if !only_nodes {
-            return self.faces(name, found).map(SidePart::Faces);
+            return self
+                .faces(name, "the secondary side", found)
+                .map(SidePart::Faces);
         }
         let nodes = self.nodes(name, found)?;
-        let faces = self.faces_quietly(name).unwrap_or_default();
-        let covered: BTreeSet<NodeId> = faces
-            .iter()
-            .filter_map(|f| self.mesh.face(*f))
-            .flat_map(|(_, n)| n)
-            .collect();
-        Some(if nodes.iter().all(|n| covered.contains(n)) {
-            SidePart::Faces(faces)
-        } else {
-            SidePart::Nodes(nodes)
+        Some(match self.covering(name, &nodes) {
+            Some(faces) => SidePart::Faces(faces),
+            None => SidePart::Nodes(nodes),
         })
+    }
+
+    /// The faces of a set, where they hold all its nodes.
+    pub fn covering(&self, name: &Name, nodes: &[NodeId]) -> Option<Vec<Face>> {
+        let faces = self.resolve(self.sets.get(&name.value)?).ok()?;
+        let of_faces = faces.iter().filter_map(|face| self.mesh.face(*face));
+        let covered: BTreeSet<NodeId> = of_faces.flat_map(|(_, nodes)| nodes).collect();
+        nodes
+            .iter()
+            .all(|node| covered.contains(node))
+            .then_some(faces)
     }
 
     /// The nodes of every set.
@@ -265,4 +378,38 @@ impl<'a> Names<'a> {
         sets.map(|(name, set)| (name.clone(), self.mesh.nodes_of(set)))
             .collect()
     }
+}
+
+/// Sets in an order in which every one comes behind those it is made from. Circles have been refused before.
+fn in_order(sets: &[signorini_io::case::Set]) -> Vec<&signorini_io::case::Set> {
+    let numbers = sets.iter().enumerate();
+    let numbers: HashMap<&str, usize> = numbers
+        .map(|(number, set)| (set.name.as_str(), number))
+        .collect();
+    let members = |set: &signorini_io::case::Set| -> Vec<usize> {
+        let names = match &set.content {
+            SetContent::Union(names) => names.as_slice(),
+            SetContent::Region { of, .. } => of.as_slice(),
+            SetContent::Nodes(_) | SetContent::Faces(_) => &[],
+        };
+        let number = |name: &Name| numbers.get(name.as_str()).copied();
+        names.iter().filter_map(number).collect()
+    };
+    let mut ordered = Vec::with_capacity(sets.len());
+    let mut begun = vec![false; sets.len()];
+    // a set waits on the stack, marked, until its members are done
+    let mut stack: Vec<(usize, bool)> = (0..sets.len()).rev().map(|n| (n, false)).collect();
+    while let Some((number, ready)) = stack.pop() {
+        let Some(set) = sets.get(number) else {
+            continue;
+        };
+        if ready {
+            ordered.push(set);
+        } else if let Some(begun) = begun.get_mut(number).filter(|begun| !**begun) {
+            *begun = true;
+            stack.push((number, true));
+            stack.extend(members(set).into_iter().map(|member| (member, false)));
+        }
+    }
+    ordered
 }

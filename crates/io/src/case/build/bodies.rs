@@ -1,0 +1,354 @@
+//! Materials, bodies, springs, constraints.
+
+use std::collections::BTreeSet;
+
+use signorini_mechanics::material::{Law, TABLE, by_name};
+use signorini_mechanics::solid::{Integration, Locking};
+
+use super::super::fields::{Fields, numbers};
+use super::super::parts::*;
+use super::super::scalar::number;
+use super::Builder;
+use crate::diagnostic::{Diagnostic, Place, Spanned, codes, listed};
+
+impl Builder {
+    pub(super) fn material(&mut self, name: Name, fields: Fields<'_>, place: Place) -> Material {
+        let model = fields.text("model");
+        let law = by_name(&model.value);
+        let constants = law.map(|law| self.constants(law, &name, fields, &place));
+        let expansion = fields.table("expansion");
+        let plasticity = fields.has("plasticity").then(|| {
+            let table = fields.table("plasticity");
+            if law.is_some_and(|law| law.name != "linear-elastic") {
+                self.error(
+                    &codes::CONTRADICTION,
+                    format!("`plasticity` does not go with {}", model.value),
+                    &fields.place("plasticity"),
+                    "it needs  model = \"linear-elastic\"",
+                );
+            }
+            self.plasticity(table)
+        });
+        Material {
+            name,
+            constants: constants.unwrap_or_default(),
+            density: fields.number_if("density"),
+            expansion: fields.has("expansion").then(|| Expansion {
+                alpha: expansion.number("alpha"),
+                reference: expansion
+                    .number_if("reference")
+                    .unwrap_or_else(|| expansion.number("reference").into()),
+            }),
+            plasticity,
+            model,
+            place,
+        }
+    }
+
+    /// The constants of a law: all of them, and no others.
+    fn constants(
+        &mut self,
+        law: &'static Law,
+        name: &Name,
+        fields: Fields<'_>,
+        place: &Place,
+    ) -> Vec<Constant> {
+        let takes = || listed(law.constants.iter().copied());
+        let missing = law.constants.iter().filter(|key| !fields.has(key));
+        let missing: Vec<String> = missing.map(|key| format!("`{key}`")).collect();
+        if !missing.is_empty() && !fields.has_unknown_key() {
+            let what = missing.join(", ");
+            let are = if missing.len() == 1 { "is" } else { "are" };
+            self.found.push(
+                Diagnostic::error(
+                    &codes::MISSING,
+                    format!("[material.{}] has no {what}", name.value),
+                )
+                .at(place, format!("{what} {are} missing here"))
+                .note(format!("{} takes: {}", law.name, takes())),
+            );
+        }
+        let constants = TABLE.iter().flat_map(|law| law.constants).copied();
+        for key in constants.collect::<BTreeSet<_>>() {
+            if fields.has(key) && !law.constants.contains(&key) {
+                self.error(
+                    &codes::CONTRADICTION,
+                    format!("`{key}` is no constant of {}", law.name),
+                    &fields.place(key),
+                    format!("{} takes: {}", law.name, takes()),
+                );
+            }
+        }
+        let given = law.constants.iter().filter_map(|name| {
+            let values = fields.numbers_if(name)?;
+            Some(Constant { name, values })
+        });
+        given.collect()
+    }
+
+    fn plasticity(&mut self, fields: Fields<'_>) -> Plasticity {
+        let word = fields.text("hardening");
+        let hardening = match word.value.as_str() {
+            "kinematic" => Hardening::Kinematic,
+            "combined" => Hardening::Combined,
+            _ => Hardening::Isotropic,
+        };
+        let modulus = fields.number_if("modulus");
+        match (&modulus, hardening) {
+            (None, Hardening::Combined) => self.error(
+                &codes::MISSING,
+                "combined hardening has no `modulus`",
+                &word.place,
+                "add the kinematic hardening modulus:  modulus = ",
+            ),
+            (Some(modulus), Hardening::Isotropic | Hardening::Kinematic) => self.error(
+                &codes::CONTRADICTION,
+                "`modulus` belongs to combined hardening",
+                &modulus.place,
+                "delete it, or write  hardening = \"combined\"",
+            ),
+            _ => {}
+        }
+        let table = self.yield_stresses(fields);
+        Plasticity {
+            hardening: Spanned::new(hardening, word.place),
+            table: Spanned::new(table, fields.place("table")),
+            modulus,
+        }
+    }
+
+    /// Rows of stress and plastic strain; strains begin with zero and increase.
+    fn yield_stresses(&mut self, fields: Fields<'_>) -> Vec<[f64; 2]> {
+        let mut table: Vec<[f64; 2]> = Vec::new();
+        for row in fields.rows("table") {
+            let Some([stress, strain]) = numbers(row.get_ref()) else {
+                continue;
+            };
+            let fault = match table.last() {
+                None if strain != 0.0 => Some("the first row is that of plastic strain 0".into()),
+                Some([_, before]) if strain <= *before => {
+                    Some(format!("{strain} comes after {before}"))
+                }
+                _ => None,
+            };
+            if let Some(fault) = fault {
+                self.error(
+                    &codes::NOT_INCREASING,
+                    "the plastic strains of `table` do not increase from 0 on",
+                    &fields.at(row.span()),
+                    fault,
+                );
+                break;
+            }
+            table.push([stress, strain]);
+        }
+        table
+    }
+
+    pub(super) fn body(&mut self, fields: Fields<'_>, place: Place) -> Body {
+        let rigid = fields.flag("rigid");
+        let groups = fields.texts("group");
+        let name = groups.first().map_or("", |group| group.value.as_str());
+        if !rigid && !fields.has("material") && !fields.has_unknown_key() {
+            self.found.push(
+                Diagnostic::error(
+                    &codes::MISSING,
+                    format!("body \"{name}\" has no `material`"),
+                )
+                .at(&place, "`material` is missing here")
+                .help("write  material = \"NAME\"  of a [material.NAME], or  rigid = true"),
+            );
+        }
+        let of_solids = ["material", "integration", "locking", "orientation", "area"];
+        let wrong = if rigid {
+            &of_solids[..]
+        } else {
+            &["reference"]
+        };
+        for key in wrong.iter().filter(|key| fields.has(key)) {
+            let (what, remark) = if rigid {
+                ("a rigid body", "delete it, or  rigid = true")
+            } else {
+                ("a body that deforms", "delete it, or write  rigid = true")
+            };
+            self.error(
+                &codes::CONTRADICTION,
+                format!("`{key}` means nothing for {what}"),
+                &fields.place(key),
+                remark,
+            );
+        }
+        let locking = fields.text("locking");
+        let orientation = fields.table("orientation");
+        Body {
+            material: fields.text_if("material"),
+            integration: match fields.text("integration").value.as_str() {
+                "reduced" => Integration::Reduced,
+                _ => Integration::Full,
+            },
+            locking: Spanned::new(
+                match locking.value.as_str() {
+                    "none" => Locking::None,
+                    "b-bar" => Locking::BBar,
+                    "f-bar" => Locking::FBar,
+                    "incompatible" => Locking::Incompatible,
+                    _ => Locking::Auto,
+                },
+                locking.place,
+            ),
+            orientation: fields
+                .has("orientation")
+                .then(|| self.orientation(orientation, fields.place("orientation"))),
+            area: fields.number_if("area"),
+            rigid,
+            reference: fields.text_if("reference"),
+            groups,
+            place,
+        }
+    }
+
+    fn orientation(&mut self, fields: Fields<'_>, place: Place) -> Orientation {
+        let x = self.vector(fields, "x").unwrap_or_default();
+        let y = self.vector(fields, "y").unwrap_or_default();
+        let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>();
+        let (xx, yy, xy) = (dot(x, x), dot(y, y), dot(x, y));
+        // sin² of the angle between them
+        if fields.has("x") && fields.has("y") && xx * yy - xy * xy <= 1e-12 * xx * yy {
+            self.error(
+                &codes::OUT_OF_RANGE,
+                "the vectors of `orientation` span no plane",
+                &place,
+                "`x` and `y` are parallel, or zero",
+            );
+        }
+        Orientation { x, y, place }
+    }
+
+    pub(super) fn spring(&mut self, fields: Fields<'_>, place: Place) -> Spring {
+        let direction = self.line(fields, "direction");
+        self.within(
+            direction.unwrap_or_default(),
+            "direction",
+            &fields.place("direction"),
+        );
+        let ends = match <[Name; 2]>::try_from(fields.texts("between")) {
+            Ok([one, other]) => SpringEnds::Between(one, other),
+            Err(_) => SpringEnds::Ground(fields.text("on")),
+        };
+        let name = fields.text("name");
+        if matches!(ends, SpringEnds::Ground(_)) && direction.is_none() && !fields.has("direction")
+        {
+            self.error(
+                &codes::MISSING,
+                format!("spring \"{}\" to the ground has no `direction`", name.value),
+                &place,
+                "there is no line between two ends: write  direction = \"x\"  or a vector",
+            );
+        }
+        Spring {
+            name,
+            ends,
+            stiffness: fields.number("stiffness"),
+            direction,
+            place,
+        }
+    }
+
+    pub(super) fn constraint(&mut self, fields: Fields<'_>, place: Place) -> Constraint {
+        let kind = fields.text("kind");
+        if fields.has("equation") {
+            return Constraint {
+                kind: ConstraintKind::Equation {
+                    terms: self.summands(fields),
+                    rhs: fields.number("rhs"),
+                },
+                place,
+            };
+        }
+        let on = fields.text("on");
+        let mut needs = |key: &str, wanted: bool| {
+            if fields.has(key) == wanted || kind.is_empty() {
+                return;
+            }
+            let (code, message, remark) = if wanted {
+                let message = format!("a {} constraint has no `{key}`", kind.value);
+                (&codes::MISSING, message, "missing here")
+            } else {
+                let message = format!("`{key}` means nothing in a {} constraint", kind.value);
+                (&codes::CONTRADICTION, message, "delete it")
+            };
+            let at = if wanted {
+                place.clone()
+            } else {
+                fields.place(key)
+            };
+            self.error(code, message, &at, remark);
+        };
+        let with_reference = matches!(kind.value.as_str(), "kinematic" | "distributing");
+        needs("reference", with_reference);
+        match kind.value.as_str() {
+            "equal" => needs("dofs", true),
+            "kinematic" => {}
+            _ => needs("dofs", false),
+        }
+        let axes = if fields.has("dofs") {
+            self.axes(fields)
+        } else {
+            Directions::ALL
+        };
+        let reference = fields.text("reference");
+        let kind = match kind.value.as_str() {
+            "kinematic" => ConstraintKind::Kinematic {
+                on,
+                reference,
+                axes,
+            },
+            "distributing" => ConstraintKind::Distributing { on, reference },
+            "plane" => ConstraintKind::Plane { on },
+            _ => ConstraintKind::Equal { on, axes },
+        };
+        Constraint { kind, place }
+    }
+
+    /// The directions of `dofs`. Nodes have no rotations.
+    fn axes(&mut self, fields: Fields<'_>) -> Directions {
+        for word in fields.texts("dofs") {
+            if word.value.starts_with('r') {
+                self.error(
+                    &codes::CONTRADICTION,
+                    format!("nodes have no rotation \"{}\"", word.value),
+                    &word.place,
+                    "nodes of solids only move; with a reference that turns, they follow through x, y and z",
+                );
+            }
+        }
+        self.directions(fields, "dofs")
+    }
+
+    fn summands(&mut self, fields: Fields<'_>) -> Vec<Summand> {
+        let mut terms = Vec::new();
+        for row in fields.rows("equation") {
+            let Some([on, component, coefficient]) = row.get_ref().as_array().map(|row| &**row)
+            else {
+                continue;
+            };
+            let Some(at) = component.get_ref().as_str().and_then(component_of) else {
+                continue;
+            };
+            terms.push(Summand {
+                on: fields.spanned_text(on).unwrap_or_default(),
+                component: Spanned::new(at, fields.at(component.span())),
+                coefficient: number(coefficient.get_ref()).unwrap_or_default(),
+            });
+        }
+        terms
+    }
+}
+
+/// The number of a component from its name, as in `rx`.
+fn component_of(word: &str) -> Option<usize> {
+    COMPONENTS.iter().position(|name| *name == word)
+}
+
+/// The names of displacements and rotations, in their order.
+pub(in super::super) const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];

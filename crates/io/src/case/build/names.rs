@@ -1,0 +1,303 @@
+//! Names and references: what stands for two things, for nothing, or for itself.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::fields::Fields;
+use super::super::parts::*;
+use super::super::scalar::shortened;
+use super::Builder;
+use crate::diagnostic::{Diagnostic, closest, codes, listed};
+
+impl Builder {
+    /// Names that stand for two things.
+    pub(super) fn names(&mut self, case: &Case) {
+        let sets = case.sets.iter().map(|set| ("set", &set.name));
+        let groups = case
+            .bodies
+            .iter()
+            .flat_map(|body| body.groups.iter().map(|group| ("body", group)));
+        let references = case.references.iter().map(|one| ("reference", &one.name));
+        self.unique(groups.chain(sets).chain(references.clone()));
+        self.unique(case.springs.iter().map(|one| ("spring", &one.name)));
+        self.unique(
+            case.contacts
+                .iter()
+                .map(|contact| ("contact", &contact.name)),
+        );
+        self.unique(case.steps.iter().map(|step| ("step", &step.name)));
+        self.unique(case.output.history.iter().map(|one| ("history", &one.name)));
+        let rigid = case
+            .bodies
+            .iter()
+            .filter(|body| body.rigid)
+            .flat_map(|body| &body.groups);
+        let columns: Vec<_> = case
+            .contacts
+            .iter()
+            .map(|one| ("contact", &one.name))
+            .chain(rigid.map(|group| ("rigid body", group)))
+            .chain(references.clone())
+            .collect();
+        for history in case
+            .output
+            .history
+            .iter()
+            .filter(|one| !one.name.is_empty())
+        {
+            if let Some(first) = columns
+                .iter()
+                .find(|(_, name)| name.value == history.name.value)
+            {
+                self.name_twice(*first, ("history", &history.name));
+            }
+        }
+        for step in &case.steps {
+            self.unique(
+                step.loads
+                    .iter()
+                    .filter_map(|load| Some(("load", load.name.as_ref()?))),
+            );
+        }
+        // Groups of a mesh in place share the name space, too.
+        if let MeshSource::Inline { elements, .. } = &case.mesh {
+            let groups: BTreeMap<&str, &Name> = elements
+                .iter()
+                .filter_map(|one| one.group.as_ref())
+                .map(|group| (group.value.as_str(), group))
+                .collect();
+            let bodies: BTreeSet<&str> = case
+                .bodies
+                .iter()
+                .flat_map(|body| &body.groups)
+                .map(|group| group.as_str())
+                .collect();
+            let sets = case.sets.iter().map(|set| ("set", &set.name));
+            for (kind, name) in sets.chain(references) {
+                let is_body = || bodies.contains(name.as_str());
+                if let Some(group) = groups.get(name.as_str()).filter(|_| !is_body()) {
+                    self.name_twice(("group of elements", group), (kind, name));
+                }
+            }
+        }
+    }
+
+    fn unique<'a>(&mut self, names: impl Iterator<Item = (&'static str, &'a Name)>) {
+        let mut seen: BTreeMap<&str, (&str, &Name)> = BTreeMap::new();
+        for (kind, name) in names.filter(|(_, name)| !name.is_empty()) {
+            match seen.get(name.value.as_str()) {
+                Some(first) => self.name_twice(*first, (kind, name)),
+                None => {
+                    seen.insert(&name.value, (kind, name));
+                }
+            }
+        }
+    }
+
+    fn name_twice(&mut self, first: (&str, &Name), second: (&str, &Name)) {
+        let name = shortened(second.1);
+        let message = if first.0 == second.0 {
+            format!("two {} are called \"{name}\"", plural(second.0))
+        } else {
+            format!("\"{name}\" is both a {} and a {}", first.0, second.0)
+        };
+        self.found.push(
+            Diagnostic::error(&codes::NAME_TWICE, message)
+                .at(&second.1.place, "rename this one")
+                .at(&first.1.place, "or this one"),
+        );
+    }
+
+    /// A chain of unions that comes back to its first set.
+    pub(super) fn cycles(&mut self, case: &Case) {
+        let index: BTreeMap<&str, usize> = case
+            .sets
+            .iter()
+            .enumerate()
+            .map(|(at, set)| (set.name.as_str(), at))
+            .collect();
+        let members: Vec<Vec<(usize, &Name)>> = case
+            .sets
+            .iter()
+            .map(|set| match &set.content {
+                SetContent::Union(names) => names
+                    .iter()
+                    .filter_map(|name| Some((*index.get(name.as_str())?, name)))
+                    .collect(),
+                SetContent::Region { of, .. } => of
+                    .iter()
+                    .filter_map(|name| Some((*index.get(name.as_str())?, name)))
+                    .collect(),
+                SetContent::Nodes(_) | SetContent::Faces(_) => Vec::new(),
+            })
+            .collect();
+        // Sets whose members are all resolved are resolved; what never is leads into a cycle.
+        let mut users: Vec<Vec<usize>> = vec![Vec::new(); members.len()];
+        let mut open: Vec<usize> = members.iter().map(Vec::len).collect();
+        for (user, inner) in members.iter().enumerate() {
+            for (member, _) in inner {
+                if let Some(users) = users.get_mut(*member) {
+                    users.push(user);
+                }
+            }
+        }
+        let mut resolved: Vec<usize> = (0..members.len())
+            .filter(|at| open.get(*at) == Some(&0))
+            .collect();
+        while let Some(member) = resolved.pop() {
+            for user in users.get(member).into_iter().flatten() {
+                if let Some(count) = open.get_mut(*user) {
+                    *count -= 1;
+                    if *count == 0 {
+                        resolved.push(*user);
+                    }
+                }
+            }
+        }
+        let is_open = |at: usize| open.get(at).is_some_and(|count| *count > 0);
+        let Some(mut at) = (0..members.len()).find(|at| is_open(*at)) else {
+            return;
+        };
+        let mut chain: Vec<(usize, &Name)> = Vec::new();
+        let mut seen = BTreeSet::new();
+        while seen.insert(at) {
+            let next = members
+                .get(at)
+                .and_then(|inner| inner.iter().find(|(member, _)| is_open(*member)));
+            let Some((next, name)) = next else {
+                return;
+            };
+            chain.push((at, *name));
+            at = *next;
+        }
+        let cycle: Vec<&Name> = chain
+            .iter()
+            .skip_while(|(set, _)| *set != at)
+            .map(|(_, name)| *name)
+            .collect();
+        let words = listed(cycle.iter().map(|name| name.as_str()));
+        if let Some(first) = cycle.first() {
+            self.found.push(
+                Diagnostic::error(&codes::CONTRADICTION, "a set contains itself")
+                    .at(&first.place, "part of the circle")
+                    .note(format!(
+                        "each of these contains the next, and the last the first: {words}"
+                    )),
+            );
+        }
+    }
+
+    /// References from one part of the case to another.
+    pub(super) fn references(&mut self, case: &Case, root: Fields<'_>) {
+        // Where a list of definitions has a wrong form, which has been told, nobody knows what it defines.
+        let known = |key: &str| !root.has(key) || root.is_of_its_form(key);
+        let materials: BTreeSet<&str> =
+            case.materials.iter().map(|one| one.name.as_str()).collect();
+        for material in case
+            .bodies
+            .iter()
+            .filter_map(|body| body.material.as_ref())
+            .filter(|_| known("material"))
+        {
+            self.reference("material", material, &materials);
+        }
+        let amplitudes: BTreeSet<&str> = case
+            .amplitudes
+            .iter()
+            .map(|one| one.name.as_str())
+            .collect();
+        let motions = case
+            .steps
+            .iter()
+            .flat_map(|step| &step.moves)
+            .flat_map(|one| one.u.iter().chain(&one.rot));
+        let of_motions = motions.flatten().filter_map(|motion| match motion {
+            Motion::Amplitude { name, .. } => Some(name),
+            Motion::Ramp(_) | Motion::Table(_) => None,
+        });
+        let loads = case.steps.iter().flat_map(|step| &step.loads);
+        let of_loads = loads.filter_map(|load| match &load.course {
+            Course::Amplitude(name) => Some(name),
+            Course::Ramp | Course::Table(_) => None,
+        });
+        for name in of_motions.chain(of_loads).filter(|_| known("amplitude")) {
+            self.reference("amplitude", name, &amplitudes);
+        }
+        let points: BTreeSet<&str> = case
+            .references
+            .iter()
+            .map(|one| one.name.as_str())
+            .collect();
+        let of_bodies = case
+            .bodies
+            .iter()
+            .filter_map(|body| body.reference.as_ref());
+        let of_constraints = case.constraints.iter().filter_map(|one| match &one.kind {
+            ConstraintKind::Kinematic { reference, .. }
+            | ConstraintKind::Distributing { reference, .. } => Some(reference),
+            _ => None,
+        });
+        for name in of_bodies
+            .chain(of_constraints)
+            .filter(|_| known("reference"))
+        {
+            self.reference("reference", name, &points);
+        }
+        let contacts: BTreeSet<&str> = case.contacts.iter().map(|one| one.name.as_str()).collect();
+        let rigid = case
+            .bodies
+            .iter()
+            .filter(|body| body.rigid)
+            .flat_map(|body| &body.groups);
+        let mut rigid: BTreeSet<&str> = rigid.map(|group| group.as_str()).collect();
+        rigid.extend(&points);
+        for history in &case.output.history {
+            match &history.source {
+                HistorySource::Contact(name) if known("contact") => {
+                    self.reference("contact", name, &contacts)
+                }
+                HistorySource::Reference(name) if known("body") && known("reference") => {
+                    self.reference("reference or rigid body", name, &rigid)
+                }
+                _ => {}
+            }
+        }
+        if case.bodies.is_empty() && root.has("body") && known("body") {
+            self.found.push(
+                Diagnostic::error(&codes::MISSING, "there is no body")
+                    .help("write [[body]] with a group and a material"),
+            );
+        }
+        if case.steps.is_empty() && root.has("step") && known("step") {
+            self.found.push(
+                Diagnostic::error(&codes::MISSING, "there is no step: nothing would happen")
+                    .help("write [[step]]"),
+            );
+        }
+    }
+
+    fn reference(&mut self, kind: &str, name: &Name, known: &BTreeSet<&str>) {
+        if name.is_empty() && name.place.get().is_none() || known.contains(name.as_str()) {
+            return;
+        }
+        let message = format!("there is no {kind} called \"{}\"", shortened(name));
+        let one = Diagnostic::error(&codes::UNDEFINED, message);
+        // Proposals take the product of the numbers of names, and nobody reads a hundred of them.
+        self.found.push(if self.found.len() < 100 {
+            let remark = closest(name, known.iter().copied());
+            one.at(
+                &name.place,
+                remark.map_or(String::new(), |meant| format!("did you mean \"{meant}\"?")),
+            )
+            .note(format!("defined are: {}", listed(known.iter().copied())))
+        } else {
+            one.at(&name.place, "")
+        });
+    }
+}
+
+fn plural(kind: &str) -> String {
+    match kind.strip_suffix('y') {
+        Some(stem) => format!("{stem}ies"),
+        None => format!("{kind}s"),
+    }
+}

@@ -1,0 +1,280 @@
+//! Steps: supports, motions, loads, temperatures, and how they go over time.
+
+use super::super::fields::{Fields, numbers};
+use super::super::parts::*;
+use super::Builder;
+use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
+
+impl Builder {
+    pub(super) fn amplitude(&mut self, name: Name, fields: Fields<'_>) -> Amplitude {
+        Amplitude {
+            name,
+            table: self.time_table(fields),
+            time: if fields.text("time").value == "total" {
+                TimeBase::Total
+            } else {
+                TimeBase::Step
+            },
+        }
+    }
+
+    /// The rows of `table`; their times must increase.
+    fn time_table(&mut self, fields: Fields<'_>) -> Vec<[f64; 2]> {
+        let mut table: Vec<[f64; 2]> = Vec::new();
+        for row in fields.rows("table") {
+            let Some([time, value]) = numbers(row.get_ref()) else {
+                continue;
+            };
+            if let Some([before, _]) = table.last()
+                && time <= *before
+            {
+                self.error(
+                    &codes::NOT_INCREASING,
+                    "the times of `table` do not increase",
+                    &fields.at(row.span()),
+                    format!("{time} comes after {before}"),
+                );
+                break;
+            }
+            table.push([time, value]);
+        }
+        table
+    }
+
+    pub(super) fn step(&mut self, fields: Fields<'_>, place: Place) -> Step {
+        let duration = fields
+            .number_if("duration")
+            .map_or_else(|| fields.number("duration"), |number| number.value);
+        Step {
+            name: fields.text("name"),
+            geometry: match fields.text("geometry").value.as_str() {
+                "linear" => Geometry::Linear,
+                "nonlinear" => Geometry::Nonlinear,
+                _ => Geometry::Auto,
+            },
+            duration,
+            increments: self.increments(fields, duration),
+            fixes: fields
+                .tables("fix")
+                .into_iter()
+                .map(|(one, place)| Fix {
+                    on: one.text("on"),
+                    u: self.directions(one, "u"),
+                    rot: self.directions(one, "rot"),
+                    place,
+                })
+                .collect(),
+            moves: fields
+                .tables("move")
+                .into_iter()
+                .map(|(one, place)| self.motion(one, place))
+                .collect(),
+            frees: fields
+                .tables("free")
+                .into_iter()
+                .map(|(one, place)| Free {
+                    on: one.text("on"),
+                    u: self.directions(one, "u"),
+                    rot: self.directions(one, "rot"),
+                    place,
+                })
+                .collect(),
+            loads: fields
+                .tables("load")
+                .into_iter()
+                .map(|(one, place)| self.load(one, place))
+                .collect(),
+            temperatures: fields
+                .tables("temperature")
+                .into_iter()
+                .map(|(one, place)| Temperature {
+                    on: one.text("on"),
+                    value: one.number("value"),
+                    place,
+                })
+                .collect(),
+            place,
+        }
+    }
+
+    fn increments(&mut self, fields: Fields<'_>, duration: f64) -> Increments {
+        let table = fields.table("increments");
+        if let Some(fixed) = table.count_if("fixed") {
+            return Increments::Fixed(fixed.value);
+        }
+        let Some(initial) = table.number_if("initial") else {
+            return Increments::Count(fields.count("increments"));
+        };
+        let min = table
+            .number_if("min")
+            .unwrap_or_else(|| initial.min(1e-5 * duration).into());
+        let max = table.number_if("max").unwrap_or_else(|| duration.into());
+        let mut order = |small: (&str, &Spanned<f64>), large: (&str, &Spanned<f64>)| {
+            if small.1.value > large.1.value {
+                self.found.push(
+                    Diagnostic::error(
+                        &codes::OUT_OF_RANGE,
+                        format!(
+                            "`{}` = {} is greater than `{}` = {}",
+                            small.0, small.1.value, large.0, large.1.value
+                        ),
+                    )
+                    .at(&small.1.place, "")
+                    .at(&large.1.place, "")
+                    .note("min ≤ initial ≤ max ≤ duration of the step"),
+                );
+            }
+        };
+        if *min > *max {
+            order(("min", &min), ("max", &max));
+        } else {
+            order(("min", &min), ("initial", &initial));
+            order(("initial", &initial), ("max", &max));
+        }
+        let whole = Spanned::new(duration, fields.place("duration"));
+        if table.has("max") {
+            order(("max", &max), ("duration", &whole));
+        }
+        Increments::Adaptive {
+            initial: initial.value,
+            min: min.value,
+            max: max.value,
+            count_max: table.count("count_max"),
+        }
+    }
+
+    fn motion(&mut self, fields: Fields<'_>, place: Place) -> Move {
+        let mut component = |key: &str| {
+            if self.space.ndim() == 2 && matches!(key, "uz" | "rx" | "ry") && fields.has(key) {
+                self.out_of_plane(&format!("`{key}`"), &fields.place(key));
+            }
+            let table = fields.table(key);
+            if let Some(name) = table.text_if("amplitude") {
+                Some(Motion::Amplitude {
+                    name,
+                    value: table.number("value"),
+                })
+            } else if table.has("table") {
+                Some(Motion::Table(self.time_table(table)))
+            } else {
+                fields
+                    .number_if(key)
+                    .map(|number| Motion::Ramp(number.value))
+            }
+        };
+        Move {
+            u: ["ux", "uy", "uz"].map(&mut component),
+            rot: ["rx", "ry", "rz"].map(&mut component),
+            on: fields.text("on"),
+            place,
+        }
+    }
+
+    /// Directions of displacements or rotations. A plane model has x and y, and turns about z.
+    pub(super) fn directions(&mut self, fields: Fields<'_>, key: &str) -> Directions {
+        let words = fields.texts(key);
+        let absent = match key {
+            "rot" => ["x", "y"].as_slice(),
+            _ => ["z"].as_slice(),
+        };
+        for word in &words {
+            if self.space.ndim() == 2 && absent.contains(&word.value.as_str()) {
+                self.out_of_plane(&format!("`{key}` = [\"{}\"]", word.value), &word.place);
+            }
+        }
+        let has = |axis: &str| {
+            words
+                .iter()
+                .any(|word| word.value == axis || word.value == "all")
+        };
+        Directions {
+            xyz: [has("x"), has("y"), has("z")],
+        }
+    }
+
+    fn out_of_plane(&mut self, what: &str, place: &Place) {
+        self.error(
+            &codes::CONTRADICTION,
+            format!("{what} leads out of the plane"),
+            place,
+            "a plane model moves along x and y, and turns about z",
+        );
+    }
+
+    fn load(&mut self, fields: Fields<'_>, place: Place) -> Load {
+        let kind = self.load_kind(fields);
+        let coupling = fields.text("coupling");
+        Load {
+            name: fields.text_if("name"),
+            on: fields.text("on"),
+            what: fields.place(kind.key()),
+            kind,
+            follows: fields
+                .flag_if("follows")
+                .map(|flag| Spanned::new(flag, fields.place("follows"))),
+            coupling: match coupling.value.as_str() {
+                "rigid-x" => Some(Axis::X),
+                "rigid-y" => Some(Axis::Y),
+                "rigid-z" => Some(Axis::Z),
+                _ => None,
+            }
+            .map(|axis| Spanned::new(axis, coupling.place)),
+            course: match fields.text_if("amplitude") {
+                Some(name) => Course::Amplitude(name),
+                None if fields.has("table") => Course::Table(self.time_table(fields)),
+                None => Course::Ramp,
+            },
+            place,
+        }
+    }
+
+    /// A moment; in the plane it turns about z, and nothing turns in a body of revolution.
+    fn moment(&mut self, fields: Fields<'_>) -> Option<[f64; 3]> {
+        let place = fields.place("moment");
+        if self.space == Space::Axisymmetric {
+            self.error(
+                &codes::CONTRADICTION,
+                "a body of revolution takes no moment",
+                &place,
+                "its sections do not turn",
+            );
+        }
+        let moment = self.vector(fields, "moment")?;
+        if self.space.ndim() == 2 && moment[..2] != [0.0; 2] {
+            self.error(
+                &codes::CONTRADICTION,
+                "`moment` leads out of the plane",
+                &place,
+                "a plane model turns about z: write [0, 0, moment]",
+            );
+        }
+        Some(moment)
+    }
+
+    fn load_kind(&mut self, fields: Fields<'_>) -> LoadKind {
+        let vectors = [
+            ("force", LoadKind::Force as fn([f64; 3]) -> LoadKind),
+            ("traction", LoadKind::Traction),
+            ("moment", LoadKind::Moment),
+            ("per_node", LoadKind::PerNode),
+            ("body_force", LoadKind::BodyForce),
+            ("gravity", LoadKind::Gravity),
+        ];
+        if let Some((key, kind)) = vectors.into_iter().find(|(key, _)| fields.has(key)) {
+            let vector = match key {
+                "moment" => self.moment(fields),
+                _ => self.vector_within(fields, key),
+            };
+            return kind(vector.unwrap_or_default());
+        }
+        if fields.has("centrifugal") {
+            let table = fields.table("centrifugal");
+            return LoadKind::Centrifugal {
+                speed: table.number("speed"),
+                point: self.vector(table, "point").unwrap_or_default(),
+                axis: self.line(table, "axis").unwrap_or_default(),
+            };
+        }
+        LoadKind::Pressure(fields.number("pressure"))
+    }
+}

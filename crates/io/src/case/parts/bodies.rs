@@ -1,0 +1,192 @@
+//! Materials, bodies, springs, constraints.
+
+use super::{Directions, Name};
+use crate::diagnostic::{Place, Spanned};
+
+pub use signorini_mechanics::solid::{Integration, Locking};
+
+/// A material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Its name.
+    pub name: Name,
+    /// Its law, as in `neo-hookean`.
+    pub model: Spanned<String>,
+    /// The constants of its law, those and no others, in the order of the law.
+    pub constants: Vec<Constant>,
+    /// Density (mass per volume).
+    pub density: Option<Spanned<f64>>,
+    /// Thermal expansion.
+    pub expansion: Option<Expansion>,
+    /// Yielding and hardening.
+    pub plasticity: Option<Plasticity>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+impl Material {
+    /// A constant that is one number.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        let constant = self.constants.iter().find(|one| one.name == name)?;
+        constant.values.first().copied()
+    }
+}
+
+/// A constant of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constant {
+    /// Its name, as in `nu`.
+    pub name: &'static str,
+    /// Its value, or several.
+    pub values: Spanned<Vec<f64>>,
+}
+
+/// Thermal expansion: strain `alpha (T − reference)` in all directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expansion {
+    /// Strain per temperature.
+    pub alpha: f64,
+    /// The temperature without thermal strain.
+    pub reference: Spanned<f64>,
+}
+
+/// Plasticity of von Mises.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plasticity {
+    /// What yielding does to the yield surface.
+    pub hardening: Spanned<Hardening>,
+    /// Rows of true yield stress and equivalent plastic strain, from strain zero on.
+    pub table: Spanned<Vec<[f64; 2]>>,
+    /// Kinematic hardening modulus (stress) of combined hardening.
+    pub modulus: Option<Spanned<f64>>,
+}
+
+/// What yielding does to the yield surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hardening {
+    /// It grows.
+    #[default]
+    Isotropic,
+    /// It moves.
+    Kinematic,
+    /// It grows along the table and moves with the modulus.
+    Combined,
+}
+
+/// Groups of elements that make one or more solids, bars or rigid tools.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// The groups.
+    pub groups: Vec<Name>,
+    /// The material; none for a rigid body.
+    pub material: Option<Name>,
+    /// How many quadrature points an element has.
+    pub integration: Integration,
+    /// What is done against locking.
+    pub locking: Spanned<Locking>,
+    /// Axes of the material; none: those of the frame.
+    pub orientation: Option<Orientation>,
+    /// Cross-section of bars (area).
+    pub area: Option<Spanned<f64>>,
+    /// Whether it moves as a whole.
+    pub rigid: bool,
+    /// The reference a rigid body moves with; none: a point of its own, in the mean of its nodes.
+    pub reference: Option<Name>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// Axes of a material: x, and y in the plane of both vectors. Of any length, not parallel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orientation {
+    /// Along the first axis.
+    pub x: [f64; 3],
+    /// Towards the second axis.
+    pub y: [f64; 3],
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// A spring, or one between each pair of nodes of two sets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// Its name.
+    pub name: Name,
+    /// What it is tied to.
+    pub ends: SpringEnds,
+    /// Force over elongation of each spring.
+    pub stiffness: f64,
+    /// Its direction, fixed in space, of any length; none: along the line between its ends.
+    pub direction: Option<[f64; 3]>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// What a spring is tied to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpringEnds {
+    /// Two sets of as many nodes, paired in their order.
+    Between(Name, Name),
+    /// The nodes of a set and the ground.
+    Ground(Name),
+}
+
+/// A constraint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constraint {
+    /// What it says.
+    pub kind: ConstraintKind,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// What a constraint says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ConstraintKind {
+    /// The sum of coefficient times motion is `rhs`; for sets of several nodes, node by node in their order.
+    Equation {
+        /// The summands.
+        terms: Vec<Summand>,
+        /// The right-hand side.
+        rhs: f64,
+    },
+    /// The nodes follow the reference as a rigid body does, in these directions.
+    Kinematic {
+        /// The nodes.
+        on: Name,
+        /// What they follow.
+        reference: Name,
+        /// The directions.
+        axes: Directions,
+    },
+    /// The reference follows the mean motion of the nodes, which stay free to deform.
+    Distributing {
+        /// The nodes.
+        on: Name,
+        /// What follows them.
+        reference: Name,
+    },
+    /// The nodes stay in a plane, which may move and turn.
+    Plane {
+        /// The nodes.
+        on: Name,
+    },
+    /// These displacements of all nodes are equal.
+    Equal {
+        /// The nodes.
+        on: Name,
+        /// The directions.
+        axes: Directions,
+    },
+}
+
+/// A summand of an equation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summand {
+    /// A set of nodes, a reference or a rigid body.
+    pub on: Name,
+    /// 0 to 2: displacement along x, y, z; 3 to 5: rotation about them.
+    pub component: Spanned<usize>,
+    /// What it is multiplied with.
+    pub coefficient: f64,
+}

@@ -1,0 +1,187 @@
+//! The mesh, the model, sets.
+
+use super::Name;
+use crate::diagnostic::{Place, Spanned};
+
+/// Where nodes and elements come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeshSource {
+    /// A file, relative to the case.
+    File {
+        /// Its path.
+        path: Spanned<String>,
+    },
+    /// The case itself.
+    Inline {
+        /// Number and position of each node; in the plane the third coordinate is zero.
+        nodes: Vec<(u64, [f64; 3])>,
+        /// The elements.
+        elements: Vec<InlineElement>,
+        /// Where the nodes were written.
+        place: Place,
+    },
+}
+
+/// An element written in the case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InlineElement {
+    /// Its number.
+    pub id: u64,
+    /// The name of its type, as in `hex8`.
+    pub element_type: Spanned<String>,
+    /// The group it belongs to.
+    pub group: Option<Spanned<String>>,
+    /// The numbers of its nodes.
+    pub nodes: Vec<u64>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// Dimension of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Space or plane.
+    pub space: Spanned<Space>,
+    /// Thickness of a plane model (length); 1 in space and of a body of revolution.
+    pub thickness: f64,
+}
+
+/// Space or plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Space {
+    /// Three dimensions.
+    #[default]
+    ThreeD,
+    /// Two dimensions without strain along the third.
+    PlaneStrain,
+    /// Two dimensions without stress along the third.
+    PlaneStress,
+    /// A body of revolution: x is the radius, y the axis.
+    Axisymmetric,
+}
+
+impl Space {
+    /// Whether a thickness means something.
+    pub fn has_thickness(self) -> bool {
+        matches!(self, Self::PlaneStrain | Self::PlaneStress)
+    }
+
+    /// Displacements of a node.
+    pub fn ndim(self) -> usize {
+        match self {
+            Self::ThreeD => 3,
+            Self::PlaneStrain | Self::PlaneStress | Self::Axisymmetric => 2,
+        }
+    }
+}
+
+/// A named set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Set {
+    /// Its name.
+    pub name: Name,
+    /// What is in it.
+    pub content: SetContent,
+    /// Where the content was written.
+    pub place: Place,
+}
+
+/// What is in a set.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SetContent {
+    /// Nodes, by their numbers.
+    Nodes(Vec<u64>),
+    /// Faces, by the number of their element and a side of it.
+    Faces(Vec<(u64, Side)>),
+    /// Everything in other sets or groups.
+    Union(Vec<Name>),
+    /// The nodes of a part of space, and with them the whole outer faces between them.
+    Region {
+        /// Where.
+        region: Region,
+        /// Among the nodes of this body or group only.
+        of: Option<Name>,
+    },
+}
+
+/// A part of space; all lengths in the unit of the case.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Region {
+    /// What lies in a plane: `|n·x − at| ≤ tol` with the unit vector `n` along `normal`.
+    Plane {
+        /// Along the normal; not a zero vector, of any length.
+        normal: [f64; 3],
+        /// Distance of the plane from the origin, along the normal.
+        at: f64,
+        /// How far from the plane; none: 1e-6 of the size of the mesh.
+        tol: Option<f64>,
+    },
+    /// What lies in a box between two corners, boundary included.
+    Box {
+        /// The smallest coordinates.
+        low: [f64; 3],
+        /// The largest coordinates.
+        high: [f64; 3],
+    },
+    /// What lies in a sphere, boundary included.
+    Sphere {
+        /// Its centre.
+        center: [f64; 3],
+        /// Its radius.
+        radius: f64,
+    },
+    /// The node nearest to a point.
+    Near {
+        /// The point.
+        point: [f64; 3],
+    },
+}
+
+/// A named point with translations and rotations of its own: six in space, three in the plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// Its name.
+    pub name: Name,
+    /// Where it is at the start.
+    pub position: Position,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// Where a reference is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Position {
+    /// At these coordinates.
+    At([f64; 3]),
+    /// Where the node of this number is.
+    Node(u64),
+}
+
+/// A side of an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Side `S1`, `S2`, … in the numbering of Abaqus.
+    Numbered(u8),
+    /// The side whose outward normal lies along an axis.
+    Axis(Axis, Sense),
+}
+
+/// An axis of the global frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+/// Along an axis or against it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sense {
+    /// Along it.
+    Plus,
+    /// Against it.
+    Minus,
+}

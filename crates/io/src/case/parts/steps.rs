@@ -1,0 +1,255 @@
+//! Amplitudes and steps.
+
+use super::{Axis, Name};
+use crate::diagnostic::{Place, Spanned};
+
+/// A function of time: linear between its rows, constant outside.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Amplitude {
+    /// Its name.
+    pub name: Name,
+    /// Rows of time and value; times increase.
+    pub table: Vec<[f64; 2]>,
+    /// Which time it depends on.
+    pub time: TimeBase,
+}
+
+/// Which time a function depends on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TimeBase {
+    /// Time since the beginning of the step.
+    #[default]
+    Step,
+    /// Time since the beginning of the run.
+    Total,
+}
+
+/// A stretch of time with its supports and loads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Its name.
+    pub name: Name,
+    /// Whether displacements are small.
+    pub geometry: Geometry,
+    /// How long it takes (time of the user's choice).
+    pub duration: f64,
+    /// How it is cut into increments.
+    pub increments: Increments,
+    /// Supports at the present position.
+    pub fixes: Vec<Fix>,
+    /// Prescribed motions.
+    pub moves: Vec<Move>,
+    /// Supports and motions of earlier steps that end.
+    pub frees: Vec<Free>,
+    /// Loads.
+    pub loads: Vec<Load>,
+    /// Temperatures.
+    pub temperatures: Vec<Temperature>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// Whether displacements are small.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Geometry {
+    /// As in the step before; nonlinear in the first one.
+    #[default]
+    Auto,
+    /// Small displacements and rotations.
+    Linear,
+    /// Displacements and rotations of any size.
+    Nonlinear,
+}
+
+/// How a step is cut into increments.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Increments {
+    /// As many equal ones, which may be cut where they do not converge.
+    Count(u64),
+    /// Exactly as many equal ones.
+    Fixed(u64),
+    /// Adapted to the course of the solution; all in the time of the step.
+    Adaptive {
+        /// The first increment.
+        initial: f64,
+        /// The smallest one.
+        min: f64,
+        /// The largest one.
+        max: f64,
+        /// How many there may be.
+        count_max: u64,
+    },
+}
+
+/// Directions in space.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Directions {
+    /// Along or about x, y, z.
+    pub xyz: [bool; 3],
+}
+
+impl Directions {
+    /// All three.
+    pub const ALL: Self = Self { xyz: [true; 3] };
+
+    /// Whether there is none.
+    pub fn is_empty(self) -> bool {
+        self.xyz == [false; 3]
+    }
+}
+
+/// A support that keeps the present position.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fix {
+    /// A set, group, reference or rigid body.
+    pub on: Name,
+    /// Displacements held.
+    pub u: Directions,
+    /// Rotations held.
+    pub rot: Directions,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// A prescribed motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Move {
+    /// A set, group, reference or rigid body.
+    pub on: Name,
+    /// Displacement along x, y, z (length) where prescribed.
+    pub u: [Option<Motion>; 3],
+    /// Rotation about x, y, z (radian) where prescribed.
+    pub rot: [Option<Motion>; 3],
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// The course of one prescribed component.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Reaches this value linearly over the step.
+    Ramp(f64),
+    /// Rows of time of the step and value.
+    Table(Vec<[f64; 2]>),
+    /// A value times a named function of time.
+    Amplitude {
+        /// The name of the amplitude.
+        name: Name,
+        /// The factor.
+        value: f64,
+    },
+}
+
+/// Takes back supports and motions of earlier steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Free {
+    /// A set, group, reference or rigid body.
+    pub on: Name,
+    /// Displacements set free.
+    pub u: Directions,
+    /// Rotations set free.
+    pub rot: Directions,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// A load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    /// Its name: a later load of this name replaces it.
+    pub name: Option<Name>,
+    /// A set, group, reference or rigid body.
+    pub on: Name,
+    /// What acts.
+    pub kind: LoadKind,
+    /// Where what acts was written.
+    pub what: Place,
+    /// Whether it turns with the surface; none: as its kind has it.
+    pub follows: Option<Spanned<bool>>,
+    /// The direction in which what it acts on keeps one common displacement.
+    pub coupling: Option<Spanned<Axis>>,
+    /// How it goes over time.
+    pub course: Course,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// What acts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LoadKind {
+    /// A total force, spread over what it acts on.
+    Force([f64; 3]),
+    /// Force per area.
+    Traction([f64; 3]),
+    /// Pressure, positive in compression.
+    Pressure(f64),
+    /// A moment.
+    Moment([f64; 3]),
+    /// The same force at every node.
+    PerNode([f64; 3]),
+    /// Force per volume.
+    BodyForce([f64; 3]),
+    /// An acceleration of all mass.
+    Gravity([f64; 3]),
+    /// Centrifugal acceleration of all mass.
+    Centrifugal {
+        /// Angular velocity (radian per time).
+        speed: f64,
+        /// A point of the axis.
+        point: [f64; 3],
+        /// Along the axis, of any length.
+        axis: [f64; 3],
+    },
+}
+
+impl LoadKind {
+    /// Its key in a case.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Force(_) => "force",
+            Self::Traction(_) => "traction",
+            Self::Pressure(_) => "pressure",
+            Self::Moment(_) => "moment",
+            Self::PerNode(_) => "per_node",
+            Self::BodyForce(_) => "body_force",
+            Self::Gravity(_) => "gravity",
+            Self::Centrifugal { .. } => "centrifugal",
+        }
+    }
+
+    /// The vector it is, where it is one.
+    pub fn vector(&self) -> Option<[f64; 3]> {
+        match *self {
+            Self::Force(v)
+            | Self::Traction(v)
+            | Self::Moment(v)
+            | Self::PerNode(v)
+            | Self::BodyForce(v)
+            | Self::Gravity(v) => Some(v),
+            Self::Pressure(_) | Self::Centrifugal { .. } => None,
+        }
+    }
+}
+
+/// How a load goes over time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Course {
+    /// Linearly over the step, from what it was before to its full size.
+    #[default]
+    Ramp,
+    /// Its full size times the second number of rows of time of the step and factor.
+    Table(Vec<[f64; 2]>),
+    /// Its full size times a named function of time.
+    Amplitude(Name),
+}
+
+/// Temperatures that are reached linearly over a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Temperature {
+    /// A set or group; `all` is everything.
+    pub on: Name,
+    /// The temperature at the end of the step.
+    pub value: f64,
+    /// Where it was written.
+    pub place: Place,
+}

@@ -1,0 +1,67 @@
+//! A case as text with every default filled in: what was really run.
+//!
+//! The vocabulary gives the order of the keys and the remark behind each of them; reading the text gives the same case.
+
+mod model;
+mod run;
+mod steps;
+mod write;
+
+use super::parts::*;
+use super::vocabulary::CASE;
+use model::{body, constraint, contact, material, mesh, model, reference, set_content, spring};
+use run::{checkpoint, expectation, output, solver};
+use steps::{amplitude, step};
+use write::{Entries, Value, list, named, tables, write_table};
+
+/// A case as a complete TOML text, which reads back to the same case.
+pub fn resolved(case: &Case) -> String {
+    let mut text = String::new();
+    write_table(&mut text, &CASE, "", &tree(case));
+    text
+}
+
+fn tree(case: &Case) -> Entries {
+    let mut entries = vec![
+        ("format", u64::from(case.format).into()),
+        ("title", (&case.title).into()),
+        ("units", (&case.units.value).into()),
+        ("allow", list(&case.allow)),
+        ("mesh", Value::Table(mesh(&case.mesh))),
+        ("model", Value::Table(model(&case.model))),
+    ];
+    entries.extend([
+        (
+            "sets",
+            named(&case.sets, |set| (&set.name, set_content(&set.content))),
+        ),
+        (
+            "reference",
+            named(&case.references, |one| (&one.name, reference(one))),
+        ),
+        (
+            "amplitude",
+            named(&case.amplitudes, |one| (&one.name, amplitude(one))),
+        ),
+        (
+            "material",
+            named(&case.materials, |one| (&one.name, material(one))),
+        ),
+        ("body", tables(&case.bodies, body)),
+        ("spring", tables(&case.springs, spring)),
+        ("contact", tables(&case.contacts, contact)),
+        ("constraint", tables(&case.constraints, constraint)),
+    ]);
+    entries.extend(case.initial_temperature.as_ref().map(|temperature| {
+        let entries = vec![("temperature", temperature.value.into())];
+        ("initial", Value::Table(entries))
+    }));
+    entries.extend([
+        ("step", tables(&case.steps, step)),
+        ("solver", Value::Table(solver(&case.solver))),
+        ("output", Value::Table(output(&case.output))),
+        ("checkpoint", Value::Table(checkpoint(&case.checkpoint))),
+        ("expect", tables(&case.expectations, expectation)),
+    ]);
+    entries
+}

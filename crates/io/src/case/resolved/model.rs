@@ -1,0 +1,276 @@
+//! The mesh, sets, materials, bodies, springs, constraints, contacts.
+
+use super::super::build::COMPONENTS;
+use super::super::parts::*;
+use super::steps::axes;
+use super::write::{Entries, Value, list, names};
+
+pub(super) fn mesh(mesh: &MeshSource) -> Entries {
+    match mesh {
+        MeshSource::File { path } => vec![("file", (&path.value).into())],
+        MeshSource::Inline {
+            nodes, elements, ..
+        } => {
+            let row = |(id, [x, y, z]): &(u64, [f64; 3])| {
+                Value::List(vec![(*id).into(), (*x).into(), (*y).into(), (*z).into()])
+            };
+            let element = |one: &InlineElement| {
+                let mut entries: Entries = vec![
+                    ("id", one.id.into()),
+                    ("type", (&one.element_type.value).into()),
+                ];
+                entries.extend(
+                    one.group
+                        .as_ref()
+                        .map(|group| ("group", (&group.value).into())),
+                );
+                entries.push(("nodes", list(one.nodes.iter().copied())));
+                Value::Table(entries)
+            };
+            vec![
+                ("nodes", Value::List(nodes.iter().map(row).collect())),
+                (
+                    "elements",
+                    Value::List(elements.iter().map(element).collect()),
+                ),
+            ]
+        }
+    }
+}
+
+pub(super) fn model(model: &Model) -> Entries {
+    let space = match *model.space {
+        Space::ThreeD => "3d",
+        Space::PlaneStrain => "plane-strain",
+        Space::PlaneStress => "plane-stress",
+        Space::Axisymmetric => "axisymmetric",
+    };
+    let mut entries = vec![("space", space.into())];
+    if model.space.has_thickness() {
+        entries.push(("thickness", model.thickness.into()));
+    }
+    entries
+}
+
+pub(super) fn set_content(content: &SetContent) -> Entries {
+    vec![match content {
+        SetContent::Nodes(nodes) => ("nodes", list(nodes.iter().copied())),
+        SetContent::Faces(faces) => {
+            let row = |(element, side): &(u64, Side)| {
+                Value::List(vec![(*element).into(), Value::Text(side.to_string())])
+            };
+            ("faces", Value::List(faces.iter().map(row).collect()))
+        }
+        SetContent::Union(members) => ("union", names(members)),
+        SetContent::Region { region, of } => {
+            let mut entries = self::region(region);
+            entries.extend(of.as_ref().map(|of| ("of", (&of.value).into())));
+            return entries;
+        }
+    }]
+}
+
+fn region(region: &Region) -> Entries {
+    match region {
+        Region::Plane { normal, at, tol } => {
+            let mut entries = vec![("plane", normal.into()), ("at", (*at).into())];
+            entries.extend(tol.map(|tol| ("tol", tol.into())));
+            entries
+        }
+        Region::Box { low, high } => vec![("box", list([low, high]))],
+        Region::Sphere { center, radius } => {
+            let row = Value::List(vec![center.into(), (*radius).into()]);
+            vec![("sphere", row)]
+        }
+        Region::Near { point } => vec![("near", point.into())],
+    }
+}
+
+pub(super) fn reference(one: &Reference) -> Entries {
+    vec![match &one.position {
+        Position::At(point) => ("at", point.into()),
+        Position::Node(node) => ("node", (*node).into()),
+    }]
+}
+
+impl std::fmt::Display for Side {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Side::Numbered(side) => write!(out, "S{side}"),
+            Side::Axis(axis, sense) => {
+                let sign = if *sense == Sense::Plus { '+' } else { '-' };
+                let axis = match axis {
+                    Axis::X => 'x',
+                    Axis::Y => 'y',
+                    Axis::Z => 'z',
+                };
+                write!(out, "{sign}{axis}")
+            }
+        }
+    }
+}
+
+pub(super) fn material(one: &Material) -> Entries {
+    let mut entries = vec![("model", (&one.model.value).into())];
+    entries.extend(one.constants.iter().map(|constant| {
+        let values = match constant.values.as_slice() {
+            [value] => (*value).into(),
+            values => list(values.iter().copied()),
+        };
+        (constant.name, values)
+    }));
+    entries.extend(
+        one.density
+            .as_ref()
+            .map(|density| ("density", density.value.into())),
+    );
+    entries.extend(one.expansion.as_ref().map(|expansion| {
+        let entries = vec![
+            ("alpha", expansion.alpha.into()),
+            ("reference", expansion.reference.value.into()),
+        ];
+        ("expansion", Value::Table(entries))
+    }));
+    let plasticity = one.plasticity.as_ref();
+    entries.extend(plasticity.map(|one| ("plasticity", Value::Table(self::plasticity(one)))));
+    entries
+}
+
+fn plasticity(one: &Plasticity) -> Entries {
+    let hardening = match *one.hardening {
+        Hardening::Isotropic => "isotropic",
+        Hardening::Kinematic => "kinematic",
+        Hardening::Combined => "combined",
+    };
+    let mut entries = vec![
+        ("hardening", hardening.into()),
+        ("table", list(&one.table.value)),
+    ];
+    let modulus = one.modulus.as_ref();
+    entries.extend(modulus.map(|modulus| ("modulus", modulus.value.into())));
+    entries
+}
+
+pub(super) fn body(body: &Body) -> Entries {
+    let mut entries = vec![("group", names(&body.groups))];
+    if body.rigid {
+        entries.push(("rigid", true.into()));
+        let reference = body.reference.as_ref();
+        entries.extend(reference.map(|name| ("reference", (&name.value).into())));
+        return entries;
+    }
+    let material = body.material.as_ref();
+    entries.extend(material.map(|name| ("material", (&name.value).into())));
+    let integration = match body.integration {
+        Integration::Full => "full",
+        Integration::Reduced => "reduced",
+    };
+    let locking = match *body.locking {
+        Locking::Auto => "auto",
+        Locking::None => "none",
+        Locking::BBar => "b-bar",
+        Locking::FBar => "f-bar",
+        Locking::Incompatible => "incompatible",
+    };
+    entries.extend([
+        ("integration", integration.into()),
+        ("locking", locking.into()),
+    ]);
+    entries.extend(body.orientation.as_ref().map(|one| {
+        let entries = vec![("x", one.x.into()), ("y", one.y.into())];
+        ("orientation", Value::Table(entries))
+    }));
+    entries.extend(body.area.as_ref().map(|area| ("area", area.value.into())));
+    entries.push(("rigid", false.into()));
+    entries
+}
+
+pub(super) fn spring(spring: &Spring) -> Entries {
+    let mut entries = vec![
+        ("name", (&spring.name.value).into()),
+        match &spring.ends {
+            SpringEnds::Between(one, other) => ("between", names([one, other])),
+            SpringEnds::Ground(on) => ("on", (&on.value).into()),
+        },
+        ("stiffness", spring.stiffness.into()),
+    ];
+    entries.extend(spring.direction.map(|along| ("direction", along.into())));
+    entries
+}
+
+pub(super) fn constraint(constraint: &Constraint) -> Entries {
+    let of_kind = |kind: &'static str, on: &Name| -> Entries {
+        vec![("kind", kind.into()), ("on", (&on.value).into())]
+    };
+    match &constraint.kind {
+        ConstraintKind::Equation { terms, rhs } => {
+            let row = |term: &Summand| {
+                let component = COMPONENTS.get(term.component.value).copied();
+                Value::List(vec![
+                    (&term.on.value).into(),
+                    component.unwrap_or_default().into(),
+                    term.coefficient.into(),
+                ])
+            };
+            let rows = terms.iter().map(row).collect();
+            vec![("equation", Value::List(rows)), ("rhs", (*rhs).into())]
+        }
+        ConstraintKind::Kinematic {
+            on,
+            reference,
+            axes,
+        } => {
+            let mut entries = of_kind("kinematic", on);
+            entries.push(("reference", (&reference.value).into()));
+            entries.push(("dofs", self::axes(*axes)));
+            entries
+        }
+        ConstraintKind::Distributing { on, reference } => {
+            let mut entries = of_kind("distributing", on);
+            entries.push(("reference", (&reference.value).into()));
+            entries
+        }
+        ConstraintKind::Plane { on } => of_kind("plane", on),
+        ConstraintKind::Equal { on, axes } => {
+            let mut entries = of_kind("equal", on);
+            entries.push(("dofs", self::axes(*axes)));
+            entries
+        }
+    }
+}
+
+pub(super) fn contact(contact: &Contact) -> Entries {
+    let method = match *contact.method {
+        Method::Auto => "auto",
+        Method::NodeToSegment => "node-to-segment",
+    };
+    vec![
+        ("name", (&contact.name.value).into()),
+        ("secondary", (&contact.secondary.value).into()),
+        ("primary", (&contact.primary.value).into()),
+        ("method", method.into()),
+        ("enforcement", enforcement(&contact.enforcement)),
+        ("friction", contact.friction.value.into()),
+        ("sliding", "finite".into()),
+        ("passes", 1_u64.into()),
+        ("tied", false.into()),
+        ("reach", contact.reach.map_or("auto".into(), Value::Number)),
+        ("active", contact.active.into()),
+    ]
+}
+
+fn enforcement(enforcement: &Enforcement) -> Value {
+    match enforcement {
+        Enforcement::Auto => "auto".into(),
+        Enforcement::Penalty { penalty, per } => {
+            let penalty = penalty
+                .as_ref()
+                .map_or("auto".into(), |penalty| Value::Number(penalty.value));
+            let mut entries = vec![("penalty", penalty)];
+            entries.extend(
+                per.map(|per| ("per", if per == Per::Node { "node" } else { "area" }.into())),
+            );
+            Value::Table(entries)
+        }
+    }
+}

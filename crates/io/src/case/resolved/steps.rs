@@ -1,0 +1,144 @@
+//! Amplitudes and steps.
+
+use super::super::parts::*;
+use super::write::{Entries, Value, list, tables};
+
+pub(super) fn amplitude(one: &Amplitude) -> Entries {
+    let time = match one.time {
+        TimeBase::Step => "step",
+        TimeBase::Total => "total",
+    };
+    vec![("table", list(&one.table)), ("time", time.into())]
+}
+
+pub(super) fn step(step: &Step) -> Entries {
+    let geometry = match step.geometry {
+        Geometry::Auto => "auto",
+        Geometry::Linear => "linear",
+        Geometry::Nonlinear => "nonlinear",
+    };
+    vec![
+        ("name", (&step.name.value).into()),
+        ("kind", "static".into()),
+        ("geometry", geometry.into()),
+        ("duration", step.duration.into()),
+        ("increments", increments(&step.increments)),
+        (
+            "fix",
+            tables(&step.fixes, |one| held(&one.on, one.u, one.rot)),
+        ),
+        ("move", tables(&step.moves, motions)),
+        (
+            "free",
+            tables(&step.frees, |one| held(&one.on, one.u, one.rot)),
+        ),
+        ("load", tables(&step.loads, load)),
+        ("temperature", tables(&step.temperatures, temperature)),
+    ]
+}
+
+fn increments(increments: &Increments) -> Value {
+    match increments {
+        Increments::Count(count) => (*count).into(),
+        Increments::Fixed(count) => Value::Table(vec![("fixed", (*count).into())]),
+        Increments::Adaptive {
+            initial,
+            min,
+            max,
+            count_max,
+        } => Value::Table(vec![
+            ("initial", (*initial).into()),
+            ("min", (*min).into()),
+            ("max", (*max).into()),
+            ("count_max", (*count_max).into()),
+        ]),
+    }
+}
+
+fn held(on: &Name, u: Directions, rot: Directions) -> Entries {
+    let mut entries = vec![("on", (&on.value).into())];
+    for (key, directions) in [("u", u), ("rot", rot)] {
+        if !directions.is_empty() {
+            entries.push((key, axes(directions)));
+        }
+    }
+    entries
+}
+
+pub(super) fn axes(directions: Directions) -> Value {
+    if directions == Directions::ALL {
+        return "all".into();
+    }
+    let axes = ["x", "y", "z"].into_iter().zip(directions.xyz);
+    list(axes.filter(|(_, held)| *held).map(|(axis, _)| axis))
+}
+
+fn motions(one: &Move) -> Entries {
+    let mut entries = vec![("on", (&one.on.value).into())];
+    let keys = ["ux", "uy", "uz", "rx", "ry", "rz"];
+    for (key, motion) in keys.into_iter().zip(one.u.iter().chain(&one.rot)) {
+        entries.extend(motion.as_ref().map(|motion| (key, course(motion))));
+    }
+    entries
+}
+
+fn course(motion: &Motion) -> Value {
+    match motion {
+        Motion::Ramp(value) => (*value).into(),
+        Motion::Table(table) => Value::Table(vec![("table", list(table))]),
+        Motion::Amplitude { name, value } => Value::Table(vec![
+            ("amplitude", (&name.value).into()),
+            ("value", (*value).into()),
+        ]),
+    }
+}
+
+fn load(load: &Load) -> Entries {
+    let mut entries: Entries = Vec::new();
+    entries.extend(
+        load.name
+            .as_ref()
+            .map(|name| ("name", (&name.value).into())),
+    );
+    entries.push(("on", (&load.on.value).into()));
+    entries.push((load.kind.key(), what(&load.kind)));
+    entries.extend(
+        load.follows
+            .as_ref()
+            .map(|follows| ("follows", follows.value.into())),
+    );
+    let coupling = match load.coupling.as_deref() {
+        None => "none",
+        Some(Axis::X) => "rigid-x",
+        Some(Axis::Y) => "rigid-y",
+        Some(Axis::Z) => "rigid-z",
+    };
+    entries.push(("coupling", coupling.into()));
+    match &load.course {
+        Course::Ramp => {}
+        Course::Table(table) => entries.push(("table", list(table))),
+        Course::Amplitude(name) => entries.push(("amplitude", (&name.value).into())),
+    }
+    entries
+}
+
+fn what(kind: &LoadKind) -> Value {
+    match kind {
+        LoadKind::Force(vector)
+        | LoadKind::Traction(vector)
+        | LoadKind::Moment(vector)
+        | LoadKind::PerNode(vector)
+        | LoadKind::BodyForce(vector)
+        | LoadKind::Gravity(vector) => vector.into(),
+        LoadKind::Pressure(pressure) => (*pressure).into(),
+        LoadKind::Centrifugal { speed, point, axis } => Value::Table(vec![
+            ("speed", (*speed).into()),
+            ("point", point.into()),
+            ("axis", axis.into()),
+        ]),
+    }
+}
+
+fn temperature(one: &Temperature) -> Entries {
+    vec![("on", (&one.on.value).into()), ("value", one.value.into())]
+}

@@ -1,0 +1,260 @@
+//! Materials, bodies, springs, constraints.
+
+use super::*;
+
+pub(super) static MATERIAL: Table = Table {
+    heading: "[material.NAME]",
+    doc: "materials",
+    keys: &[
+        key("model", Shape::Choice(MATERIALS), "the law")
+            .required()
+            .hints(&["law", "type"]),
+        key("E", POSITIVE, "Young's modulus (stress)").hints(&[
+            "young",
+            "youngs_modulus",
+            "modulus",
+        ]),
+        key("nu", POISSON, "Poisson's ratio").hints(&["poisson", "poissons_ratio"]),
+        key("c10", ANY, "constant of mooney-rivlin (stress)"),
+        key("c01", ANY, "constant of mooney-rivlin (stress)"),
+        key("mu", LIST, "shear moduli of the terms of ogden (stress)"),
+        key("alpha", LIST, "exponents of the terms of ogden"),
+        key("bulk", POSITIVE, "bulk modulus (stress)").hints(&["K", "bulk_modulus"]),
+        key(
+            "E1",
+            POSITIVE,
+            "Young's modulus along the first axis of the material (stress)",
+        ),
+        key(
+            "E2",
+            POSITIVE,
+            "Young's modulus along the second axis (stress)",
+        ),
+        key(
+            "E3",
+            POSITIVE,
+            "Young's modulus along the third axis (stress)",
+        ),
+        key(
+            "nu12",
+            ANY,
+            "contraction along 2 over stretch along 1, under stress along 1",
+        ),
+        key(
+            "nu13",
+            ANY,
+            "contraction along 3 over stretch along 1, under stress along 1",
+        ),
+        key(
+            "nu23",
+            ANY,
+            "contraction along 3 over stretch along 2, under stress along 2",
+        ),
+        key(
+            "G12",
+            POSITIVE,
+            "shear modulus between the axes 1 and 2 (stress)",
+        ),
+        key(
+            "G13",
+            POSITIVE,
+            "shear modulus between the axes 1 and 3 (stress)",
+        ),
+        key(
+            "G23",
+            POSITIVE,
+            "shear modulus between the axes 2 and 3 (stress)",
+        ),
+        key("density", POSITIVE, "mass per volume").hints(&["rho"]),
+        key("expansion", Shape::Table(&EXPANSION), EXPANSION.doc).hints(&["thermal_expansion"]),
+        key("plasticity", Shape::Table(&PLASTICITY), PLASTICITY.doc).hints(&[
+            "plastic",
+            "yield",
+            "hardening",
+        ]),
+    ],
+    rules: &[],
+};
+const LIST: Shape = Shape::Either(&[ANY, Shape::List(&ANY, 1, 16)]);
+const MATERIALS: &[Choice] = &[
+    word("linear-elastic"),
+    word("saint-venant-kirchhoff"),
+    word("neo-hookean"),
+    word("mooney-rivlin"),
+    word("ogden"),
+    word("orthotropic"),
+];
+
+static EXPANSION: Table = Table {
+    heading: "expansion",
+    doc: "thermal expansion: strain alpha (T - reference)",
+    keys: &[
+        key("alpha", ANY, "strain per temperature").required(),
+        key("reference", ANY, "the temperature without thermal strain").or(Default::Number(0.0)),
+    ],
+    rules: &[],
+};
+
+static PLASTICITY: Table = Table {
+    heading: "plasticity",
+    doc: "yielding after von Mises, of linear-elastic",
+    keys: &[
+        key(
+            "hardening",
+            Shape::Choice(&[word("isotropic"), word("kinematic"), word("combined")]),
+            "whether the yield surface grows, moves, or both",
+        )
+        .or(Default::Text("isotropic")),
+        key(
+            "table",
+            Shape::List(
+                &Shape::Row("[stress, plastic strain]", &[POSITIVE, NOT_NEGATIVE]),
+                1,
+                MANY,
+            ),
+            "rows [true yield stress, equivalent plastic strain], from strain 0 on",
+        )
+        .required(),
+        key(
+            "modulus",
+            NOT_NEGATIVE,
+            "kinematic hardening modulus of combined hardening (stress)",
+        ),
+    ],
+    rules: &[],
+};
+
+pub(super) static BODY: Table = Table {
+    heading: "[[body]]",
+    doc: "groups of elements that are solids, bars (of line elements) or rigid tools",
+    keys: &[
+        key("group", NAMES, "the mesh group, or a list of them")
+            .required()
+            .hints(&["groups", "name"]),
+        key(
+            "material",
+            Shape::Text,
+            "its material; none for a rigid body",
+        ),
+        key(
+            "integration",
+            Shape::Choice(&[word("full"), word("reduced")]),
+            "quadrature points of an element; reduced: one order less, of quadratic elements",
+        )
+        .or(Default::Text("full")),
+        key(
+            "locking",
+            Shape::Choice(&[
+                word("auto"),
+                word("none"),
+                word("b-bar"),
+                word("f-bar"),
+                word("incompatible"),
+            ]),
+            "what is done against locking",
+        )
+        .or(Default::Text("auto")),
+        key("orientation", Shape::Table(&ORIENTATION), ORIENTATION.doc),
+        key("area", POSITIVE, "cross-section of bars (area)").hints(&["section"]),
+        key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
+        key(
+            "reference",
+            Shape::Text,
+            "the [reference] a rigid body moves with; absent: the mean of its nodes",
+        ),
+    ],
+    rules: &[],
+};
+
+static ORIENTATION: Table = Table {
+    heading: "orientation",
+    doc: "axes of the material; absent: those of the frame",
+    keys: &[
+        key("x", VECTOR, "along the first axis").required(),
+        key("y", VECTOR, "with x, spans the plane of the first two axes").required(),
+    ],
+    rules: &[],
+};
+
+pub(super) static SPRING: Table = Table {
+    heading: "[[spring]]",
+    doc: "springs between nodes, or to the ground",
+    keys: &[
+        key("name", Shape::Text, "its name, in messages").required(),
+        key(
+            "between",
+            Shape::List(&Shape::Text, 2, 2),
+            "two sets of as many nodes, paired in their order",
+        )
+        .hints(&["ends", "nodes"]),
+        key("on", Shape::Text, "a set of nodes tied to the ground").hints(&["set"]),
+        key("stiffness", POSITIVE, "force over elongation, of each spring")
+            .required()
+            .hints(&["k"]),
+        key(
+            "direction",
+            LINE,
+            "\"x\", \"y\", \"z\" or a vector; absent: along the line between its ends, which turns with them",
+        )
+        .hints(&["axis"]),
+    ],
+    rules: &[Rule::ExactlyOne(&["between", "on"])],
+};
+
+pub(super) static CONSTRAINT: Table = Table {
+    heading: "[[constraint]]",
+    doc: "constraints between displacements, for the whole run",
+    keys: &[
+        key(
+            "equation",
+            Shape::List(
+                &Shape::Row("[set, direction, coefficient]", &[Shape::Text, COMPONENT, ANY]),
+                1,
+                MANY,
+            ),
+            "rows [set or reference, direction, coefficient]; their sum is `rhs`, node by node of sets of several",
+        )
+        .hints(&["terms"]),
+        key("rhs", ANY, "the right-hand side, reached linearly over the first step")
+            .or(Default::Number(0.0)),
+        key(
+            "kind",
+            Shape::Choice(&[
+                word("kinematic"),
+                word("distributing"),
+                word("plane"),
+                word("equal"),
+            ]),
+            "kinematic: nodes follow the reference; distributing: the reference follows their mean; \
+             plane: nodes stay in a plane; equal: nodes move alike",
+        )
+        .hints(&["type"]),
+        key("on", Shape::Text, "the nodes").hints(&["set", "group"]),
+        key("reference", Shape::Text, "the reference, of kinematic and distributing"),
+        key(
+            "dofs",
+            Shape::Either(&[
+                Shape::Choice(&[word("all")]),
+                Shape::List(&COMPONENT, 1, 6),
+            ]),
+            "the directions, of kinematic and equal: \"all\" or a list of \"x\", \"y\", \"z\"",
+        ),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["equation", "kind"]),
+        Rule::Needs("rhs", "equation"),
+        Rule::Needs("kind", "on"),
+        Rule::Needs("on", "kind"),
+        Rule::Needs("reference", "kind"),
+        Rule::Needs("dofs", "kind"),
+    ],
+};
+/// Displacements along, and rotations about the axes.
+const COMPONENT: Shape = Shape::Choice(&[
+    word("x"),
+    word("y"),
+    word("z"),
+    word("rx"),
+    word("ry"),
+    word("rz"),
+]);

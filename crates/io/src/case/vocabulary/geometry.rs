@@ -1,0 +1,122 @@
+//! The mesh, the model, sets, references.
+
+use super::*;
+
+pub(super) static MESH: Table = Table {
+    heading: "[mesh]",
+    doc: "nodes and elements: a file, or written in place",
+    keys: &[
+        key(
+            "file",
+            Shape::Text,
+            "path of a mesh file, relative to the case",
+        )
+        .hints(&["path", "name"]),
+        key(
+            "nodes",
+            Shape::Nodes,
+            "rows [id, x, y, z]; [id, x, y] in the plane",
+        ),
+        key("elements", Shape::Tables(&ELEMENT), "the elements"),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["file", "nodes"]),
+        Rule::Needs("nodes", "elements"),
+        Rule::Needs("elements", "nodes"),
+    ],
+};
+
+pub(super) static ELEMENT: Table = Table {
+    heading: "an element",
+    doc: "an element written in place",
+    keys: &[
+        key("id", ID, "its number").required(),
+        key("type", Shape::Text, "its type, as in hex8 or tet4").required(),
+        key("group", Shape::Text, "the group it belongs to"),
+        key(
+            "nodes",
+            Shape::List(&ID, 1, MANY),
+            "the numbers of its nodes",
+        )
+        .required(),
+    ],
+    rules: &[],
+};
+
+pub(super) static MODEL: Table = Table {
+    heading: "[model]",
+    doc: "dimension of the model",
+    keys: &[
+        key(
+            "space",
+            Shape::Choice(SPACES),
+            "space, a plane, or a body of revolution (r = x, axis y)",
+        )
+        .or(Default::Text("3d")),
+        key(
+            "thickness",
+            POSITIVE,
+            "thickness of a model in plane strain or plane stress",
+        )
+        .or(Default::Number(1.0)),
+        key(
+            "compat",
+            Shape::Choice(&[word("none")]),
+            "laws as another program has them",
+        )
+        .later("leave it away: laws are as the manual describes them"),
+    ],
+    rules: &[],
+};
+const SPACES: &[Choice] = &[
+    word("3d"),
+    word("plane-strain"),
+    word("plane-stress"),
+    word("axisymmetric"),
+];
+
+pub(super) static SET: Table = Table {
+    heading: "[sets]",
+    doc: "named sets of nodes or faces",
+    keys: &[
+        key("nodes", Shape::List(&ID, 1, MANY), "numbers of nodes").hints(&["node"]),
+        key("faces", Shape::List(&Shape::Row("[element, side]", &[ID, Shape::Text]), 1, MANY),
+            "rows [element, side]: side \"S1\", \"S2\", … as in Abaqus, or \"+z\", \"-x\", … by its normal").hints(&["face"]),
+        key("union", Shape::List(&Shape::Text, 1, MANY), "names of sets or groups"),
+        key("plane", LINE, "what lies in a plane: \"x\", \"y\", \"z\" or a vector normal to it"),
+        key("at", ANY, "distance of the plane from the origin, along its normal"),
+        key("tol", POSITIVE, "distance from the plane up to which nodes count; absent: 1e-6 of the size of the mesh"),
+        key("box", Shape::List(&VECTOR, 2, 2), "what lies between two corners: [[x, y, z], [x, y, z]]"),
+        key("near", VECTOR, "the node nearest to a point"),
+        key("sphere", Shape::Row("[[x, y, z], radius]", &[VECTOR, POSITIVE]), "what lies in a sphere"),
+        key("of", Shape::Text, "the body or group whose nodes are searched; absent: all"),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["nodes", "faces", "union", "plane", "box", "near", "sphere"]),
+        Rule::Needs("plane", "at"),
+        Rule::Needs("at", "plane"),
+        Rule::Needs("tol", "plane"),
+    ],
+};
+
+pub(super) static REFERENCE: Table = Table {
+    heading: "[reference]",
+    doc: "named points with translations and rotations of their own",
+    keys: &[
+        key("at", VECTOR, "where it is at the start").hints(&["point", "position"]),
+        key("node", ID, "the node where it is at the start"),
+    ],
+    rules: &[Rule::ExactlyOne(&["at", "node"])],
+};
+
+pub(super) static INITIAL: Table = Table {
+    heading: "[initial]",
+    doc: "fields at the start",
+    keys: &[key(
+        "temperature",
+        ANY,
+        "temperature of everything; absent: that at which materials have no thermal strain",
+    )
+    .required()],
+    rules: &[],
+};

@@ -1,0 +1,231 @@
+//! Solver, output, checkpoints, expectations.
+
+use super::*;
+
+pub(super) static SOLVER: Table = Table {
+    heading: "[solver]",
+    doc: "how equations are solved",
+    keys: &[
+        key("newton", Shape::Table(&NEWTON), NEWTON.doc),
+        key(
+            "linear",
+            Shape::Choice(&[
+                word("auto"),
+                word("direct"),
+                Choice::later("iterative", "direct"),
+            ]),
+            "how linear equations are solved",
+        )
+        .or(Default::Text("auto")),
+        key(
+            "stabilize",
+            Shape::Either(&[AUTO, Shape::Flag]),
+            "whether a vanishing viscous force holds bodies that only open contact holds",
+        )
+        .or(Default::Text("auto")),
+        key(
+            "on_trouble",
+            Shape::List(
+                &Shape::Choice(&[word("cut"), Choice::later("stabilize", "cut")]),
+                0,
+                2,
+            ),
+            "what is tried, in order, when an increment does not converge",
+        )
+        .or(Default::Texts(&["cut"])),
+        key(
+            "threads",
+            Shape::Either(&[AUTO, Shape::Integer(1, 4096)]),
+            "the number of threads",
+        )
+        .or(Default::Text("auto")),
+    ],
+    rules: &[],
+};
+
+pub(super) static NEWTON: Table = Table {
+    heading: "newton",
+    doc: "Newton's method",
+    keys: &[
+        key(
+            "max_iterations",
+            COUNT,
+            "iterations of an increment at most",
+        )
+        .or(Default::Integer(20)),
+        key(
+            "force_tol",
+            POSITIVE,
+            "largest residual force, in parts of the mean force",
+        )
+        .or(Default::Number(1e-6))
+        .hints(&["tol", "tolerance", "rtol"]),
+        key(
+            "gap_tol",
+            POSITIVE,
+            "largest penetration, in parts of the size of a facet, of laws with multipliers",
+        )
+        .or(Default::Number(1e-6)),
+        key(
+            "line_search",
+            Shape::Either(&[AUTO, Shape::Flag]),
+            "whether corrections are shortened",
+        )
+        .or(Default::Text("auto")),
+    ],
+    rules: &[],
+};
+
+pub(super) static OUTPUT: Table = Table {
+    heading: "[output]",
+    doc: "what is written",
+    keys: &[
+        key(
+            "format",
+            Shape::List(&Shape::Choice(FORMATS), 1, 4),
+            "formats of results",
+        )
+        .or(Default::Texts(&["vtu"])),
+        key(
+            "fields",
+            Shape::List(&Shape::Choice(WORDS_OF_FIELDS), 0, MANY),
+            "fields to write",
+        )
+        .or(Default::Texts(&["displacement", "stress", "contact"]))
+        .hints(&["field"]),
+        key(
+            "every",
+            Shape::Either(&[COUNT, Shape::Table(&EVERY)]),
+            "write after so many increments, or { time }",
+        )
+        .or(Default::Integer(1)),
+        key(
+            "names",
+            Shape::Choice(&[word("signorini"), Choice::later("abaqus", "signorini")]),
+            "how fields are named",
+        )
+        .or(Default::Text("signorini")),
+        key("history", Shape::Tables(&HISTORY), HISTORY.doc),
+    ],
+    rules: &[],
+};
+/// The words of `[output] fields`. Fields at nodes come with their counterpart in the cells, where there is one.
+pub const FIELDS: [&str; 12] = [
+    "displacement",
+    "reaction_force",
+    "stress",
+    "cauchy_stress",
+    "von_mises",
+    "principal",
+    "principal_stress",
+    "strain",
+    "plastic_strain",
+    "temperature",
+    "contact",
+    "contact_pressure",
+];
+const WORDS_OF_FIELDS: &[Choice] = &{
+    let mut words = [word(""); FIELDS.len()];
+    let mut at = 0;
+    while at < FIELDS.len() {
+        words[at] = word(FIELDS[at]);
+        at += 1;
+    }
+    words
+};
+const FORMATS: &[Choice] = &[
+    word("vtu"),
+    Choice::later("vtkhdf", "vtu"),
+    Choice::later("frd", "vtu"),
+    Choice::later("xdmf", "vtu"),
+];
+
+pub(super) static EVERY: Table = Table {
+    heading: "every",
+    doc: "how often results are written",
+    keys: &[key("time", POSITIVE, "after so much time").required()],
+    rules: &[],
+};
+
+pub(super) static HISTORY: Table = Table {
+    heading: "[[output.history]]",
+    doc: "columns of history.csv",
+    keys: &[
+        key("name", Shape::Text, "the first part of the column's name").required(),
+        key(
+            "quantity",
+            NAMES,
+            "the quantity, as in force_z or displacement.z, or a list of them",
+        )
+        .required()
+        .hints(&["quantities"]),
+        key("contact", Shape::Text, "of this contact"),
+        key("reference", Shape::Text, "of this reference or rigid body"),
+        key("node", ID, "of the node of this number"),
+        key(
+            "set",
+            Shape::Text,
+            "of this set: the sum of forces, the mean of other quantities",
+        ),
+    ],
+    rules: &[Rule::ExactlyOne(&["contact", "reference", "node", "set"])],
+};
+
+pub(super) static CHECKPOINT: Table = Table {
+    heading: "[checkpoint]",
+    doc: "when a run can be resumed from",
+    keys: &[
+        key(
+            "every",
+            Shape::Table(&CHECKPOINT_EVERY),
+            "how often; absent: { increments = 5, wall = \"10 min\" }",
+        ),
+        key("keep", Shape::Integer(1, 1000), "how many are kept").or(Default::Integer(2)),
+    ],
+    rules: &[],
+};
+
+pub(super) static CHECKPOINT_EVERY: Table = Table {
+    heading: "every",
+    doc: "how often checkpoints are written",
+    keys: &[
+        key("increments", COUNT, "after so many increments"),
+        key(
+            "wall",
+            Shape::Text,
+            "after so much time on the clock, as in \"10 min\"",
+        ),
+    ],
+    rules: &[Rule::AtLeastOne(&["increments", "wall"])],
+};
+
+pub(super) static EXPECT: Table = Table {
+    heading: "[[expect]]",
+    doc: "values that are checked at the end",
+    keys: &[
+        key(
+            "what",
+            Shape::Text,
+            "a column of history.csv, or \"displacement.z @ node 5\"",
+        )
+        .required()
+        .hints(&["quantity", "name"]),
+        key("at", COUNT, "the data row of history.csv; absent: the last").hints(&["row"]),
+        key("time", ANY, "the total time"),
+        key("value", ANY, "what it should be").required(),
+        key("tol", Shape::Table(&TOLERANCE), TOLERANCE.doc)
+            .required()
+            .hints(&["tolerance"]),
+    ],
+    rules: &[Rule::AtMostOne(&["at", "time"])],
+};
+
+pub(super) static TOLERANCE: Table = Table {
+    heading: "tol",
+    doc: "how far off it may be: { rel } in parts of the value, or { abs } in its unit",
+    keys: &[
+        key("rel", NOT_NEGATIVE, "in parts of the value"),
+        key("abs", NOT_NEGATIVE, "in the unit of the value"),
+    ],
+    rules: &[Rule::ExactlyOne(&["rel", "abs"])],
+};

@@ -1,0 +1,288 @@
+//! Amplitudes and steps.
+
+use super::*;
+
+pub(super) static AMPLITUDE: Table = Table {
+    heading: "[amplitude.NAME]",
+    doc: "functions of time: linear between rows, constant outside",
+    keys: &[
+        key("table", TIME_TABLE, "rows [time, value]; times increase").required(),
+        key(
+            "time",
+            Shape::Choice(&[word("step"), word("total")]),
+            "time of the step, or of the whole run",
+        )
+        .or(Default::Text("step")),
+    ],
+    rules: &[],
+};
+
+pub(super) static STEP: Table = Table {
+    heading: "[[step]]",
+    doc: "what happens, in order; a step keeps what earlier ones set",
+    keys: &[
+        key("name", Shape::Text, "its name, in results and messages").required(),
+        key(
+            "kind",
+            Shape::Choice(&[word("static")]),
+            "the kind of analysis",
+        )
+        .or(Default::Text("static")),
+        key(
+            "geometry",
+            Shape::Choice(&[word("auto"), word("linear"), word("nonlinear")]),
+            "small displacements or any; auto: as the step before, at first nonlinear",
+        )
+        .or(Default::Text("auto"))
+        .hints(&["nlgeom"]),
+        key("duration", POSITIVE, "how long it takes")
+            .or(Default::Number(1.0))
+            .hints(&["time", "period"]),
+        key(
+            "increments",
+            Shape::Either(INCREMENTS),
+            "a number, { fixed } or { initial, min, max, count_max }",
+        )
+        .or(Default::Integer(10))
+        .hints(&["increment"]),
+        key("fix", Shape::Tables(&FIX), FIX.doc).hints(&["boundary", "support"]),
+        key("move", Shape::Tables(&MOVE), MOVE.doc).hints(&["displacement"]),
+        key("free", Shape::Tables(&FREE_TABLE), FREE_TABLE.doc),
+        key("load", Shape::Tables(&LOAD), LOAD.doc).hints(&["force"]),
+        key(
+            "contact",
+            Shape::Tables(&LATER),
+            "changes of a contact in this step",
+        )
+        .later("`active` and `friction` in [[contact]], for all steps"),
+        key("temperature", Shape::Tables(&TEMPERATURE), TEMPERATURE.doc),
+    ],
+    rules: &[],
+};
+const INCREMENTS: &[Shape] = &[COUNT, Shape::Table(&INCREMENTS_TABLE)];
+
+pub(super) static INCREMENTS_TABLE: Table = Table {
+    heading: "increments",
+    doc: "how the step is cut into increments",
+    keys: &[
+        key("fixed", COUNT, "exactly so many equal ones"),
+        key(
+            "initial",
+            POSITIVE,
+            "the first one, in the time of the step",
+        )
+        .hints(&["start", "dt"]),
+        key(
+            "min",
+            POSITIVE,
+            "the smallest one; absent: 1e-5 of the step",
+        )
+        .hints(&["dt_min"]),
+        key("max", POSITIVE, "the largest one; absent: the whole step").hints(&["dt_max"]),
+        key("count_max", COUNT, "how many there may be").or(Default::Integer(1000)),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["fixed", "initial"]),
+        Rule::Needs("min", "initial"),
+        Rule::Needs("max", "initial"),
+        Rule::Needs("count_max", "initial"),
+    ],
+};
+
+const DIRECTIONS: Shape = Shape::Either(&[Shape::Choice(&[word("all")]), Shape::List(&AXIS, 1, 3)]);
+
+pub(super) static FIX: Table = Table {
+    heading: "[[step.fix]]",
+    doc: "supports, at the present position",
+    keys: &[
+        key("on", Shape::Text, ON_DOC)
+            .required()
+            .hints(&["set", "group", "name"]),
+        key(
+            "u",
+            DIRECTIONS,
+            "displacements held: \"all\" or a list of \"x\", \"y\", \"z\"",
+        )
+        .hints(&["displacement", "dofs"]),
+        key(
+            "rot",
+            DIRECTIONS,
+            "rotations held, of a reference or rigid body",
+        )
+        .hints(&["rotation", "r"]),
+    ],
+    rules: &[Rule::AtLeastOne(&["u", "rot"])],
+};
+
+pub(super) static FREE_TABLE: Table = Table {
+    heading: "[[step.free]]",
+    doc: "supports and motions of earlier steps that end",
+    keys: &[
+        key("on", Shape::Text, ON_DOC)
+            .required()
+            .hints(&["set", "group", "name"]),
+        key(
+            "u",
+            DIRECTIONS,
+            "displacements set free: \"all\" or a list of \"x\", \"y\", \"z\"",
+        )
+        .hints(&["displacement", "dofs"]),
+        key(
+            "rot",
+            DIRECTIONS,
+            "rotations set free, of a reference or rigid body",
+        )
+        .hints(&["rotation", "r"]),
+    ],
+    rules: &[Rule::AtLeastOne(&["u", "rot"])],
+};
+
+pub(super) static MOVE: Table = Table {
+    heading: "[[step.move]]",
+    doc: "prescribed motions: a number is reached linearly over the step",
+    keys: &[
+        key("on", Shape::Text, ON_DOC)
+            .required()
+            .hints(&["set", "group", "name"]),
+        key("ux", MOTION, "displacement along x").hints(&["x"]),
+        key("uy", MOTION, "displacement along y").hints(&["y"]),
+        key("uz", MOTION, "displacement along z").hints(&["z"]),
+        key(
+            "rx",
+            MOTION,
+            "rotation about x, in radian, of a reference or rigid body",
+        ),
+        key(
+            "ry",
+            MOTION,
+            "rotation about y, in radian, of a reference or rigid body",
+        ),
+        key(
+            "rz",
+            MOTION,
+            "rotation about z, in radian, of a reference or rigid body",
+        ),
+    ],
+    rules: &[Rule::AtLeastOne(&["ux", "uy", "uz", "rx", "ry", "rz"])],
+};
+const MOTION: Shape = Shape::Either(&[ANY, Shape::Table(&MOTION_TABLE)]);
+
+pub(super) static MOTION_TABLE: Table = Table {
+    heading: "a motion",
+    doc: "the course of a prescribed component",
+    keys: &[
+        key(
+            "table",
+            TIME_TABLE,
+            "rows [time of the step, value]; times increase",
+        ),
+        key("amplitude", Shape::Text, "the name of an amplitude"),
+        key("value", ANY, "what the amplitude is multiplied with").or(Default::Number(1.0)),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["table", "amplitude"]),
+        Rule::Needs("value", "amplitude"),
+    ],
+};
+
+pub(super) static LOAD: Table = Table {
+    heading: "[[step.load]]",
+    doc: "loads, reached linearly over the step unless `table` or `amplitude` says otherwise",
+    keys: &[
+        key(
+            "name",
+            Shape::Text,
+            "its name: a later load of this name replaces it",
+        ),
+        key("on", Shape::Text, ON_DOC)
+            .required()
+            .hints(&["set", "group"]),
+        key(
+            "force",
+            VECTOR,
+            "the total force [x, y, z], spread over what it acts on",
+        ),
+        key("per_node", VECTOR, "the same force [x, y, z] at every node"),
+        key("traction", VECTOR, "force per area [x, y, z]"),
+        key("pressure", ANY, "pressure on a surface, positive inwards"),
+        key(
+            "moment",
+            VECTOR,
+            "the moment [x, y, z] about the centre of what it acts on",
+        )
+        .hints(&["torque"]),
+        key("body_force", VECTOR, "force per volume [x, y, z]"),
+        key("gravity", VECTOR, "acceleration [x, y, z] of all mass").hints(&["acceleration"]),
+        key("centrifugal", Shape::Table(&CENTRIFUGAL), CENTRIFUGAL.doc),
+        key(
+            "follows",
+            Shape::Flag,
+            "whether a pressure turns with the surface; absent: it does in nonlinear steps",
+        )
+        .hints(&["follower"]),
+        key(
+            "coupling",
+            Shape::Choice(&[
+                word("none"),
+                word("rigid-x"),
+                word("rigid-y"),
+                word("rigid-z"),
+            ]),
+            "the direction in which what is loaded keeps one common displacement, in the whole run",
+        )
+        .or(Default::Text("none")),
+        key(
+            "table",
+            TIME_TABLE,
+            "rows [time of the step, factor]; times increase",
+        ),
+        key(
+            "amplitude",
+            Shape::Text,
+            "the name of an amplitude, a factor over time",
+        ),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&[
+            "force",
+            "per_node",
+            "traction",
+            "pressure",
+            "moment",
+            "body_force",
+            "gravity",
+            "centrifugal",
+        ]),
+        Rule::AtMostOne(&["table", "amplitude"]),
+    ],
+};
+
+static CENTRIFUGAL: Table = Table {
+    heading: "centrifugal",
+    doc: "forces of a frame that rotates",
+    keys: &[
+        key("speed", ANY, "angular velocity, in radian per time")
+            .required()
+            .hints(&["omega"]),
+        key("point", VECTOR, "a point of the axis; absent: the origin"),
+        key(
+            "axis",
+            LINE,
+            "\"x\", \"y\", \"z\" or a vector along the axis",
+        )
+        .required(),
+    ],
+    rules: &[],
+};
+
+static TEMPERATURE: Table = Table {
+    heading: "[[step.temperature]]",
+    doc: "temperatures, reached linearly over the step; others stay",
+    keys: &[
+        key("on", Shape::Text, "the set or group; \"all\" is everything")
+            .required()
+            .hints(&["set", "group"]),
+        key("value", ANY, "the temperature at the end of the step").required(),
+    ],
+    rules: &[],
+};

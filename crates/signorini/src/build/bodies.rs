@@ -1,0 +1,248 @@
+//! Bodies: their cells, and what they are made of.
+
+use super::carriers::Carriers;
+use super::names::{Cells, Names};
+use super::quoted;
+use signorini_geometry::mesh::{CellId, Mesh};
+use signorini_geometry::tensor::Vec3;
+use signorini_io::case::{self, Body, Case, Name};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
+use signorini_mechanics::material::{
+    self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Oriented,
+    Plasticity,
+};
+use signorini_mechanics::model::{BodyKind, BodyPart};
+use std::collections::BTreeMap;
+
+/// The bodies of a case, in its order.
+pub(super) fn bodies(
+    case: &Case,
+    names: &Names<'_>,
+    carriers: &Carriers,
+    found: &mut Diagnostics,
+) -> Vec<BodyPart> {
+    let one = |body| body_part(case, body, names, carriers, found);
+    case.bodies.iter().filter_map(one).collect()
+}
+
+fn body_part(
+    case: &Case,
+    body: &Body,
+    names: &Names<'_>,
+    carriers: &Carriers,
+    found: &mut Diagnostics,
+) -> Option<BodyPart> {
+    let mut cells = Cells::default();
+    for group in &body.groups {
+        cells.append(names.cells(group, found));
+    }
+    let name: Vec<&str> = body.groups.iter().map(|group| group.as_str()).collect();
+    let name = name.join("+");
+    if body.rigid {
+        let first = body.groups.first()?;
+        let kind = BodyKind::Rigid(carriers.get(first)?);
+        let cells = cells.all();
+        return Some(BodyPart { name, cells, kind });
+    }
+    let material = body.material.as_ref();
+    let part =
+        material.and_then(|m| case.materials.iter().find(|one| one.name.value == m.value))?;
+    let density = part.density.as_ref().map(|density| density.value);
+    let material = law(part, found).and_then(|inner| oriented(inner, body, found))?;
+    if cells.solids.is_empty() && !cells.bars.is_empty() {
+        let area = bars(body, found)?;
+        return Some(BodyPart {
+            name,
+            cells: cells.bars,
+            kind: BodyKind::Truss {
+                material,
+                density,
+                area,
+            },
+        });
+    }
+    if let Some(area) = &body.area {
+        let first = body.groups.first()?;
+        found.push(
+            Diagnostic::error(
+                &codes::CONTRADICTION,
+                format!("{} is made of solids, which have no `area`", quoted(first)),
+            )
+            .at(&area.place, "only bars, of line elements, have one"),
+        );
+    }
+    Some(BodyPart {
+        name,
+        cells: solids(cells, body, found),
+        kind: BodyKind::Solid {
+            material,
+            density,
+            integration: body.integration,
+            locking: body.locking.value,
+        },
+    })
+}
+
+/// The solids of a body; lines among them have been named by mistake.
+fn solids(cells: Cells, body: &Body, found: &mut Diagnostics) -> Vec<CellId> {
+    let mixed = !cells.bars.is_empty() && body.area.is_some();
+    if mixed {
+        found.push(
+            Diagnostic::error(&codes::WRONG_KIND, "a body of both solids and bars")
+                .at(&body.place, "here")
+                .help("make the line elements a [[body]] of their own"),
+        );
+    }
+    cells.solids
+}
+
+/// The cross-section of a body of bars.
+fn bars(body: &Body, found: &mut Diagnostics) -> Option<f64> {
+    if let Some(orientation) = &body.orientation {
+        found.push(
+            Diagnostic::error(
+                &codes::CONTRADICTION,
+                "`orientation` means nothing for bars",
+            )
+            .at(&orientation.place, "the first axis of a bar lies along it"),
+        );
+    }
+    if body.area.is_none() {
+        let first = body.groups.first()?;
+        found.push(
+            Diagnostic::error(
+                &codes::MISSING,
+                format!(
+                    "{} is made of line elements and has no `area`",
+                    quoted(first)
+                ),
+            )
+            .at(&body.place, "`area` is missing here")
+            .help("write  area = , the cross-section of its bars; or name a group of solids"),
+        );
+    }
+    body.area.as_ref().map(|area| area.value)
+}
+
+/// The law of a material, with plasticity and thermal expansion.
+fn law(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Material>> {
+    let inner = match &part.plasticity {
+        Some(plasticity) => plastic(part, plasticity, found),
+        None => elastic(part, found),
+    };
+    let inner = inner?;
+    Some(match &part.expansion {
+        Some(one) => Box::new(Expanding::new(inner, one.alpha, one.reference.value)),
+        None => inner,
+    })
+}
+
+fn elastic(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Material>> {
+    let law = material::by_name(&part.model.value)?;
+    let mut constants = Constants::default();
+    for constant in &part.constants {
+        constants.set(constant.name, constant.values.value.clone());
+    }
+    match (law.make)(&constants) {
+        Ok(material) => Some(material),
+        Err(error) => {
+            found.push(unfit(&error, &part.name, place_of(part, &error)));
+            None
+        }
+    }
+}
+
+fn plastic(
+    part: &case::Material,
+    plasticity: &case::Plasticity,
+    found: &mut Diagnostics,
+) -> Option<Box<dyn Material>> {
+    let modulus = plasticity.modulus.as_ref().map_or(0.0, |m| m.value);
+    let kind = match plasticity.hardening.value {
+        case::Hardening::Isotropic => HardeningKind::Isotropic,
+        case::Hardening::Kinematic => HardeningKind::Kinematic,
+        case::Hardening::Combined => HardeningKind::Combined { modulus },
+    };
+    let (young, poisson) = (part.number("E")?, part.number("nu")?);
+    let made = Hardening::new(kind, plasticity.table.value.clone())
+        .and_then(|hardening| Plasticity::new(young, poisson, hardening));
+    match made {
+        Ok(material) => Some(Box::new(material)),
+        Err(error) => {
+            found.push(
+                Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string()).at(
+                    &plasticity.table.place,
+                    format!("in material {}", quoted(&part.name)),
+                ),
+            );
+            None
+        }
+    }
+}
+
+/// Where the constant stands that an error speaks of.
+fn place_of<'a>(part: &'a case::Material, error: &ConstantsError) -> &'a Place {
+    let (ConstantsError::Missing { name } | ConstantsError::Range { name, .. }) = error else {
+        return &part.model.place;
+    };
+    let constant = part.constants.iter().find(|one| one.name == *name);
+    constant.map_or(&part.model.place, |one| &one.values.place)
+}
+
+fn unfit(error: &ConstantsError, material: &Name, place: &Place) -> Diagnostic {
+    Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string())
+        .at(place, format!("in material {}", quoted(material)))
+}
+
+fn oriented(
+    inner: Box<dyn Material>,
+    body: &Body,
+    found: &mut Diagnostics,
+) -> Option<Box<dyn Material>> {
+    let Some(orientation) = &body.orientation else {
+        return Some(inner);
+    };
+    let [x, y] = [orientation.x, orientation.y].map(Vec3::from);
+    match Oriented::new(inner, x, y) {
+        Ok(material) => Some(Box::new(material)),
+        Err(error) => {
+            found.push(
+                Diagnostic::error(&codes::OUT_OF_RANGE, error.to_string())
+                    .at(&orientation.place, ""),
+            );
+            None
+        }
+    }
+}
+
+/// Elements that are too stiff in bending.
+const STIFF: [&str; 3] = ["tri3", "tet4", "wedge6"];
+
+/// A warning for each deformable body of linear triangles, tetrahedra or wedges.
+pub(super) fn stiff_elements(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Diagnostics {
+    let mut found = Diagnostics::new();
+    for body in case.bodies.iter().filter(|b| !b.rigid) {
+        let groups = body.groups.iter();
+        let cells = groups.flat_map(|g| names.cells(g, &mut Diagnostics::new()).solids);
+        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        for element in cells.filter_map(|cell| mesh.element(cell)) {
+            if STIFF.contains(&element.name()) {
+                *kinds.entry(element.name()).or_default() += 1;
+            }
+        }
+        if kinds.is_empty() {
+            continue;
+        }
+        let counts: Vec<String> = kinds.iter().map(|(k, n)| format!("{n} {k}")).collect();
+        let group = body.groups.first().map_or("", |g| g.value.as_str());
+        found.push(
+            Diagnostic::warning(
+                &codes::STIFF_ELEMENTS,
+                format!("body \"{group}\" has {}: too stiff in bending", counts.join(", ")),
+            )
+            .at(&body.place, "")
+            .help("use quad4 or hex8, elements of second order, or several over the thickness; allow = [\"S0404\"] silences"),
+        );
+    }
+    found
+}

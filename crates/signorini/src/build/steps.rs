@@ -1,0 +1,254 @@
+//! Steps: supports, motions, loads, temperatures, as changes of what earlier steps leave behind.
+
+use super::carriers::Carriers;
+use super::loads::{self, Coupling};
+use super::names::Names;
+use super::quoted;
+use signorini_geometry::mesh::NodeId;
+use signorini_io::case::{
+    self, Amplitude, Case, Directions, Geometry, Name, Remedy, Step, TimeBase,
+};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
+use signorini_mechanics::load::Course;
+use signorini_mechanics::model::{BodyPart, Change, ConstraintPart, LoadPart, StepPart, Target};
+use signorini_mechanics::solve::{Increments, Motion};
+
+/// Steps, with what earlier ones leave behind.
+pub(super) struct Builder<'a> {
+    pub case: &'a Case,
+    pub names: &'a Names<'a>,
+    pub carriers: &'a Carriers,
+    pub bodies: &'a [BodyPart],
+}
+
+impl Builder<'_> {
+    /// The steps, and the constraints by which loads keep what they act on together.
+    pub fn steps(&self, found: &mut Diagnostics) -> (Vec<StepPart>, Vec<ConstraintPart>) {
+        let mut nonlinear = true;
+        let mut goes_on = false;
+        let mut couplings = Vec::new();
+        let mut steps = Vec::new();
+        for (number, step) in self.case.steps.iter().enumerate() {
+            match step.geometry {
+                Geometry::Auto => {}
+                Geometry::Linear => nonlinear = false,
+                Geometry::Nonlinear => nonlinear = true,
+            }
+            let part = StepPart {
+                name: step.name.value.clone(),
+                duration: step.duration,
+                increments: increments(&step.increments, step.duration, self.may_cut()),
+                nonlinear,
+                changes: self.changes(step, found),
+                loads: self.loads(number, step, &mut couplings, found),
+                temperatures: self.temperatures(step, found),
+            };
+            let changes = part.changes.len() + part.loads.len() + part.temperatures.len();
+            if changes == 0 && !goes_on && !found.has_errors() {
+                found.push(changes_nothing(step));
+            }
+            goes_on |= part.changes.iter().any(runs_on) || part.loads.iter().any(load_runs_on);
+            steps.push(part);
+        }
+        (steps, couplings.into_iter().map(Coupling::part).collect())
+    }
+
+    fn changes(&self, step: &Step, found: &mut Diagnostics) -> Vec<Change> {
+        let mut changes = Vec::new();
+        for free in &step.frees {
+            let turns = !free.rot.is_empty();
+            if let Some(target) = self.target(&free.on, turns, &free.place, found) {
+                let components = picked(&free.u, &free.rot);
+                changes.push(Change::Release(target, components));
+            }
+        }
+        for fix in &step.fixes {
+            let turns = !fix.rot.is_empty();
+            if let Some(target) = self.target(&fix.on, turns, &fix.place, found) {
+                let hold = |c| (c, Motion::Hold);
+                let components = picked(&fix.u, &fix.rot).into_iter().map(hold);
+                changes.push(Change::Prescribe(target, components.collect()));
+            }
+        }
+        for part in &step.moves {
+            let turns = part.rot.iter().any(Option::is_some);
+            if let Some(target) = self.target(&part.on, turns, &part.place, found) {
+                let courses = part.u.iter().chain(&part.rot).enumerate();
+                let motions = courses.filter_map(|(c, m)| Some((c, self.motion(m.as_ref()?))));
+                changes.push(Change::Prescribe(target, motions.collect()));
+            }
+        }
+        changes
+    }
+
+    fn loads(
+        &self,
+        number: usize,
+        step: &Step,
+        couplings: &mut Vec<Coupling>,
+        found: &mut Diagnostics,
+    ) -> Vec<LoadPart> {
+        let mut parts = Vec::new();
+        for (place, load) in step.loads.iter().enumerate() {
+            let context = loads::Context {
+                case: self.case,
+                names: self.names,
+                carriers: self.carriers,
+                bodies: self.bodies,
+            };
+            if let Some(what) = context.load(load, found) {
+                parts.push(LoadPart {
+                    name: loads::name(step, place, load),
+                    load: what,
+                    course: self.course(&load.course),
+                });
+            }
+            if let Some(coupling) = context.coupling(load, found) {
+                coupling.join(number == 0, couplings, found);
+            }
+        }
+        parts
+    }
+
+    fn temperatures(&self, step: &Step, found: &mut Diagnostics) -> Vec<(NodeId, f64)> {
+        let mut temperatures = Vec::new();
+        for part in &step.temperatures {
+            let nodes = self.names.nodes(&part.on, found).unwrap_or_default();
+            temperatures.extend(nodes.into_iter().map(|node| (node, part.value)));
+        }
+        temperatures
+    }
+
+    /// Whether an increment that fails may be tried again in smaller pieces.
+    fn may_cut(&self) -> bool {
+        self.case.solver.on_trouble.contains(&Remedy::Cut)
+    }
+
+    /// What a support or motion is applied to; nodes cannot turn.
+    fn target(
+        &self,
+        on: &Name,
+        turns: bool,
+        place: &Place,
+        found: &mut Diagnostics,
+    ) -> Option<Target> {
+        if let Some(carrier) = self.carriers.get(on) {
+            if !self.carriers.moves_something(carrier) {
+                found.push(idle(on));
+            }
+            return Some(Target::Rigid(carrier));
+        }
+        let nodes = self.names.nodes(on, found)?;
+        if turns {
+            found.push(
+                Diagnostic::error(
+                    &codes::WRONG_KIND,
+                    format!("the nodes of {} have no rotations", quoted(on)),
+                )
+                .at(place, "nodes of solids only move")
+                .help(
+                    "leave the rotations away; or tie the nodes to a [reference] by a kinematic [[constraint]], and name \
+                     the reference here",
+                ),
+            );
+        }
+        Some(Target::Nodes(nodes))
+    }
+
+    fn amplitude(&self, name: &Name) -> Option<&Amplitude> {
+        let mut amplitudes = self.case.amplitudes.iter();
+        amplitudes.find(|a| a.name.value == name.value)
+    }
+
+    fn motion(&self, course: &case::Motion) -> Motion {
+        match course {
+            case::Motion::Ramp(to) => Motion::Ramp(*to),
+            case::Motion::Table(table) => Motion::Table(table.clone()),
+            case::Motion::Amplitude { name, value } => {
+                let amplitude = self.amplitude(name);
+                amplitude.map_or(Motion::Hold, |a| scaled(a, *value))
+            }
+        }
+    }
+
+    fn course(&self, course: &case::Course) -> Course {
+        match course {
+            case::Course::Ramp => Course::Ramp,
+            case::Course::Table(table) => Course::Table(table.clone()),
+            case::Course::Amplitude(name) => {
+                self.amplitude(name).map_or(Course::Ramp, |a| match a.time {
+                    TimeBase::Step => Course::Table(a.table.clone()),
+                    TimeBase::Total => Course::TotalTable(a.table.clone()),
+                })
+            }
+        }
+    }
+}
+
+/// A reference that is loaded or moved, and that nothing follows.
+pub(super) fn idle(reference: &Name) -> Diagnostic {
+    Diagnostic::error(
+        &codes::CONTRADICTION,
+        format!("reference {} moves nothing", quoted(reference)),
+    )
+    .at(&reference.place, "no body and no constraint names it")
+    .help("write  reference = \"..\"  in a rigid [[body]] or in a [[constraint]]")
+}
+
+fn changes_nothing(step: &Step) -> Diagnostic {
+    Diagnostic::new(
+        Severity::Note,
+        &codes::NO_EFFECT,
+        format!("step {} changes nothing", quoted(&step.name)),
+    )
+    .at(&step.place, "all supports and loads stay as they are")
+}
+
+/// Whether a motion goes on through later steps.
+fn runs_on(change: &Change) -> bool {
+    match change {
+        Change::Prescribe(_, motions) => motions
+            .iter()
+            .any(|(_, motion)| matches!(motion, Motion::TotalTable(_))),
+        Change::Release(..) => false,
+    }
+}
+
+fn load_runs_on(load: &LoadPart) -> bool {
+    matches!(load.course, Course::TotalTable(_))
+}
+
+fn picked(u: &Directions, rot: &Directions) -> Vec<usize> {
+    let all = u.xyz.iter().chain(&rot.xyz).enumerate();
+    all.filter_map(|(c, &on)| on.then_some(c)).collect()
+}
+
+fn scaled(amplitude: &Amplitude, factor: f64) -> Motion {
+    let rows = amplitude.table.iter().map(|[t, v]| [*t, v * factor]);
+    match amplitude.time {
+        TimeBase::Step => Motion::Table(rows.collect()),
+        TimeBase::Total => Motion::TotalTable(rows.collect()),
+    }
+}
+
+fn increments(part: &case::Increments, duration: f64, may_cut: bool) -> Increments {
+    let (initial, min, max, count_max) = match *part {
+        case::Increments::Fixed(n) => return Increments::Fixed(n as usize),
+        case::Increments::Count(n) => {
+            let size = duration / n as f64;
+            (size, 1e-5 * size, size, n.saturating_mul(100).max(1000))
+        }
+        case::Increments::Adaptive {
+            initial,
+            min,
+            max,
+            count_max,
+        } => (initial, min, max, count_max),
+    };
+    Increments::Adaptive {
+        initial,
+        min: if may_cut { min } else { f64::INFINITY },
+        max,
+        count_max: count_max as usize,
+    }
+}
