@@ -33,26 +33,9 @@ pub enum Region {
         /// Its radius.
         radius: f64,
     },
-    /// A sphere without its inside.
-    Sphere {
-        /// Its centre.
-        centre: Vec3,
-        /// Its radius.
-        radius: f64,
-    },
 }
 
 impl Region {
-    /// The plane on which the coordinate of an axis (0, 1, 2) has this value.
-    #[must_use]
-    pub fn level(axis: usize, at: f64) -> Self {
-        let normal = Vec3::unit(axis);
-        Self::Plane {
-            normal,
-            point: normal * at,
-        }
-    }
-
     /// Whether a point is in the region or at most `tolerance` away from it; for a box, along each axis.
     ///
     /// A plane without a normal and a box or ball turned inside out contain nothing.
@@ -67,9 +50,6 @@ impl Region {
             }),
             Self::Ball { centre, radius } => {
                 radius >= 0.0 && (x - centre).norm() <= radius + tolerance
-            }
-            Self::Sphere { centre, radius } => {
-                radius >= 0.0 && ((x - centre).norm() - radius).abs() <= tolerance
             }
         }
     }
@@ -173,12 +153,19 @@ mod tests {
     use crate::mesh::boundary;
     use crate::mesh::testing::bricks;
 
+    /// The plane on which the coordinate of an axis has this value.
+    fn level(axis: usize, at: f64) -> Region {
+        let normal = Vec3::unit(axis);
+        let point = normal * at;
+        Region::Plane { normal, point }
+    }
+
     #[test]
-    fn planes_boxes_balls_and_spheres_find_their_nodes() {
+    fn planes_boxes_and_balls_find_their_nodes() {
         let mesh = bricks([4, 3, 2], 1.0);
         let count = |region| mesh.nodes_in(&region, None, None).len();
-        assert_eq!(count(Region::level(2, 2.0)), 5 * 4);
-        assert_eq!(count(Region::level(2, 2.5)), 0);
+        assert_eq!(count(level(2, 2.0)), 5 * 4);
+        assert_eq!(count(level(2, 2.5)), 0);
         let diagonal = Region::Plane {
             normal: Vec3::new(2.0, -2.0, 0.0),
             point: Vec3::ZERO,
@@ -192,7 +179,6 @@ mod tests {
         assert_eq!(count(column), 2 * 3);
         let (centre, radius) = (Vec3::new(1.0, 1.0, 1.0), 1.0);
         assert_eq!(count(Region::Ball { centre, radius }), 7);
-        assert_eq!(count(Region::Sphere { centre, radius }), 6);
         let inside_out = Region::Box {
             min: centre,
             max: Vec3::ZERO,
@@ -206,10 +192,7 @@ mod tests {
             0
         );
         let among = [0, 5, 1];
-        assert_eq!(
-            mesh.nodes_in(&Region::level(1, 0.0), Some(&among), None),
-            [0, 1]
-        );
+        assert_eq!(mesh.nodes_in(&level(1, 0.0), Some(&among), None), [0, 1]);
     }
 
     #[test]
@@ -218,7 +201,7 @@ mod tests {
             let mut mesh = bricks([4, 3, 2], size);
             mesh.points[0].z += 1e-7 * size;
             mesh.points[1].z += 1e-4 * size;
-            let nodes = mesh.nodes_in(&Region::level(2, 0.0), None, None);
+            let nodes = mesh.nodes_in(&level(2, 0.0), None, None);
             assert_eq!(nodes.len(), 5 * 4 - 1, "{size}");
             assert!(nodes.contains(&0) && !nodes.contains(&1));
         }
@@ -241,7 +224,7 @@ mod tests {
     fn faces_among_nodes_are_the_surface_there() {
         let mesh = bricks([4, 3, 2], 1.0);
         let outer = boundary(&mesh, mesh.cells(3));
-        let nodes = mesh.nodes_in(&Region::level(0, 4.0), None, None);
+        let nodes = mesh.nodes_in(&level(0, 4.0), None, None);
         let faces = mesh.faces_among(&outer, &nodes);
         assert_eq!(faces.len(), 3 * 2);
         for face in faces {

@@ -12,7 +12,6 @@ mod loads;
 mod mesh;
 mod names;
 mod refused;
-mod regions;
 mod steps;
 mod temperature;
 #[cfg(test)]

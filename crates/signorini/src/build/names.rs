@@ -1,8 +1,7 @@
 //! What the names of a case stand for in its mesh.
 
-use super::regions::inside;
 use super::{idealisation, quoted};
-use signorini_geometry::mesh::{CellId, Face, FaceIndex, Mesh, NodeId, Set, boundary};
+use signorini_geometry::mesh::{CellId, Face, FaceIndex, Mesh, NodeId, Set, boundary, select};
 use signorini_geometry::surface::Facets;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{Case, Name, Region, SetContent, Side};
@@ -135,7 +134,7 @@ impl<'a> Names<'a> {
         let Some(among) = among else {
             return Vec::new();
         };
-        let nodes = inside(self.mesh, region, &among);
+        let nodes = nodes_in(self.mesh, region, &among);
         if nodes.is_empty() {
             found.push(
                 Diagnostic::error(
@@ -333,12 +332,7 @@ impl<'a> Names<'a> {
             faces.extend(boundary(mesh, solids));
         }
         if faces.is_empty() && !set.nodes.is_empty() {
-            let nodes: BTreeSet<NodeId> = set.nodes.iter().copied().collect();
-            let inside = |f: &Face| {
-                let of_face = mesh.face(*f).map(|(_, n)| n).unwrap_or_default();
-                !of_face.is_empty() && of_face.iter().all(|n| nodes.contains(n))
-            };
-            faces.extend(self.index.boundary().into_iter().filter(inside));
+            faces = mesh.faces_among(&self.index.boundary(), &set.nodes);
         }
         faces.sort_unstable();
         faces.dedup();
@@ -378,6 +372,30 @@ impl<'a> Names<'a> {
         sets.map(|(name, set)| (name.clone(), self.mesh.nodes_of(set)))
             .collect()
     }
+}
+
+/// Those of some nodes that lie in a part of space, boundary included; the nearest of them to a point.
+fn nodes_in(mesh: &Mesh, region: &Region, among: &[NodeId]) -> Vec<NodeId> {
+    let (part, tolerance) = match *region {
+        Region::Plane { normal, at, tol } => {
+            let normal = Vec3::from(normal).normalized().unwrap_or_default();
+            let point = normal * at;
+            (select::Region::Plane { normal, point }, tol)
+        }
+        Region::Box { low, high } => {
+            let (min, max) = (low.into(), high.into());
+            (select::Region::Box { min, max }, None)
+        }
+        Region::Sphere { center, radius } => {
+            let centre = center.into();
+            (select::Region::Ball { centre, radius }, None)
+        }
+        Region::Near { point } => {
+            let nearest = mesh.nearest_node(point.into(), Some(among));
+            return nearest.into_iter().map(|(node, _)| node).collect();
+        }
+    };
+    mesh.nodes_in(&part, Some(among), tolerance)
 }
 
 /// Sets in an order in which every one comes behind those it is made from. Circles have been refused before.
