@@ -1,7 +1,7 @@
 //! VTK's unstructured grids (`.vtu`) as meshes, also those that a run has written.
 //!
 //! ```text
-//! cells                        by VTK's type, in VTK's node order (see the table below)
+//! cells                        by VTK's type, in VTK's node order
 //! whole-number array of cells  a set of cells for each value from 0 on, called `name_value`: MaterialIds_2
 //! whole-number array of nodes  a set of nodes for each value from 0 on
 //! element_id, node_id          the numbers of elements and nodes, where they are distinct; without them from 1 on
@@ -14,13 +14,12 @@
 //! A wedge's first triangle has its normal out of the cell in VTK up to 9.3 and in files after that definition, into it
 //! in later ones and in files of other programs: the sign of its volume decides.
 //!
-//! Source: *VTK File Formats*; for node orders the parametric coordinates of VTK's cells.
-//!
-//! To add a cell type: one line in [`CELLS`].
+//! Source: *VTK File Formats*; types and node orders are those of [`cells`].
 
 use super::{MeshError, Place};
+use crate::vtk::cells::{self, CellType};
 use crate::vtk::{self, Array, Vtu};
-use signorini_geometry::element::{self, Element, MAX_NODES};
+use signorini_geometry::element::MAX_NODES;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId, Set};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, HashSet};
@@ -49,34 +48,8 @@ const ELEMENT_ID: &str = "element_id";
 /// The numbers of nodes in the frames of a run.
 const NODE_ID: &str = "node_id";
 
-/// VTK's types that have an element here: number, name, and for each of our nodes its place in the file (none: the same).
-const CELLS: [(u8, &str, &[usize]); 16] = [
-    (3, "line2", &[]),
-    (5, "tri3", &[]),
-    (8, "quad4", &[0, 1, 3, 2]),
-    (9, "quad4", &[]),
-    (10, "tet4", &[]),
-    (11, "hex8", &[0, 1, 3, 2, 4, 5, 7, 6]),
-    (12, "hex8", &[]),
-    (13, "wedge6", &[]),
-    (21, "line3", &[]),
-    (22, "tri6", &[]),
-    (23, "quad8", &[]),
-    (24, "tet10", &[]),
-    (25, "hex20", &[]),
-    (26, "wedge15", &[]),
-    (28, "quad9", &[]),
-    (29, "hex27", HEX27),
-];
-
-/// The middles of the sides in VTK: -x +x -y +y -z +z. Here: S1 to S6.
-const HEX27: &[usize] = &[
-    0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 24, 25, 22, 21, 23, 20,
-    26,
-];
-
 /// VTK's single points, which mark nodes.
-const VERTICES: [u8; 2] = [1, 2];
+const VERTICES: [u8; 2] = [cells::VERTEX, 2];
 
 /// Reads a grid and what is worth telling about it. `name` appears in messages.
 ///
@@ -175,13 +148,7 @@ fn push_cells(
     grid: &Vtu,
     mesh: &mut Mesh,
 ) -> Result<Vec<Option<CellId>>, MeshError> {
-    let mut kinds: [Option<(Element, &[usize])>; 256] = [None; 256];
-    for (number, name, order) in CELLS {
-        let entry = kinds.get_mut(number as usize);
-        if let (Some(entry), Some(element)) = (entry, element::by_name(name)) {
-            *entry = Some((element, order));
-        }
-    }
+    let types = CellType::by_number();
     let labels = labels(grid.cell_field(ELEMENT_ID), grid.types.len());
     let mut cells = Vec::with_capacity(grid.types.len());
     let mut ids = [0; MAX_NODES];
@@ -190,13 +157,14 @@ fn push_cells(
             cells.push(None);
             continue;
         }
-        let Some((element, order)) = kinds.get(kind as usize).copied().flatten() else {
+        let Some(cell_type) = types.get(kind as usize).copied().flatten() else {
             return Err(MeshError::Unsupported {
                 place: place.clone(),
                 found: format!("cells of VTK type {kind}, such as {label}"),
                 hint: "save it with linear or quadratic cells of fixed shape, no polyhedra",
             });
         };
+        let element = cell_type.element;
         let nodes = match ends {
             &[start, end] => grid.connectivity.get(start..end).unwrap_or_default(),
             _ => &[],
@@ -211,9 +179,10 @@ fn push_cells(
             });
         }
         let ours = ids.get_mut(..nodes.len()).unwrap_or_default();
-        for (i, id) in ours.iter_mut().enumerate() {
-            let from = order.get(i).copied().unwrap_or(i);
-            *id = nodes.get(from).map_or(0, |&node| node as NodeId);
+        for (&node, place) in nodes.iter().zip(cell_type.places()) {
+            if let Some(id) = ours.get_mut(place) {
+                *id = node as NodeId;
+            }
         }
         if kind == 13 {
             turn_wedge(mesh, ours);
@@ -278,42 +247,6 @@ fn groups(array: &Array, notes: &mut Vec<String>) -> Vec<(String, Vec<usize>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The middles of the sides of VTK's triquadratic hexahedron, from its parametric coordinates, on [-1, 1].
-    const MIDDLES: [[f64; 3]; 7] = [
-        [-1.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [0.0, -1.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, -1.0],
-        [0.0, 0.0, 1.0],
-        [0.0, 0.0, 0.0],
-    ];
-
-    #[test]
-    fn middles_of_sides_are_those_of_vtk() {
-        let Some(hex27) = element::by_name("hex27") else {
-            return;
-        };
-        for (node, &from) in hex27.nodes().iter().zip(HEX27).skip(20) {
-            assert_eq!(node.to_array(), MIDDLES[from - 20]);
-        }
-    }
-
-    #[test]
-    fn cells_have_as_many_nodes_here_as_there() {
-        for (number, name, order) in CELLS {
-            if let Some(element) = element::by_name(name) {
-                let there = match number {
-                    8 => 4,
-                    11 => 8,
-                    _ => crate::writers::vtu::nnode_of(number).unwrap(),
-                };
-                assert_eq!(element.nnode(), there, "{name}");
-                assert!(order.is_empty() || order.len() == there);
-            }
-        }
-    }
 
     fn numbers(name: &str, values: Vec<i32>) -> Array {
         Array {

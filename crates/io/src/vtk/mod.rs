@@ -8,6 +8,7 @@
 //!
 //! Source: *VTK File Formats*, section "XML File Formats"; what it leaves open, from files that VTK 9 writes.
 
+pub mod cells;
 mod decode;
 mod stream;
 pub(crate) mod xml;

@@ -1,32 +1,7 @@
 //! Cells as VTK numbers them.
 
 use signorini_geometry::element::Element;
-
-/// The type and the order of nodes that VTK has for an element.
-///
-/// VTK's hexahedron of 27 nodes has the centres of its sides at -x, +x, -y, +y, -z, +z. Its wedge has the normal of the
-/// first triangle pointing in, by its shape functions and its quality measures as by ours; the faces and the volume that
-/// VTK 9.2 and older give it are turned inside out.
-#[rustfmt::skip]
-const TABLE: [(&str, u8, &[usize]); 14] = [
-    ("line2", 3, &[0, 1]),
-    ("line3", 21, &[0, 1, 2]),
-    ("tri3", 5, &[0, 1, 2]),
-    ("tri6", 22, &[0, 1, 2, 3, 4, 5]),
-    ("quad4", 9, &[0, 1, 2, 3]),
-    ("quad8", 23, &[0, 1, 2, 3, 4, 5, 6, 7]),
-    ("quad9", 28, &[0, 1, 2, 3, 4, 5, 6, 7, 8]),
-    ("tet4", 10, &[0, 1, 2, 3]),
-    ("tet10", 24, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
-    ("hex8", 12, &[0, 1, 2, 3, 4, 5, 6, 7]),
-    ("hex20", 25, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19]),
-    ("hex27", 29, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 25, 23, 22, 24, 20, 21, 26]),
-    ("wedge6", 13, &[0, 1, 2, 3, 4, 5]),
-    ("wedge15", 26, &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]),
-];
-
-/// VTK's type of a single point.
-const VERTEX: u8 = 1;
+use signorini_io::vtk::cells::{CellType, VERTEX};
 
 /// Cells in the making.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,12 +27,12 @@ impl Default for Cells {
 impl Cells {
     /// Appends a cell; says whether VTK has such cells.
     pub fn push(&mut self, element: Element, nodes: &[u32], shift: u32) -> bool {
-        let Some((_, kind, order)) = TABLE.iter().find(|(name, ..)| *name == element.name()) else {
+        let Some(cell_type) = CellType::of_element(element) else {
             return false;
         };
-        let picked = order.iter().filter_map(|&k| nodes.get(k));
+        let picked = cell_type.places().filter_map(|k| nodes.get(k));
         self.connectivity.extend(picked.map(|n| n + shift));
-        self.types.push(*kind);
+        self.types.push(cell_type.number);
         self.offsets.push(self.connectivity.len());
         true
     }
@@ -83,7 +58,7 @@ mod tests {
             let mut cells = Cells::default();
             let nodes: Vec<u32> = (0..element.nnode() as u32).collect();
             assert!(cells.push(element, &nodes, 10), "{}", element.name());
-            assert_eq!(vtu::nnode_of(cells.types[0]), Some(nodes.len()));
+            assert_eq!(cells.offsets, [0, nodes.len()]);
             let mut seen = cells.connectivity.clone();
             seen.sort_unstable();
             assert!(seen.iter().zip(&nodes).all(|(a, b)| *a == b + 10));

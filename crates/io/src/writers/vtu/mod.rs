@@ -22,7 +22,7 @@
 //!
 //! Limits: one piece; no polyhedra; text only in the field data, and meshio refuses files with text; at most 2³² nodes.
 //!
-//! One more cell type: a line in [`nnode_of`].
+//! One more cell type: a line in [`cells`].
 
 use std::fmt::Write;
 use std::path::Path;
@@ -32,6 +32,7 @@ use rayon::prelude::*;
 
 use crate::fs::bytes::extend_le;
 use crate::fs::{Fs, FsError};
+use crate::vtk::cells::{self, CellType};
 use crate::vtk::xml::escape;
 
 pub use crate::vtk::{Array, Numbers, Vtu, VtuReadError, read, read_limited};
@@ -217,30 +218,6 @@ pub enum VtuError {
         /// What is wrong.
         why: &'static str,
     },
-}
-
-/// The number of nodes of a VTK cell type; `None` for types that this program does not have.
-pub fn nnode_of(cell_type: u8) -> Option<usize> {
-    Some(match cell_type {
-        1 => 1,   // vertex
-        3 => 2,   // line
-        5 => 3,   // triangle
-        9 => 4,   // quad
-        10 => 4,  // tetra
-        12 => 8,  // hexahedron
-        13 => 6,  // wedge
-        14 => 5,  // pyramid
-        21 => 3,  // quadratic edge
-        22 => 6,  // quadratic triangle
-        23 => 8,  // quadratic quad
-        24 => 10, // quadratic tetra
-        25 => 20, // quadratic hexahedron
-        26 => 15, // quadratic wedge
-        27 => 13, // quadratic pyramid
-        28 => 9,  // biquadratic quad
-        29 => 27, // triquadratic hexahedron
-        _ => return None,
-    })
 }
 
 /// Writes a frame, complete or not at all, and returns its size in bytes.
@@ -514,6 +491,11 @@ fn check(grid: &Grid<'_>) -> Result<(), VtuError> {
         grid.offsets.last().copied().unwrap_or(0),
         grid.connectivity.len(),
     )?;
+    let types = CellType::by_number();
+    let nnode_of = |number: u8| match number {
+        cells::VERTEX => Some(1),
+        _ => types.get(number as usize)?.map(|one| one.element.nnode()),
+    };
     for (cell, (cell_type, ends)) in grid.types.iter().zip(grid.offsets.windows(2)).enumerate() {
         let bad = |why| VtuError::BadCell {
             cell,
