@@ -153,6 +153,8 @@ impl Model {
         let (mut steps, loads) = context.steps(steps)?;
         let elimination = Arc::make_mut(&mut context.elimination);
         followers.relate(&layout, &ties, elimination, &mut steps)?;
+        // forces on unknowns that follow by an equation have a stiffness, too: equations come before loads
+        let loads = loads::terms(&context, &steps, loads)?;
         let elimination = context.elimination.clone();
 
         let mut held = Held::new(mesh, space, &bodies, &carriers, &elimination);

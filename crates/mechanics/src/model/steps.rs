@@ -1,13 +1,11 @@
 use super::ConstraintError;
 use super::constraints::components;
-use super::{Change, Context, Load, LoadPart, ModelError, StepPart, Target, label, loads};
+use super::{Change, Context, Load, LoadPart, ModelError, StepPart, Target, label};
 use crate::solve::{Motion, Prescription, Step};
-use crate::system::{Dof, DofName, Idealisation, NO_DOF, Term};
+use crate::system::{Dof, DofName, Idealisation, NO_DOF};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-
-type Terms = Vec<Box<dyn Term>>;
 
 /// Component of a carrier along the axis of an axisymmetric model.
 const AXIAL: usize = 1;
@@ -72,8 +70,11 @@ impl Context<'_> {
         Ok(dofs.into_iter().filter(|&d| d != NO_DOF).collect())
     }
 
-    /// What is prescribed in each step, and the loads of all steps as terms.
-    pub(super) fn steps(&self, parts: Vec<StepPart>) -> Result<(Vec<Step>, Terms), ModelError> {
+    /// What is prescribed in each step, and the loads given there.
+    pub(super) fn steps(
+        &self,
+        parts: Vec<StepPart>,
+    ) -> Result<(Vec<Step>, Vec<Vec<LoadPart>>), ModelError> {
         let mut prescribed: BTreeMap<Dof, Motion> = BTreeMap::new();
         for body in 0..self.layout.nrigid as RigidId {
             for dof in components(&self.layout, body).filter(|d| !self.ties.free.contains(d)) {
@@ -100,6 +101,9 @@ impl Context<'_> {
                             {
                                 self.may_move(&part.name, *carrier, *component)?;
                             }
+                            // everything starts at zero: to go there is to stay
+                            let stays = steps.is_empty() && *motion == Motion::Ramp(0.0);
+                            let motion = if stays { &Motion::Hold } else { motion };
                             for dof in self.dofs(target, *component)? {
                                 let before = here.insert(dof, motion.clone());
                                 if before.is_some_and(|b| b != *motion) {
@@ -145,8 +149,7 @@ impl Context<'_> {
                 prescriptions: prescriptions.collect(),
             });
         }
-        let terms = loads::terms(self, &steps, loads)?;
-        Ok((steps, terms))
+        Ok((steps, loads))
     }
 
     /// The unknowns of carriers along which loads act.

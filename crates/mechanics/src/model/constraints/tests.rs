@@ -576,6 +576,110 @@ fn rotations_stay_rotations_over_thousands_of_increments() {
     );
 }
 
+#[test]
+fn to_stay_and_to_go_to_zero_are_one_motion_in_the_first_step_and_two_afterwards() {
+    let (mesh, cells) = cube(1);
+    let base = || Target::Nodes(nodes_at(&mesh, 2, 0.0));
+    let both = |to: f64| {
+        let ramp = Change::Prescribe(base(), vec![(2, Motion::Ramp(to))]);
+        step(1, true, vec![prescribe(base(), &ALL), ramp])
+    };
+    let assemble = |steps: Vec<StepPart>| {
+        Model::assemble(Parts {
+            bodies: vec![solid("cube", cells.clone())],
+            steps,
+            ..Parts::new(&mesh, Idealisation::Space)
+        })
+    };
+    let model = assemble(vec![both(0.0)]).unwrap();
+    let motions = model.steps[0].prescriptions.iter();
+    assert!(motions.map(|p| &p.motion).all(|m| *m == Motion::Hold));
+    assert!(matches!(
+        assemble(vec![both(0.1)]).err(),
+        Some(ModelError::Clash { .. })
+    ));
+    let later = vec![step(1, true, vec![prescribe(base(), &ALL)]), both(0.0)];
+    assert!(matches!(
+        assemble(later).err(),
+        Some(ModelError::Clash { .. })
+    ));
+}
+
+/// A rigid bar turns freely about its end; a hook without nodes of its own follows the other end by equations and is
+/// pulled. What holds the bar is nothing but the turning arm (E2): it comes to rest along the force.
+#[test]
+fn a_force_on_what_follows_a_turning_carrier_by_an_equation_turns_it_into_the_force() {
+    let mut mesh = Mesh::default();
+    let cube = block(
+        &mut mesh,
+        [1; 3],
+        Vec3::unit(2) * 5.0,
+        Vec3::new(1.0, 1.0, 1.0),
+    );
+    let bar = block(&mut mesh, [1; 3], Vec3::ZERO, Vec3::new(2.0, 0.1, 0.1));
+    let end = nodes_at(&mesh, 0, 2.0)[0];
+    assert_eq!(mesh.points[end as usize], Vec3::new(2.0, 0.0, 0.0));
+    let follow = |axis: usize| ConstraintKind::Equation {
+        terms: vec![
+            (Unknown::Carrier(1, axis), 1.0),
+            (Unknown::Node(end, axis), -1.0),
+        ],
+        rhs: 0.0,
+    };
+    let contact = ContactPart {
+        name: "far".into(),
+        secondary: SidePart::Faces(vec![Face {
+            cell: cube[0],
+            side: 0,
+        }]),
+        primary: vec![Face {
+            cell: bar[0],
+            side: 1,
+        }],
+        penalty: None,
+        measure: Some(Measure::Area),
+        reach: Some(0.1),
+    };
+    let held = Target::Nodes(nodes_at(&mesh, 2, 5.0));
+    let pinned = [(0, 0.0), (1, 0.0), (2, 0.0), (3, 0.0), (4, 0.0)];
+    let mut pulled = step(
+        1,
+        true,
+        vec![
+            prescribe(held, &ALL),
+            prescribe(Target::Rigid(0), &pinned),
+            Change::Release(Target::Rigid(0), vec![5]),
+        ],
+    );
+    pulled.loads.push(LoadPart {
+        name: "pull".into(),
+        load: Load::Carrier {
+            carrier: 1,
+            force: Vec3::new(40.0, 30.0, 0.0),
+            moment: Vec3::ZERO,
+        },
+        course: crate::load::Course::default(),
+    });
+    let ran = run(Parts {
+        bodies: vec![
+            solid("cube", cube),
+            BodyPart {
+                name: "bar".into(),
+                cells: bar,
+                kind: BodyKind::Rigid(0),
+            },
+        ],
+        carriers: vec![carrier("pin", [0.0; 3]), carrier("hook", [3.0, 0.0, 0.0])],
+        constraints: vec![constraint("x", follow(0)), constraint("y", follow(1))],
+        contacts: vec![contact],
+        steps: vec![pulled],
+        ..Parts::new(&mesh, Idealisation::Space)
+    });
+    let along = ran.state.poses[0].rotation * Vec3::unit(0);
+    let error = (along - Vec3::new(0.8, 0.6, 0.0)).max_abs();
+    assert!(error < 1e-9, "{along:?}");
+}
+
 fn refusal(constraints: Vec<ConstraintPart>, changes: Vec<Change>) -> Result<(), ModelError> {
     let (mesh, cells) = cube(1);
     // springs to the ground hold the cube without prescribing anything
