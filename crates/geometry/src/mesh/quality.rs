@@ -73,8 +73,8 @@ impl Distribution {
 /// The measures of many cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quality {
-    /// How many cells there are.
-    pub ncell: usize,
+    /// All cells, in the order given.
+    pub cells: Vec<CellQuality>,
     /// How many have a Jacobian that is zero or negative somewhere.
     pub nbad: usize,
     /// The scaled Jacobian.
@@ -89,7 +89,7 @@ pub struct Quality {
 #[must_use]
 pub fn quality(mesh: &Mesh, cells: impl IntoIterator<Item = CellId>) -> Option<Quality> {
     let mut measures = Measures::of(mesh);
-    let mut all: Vec<CellQuality> = (cells.into_iter())
+    let all: Vec<CellQuality> = (cells.into_iter())
         .filter_map(|cell| measures.measure(mesh, cell))
         .collect();
     if all.is_empty() {
@@ -98,22 +98,22 @@ pub fn quality(mesh: &Mesh, cells: impl IntoIterator<Item = CellId>) -> Option<Q
     let scaled_jacobian = Distribution::of(all.iter().map(|q| q.scaled_jacobian));
     let edge_ratio = Distribution::of(all.iter().map(|q| q.edge_ratio));
     let nbad = all.iter().filter(|q| q.jacobian_min <= 0.0).count();
-    let ncell = all.len();
     let worse = |a: &CellQuality, b: &CellQuality| {
         let first = a.scaled_jacobian.total_cmp(&b.scaled_jacobian);
         first.then(a.cell.cmp(&b.cell))
     };
-    if ncell > WORST {
-        all.select_nth_unstable_by(WORST, worse);
-        all.truncate(WORST);
+    let mut worst = all.clone();
+    if worst.len() > WORST {
+        worst.select_nth_unstable_by(WORST, worse);
+        worst.truncate(WORST);
     }
-    all.sort_unstable_by(worse);
+    worst.sort_unstable_by(worse);
     Some(Quality {
-        ncell,
+        cells: all,
         nbad,
         scaled_jacobian,
         edge_ratio,
-        worst: all,
+        worst,
     })
 }
 
@@ -554,7 +554,10 @@ mod tests {
         let mut mesh = bricks([10, 10, 10], 1.0);
         mesh.points[0] += Vec3::new(0.4, 0.3, 0.2);
         let all = quality(&mesh, mesh.cells(3)).unwrap();
-        assert_eq!((all.ncell, all.nbad, all.worst.len()), (1000, 0, WORST));
+        assert_eq!(
+            (all.cells.len(), all.nbad, all.worst.len()),
+            (1000, 0, WORST)
+        );
         assert_eq!(all.worst[0].cell, CellId { block: 0, index: 0 });
         assert!(all.worst.is_sorted_by_key(|q| q.scaled_jacobian));
         assert_eq!(all.scaled_jacobian.min, all.worst[0].scaled_jacobian);
@@ -572,7 +575,7 @@ mod tests {
         let start = std::time::Instant::now();
         let all = quality(&mesh, mesh.cells(3)).unwrap();
         println!("{:?}", start.elapsed());
-        assert_eq!((all.ncell, all.nbad), (100_000, 0));
+        assert_eq!((all.cells.len(), all.nbad), (100_000, 0));
         assert!(start.elapsed() < std::time::Duration::from_secs(2));
     }
 

@@ -118,7 +118,7 @@ impl Mesh {
         }
     }
 
-    /// Those of these faces all of whose nodes are among `nodes`, which are sorted.
+    /// Those of these faces all of whose nodes are among `nodes`.
     ///
     /// With the outer faces of a body ([`super::boundary`]) this is its surface on a plane, say.
     #[must_use]

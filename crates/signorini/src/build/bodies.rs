@@ -25,6 +25,12 @@ pub(super) fn bodies(
     case.bodies.iter().filter_map(one).collect()
 }
 
+/// What a body is called: by its groups.
+pub(super) fn name(body: &Body) -> String {
+    let groups: Vec<&str> = body.groups.iter().map(|group| group.as_str()).collect();
+    groups.join("+")
+}
+
 fn body_part(
     case: &Case,
     body: &Body,
@@ -36,8 +42,7 @@ fn body_part(
     for group in &body.groups {
         cells.append(names.cells(group, found));
     }
-    let name: Vec<&str> = body.groups.iter().map(|group| group.as_str()).collect();
-    let name = name.join("+");
+    let name = name(body);
     if body.rigid {
         let first = body.groups.first()?;
         let kind = BodyKind::Rigid(carriers.get(first)?);

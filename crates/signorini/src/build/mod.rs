@@ -26,7 +26,8 @@ use signorini_geometry::surface::RigidId;
 use signorini_io::case::{self, Case, Enforcement, HistorySource, Method, Per, Space};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::contact::Measure;
-use signorini_mechanics::model::Parts;
+use signorini_mechanics::model::{ContactSummary, LockingSummary, Parts};
+use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{LineSearch, NewtonSettings, Step, StepperSettings};
 use signorini_mechanics::system::linear::LinearKind;
 use signorini_mechanics::system::{Idealisation, System};
@@ -47,6 +48,8 @@ pub struct Model {
     pub settings: StepperSettings,
     /// The contacts, with what was chosen for them.
     pub contacts: Vec<ContactInfo>,
+    /// What was chosen against locking, by body, size of strains and element.
+    pub locking: Vec<LockingSummary>,
     /// References and rigid bodies with a point of their own, by the names they have in histories.
     pub references: Vec<ReferenceInfo>,
     /// The case, every automatic choice replaced by what was chosen.
@@ -90,6 +93,23 @@ impl Model {
     #[must_use]
     pub fn nodes_of(&self, set: &str) -> Option<Vec<NodeId>> {
         self.sets.get(set).cloned()
+    }
+
+    /// Bodies with what is done against locking in them: `block: b-bar`; none where nothing is done.
+    #[must_use]
+    pub fn remedies(&self) -> Vec<String> {
+        let remedy = |body| {
+            let name = bodies::name(body);
+            let mut words: Vec<String> = Vec::new();
+            for one in of_body(&self.locking, &name).filter(|l| l.locking != Locking::None) {
+                let word = one.locking.to_string();
+                if !words.contains(&word) {
+                    words.push(word);
+                }
+            }
+            (!words.is_empty()).then(|| format!("{name}: {}", words.join(" and ")))
+        };
+        self.case.bodies.iter().filter_map(remedy).collect()
     }
 
     /// The node of this number in the input.
@@ -151,7 +171,7 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
             facet_size: c.facet_size,
         })
         .collect();
-    choose(&mut case, &carriers, &model.contacts);
+    choose(&mut case, &carriers, &model.contacts, &model.locking);
     let sets = names.node_sets();
     let labels = mesh.node_labels.iter().enumerate();
     let by_label = labels
@@ -165,6 +185,7 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         steps: model.steps,
         settings: settings(&case.solver),
         contacts,
+        locking: model.locking,
         references,
         case,
         warnings: found,
@@ -225,7 +246,8 @@ fn idealisation(model: &case::Model) -> Idealisation {
 fn choose(
     case: &mut Case,
     carriers: &Carriers,
-    contacts: &[signorini_mechanics::model::ContactSummary],
+    contacts: &[ContactSummary],
+    locking: &[LockingSummary],
 ) {
     let active = case.contacts.iter_mut().filter(|c| c.active);
     for (part, summary) in active.zip(contacts) {
@@ -239,6 +261,14 @@ fn choose(
         };
         part.reach = Some(summary.reach);
     }
+    for body in &mut case.bodies {
+        let name = bodies::name(body);
+        let mut chosen = of_body(locking, &name).map(|one| one.locking);
+        // elements and sizes of strains that differ leave the choice to the program
+        if let Some(first) = chosen.next().filter(|first| chosen.all(|c| c == *first)) {
+            body.locking.value = first;
+        }
+    }
     // a rigid body of several groups, or with a reference, has many names and one set of columns
     for history in &mut case.output.history {
         if let HistorySource::Reference(name) = &mut history.source
@@ -247,6 +277,14 @@ fn choose(
             name.value = own.to_owned();
         }
     }
+}
+
+/// What was chosen for a body.
+fn of_body<'a>(
+    locking: &'a [LockingSummary],
+    body: &str,
+) -> impl Iterator<Item = &'a LockingSummary> {
+    locking.iter().filter(move |one| one.body == body)
 }
 
 fn settings(solver: &case::Solver) -> StepperSettings {

@@ -3,14 +3,13 @@
 
 mod cost;
 mod picture;
-mod quality;
 
 pub use picture::picture;
-pub use quality::Quality;
 
 use crate::build::Model;
 use crate::run::{Start, begin};
 use crate::text::{count, plural, short};
+use signorini_geometry::mesh::quality::{Quality, quality};
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::diagnostic::Diagnostics;
@@ -22,8 +21,8 @@ use std::collections::BTreeSet;
 pub struct Preview {
     /// The undeformed state.
     pub start: Start,
-    /// The shapes of the elements.
-    pub quality: Quality,
+    /// The shapes of the elements; none where there are none.
+    pub quality: Option<Quality>,
     /// What there is to say, line by line.
     pub lines: Vec<String>,
 }
@@ -33,9 +32,9 @@ pub struct Preview {
 /// # Errors
 /// An undeformed state that cannot be evaluated: exit code 4.
 pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
-    let quality = Quality::new(&model.mesh);
     let start = begin(model)?;
     let mesh = &model.mesh;
+    let quality = quality(mesh, mesh.cells(mesh.dim()));
     let mut lines = Vec::new();
     lines.push(plural(mesh.nnode(), "node"));
     let solids = mesh.blocks.iter().filter(|b| b.element.dim() == mesh.dim());
@@ -44,7 +43,7 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
         .collect();
     lines.push(format!("elements: {}", cells.join(", ")));
     lines.push(plural(start.nunknown, "unknown"));
-    lines.extend(shapes(mesh, &quality));
+    lines.extend(quality.iter().flat_map(|quality| shapes(mesh, quality)));
     for body in &model.case.bodies {
         let groups: Vec<&str> = body.groups.iter().map(|g| g.value.as_str()).collect();
         let nodes = groups.iter().filter_map(|g| model.nodes_of(g)).flatten();
@@ -58,6 +57,10 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
             groups.join(" + "),
             plural(nodes.len(), "node")
         ));
+    }
+    let remedies = model.remedies();
+    if !remedies.is_empty() {
+        lines.push(format!("against locking: {}", remedies.join(", ")));
     }
     for info in &model.contacts {
         lines.push(format!(
@@ -113,19 +116,25 @@ fn gaps(contact: &ContactFrame, model: &Model) -> String {
     )
 }
 
-/// The shapes of the elements in two lines.
+/// The shapes of the elements in three lines.
 fn shapes(mesh: &Mesh, quality: &Quality) -> Vec<String> {
-    let Some((worst, eta)) = quality.worst() else {
+    let Some(worst) = quality.worst.first() else {
         return Vec::new();
     };
-    let tenths: Vec<String> = quality.histogram.iter().map(|&n| count(n)).collect();
+    let tenths = quality.scaled_jacobian.classes.map(count);
+    let edges = &quality.edge_ratio;
     vec![
         format!(
-            "quality (1 ideal, 0 flat): worst {eta:.2}, {} at {}",
-            mesh.element(worst).map_or("", |e| e.name()),
-            center(mesh, worst)
+            "quality (1 ideal, 0 flat): worst {:.2}, {} at {}",
+            worst.scaled_jacobian,
+            mesh.element(worst.cell).map_or("", |e| e.name()),
+            center(mesh, worst.cell)
         ),
         format!("  elements by tenths from 0 to 1: {}", tenths.join(" | ")),
+        format!(
+            "  shortest over longest edge: worst {:.2}, mean {:.2}",
+            edges.min, edges.mean
+        ),
     ]
 }
 

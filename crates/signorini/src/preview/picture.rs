@@ -2,7 +2,8 @@
 //!
 //! | array            | where | meaning                                                                       |
 //! |------------------|-------|-------------------------------------------------------------------------------|
-//! | `quality`        | cells | shape: 1 ideal, 0 flat or turned inside out                                   |
+//! | `quality`        | cells | scaled Jacobian: 1 ideal, 0 flat, negative where turned inside out            |
+//! | `edge_ratio`     | cells | shortest over longest edge                                                    |
 //! | `body`           | cells | number of the body in the case, from 0; −1 none                               |
 //! | `support_x` …    | nodes | 1 where the first step prescribes the displacement                            |
 //! | `load`           | nodes | 1 where a load of the first step acts                                         |
@@ -28,7 +29,9 @@ pub fn picture(model: &Model, preview: &Preview) -> Result<Vec<u8>, VtuError> {
         ..Fields::default()
     };
     let volume = Volume::new(mesh, fields);
-    let quality: Vec<f64> = preview.quality.cells.iter().map(|(_, eta)| *eta).collect();
+    let cells = || preview.quality.iter().flat_map(|quality| &quality.cells);
+    let quality: Vec<f64> = cells().map(|cell| cell.scaled_jacobian).collect();
+    let edge_ratio: Vec<f64> = cells().map(|cell| cell.edge_ratio).collect();
     let bodies = bodies(model);
     let (supports, load) = (supports(model), loads(model));
     let contacts = &preview.start.frame.contacts;
@@ -44,6 +47,7 @@ pub fn picture(model: &Model, preview: &Preview) -> Result<Vec<u8>, VtuError> {
     ];
     let in_cells = [
         Field::new("quality", Values::Scalar(&quality)),
+        Field::new("edge_ratio", Values::Scalar(&edge_ratio)),
         Field::new("body", Values::Int32(&bodies)),
     ];
     volume.encode_with(&preview.start.frame, &at_nodes, &in_cells)

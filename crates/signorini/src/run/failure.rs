@@ -5,7 +5,7 @@ use signorini_geometry::mesh::NodeId;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_mechanics::solve::{Failure, RunError};
 use signorini_mechanics::system::linear::LinearError;
-use signorini_mechanics::system::{Dof, DofName, TermError};
+use signorini_mechanics::system::{Dof, DofName, PatternSink, Term, TermError};
 
 /// What is on disk when a run fails.
 pub struct Saved {
@@ -82,8 +82,29 @@ fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
         }
         DofName::Translation(body, k) => (rigid(body), format!("translation along {}", axis(k))),
         DofName::Rotation(body, k) => (rigid(body), format!("rotation about {}", axis(k))),
-        DofName::Multiplier(number) => ("a contact".into(), format!("multiplier {number}")),
+        DofName::Multiplier(number) => (constraint(dof, model), format!("multiplier {number}")),
     })
+}
+
+/// The constraint that a multiplier belongs to.
+fn constraint(multiplier: Dof, model: &Model) -> String {
+    struct Search(Dof, bool);
+    impl PatternSink for Search {
+        fn bulk(&mut self, _: &[NodeId]) {}
+        fn interface(&mut self, dofs: &[Dof]) {
+            self.1 |= dofs.contains(&self.0);
+        }
+    }
+    let has = |term: &&Box<dyn Term>| {
+        let mut search = Search(multiplier, false);
+        term.pattern(&mut search);
+        search.1
+    };
+    let term = model.system.terms.iter().find(has);
+    term.map_or_else(
+        || "a constraint".to_owned(),
+        |term| format!("constraint \"{}\"", term.name()),
+    )
 }
 
 /// The body that a node belongs to.

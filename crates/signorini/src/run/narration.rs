@@ -3,6 +3,7 @@
 //! ```text
 //! hertz  577 nodes · 1 855 tet4 · 1 pair  ·  2 threads
 //! ✓ read 0.02 s   ✓ built 0.01 s: 1 203 unknowns · 93 candidate nodes, smallest gap 0.000 mm
+//!   against locking: block: b-bar
 //!  step        inc  att   time    iter  contact  residual   worst                     p_max     F
 //!  press         5    1  0.950       9       41  8.8e-07    2 flips n214               37.9     23.8   ← slow
 //! ✓ solved: 6 increments, 31 iterations, 0 cut-backs, 3.4 s   → hertz.out/results.pvd
@@ -167,9 +168,12 @@ fn start(facts: &Facts) -> Vec<Line> {
             None => ", none within reach".to_owned(),
         };
     }
-    [head, ready.trim_end().to_owned()]
-        .map(|text| line(text, Level::Normal))
-        .into()
+    let mut lines = vec![head, ready.trim_end().to_owned()];
+    if !facts.remedies.is_empty() {
+        lines.push(format!("  against locking: {}", facts.remedies.join(", ")));
+    }
+    let lines = lines.into_iter();
+    lines.map(|text| line(text, Level::Normal)).collect()
 }
 
 fn iteration(record: &IterationRecord) -> String {

@@ -53,6 +53,8 @@ pub struct Facts {
     pub gap_min: Option<f64>,
     /// Number of unknowns.
     pub nunknown: usize,
+    /// Bodies with what is done against locking in them.
+    pub remedies: Vec<String>,
     /// Number of threads.
     pub threads: usize,
     /// Seconds for reading, and for building.

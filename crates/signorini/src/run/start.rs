@@ -4,7 +4,7 @@ use super::news::Facts;
 use super::{RunOptions, failure};
 use crate::build::Model;
 use signorini_io::diagnostic::Diagnostics;
-use signorini_mechanics::system::{Assembly, Frame, StepContext, TermError};
+use signorini_mechanics::system::{Assembly, Dof, DofName, Frame, StepContext, TermError};
 use std::collections::BTreeSet;
 
 /// The undeformed state of a model.
@@ -47,25 +47,24 @@ fn look(model: &mut Model) -> Result<Frame, TermError> {
     Ok(frame)
 }
 
-/// Unknowns of the first step: of nodes with a solid and of rigid bodies, less what is prescribed.
+/// Unknowns of the first step: of nodes of bodies, of carriers and of constraints, less what is prescribed and what
+/// follows others.
 fn nunknown(model: &Model) -> usize {
-    let (mesh, layout) = (&model.mesh, &model.system.layout);
-    let solid = mesh.cells(mesh.dim()).flat_map(|cell| mesh.cell(cell));
-    let nodes: BTreeSet<u32> = solid.copied().collect();
-    let mut dofs: BTreeSet<u32> = BTreeSet::new();
-    for node in nodes {
-        if model.system.elimination.body_of(node).is_none() {
-            dofs.extend((0..layout.ndim).map(|axis| layout.node(node, axis)));
-        }
-    }
-    for body in 0..layout.nrigid as u32 {
-        let all = (0..3).flat_map(|c| [layout.translation(body, c), layout.rotation(body, c)]);
-        dofs.extend(all.filter(|&dof| (dof as usize) < layout.ndof()));
-    }
-    for prescription in model.steps.iter().take(1).flat_map(|s| &s.prescriptions) {
-        dofs.remove(&prescription.dof);
-    }
-    dofs.len()
+    let system = &model.system;
+    let layout = &system.layout;
+    let first = model.steps.iter().take(1).flat_map(|s| &s.prescriptions);
+    let prescribed: BTreeSet<Dof> = first.map(|p| p.dof).collect();
+    let takes_part = |dof: Dof| match layout.name(dof) {
+        Some(DofName::Node(node, _)) => system
+            .body
+            .get(node as usize)
+            .is_some_and(|b| *b != u32::MAX),
+        _ => true,
+    };
+    let follows = |dof: Dof| system.elimination.depends(dof, layout);
+    (0..layout.ndof() as Dof)
+        .filter(|dof| takes_part(*dof) && !follows(*dof) && !prescribed.contains(dof))
+        .count()
 }
 
 /// What a run starts from.
@@ -87,6 +86,7 @@ pub fn facts(model: &Model, start: &Start, options: &RunOptions) -> Facts {
         npoint: model.contacts.iter().map(|c| c.npoint).sum(),
         gap_min: gaps.reduce(f64::min),
         nunknown: start.nunknown,
+        remedies: model.remedies(),
         threads: options.threads,
         seconds: options.seconds,
         length: units.split('-').next().unwrap_or_default().to_owned(),
