@@ -585,3 +585,37 @@ fn a_resolved_case_becomes_the_same_parts() {
     assert_eq!(first.text, second.text);
     assert_eq!(resolved(&first.case), resolved(&second.case));
 }
+
+#[test]
+fn the_remedy_against_locking_is_told_and_written_where_a_body_has_one() {
+    let linear = STEP.replace("name = 'one'", "name = 'one'\ngeometry = 'linear'");
+    let finite = "[[step]]\nname = 'two'\n[[step.move]]\non = 'base'\nuz = 0.1\n";
+    for (nu, steps, told, locking) in [
+        (
+            "0.3",
+            linear.clone(),
+            "low: incompatible",
+            Locking::Incompatible,
+        ),
+        ("0.49", linear.clone(), "low: b-bar", Locking::BBar),
+        ("0.49", STEP.to_owned(), "low: f-bar", Locking::FBar),
+        ("0.3", STEP.to_owned(), "", Locking::None),
+        (
+            "0.49",
+            format!(
+                "{linear}{}",
+                finite.replace("'two'", "'two'\ngeometry = 'nonlinear'")
+            ),
+            "low: b-bar and f-bar",
+            Locking::Auto,
+        ),
+    ] {
+        let cubes = CUBES.replace("nu = 0.3", &format!("nu = {nu}"));
+        let text = format!("{cubes}{BASE}{steps}");
+        let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+        let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
+        let model = build(case, mesh).unwrap_or_else(|all| panic!("{all}"));
+        assert_eq!(model.remedies().concat(), told);
+        assert_eq!(model.case.bodies[0].locking.value, locking);
+    }
+}

@@ -103,7 +103,7 @@ fn constraint(multiplier: Dof, model: &Model) -> String {
     let term = model.system.terms.iter().find(has);
     term.map_or_else(
         || "a constraint".to_owned(),
-        |term| format!("constraint \"{}\"", term.name()),
+        |term| format!("constraint {}", term.name()),
     )
 }
 
@@ -308,5 +308,52 @@ fn saved_so_far(saved: &Saved) -> String {
             "saved: {n} converged increments, the last try as frames/failed.vtu   resume: signorini resume {}",
             saved.folder
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::{build, read_mesh_of};
+    use signorini_io::case::read_case;
+    use std::path::Path;
+
+    const CASE: &str = r#"
+[mesh]
+nodes = [
+  [1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0],
+  [5, 0, 0, 1], [6, 1, 0, 1], [7, 1, 1, 1], [8, 0, 1, 1],
+]
+elements = [{ id = 1, type = "hex8", group = "block", nodes = [1, 2, 3, 4, 5, 6, 7, 8] }]
+[sets]
+base = { nodes = [1, 2, 3, 4] }
+top = { nodes = [5, 6, 7, 8] }
+[material.steel]
+model = "linear-elastic"
+E = 210e3
+nu = 0.3
+[[body]]
+group = "block"
+material = "steel"
+[[constraint]]
+kind = "plane"
+on = "top"
+[[step]]
+name = "rest"
+[[step.fix]]
+on = "base"
+u = "all"
+"#;
+
+    #[test]
+    fn a_multiplier_is_named_by_its_constraint() {
+        let (case, _) = read_case("case.toml", CASE.as_bytes(), &[]).unwrap();
+        let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
+        let model = build(case, mesh).unwrap_or_else(|all| panic!("{all}"));
+        let words = dof_in_words(model.system.layout.multiplier(0), &model);
+        assert_eq!(
+            words.unwrap(),
+            "constraint 1 (plane on \"top\"), multiplier 0"
+        );
     }
 }

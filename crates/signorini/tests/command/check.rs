@@ -21,6 +21,8 @@ fn a_check_draws_shapes_bodies_supports_loads_and_gaps() {
     let quality = numbers(&file, "quality");
     assert!((quality[0] - 1.0).abs() < 1e-12, "a cube: {quality:?}");
     assert!(quality[1] > 0.5 && quality[1] < 1.0);
+    let edges = numbers(&file, "edge_ratio");
+    assert!((edges[0] - 1.0).abs() < 1e-12 && edges[1] < 1.0);
     assert_eq!(numbers(&file, "body"), [0.0, 1.0]);
     let (base, top, tool) = (0..4, 4..8, 8..12);
     for name in ["support_x", "support_y", "support_z"] {
@@ -39,8 +41,9 @@ fn a_check_tells_shapes_and_cost() {
     check(BRICK).says(
         0,
         &[
-            "quality (1 ideal, 0 flat): worst 0.92, tet4 at element 2",
+            "quality (1 ideal, 0 flat): worst 0.59, tet4 at element 2",
             "elements by tenths",
+            "shortest over longest edge: worst 0.67",
             "supports hold every body",
             "of memory",
             "for each iteration",

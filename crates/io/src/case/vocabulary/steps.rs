@@ -91,13 +91,16 @@ pub(super) static INCREMENTS_TABLE: Table = Table {
 
 const DIRECTIONS: Shape = Shape::Either(&[Shape::Choice(&[word("all")]), Shape::List(&AXIS, 1, 3)]);
 
+/// What a change of a step acts on.
+const ON: Key = key("on", Shape::Text, ON_DOC)
+    .required()
+    .hints(&["set", "group", "name"]);
+
 pub(super) static FIX: Table = Table {
     heading: "[[step.fix]]",
     doc: "supports, at the present position",
     keys: &[
-        key("on", Shape::Text, ON_DOC)
-            .required()
-            .hints(&["set", "group", "name"]),
+        ON,
         key(
             "u",
             DIRECTIONS,
@@ -118,9 +121,7 @@ pub(super) static FREE_TABLE: Table = Table {
     heading: "[[step.free]]",
     doc: "supports and motions of earlier steps that end",
     keys: &[
-        key("on", Shape::Text, ON_DOC)
-            .required()
-            .hints(&["set", "group", "name"]),
+        ON,
         key(
             "u",
             DIRECTIONS,
@@ -141,9 +142,7 @@ pub(super) static MOVE: Table = Table {
     heading: "[[step.move]]",
     doc: "prescribed motions: a number is reached linearly over the step",
     keys: &[
-        key("on", Shape::Text, ON_DOC)
-            .required()
-            .hints(&["set", "group", "name"]),
+        ON,
         key("ux", MOTION, "displacement along x").hints(&["x"]),
         key("uy", MOTION, "displacement along y").hints(&["y"]),
         key("uz", MOTION, "displacement along z").hints(&["z"]),
