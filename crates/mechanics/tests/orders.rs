@@ -10,7 +10,9 @@
 //! TOLERANCE   0.15 below the order: the coarser meshes are not yet asymptotic
 #![allow(clippy::unwrap_used)]
 
-use signorini_geometry::element::{Element, by_name};
+mod common;
+
+use common::{Grid, degree, shape};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Mat3, Vec3};
 use signorini_mechanics::load::Course;
@@ -23,159 +25,7 @@ use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
 };
 use signorini_mechanics::system::Idealisation;
-use std::collections::{BTreeMap, HashMap};
-
-/// Gauss–Legendre with five points on [-1, 1].
-const GAUSS: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-];
-
-/// The cell that an element fills.
-#[derive(Clone, Copy, PartialEq)]
-enum Shape {
-    Triangle,
-    Quadrilateral,
-    Tetrahedron,
-    Wedge,
-    Hexahedron,
-}
-
-fn shape(name: &str) -> Shape {
-    match name.trim_end_matches(char::is_numeric) {
-        "tri" => Shape::Triangle,
-        "quad" => Shape::Quadrilateral,
-        "tet" => Shape::Tetrahedron,
-        "wedge" => Shape::Wedge,
-        _ => Shape::Hexahedron,
-    }
-}
-
-fn degree(name: &str) -> f64 {
-    match name {
-        "tri3" | "quad4" | "tet4" | "wedge6" | "hex8" => 1.0,
-        _ => 2.0,
-    }
-}
-
-impl Shape {
-    /// The element whose map places the nodes of all elements of the shape.
-    fn linear(self) -> Element {
-        by_name(match self {
-            Self::Triangle => "tri3",
-            Self::Quadrilateral => "quad4",
-            Self::Tetrahedron => "tet4",
-            Self::Wedge => "wedge6",
-            Self::Hexahedron => "hex8",
-        })
-        .unwrap()
-    }
-
-    /// Corners of a cube (in the plane: of its bottom) that make up the cells it is cut into.
-    fn cells(self) -> Vec<Vec<usize>> {
-        match self {
-            Self::Triangle => vec![vec![0, 1, 2], vec![0, 2, 3]],
-            Self::Quadrilateral => vec![vec![0, 1, 2, 3]],
-            Self::Hexahedron => vec![(0..8).collect()],
-            Self::Wedge => vec![vec![0, 1, 2, 4, 5, 6], vec![0, 2, 3, 4, 6, 7]],
-            Self::Tetrahedron => [
-                [0, 1, 2, 6],
-                [0, 2, 3, 6],
-                [0, 3, 7, 6],
-                [0, 7, 4, 6],
-                [0, 4, 5, 6],
-                [0, 5, 1, 6],
-            ]
-            .map(Vec::from)
-            .into(),
-        }
-    }
-
-    /// Points and weights that integrate far beyond the element's own rule.
-    fn rule(self) -> Vec<(Vec3, f64)> {
-        let mut rule = Vec::new();
-        for (x, wx) in GAUSS {
-            for (y, wy) in GAUSS {
-                if self == Self::Quadrilateral {
-                    rule.push((Vec3::new(x, y, 0.0), wx * wy));
-                    continue;
-                }
-                // a square, one side of which shrinks to a point
-                let (s, t) = (0.5 * (1.0 + x), 0.5 * (1.0 + y));
-                let flat = Vec3::new(s, t * (1.0 - s), 0.0);
-                let weight = 0.25 * wx * wy * (1.0 - s);
-                if self == Self::Triangle {
-                    rule.push((flat, weight));
-                    continue;
-                }
-                for (z, wz) in GAUSS {
-                    let r = 0.5 * (1.0 + z);
-                    rule.push(match self {
-                        Self::Wedge => (flat + Vec3::unit(2) * z, weight * wz),
-                        Self::Tetrahedron => (
-                            flat * (1.0 - r) + Vec3::unit(2) * r,
-                            weight * 0.5 * wz * (1.0 - r).powi(2),
-                        ),
-                        _ => (Vec3::new(x, y, z), wx * wy * wz),
-                    });
-                }
-            }
-        }
-        rule
-    }
-}
-
-const CORNERS: [[f64; 3]; 8] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [0.0, 1.0, 1.0],
-];
-
-/// A unit square or cube, `offset` away from the y axis, of `n` cells along each edge, smoothly distorted. Also the
-/// nodes on its boundary.
-fn unit(name: &str, n: usize, offset: f64) -> (Mesh, Vec<CellId>, Vec<NodeId>) {
-    let (element, shape) = (by_name(name).unwrap(), shape(name));
-    let (linear, dim) = (shape.linear(), element.dim());
-    let (mut mesh, mut cells, mut boundary) = (Mesh::default(), Vec::new(), Vec::new());
-    let mut known: HashMap<[i64; 3], NodeId> = HashMap::new();
-    let mut weights = vec![0.0; linear.nnode()];
-    let layers = if dim == 3 { n } else { 1 };
-    for place in 0..layers * n * n {
-        let at = [place % n, place / n % n, place / (n * n)].map(|c| c as f64);
-        for corners in shape.cells() {
-            let mut nodes = Vec::new();
-            for xi in element.nodes() {
-                linear.shape(xi, &mut weights);
-                let mut x = Vec3::ZERO;
-                for (&c, w) in corners.iter().zip(&weights) {
-                    x += (Vec3::from(at) + Vec3::from(CORNERS[c])) * (*w / n as f64);
-                }
-                let key = x.to_array().map(|c| (c * 1e6).round() as i64);
-                let node = *known.entry(key).or_insert_with(|| {
-                    let node = mesh.points.len() as NodeId;
-                    if key[..dim].iter().any(|&c| c == 0 || c == 1_000_000) {
-                        boundary.push(node);
-                    }
-                    mesh.points.push(distorted(x, dim) + Vec3::unit(0) * offset);
-                    mesh.node_labels.push(u64::from(node) + 1);
-                    node
-                });
-                nodes.push(node);
-            }
-            let label = cells.len() as u64 + 1;
-            cells.push(mesh.push_cell(element, &nodes, label));
-        }
-    }
-    (mesh, cells, boundary)
-}
+use std::collections::BTreeMap;
 
 fn distorted(x: Vec3, dim: usize) -> Vec3 {
     let wave = |a: f64, b: f64| 0.05 * (2.0 * a + 1.0).sin() * (3.0 * b).cos();
@@ -379,10 +229,14 @@ fn solution(
 /// Errors in L2 and in the seminorm of H1 with `n` cells along an edge.
 fn errors(name: &str, n: usize, field: &Field, choice: Choice) -> [f64; 2] {
     let away = field.space == Idealisation::Axisymmetric;
-    let (mesh, cells, boundary) = unit(name, n, if away { 0.5 } else { 0.0 });
+    let dim = field.space.ndim();
+    let offset = Vec3::unit(0) * if away { 0.5 } else { 0.0 };
+    let grid = Grid::new(name, n, n, |x| distorted(x, dim) + offset);
+    let on_boundary = |x: Vec3| (0..dim).any(|axis| x[axis] < 1e-9 || x[axis] > 1.0 - 1e-9);
+    let boundary = grid.nodes(on_boundary);
+    let Grid { mesh, cells, .. } = grid;
     let rule = shape(name).rule();
     let u = solution(&mesh, &cells, &boundary, &rule, field, choice);
-    let dim = field.space.ndim();
     let mut sums = [0.0; 2];
     for &cell in &cells {
         for (xi, w) in &rule {
