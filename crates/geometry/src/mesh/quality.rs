@@ -456,9 +456,11 @@ mod tests {
     use crate::mesh::testing::bricks;
 
     fn single(name: &str, x: &[[f64; 3]]) -> CellQuality {
-        let mut mesh = Mesh::default();
-        mesh.points = x.iter().map(|&x| Vec3::from(x)).collect();
-        mesh.node_labels = (1..=x.len() as u64).collect();
+        let mut mesh = Mesh {
+            points: x.iter().map(|&x| Vec3::from(x)).collect(),
+            node_labels: (1..=x.len() as u64).collect(),
+            ..Mesh::default()
+        };
         let nodes: Vec<NodeId> = (0..x.len() as NodeId).collect();
         mesh.push_cell(by_name(name).unwrap(), &nodes, 1);
         let dim = mesh.dim();
