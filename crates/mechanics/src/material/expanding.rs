@@ -81,6 +81,11 @@ impl Material for Expanding {
         self.inner.is_symmetric()
     }
 
+    /// At one temperature.
+    fn is_linear(&self) -> bool {
+        self.inner.is_linear()
+    }
+
     fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
         self.inner.plastic_strain(history)
     }

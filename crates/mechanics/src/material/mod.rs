@@ -163,6 +163,11 @@ pub trait Material: Send + Sync {
         true
     }
 
+    /// Whether small strains have the same tangent everywhere: their stress is linear, but for a constant.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
     /// The equivalent plastic strain in a history, where the law has one.
     fn plastic_strain(&self, _history: &[f64]) -> Option<f64> {
         None

@@ -62,6 +62,10 @@ impl Material for NeoHookean {
     fn modulus(&self) -> f64 {
         self.lame.lambda + 2.0 * self.lame.mu
     }
+
+    fn is_linear(&self) -> bool {
+        true
+    }
 }
 
 /// Largest component of `E` at which the logarithm is taken from invariants of `E`, and terms of its series.

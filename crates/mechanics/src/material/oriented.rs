@@ -75,4 +75,8 @@ impl Material for Oriented {
     fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
         self.inner.plastic_strain(history)
     }
+
+    fn is_linear(&self) -> bool {
+        self.inner.is_linear()
+    }
 }

@@ -90,4 +90,8 @@ impl Material for Orthotropic {
     fn modulus(&self) -> f64 {
         self.normal.xx().max(self.normal.yy()).max(self.normal.zz())
     }
+
+    fn is_linear(&self) -> bool {
+        true
+    }
 }

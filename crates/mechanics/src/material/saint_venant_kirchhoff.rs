@@ -35,4 +35,8 @@ impl Material for SaintVenantKirchhoff {
     fn modulus(&self) -> f64 {
         self.lame.lambda + 2.0 * self.lame.mu
     }
+
+    fn is_linear(&self) -> bool {
+        true
+    }
 }

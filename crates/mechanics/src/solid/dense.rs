@@ -16,22 +16,34 @@ pub(super) fn solve(a: &mut [f64], n: usize, b: &mut [f64], nright: usize) -> Op
             (0..n).for_each(|c| a.swap(k * n + c, pivot * n + c));
             (0..nright).for_each(|c| b.swap(k * nright + c, pivot * nright + c));
         }
-        for row in k + 1..n {
-            let factor = a[row * n + k] / value;
-            if factor == 0.0 {
-                continue;
+        let (above, below) = a.split_at_mut((k + 1) * n);
+        let (known, unknown) = b.split_at_mut((k + 1) * nright);
+        let (above, known) = (&above[k * n..], &known[k * nright..]);
+        let rows = below.chunks_exact_mut(n);
+        for (row, right) in rows.zip(unknown.chunks_exact_mut(nright)) {
+            let factor = row[k] / value;
+            if factor != 0.0 {
+                subtract(&mut row[k..], factor, &above[k..]);
+                subtract(right, factor, known);
             }
-            (k..n).for_each(|c| a[row * n + c] -= factor * a[k * n + c]);
-            (0..nright).for_each(|c| b[row * nright + c] -= factor * b[k * nright + c]);
         }
     }
     for k in (0..n).rev() {
-        for c in 0..nright {
-            let known: f64 = (k + 1..n).map(|j| a[k * n + j] * b[j * nright + c]).sum();
-            b[k * nright + c] = (b[k * nright + c] - known) / a[k * n + k];
+        let (unknown, known) = b.split_at_mut((k + 1) * nright);
+        let (row, right) = (&a[k * n..(k + 1) * n], &mut unknown[k * nright..]);
+        for (factor, known) in row[k + 1..].iter().zip(known.chunks_exact(nright)) {
+            subtract(right, *factor, known);
         }
+        right.iter_mut().for_each(|x| *x /= row[k]);
     }
     Some(())
+}
+
+/// Subtracts a multiple of one row from another.
+pub(super) fn subtract(from: &mut [f64], factor: f64, row: &[f64]) {
+    for (from, value) in from.iter_mut().zip(row) {
+        *from -= factor * value;
+    }
 }
 
 /// `½ ln(I + 2e)`, by Jacobi's rotations: exact to round-off for small `e`, too.

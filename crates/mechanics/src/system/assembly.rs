@@ -9,8 +9,17 @@ use super::{
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
 
-/// Chunks evaluated before they are added: bounds the memory, and nothing else.
+/// Chunks that several threads evaluate before they are added: bounds the memory, and nothing else.
 const WAVE: usize = 64;
+
+/// A single thread adds every chunk while it is in cache.
+fn wave() -> usize {
+    if rayon::current_num_threads() == 1 {
+        1
+    } else {
+        WAVE
+    }
+}
 
 /// The values that one assembly gives.
 #[derive(Clone, Debug, Default)]
@@ -226,7 +235,7 @@ impl Assembler {
             slots,
             expanded,
         } = self;
-        for wave in tasks.chunks_mut(WAVE) {
+        for wave in tasks.chunks_mut(wave()) {
             let evaluate = |(slot, task): (&mut Slot, &mut Task)| {
                 slot.buffer.clear();
                 let outcome = terms[task.term].evaluate(
@@ -280,7 +289,7 @@ impl Assembler {
         trial: &State,
     ) -> Result<Option<f64>, TermError> {
         let mut total = 0.0;
-        for wave in self.tasks.chunks(WAVE) {
+        for wave in self.tasks.chunks(wave()) {
             let evaluate = |(slot, task): (&mut Slot, &Task)| match terms[task.term].energy(
                 task.chunk,
                 trial,
@@ -371,7 +380,11 @@ impl Scatter<'_> {
                 self.find(dofs, &mut task.positions);
             }
             let end = at_position + nblock * nblock;
-            self.blocks(n, stiffness, &task.positions[at_position..end]);
+            let positions = &task.positions[at_position..end];
+            match self.layout.ndim {
+                2 => add_blocks::<2>(&mut self.out.bulk, stiffness, positions, nblock),
+                _ => add_blocks::<3>(&mut self.out.bulk, stiffness, positions, nblock),
+            }
             at_position = end;
         }
     }
@@ -397,26 +410,6 @@ impl Scatter<'_> {
         }
     }
 
-    fn blocks(&mut self, n: usize, stiffness: &[f64], positions: &[u32]) {
-        let ndim = self.layout.ndim;
-        let nblock = n / ndim;
-        for (k, &position) in positions.iter().enumerate() {
-            debug_assert_ne!(position, NONE, "an element outside its own pattern");
-            let (row, column) = (k / nblock * ndim, k % nblock * ndim);
-            let at = position as usize * ndim * ndim;
-            let block = &mut self.out.bulk[at..at + ndim * ndim];
-            for i in 0..ndim {
-                let from = (row + i) * n + column;
-                for (to, value) in block[i * ndim..]
-                    .iter_mut()
-                    .zip(&stiffness[from..from + ndim])
-                {
-                    *to += value;
-                }
-            }
-        }
-    }
-
     fn scalar(&mut self, dofs: &[Dof], stiffness: &[f64]) {
         for (row, values) in dofs.iter().zip(stiffness.chunks_exact(dofs.len().max(1))) {
             if *row == NO_DOF {
@@ -429,6 +422,30 @@ impl Scatter<'_> {
                 // a dead force that turns with nothing but itself finds no place, and needs none
                 if let Some(position) = self.interface.position(*row, *column) {
                     self.out.interface[position] += value;
+                }
+            }
+        }
+    }
+}
+
+/// Adds the `nblock × nblock` blocks of an element where they belong in the bulk.
+fn add_blocks<const ND: usize>(
+    bulk: &mut [f64],
+    stiffness: &[f64],
+    positions: &[u32],
+    nblock: usize,
+) {
+    let rows = stiffness.chunks_exact(nblock * ND * ND);
+    for (rows, positions) in rows.zip(positions.chunks_exact(nblock)) {
+        for (column, &position) in positions.iter().enumerate() {
+            debug_assert_ne!(position, NONE, "an element outside its own pattern");
+            let at = position as usize * ND * ND;
+            let block = &mut bulk[at..at + ND * ND];
+            for i in 0..ND {
+                let from = (i * nblock + column) * ND;
+                let from = &rows[from..from + ND];
+                for j in 0..ND {
+                    block[i * ND + j] += from[j];
                 }
             }
         }

@@ -326,3 +326,21 @@ fn isotropic_laws_turn_with_the_axes() {
         }
     }
 }
+
+#[test]
+fn linear_laws_have_one_tangent_and_proportional_stress_at_small_strain() {
+    let kinematics = Kinematics::Small;
+    let strain = Sym3::new(0.02, -0.01, 0.03, 0.015, -0.02, 0.01);
+    for (name, material) in zoo() {
+        let at = |strain: Sym3| fresh(material.as_ref(), &Strain::new(kinematics, strain));
+        let [origin, one, two] = [Sym3::ZERO, strain, strain * 2.0].map(at);
+        let scale = material.modulus();
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-12 * scale;
+        let tangents = origin.tangent.as_flattened().iter();
+        let same = tangents.zip(two.tangent.as_flattened());
+        let curved = origin.stress + two.stress - one.stress * 2.0;
+        let is_linear = same.clone().all(|(a, b)| close(*a, *b))
+            && curved.to_pairs().iter().all(|s| close(*s, 0.0));
+        assert!(is_linear || !material.is_linear(), "{name}");
+    }
+}

@@ -15,13 +15,14 @@
 //! ```
 //!
 //! found by Newton's method from the accepted `α`, which is part of the history: force, stiffness and energy are then
-//! functions of `u` alone and derivatives of each other. Sources: Taylor, Beresford, Wilson 1976; for (E11) in the sense
+//! functions of `u` alone and derivatives of each other. (E12) is exact wherever a linear material is, so that it needs no
+//! step. In the arrays the modes come before the nodes: the rows that condensed forces need are then the first. Sources: Taylor, Beresford, Wilson 1976; for (E11) in the sense
 //! of an assumed strain Simo and Rifai 1990.
 
 use super::gradient::{
     deformation, displacement_gradient, inverse, jacobian, place, position, strain,
 };
-use super::stiffness::{add_force, add_stiffness, contract};
+use super::stiffness::{add_force, add_stiffness, contract, mirror};
 use super::{Element, Failure, Output, dense};
 use crate::material::{MaterialError, Order, Response};
 
@@ -43,16 +44,27 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
     let (n, nmode) = (NN * ND, (NT - NN) * ND);
     let total = n + nmode;
     let nhistory = element.npoint() * element.material.nhistory();
+    let symmetric = element.material.is_symmetric();
     let mut u = [[0.0; ND]; NT];
-    u.as_flattened_mut()[..n].copy_from_slice(&element.u[..n]);
-    u.as_flattened_mut()[n..].copy_from_slice(&element.old[nhistory..nhistory + nmode]);
+    let (modes, nodes) = u.as_flattened_mut().split_at_mut(nmode);
+    modes.copy_from_slice(&element.old[nhistory..nhistory + nmode]);
+    nodes.copy_from_slice(&element.u[..n]);
 
+    let wants_nodes = order == Order::Tangent;
+    let nrow = if wants_nodes || !symmetric {
+        total
+    } else {
+        nmode
+    };
+    let nright = if wants_nodes { 1 + n } else { 1 };
+    // samples are those of modes in equilibrium
+    let is_exact = element.material.is_linear() && out.samples.is_empty();
     let mut scratch = std::mem::take(out.scratch);
-    scratch.clear();
-    scratch.resize(total + total * total + nmode * (nmode + n + 1), 0.0);
+    scratch.resize(total + total * total + nmode * (nmode + nright), 0.0);
     let (force, rest) = scratch.split_at_mut(total);
     let (stiffness, rest) = rest.split_at_mut(total * total);
     let (inner, solution) = rest.split_at_mut(nmode * nmode);
+    let stiffness = &mut stiffness[..nrow * total];
     let mut outcome = Err(Failure::Material(MaterialError::NotConverged {
         what: "equilibrium of its incompatible modes",
     }));
@@ -73,63 +85,83 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
             }
         };
         out.energy = local.energy;
-        // K_αα⁻¹ (K_αu, f_α)
-        for (i, row) in stiffness.chunks_exact(total).skip(n).enumerate() {
-            inner[i * nmode..(i + 1) * nmode].copy_from_slice(&row[n..]);
-            let to = &mut solution[i * (n + 1)..(i + 1) * (n + 1)];
-            to[..n].copy_from_slice(&row[..n]);
-            to[n] = force[n + i];
+        // K_αα⁻¹ (f_α, K_αu)
+        let rows = stiffness.chunks_exact(total).zip(&*force);
+        let to = inner.chunks_exact_mut(nmode);
+        for (((row, f), inner), to) in rows.zip(to).zip(solution.chunks_exact_mut(nright)) {
+            inner.copy_from_slice(&row[..nmode]);
+            to[0] = *f;
+            to[1..].copy_from_slice(&row[nmode..nmode + nright - 1]);
         }
-        if dense::solve(inner, nmode, solution, n + 1).is_none() {
+        if symmetric {
+            mirror(inner, nmode, ND);
+        }
+        if dense::solve(inner, nmode, solution, nright).is_none() {
             break;
         }
-        let left = force[n..].iter().fold(0.0f64, |m, f| m.max(f.abs()));
-        if left <= BALANCED * size {
+        let left = force[..nmode].iter().fold(0.0f64, |m, f| m.max(f.abs()));
+        if is_exact || left <= BALANCED * size {
             outcome = Ok(());
             break;
         }
-        for (mode, value) in u.as_flattened_mut()[n..].iter_mut().enumerate() {
-            *value -= solution[mode * (n + 1) + n];
-        }
+        step(u.as_flattened_mut(), solution, nright);
     }
     if outcome.is_ok() {
-        condense(out, order, n, nmode, force, stiffness, solution);
-        out.new[nhistory..nhistory + nmode].copy_from_slice(&u.as_flattened()[n..]);
+        condense::<ND>(out, symmetric, nmode, force, stiffness, solution);
+        step(u.as_flattened_mut(), solution, nright);
+        out.new[nhistory..nhistory + nmode].copy_from_slice(&u.as_flattened()[..nmode]);
     }
     *out.scratch = scratch;
     outcome
 }
 
-/// (E12), from `solution = K_αα⁻¹ (K_αu, f_α)`.
-fn condense(
+/// Newton's step of the modes, from `solution = K_αα⁻¹ (f_α, …)`.
+fn step(modes: &mut [f64], solution: &[f64], nright: usize) {
+    for (mode, x) in modes.iter_mut().zip(solution.chunks_exact(nright)) {
+        *mode -= x[0];
+    }
+}
+
+/// (E12), from `solution = K_αα⁻¹ (f_α, K_αu)`; without `K_αu` for the force alone.
+#[inline]
+fn condense<const ND: usize>(
     out: &mut Output<'_>,
-    order: Order,
-    n: usize,
+    symmetric: bool,
     nmode: usize,
     force: &[f64],
     stiffness: &[f64],
     solution: &[f64],
 ) {
-    let total = n + nmode;
-    for mode in 0..nmode {
-        out.energy -= 0.5 * force[n + mode] * solution[mode * (n + 1) + n];
+    let (total, nright) = (force.len(), solution.len() / nmode);
+    let n = total - nmode;
+    let rows = || solution.chunks_exact(nright);
+    for (f, x) in force.iter().zip(rows()) {
+        out.energy -= 0.5 * f * x[0];
     }
-    for (i, row) in stiffness.chunks_exact(total).take(n).enumerate() {
-        let coupling = &row[n..];
-        let rows = || coupling.iter().zip(solution.chunks_exact(n + 1));
-        out.force[i] = force[i] - rows().map(|(k, x)| k * x[n]).sum::<f64>();
-        if order == Order::Tangent
-            && let Some(to) = out.stiffness.get_mut(i * n..(i + 1) * n)
-        {
-            to.copy_from_slice(&row[..n]);
-            for (k, x) in rows() {
-                to.iter_mut().zip(x).for_each(|(to, x)| *to -= k * x);
-            }
+    for i in 0..n {
+        let row = nmode + i;
+        // K_uα: the transpose of K_αu where it is symmetric
+        let coupling = |mode: usize| match symmetric {
+            true => stiffness[mode * total + row],
+            false => stiffness[row * total + mode],
+        };
+        let rows = || rows().enumerate().map(|(mode, x)| (coupling(mode), x));
+        out.force[i] = force[row] - rows().map(|(k, x)| k * x[0]).sum::<f64>();
+        if nright == 1 {
+            continue;
         }
+        let first = if symmetric { i / ND * ND } else { 0 };
+        if let Some(to) = out.stiffness.get_mut(i * n + first..(i + 1) * n) {
+            to.copy_from_slice(&stiffness[row * total + nmode + first..(row + 1) * total]);
+            rows().for_each(|(k, x)| dense::subtract(to, k, &x[1 + first..]));
+        }
+    }
+    if nright > 1 && symmetric {
+        mirror(out.stiffness, n, ND);
     }
 }
 
-/// Forces and stiffness of nodes and modes together; answers with the size of what was added up in the modes' forces.
+/// Forces and stiffness of modes and nodes together, above the diagonal where it is symmetric; answers with the size of what was added up in the modes' forces.
 fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>(
     element: &Element<'_>,
     u: &[f64],
@@ -140,6 +172,7 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
     let (turn, det) = inverse(centre)?;
     let middle = position(element.x, &points.shape_at_centre);
     let volume = det * element.space.extent(middle);
+    let symmetric = element.material.is_symmetric();
     out.force.fill(0.0);
     out.stiffness.fill(0.0);
     let mut response = Response::default();
@@ -147,14 +180,18 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
     for (point, xi) in points.rule.points.iter().enumerate() {
         let at = place::<NN, ND, NG>(element, point)?;
         let mut gradient = [[0.0; NG]; NT];
-        gradient[..NN].copy_from_slice(&at.gradient);
+        let nmode = NT - NN;
+        gradient[nmode..].copy_from_slice(&at.gradient);
         let scale = volume * points.rule.weights[point] / at.weight;
-        for (a, to) in gradient[NN..].iter_mut().enumerate() {
+        for (a, to) in gradient[..nmode].iter_mut().enumerate() {
             for b in 0..ND {
                 to[b] = -2.0 * xi[a] * scale * turn.rows[b][a]; // (E11)
             }
         }
-        let h = displacement_gradient::<NT, ND, NG>(&gradient, u);
+        // apart: beside displacements that are large and cancel, those of the modes would lose their digits
+        let (modes, nodes) = u.split_at(nmode * ND);
+        let h = displacement_gradient::<NN, ND, NG>(&at.gradient, nodes)
+            + displacement_gradient::<NT, ND, NG>(&gradient, modes);
         let (f, _) = deformation::<ND, NG>(h, false)?;
         let value = strain(h, false);
         element.respond(point, value, Order::Tangent, out.new, &mut response)?;
@@ -164,11 +201,11 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
         }
         let force = contract::<NT, ND, NG>(&gradient, &f, &response.stress);
         add_force(out.force, at.weight, &force);
-        for (size, f) in size.iter_mut().zip(force[NN..].as_flattened()) {
+        for (size, f) in size.iter_mut().zip(force[..nmode].as_flattened()) {
             *size += at.weight * f.abs();
         }
         let (stress, tangent) = (&response.stress, &response.tangent);
-        add_stiffness::<NT, ND, NG>(&gradient, None, at.weight, stress, tangent, false, out);
+        add_stiffness::<NT, ND, NG>(&gradient, None, at.weight, stress, tangent, symmetric, out);
     }
     Ok(size.into_iter().fold(0.0, f64::max))
 }

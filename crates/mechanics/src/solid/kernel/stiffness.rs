@@ -51,7 +51,7 @@ pub(super) fn add_force<const NN: usize, const ND: usize>(
 }
 
 /// Adds `w N_I,a A_iakb N_J,b` with `A_iakb = F_ir C_rasb F_ks + δ_ik S_ab` (E2), the second part only at finite strain.
-/// Where it is `symmetric`, only blocks on and above the diagonal.
+/// Where it is `symmetric`, only blocks on and above the diagonal. Of the rows, as many as there is room for.
 #[inline]
 pub(super) fn add_stiffness<const NN: usize, const ND: usize, const NG: usize>(
     gradient: &[[f64; NG]; NN],
@@ -89,7 +89,7 @@ pub(super) fn add_stiffness<const NN: usize, const ND: usize, const NG: usize>(
             let columns = columns[i].each_ref().map(|c| &c.as_flattened()[first..]);
             let upper = &mut upper[i * n + first..(i + 1) * n];
             let g = &gradient[node];
-            match gradient.get(node + 1) {
+            match gradient.get(node + 1).filter(|_| !lower.is_empty()) {
                 Some(h) => add_two(upper, &mut lower[i * n + first..(i + 1) * n], g, h, columns),
                 None => add_one(upper, g, columns),
             }

@@ -43,7 +43,12 @@ fn hexahedra_assembled_per_second() {
         nmultiplier: 0,
     };
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
-    for nonlinear in [false, true] {
+    let measured = [
+        (false, Locking::None),
+        (true, Locking::None),
+        (false, Locking::Auto),
+    ];
+    for (nonlinear, locking) in measured {
         let solid = Solid::new(SolidParts {
             name: "block",
             mesh: &mesh,
@@ -53,7 +58,7 @@ fn hexahedra_assembled_per_second() {
             space: Idealisation::Space,
             material: (TABLE[1].make)(&Constants::elastic(500.0, 0.3)).unwrap(),
             integration: Integration::Full,
-            locking: Locking::None,
+            locking,
             temperature: None,
         });
         let mut solid = solid.unwrap();
@@ -89,7 +94,7 @@ fn hexahedra_assembled_per_second() {
         });
         let n = cells.len() as f64;
         println!(
-            "nonlinear {nonlinear}: {:.0} hex8/s assembled, {:.0} hex8/s evaluated",
+            "nonlinear {nonlinear}, locking {locking}: {:.0} hex8/s assembled, {:.0} hex8/s evaluated",
             n / whole,
             n / alone
         );
