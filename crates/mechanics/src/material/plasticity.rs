@@ -43,7 +43,9 @@ use signorini_geometry::tensor::Sym3;
 /// logarithmic one, `H_p`), centre (six, as well), equivalent plastic strain, plastic work.
 ///
 /// # Limits
-/// Exact for a strain increment of one direction; else of first order in the increment, as backward Euler is.
+/// Exact for a strain increment of one direction; else of first order in the increment, as backward Euler is. Where the
+/// centre moves at finite strain, the potential of a long increment has no minimum in directions free of stress: under
+/// tension its logarithmic strain must stay below about ⅔ of the radius over the stress.
 ///
 /// # Sources
 /// Simo, Hughes, *Computational Inelasticity* 1998, sections 3.3 and 3.4; Simo, *Comput. Methods Appl. Mech. Engrg.* 99
