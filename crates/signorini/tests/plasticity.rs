@@ -5,7 +5,7 @@
 //!             for bar and metal
 //! GOAL        the sphere has Hill's stress, displacement and plastic radius; the bar reaches the peak force and necks as
 //!             on finer meshes
-//! MESH        examples/thick_sphere_axisymmetric (12 × 8 quad8), examples/necking_bar_axisymmetric (10 × 30 quad4)
+//! MESH        examples/thick_sphere_axisymmetric (12 × 16 quad8), examples/necking_bar_axisymmetric (10 × 30 quad4)
 //! CONDITIONS  small strain and pressure; finite strain and prescribed elongation
 //! EXPECTED    Hill's closed form; for the bar an own converged reference, the numbers at [`REFERENCE`]
 //! TOLERANCE   0.5 % of the closed form, mean stress of cells of the yield stress; the bar 1 %, its peak 0.1 %
