@@ -89,6 +89,9 @@ fn cell_stress_error(model: &Model, run: &Run, c: f64) -> f64 {
     let mut worst = 0.0f64;
     for (block, stresses) in model.mesh.blocks.iter().zip(&frame.cell_stress) {
         for (i, found) in stresses.iter().enumerate().take(block.ncell()) {
+            if block.cell(i).len() < 8 {
+                continue; // an edge
+            }
             let corners = block.cell(i).iter().take(4);
             let corners = corners.map(|n| model.mesh.points[*n as usize]);
             let bounds = |values: Vec<f64>| {
