@@ -1,7 +1,7 @@
 // A quarter of a section through a thick-walled sphere: x is the radius, y the axis of revolution.
 //     gmsh -2 -order 2 -format msh41 sphere.geo -o sphere.msh
 a = 100;  b = 200;   // inner and outer radius
-across = 12;  along = 8;
+across = 12;  along = 16;
 Mesh.SecondOrderIncomplete = 1;  // quadrilaterals of eight nodes
 Point(1) = {0, 0, 0};
 Point(2) = {a, 0, 0};  Point(3) = {b, 0, 0};  Point(4) = {0, b, 0};  Point(5) = {0, a, 0};

@@ -5,6 +5,7 @@ use signorini_geometry::tensor::{Mat3, Sym3};
 ///
 /// With `R` the matrix of the axes: `E' = R E Rᵀ`, `S = Rᵀ S' R`, and over doubled shears `γ' = B γ`, `C = Bᵀ C' B` with
 /// `B_pq = w_p ½ (R_ia R_jb + R_ib R_ja)`, where `p = (i, j)`, `q = (a, b)`, `w` is 1 for normal strains and 2 for shears.
+/// The way back, [`Self::turn_back`], holds for any matrix in the place of `R`: a congruence.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     pub axes: Mat3,

@@ -44,17 +44,29 @@ impl Logarithmic {
     /// # Errors
     /// `C` is not positive definite.
     pub fn new(e: &Sym3) -> Result<Self, MaterialError> {
-        let (values, axes) = principal(e);
+        let Principal { values, frame } = Principal::new(e);
         let c = values.map(|e| 1.0 + 2.0 * e);
         if !c.iter().all(|c| *c > 0.0 && c.is_finite()) {
             let ratio = c[0] * c[1] * c[2];
             return Err(MaterialError::Inverted { ratio });
         }
         Ok(Self {
-            frame: Frame { axes },
+            frame,
             values,
             strain: values.map(|e| 0.5 * (2.0 * e).ln_1p()),
         })
+    }
+
+    /// `H` in the principal axes.
+    pub const fn value(&self) -> Sym3 {
+        let [a, b, c] = self.strain;
+        Sym3::diagonal(a, b, c)
+    }
+
+    /// For a law in `E` where this is of `A E Aᵀ` and a constant.
+    pub fn through(mut self, a: Mat3) -> Self {
+        self.frame.axes = self.frame.axes * a;
+        self
     }
 
     /// Turns `T` and `M`, in the principal axes, into `S` and its tangent in the global ones.
@@ -169,6 +181,28 @@ impl Logarithmic {
 
 /// The place of the pair `(i, j)` in [`Sym3::PAIRS`].
 const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+/// A symmetric tensor by its principal values and axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Principal {
+    values: [f64; 3],
+    frame: Frame,
+}
+
+impl Principal {
+    /// Of a tensor.
+    pub fn new(tensor: &Sym3) -> Self {
+        let (values, axes) = principal(tensor);
+        let frame = Frame { axes };
+        Self { values, frame }
+    }
+
+    /// The isotropic function of the tensor that is this one of its principal values.
+    pub fn map(&self, function: impl Fn(f64) -> f64) -> Sym3 {
+        let [a, b, c] = self.values.map(function);
+        self.frame.leave(Sym3::diagonal(a, b, c))
+    }
+}
 
 /// Principal values and axes (rows), by Jacobi's method: axes are orthonormal however close the values are.
 fn principal(tensor: &Sym3) -> ([f64; 3], Mat3) {

@@ -1,5 +1,5 @@
 use super::hardening::{Hardening, HardeningError};
-use super::logarithmic::Logarithmic;
+use super::logarithmic::{Logarithmic, Principal};
 use super::{Kinematics, Lame, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::Sym3;
 
@@ -18,22 +18,40 @@ use signorini_geometry::tensor::Sym3;
 /// C = K I⊗I + 2μ (1 − 3μ Δp/q*) I_dev − 4μ² (1/(3μ + r' + k') − Δp/q*) N⊗N
 /// ```
 ///
-/// the scalar equation being solved exactly through the rows of the table. Finite strain: the same in the logarithmic
-/// strain `H = ½ ln C` (Miehe, Apel, Lambrecht 2002), `H_p` in the place of `ε_p`; the table is then Kirchhoff stress
-/// over logarithmic plastic strain, true stress to the order of the elastic change of volume.
+/// the scalar equation being solved exactly through the rows of the table.
+///
+/// Finite strain: `F = F_e F_p`, the elastic law in `½ ln C_e`, the flow in the intermediate configuration without plastic
+/// spin, integrated by the exponential map (Simo 1992). The law is isotropic, so that `F_p` is known up to a rotation and
+/// its symmetric stretch `U = exp H_p` does in its place:
+///
+/// ```text
+/// Ê = U⁻¹ E U⁻¹ + ½ (U⁻² − I),   ε = ½ ln(I + 2Ê),   ε_p = 0                        the return above, which leaves Δε_p
+/// S = U⁻¹ Ŝ U⁻¹,   Ŝ = ∂W/∂Ê                                                       and the tangent by the same congruence
+/// U_new² = U exp(2Δε_p) U,   tr H_p = 0                                            flow keeps the volume
+/// ```
+///
+/// `U` is that of the old history and stays over the increment. The table is then Kirchhoff stress over logarithmic plastic
+/// strain, true stress to the order of the elastic change of volume. The centre keeps its components in the
+/// configuration to which `U` leads, which turns with the rotation of the polar decomposition, not with the spin: stress
+/// does not oscillate in shear (Nagtegaal, de Jong 1982). Where the centre is not coaxial with the trial strain, elastic
+/// strain is what the subtraction of logarithms leaves, off by elastic strain times `Δε_p`.
 ///
 /// The energy is the potential of the increment: what is stored elastically plus the plastic work so far, `∫ (q + a:N) dp`;
 /// its gradient at fixed old history is the stress (Ortiz, Stainier 1999).
 ///
-/// History, 14 numbers: plastic strain (six, tensor components in the order of [`Sym3::PAIRS`]), centre (six, as well),
-/// equivalent plastic strain, plastic work.
+/// History, 14 numbers: plastic strain (six, tensor components in the order of [`Sym3::PAIRS`]; at finite strain the
+/// logarithmic one, `H_p`), centre (six, as well), equivalent plastic strain, plastic work.
 ///
 /// # Limits
-/// Exact for a strain increment of one direction; else of first order in the increment, as backward Euler is.
+/// Exact for a strain increment of one direction; else of first order in the increment, as backward Euler is. Where the
+/// centre moves at finite strain, the potential of a long increment has no minimum in directions free of stress: under
+/// tension its logarithmic strain must stay below about ⅔ of the radius over the stress.
 ///
 /// # Sources
-/// Simo, Hughes, *Computational Inelasticity* 1998, sections 3.3 and 3.4; Miehe, Apel, Lambrecht, *Comput. Methods Appl.
-/// Mech. Engrg.* 191 (2002) 5383–5425; Ortiz, Stainier, *Comput. Methods Appl. Mech. Engrg.* 171 (1999) 419–444.
+/// Simo, Hughes, *Computational Inelasticity* 1998, sections 3.3 and 3.4; Simo, *Comput. Methods Appl. Mech. Engrg.* 99
+/// (1992) 61–112; de Souza Neto, Perić, Owen, *Computational Methods for Plasticity* 2008, chapter 14; Nagtegaal, de Jong,
+/// in *Plasticity of Metals at Finite Strain* 1982; Ortiz, Stainier, *Comput. Methods Appl. Mech. Engrg.* 171 (1999)
+/// 419–444.
 #[derive(Clone, Debug)]
 pub struct Plasticity {
     lame: Lame,
@@ -44,7 +62,7 @@ const NHISTORY: usize = 14;
 /// Place of the equivalent plastic strain.
 const PLASTIC: usize = 12;
 
-/// What a point remembers.
+/// What a point remembers: `strain` is `ε_p`, at finite strain `H_p`.
 #[derive(Clone, Copy)]
 struct Memory {
     strain: Sym3,
@@ -132,6 +150,41 @@ impl Plasticity {
             }
         }
     }
+
+    /// The radial return in the logarithmic strain that is left when the old plastic stretch is taken off.
+    fn integrate_finite(
+        &self,
+        strain: &Sym3,
+        memory: &mut Memory,
+        order: Order,
+        out: &mut Response,
+    ) -> Result<(), MaterialError> {
+        let plastic = Principal::new(&memory.strain);
+        let off = plastic.map(|h| (-h).exp()).to_mat3();
+        let trial = strain.congruence(off) + plastic.map(|h| 0.5 * (-2.0 * h).exp_m1());
+        let trial = Logarithmic::new(&trial)?;
+        let mut local = Memory {
+            strain: Sym3::ZERO,
+            centre: trial.frame.enter(memory.centre),
+            ..*memory
+        };
+        self.integrate(trial.value(), &mut local, order, out);
+        trial.through(off).pull_back(order, out);
+        // writing a history anew would change bits of one that stays
+        if local.plastic > memory.plastic {
+            let flow = Principal::new(&trial.frame.leave(local.strain));
+            let grown = flow.map(|h| 0.5 * (2.0 * h).exp_m1());
+            let on = plastic.map(f64::exp).to_mat3();
+            let grown = grown.congruence(on) + plastic.map(|h| 0.5 * (2.0 * h).exp_m1());
+            let grown = Logarithmic::new(&grown)?;
+            *memory = Memory {
+                strain: deviator(grown.frame.leave(grown.value())),
+                centre: trial.frame.leave(local.centre),
+                ..local
+            };
+        }
+        Ok(())
+    }
 }
 
 impl Material for Plasticity {
@@ -148,28 +201,11 @@ impl Material for Plasticity {
         out: &mut Response,
     ) -> Result<(), MaterialError> {
         let mut memory = Memory::read(old);
-        if strain.kinematics == Kinematics::Small {
-            self.integrate(strain.value, &mut memory, order, out);
-            memory.write(new);
-            return Ok(());
-        }
-        let logarithmic = Logarithmic::new(&strain.value)?;
-        let frame = &logarithmic.frame;
-        let [h1, h2, h3] = logarithmic.strain;
-        let mut local = Memory {
-            strain: frame.enter(memory.strain),
-            centre: frame.enter(memory.centre),
-            ..memory
-        };
-        self.integrate(Sym3::diagonal(h1, h2, h3), &mut local, order, out);
-        // turning there and back would change bits of a history that stays
-        if local.plastic > memory.plastic {
-            local.strain = frame.leave(local.strain);
-            local.centre = frame.leave(local.centre);
-            memory = local;
+        match strain.kinematics {
+            Kinematics::Small => self.integrate(strain.value, &mut memory, order, out),
+            Kinematics::Finite => self.integrate_finite(&strain.value, &mut memory, order, out)?,
         }
         memory.write(new);
-        logarithmic.pull_back(order, out);
         Ok(())
     }
 
