@@ -85,7 +85,7 @@ const ROOMS: [Room; 29] = [
             "geometry",
         ],
     ),
-    room("io::vtk", &["io::fs"]),
+    room("io::vtk", &["io::fs", "geometry::element"]),
     room(
         "io::writers",
         &["io::fs", "io::vtk", "mechanics", "geometry"],

@@ -95,12 +95,13 @@ fn constraint(multiplier: Dof, model: &Model) -> String {
             self.1 |= dofs.contains(&self.0);
         }
     }
-    let has = |term: &&Box<dyn Term>| {
+    let has = |term: &dyn Term| {
         let mut search = Search(multiplier, false);
         term.pattern(&mut search);
         search.1
     };
-    let term = model.system.terms.iter().find(has);
+    let mut terms = model.system.terms.iter();
+    let term = terms.find(|term| has(term.as_ref()));
     term.map_or_else(
         || "a constraint".to_owned(),
         |term| format!("constraint {}", term.name()),

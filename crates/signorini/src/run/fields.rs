@@ -24,8 +24,11 @@ pub struct Fields {
     pub contact: bool,
 }
 
-/// What each word chooses, in the order in which messages list them. `stress` brings what follows from it.
-const WORDS: [(&str, fn(&mut Fields)); 12] = [
+/// A word of a case, and what it chooses.
+type Word = (&'static str, fn(&mut Fields));
+
+/// All words in the order in which messages list them. `stress` brings what follows from it.
+const WORDS: [Word; 12] = [
     ("displacement", |_| {}),
     ("reaction_force", |_| {}),
     ("stress", all_of_stress),

@@ -79,7 +79,8 @@ fn points(x: &[Vec3], nodes: &[Vec<NodeId>], random: &mut Random) -> Vec<Vec3> {
     let mut point = |k: usize| {
         let place = 0.5 * (random.signed() + 1.0) * surface.nfacet() as f64;
         let facet = place as u32;
-        let triangle = nodes[facet as usize].len() % 3 == 0 && nodes[facet as usize].len() < 9;
+        let triangle =
+            nodes[facet as usize].len().is_multiple_of(3) && nodes[facet as usize].len() < 9;
         let mut local = Vec3::new(random.signed(), random.signed(), 0.0) * 1.01;
         if triangle {
             local = (local + Vec3::new(1.01, 1.01, 0.0)) * 0.25;

@@ -213,7 +213,7 @@ fn as_many_motions_are_free_as_the_rank_of_random_supports_leaves() {
 fn motions_do_not_depend_on_size_or_place() {
     for size in [1e-9, 1e-3, 1e6] {
         let mut model = cubes(&[Vec3::new(7.0, 8.0, 9.0)]);
-        model.mesh.points.iter_mut().for_each(|x| *x = *x * size);
+        model.mesh.points.iter_mut().for_each(|x| *x *= size);
         let mut held = model.held();
         fix(&mut held, &[1, 2], &[0, 1, 2]);
         let motion = motions(&held).remove(0);
