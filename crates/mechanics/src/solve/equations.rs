@@ -3,6 +3,26 @@
 use crate::system::linear::{LinearError, LinearSolver, Problem, SolveReport};
 use crate::system::sparsity::NONE;
 use crate::system::{Assembler, Assembly, Dof, DofName, Symmetry, System};
+use std::time::Instant;
+
+/// Wall time spent in the linear solver, in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinearSeconds {
+    /// Ordering and symbolic factorization.
+    pub analyze: f64,
+    /// Numeric factorization.
+    pub factorize: f64,
+    /// Substitution and refinement.
+    pub solve: f64,
+}
+
+impl std::ops::AddAssign for LinearSeconds {
+    fn add_assign(&mut self, other: Self) {
+        self.analyze += other.analyze;
+        self.factorize += other.factorize;
+        self.solve += other.solve;
+    }
+}
 
 /// The numbering of the unknowns that are solved for, and the solver.
 pub(super) struct Equations {
@@ -15,6 +35,7 @@ pub(super) struct Equations {
     right: Vec<f64>,
     left: Vec<f64>,
     response: Vec<f64>,
+    pub seconds: LinearSeconds,
 }
 
 /// Which factor a solve goes by. The residual that is made small is that of the present operator in both cases.
@@ -36,6 +57,7 @@ impl Equations {
             right: Vec::new(),
             left: Vec::new(),
             response: Vec::new(),
+            seconds: LinearSeconds::default(),
         }
     }
 
@@ -90,7 +112,10 @@ impl Equations {
             coordinates: &system.coordinates,
             body: &system.body,
         };
-        self.solver.analyze(&problem)
+        let start = Instant::now();
+        let outcome = self.solver.analyze(&problem);
+        self.seconds.analyze += start.elapsed().as_secs_f64();
+        outcome
     }
 
     /// A moment on a carrier makes the stiffness against its rotations unsymmetric. A rigid body that may turn about some
@@ -143,12 +168,18 @@ impl Equations {
         }
         self.left.clear();
         self.left.resize(self.dofs.len(), 0.0);
+        let start = Instant::now();
         if factor == Factor::New {
-            self.solver.factorize(&values)?;
+            let outcome = self.solver.factorize(&values);
+            self.seconds.factorize += start.elapsed().as_secs_f64();
+            outcome?;
         }
-        let report = self
+        let start = Instant::now();
+        let outcome = self
             .solver
-            .solve(&values, &self.right, &mut self.left, SOLVE_TOLERANCE)?;
+            .solve(&values, &self.right, &mut self.left, SOLVE_TOLERANCE);
+        self.seconds.solve += start.elapsed().as_secs_f64();
+        let report = outcome?;
         for (x, &dof) in self.left.iter().zip(&self.dofs) {
             du[dof as usize] = *x;
         }

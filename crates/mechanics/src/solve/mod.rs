@@ -38,6 +38,7 @@ mod stepping;
 #[cfg(test)]
 mod tests;
 
+pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
 pub use forecast::{Cost, forecast};
 pub use newton::{Failure, LineSearch, NewtonSettings};

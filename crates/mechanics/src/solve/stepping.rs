@@ -1,6 +1,6 @@
 //! Steps and increments: how time passes.
 
-use super::equations::Equations;
+use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
 use crate::system::linear::{LinearKind, choose};
@@ -186,6 +186,11 @@ impl Stepper {
     #[must_use]
     pub const fn trial(&self) -> &State {
         &self.newton.trial
+    }
+
+    /// Wall time spent in the linear solver since this was last asked.
+    pub fn take_linear_seconds(&mut self) -> LinearSeconds {
+        std::mem::take(&mut self.newton.equations.seconds)
     }
 
     /// The number of unknowns solved for in the present step.

@@ -17,7 +17,7 @@ use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_io::writers::RowsError;
 use signorini_io::writers::json::{DiagnosticSummary, Event, StepSummary, Summary};
-use signorini_mechanics::solve::{Outcome, RunError, Stepper};
+use signorini_mechanics::solve::{LinearSeconds, Outcome, RunError, Stepper};
 use signorini_mechanics::system::{Archive, ArchiveError};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -61,6 +61,7 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
             model,
             options,
             clock,
+            linear: LinearSeconds::default(),
         }
         .finish(&start, from.as_ref()),
         Err(error) => refuse(not_opened(&error, from.is_some()).into(), listener),
@@ -138,6 +139,7 @@ struct Run<'a, 'l> {
     options: &'a RunOptions,
     recorder: Recorder<'l>,
     clock: Instant,
+    linear: LinearSeconds,
 }
 
 /// How the solution ended.
@@ -202,7 +204,9 @@ impl Run<'_, '_> {
                 return Ok(Ending::Stopped(stop));
             }
             let Model { system, steps, .. } = &mut *self.model;
-            match stepper.run(system, steps, &mut self.recorder) {
+            let outcome = stepper.run(system, steps, &mut self.recorder);
+            self.linear += stepper.take_linear_seconds();
+            match outcome {
                 Ok(Outcome::Finished) => return Ok(Ending::Solved),
                 Ok(Outcome::Stopped) => due = self.recorder.is_due(),
                 Err(error) => return Ok(self.failed(&error, &stepper)),
@@ -279,6 +283,9 @@ impl Run<'_, '_> {
                 ("read", self.options.seconds[0]),
                 ("build", self.options.seconds[1]),
                 ("solve", solving),
+                ("analyze", self.linear.analyze),
+                ("factorize", self.linear.factorize),
+                ("substitute", self.linear.solve),
                 ("write", self.recorder.write_seconds),
                 (
                     "total",
