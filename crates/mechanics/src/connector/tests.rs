@@ -132,10 +132,8 @@ impl Scene {
         };
         let state = State::initial(&layout, &reference, &elimination);
         let step = StepContext {
-            number: 0,
-            start: 0.0,
-            duration: 1.0,
             nonlinear,
+            ..StepContext::default()
         };
         term.begin_step(&step, &state).unwrap();
         let mut scene = Self {

@@ -144,13 +144,10 @@ pub(super) struct Clock {
 
 impl Clock {
     pub fn new(schedule: Schedule) -> Self {
-        let step = StepContext {
-            number: 0,
-            start: 0.0,
-            duration: 1.0,
-            nonlinear: true,
-        };
-        Self { schedule, step }
+        Self {
+            schedule,
+            step: StepContext::default(),
+        }
     }
 
     pub const fn begin_step(&mut self, step: &StepContext) {

@@ -19,6 +19,7 @@
 //! increments of the rotation vector: what `rx, ry, rz` prescribe is the integral of its rate, so that components
 //! ramped together turn about a fixed axis, by as many turns as one likes.
 
+mod bodies;
 mod constraints;
 mod contact;
 mod error;
@@ -38,9 +39,10 @@ pub use parts::{
 
 use crate::contact::{Interface, Measure};
 use crate::material::Kinematics;
-use crate::solid::{Locking, Solid, SolidParts, Truss, TrussParts};
+use crate::solid::Locking;
 use crate::solve::Step;
-use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
+use crate::system::{Elimination, Idealisation, Layout, NodalField, System};
+use bodies::{nodes_by_body, owners};
 use constraints::{Followers, Ties};
 use held::Held;
 use loads::Substance;
@@ -166,63 +168,12 @@ impl Model {
         }
         let held_by_contact = held.judge()?;
 
-        let mut terms: Vec<Box<dyn Term>> = Vec::new();
         let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
         sizes.retain(|k| {
-            steps
-                .iter()
-                .any(|s| s.nonlinear == (*k == Kinematics::Finite))
+            let nonlinear = *k == Kinematics::Finite;
+            steps.iter().any(|s| s.nonlinear == nonlinear)
         });
-        let mut locking_chosen = Vec::new();
-        for body in bodies {
-            let (name, cells) = (&*body.name, &*body.cells);
-            let (reference, temperature) = (reference.clone(), temperature.clone());
-            match body.kind {
-                BodyKind::Solid {
-                    material,
-                    integration,
-                    locking,
-                    ..
-                } => {
-                    let solid = Solid::new(SolidParts {
-                        name,
-                        mesh,
-                        reference,
-                        cells,
-                        layout,
-                        space,
-                        material,
-                        integration,
-                        locking,
-                        temperature,
-                    })?;
-                    for &kinematics in &sizes {
-                        let chosen = solid.locking(kinematics)?.into_iter();
-                        locking_chosen.extend(chosen.map(|(element, locking)| LockingSummary {
-                            body: name.to_string(),
-                            element,
-                            kinematics,
-                            locking,
-                        }));
-                    }
-                    terms.push(Box::new(solid));
-                }
-                BodyKind::Truss { material, area, .. } => {
-                    terms.push(Box::new(Truss::new(TrussParts {
-                        name,
-                        mesh,
-                        reference,
-                        cells,
-                        layout,
-                        space,
-                        material,
-                        area,
-                        temperature,
-                    })?));
-                }
-                BodyKind::Rigid(_) => {}
-            }
-        }
+        let (mut terms, locking) = context.bodies(bodies, temperature, &sizes)?;
         terms.extend(connectors);
         let mut summaries = Vec::new();
         for contact in contacts {
@@ -247,45 +198,11 @@ impl Model {
             },
             steps,
             contacts: summaries,
-            locking: locking_chosen,
+            locking,
             unused,
             held_by_contact,
         })
     }
-}
-
-/// The body of each cell.
-fn owners(mesh: &Mesh, bodies: &[BodyPart]) -> Result<HashMap<CellId, usize>, ModelError> {
-    let mut owner: HashMap<CellId, usize> = HashMap::new();
-    for (number, body) in bodies.iter().enumerate() {
-        if body.cells.is_empty() {
-            return Err(ModelError::EmptyBody {
-                body: body.name.clone(),
-            });
-        }
-        for &cell in &body.cells {
-            if let Some(before) = owner.insert(cell, number) {
-                return Err(ModelError::TwoBodies {
-                    label: mesh.cell_label(cell).unwrap_or(0),
-                    first: bodies[before].name.clone(),
-                    second: body.name.clone(),
-                });
-            }
-        }
-    }
-    Ok(owner)
-}
-
-fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<u32> {
-    let mut of = vec![u32::MAX; mesh.nnode()];
-    for (number, body) in bodies.iter().enumerate() {
-        for &cell in &body.cells {
-            for &node in mesh.cell(cell) {
-                of[node as usize] = number as u32;
-            }
-        }
-    }
-    of
 }
 
 /// Temperatures of the nodes at the start and at the end of every step.

@@ -258,12 +258,7 @@ impl Solid {
             kinematics: Kinematics::Finite,
             space,
             temperature,
-            step: StepContext {
-                number: 0,
-                start: 0.0,
-                duration: 1.0,
-                nonlinear: true,
-            },
+            step: StepContext::default(),
             blocks,
             chunks,
         })

@@ -126,12 +126,7 @@ impl Truss {
             area,
             kinematics: Kinematics::Finite,
             temperature,
-            step: StepContext {
-                number: 0,
-                start: 0.0,
-                duration: 1.0,
-                nonlinear: true,
-            },
+            step: StepContext::default(),
             bars: Vec::new(),
             history: Vec::new(),
             material: Box::new(material),

@@ -202,6 +202,18 @@ pub struct StepContext {
     pub nonlinear: bool,
 }
 
+/// What a term is in before any step begins.
+impl Default for StepContext {
+    fn default() -> Self {
+        Self {
+            number: 0,
+            start: 0.0,
+            duration: 1.0,
+            nonlinear: true,
+        }
+    }
+}
+
 /// A part of the model that exerts forces: solids, loads, contact interfaces. All that solving ever sees.
 pub trait Term: Send + Sync {
     /// What it is called in messages and files.

@@ -159,10 +159,8 @@ fn full() -> Schedule {
 
 fn step(nonlinear: bool) -> StepContext {
     StepContext {
-        number: 0,
-        start: 0.0,
-        duration: 1.0,
         nonlinear,
+        ..StepContext::default()
     }
 }
 

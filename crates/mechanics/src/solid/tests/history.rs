@@ -130,10 +130,8 @@ fn a_step_of_the_other_size_of_strains_is_refused_where_the_remedy_ends() {
     let mut body = body(&mesh, elastic("linear-elastic", 0.3), &wish).unwrap();
     let at = body.state(&[0.0; 24]);
     let mut step = StepContext {
-        number: 0,
-        start: 0.0,
-        duration: 1.0,
         nonlinear: false,
+        ..StepContext::default()
     };
     body.solid.begin_step(&step, &at).unwrap();
     step.nonlinear = true;

@@ -37,10 +37,8 @@ fn bars(points: &[Vec3], element: &str, ndim: usize) -> (Truss, Layout, Arc<[Vec
 
 fn step(nonlinear: bool) -> StepContext {
     StepContext {
-        number: 0,
-        start: 0.0,
-        duration: 1.0,
         nonlinear,
+        ..StepContext::default()
     }
 }
 
