@@ -3,6 +3,9 @@ use super::mount::{direction, finite};
 use super::{Feature, SurfaceError};
 use crate::tensor::{Sym3, Vec3};
 
+/// How close to the apex, over its coordinates, a point cannot be told from it.
+const TIP: f64 = 16.0 * f64::EPSILON;
+
 /// A round cone that opens from its apex along its axis without end, or a hole of that shape. In the plane, a wedge.
 ///
 /// ```text
@@ -58,8 +61,10 @@ impl Shape for Cone {
             None => return Ok(Some(self.apex)),
         };
         let l = s * self.cos + r * self.sin;
-        let generator = self.axis * self.cos + e * self.sin;
-        Ok(Some(self.apex + generator * l.max(0.0)))
+        if l <= TIP * self.apex.norm() {
+            return Ok(Some(self.apex));
+        }
+        Ok(Some(self.apex + (self.axis * self.cos + e * self.sin) * l))
     }
 
     fn patch(&self, on: Vec3) -> Result<Patch, SurfaceError> {

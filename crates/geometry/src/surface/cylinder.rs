@@ -42,8 +42,9 @@ impl Shape for Cylinder {
     }
 
     fn out_of_plane(&self) -> Option<&'static str> {
-        let (across, lies) = (self.axis.x == 0.0 && self.axis.y == 0.0, self.axis.z == 0.0);
-        (!across && !(lies && self.point.z == 0.0))
-            .then_some("the axis must lie in z = 0 or be along z")
+        let across = self.axis.x == 0.0 && self.axis.y == 0.0;
+        let within = self.axis.z == 0.0 && self.point.z == 0.0;
+        let wanted = "the axis must lie in z = 0 or be along z";
+        (!across && !within).then_some(wanted)
     }
 }

@@ -257,7 +257,7 @@ impl<'a> Text<'a> {
     /// The next word is one of these: which.
     fn one_of(&mut self, words: &[&'static str]) -> Result<usize> {
         let found = self.word();
-        let is = |w: &&str| found.eq_ignore_ascii_case(w.as_bytes());
+        let is = |w: &str| found.eq_ignore_ascii_case(w.as_bytes());
         let wanted = words.first().copied().unwrap_or_default();
         if found.is_empty() {
             let place = self.place();
@@ -265,7 +265,7 @@ impl<'a> Text<'a> {
         }
         words
             .iter()
-            .position(|w| is(&w))
+            .position(|w| is(w))
             .ok_or_else(|| StlError::Word {
                 place: self.place(),
                 wanted,
