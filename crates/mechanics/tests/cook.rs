@@ -127,6 +127,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 },
                 course: Course::Ramp,
             }],
+            contacts: Vec::new(),
             temperatures: Vec::new(),
         }],
         ..Parts::new(&grid.mesh, space)

@@ -214,6 +214,7 @@ fn solution(
                 load: Load::Nodes(forces.into_iter().collect()),
                 course: Course::Ramp,
             }],
+            contacts: Vec::new(),
             temperatures: Vec::new(),
         }],
         ..Parts::new(mesh, field.space)

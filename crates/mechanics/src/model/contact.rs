@@ -1,4 +1,6 @@
-use super::{ContactPart, ContactSummary, Context, ModelError, SidePart, label};
+use super::{
+    ContactPart, ContactSummary, Context, Enforcement, ModelError, PrimaryPart, SidePart, label,
+};
 use crate::contact::discretization::{NodeToSegment, SurfacePair};
 use crate::contact::friction::Frictionless;
 use crate::contact::law::{Penalty, Scale};
@@ -27,7 +29,14 @@ impl Context<'_> {
             contact: part.name.clone(),
             source,
         };
-        let primary = facets(&part.primary)?;
+        let PrimaryPart::Faces(faces) = &part.primary else {
+            return Err(ModelError::EmptySide { contact: part.name });
+        };
+        let primary = facets(faces)?;
+        let given = match part.enforcement {
+            Enforcement::Penalty(penalty) => penalty,
+            _ => None,
+        };
         let (points, secondary) = match &part.secondary {
             SidePart::Faces(faces) => {
                 let surface = facets(faces)?;
@@ -82,7 +91,7 @@ impl Context<'_> {
         } else {
             Measure::Area
         });
-        let penalty = match part.penalty {
+        let penalty = match given {
             Some(penalty) => penalty,
             None if softest.is_finite() => {
                 let per_area = PENALTY * softest;

@@ -4,7 +4,7 @@ use super::names::Names;
 use signorini_io::case::{self, Enforcement, Per};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_mechanics::contact::Measure;
-use signorini_mechanics::model::{ContactPart, SidePart};
+use signorini_mechanics::model::{self, ContactPart, PrimaryPart, SidePart};
 
 pub(super) fn contact(
     part: &case::Contact,
@@ -52,12 +52,13 @@ pub(super) fn contact(
         );
         return None;
     }
+    let primary = PrimaryPart::Faces(primary?);
     Some(ContactPart {
-        name: part.name.value.clone(),
-        secondary,
-        primary: primary?,
-        penalty,
+        enforcement: penalty.map_or(model::Enforcement::Auto, |p| {
+            model::Enforcement::Penalty(Some(p))
+        }),
         measure,
         reach: part.reach,
+        ..ContactPart::new(part.name.value.clone(), secondary, primary)
     })
 }

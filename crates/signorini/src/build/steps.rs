@@ -41,6 +41,7 @@ impl Builder<'_> {
                 nonlinear,
                 changes: self.changes(step, found),
                 loads: self.loads(number, step, &mut couplings, found),
+                contacts: Vec::new(),
                 temperatures: self.temperatures(step, found),
             };
             let changes = part.changes.len() + part.loads.len() + part.temperatures.len();

@@ -71,6 +71,7 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
                 Change::Prescribe(Target::Rigid(0), vec![(2, Motion::Ramp(-0.3))]),
             ],
             loads: Vec::new(),
+            contacts: Vec::new(),
             temperatures: Vec::new(),
         }],
         ..Parts::new(&mesh, Idealisation::Space)

@@ -44,6 +44,7 @@ fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
                     Vec::new()
                 },
                 loads: loads.into_iter().map(load).collect(),
+                contacts: Vec::new(),
                 temperatures: Vec::new(),
             }
         });

@@ -39,6 +39,7 @@ fn step_with(changes: Vec<Change>, loads: Vec<Load>, nonlinear: bool) -> StepPar
         nonlinear,
         changes,
         loads: loads.into_iter().enumerate().map(part).collect(),
+        contacts: Vec::new(),
         temperatures: Vec::new(),
     }
 }

@@ -1,10 +1,11 @@
 //! Blocks whose nodes follow others: closed forms, balance, refusals, restarts.
 
 use super::*;
-use crate::contact::Measure;
 use crate::material::{NeoHookean, SaintVenantKirchhoff};
 use crate::model::Parts;
-use crate::model::{Change, ContactPart, Load, LoadPart, Model, SidePart, StepPart, Target};
+use crate::model::{
+    Change, ContactPart, Load, LoadPart, Model, PrimaryPart, SidePart, StepPart, Target,
+};
 use crate::solve::{Event, Flow, Increments, NewtonSettings, Outcome, Stepper, StepperSettings};
 use crate::system::{Archive, Assembler, Assembly, Frame, Order, State};
 use signorini_geometry::element::by_name;
@@ -95,6 +96,7 @@ fn step(increments: usize, nonlinear: bool, changes: Vec<Change>) -> StepPart {
         nonlinear,
         changes,
         loads: Vec::new(),
+        contacts: Vec::new(),
         temperatures: Vec::new(),
     }
 }
@@ -725,15 +727,12 @@ fn pressed() -> Model {
     };
     let sole = of_upper(nodes_at(&mesh, 2, 1.0));
     let head = nodes_at(&mesh, 2, 2.0);
-    let faces = |cells: &[CellId], side| cells.iter().map(|&cell| Face { cell, side }).collect();
-    let contact = ContactPart {
-        name: "sole".into(),
-        secondary: SidePart::Faces(faces(&upper[..4], 0)),
-        primary: faces(&lower[9..], 1),
-        penalty: None,
-        measure: Some(Measure::Area),
-        reach: None,
+    let faces = |cells: &[CellId], side| -> Vec<Face> {
+        cells.iter().map(|&cell| Face { cell, side }).collect()
     };
+    let secondary = SidePart::Faces(faces(&upper[..4], 0));
+    let primary = PrimaryPart::Faces(faces(&lower[9..], 1));
+    let contact = ContactPart::new("sole", secondary, primary);
     let level = ConstraintKind::Equal {
         nodes: sole,
         axes: [false, false, true],

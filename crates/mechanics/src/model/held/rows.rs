@@ -2,7 +2,9 @@
 
 use super::null_space::null_space;
 use super::{Held, Motion, NCOMPONENT, Rows};
-use crate::model::{ConstraintKind, ConstraintPart, ContactPart, SidePart, SpringPart, Unknown};
+use crate::model::{
+    ConstraintKind, ConstraintPart, ContactPart, PrimaryPart, SidePart, SpringPart, Unknown,
+};
 use crate::solve::Prescription;
 use crate::system::{DofName, Layout};
 use signorini_geometry::mesh::NodeId;
@@ -86,7 +88,10 @@ impl Held<'_> {
                 units.filter_map(|n| self.unit(n)).collect()
             }
         };
-        for &face in &contact.primary {
+        let PrimaryPart::Faces(faces) = &contact.primary else {
+            return;
+        };
+        for &face in faces {
             let Some((_, nodes)) = self.mesh.face(face) else {
                 continue;
             };

@@ -1,7 +1,8 @@
 use super::*;
 use crate::material;
 use crate::model::{
-    BodyKind, ConstraintKind, ConstraintPart, ContactPart, SidePart, SpringPart, Unknown,
+    BodyKind, ConstraintKind, ConstraintPart, ContactPart, PrimaryPart, SidePart, SpringPart,
+    Unknown,
 };
 use crate::system::RigidBody;
 use signorini_geometry::element;
@@ -229,21 +230,14 @@ fn contact_is_told_from_supports() {
     let model = cubes(&[ORIGIN, Vec3::new(0.0, 0.0, 1.1)]);
     let contact = |held: &mut Held<'_>| {
         let cell = |index| CellId { block: 0, index };
-        held.contact(&ContactPart {
-            name: "c".into(),
-            secondary: SidePart::Nodes(vec![8, 9, 10, 11]),
-            primary: (0..6)
-                .map(|side| Face {
-                    cell: cell(0),
-                    side,
-                })
-                .skip(1)
-                .take(1)
-                .collect(),
-            penalty: None,
-            measure: None,
-            reach: None,
-        });
+        held.contact(&ContactPart::new(
+            "c",
+            SidePart::Nodes(vec![8, 9, 10, 11]),
+            PrimaryPart::Faces(vec![Face {
+                cell: cell(0),
+                side: 1,
+            }]),
+        ));
     };
     let base = |held: &mut Held<'_>| fix(held, &BOTTOM, &[0, 1, 2]);
     let mut held = model.held();

@@ -1,10 +1,9 @@
 //! The same bits: after a restart, after a stop, with any number of threads.
 
 use super::*;
-use crate::contact::Measure;
 use crate::material::NeoHookean;
 use crate::model::{
-    BodyKind, BodyPart, Change, ContactPart, Model, Parts, SidePart, StepPart, Target,
+    BodyKind, BodyPart, Change, ContactPart, Model, Parts, PrimaryPart, SidePart, StepPart, Target,
 };
 use crate::system::{Archive, Idealisation};
 use signorini_geometry::element::by_name;
@@ -43,14 +42,9 @@ fn sliding_block() -> Model {
     let side = |cells: &[CellId], side| -> Vec<Face> {
         cells.iter().map(|&cell| Face { cell, side }).collect()
     };
-    let contact = ContactPart {
-        name: "sole".into(),
-        secondary: SidePart::Faces(side(&upper[..5], 0)),
-        primary: side(&lower[16..], 2),
-        penalty: None,
-        measure: Some(Measure::Area),
-        reach: None,
-    };
+    let secondary = SidePart::Faces(side(&upper[..5], 0));
+    let primary = PrimaryPart::Faces(side(&lower[16..], 2));
+    let contact = ContactPart::new("sole", secondary, primary);
     let ramp = |to: [f64; 2]| vec![(0, Motion::Ramp(to[0])), (1, Motion::Ramp(to[1]))];
     let head: Vec<NodeId> = high[18..].to_vec();
     let base = Target::Nodes(low[..9].to_vec());
@@ -63,6 +57,7 @@ fn sliding_block() -> Model {
             nonlinear: true,
             changes,
             loads: Vec::new(),
+            contacts: Vec::new(),
             temperatures: Vec::new(),
         }
     };

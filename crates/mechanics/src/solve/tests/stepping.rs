@@ -277,6 +277,7 @@ fn cube(law: &str, nonlinear: bool, increments: Increments, down: f64) -> Model 
                 ),
             ],
             loads: Vec::new(),
+            contacts: Vec::new(),
             temperatures: Vec::new(),
         }],
         ..Parts::new(&mesh, Idealisation::Space)

@@ -1,6 +1,9 @@
 //! What a model is made of, as plain data: names are resolved, nothing is chosen yet.
 
-use crate::contact::Measure;
+mod contact;
+
+pub use contact::*;
+
 use crate::load::Course;
 use crate::material::Material;
 use crate::solid::{Integration, Locking};
@@ -189,32 +192,6 @@ pub enum ConstraintKind {
     },
 }
 
-/// One side of a contact.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SidePart {
-    /// Faces of solids.
-    Faces(Vec<Face>),
-    /// Bare nodes.
-    Nodes(Vec<NodeId>),
-}
-
-/// A contact.
-#[derive(Clone, Debug)]
-pub struct ContactPart {
-    /// Its name.
-    pub name: String,
-    /// The side that carries points.
-    pub secondary: SidePart,
-    /// The side that is projected onto.
-    pub primary: Vec<Face>,
-    /// Penalty; `None`: from the stiffness behind the surfaces (E1).
-    pub penalty: Option<f64>,
-    /// What it refers to; `None`: area where the secondary side has one.
-    pub measure: Option<Measure>,
-    /// Distance up to which a closest point counts; `None`: chosen.
-    pub reach: Option<f64>,
-}
-
 /// What a support or a motion is applied to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
@@ -330,6 +307,8 @@ pub struct StepPart {
     pub changes: Vec<Change>,
     /// Loads that begin or change here.
     pub loads: Vec<LoadPart>,
+    /// Contacts that change when it begins.
+    pub contacts: Vec<ContactChange>,
     /// Temperatures that nodes reach linearly over the step; others keep theirs.
     pub temperatures: Vec<(NodeId, f64)>,
 }

@@ -1,0 +1,277 @@
+//! Contacts, as plain data.
+
+use crate::contact::Measure;
+use signorini_geometry::mesh::{Face, NodeId};
+use signorini_geometry::surface::ContactSurface;
+use signorini_geometry::tensor::Vec3;
+use std::fmt;
+use std::sync::Arc;
+
+/// The side of a contact that carries points.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SidePart {
+    /// Faces of solids.
+    Faces(Vec<Face>),
+    /// Bare nodes.
+    Nodes(Vec<NodeId>),
+}
+
+/// The side of a contact that points are projected onto.
+#[derive(Clone)]
+pub enum PrimaryPart {
+    /// Faces of solids.
+    Faces(Vec<Face>),
+    /// Bare nodes: for node-to-node contact.
+    Nodes(Vec<NodeId>),
+    /// A rigid analytical or triangulated surface.
+    Surface(Arc<dyn ContactSurface>),
+    /// The secondary side itself: self-contact.
+    Itself,
+}
+
+impl fmt::Debug for PrimaryPart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Faces(faces) => f.debug_tuple("Faces").field(faces).finish(),
+            Self::Nodes(nodes) => f.debug_tuple("Nodes").field(nodes).finish(),
+            Self::Surface(surface) => f.debug_tuple("Surface").field(&surface.nfacet()).finish(),
+            Self::Itself => f.write_str("Itself"),
+        }
+    }
+}
+
+/// How the two sides are compared.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Method {
+    /// What suits the sides.
+    #[default]
+    Auto,
+    /// Nodes of one side against nodes of the other.
+    NodeToNode {
+        /// Where the normals come from.
+        normals: Normals,
+        /// Which nodes meet.
+        pairs: PairOrder,
+    },
+    /// Nodes of the secondary side against segments of the primary side.
+    NodeToSegment,
+    /// Points inside the secondary facets against segments of the primary side.
+    GaussPoint(PointRule),
+}
+
+/// Where node-to-node contact takes its normals from.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Normals {
+    /// The averaged normal of the primary side at its node; it turns with the side.
+    #[default]
+    Primary,
+    /// The opposite of the averaged normal of the secondary side at its node.
+    Secondary,
+    /// Fixed in space, from the primary to the secondary side; of any length.
+    Given(Vec3),
+}
+
+/// Which nodes meet in node-to-node contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PairOrder {
+    /// Each secondary node the nearest primary one.
+    #[default]
+    Nearest,
+    /// The first the first, the second the second.
+    Listed,
+}
+
+/// Points of a facet, along each of its directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PointRule {
+    /// Which points.
+    pub kind: PointKind,
+    /// How many, along each direction; `None`: one more than the degree of the facet.
+    pub points: Option<usize>,
+}
+
+/// The family of a rule.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PointKind {
+    /// Inside.
+    #[default]
+    Gauss,
+    /// Ends included.
+    Lobatto,
+}
+
+/// How penetration is prevented.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Enforcement {
+    /// What suits the method.
+    #[default]
+    Auto,
+    /// Proportional to the penetration; `None`: from the stiffness behind the surfaces.
+    Penalty(Option<f64>),
+    /// Linear between rows of gap (increasing) and pressure.
+    Table(Vec<[f64; 2]>),
+    /// `p0` at zero gap, falling to 1 % of it at the gap `c0`.
+    Exponential {
+        /// Pressure at zero gap.
+        p0: f64,
+        /// The gap at which it has fallen to 1 %.
+        c0: f64,
+    },
+    /// Multipliers, with a primal-dual active set.
+    Lagrange,
+    /// Multipliers of an augmented Lagrangian that are updated between solutions.
+    Uzawa(Option<f64>),
+    /// Multipliers of an augmented Lagrangian that are solved for.
+    AugmentedNewton(Option<f64>),
+}
+
+/// Friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrictionPart {
+    /// The largest tangential traction.
+    pub limit: LimitPart,
+    /// What sticking yields; `None`: as much as the normal direction.
+    pub stick: Option<StickPart>,
+}
+
+/// The largest tangential traction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LimitPart {
+    /// `μ p`, at most the cap.
+    Coulomb {
+        /// μ.
+        mu: f64,
+        /// The cap; infinite where there is none.
+        cap: f64,
+    },
+    /// A constant wherever it touches.
+    Tresca(f64),
+    /// Coulomb's, with a coefficient that falls from one value to another with the length of slip `s`:
+    /// `μ = kinetic + (static − kinetic) exp(−s/transition)`.
+    Falling {
+        /// μ before any slip.
+        stationary: f64,
+        /// μ after much slip.
+        kinetic: f64,
+        /// The length over which it falls.
+        transition: f64,
+    },
+}
+
+/// What sticking yields before it slips.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StickPart {
+    /// Tangential traction per elastic slip.
+    Stiffness(f64),
+    /// The elastic slip at which the limit is reached.
+    Slip(f64),
+}
+
+/// Sides that are joined.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TiePart {
+    /// Whether distances at the start are closed, without strain, or kept.
+    pub close: bool,
+    /// Points further away than this are not joined; `None`: all within reach.
+    pub within: Option<f64>,
+}
+
+/// What is done about gaps and overlaps at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartPart {
+    /// Gaps and overlaps up to this are removed by moving nodes, without strain.
+    pub close_below: f64,
+    /// Gaps are taken to be this; `None`: as measured.
+    pub clearance: Option<f64>,
+    /// What becomes of overlaps.
+    pub interference: Interference,
+}
+
+/// What becomes of overlaps at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interference {
+    /// They are resolved over the first step in which the contact is active.
+    #[default]
+    Ramped,
+    /// They are resolved in the first increment.
+    AtOnce,
+    /// They are taken for contact without pressure.
+    StrainFree,
+}
+
+impl Default for StartPart {
+    fn default() -> Self {
+        Self {
+            close_below: 0.0,
+            clearance: None,
+            interference: Interference::default(),
+        }
+    }
+}
+
+/// A contact.
+#[derive(Clone, Debug)]
+pub struct ContactPart {
+    /// Its name.
+    pub name: String,
+    /// The side that carries points.
+    pub secondary: SidePart,
+    /// The side that is projected onto.
+    pub primary: PrimaryPart,
+    /// How they are compared.
+    pub method: Method,
+    /// Whether also with the sides swapped.
+    pub two_pass: bool,
+    /// Whether tributary areas are those of the last accepted state, and not of the start.
+    pub present_area: bool,
+    /// How penetration is prevented.
+    pub enforcement: Enforcement,
+    /// What the law's pressure refers to; `None`: area where the secondary side has one.
+    pub measure: Option<Measure>,
+    /// Friction; `None`: none.
+    pub friction: Option<FrictionPart>,
+    /// Whether sliding is small: every point keeps the tangent plane that it meets first.
+    pub small_sliding: bool,
+    /// Whether the sides are joined.
+    pub tie: Option<TiePart>,
+    /// Gaps and overlaps at the start.
+    pub start: StartPart,
+    /// Distance up to which a closest point counts; `None`: chosen.
+    pub reach: Option<f64>,
+    /// Whether it acts in the first step.
+    pub active: bool,
+}
+
+impl ContactPart {
+    /// A contact with nothing but defaults.
+    #[must_use]
+    pub fn new(name: impl Into<String>, secondary: SidePart, primary: PrimaryPart) -> Self {
+        Self {
+            name: name.into(),
+            secondary,
+            primary,
+            method: Method::Auto,
+            two_pass: false,
+            present_area: false,
+            enforcement: Enforcement::Auto,
+            measure: None,
+            friction: None,
+            small_sliding: false,
+            tie: None,
+            start: StartPart::default(),
+            reach: None,
+            active: true,
+        }
+    }
+}
+
+/// A change of a contact when a step begins; it stays until the next.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactChange {
+    /// The place of the contact in the list.
+    pub contact: usize,
+    /// Whether it acts from now on; `None`: as before.
+    pub active: Option<bool>,
+    /// Its friction from now on; `None`: as before.
+    pub friction: Option<Option<FrictionPart>>,
+}
