@@ -117,11 +117,13 @@ impl Polynomial {
                 return foot;
             }
             let found = self.polished(x, y, x + h * self.best_root(x, y, h), h);
-            let (before, reached) = (h, distance(found));
-            if reached < h {
+            let reached = distance(found);
+            let much_closer = reached < 0.5 * h;
+            // distances near their minimum are equal to rounding, where feet are not
+            if reached <= h * (1.0 + TIE) {
                 (foot, h) = (found, reached);
             }
-            if h > 0.5 * before {
+            if !much_closer {
                 break;
             }
         }
