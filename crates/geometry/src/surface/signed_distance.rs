@@ -22,7 +22,8 @@
 //! Source: Absil, Mahony, Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 2008, chapters 4 to 6.
 
 use super::SurfaceError;
-use super::analytical::{Patch, Shape};
+use super::analytical::{AnalyticalError, Patch, Shape};
+use super::mount::positive;
 use crate::tensor::{Mat3, Sym3, Vec3};
 use std::fmt;
 
@@ -38,6 +39,7 @@ const NOISE: f64 = 1e-9;
 
 /// A surface where a function vanishes, with the function's derivatives, in the initial configuration.
 pub struct SignedDistance {
+    size: f64,
     value: Box<UserFunction<f64>>,
     gradient: Box<UserFunction<Vec3>>,
     hessian: Box<UserFunction<Sym3>>,
@@ -47,6 +49,7 @@ pub struct SignedDistance {
 impl fmt::Debug for SignedDistance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("SignedDistance")
+            .field("size", &self.size)
             .field("ball", &self.ball)
             .finish_non_exhaustive()
     }
@@ -54,19 +57,24 @@ impl fmt::Debug for SignedDistance {
 
 impl SignedDistance {
     /// From φ, ∇φ and ∇∇φ as functions of the position. In a model of the plane positions have z = 0, and φ must not
-    /// depend on z.
-    #[must_use]
+    /// depend on z. `size` is a length like those in φ, such as a radius: a point is on the surface where it is so to the
+    /// rounding error of that length.
+    ///
+    /// # Errors
+    /// A size that is not positive.
     pub fn new(
+        size: f64,
         value: Box<UserFunction<f64>>,
         gradient: Box<UserFunction<Vec3>>,
         hessian: Box<UserFunction<Sym3>>,
-    ) -> Self {
-        Self {
+    ) -> Result<Self, AnalyticalError> {
+        Ok(Self {
+            size: positive("the size of the surface", size)?,
             value,
             gradient,
             hessian,
             ball: None,
-        }
+        })
     }
 
     /// The same surface, which lies in this ball: points far from it are left alone.
@@ -141,7 +149,8 @@ impl SignedDistance {
                 return Ok(None);
             }
             let step = gradient * (self.value(x)? / squared);
-            let (length, scale) = (step.norm(), x.norm() + (x - from).norm());
+            let length = step.norm();
+            let scale = self.size + x.norm() + (x - from).norm();
             x -= step;
             if length <= ROUND_OFF * scale || (length >= 0.5 * last && length <= NOISE * scale) {
                 return Ok(Some(x));
@@ -204,7 +213,7 @@ impl Shape for SignedDistance {
             let tau = away - normal * along;
             let curved = Mat3::IDENTITY + hessian * (along / steepness);
             let newton = tangential(curved, normal, tau); // (E2)
-            let scale = x.norm() + away.norm();
+            let scale = self.size + x.norm() + away.norm();
             let residual = tau.norm();
             if residual <= ROUND_OFF * scale
                 || (residual >= 0.5 * last && residual <= NOISE * scale)

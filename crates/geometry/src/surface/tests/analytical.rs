@@ -71,11 +71,20 @@ fn frame(axis: Vec3) -> (Vec3, Vec3, Vec3) {
 /// `½ x·Q x − ½` with its derivatives: an ellipsoid, far from a distance.
 fn ellipsoid(q: Sym3, s: f64) -> SignedDistance {
     let m = q.to_mat3();
-    SignedDistance::new(
-        Box::new(move |x| Ok(s * 0.5 * (x.dot(m * x) - 1.0))),
-        Box::new(move |x| Ok(m * x * s)),
-        Box::new(move |_| Ok(q * s)),
+    distance(
+        move |x| Ok(s * 0.5 * (x.dot(m * x) - 1.0)),
+        move |x| Ok(m * x * s),
+        move |_| Ok(q * s),
     )
+}
+
+/// A function of lengths about 1.
+fn distance(
+    value: impl Fn(Vec3) -> Result<f64, String> + Send + Sync + 'static,
+    gradient: impl Fn(Vec3) -> Result<Vec3, String> + Send + Sync + 'static,
+    hessian: impl Fn(Vec3) -> Result<Sym3, String> + Send + Sync + 'static,
+) -> SignedDistance {
+    SignedDistance::new(1.0, Box::new(value), Box::new(gradient), Box::new(hessian)).unwrap()
 }
 
 /// A torus around z as a true distance.
@@ -85,10 +94,10 @@ fn ring(radius: f64, tube: f64, s: f64) -> SignedDistance {
         let w = x - e * radius;
         Ok::<_, String>((e, w, w.norm()))
     };
-    SignedDistance::new(
-        Box::new(move |x| Ok(s * (split(x)?.2 - tube))),
-        Box::new(move |x| split(x).map(|(_, w, d)| w * (s / d))),
-        Box::new(move |x| {
+    distance(
+        move |x| Ok(s * (split(x)?.2 - tube)),
+        move |x| split(x).map(|(_, w, d)| w * (s / d)),
+        move |x| {
             let (e, w, d) = split(x)?;
             let around = Vec3::unit(2).cross(e);
             let n = w / d;
@@ -96,7 +105,7 @@ fn ring(radius: f64, tube: f64, s: f64) -> SignedDistance {
             let rho = x.dot(e);
             let m = i * d.recip() + Mat3::outer(around, around) * (n.dot(e) / rho);
             Ok(Sym3::symmetric_part(m * s))
-        }),
+        },
     )
     .within(Vec3::ZERO, radius + tube)
 }
@@ -713,30 +722,26 @@ fn a_function_and_its_derivatives_are_checked_and_its_errors_arrive() {
         .check(at, 1e-4)
         .unwrap();
     ring(2.0, 0.5, -1.0).check(at, 1e-4).unwrap();
-    let wrong = SignedDistance::new(
-        Box::new(|x| Ok(x.norm() - 1.0)),
-        Box::new(|x| Ok(x * 0.5)),
-        Box::new(|_| Ok(Sym3::IDENTITY)),
+    let wrong = distance(
+        |x| Ok(x.norm() - 1.0),
+        |x| Ok(x * 0.5),
+        |_| Ok(Sym3::IDENTITY),
     );
     let message = wrong.check(at, 1e-4).unwrap_err().to_string();
     assert!(
         message.contains("the gradient at (0.9, 0.4, -0.3)"),
         "{message}"
     );
-    let wrong = SignedDistance::new(
-        Box::new(|x| Ok(0.5 * x.norm_squared() - 0.5)),
-        Box::new(Ok),
-        Box::new(|_| Ok(Sym3::IDENTITY * -1.0)),
+    let wrong = distance(
+        |x| Ok(0.5 * x.norm_squared() - 0.5),
+        Ok,
+        |_| Ok(Sym3::IDENTITY * -1.0),
     );
     let message = wrong.check(at, 1e-4).unwrap_err().to_string();
     assert!(message.contains("the Hessian"), "{message}");
 
     let failing = |value: fn(Vec3) -> Result<f64, String>| {
-        let shape = SignedDistance::new(
-            Box::new(value),
-            Box::new(|_| Ok(Vec3::unit(2))),
-            Box::new(|_| Ok(Sym3::ZERO)),
-        );
+        let shape = distance(value, |_| Ok(Vec3::unit(2)), |_| Ok(Sym3::ZERO));
         let surface = Analytical::new(Mount::fixed(2), Box::new(shape)).unwrap();
         let mut jet = SurfaceJet::default();
         surface
@@ -749,15 +754,39 @@ fn a_function_and_its_derivatives_are_checked_and_its_errors_arrive() {
     assert!(failing(|_| Ok(f64::NAN)).contains("is not finite"));
     assert!(failing(|_| Ok(1.0)).contains("no zero of the function"));
     // in the plane a function of z has no place
-    let tilted = SignedDistance::new(
-        Box::new(|x| Ok(x.y + x.z)),
-        Box::new(|_| Ok(Vec3::new(0.0, 1.0, 1.0))),
-        Box::new(|_| Ok(Sym3::ZERO)),
+    let tilted = distance(
+        |x| Ok(x.y + x.z),
+        |_| Ok(Vec3::new(0.0, 1.0, 1.0)),
+        |_| Ok(Sym3::ZERO),
     );
     let surface = Analytical::new(Mount::fixed(1), Box::new(tilted)).unwrap();
     let mut jet = SurfaceJet::default();
     let left = surface.project(&EMPTY, 0, Vec3::unit(1), None, &mut jet);
     assert!(left.unwrap_err().to_string().contains("leaves the plane"));
+}
+
+/// Rounding in a function goes by its lengths, not by the coordinates near its zero.
+#[test]
+fn feet_near_the_origin_are_found_though_the_function_rounds_more_coarsely() {
+    let mut random = Random(30);
+    let c = Vec3::new(0.6, 0.0, -0.8);
+    let ball = distance(
+        move |x| Ok((x - c).norm() - 1.0),
+        move |x| Ok((x - c) / (x - c).norm()),
+        move |x| {
+            let n = (x - c) / (x - c).norm();
+            let across = Mat3::IDENTITY - Mat3::outer(n, n);
+            Ok(Sym3::symmetric_part(across) * (x - c).norm().recip())
+        },
+    );
+    let exact = Sphere::new(c, 1.0, Side::Outside).unwrap();
+    for _ in 0..2000 {
+        let point = random.vector() * 10f64.powf(-20.0 * random.unit());
+        let foot = ball.closest(point).unwrap().unwrap();
+        let expected = exact.closest(point).unwrap().unwrap();
+        assert!((foot - expected).norm() < 4e-15, "{point:?}");
+    }
+    assert!(ball.closest(Vec3::ZERO).unwrap().is_some());
 }
 
 #[test]

@@ -12,10 +12,12 @@ fn ellipse(centre: Vec3, axes: [f64; 2]) -> SignedDistance {
     let stretch = Sym3::diagonal(axes[0].powi(-2), axes[1].powi(-2), 0.0);
     let gradient = move |x: Vec3| stretch.to_mat3() * (x - centre);
     SignedDistance::new(
+        1.0,
         Box::new(move |x| Ok(0.5 * (x - centre).dot(gradient(x)) - 0.5)),
         Box::new(move |x| Ok(gradient(x))),
         Box::new(move |_| Ok(stretch)),
     )
+    .unwrap()
 }
 
 /// A rigid body with a round surface, a node near it, and a state in which the body has been turned twice.
