@@ -831,6 +831,12 @@ fn shapes_that_are_none_are_refused_in_words() {
         said(polynomial(&[1.0; MAX_DEGREE + 2]).unwrap_err()),
         "the polynomial is of degree 11; 10 is the most"
     );
+    let value = Box::new(|x: Vec3| Ok(x.z));
+    let unsized_plane = SignedDistance::new(0.0, value, Box::new(Ok), Box::new(|_| Ok(Sym3::ZERO)));
+    assert_eq!(
+        said(unsized_plane.unwrap_err()),
+        "the size of the surface is 0; it must be positive and finite"
+    );
     // huge and tiny directions are directions
     assert!(Plane::new(o, z * 1e300).is_ok() && Plane::new(o, z * 1e-300).is_ok());
 
