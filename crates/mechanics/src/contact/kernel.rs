@@ -149,13 +149,14 @@ impl<'a> Laws<'a> {
         if self.bond {
             return self.bonded(row, lambda);
         }
-        let pressure = self.pressure(row.gap, row.normal, lambda);
+        let scalar = self.scalar(row.normal, lambda);
+        let pressure = self.law.trial(row.gap, scalar, self.scale);
         if pressure == Eval::default() {
             return Traction::default();
         }
         let Some(friction) = self.friction() else {
             return Traction {
-                pressure: pressure.value,
+                pressure: self.law.pressure(row.gap, scalar, self.scale).value,
                 state: Contact::Slip,
                 ..Traction::default()
             };
@@ -308,7 +309,7 @@ impl<'a> Laws<'a> {
         let wants_tangent = !target.stiffness.is_empty();
         let (nu, sliding) = (row.normal, &row.sliding);
         let along = nu.dot(lambda.vector);
-        let pressure = self.law.pressure(row.gap, -along, self.scale);
+        let pressure = self.law.trial(row.gap, -along, self.scale);
         let open = pressure == Eval::default();
 
         work.reset(width);

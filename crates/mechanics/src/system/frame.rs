@@ -159,6 +159,8 @@ pub struct Frame {
     pub contacts: Vec<ContactFrame>,
     /// What contact exerts on each rigid body, about its reference point; and its motion.
     pub rigid: Vec<RigidFrame>,
+    /// Work spent so far by viscous forces that hold what only contact stops.
+    pub work_stabilization: f64,
     /// Potential energy, where every term has one.
     pub energy: Option<f64>,
 }

@@ -143,13 +143,14 @@ impl Context<'_> {
             }
         };
         let size = if largest > 0.0 { largest } else { length };
-        let reach = part.reach.unwrap_or(REACH * size);
-        sides.pair.reach = reach;
         let at = self.placement();
-        let found = sides.pair_up(&at).map_err(|source| ModelError::Surface {
-            contact: part.name.clone(),
-            source,
-        })?;
+        let found = sides
+            .look_around(&at, part.reach, REACH * size)
+            .map_err(|source| ModelError::Surface {
+                contact: part.name.clone(),
+                source,
+            })?;
+        let reach = sides.pair.reach;
         let bond = match part.tie {
             None => None,
             Some(tie) => Some(start::bonds(&sides, &found, tie, &at).map_err(|source| {
