@@ -13,6 +13,7 @@ mod mesh;
 mod names;
 mod refused;
 mod steps;
+mod surfaces;
 mod temperature;
 #[cfg(test)]
 mod tests;
@@ -33,6 +34,7 @@ use signorini_mechanics::system::linear::LinearKind;
 use signorini_mechanics::system::{Idealisation, System};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use surfaces::Surfaces;
 
 /// A case, built: everything a run needs.
 pub struct Model {
@@ -132,6 +134,10 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
     };
+    found.append(refused::not_solved(&case, &parts));
+    if found.has_errors() {
+        return Err(found);
+    }
     case.initial_temperature = start.map(Spanned::from);
     let model = match signorini_mechanics::model::Model::assemble(parts) {
         Ok(model) => model,
@@ -212,11 +218,9 @@ fn parts<'a>(
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, found);
-    parts.contacts = case
-        .contacts
-        .iter()
-        .filter(|c| c.active)
-        .filter_map(|c| contact::contact(c, names, found))
+    let surfaces = Surfaces::new(case, mesh, carriers, found);
+    parts.contacts = contact::acting(case)
+        .filter_map(|c| contact::contact(c, names, &surfaces, found))
         .collect();
     let (temperature, start) = temperature::at_start(case, mesh, found);
     parts.temperature = temperature;
@@ -249,16 +253,21 @@ fn choose(
     contacts: &[ContactSummary],
     locking: &[LockingSummary],
 ) {
-    let active = case.contacts.iter_mut().filter(|c| c.active);
-    for (part, summary) in active.zip(contacts) {
-        part.method.value = Method::NodeToSegment;
-        part.enforcement = Enforcement::Penalty {
-            penalty: Some(summary.penalty.into()),
-            per: Some(match summary.measure {
+    for summary in contacts {
+        let mut all = case.contacts.iter_mut();
+        let Some(part) = all.find(|one| one.name.value == summary.name) else {
+            continue;
+        };
+        if *part.method == Method::Auto {
+            part.method.value = Method::NodeToSegment;
+        }
+        if let Enforcement::Auto | Enforcement::Penalty(_) = part.enforcement {
+            part.enforcement = Enforcement::Penalty(Some(summary.penalty.into()));
+            part.per = Some(match summary.measure {
                 Measure::Area => Per::Area,
                 Measure::Node => Per::Node,
-            }),
-        };
+            });
+        }
         part.reach = Some(summary.reach);
     }
     for body in &mut case.bodies {
