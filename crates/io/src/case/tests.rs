@@ -818,6 +818,38 @@ fn a_resolved_case_reads_back_to_the_same_case() {
     }
 }
 
+/// The page of the manual about contacts.
+const PAGE: &str = include_str!("../../../../docs/contact.md");
+
+#[test]
+fn what_the_page_about_contacts_shows_reads_without_a_word() {
+    let blocks = PAGE.split("```toml\n").skip(1);
+    let shown: String = blocks.filter_map(|text| text.split("```").next()).collect();
+    let around = "mesh = { file = 'a.msh' }\nreference = { pilot = { at = [0, 0, 0] } }\n\
+        body = [{ group = 'a', rigid = true }]\n";
+    let (contacts, change) = shown.split_once("[[step.contact]]").unwrap();
+    let case = |contacts: &str| {
+        let text = format!("{around}{contacts}\n[[step]]\nname = 's'\n[[step.contact]]{change}");
+        let (case, warnings) = read(&text).unwrap_or_else(|all| panic!("{all}"));
+        assert!(warnings.is_empty(), "{warnings}");
+        case
+    };
+    assert_eq!(case(contacts).contacts.len(), 4);
+    let cells = PAGE.lines().filter_map(|line| line.strip_prefix("| "));
+    let laws = cells.flat_map(|line| line.split('`').skip(1).step_by(2));
+    let laws: Vec<&str> = laws.filter(|law| law.starts_with('{')).collect();
+    assert_eq!(laws.len(), 8);
+    for law in laws {
+        let key = match law.contains("mu") || law.contains("tresca") || law.contains("static") {
+            true => "friction",
+            false => "enforcement",
+        };
+        let other =
+            format!("[[contact]]\nname = 'other'\nsecondary = 'x'\nprimary = 'y'\n{key} = {law}\n");
+        assert_eq!(case(&format!("{contacts}{other}")).contacts.len(), 5);
+    }
+}
+
 /// Calls `visit` with every table of the vocabulary and its path.
 fn each_table(words: &'static Table, path: &str, visit: &mut impl FnMut(&'static Table, &str)) {
     fn inner(shape: &'static Shape) -> Option<&'static Table> {
