@@ -189,6 +189,24 @@ impl Facets {
         })
     }
 
+    /// Shape functions at a point of a facet, 0 beyond its last node, and area (length, in the plane) per unit of the
+    /// parameters there.
+    ///
+    /// # Errors
+    /// A facet that does not exist or has no normal.
+    pub fn sample(
+        &self,
+        x: &[Vec3],
+        facet: u32,
+        local: Vec3,
+    ) -> Result<([f64; MAX_FACET_NODES], f64), SurfaceError> {
+        let mut jet = SurfaceJet::default();
+        let at = Placement { x, poses: &[] };
+        self.jet(&at, &Anchor { facet, local }, &mut jet)?;
+        jet.shape[jet.nnode..].fill(0.0);
+        Ok((jet.shape, area_factor(&jet, self.ntan)))
+    }
+
     /// Adds up what each facet gives its nodes, in the order of [`Facets::all_nodes`].
     fn gather(
         &self,

@@ -1,33 +1,462 @@
-//! From rows to force and stiffness, (E1) and (E2) of the room.
+//! From rows to force and stiffness: (E1) to (E6) of the room. It never asks what the segment is.
 
-use super::law::Eval;
+use super::friction::{Coulomb, FrictionLaw, Limit, Sliding, Stick};
+use super::law::{ContactLaw, Eval, Multiplier, Scale};
 use super::row::Row;
+use signorini_geometry::tensor::Vec3;
 
-/// Adds the force of a pressure, and its stiffness where `stiffness` is not empty.
-pub(super) fn add_pressure(
-    row: &Row,
-    measure: f64,
-    pressure: &Eval,
-    force: &mut [f64],
-    stiffness: &mut [f64],
-) {
-    let n = row.weights.len();
-    let scaled = measure * pressure.value;
-    for (f, b) in force.iter_mut().zip(&row.weights) {
-        *f -= scaled * b; // (E1)
-    }
-    if stiffness.is_empty() {
-        return;
-    }
-    let slope = measure * pressure.dgap;
-    for ((line, b), db) in stiffness
-        .chunks_exact_mut(n)
-        .zip(&row.weights)
-        .zip(row.dweights.chunks_exact(n))
-    {
-        let along = slope * b;
-        for ((k, g), db) in line.iter_mut().zip(&row.gradient).zip(db) {
-            *k -= along * g + scaled * db; // (E2)
+/// The laws of an interface, and the numbers they scale with.
+#[derive(Clone, Copy)]
+pub(super) struct Laws<'a> {
+    pub law: &'a dyn ContactLaw,
+    pub friction: Option<&'a dyn FrictionLaw>,
+    pub stick: Stick,
+    pub scale: &'a Scale,
+    /// Whether the sides are joined.
+    pub bond: bool,
+    /// Whether multipliers are tractions.
+    pub vectors: bool,
+}
+
+/// Stands for no friction where multipliers are tractions all the same.
+static SMOOTH: Coulomb = Coulomb {
+    mu: 0.0,
+    cap: f64::INFINITY,
+};
+
+/// The multiplier of a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Lambda {
+    /// λ, ≥ 0 in compression: without friction.
+    pub scalar: f64,
+    /// The traction: with friction, and of bonds.
+    pub vector: Vec3,
+}
+
+/// What acts on a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Traction {
+    /// ≥ 0 in compression.
+    pub pressure: f64,
+    /// With the sign of the internal force on the point: along the slip that it resists.
+    pub tangential: Vec3,
+    /// The trial, and whether it is beyond the limit.
+    pub limit: f64,
+    pub state: Contact,
+}
+
+/// Whether and how a row touches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Contact {
+    #[default]
+    Open,
+    Stick,
+    Slip,
+}
+
+/// Where results of a group go: its columns first, then the multipliers of its row.
+pub(super) struct Target<'a> {
+    pub force: &'a mut [f64],
+    /// Row-major; empty where it is not wanted.
+    pub stiffness: &'a mut [f64],
+}
+
+/// Buffers for derivatives: one entry for each column, those of the multiplier included.
+#[derive(Default)]
+pub(super) struct Derivatives {
+    pressure: Vec<f64>,
+    tangential: Vec<Vec3>,
+    trial: Vec<Vec3>,
+    actual_pressure: Vec<f64>,
+    actual_tangential: Vec<Vec3>,
+}
+
+impl Derivatives {
+    fn reset(&mut self, n: usize) {
+        self.pressure.clear();
+        self.pressure.resize(n, 0.0);
+        self.actual_pressure.clear();
+        self.actual_pressure.resize(n, 0.0);
+        for vectors in [
+            &mut self.tangential,
+            &mut self.trial,
+            &mut self.actual_tangential,
+        ] {
+            vectors.clear();
+            vectors.resize(n, Vec3::ZERO);
         }
     }
+}
+
+impl<'a> Laws<'a> {
+    /// Whether rows have a tangential part.
+    pub fn slips(&self) -> bool {
+        self.bond || self.friction().is_some()
+    }
+
+    fn friction(&self) -> Option<&'a dyn FrictionLaw> {
+        let smooth = || self.vectors.then_some(&SMOOTH as &dyn FrictionLaw);
+        self.friction.or_else(smooth)
+    }
+
+    /// λ along the normal.
+    pub fn scalar(&self, normal: Vec3, lambda: &Lambda) -> f64 {
+        if self.vectors {
+            -lambda.vector.dot(normal)
+        } else {
+            lambda.scalar
+        }
+    }
+
+    /// The pressure of a gap alone.
+    pub fn pressure(&self, gap: f64, normal: Vec3, lambda: &Lambda) -> Eval {
+        let scalar = self.scalar(normal, lambda);
+        self.law.pressure(gap, scalar, self.scale)
+    }
+
+    /// Whether anything acts at this gap.
+    pub fn acts(&self, gap: f64, normal: Vec3, lambda: &Lambda) -> bool {
+        self.pressure(gap, normal, lambda) != Eval::default()
+    }
+
+    /// Tangential traction per slip, of what sticks.
+    pub fn stick_stiffness(&self) -> f64 {
+        match (self.bond, self.stick_of()) {
+            (true, _) => self.scale.penalty,
+            (false, Stick::Stiffness(stiffness)) if self.slips() => stiffness,
+            _ => 0.0,
+        }
+    }
+
+    /// Whether what sticks does not yield.
+    pub fn sticks_exactly(&self) -> bool {
+        self.law.multiplier() != Multiplier::None
+    }
+
+    /// The elastic slip that belongs to a traction.
+    pub fn elastic(&self, traction: &Traction) -> Vec3 {
+        match self.stick_of() {
+            Stick::Stiffness(stiffness) if stiffness > 0.0 => traction.tangential / stiffness,
+            Stick::Slip(length) if traction.limit > 0.0 => {
+                traction.tangential * (length / traction.limit)
+            }
+            _ => Vec3::ZERO,
+        }
+    }
+
+    /// What acts on a row, without derivatives.
+    pub fn traction(&self, row: &Row, lambda: &Lambda, path: f64) -> Traction {
+        if self.bond {
+            return self.bonded(row, lambda);
+        }
+        let pressure = self.pressure(row.gap, row.normal, lambda);
+        if pressure == Eval::default() {
+            return Traction::default();
+        }
+        let Some(friction) = self.friction() else {
+            return Traction {
+                pressure: pressure.value,
+                state: Contact::Slip,
+                ..Traction::default()
+            };
+        };
+        let sliding = Sliding {
+            pressure: pressure.value,
+            path,
+        };
+        let limit = friction.limit(&sliding);
+        let (tangential, state) = self.returned(self.trial(row, lambda), &limit);
+        let limit = limit.value;
+        if self.law.multiplier() == Multiplier::Direct {
+            let along = lambda.vector.dot(row.normal);
+            return Traction {
+                pressure: -along,
+                tangential: lambda.vector - row.normal * along,
+                limit,
+                state,
+            };
+        }
+        Traction {
+            pressure: pressure.value,
+            tangential,
+            limit,
+            state,
+        }
+    }
+
+    /// The trial of the return: a traction, or a slip where sticking is given by a slip.
+    fn trial(&self, row: &Row, lambda: &Lambda) -> Vec3 {
+        match self.stick_of() {
+            Stick::Stiffness(stiffness) => {
+                let along = row.normal.dot(lambda.vector);
+                lambda.vector - row.normal * along + row.sliding.slip * stiffness
+            }
+            Stick::Slip(_) => row.sliding.slip,
+        }
+    }
+
+    /// The return to the limit.
+    fn returned(&self, trial: Vec3, limit: &Limit) -> (Vec3, Contact) {
+        if *limit == Limit::default() {
+            return (Vec3::ZERO, Contact::Slip);
+        }
+        let (size, limit) = (trial.norm(), limit.value);
+        match self.stick_of() {
+            Stick::Stiffness(_) if size <= limit => (trial, Contact::Stick),
+            Stick::Slip(length) if size <= length => (trial * (limit / length), Contact::Stick),
+            _ => (trial * (limit / size), Contact::Slip),
+        }
+    }
+
+    /// Multipliers stick exactly, whatever the stiffness: theirs is that of the normal direction, so that the tangent of
+    /// what sticks stays symmetric.
+    fn stick_of(&self) -> Stick {
+        if self.law.multiplier() == Multiplier::None {
+            self.stick
+        } else {
+            Stick::Stiffness(self.scale.penalty)
+        }
+    }
+
+    fn bonded(&self, row: &Row, lambda: &Lambda) -> Traction {
+        let stretched = match self.law.multiplier() {
+            Multiplier::Direct => lambda.vector,
+            _ => lambda.vector + row.sliding.slip * self.scale.penalty,
+        };
+        let along = stretched.dot(row.normal);
+        Traction {
+            pressure: -along,
+            tangential: stretched - row.normal * along,
+            limit: f64::INFINITY,
+            state: Contact::Stick,
+        }
+    }
+
+    /// Adds forces and stiffness of a row.
+    pub fn act(
+        &self,
+        row: &Row,
+        measure: f64,
+        lambda: &Lambda,
+        path: f64,
+        work: &mut Derivatives,
+        target: &mut Target<'_>,
+    ) {
+        if self.bond {
+            self.tie(row, measure, lambda, target);
+        } else if let Some(friction) = self.friction() {
+            self.rub(friction, row, measure, lambda, path, work, target);
+        } else {
+            self.press(row, measure, lambda.scalar, target);
+        }
+    }
+
+    /// Contact without friction: (E1), (E2).
+    fn press(&self, row: &Row, measure: f64, lambda: f64, target: &mut Target<'_>) {
+        let n = row.weights.len();
+        let width = target.force.len();
+        let pressure = self.law.pressure(row.gap, lambda, self.scale);
+        let scaled = measure * pressure.value;
+        for (f, b) in target.force.iter_mut().zip(&row.weights) {
+            *f -= scaled * b; // (E1)
+        }
+        let unknown = self.law.multiplier().is_unknown();
+        let row_of_lambda = self.law.complementarity(row.gap, lambda, self.scale);
+        if unknown {
+            target.force[n] += measure * row_of_lambda.value;
+        }
+        if target.stiffness.is_empty() {
+            return;
+        }
+        if pressure != Eval::default() {
+            let slope = measure * pressure.dgap;
+            let lines = target.stiffness.chunks_exact_mut(width);
+            for ((line, b), db) in lines.zip(&row.weights).zip(row.dweights.chunks_exact(n)) {
+                let along = slope * b;
+                for ((k, g), db) in line.iter_mut().zip(&row.gradient).zip(db) {
+                    *k -= along * g + scaled * db; // (E2)
+                }
+                if unknown {
+                    line[n] -= measure * pressure.dlambda * b;
+                }
+            }
+        }
+        if unknown {
+            let line = &mut target.stiffness[n * width..];
+            for (k, g) in line.iter_mut().zip(&row.gradient) {
+                *k += measure * row_of_lambda.dgap * g;
+            }
+            line[n] += measure * row_of_lambda.dlambda;
+        }
+    }
+
+    /// Contact with friction: (E3) to (E5).
+    #[allow(clippy::too_many_arguments)]
+    fn rub(
+        &self,
+        friction: &dyn FrictionLaw,
+        row: &Row,
+        measure: f64,
+        lambda: &Lambda,
+        path: f64,
+        work: &mut Derivatives,
+        target: &mut Target<'_>,
+    ) {
+        let (n, width) = (row.weights.len(), target.force.len());
+        let unknown = self.law.multiplier().is_unknown();
+        let direct = self.law.multiplier() == Multiplier::Direct;
+        let wants_tangent = !target.stiffness.is_empty();
+        let (nu, sliding) = (row.normal, &row.sliding);
+        let along = nu.dot(lambda.vector);
+        let pressure = self.law.pressure(row.gap, -along, self.scale);
+        let open = pressure == Eval::default();
+
+        work.reset(width);
+        // dp, and d(Pλ)
+        for j in 0..n {
+            let turned = lambda.vector.dot(sliding.dnormal[j]);
+            work.pressure[j] = pressure.dgap * row.gradient[j] - pressure.dlambda * turned;
+            work.actual_pressure[j] = -turned;
+            work.trial[j] = sliding.dnormal[j] * -along - nu * turned;
+            work.actual_tangential[j] = work.trial[j];
+        }
+        for c in 0..width - n {
+            work.pressure[n + c] = -pressure.dlambda * nu[c];
+            work.actual_pressure[n + c] = -nu[c];
+            work.trial[n + c] = Vec3::unit(c) - nu * nu[c];
+            work.actual_tangential[n + c] = work.trial[n + c];
+        }
+        let limit = friction.limit(&Sliding {
+            pressure: pressure.value,
+            path,
+        });
+        let trial = self.trial(row, lambda);
+        let mut tangential = Vec3::ZERO;
+        if !open && limit != Limit::default() {
+            let state;
+            (tangential, state) = self.returned(trial, &limit);
+            let size = trial.norm();
+            for j in 0..width {
+                let dslip = sliding.dslip.get(j).copied().unwrap_or_default();
+                let dlimit = limit.dpressure * work.pressure[j];
+                work.tangential[j] = match (self.stick_of(), state) {
+                    (Stick::Stiffness(stiffness), Contact::Slip) => {
+                        let dz = work.trial[j] + dslip * stiffness;
+                        slipping(trial, size, limit.value, dz, dlimit)
+                    }
+                    (Stick::Stiffness(stiffness), _) => work.trial[j] + dslip * stiffness,
+                    (Stick::Slip(_), Contact::Slip) => {
+                        slipping(trial, size, limit.value, dslip, dlimit)
+                    }
+                    (Stick::Slip(length), _) => {
+                        dslip * (limit.value / length) + trial * (dlimit / length)
+                    }
+                };
+            }
+        }
+
+        let (acting, acting_tangential) = if direct {
+            (-along, lambda.vector - nu * along)
+        } else {
+            (pressure.value, tangential)
+        };
+        if unknown {
+            // λ − that, over c
+            let penalty = self.scale.penalty;
+            let missing = lambda.vector + nu * pressure.value - tangential;
+            for c in 0..width - n {
+                target.force[n + c] -= measure / penalty * missing[c];
+            }
+            if wants_tangent {
+                for j in 0..width {
+                    let dnormal = sliding.dnormal.get(j).copied().unwrap_or_default();
+                    let mut change =
+                        nu * work.pressure[j] + dnormal * pressure.value - work.tangential[j];
+                    if j >= n {
+                        change += Vec3::unit(j - n);
+                    }
+                    for c in 0..width - n {
+                        target.stiffness[(n + c) * width + j] -= measure / penalty * change[c];
+                    }
+                }
+            }
+        }
+        for i in 0..n {
+            let f = sliding.operator[i].dot(acting_tangential) - acting * row.weights[i];
+            target.force[i] += measure * f; // (E3)
+        }
+        if !wants_tangent {
+            return;
+        }
+        let (dp, dt) = if direct {
+            (&work.actual_pressure, &work.actual_tangential)
+        } else {
+            (&work.pressure, &work.tangential)
+        };
+        let lines = target.stiffness.chunks_exact_mut(width).take(n);
+        for (i, line) in lines.enumerate() {
+            let (b, operator) = (row.weights[i], sliding.operator[i]);
+            for (j, k) in line.iter_mut().enumerate() {
+                *k += measure * (operator.dot(dt[j]) - b * dp[j]); // (E4)
+            }
+            let db = &row.dweights[i * n..(i + 1) * n];
+            for (k, db) in line.iter_mut().zip(db) {
+                *k -= measure * acting * db;
+            }
+            for turn in sliding.turns() {
+                let across = measure * turn.across[i].dot(acting_tangential);
+                for (k, along) in line.iter_mut().zip(&turn.along) {
+                    *k += across * along;
+                }
+            }
+        }
+    }
+
+    /// Sides that are joined: (E6).
+    fn tie(&self, row: &Row, measure: f64, lambda: &Lambda, target: &mut Target<'_>) {
+        let (n, width) = (row.weights.len(), target.force.len());
+        let sliding = &row.sliding;
+        let multiplier = self.law.multiplier();
+        let stiffness = match multiplier {
+            Multiplier::Direct => 0.0,
+            _ => self.scale.penalty,
+        };
+        let traction = lambda.vector + sliding.slip * stiffness;
+        for (f, b) in target.force.iter_mut().zip(&sliding.operator) {
+            *f += measure * b.dot(traction);
+        }
+        for c in 0..width - n {
+            target.force[n + c] += measure * sliding.slip[c];
+        }
+        if target.stiffness.is_empty() {
+            return;
+        }
+        for (i, line) in target.stiffness.chunks_exact_mut(width).enumerate() {
+            if i >= n {
+                for (k, de) in line.iter_mut().zip(&sliding.dslip) {
+                    *k += measure * de[i - n];
+                }
+                continue;
+            }
+            let b = sliding.operator[i];
+            for (k, de) in line.iter_mut().zip(&sliding.dslip) {
+                *k += measure * stiffness * b.dot(*de);
+            }
+            for c in 0..width - n {
+                line[n + c] += measure * b[c];
+            }
+            for turn in sliding.turns() {
+                let across = measure * turn.across[i].dot(traction);
+                for (k, along) in line.iter_mut().zip(&turn.along) {
+                    *k += across * along;
+                }
+            }
+        }
+    }
+}
+
+/// The derivative of `L z/|z|`.
+fn slipping(z: Vec3, size: f64, limit: f64, dz: Vec3, dlimit: f64) -> Vec3 {
+    let q = z / size;
+    q * dlimit + (dz - q * q.dot(dz)) * (limit / size)
 }

@@ -44,5 +44,7 @@ mod row;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use interface::{Interface, InterfaceParts, Measure};
-pub use row::{Participant, Rows};
+pub use interface::{
+    Areas, Interface, InterfaceParts, Measure, Phase, Shift, closest_points, nmultiplier,
+};
+pub use row::{Participant, Row, RowOrder, Rows, Wanted};

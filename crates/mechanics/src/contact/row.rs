@@ -49,6 +49,85 @@ pub struct Row {
     pub weights: Vec<f64>,
     /// Derivative of the weights, row-major, columns × columns; valid where the tangent was asked for.
     pub dweights: Vec<f64>,
+    /// What tangential tractions need; valid where slip was asked for.
+    pub sliding: Sliding,
+}
+
+/// The tangential part of a row. Vectors have one entry for each column.
+#[derive(Debug, Default)]
+pub struct Sliding {
+    /// e: how far the point is from its anchor, within the tangent plane; of a bond, the whole way.
+    pub slip: Vec3,
+    /// ∂e/∂d.
+    pub dslip: Vec<Vec3>,
+    /// ∂ν/∂d.
+    pub dnormal: Vec<Vec3>,
+    /// B: the force at a column is `B·t`.
+    pub operator: Vec<Vec3>,
+    /// ∂B/∂d, as a sum of products; valid where the tangent was asked for.
+    turns: Vec<Turn>,
+    nturn: usize,
+}
+
+/// A part of the derivative of an operator: `∂B_i/∂d_j = across_i along_j`.
+#[derive(Debug, Default)]
+pub struct Turn {
+    /// One vector for each column.
+    pub across: Vec<Vec3>,
+    /// One number for each column.
+    pub along: Vec<f64>,
+}
+
+impl Sliding {
+    fn reset(&mut self, ncolumn: usize) {
+        self.slip = Vec3::ZERO;
+        self.nturn = 0;
+        for values in [&mut self.dslip, &mut self.dnormal, &mut self.operator] {
+            values.clear();
+            values.resize(ncolumn, Vec3::ZERO);
+        }
+    }
+
+    /// A further product, zeroed.
+    pub fn push_turn(&mut self) -> &mut Turn {
+        let n = self.operator.len();
+        if self.nturn == self.turns.len() {
+            self.turns.push(Turn::default());
+        }
+        let turn = &mut self.turns[self.nturn];
+        self.nturn += 1;
+        turn.across.clear();
+        turn.across.resize(n, Vec3::ZERO);
+        turn.along.clear();
+        turn.along.resize(n, 0.0);
+        turn
+    }
+
+    /// ∂B/∂d.
+    #[must_use]
+    pub fn turns(&self) -> &[Turn] {
+        &self.turns[..self.nturn]
+    }
+}
+
+/// What is wanted of rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// How far.
+    pub order: RowOrder,
+    /// Whether the tangential part too.
+    pub slip: bool,
+}
+
+/// How far rows are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum RowOrder {
+    /// Gap and normal.
+    Gap,
+    /// And what a force needs.
+    Gradient,
+    /// And what a tangent needs.
+    Tangent,
 }
 
 impl Rows {
@@ -72,8 +151,8 @@ impl Rows {
         self.ncolumn
     }
 
-    /// A further row, zeroed; with room for `dweights` where `tangent`.
-    pub fn push(&mut self, number: usize, tangent: bool) -> &mut Row {
+    /// A further row, zeroed, with room for what is wanted.
+    pub fn push(&mut self, number: usize, wanted: Wanted) -> &mut Row {
         let n = self.ncolumn;
         if self.nrow == self.rows.len() {
             self.rows.push(Row::default());
@@ -83,14 +162,23 @@ impl Rows {
         row.number = number;
         row.gap = 0.0;
         row.normal = Vec3::ZERO;
+        if wanted.order == RowOrder::Gap {
+            return row;
+        }
+        let square = if wanted.order == RowOrder::Tangent {
+            n * n
+        } else {
+            0
+        };
         for (values, length) in [
             (&mut row.gradient, n),
             (&mut row.weights, n),
-            (&mut row.dweights, if tangent { n * n } else { 0 }),
+            (&mut row.dweights, square),
         ] {
             values.clear();
             values.resize(length, 0.0);
         }
+        row.sliding.reset(n);
         row
     }
 
@@ -98,6 +186,10 @@ impl Rows {
     #[must_use]
     pub fn rows(&self) -> &[Row] {
         &self.rows[..self.nrow]
+    }
+
+    pub(super) fn rows_mut(&mut self) -> &mut [Row] {
+        &mut self.rows[..self.nrow]
     }
 
     /// The unknown behind each column.

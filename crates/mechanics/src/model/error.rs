@@ -1,4 +1,5 @@
 use super::{ConstraintError, Unheld};
+use crate::contact::law::TableError;
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
 use thiserror::Error;
@@ -74,6 +75,40 @@ pub enum ModelError {
         count: usize,
         /// One of them, as numbered in the input.
         node: u64,
+    },
+    /// A second pass where the sides cannot be swapped.
+    #[error("contact \"{contact}\": for two passes both sides are made of faces")]
+    TwoPass {
+        /// Name of the contact.
+        contact: String,
+    },
+    /// Choices that do not go together.
+    #[error("contact \"{contact}\": {what}")]
+    Unsuited {
+        /// Name of the contact.
+        contact: String,
+        /// Which, and why.
+        what: &'static str,
+    },
+    /// Pairs by order of two sides with different numbers of nodes.
+    #[error(
+        "contact \"{contact}\": {secondary} secondary and {primary} primary nodes make no pairs in their order"
+    )]
+    PairCount {
+        /// Name of the contact.
+        contact: String,
+        /// Nodes of the secondary side.
+        secondary: usize,
+        /// Nodes of the primary side.
+        primary: usize,
+    },
+    /// A table that is no law.
+    #[error("contact \"{contact}\": {source}")]
+    Table {
+        /// Name of the contact.
+        contact: String,
+        /// Why.
+        source: TableError,
     },
     /// Two rigid sides.
     #[error("contact \"{contact}\": both sides are rigid, nothing can yield")]

@@ -46,9 +46,11 @@ use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System};
 use bodies::{nodes_by_body, owners};
 use constraints::{Followers, Ties};
+use contact::Source;
 use held::Held;
 use loads::Substance;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::surface::Pose;
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -70,6 +72,17 @@ pub struct ContactSummary {
     pub nfacet: usize,
     /// Size of the facets.
     pub facet_size: f64,
+    /// What is near at the start.
+    pub start: StartSummary,
+}
+
+/// Gaps and overlaps at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StartSummary {
+    /// How many points have something within reach.
+    pub near: usize,
+    /// The smallest gap, negative where the sides overlap; `None` where nothing is within reach.
+    pub gap: Option<f64>,
 }
 
 /// What is done against locking in the elements of a body.
@@ -117,8 +130,8 @@ impl Model {
             contacts,
             temperature,
             steps,
+            gap_tol,
         } = parts;
-        let reference: Arc<[Vec3]> = mesh.points.clone().into();
         let owner = owners(mesh, &bodies)?;
         let followers = Followers {
             mesh,
@@ -128,8 +141,32 @@ impl Model {
             constraints: &constraints,
             springs: &springs,
         };
-        let layout = followers.layout();
+        let mut layout = followers.layout();
         let (elimination, ties) = followers.elimination(&layout)?;
+        let poses = elimination.initial_poses();
+        let source = Source {
+            mesh,
+            reference: &mesh.points,
+            space,
+        };
+        let reference: Arc<[Vec3]> = contact::closed(&source, &contacts, &poses)?.into();
+        let source = Source {
+            reference: &reference,
+            ..source
+        };
+        let joint = contact::Steps {
+            changes: steps.iter().map(|s| s.contacts.clone()).collect(),
+            gap_tol,
+            parts: &contacts,
+        };
+        let mut sides = Vec::new();
+        for (number, part) in contacts.iter().enumerate() {
+            for pass in source.sides(number, part)? {
+                let first = layout.nmultiplier;
+                layout.nmultiplier += pass.nmultiplier(part, joint.rubs(number), layout.ndim);
+                sides.push((pass, first));
+            }
+        }
         let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
         let modulus: Vec<Option<f64>> = bodies
             .iter()
@@ -153,6 +190,7 @@ impl Model {
             space,
             layout,
             ties: &ties,
+            poses,
         };
         let (mut steps, loads) = context.steps(steps)?;
         let elimination = Arc::make_mut(&mut context.elimination);
@@ -178,10 +216,16 @@ impl Model {
         let (mut terms, locking) = context.bodies(bodies, temperature, &sizes)?;
         terms.extend(connectors);
         let mut summaries = Vec::new();
-        for contact in contacts {
-            let (parts, summary) = context.contact(contact)?;
+        for (pass, first) in sides {
+            let Some(part) = contacts.get(pass.contact) else {
+                continue;
+            };
+            let swapped = pass.swapped;
+            let (parts, summary) = context.contact(pass, part, &joint, first)?;
             terms.push(Box::new(Interface::new(parts, layout, elimination.clone())));
-            summaries.push(summary);
+            if !swapped {
+                summaries.push(summary);
+            }
         }
         terms.extend(loads);
 
@@ -241,4 +285,6 @@ struct Context<'a> {
     space: Idealisation,
     layout: Layout,
     ties: &'a Ties,
+    /// Poses of the carriers at the start.
+    poses: Vec<Pose>,
 }

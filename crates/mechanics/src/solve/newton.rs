@@ -97,11 +97,12 @@ pub(super) struct ForceScale {
 }
 
 const KINDS: usize = 3;
+const MULTIPLIERS: usize = 2;
 
 const fn kind(name: Option<DofName>) -> usize {
     match name {
         Some(DofName::Rotation(..)) => 1,
-        Some(DofName::Multiplier(_)) => 2,
+        Some(DofName::Multiplier(_)) => MULTIPLIERS,
         _ => 0,
     }
 }
@@ -188,7 +189,9 @@ impl ForceScale {
             let floor = ROUND_OFF * largest[k] + assembly.uncertainty[dof as usize];
             judgement.round_off &= r <= floor;
             judgement.small &= r <= (force_tol * q[k]).max(floor);
-            let relative = if r == 0.0 { 0.0 } else { r / q[k] };
+            // a multiplier's equation may hold nothing but its residual: its mean says nothing
+            let done = r == 0.0 || (k == MULTIPLIERS && r <= floor);
+            let relative = if done { 0.0 } else { r / q[k] };
             if relative > judgement.residual {
                 judgement.residual = relative;
                 judgement.worst = Some(dof);
@@ -207,6 +210,11 @@ const ROUND_OFF: f64 = 100.0 * f64::EPSILON;
 const CORRECTION: f64 = 1e-2;
 /// Residual over the mean force at which an iteration has left the realm of the possible.
 const DIVERGED: f64 = 1e12;
+
+/// How often a step to a saddle point is halved.
+const SHORTENINGS: usize = 10;
+/// How often terms may change what they keep frozen, in one increment.
+const MAX_AUGMENTATIONS: usize = 60;
 
 /// An increment that converged.
 pub(super) struct Converged {
@@ -290,8 +298,11 @@ impl Newton {
         let mut alpha = 1.0;
         let mut decrement = 0.0;
         let mut unsettled = None;
+        let mut last = self.settings.max_iterations;
+        let mut augmentations = 0;
         let nmotion = system.layout.nmotion();
-        for iterations in 0.. {
+        let mut iterations = 0;
+        loop {
             self.prepare(system)?;
             let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
             let little = iterations > 0 && correction <= CORRECTION * moved;
@@ -320,11 +331,31 @@ impl Newton {
             let settled = repeat.is_none() || iterations == 0;
             unsettled = repeat.or(unsettled);
             if !motion && judgement.small && settled && (judgement.round_off || little) {
-                return Ok(Converged {
-                    iterations,
-                    residual: judgement.residual,
-                    q: judgement.q,
-                });
+                match self.release(system)? {
+                    None => {
+                        return Ok(Converged {
+                            iterations,
+                            residual: judgement.residual,
+                            q: judgement.q,
+                        });
+                    }
+                    Some(changed) if augmentations < MAX_AUGMENTATIONS => {
+                        unsettled = Some(changed);
+                        augmentations += 1;
+                        last = iterations + self.settings.max_iterations;
+                        correction = 0.0;
+                        continue;
+                    }
+                    Some(changed) => {
+                        return Err(Failure::TooManyIterations {
+                            iterations,
+                            residual: judgement.residual,
+                            worst: judgement.worst,
+                            force: judgement.force,
+                            unsettled: Some(changed),
+                        });
+                    }
+                }
             }
             if judgement.residual.is_nan() || judgement.residual > DIVERGED {
                 return Err(Failure::Diverged {
@@ -333,7 +364,7 @@ impl Newton {
                     worst: judgement.worst,
                 });
             }
-            if iterations >= self.settings.max_iterations {
+            if iterations >= last {
                 return Err(Failure::TooManyIterations {
                     iterations,
                     residual: judgement.residual,
@@ -352,8 +383,19 @@ impl Newton {
             alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
             correction = alpha * largest(&self.du[..nmotion]);
             motion = false;
+            iterations += 1;
         }
-        unreachable!("the loop ends by returning")
+    }
+
+    /// Lets terms change what they kept frozen; what the first one says that did, so that the iteration goes on.
+    fn release(&self, system: &mut System) -> Result<Option<(String, Vec<NodeId>)>, TermError> {
+        let mut first = None;
+        for term in &mut system.terms {
+            if let Verdict::Repeat { why, nodes, .. } = term.converged(&self.trial)? {
+                first.get_or_insert((why, nodes));
+            }
+        }
+        Ok(first)
     }
 
     /// Sets up the trial state, extrapolated where that is of use; says whether nodes have to be moved in the first
@@ -536,6 +578,9 @@ impl Newton {
             self.place(system, alpha);
             return Ok(alpha);
         }
+        if system.terms.iter().any(|t| t.has_saddle()) {
+            return self.shorten(system, first);
+        }
         let slope = self.slope();
         let start = self.assembler.energy(&system.terms, &self.before)?;
         if let Some(start) = start.filter(|_| slope < 0.0)
@@ -563,6 +608,23 @@ impl Newton {
             return Err(in_the_way.unwrap_or(Failure::NoDescent { iterations, worst }));
         };
         self.place(system, alpha);
+        Ok(alpha)
+    }
+
+    /// Places the trial state at the first of `first`, `first`/2, … that can be evaluated: at a saddle point neither
+    /// energy nor slope say how far to go.
+    fn shorten(&mut self, system: &mut System, first: f64) -> Result<f64, Failure> {
+        let mut alpha = first;
+        for _ in 0..SHORTENINGS {
+            let tried = self
+                .try_step(system, alpha)
+                .and_then(|()| self.assemble(system, Order::Residual));
+            if tried.is_ok() {
+                return Ok(alpha);
+            }
+            alpha *= 0.5;
+        }
+        self.try_step(system, alpha)?;
         Ok(alpha)
     }
 

@@ -3,7 +3,7 @@
 use super::sparsity::NONE;
 use super::{Dof, Layout, NO_DOF, State};
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::RigidId;
+use signorini_geometry::surface::{Pose, RigidId};
 use signorini_geometry::tensor::{Mat3, Vec3};
 
 /// What nodes move with: a reference point, and the nodes that follow it in all directions.
@@ -220,6 +220,16 @@ impl Elimination {
     #[must_use]
     pub fn bodies(&self) -> &[RigidBody] {
         &self.bodies
+    }
+
+    /// Where they are at the start.
+    #[must_use]
+    pub fn initial_poses(&self) -> Vec<Pose> {
+        let pose = |body: &RigidBody| Pose {
+            origin: body.reference,
+            rotation: Mat3::IDENTITY,
+        };
+        self.bodies.iter().map(pose).collect()
     }
 
     /// The carrier that a node follows in all directions.

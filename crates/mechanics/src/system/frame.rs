@@ -13,10 +13,12 @@ pub enum Status {
     Stick,
     /// Touching and free to slide; closed contact without friction counts as this.
     Slip,
+    /// Joined.
+    Tied,
 }
 
 impl Status {
-    /// The number it has in files: −1 not a candidate, 0 open, 1 stick, 2 slip.
+    /// The number it has in files: −1 not a candidate, 0 open, 1 stick, 2 slip, 3 tied.
     #[must_use]
     pub const fn number(self) -> i8 {
         match self {
@@ -24,13 +26,14 @@ impl Status {
             Self::Open => 0,
             Self::Stick => 1,
             Self::Slip => 2,
+            Self::Tied => 3,
         }
     }
 
     /// Whether it touches.
     #[must_use]
     pub const fn is_closed(self) -> bool {
-        matches!(self, Self::Stick | Self::Slip)
+        matches!(self, Self::Stick | Self::Slip | Self::Tied)
     }
 }
 
@@ -95,6 +98,21 @@ pub struct ContactFrame {
 }
 
 impl ContactFrame {
+    /// Adds the second pass of this contact, whose sides are swapped.
+    pub fn add_pass(&mut self, pass: &Self) {
+        for (to, from) in [
+            (&mut self.secondary, &pass.primary),
+            (&mut self.primary, &pass.secondary),
+        ] {
+            to.force += from.force;
+            to.moment += from.moment;
+        }
+        self.pressure_max = self.pressure_max.max(pass.pressure_max);
+        self.gap_min = self.gap_min.min(pass.gap_min);
+        self.slip_max = self.slip_max.max(pass.slip_max);
+        self.work_friction += pass.work_friction;
+    }
+
     /// The number of closed nodes.
     #[must_use]
     pub fn nclosed(&self) -> usize {

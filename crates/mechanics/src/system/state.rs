@@ -20,14 +20,10 @@ impl State {
     /// The undeformed state.
     #[must_use]
     pub fn initial(layout: &Layout, reference: &[Vec3], elimination: &Elimination) -> Self {
-        let pose = |b: &super::RigidBody| Pose {
-            origin: b.reference,
-            rotation: Mat3::IDENTITY,
-        };
         Self {
             time: 0.0,
             u: vec![0.0; layout.ndof()],
-            poses: elimination.bodies().iter().map(pose).collect(),
+            poses: elimination.initial_poses(),
             x: reference.to_vec(),
         }
     }

@@ -289,6 +289,20 @@ pub trait Term: Send + Sync {
         Verdict::Settled
     }
 
+    /// The iteration has come to an end: whether what the term keeps frozen meanwhile may stay as it is, or has been
+    /// changed so that the iteration goes on.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`].
+    fn converged(&mut self, _trial: &State) -> Result<Verdict, TermError> {
+        Ok(Verdict::Settled)
+    }
+
+    /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
+    fn has_saddle(&self) -> bool {
+        false
+    }
+
     /// How many rows act at the present iterate: closed contacts.
     fn nactive(&self) -> usize {
         0

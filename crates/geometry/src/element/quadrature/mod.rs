@@ -12,10 +12,16 @@
 //! | [`WEDGE_6`] | [`TRI_3`] × [`LINE_2`] | 2 in the triangle, 3 along the axis |
 //! | [`WEDGE_9`] | [`TRI_3`] × [`LINE_3`] | 2 in the triangle, 5 along the axis |
 //!
+//! For facets there are rules with any number of points, too: [`gauss`], [`lobatto`], [`on_facet`].
+//!
 //! Weights sum to the measure of the reference domain. Products run through their first factor fastest. Sources:
 //! Zienkiewicz, Taylor, *The Finite Element Method*, vol. 1, tables 5.1 to 5.3; Hughes, *The Finite Element Method*,
 //! section 3.8; Dunavant, IJNME 21, 1985, table II ([`TRI_6`]);
 //! Walkington, *Quadrature on simplices of arbitrary dimension*, 2000 ([`TET_14`]).
+
+mod points;
+
+pub use points::{gauss, lobatto, on_facet};
 
 use crate::tensor::Vec3;
 

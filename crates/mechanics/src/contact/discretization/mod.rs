@@ -1,30 +1,29 @@
 //! How two sides are compared: where the gap is measured, and on what the traction acts.
 //!
-//! To add a discretization: one file that implements [`Discretization`], one line where cases are built. It fills rows
+//! | discretization | a row is | file |
+//! |---|---|---|
+//! | node to segment, point to segment | a node, or a point of a facet, against its closest point | [`points`], [`projected`] |
+//! | node to node | two nodes and a normal | [`nodes`] |
+//!
+//! To add a discretization: one file that implements [`Discretization`], one line where models are built. It fills rows
 //! and never sees a law, a penalty or an unknown.
 
-pub mod node_to_segment;
+pub mod nodes;
+pub mod points;
+pub mod projected;
 
-pub use node_to_segment::NodeToSegment;
+pub use nodes::{NodeNormals, NodeToNode};
+pub use points::PointToSegment;
 
-use super::row::Rows;
+use super::row::{Rows, Wanted};
+use projected::Point;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Candidates;
 use signorini_geometry::surface::{
     Anchor, ContactSurface, Facets, Feature, Placement, SurfaceError,
 };
 use signorini_geometry::tensor::Vec3;
-
-/// How far rows are wanted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum RowOrder {
-    /// Gap and normal.
-    Gap,
-    /// And what a force needs: gradient and weights.
-    Gradient,
-    /// And what a tangent needs: the derivative of the weights.
-    Tangent,
-}
+use std::sync::Arc;
 
 /// The two sides of an interface.
 pub struct SurfacePair {
@@ -33,9 +32,25 @@ pub struct SurfacePair {
     /// Its facets; none where it is bare nodes.
     pub secondary: Option<Facets>,
     /// The side that is projected onto.
-    pub primary: Box<dyn ContactSurface>,
+    pub primary: Arc<dyn ContactSurface>,
     /// The distance up to which a closest point counts.
     pub reach: f64,
+    /// Whether both sides are one.
+    pub same: bool,
+}
+
+impl SurfacePair {
+    /// Bare nodes against a surface.
+    #[must_use]
+    pub fn new(points: Vec<NodeId>, primary: Arc<dyn ContactSurface>, reach: f64) -> Self {
+        Self {
+            points,
+            secondary: None,
+            primary,
+            reach,
+            same: false,
+        }
+    }
 }
 
 /// The discrete choices of one row.
@@ -47,20 +62,15 @@ pub struct Pair {
     pub feature: Feature,
     /// Signed distance: negative where the point has passed through the surface.
     pub gap: f64,
+    /// The normal that it keeps, where sliding is small.
+    pub held: Option<Vec3>,
 }
 
 impl Pair {
-    /// Whether the point has passed through the surface.
-    #[must_use]
-    pub fn inside(&self) -> bool {
-        self.gap < 0.0
-    }
-
-    /// Whether the discrete choices are the same.
+    /// Whether the place on the surface is the same.
     #[must_use]
     pub fn agrees(&self, other: &Self) -> bool {
-        self.inside() == other.inside()
-            && self.anchor.facet == other.anchor.facet
+        self.anchor.facet == other.anchor.facet
             && std::mem::discriminant(&self.feature) == std::mem::discriminant(&other.feature)
     }
 }
@@ -72,13 +82,22 @@ pub struct Pairing {
     pub pairs: Vec<Option<Pair>>,
 }
 
+/// Where a point sticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchored {
+    /// A material point of the primary side.
+    pub anchor: Anchor,
+    /// What is between it and the point where it sticks, fixed in space.
+    pub offset: Vec3,
+}
+
 /// A way to compare two sides.
 pub trait Discretization: Send + Sync {
     /// The number of rows, fixed: the key of history and multipliers.
     fn nrow(&self) -> usize;
 
-    /// The point whose distance each row measures first: what the search looks around.
-    fn point(&self, row: usize, pair: &SurfacePair, at: &Placement) -> Vec3;
+    /// The point of a row; what the search looks around.
+    fn point(&self, row: usize) -> Point<'_>;
 
     /// Makes all discrete choices at a configuration. `last` holds the choices of a moment ago, as hints.
     ///
@@ -93,20 +112,57 @@ pub trait Discretization: Send + Sync {
         out: &mut Pairing,
     ) -> Result<(), SurfaceError>;
 
-    /// The number of groups of rows.
-    fn ngroup(&self, pairing: &Pairing) -> usize;
-
-    /// Fills the rows of one group; leaves `out` without rows where nothing touches.
+    /// Fills one row; leaves `out` without rows where nothing is near.
     ///
     /// # Errors
     /// A facet that has no normal.
-    fn rows(
+    fn row(
         &self,
-        group: usize,
+        row: usize,
         pair: &SurfacePair,
         at: &Placement,
-        pairing: &Pairing,
-        order: RowOrder,
+        links: &Links<'_>,
+        wanted: Wanted,
         out: &mut Rows,
     ) -> Result<(), SurfaceError>;
+
+    /// Where a row sticks whose point has yielded by `slip` from there.
+    ///
+    /// # Errors
+    /// A facet that has no normal.
+    fn anchor(
+        &self,
+        row: usize,
+        pair: &SurfacePair,
+        at: &Placement,
+        found: &Pair,
+        slip: Vec3,
+    ) -> Result<Anchored, SurfaceError>;
+
+    /// The place of the point's first node among the participants of its row.
+    fn first_of_point(&self, rows: &Rows, row: usize) -> usize {
+        let of_point = self.point(row).nodes.len();
+        rows.participants().len().saturating_sub(of_point)
+    }
+
+    /// Nodes that a row depends on beyond its point and the facets around its closest point.
+    fn more_nodes(&self, _row: usize) -> &[NodeId] {
+        &[]
+    }
+
+    /// Whether a pressure acts with the weights with which the gap changes.
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+}
+
+/// To what rows are linked.
+#[derive(Clone, Copy)]
+pub struct Links<'a> {
+    /// The closest points.
+    pub pairing: &'a Pairing,
+    /// Where they stick; empty without friction.
+    pub anchors: &'a [Option<Anchored>],
+    /// Whether they are joined there.
+    pub bond: bool,
 }

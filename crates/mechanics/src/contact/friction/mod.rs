@@ -1,43 +1,108 @@
-//! Friction laws: the largest tangential traction as a function of pressure and sliding.
+//! Friction laws: the largest tangential traction as a function of pressure and slip.
 //!
 //! A law is its limit surface; sticking, slipping and the return to the limit are written once for all of them, in the
-//! kernel. To add one: a file that implements [`FrictionLaw`], and one line where cases are built.
+//! kernel.
+//!
+//! | law | limit |
+//! |---|---|
+//! | [`Coulomb`] | `μ p`, at most a cap |
+//! | [`Tresca`] | a constant |
+//! | [`Falling`] | `μ p` with a coefficient that falls with the length of slip |
+//!
+//! To add one: a file that implements [`FrictionLaw`], and one line where models are built.
 
-mod frictionless;
+mod coulomb;
+mod falling;
+mod tresca;
 
-pub use frictionless::Frictionless;
+pub use coulomb::Coulomb;
+pub use falling::Falling;
+pub use tresca::Tresca;
 
 /// What a limit may depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sliding {
     /// Contact pressure, ≥ 0.
     pub pressure: f64,
-    /// Length of the slip of this increment.
-    pub increment: f64,
-    /// Length of all slip since the start.
-    pub total: f64,
-    /// Duration of the increment.
-    pub dt: f64,
+    /// Length of all slip before this increment, since contact was made.
+    pub path: f64,
 }
 
-/// The largest tangential traction, with its derivatives.
+/// The largest tangential traction, with its derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limit {
     /// The limit, ≥ 0.
     pub value: f64,
     /// Derivative with respect to the pressure.
     pub dpressure: f64,
-    /// Derivative with respect to the slip of this increment.
-    pub dincrement: f64,
 }
 
 /// A friction law.
 pub trait FrictionLaw: Send + Sync {
-    /// The limit.
+    /// The limit where it touches.
     fn limit(&self, at: &Sliding) -> Limit;
+}
 
-    /// Whether the limit is zero whatever happens, so that no tangential traction need be looked at.
-    fn is_frictionless(&self) -> bool {
-        false
+/// What a contact that sticks yields.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stick {
+    /// Traction per elastic slip.
+    Stiffness(f64),
+    /// The elastic slip at which the limit is reached.
+    Slip(f64),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_match_differences() {
+        let laws: [&dyn FrictionLaw; 4] = [
+            &Coulomb {
+                mu: 0.3,
+                cap: f64::INFINITY,
+            },
+            &Coulomb { mu: 0.3, cap: 0.5 },
+            &Tresca(0.7),
+            &Falling {
+                stationary: 0.4,
+                kinetic: 0.2,
+                transition: 0.1,
+            },
+        ];
+        for law in laws {
+            for pressure in [0.1, 1.0, 4.0] {
+                let limit = |pressure| {
+                    law.limit(&Sliding {
+                        pressure,
+                        path: 0.05,
+                    })
+                };
+                let h = 1e-6;
+                let slope = (limit(pressure + h).value - limit(pressure - h).value) / (2.0 * h);
+                assert!((limit(pressure).dpressure - slope).abs() < 1e-8);
+                assert!(limit(pressure).value >= 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn friction_falls_from_static_to_kinetic() {
+        let law = Falling {
+            stationary: 0.4,
+            kinetic: 0.2,
+            transition: 0.1,
+        };
+        let mu = |path| {
+            law.limit(&Sliding {
+                pressure: 1.0,
+                path,
+            })
+            .value
+        };
+        assert_eq!(mu(0.0), 0.4);
+        assert!((mu(0.1) - (0.2 + 0.2 * (-1.0f64).exp())).abs() < 1e-15);
+        assert!((mu(10.0) - 0.2).abs() < 1e-15);
     }
 }

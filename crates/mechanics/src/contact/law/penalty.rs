@@ -1,4 +1,4 @@
-use super::{ContactLaw, Eval, Scale};
+use super::{ContactLaw, Eval, Scale, TOUCH};
 
 /// The linear penalty, `p = ε⟨−g⟩`.
 ///
@@ -6,9 +6,6 @@ use super::{ContactLaw, Eval, Scale};
 /// touch at the start are then pressed together from the first solve on, and not driven into each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Penalty;
-
-/// Gap over the size of the facets up to which a surface touches.
-const TOUCH: f64 = 1e-12;
 
 impl ContactLaw for Penalty {
     fn pressure(&self, gap: f64, _: f64, scale: &Scale) -> Eval {

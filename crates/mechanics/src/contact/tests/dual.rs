@@ -1,13 +1,14 @@
 //! The gap as a function of positions, written down afresh for any kind of number, and differentiated by hyper-dual
 //! numbers: an oracle that shares no formula with the rows.
 
-use super::super::discretization::{NodeToSegment, Pair, SurfacePair};
+use super::super::discretization::{Pair, PointToSegment, SurfacePair};
 use super::super::row::{Participant, Row};
 use super::{Random, facets_of, first_rows, largest, pair_up, with_mid_nodes};
 use num_dual::{DualNum, HyperDual64};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Feature, Placement};
 use signorini_geometry::tensor::{Mat3, Vec3};
+use std::sync::Arc;
 
 trait Number: DualNum<Primitive = f64> + Copy {}
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
@@ -231,13 +232,8 @@ struct Scene {
 impl Scene {
     fn new(kind: Kind, mut x: Vec<Vec3>, surface: Vec<Vec<NodeId>>) -> Self {
         let named: Vec<_> = surface.iter().map(|n| (kind.name, n.clone())).collect();
-        let primary = Box::new(facets_of(&mut x, &named));
-        let pair = SurfacePair {
-            points: vec![x.len() as NodeId],
-            secondary: None,
-            primary,
-            reach: 2.0,
-        };
+        let primary = Arc::new(facets_of(&mut x, &named));
+        let pair = SurfacePair::new(vec![x.len() as NodeId], primary, 2.0);
         x.push(Vec3::ZERO);
         Self {
             kind,
@@ -394,7 +390,7 @@ impl Scene {
             x: &moved,
             poses: &[],
         };
-        let method = NodeToSegment::new(1);
+        let method = PointToSegment::at_nodes(&self.pair.points);
         let pairing = pair_up(&method, &self.pair, &at, self.pair.reach);
         let rows = first_rows(&method, &self.pair, &at, &pairing);
         assert!((rows.rows()[0].gap - row.gap).abs() < 2e-13);
@@ -411,7 +407,7 @@ impl Scene {
             x: &self.x,
             poses: &[],
         };
-        let method = NodeToSegment::new(1);
+        let method = PointToSegment::at_nodes(&self.pair.points);
         let pairing = pair_up(&method, &self.pair, &at, self.pair.reach);
         let found = pairing.pairs[0]?;
         let same = std::mem::discriminant(wanted) == std::mem::discriminant(&found.feature);

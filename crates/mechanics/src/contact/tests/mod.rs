@@ -7,8 +7,9 @@ mod paper;
 pub(crate) mod printed;
 mod rigid;
 
-use super::discretization::{Discretization, Pairing, RowOrder, SurfacePair};
+use super::discretization::{Discretization, Links, Pairing, SurfacePair};
 use super::row::Rows;
+use super::row::{RowOrder, Wanted};
 use signorini_geometry::element::{Side, TABLE};
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
 use signorini_geometry::proximity::{Aabb, Search};
@@ -115,7 +116,7 @@ pub(crate) fn pair_up(
     range: f64,
 ) -> Pairing {
     let points: Vec<Vec3> = (0..method.nrow())
-        .map(|row| method.point(row, pair, at))
+        .map(|row| method.point(row).position(at))
         .collect();
     let facets = 0..pair.primary.nfacet() as u32;
     let boxes: Vec<Aabb> = facets.map(|f| pair.primary.aabb(at, f)).collect();
@@ -137,9 +138,16 @@ pub(crate) fn first_rows(
     pairing: &Pairing,
 ) -> Rows {
     let mut rows = Rows::default();
-    method
-        .rows(0, pair, at, pairing, RowOrder::Tangent, &mut rows)
-        .unwrap();
+    let links = Links {
+        pairing,
+        anchors: &[],
+        bond: false,
+    };
+    let wanted = Wanted {
+        order: RowOrder::Tangent,
+        slip: false,
+    };
+    method.row(0, pair, at, &links, wanted, &mut rows).unwrap();
     rows
 }
 

@@ -1,9 +1,7 @@
 //! What signs cost: the third example of Faltus and Horák with our tangent and with the printed one.
 
-use super::super::discretization::{Discretization, NodeToSegment, SurfacePair};
-use super::super::friction::Frictionless;
-use super::super::law::{Penalty, Scale};
-use super::super::{Interface, InterfaceParts, Measure};
+use super::super::discretization::{Discretization, PointToSegment, SurfacePair};
+use super::super::{Interface, InterfaceParts};
 use super::printed::PrintedSigns;
 use crate::material::SaintVenantKirchhoff;
 use crate::model::{BodyKind, BodyPart, CarrierPart, Change, Model, Parts, StepPart, Target};
@@ -15,6 +13,7 @@ use signorini_geometry::element::by_name;
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
 use signorini_geometry::surface::Facets;
 use signorini_geometry::tensor::Vec3;
+use std::sync::Arc;
 
 const INCREMENTS: usize = 60;
 const PENALTY: f64 = 1e5;
@@ -81,25 +80,9 @@ fn brick(discretization: Box<dyn Discretization>) -> Model {
         cell: brick,
         side: 1,
     };
-    let parts = InterfaceParts {
-        name: "tip".into(),
-        pair: SurfacePair {
-            points: vec![8],
-            secondary: None,
-            primary: Box::new(Facets::new(&mesh, &[top]).unwrap()),
-            reach: 2.0,
-        },
-        discretization,
-        law: Box::new(Penalty),
-        friction: Box::new(Frictionless),
-        measure: Measure::Node,
-        area: Vec::new(),
-        scale: Scale {
-            penalty: PENALTY,
-            complementarity: PENALTY,
-            length: 1.0,
-        },
-    };
+    let surface = Arc::new(Facets::new(&mesh, &[top]).unwrap());
+    let pair = SurfacePair::new(vec![8], surface, 2.0);
+    let parts = InterfaceParts::new("tip", pair, discretization, PENALTY);
     let system = &mut model.system;
     let interface = Interface::new(parts, system.layout, system.elimination.clone());
     system.terms.push(Box::new(interface));
@@ -159,12 +142,12 @@ fn press(discretization: Box<dyn Discretization>, line_search: LineSearch) -> Co
 }
 
 fn ours() -> Box<dyn Discretization> {
-    Box::new(NodeToSegment::new(1))
+    Box::new(PointToSegment::at_nodes(&[8]))
 }
 
 fn printed(kappa_sign: f64) -> Box<dyn Discretization> {
     Box::new(PrintedSigns {
-        inner: NodeToSegment::new(1),
+        inner: PointToSegment::at_nodes(&[8]),
         kappa_sign,
     })
 }

@@ -7,8 +7,11 @@
 //!
 //! with `κ_ab = ±ν·ρ_,ab`: the signs of the two terms in κ contradict that in `A`, whichever way it is read.
 
-use super::super::discretization::{Discretization, NodeToSegment, Pairing, RowOrder, SurfacePair};
-use super::super::row::Rows;
+use super::super::discretization::projected::Point;
+use super::super::discretization::{
+    Anchored, Discretization, Links, Pair, Pairing, PointToSegment, SurfacePair,
+};
+use super::super::row::{RowOrder, Rows, Wanted};
 use super::{Random, facets, first_rows, largest, pair_up};
 use signorini_geometry::proximity::Candidates;
 use signorini_geometry::surface::{Carrier, Feature, Placement, SurfaceError, SurfaceJet, pair};
@@ -16,7 +19,7 @@ use signorini_geometry::tensor::Vec3;
 
 /// Node-to-segment rows with the derivative of the weights as printed, (P1), on faces carried by nodes.
 pub(crate) struct PrintedSigns {
-    pub(crate) inner: NodeToSegment,
+    pub(crate) inner: PointToSegment,
     /// +1 where κ is read as ν·ρ_,ab, −1 where it is read as −ν·ρ_,ab.
     pub(crate) kappa_sign: f64,
 }
@@ -26,8 +29,8 @@ impl Discretization for PrintedSigns {
         self.inner.nrow()
     }
 
-    fn point(&self, row: usize, pair: &SurfacePair, at: &Placement) -> Vec3 {
-        self.inner.point(row, pair, at)
+    fn point(&self, row: usize) -> Point<'_> {
+        self.inner.point(row)
     }
 
     fn pair_up(
@@ -41,32 +44,30 @@ impl Discretization for PrintedSigns {
         self.inner.pair_up(pair, at, near, last, out)
     }
 
-    fn ngroup(&self, pairing: &Pairing) -> usize {
-        self.inner.ngroup(pairing)
-    }
-
-    fn rows(
+    fn row(
         &self,
-        group: usize,
+        row: usize,
         pair: &SurfacePair,
         at: &Placement,
-        pairing: &Pairing,
-        order: RowOrder,
+        links: &Links<'_>,
+        wanted: Wanted,
         out: &mut Rows,
     ) -> Result<(), SurfaceError> {
         let mut right = Rows::default();
-        self.inner
-            .rows(group, pair, at, pairing, order, &mut right)?;
+        self.inner.row(row, pair, at, links, wanted, &mut right)?;
         out.start(right.participants().to_vec());
         for row in right.rows() {
-            let tangent = order == RowOrder::Tangent;
-            let copy = out.push(row.number, tangent);
+            let tangent = wanted.order == RowOrder::Tangent;
+            let copy = out.push(row.number, wanted);
             copy.gap = row.gap;
             copy.normal = row.normal;
+            if wanted.order == RowOrder::Gap {
+                continue;
+            }
             copy.gradient.copy_from_slice(&row.gradient);
             copy.weights.copy_from_slice(&row.weights);
             copy.dweights.copy_from_slice(&row.dweights);
-            let Some(found) = pairing.pairs.get(group).copied().flatten() else {
+            let Some(found) = links.pairing.pairs.get(row.number).copied().flatten() else {
                 continue;
             };
             let by_nodes = matches!(pair.primary.carrier(found.anchor.facet), Carrier::Nodes(_));
@@ -78,6 +79,17 @@ impl Discretization for PrintedSigns {
             }
         }
         Ok(())
+    }
+
+    fn anchor(
+        &self,
+        row: usize,
+        pair: &SurfacePair,
+        at: &Placement,
+        found: &Pair,
+        slip: Vec3,
+    ) -> Result<Anchored, SurfaceError> {
+        self.inner.anchor(row, pair, at, found, slip)
     }
 }
 
@@ -146,7 +158,12 @@ fn inverse([[a, b], [c, d]]: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
 /// Force `f = g b` of a unit penalty and its stiffness with these weights' derivative.
 fn penalty(method: &dyn Discretization, pair: &SurfacePair, x: &[Vec3]) -> (Vec<f64>, Vec<f64>) {
     let at = Placement { x, poses: &[] };
-    let pairing = pair_up(&NodeToSegment::new(1), pair, &at, pair.reach);
+    let pairing = pair_up(
+        &PointToSegment::at_nodes(&pair.points),
+        pair,
+        &at,
+        pair.reach,
+    );
     assert_eq!(pairing.pairs[0].unwrap().feature, Feature::Face);
     let rows = first_rows(method, pair, &at, &pairing);
     let row = &rows.rows()[0];
@@ -165,7 +182,7 @@ fn differences(pair: &SurfacePair, x: &[Vec3], nodes: &[usize]) -> Vec<f64> {
         for (step, weight) in [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)] {
             let mut moved = x.to_vec();
             moved[nodes[j / 3]][j % 3] += step * h;
-            let (force, _) = penalty(&NodeToSegment::new(1), pair, &moved);
+            let (force, _) = penalty(&PointToSegment::at_nodes(&pair.points), pair, &moved);
             for (i, f) in force.iter().enumerate() {
                 stiffness[i * n + j] += weight * f / (12.0 * h);
             }
@@ -189,13 +206,8 @@ fn errors(warp: f64, random: &mut Random) -> ([f64; 3], f64) {
         let moved = random.vector() * 0.2;
         *x += Vec3::new(moved.x, moved.y, warp * random.signed());
     }
-    let primary = Box::new(facets(&mut x, &[vec![0, 1, 2, 3]]));
-    let pair = SurfacePair {
-        points: vec![x.len() as u32],
-        secondary: None,
-        primary,
-        reach: 1.0,
-    };
+    let primary = std::sync::Arc::new(facets(&mut x, &[vec![0, 1, 2, 3]]));
+    let pair = SurfacePair::new(vec![x.len() as u32], primary, 1.0);
     // a point over the middle of the facet, 0.03 to 0.3 above or below
     let gap = (0.165 + 0.135 * random.signed()) * random.signed().signum();
     let local = Vec3::new(0.5 * random.signed(), 0.5 * random.signed(), 0.0);
@@ -207,10 +219,14 @@ fn errors(warp: f64, random: &mut Random) -> ([f64; 3], f64) {
 
     let exact = differences(&pair, &x, &[0, 1, 2, 3, x.len() - 1]);
     let printed = |kappa_sign| PrintedSigns {
-        inner: NodeToSegment::new(1),
+        inner: PointToSegment::at_nodes(&pair.points),
         kappa_sign,
     };
-    let methods: [&dyn Discretization; 3] = [&NodeToSegment::new(1), &printed(1.0), &printed(-1.0)];
+    let methods: [&dyn Discretization; 3] = [
+        &PointToSegment::at_nodes(&pair.points),
+        &printed(1.0),
+        &printed(-1.0),
+    ];
     let error = |method| distance(&penalty(method, &pair, &x).1, &exact);
     let kappa = jet.curvature.map(|c| c.dot(jet.normal));
     (methods.map(error), largest(&kappa))

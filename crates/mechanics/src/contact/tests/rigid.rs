@@ -1,6 +1,6 @@
 //! Surfaces carried by rigid bodies: rows against differences under rotations that compose.
 
-use super::super::discretization::{NodeToSegment, Pairing, SurfacePair};
+use super::super::discretization::{Pairing, PointToSegment, SurfacePair};
 use super::super::row::Rows;
 use super::{Random, first_rows, largest, pair_up};
 use crate::system::{Dof, Elimination, Layout, NO_DOF, RigidBody, State};
@@ -11,6 +11,7 @@ use signorini_geometry::surface::{
 };
 use signorini_geometry::surface::{Feature, Pose};
 use signorini_geometry::tensor::Vec3;
+use std::sync::Arc;
 
 /// A sphere in space or an ellipse in the plane, off the reference point of rigid body 0. Points of the sphere are
 /// kept in the body frame, points of the ellipse as its parameter φ.
@@ -216,12 +217,7 @@ impl Scene {
         }
         let base = state.clone();
         state.advance_from(&base, &put, 1.0, &layout, &reference, &elimination);
-        let pair = SurfacePair {
-            points: vec![0],
-            secondary: None,
-            primary: Box::new(surface),
-            reach: 5.0,
-        };
+        let pair = SurfacePair::new(vec![0], Arc::new(surface), 5.0);
         Self {
             pair,
             layout,
@@ -233,7 +229,7 @@ impl Scene {
 
     fn rows(&self, state: &State) -> (Rows, Pairing) {
         let at = state.placement();
-        let method = NodeToSegment::new(1);
+        let method = PointToSegment::at_nodes(&self.pair.points);
         let pairing = pair_up(&method, &self.pair, &at, self.pair.reach);
         (first_rows(&method, &self.pair, &at, &pairing), pairing)
     }

@@ -33,6 +33,8 @@ pub struct Parts<'a> {
     pub temperature: Vec<f64>,
     /// The steps.
     pub steps: Vec<StepPart>,
+    /// Gap over the size of the facets that contact methods with multipliers may leave.
+    pub gap_tol: f64,
 }
 
 impl<'a> Parts<'a> {
@@ -49,6 +51,7 @@ impl<'a> Parts<'a> {
             contacts: Vec::new(),
             temperature: Vec::new(),
             steps: Vec::new(),
+            gap_tol: 1e-6,
         }
     }
 }

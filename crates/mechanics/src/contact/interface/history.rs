@@ -1,0 +1,377 @@
+//! What a contact remembers.
+
+use super::{
+    Archive, ArchiveError, Contact, Interface, Judged, Lambda, NONE, Rows, State, TermError,
+    Verdict,
+};
+use crate::contact::discretization::{Anchored, Pair};
+use crate::contact::row::RowOrder;
+use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError};
+use signorini_geometry::tensor::Vec3;
+
+/// What rows remember: the accepted values, and where they stick in the present increment.
+pub(super) struct History {
+    accepted: Vec<Memory>,
+    anchors: Vec<Option<Anchored>>,
+    /// Multipliers that are frozen.
+    lambdas: Vec<Lambda>,
+    /// Work spent in friction.
+    pub work: f64,
+}
+
+/// The memory of a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Memory {
+    anchor: Option<Anchored>,
+    lambda: Lambda,
+    /// All slip since the start, as a vector.
+    slip: Vec3,
+    /// Its length since contact was made.
+    path: f64,
+}
+
+impl History {
+    pub fn new(nrow: usize, bond: Option<&[Option<Anchored>]>) -> Self {
+        let anchor = |row: usize| bond.and_then(|b| b.get(row).copied().flatten());
+        let accepted: Vec<Memory> = (0..nrow)
+            .map(|row| Memory {
+                anchor: anchor(row),
+                ..Memory::default()
+            })
+            .collect();
+        let mut history = Self {
+            anchors: Vec::new(),
+            lambdas: Vec::new(),
+            accepted,
+            work: 0.0,
+        };
+        history.begin();
+        history
+    }
+
+    /// The present increment begins where the last one ended.
+    pub fn begin(&mut self) {
+        self.anchors.clear();
+        self.anchors.extend(self.accepted.iter().map(|m| m.anchor));
+        self.lambdas.clear();
+        self.lambdas.extend(self.accepted.iter().map(|m| m.lambda));
+    }
+
+    pub fn reject(&mut self) {
+        self.begin();
+    }
+
+    pub fn anchors(&self) -> &[Option<Anchored>] {
+        &self.anchors
+    }
+
+    pub fn anchors_mut(&mut self) -> &mut [Option<Anchored>] {
+        &mut self.anchors
+    }
+
+    pub fn lambda(&self, row: usize) -> Lambda {
+        self.lambdas.get(row).copied().unwrap_or_default()
+    }
+
+    pub fn path(&self, row: usize) -> f64 {
+        self.accepted.get(row).map_or(0.0, |m| m.path)
+    }
+
+    pub fn slip(&self, row: usize) -> Vec3 {
+        self.accepted.get(row).map_or(Vec3::ZERO, |m| m.slip)
+    }
+}
+
+/// Numbers of a pair, of a memory and of a judgement, in a checkpoint.
+const PAIR: usize = 11;
+const MEMORY: usize = 15;
+const JUDGED: usize = 3;
+
+impl Interface {
+    /// Areas at this configuration.
+    pub(super) fn measure_again(&mut self, at: &Placement) -> Result<(), SurfaceError> {
+        if let Some(areas) = &self.parts.present_area {
+            self.parts.area = areas(at.x)?;
+        }
+        Ok(())
+    }
+
+    /// Multipliers that are frozen become the tractions of the solution found with them.
+    pub(super) fn augment(&mut self, trial: &State) -> Result<Verdict, TermError> {
+        let mut rows = Rows::default();
+        let mut worst = (0.0f64, None);
+        let mut lambdas = Vec::with_capacity(self.history.lambdas.len());
+        let penalty = self.parts.scale.penalty;
+        for row in 0..self.history.lambdas.len() {
+            let before = self.lambda(row, trial);
+            if !self.acting_row(row, trial, RowOrder::Gradient, &mut rows)? {
+                lambdas.push(Lambda::default());
+                continue;
+            }
+            let Some(filled) = rows.rows().first() else {
+                lambdas.push(before);
+                continue;
+            };
+            let traction = self.traction(filled, &before);
+            let vector = traction.tangential - filled.normal * traction.pressure;
+            let after = if self.parts.has_vectors() {
+                Lambda {
+                    scalar: 0.0,
+                    vector,
+                }
+            } else {
+                Lambda {
+                    scalar: traction.pressure,
+                    vector: Vec3::ZERO,
+                }
+            };
+            let change =
+                (after.scalar - before.scalar).abs() + (after.vector - before.vector).norm();
+            if change > worst.0 * penalty {
+                worst = (change / penalty, Some(row));
+            }
+            lambdas.push(after);
+        }
+        self.history.lambdas = lambdas;
+        let Some(row) = worst.1.filter(|_| worst.0 > self.parts.gap_tolerance) else {
+            return Ok(Verdict::Settled);
+        };
+        let nodes = self.parts.discretization.point(row).nodes;
+        Ok(Verdict::Repeat {
+            changes: 1,
+            why: format!(
+                "contact \"{}\": its multipliers still change by a gap of {:.3e}",
+                self.parts.name, worst.0
+            ),
+            nodes: nodes.first().copied().into_iter().collect(),
+        })
+    }
+
+    /// History moves on: points that slipped stick where they came to, points that opened forget.
+    pub(super) fn remember(&mut self, state: &State) -> Result<(), TermError> {
+        let mut rows = Rows::default();
+        let at = state.placement();
+        let exact = self.laws().sticks_exactly();
+        let mut work = 0.0;
+        let mut next = Vec::with_capacity(self.history.accepted.len());
+        for (row, memory) in self.history.accepted.iter().enumerate() {
+            let mut memory = Memory {
+                lambda: self.history.lambda(row),
+                ..*memory
+            };
+            if self.parts.bond.is_some() {
+                next.push(memory);
+                continue;
+            }
+            let lambda = self.lambda(row, state);
+            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut rows)?;
+            let (Some(filled), Some(found)) =
+                (rows.rows().first().filter(|_| acts), &self.now.pairs[row])
+            else {
+                memory.anchor = None;
+                memory.path = 0.0;
+                next.push(memory);
+                continue;
+            };
+            let traction = self.traction(filled, &lambda);
+            let elastic = if exact {
+                Vec3::ZERO
+            } else {
+                self.laws().elastic(&traction)
+            };
+            // what is left of the way from the anchor has slipped
+            let slipped = filled.sliding.slip - elastic;
+            if self.laws().friction.is_some() {
+                memory.anchor = self.history.anchors[row];
+                if traction.state == Contact::Slip || exact {
+                    let discretization = self.parts.discretization.as_ref();
+                    let anchor = discretization.anchor(row, &self.parts.pair, &at, found, elastic);
+                    memory.anchor = Some(anchor.map_err(|e| self.failed(&e))?);
+                }
+                if traction.state == Contact::Slip {
+                    memory.slip += slipped;
+                    memory.path += slipped.norm();
+                    work += self.measure(row) * traction.tangential.dot(slipped);
+                }
+            }
+            next.push(memory);
+        }
+        self.history.accepted = next;
+        self.history.work += work;
+        self.history.begin();
+        Ok(())
+    }
+
+    pub(super) fn store(&self, out: &mut Archive) {
+        let name = |what: &str| format!("contact.{}.{what}", self.stored_name());
+        let pairs = self.accepted.pairs.iter().flat_map(pair_to_numbers);
+        out.put(name("pairs"), &pairs.collect::<Vec<f64>>());
+        let memories = self.history.accepted.iter().flat_map(memory_to_numbers);
+        out.put(name("memory"), &memories.collect::<Vec<f64>>());
+        let judged = self.accepted_judged.iter().flat_map(judged_to_numbers);
+        out.put(name("judged"), &judged.collect::<Vec<f64>>());
+        let facet = |&f: &u32| if f == NONE { -1.0 } else { f64::from(f) };
+        let coupled = self.coupled.iter().flatten().map(facet);
+        out.put(name("coupled"), &coupled.collect::<Vec<f64>>());
+        let first = self
+            .first_step
+            .map_or([-1.0, 0.0, 1.0], |s| [s.number as f64, s.start, s.duration]);
+        let started = f64::from(u8::from(self.started));
+        out.put(
+            name("state"),
+            &[self.history.work, started, first[0], first[1], first[2]],
+        );
+        out.put(name("area"), &self.parts.area);
+    }
+
+    pub(super) fn restore(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+        let stored = self.stored_name();
+        let name = |what: &str| format!("contact.{stored}.{what}");
+        let nrow = self.accepted.pairs.len();
+        let mut values = vec![0.0; nrow * PAIR];
+        from.get(&name("pairs"), &mut values)?;
+        let pairs = values.chunks_exact(PAIR).map(pair_from_numbers);
+        self.accepted.pairs = pairs.collect();
+        let mut values = vec![0.0; nrow * MEMORY];
+        from.get(&name("memory"), &mut values)?;
+        let memories = values.chunks_exact(MEMORY).map(memory_from_numbers);
+        self.history.accepted = memories.collect();
+        let mut values = vec![0.0; nrow * JUDGED];
+        from.get(&name("judged"), &mut values)?;
+        let judged = values.chunks_exact(JUDGED).map(judged_from_numbers);
+        self.accepted_judged = judged.collect();
+        self.judged.clone_from(&self.accepted_judged);
+        let mut coupled = vec![0.0; 2 * self.coupled.len()];
+        from.get(&name("coupled"), &mut coupled)?;
+        let facet = |f: &f64| if *f < 0.0 { NONE } else { *f as u32 };
+        for (to, facets) in self.coupled.iter_mut().zip(coupled.chunks_exact(2)) {
+            *to = [facet(&facets[0]), facet(&facets[1])];
+        }
+        let mut state = [0.0; 5];
+        from.get(&name("state"), &mut state)?;
+        self.history.work = state[0];
+        self.started = state[1] != 0.0;
+        self.first_step = (state[2] >= 0.0).then(|| crate::system::StepContext {
+            number: state[2] as usize,
+            start: state[3],
+            duration: state[4],
+            ..self.step
+        });
+        let mut area = std::mem::take(&mut self.parts.area);
+        from.get(&name("area"), &mut area)?;
+        self.parts.area = area;
+        self.now.pairs.clone_from(&self.accepted.pairs);
+        self.history.begin();
+        self.near.search.forget();
+        Ok(())
+    }
+
+    fn stored_name(&self) -> String {
+        let pass = if self.parts.swapped { ".swapped" } else { "" };
+        format!("{}{pass}", self.parts.name)
+    }
+}
+
+fn judged_to_numbers(judged: &Judged) -> [f64; JUDGED] {
+    let state = match judged.state {
+        Contact::Open => 0.0,
+        Contact::Stick => 1.0,
+        Contact::Slip => 2.0,
+    };
+    let (facet, feature) = judged.facet.map_or((-1.0, 0), |(f, k)| (f64::from(f), k));
+    [state, facet, f64::from(feature)]
+}
+
+fn judged_from_numbers(n: &[f64]) -> Judged {
+    let &[state, facet, feature] = n else {
+        return Judged::default();
+    };
+    Judged {
+        state: match state as u8 {
+            0 => Contact::Open,
+            1 => Contact::Stick,
+            _ => Contact::Slip,
+        },
+        facet: (facet >= 0.0).then_some((facet as u32, feature as u8)),
+    }
+}
+
+fn pair_to_numbers(pair: &Option<Pair>) -> [f64; PAIR] {
+    let Some(p) = pair else {
+        let mut none = [0.0; PAIR];
+        none[0] = -1.0;
+        return none;
+    };
+    let (feature, d) = match p.feature {
+        Feature::Face => (0.0, [0.0; 2]),
+        Feature::Edge { direction } => (1.0, direction),
+        Feature::Vertex => (2.0, [0.0; 2]),
+    };
+    let (local, held) = (p.anchor.local, p.held.unwrap_or_default());
+    let facet = f64::from(p.anchor.facet);
+    [
+        facet, local.x, local.y, local.z, feature, d[0], d[1], p.gap, held.x, held.y, held.z,
+    ]
+}
+
+fn pair_from_numbers(n: &[f64]) -> Option<Pair> {
+    let &[facet, x, y, z, feature, d0, d1, gap, h0, h1, h2] = n else {
+        return None;
+    };
+    if facet < 0.0 {
+        return None;
+    }
+    let feature = match feature as u8 {
+        0 => Feature::Face,
+        1 => Feature::Edge {
+            direction: [d0, d1],
+        },
+        _ => Feature::Vertex,
+    };
+    let held = Vec3::new(h0, h1, h2);
+    Some(Pair {
+        anchor: Anchor {
+            facet: facet as u32,
+            local: Vec3::new(x, y, z),
+        },
+        feature,
+        gap,
+        held: (held != Vec3::ZERO).then_some(held),
+    })
+}
+
+fn memory_to_numbers(memory: &Memory) -> [f64; MEMORY] {
+    let (facet, local, offset) = memory.anchor.map_or((-1.0, Vec3::ZERO, Vec3::ZERO), |a| {
+        (f64::from(a.anchor.facet), a.anchor.local, a.offset)
+    });
+    let (vector, slip) = (memory.lambda.vector, memory.slip);
+    let vectors = [local, offset, vector, slip].map(Vec3::to_array);
+    let mut numbers = [0.0; MEMORY];
+    numbers[0] = facet;
+    numbers[1..13].copy_from_slice(vectors.as_flattened());
+    numbers[13] = memory.lambda.scalar;
+    numbers[14] = memory.path;
+    numbers
+}
+
+fn memory_from_numbers(n: &[f64]) -> Memory {
+    let &[facet, a, b, c, o, p, q, u, v, w, x, y, z, scalar, path] = n else {
+        return Memory::default();
+    };
+    let anchor = (facet >= 0.0).then(|| Anchored {
+        anchor: Anchor {
+            facet: facet as u32,
+            local: Vec3::new(a, b, c),
+        },
+        offset: Vec3::new(o, p, q),
+    });
+    Memory {
+        anchor,
+        lambda: Lambda {
+            scalar,
+            vector: Vec3::new(u, v, w),
+        },
+        slip: Vec3::new(x, y, z),
+        path,
+    }
+}

@@ -1,0 +1,562 @@
+//! One pair of surfaces with its choices, as the one contact term there is.
+
+mod history;
+mod pairing;
+mod report;
+mod rows;
+
+use super::discretization::{Discretization, Pairing, SurfacePair};
+use super::friction::{FrictionLaw, Stick};
+use super::kernel::{Contact, Derivatives, Lambda, Laws};
+use super::law::{ContactLaw, Multiplier, Penalty, Scale};
+use super::row::{Participant, RowOrder, Rows, Wanted};
+use crate::system::{
+    Archive, ArchiveError, Dof, Elimination, Frame, Layout, Order, Part, PatternSink, Sink, State,
+    StepContext, Symmetry, Term, TermError, Verdict, Work,
+};
+use history::History;
+use pairing::Near;
+pub use pairing::closest_points;
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::surface::{Carrier, ContactSurface, SurfaceError};
+use signorini_geometry::tensor::Vec3;
+use std::sync::Arc;
+
+/// Rows evaluated together.
+const CHUNK: usize = 64;
+
+/// How many nodes a verdict names.
+const NAMED: usize = 4;
+
+/// What a unit of the law's pressure acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// The tributary area of the row.
+    Area,
+    /// The row itself: the law gives forces.
+    Node,
+}
+
+/// What a step makes of a contact.
+#[derive(Clone)]
+pub struct Phase {
+    /// Whether it acts.
+    pub active: bool,
+    /// Its friction; `None`: none.
+    pub friction: Option<(Arc<dyn FrictionLaw>, Stick)>,
+}
+
+/// What is added to the gap of a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shift {
+    /// Always.
+    pub constant: f64,
+    /// At the start of the first step in which the contact acts; it fades to nothing over that step.
+    pub fading: f64,
+}
+
+/// Tributary areas of all rows, from the positions of all nodes.
+pub type Areas = Box<dyn Fn(&[Vec3]) -> Result<Vec<f64>, SurfaceError> + Send + Sync>;
+
+/// What an interface is made of.
+pub struct InterfaceParts {
+    /// Its name.
+    pub name: String,
+    /// The two sides.
+    pub pair: SurfacePair,
+    /// How they are compared.
+    pub discretization: Box<dyn Discretization>,
+    /// The contact law.
+    pub law: Box<dyn ContactLaw>,
+    /// What becomes of it in each step; the last goes on.
+    pub phases: Vec<Phase>,
+    /// Whether the sides are joined where they are at the start: each row sticks to its anchor, if it has one.
+    pub bond: Option<Vec<Option<super::discretization::Anchored>>>,
+    /// What the law's pressure acts on.
+    pub measure: Measure,
+    /// Tributary area of each row; empty where the secondary side has none.
+    pub area: Vec<f64>,
+    /// Areas from the positions of all nodes, where they are those of the last accepted state.
+    pub present_area: Option<Areas>,
+    /// The numbers the law scales with.
+    pub scale: Scale,
+    /// What is added to the gap of each row; empty where nothing is.
+    pub shifts: Vec<Shift>,
+    /// The first multiplier, where the law solves for them: one for each row, and with friction, or joined, one for each
+    /// row and direction.
+    pub first_multiplier: usize,
+    /// The gap up to which a multiplier method may leave a contact open or penetrated, as a length.
+    pub gap_tolerance: f64,
+    /// Whether it is the second pass of a contact, whose results belong to the first with the sides swapped.
+    pub swapped: bool,
+}
+
+impl InterfaceParts {
+    /// A linear penalty without friction, in force per gap of each row.
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        pair: SurfacePair,
+        discretization: Box<dyn Discretization>,
+        penalty: f64,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            pair,
+            discretization,
+            law: Box::new(Penalty),
+            phases: Vec::new(),
+            bond: None,
+            measure: Measure::Node,
+            area: Vec::new(),
+            present_area: None,
+            scale: Scale {
+                penalty,
+                length: 1.0,
+            },
+            shifts: Vec::new(),
+            first_multiplier: 0,
+            gap_tolerance: 1e-6,
+            swapped: false,
+        }
+    }
+
+    /// Multipliers of one row.
+    #[must_use]
+    pub fn nmultiplier(&self, ndim: usize) -> usize {
+        nmultiplier(self.law.as_ref(), self.has_vectors(), ndim)
+    }
+
+    /// Whether multipliers are tractions.
+    fn has_vectors(&self) -> bool {
+        self.bond.is_some() || self.phases.iter().any(|p| p.friction.is_some())
+    }
+}
+
+/// Multipliers of one row: tractions with friction in any step, and of bonds.
+#[must_use]
+pub fn nmultiplier(law: &dyn ContactLaw, vectors: bool, ndim: usize) -> usize {
+    match (law.multiplier().is_unknown(), vectors) {
+        (false, _) => 0,
+        (true, false) => 1,
+        (true, true) => ndim,
+    }
+}
+
+/// Two surfaces that may touch: the only contact term, whatever the method, the law, the surfaces or the dimension.
+pub struct Interface {
+    parts: InterfaceParts,
+    layout: Layout,
+    elimination: Arc<Elimination>,
+    near: Near,
+    /// The choices for the present iterate, those of the last accepted state, and those last judged.
+    now: Pairing,
+    accepted: Pairing,
+    judged: Vec<Judged>,
+    accepted_judged: Vec<Judged>,
+    next: Pairing,
+    history: History,
+    /// Whether the accepted choices are those of a state, and not just of nothing.
+    started: bool,
+    /// The facets that the pattern couples each row with, neighbours included: of its closest point and of its anchor.
+    coupled: Vec<[u32; 2]>,
+    step: StepContext,
+    /// The step in which it acts first.
+    first_step: Option<StepContext>,
+    /// Rows that went to and fro between facets keep the one they are on, for the rest of the increment.
+    changes: Vec<u8>,
+}
+
+/// What a verdict compares.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Judged {
+    state: Contact,
+    facet: Option<(u32, u8)>,
+}
+
+const NONE: u32 = u32::MAX;
+
+#[derive(Default)]
+struct Scratch {
+    rows: Rows,
+    dofs: Vec<Dof>,
+    force: Vec<f64>,
+    stiffness: Vec<f64>,
+    derivatives: Derivatives,
+}
+
+impl Interface {
+    /// Makes the term.
+    #[must_use]
+    pub fn new(parts: InterfaceParts, layout: Layout, elimination: Arc<Elimination>) -> Self {
+        let nrow = parts.discretization.nrow();
+        let nothing = Pairing {
+            pairs: vec![None; nrow],
+        };
+        let history = History::new(nrow, parts.bond.as_deref());
+        Self {
+            parts,
+            layout,
+            elimination,
+            near: Near::default(),
+            now: nothing.clone(),
+            accepted: nothing.clone(),
+            judged: vec![Judged::default(); nrow],
+            accepted_judged: vec![Judged::default(); nrow],
+            next: nothing,
+            history,
+            started: false,
+            coupled: vec![[NONE; 2]; nrow],
+            step: StepContext::default(),
+            first_step: None,
+            changes: vec![0; nrow],
+        }
+    }
+
+    /// What it is made of.
+    #[must_use]
+    pub const fn parts(&self) -> &InterfaceParts {
+        &self.parts
+    }
+
+    /// The choices made for the present iterate.
+    #[must_use]
+    pub const fn pairing(&self) -> &Pairing {
+        &self.now
+    }
+
+    fn phase(&self) -> Option<&Phase> {
+        let phases = &self.parts.phases;
+        phases.get(self.step.number).or(phases.last())
+    }
+
+    fn is_active(&self) -> bool {
+        self.phase().is_none_or(|p| p.active)
+    }
+
+    fn laws(&self) -> Laws<'_> {
+        let friction = self.phase().and_then(|p| p.friction.as_ref());
+        Laws {
+            law: self.parts.law.as_ref(),
+            friction: friction.map(|(law, _)| law.as_ref()),
+            stick: friction.map_or(Stick::Stiffness(0.0), |(_, stick)| *stick),
+            scale: &self.parts.scale,
+            bond: self.parts.bond.is_some(),
+            vectors: self.parts.has_vectors(),
+        }
+    }
+
+    fn nmultiplier(&self) -> usize {
+        self.parts.nmultiplier(self.layout.ndim)
+    }
+
+    /// The multiplier of a row: solved for, frozen, or none.
+    fn lambda(&self, row: usize, trial: &State) -> Lambda {
+        let n = self.nmultiplier();
+        if n == 0 {
+            return self.history.lambda(row);
+        }
+        let value = |c: usize| {
+            let dof = self
+                .layout
+                .multiplier(self.parts.first_multiplier + n * row + c);
+            trial.u.get(dof as usize).copied().unwrap_or_default()
+        };
+        if self.parts.has_vectors() {
+            let mut vector = Vec3::ZERO;
+            (0..n).for_each(|c| vector[c] = value(c));
+            Lambda {
+                scalar: 0.0,
+                vector,
+            }
+        } else {
+            Lambda {
+                scalar: value(0),
+                vector: Vec3::ZERO,
+            }
+        }
+    }
+
+    /// The unknowns behind the multiplier columns of a row: three where it is a traction, in the plane too.
+    fn multiplier_dofs(&self, row: usize, out: &mut Vec<Dof>) {
+        let n = self.nmultiplier();
+        let first = self.parts.first_multiplier + n * row;
+        out.extend((0..n).map(|c| self.layout.multiplier(first + c)));
+        if n == 2 {
+            out.push(crate::system::NO_DOF);
+        }
+    }
+
+    /// Columns of the multiplier of a row.
+    fn ncolumn_of_multiplier(&self) -> usize {
+        match self.nmultiplier() {
+            2 => 3,
+            n => n,
+        }
+    }
+
+    fn measure(&self, row: usize) -> f64 {
+        match self.parts.measure {
+            Measure::Area => self.area(row),
+            Measure::Node => 1.0,
+        }
+    }
+
+    /// Tributary area of a row; 1 where the secondary side has none, so that pressures are then forces.
+    fn area(&self, row: usize) -> f64 {
+        self.parts.area.get(row).copied().unwrap_or(1.0)
+    }
+
+    /// What is added to the gap of a row.
+    fn shift(&self, row: usize, time: f64) -> f64 {
+        let Some(shift) = self.parts.shifts.get(row) else {
+            return 0.0;
+        };
+        let left = self.first_step.map_or(1.0, |step| {
+            (1.0 - (time - step.start) / step.duration).clamp(0.0, 1.0)
+        });
+        shift.constant + shift.fading * left
+    }
+
+    fn failed(&self, error: &SurfaceError) -> TermError {
+        TermError::Surface {
+            interface: self.parts.name.clone(),
+            message: error.to_string(),
+        }
+    }
+}
+
+impl Term for Interface {
+    fn name(&self) -> &str {
+        &self.parts.name
+    }
+
+    fn pattern(&self, out: &mut dyn PatternSink) {
+        self.cliques(out);
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        let rubs = self.phase().is_some_and(|p| p.friction.is_some());
+        if rubs || !self.parts.discretization.is_symmetric() {
+            Symmetry::Unsymmetric
+        } else if self.nmultiplier() > 0 {
+            Symmetry::Symmetric
+        } else {
+            Symmetry::Definite
+        }
+    }
+
+    fn part(&self) -> Part {
+        Part::Interface
+    }
+
+    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
+        self.step = *step;
+        if self.is_active() && self.first_step.is_none() {
+            self.first_step = Some(*step);
+        }
+        Ok(())
+    }
+
+    fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
+        let at = from.placement();
+        if !self.started {
+            self.search(&at).map_err(|e| self.failed(&e))?;
+            self.accepted.pairs.clone_from(&self.now.pairs);
+            self.started = true;
+            self.judge(from)?;
+            self.accepted_judged.clone_from(&self.judged);
+        }
+        self.measure_again(&at).map_err(|e| self.failed(&e))?;
+        self.changes.fill(0);
+        self.history.begin();
+        self.stick(&at).map_err(|e| self.failed(&e))
+    }
+
+    fn prepare(&mut self, trial: &State) -> Result<bool, TermError> {
+        let at = trial.placement();
+        self.search(&at).map_err(|e| self.failed(&e))?;
+        if let Some(message) = self.passed_through(&at) {
+            return Err(TermError::Surface {
+                interface: self.parts.name.clone(),
+                message,
+            });
+        }
+        self.stick(&at).map_err(|e| self.failed(&e))?;
+        Ok(self.couple())
+    }
+
+    fn nchunk(&self) -> usize {
+        self.parts.discretization.nrow().div_ceil(CHUNK)
+    }
+
+    fn evaluate(
+        &self,
+        chunk: usize,
+        trial: &State,
+        order: Order,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let scratch = work.of::<Scratch>();
+        for row in self.chunk(chunk) {
+            self.act(row, trial, order, scratch, out)?;
+        }
+        Ok(())
+    }
+
+    fn energy(
+        &self,
+        chunk: usize,
+        trial: &State,
+        work: &mut Work,
+    ) -> Result<Option<f64>, TermError> {
+        let laws = self.laws();
+        if laws.friction.is_some() || self.nmultiplier() > 0 {
+            return Ok(None);
+        }
+        let rows = &mut work.of::<Scratch>().rows;
+        let mut total = 0.0;
+        for k in self.chunk(chunk) {
+            total += self.measure(k) * self.energy_of(k, trial, rows)?.unwrap_or(0.0);
+        }
+        Ok(Some(total))
+    }
+
+    fn max_step(&self, trial: &State, du: &[f64]) -> f64 {
+        self.longest_step(trial, du)
+    }
+
+    fn verdict(&mut self, trial: &State) -> Verdict {
+        let before = std::mem::take(&mut self.judged);
+        self.judged = vec![Judged::default(); before.len()];
+        if self.judge(trial).is_err() {
+            // what cannot be evaluated fails where it is evaluated
+            self.judged = before;
+            return Verdict::Settled;
+        }
+        let mut counts = Changes::default();
+        let mut nodes = Vec::new();
+        for (row, (now, before)) in self.judged.iter().zip(&before).enumerate() {
+            if !counts.compare(now, before) {
+                continue;
+            }
+            if let Some(changes) = self.changes.get_mut(row)
+                && before.facet.is_some()
+                && now.facet != before.facet
+            {
+                *changes = changes.saturating_add(1);
+            }
+            if nodes.len() < NAMED {
+                nodes.extend(self.parts.discretization.point(row).nodes.first());
+            }
+        }
+        counts.verdict(&self.parts.name, nodes)
+    }
+
+    fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
+        if self.parts.law.multiplier() == Multiplier::Frozen {
+            self.augment(trial)
+        } else {
+            Ok(Verdict::Settled)
+        }
+    }
+
+    fn has_saddle(&self) -> bool {
+        self.parts.bond.is_none() && self.nmultiplier() > 0
+    }
+
+    fn nactive(&self) -> usize {
+        let closed = self.judged.iter().filter(|j| j.state != Contact::Open);
+        closed.count()
+    }
+
+    fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        self.accepted.pairs.clone_from(&self.now.pairs);
+        self.accepted_judged.clone_from(&self.judged);
+        self.started = true;
+        self.changes.fill(0);
+        self.remember(state)
+    }
+
+    fn reject(&mut self) {
+        self.now.pairs.clone_from(&self.accepted.pairs);
+        self.judged.clone_from(&self.accepted_judged);
+        self.history.reject();
+        self.changes.fill(0);
+    }
+
+    fn save(&self, out: &mut Archive) {
+        self.store(out);
+    }
+
+    fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+        self.restore(from)
+    }
+
+    fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        self.describe(state, frame)
+    }
+}
+
+/// What changed from one iterate to the next.
+#[derive(Default)]
+struct Changes {
+    closed: usize,
+    opened: usize,
+    slipping: usize,
+    sticking: usize,
+    moved: usize,
+}
+
+impl Changes {
+    /// Counts a change; says whether there is one.
+    fn compare(&mut self, now: &Judged, before: &Judged) -> bool {
+        match (before.state, now.state) {
+            (Contact::Open, Contact::Open) => return false,
+            (Contact::Open, _) => self.closed += 1,
+            (_, Contact::Open) => self.opened += 1,
+            (Contact::Stick, Contact::Slip) => self.slipping += 1,
+            (Contact::Slip, Contact::Stick) => self.sticking += 1,
+            _ if now.facet != before.facet => self.moved += 1,
+            _ => return false,
+        }
+        true
+    }
+
+    fn verdict(&self, name: &str, nodes: Vec<NodeId>) -> Verdict {
+        let parts = [
+            (self.closed, "closed"),
+            (self.opened, "opened"),
+            (self.slipping, "stick -> slip"),
+            (self.sticking, "slip -> stick"),
+            (self.moved, "went to another facet"),
+        ];
+        let changes = parts.iter().map(|p| p.0).sum();
+        if changes == 0 {
+            return Verdict::Settled;
+        }
+        let said = parts.iter().filter(|p| p.0 > 0);
+        let said: Vec<String> = said.map(|(n, what)| format!("{n} {what}")).collect();
+        Verdict::Repeat {
+            changes,
+            why: format!("contact \"{name}\": {}", said.join(", ")),
+            nodes,
+        }
+    }
+}
+
+/// The unknowns of what moves a facet.
+fn dofs_of(carrier: Carrier<'_>, layout: &Layout, out: &mut Vec<Dof>) {
+    match carrier {
+        Carrier::Nodes(nodes) => {
+            let of = |&n: &NodeId| (0..3).map(move |c| layout.node(n, c));
+            out.extend(nodes.iter().flat_map(of));
+        }
+        Carrier::Rigid(body) => {
+            out.extend((0..3).map(|c| layout.translation(body, c)));
+            out.extend((0..3).map(|c| layout.rotation(body, c)));
+        }
+        Carrier::Fixed => {}
+    }
+}

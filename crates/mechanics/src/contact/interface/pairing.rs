@@ -1,0 +1,308 @@
+//! Search, pairing, where rows stick, and what is coupled with what.
+
+use super::{Carrier, ContactSurface, Interface, NONE, dofs_of};
+use crate::contact::discretization::{Discretization, Pair, Pairing, SurfacePair};
+use crate::system::{Dof, NO_DOF, PatternSink, State};
+use signorini_geometry::proximity::{Aabb, Search};
+use signorini_geometry::surface::{Feature, Placement, SurfaceError, SurfaceJet, extended_face};
+use signorini_geometry::tensor::Vec3;
+
+/// Changes of facet in one increment after which a row stays on the facet it is on.
+const RESTLESS: u8 = 4;
+
+/// How far past its facet a point that stays on it may go, in parameters of the facet.
+const BEYOND: f64 = 0.5;
+
+/// The search for what is near, with its buffers.
+#[derive(Default)]
+pub(super) struct Near {
+    pub search: Search,
+    pub points: Vec<Vec3>,
+    boxes: Vec<Aabb>,
+}
+
+impl Near {
+    fn update(&mut self, discretization: &dyn Discretization, pair: &SurfacePair, at: &Placement) {
+        let surface = pair.primary.as_ref();
+        self.points.clear();
+        let point = |row| discretization.point(row).position(at);
+        self.points.extend((0..discretization.nrow()).map(point));
+        self.boxes.clear();
+        let facets = 0..surface.nfacet() as u32;
+        self.boxes.extend(facets.map(|f| surface.aabb(at, f)));
+        let apart = |row: u32, facet: u32| {
+            // a point of a surface that may touch itself never meets the facets around it
+            let nodes = discretization.point(row as usize).nodes;
+            let touches = |f: u32| match surface.carrier(f) {
+                Carrier::Nodes(of) => nodes.iter().any(|n| of.contains(n)),
+                _ => false,
+            };
+            !pair.same || !(touches(facet) || surface.neighbours(facet).iter().any(|&f| touches(f)))
+        };
+        let skin = 0.5 * pair.reach;
+        self.search
+            .update(&self.points, &self.boxes, pair.reach, skin, &apart);
+    }
+}
+
+/// The closest points of all rows at a configuration.
+///
+/// # Errors
+/// A facet that has no normal.
+pub fn closest_points(
+    discretization: &dyn Discretization,
+    pair: &SurfacePair,
+    at: &Placement,
+) -> Result<Pairing, SurfaceError> {
+    let mut near = Near::default();
+    near.update(discretization, pair, at);
+    let nothing = Pairing {
+        pairs: vec![None; discretization.nrow()],
+    };
+    let mut out = nothing.clone();
+    discretization.pair_up(pair, at, near.search.candidates(), &nothing, &mut out)?;
+    Ok(out)
+}
+
+impl Interface {
+    pub(super) fn search(&mut self, at: &Placement) -> Result<(), SurfaceError> {
+        if self.parts.bond.is_some() {
+            return self.hold(at);
+        }
+        let pair = &self.parts.pair;
+        let discretization = self.parts.discretization.as_ref();
+        self.near.update(discretization, pair, at);
+        let candidates = self.near.search.candidates();
+        discretization.pair_up(pair, at, candidates, &self.now, &mut self.next)?;
+        let (surface, points) = (pair.primary.as_ref(), &self.near.points);
+        for (row, changes) in self.changes.iter().enumerate() {
+            if *changes >= RESTLESS
+                && let Some(kept) = stays(surface, at, points[row], self.now.pairs[row])?
+            {
+                self.next.pairs[row] = Some(kept);
+            }
+        }
+        std::mem::swap(&mut self.now, &mut self.next);
+        Ok(())
+    }
+
+    /// Bonds stay where they are.
+    fn hold(&mut self, at: &Placement) -> Result<(), SurfaceError> {
+        let surface = self.parts.pair.primary.as_ref();
+        let mut jet = SurfaceJet::default();
+        for (row, pair) in self.now.pairs.iter_mut().enumerate() {
+            let Some(anchor) = self.history.anchors()[row] else {
+                *pair = None;
+                continue;
+            };
+            let point = self.parts.discretization.point(row).position(at);
+            surface.jet(at, &anchor.anchor, &mut jet)?;
+            *pair = Some(Pair {
+                anchor: anchor.anchor,
+                feature: Feature::Face,
+                gap: (point - jet.position - anchor.offset).dot(jet.normal),
+                held: None,
+            });
+        }
+        Ok(())
+    }
+
+    /// Rows that touch, or may, and stick nowhere yet, stick where they are.
+    pub(super) fn stick(&mut self, at: &Placement) -> Result<(), SurfaceError> {
+        if self.parts.bond.is_some() || self.laws().friction.is_none() {
+            return Ok(());
+        }
+        let discretization = self.parts.discretization.as_ref();
+        let pair = &self.parts.pair;
+        let anchors = self.history.anchors_mut();
+        for (row, (found, anchor)) in self.now.pairs.iter().zip(anchors).enumerate() {
+            if let (Some(found), None) = (found, &anchor) {
+                *anchor = Some(discretization.anchor(row, pair, at, found, Vec3::ZERO)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a point that was near a facet has jumped through it, out of reach behind it: contact would be lost without
+    /// ever having been noticed.
+    pub(super) fn passed_through(&self, at: &Placement) -> Option<String> {
+        if !self.is_active() {
+            return None;
+        }
+        let surface = self.parts.pair.primary.as_ref();
+        let mut jet = SurfaceJet::default();
+        let rows = self.accepted.pairs.iter().zip(&self.now.pairs).enumerate();
+        for (row, (before, now)) in rows {
+            let (Some(before), None) = (before, now) else {
+                continue;
+            };
+            let point = self.near.points.get(row).copied().unwrap_or_default();
+            if surface.jet(at, &before.anchor, &mut jet).is_err() {
+                continue;
+            }
+            let away = point - jet.position;
+            let behind = -away.dot(jet.normal);
+            let distance = away.norm();
+            if distance > self.parts.pair.reach && behind > 0.5 * distance {
+                return Some(format!(
+                    "a point went through the surface in one increment, {behind:.3} behind it and further than the \
+                     reach of {:.3}; take smaller increments",
+                    self.parts.pair.reach
+                ));
+            }
+        }
+        None
+    }
+
+    /// The largest part of a step in which no point that is near goes through the surface further than half the reach.
+    pub(super) fn longest_step(&self, trial: &State, du: &[f64]) -> f64 {
+        if self.parts.bond.is_some() || !self.is_active() {
+            return 1.0;
+        }
+        let at = trial.placement();
+        let surface = self.parts.pair.primary.as_ref();
+        let mut jet = SurfaceJet::default();
+        let moves = |node: u32| {
+            let mut u = Vec3::ZERO;
+            for axis in 0..self.layout.ndim {
+                let dof = self.layout.node(node, axis);
+                u[axis] = du.get(dof as usize).copied().unwrap_or_default();
+            }
+            u
+        };
+        let mut longest = 1.0f64;
+        for (row, pair) in self.now.pairs.iter().enumerate() {
+            let Some(pair) = pair else { continue };
+            if surface.jet(&at, &pair.anchor, &mut jet).is_err() {
+                continue;
+            }
+            let point = self.parts.discretization.point(row);
+            let of_point = point.nodes.iter().zip(point.weights);
+            let mut approach: Vec3 = of_point.map(|(&n, w)| moves(n) * *w).sum();
+            match surface.carrier(pair.anchor.facet) {
+                Carrier::Nodes(nodes) => {
+                    for (&n, w) in nodes.iter().zip(jet.shape) {
+                        approach -= moves(n) * w;
+                    }
+                }
+                Carrier::Rigid(body) => {
+                    let value = |dof: Dof| match dof {
+                        NO_DOF => 0.0,
+                        dof => du.get(dof as usize).copied().unwrap_or_default(),
+                    };
+                    for axis in 0..3 {
+                        approach[axis] -= value(self.layout.translation(body, axis));
+                    }
+                }
+                Carrier::Fixed => {}
+            }
+            let closes = -approach.dot(jet.normal);
+            let room = pair.gap.max(0.0) + 0.5 * self.parts.pair.reach;
+            if closes > room {
+                longest = longest.min(room / closes);
+            }
+        }
+        longest
+    }
+
+    /// Couples every row that touches, or may soon, with its facet and that of its anchor; says whether that adds to
+    /// what was coupled.
+    pub(super) fn couple(&mut self) -> bool {
+        let soon = 0.25 * self.parts.pair.reach;
+        let facet = |pair: &Option<Pair>| match pair {
+            Some(p) if p.gap < soon => p.anchor.facet,
+            _ => NONE,
+        };
+        let surface = self.parts.pair.primary.as_ref();
+        let anchors = self.history.anchors();
+        let wanted = |row: usize| -> [u32; 2] {
+            let near = facet(&self.now.pairs[row]);
+            let stuck = anchors[row].map_or(NONE, |a| a.anchor.facet);
+            [near, if near == NONE { NONE } else { stuck }]
+        };
+        let covers = |coupled: u32, facet: u32| {
+            facet == NONE
+                || facet == coupled
+                || (coupled != NONE && surface.neighbours(coupled).contains(&facet))
+        };
+        let covered = |row: usize, coupled: [u32; 2]| {
+            let [near, stuck] = wanted(row);
+            covers(coupled[0], near) && (covers(coupled[0], stuck) || covers(coupled[1], stuck))
+        };
+        let mut rows = self.coupled.iter().enumerate();
+        if rows.all(|(row, &coupled)| covered(row, coupled)) {
+            return false;
+        }
+        let all: Vec<[u32; 2]> = (0..self.coupled.len()).map(wanted).collect();
+        self.coupled = all;
+        true
+    }
+
+    pub(super) fn cliques(&self, out: &mut dyn PatternSink) {
+        let surface = self.parts.pair.primary.as_ref();
+        let discretization = self.parts.discretization.as_ref();
+        let rubs = self.laws().slips();
+        let (mut dofs, mut of_row, mut facets) = (Vec::new(), Vec::new(), Vec::new());
+        for (row, &[near, stuck]) in self.coupled.iter().enumerate() {
+            of_row.clear();
+            self.multiplier_dofs(row, &mut of_row);
+            of_row.retain(|&d| d != NO_DOF);
+            if near == NONE {
+                if !of_row.is_empty() {
+                    out.interface(&of_row);
+                }
+                continue;
+            }
+            let nodes = discretization.point(row).nodes.iter();
+            for &node in nodes.chain(discretization.more_nodes(row)) {
+                of_row.extend((0..3).map(|c| self.layout.node(node, c)));
+            }
+            facets.clear();
+            for centre in [near, stuck] {
+                if centre != NONE {
+                    facets.push(centre);
+                    facets.extend_from_slice(surface.neighbours(centre));
+                }
+            }
+            facets.sort_unstable();
+            facets.dedup();
+            dofs.clear();
+            dofs.extend_from_slice(&of_row);
+            for &facet in &facets {
+                if !rubs {
+                    // without friction a row sees one facet at a time
+                    dofs.truncate(of_row.len());
+                }
+                dofs_of(surface.carrier(facet), &self.layout, &mut dofs);
+                if !rubs {
+                    out.interface(&dofs);
+                }
+            }
+            if rubs || facets.is_empty() {
+                dofs.sort_unstable();
+                dofs.dedup();
+                out.interface(&dofs);
+            }
+        }
+    }
+}
+
+/// The place of a point on the facet it is on, or its continuation.
+fn stays(
+    surface: &dyn ContactSurface,
+    at: &Placement,
+    point: Vec3,
+    before: Option<Pair>,
+) -> Result<Option<Pair>, SurfaceError> {
+    let Some(before) = before.filter(|p| surface.domain(p.anchor.facet).is_some()) else {
+        return Ok(None);
+    };
+    let mut jet = SurfaceJet::default();
+    let found = extended_face(surface, at, before.anchor, point, BEYOND, &mut jet)?;
+    Ok(found.map(|f| Pair {
+        anchor: f.anchor,
+        feature: Feature::Face,
+        gap: (point - jet.position).dot(jet.normal),
+        held: None,
+    }))
+}

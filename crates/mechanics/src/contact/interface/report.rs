@@ -1,0 +1,242 @@
+//! What a contact tells of an accepted state.
+
+use super::{Contact, Interface, Order, Participant, RowOrder, Rows, Scratch, State, TermError};
+use crate::system::{ContactFrame, Frame, Resultant, Status};
+use signorini_geometry::element::Element;
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::surface::{ContactSurface, Facets};
+use signorini_geometry::tensor::Vec3;
+
+/// Sums over the rows around each node, with their areas and the squares of their shape functions as weights.
+struct Means {
+    weight: Vec<f64>,
+    gap: Vec<f64>,
+    pressure: Vec<f64>,
+    slip: Vec<Vec3>,
+}
+
+impl Interface {
+    pub(super) fn describe(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        let mut report = self.new_report(state);
+        let mut scratch = Scratch::default();
+        let n = report.nodes.len();
+        let mut means = Means {
+            weight: vec![0.0; n],
+            gap: vec![0.0; n],
+            pressure: vec![0.0; n],
+            slip: vec![Vec3::ZERO; n],
+        };
+        let mut centre = (Vec3::ZERO, 0.0);
+        let mut gap_min: Option<f64> = None;
+        for row in 0..self.parts.discretization.nrow() {
+            let area = self.area(row);
+            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
+            let (mut pressure, mut status) = (0.0, Status::Absent);
+            let found = scratch.rows.rows().first();
+            if let Some(filled) = found {
+                gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
+                status = Status::Open;
+            }
+            if let Some(filled) = found.filter(|_| acts) {
+                let traction = self.traction(filled, &self.lambda(row, state));
+                pressure = traction.pressure * self.measure(row) / area;
+                status = match traction.state {
+                    _ if pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
+                    Contact::Open => Status::Open,
+                    Contact::Stick if self.parts.bond.is_some() => Status::Tied,
+                    Contact::Stick => Status::Stick,
+                    Contact::Slip => Status::Slip,
+                };
+            }
+            match status {
+                Status::Absent | Status::Open => report.area_open += area,
+                Status::Stick | Status::Tied => report.area_stick += area,
+                Status::Slip => report.area_slip += area,
+            }
+            let slip = self.history.slip(row);
+            report.pressure_max = report.pressure_max.max(pressure);
+            report.slip_max = report.slip_max.max(slip.norm());
+            let point = self.parts.discretization.point(row);
+            let weight = pressure * area;
+            centre.0 += point.position(&state.placement()) * weight;
+            centre.1 += weight;
+            for (node, shape) in point.nodes.iter().zip(point.weights) {
+                let Ok(k) = self.parts.pair.points.binary_search(node) else {
+                    continue;
+                };
+                let weight = area * shape * shape;
+                if let Some(filled) = found {
+                    means.weight[k] += weight;
+                    means.gap[k] += weight * filled.gap;
+                    means.pressure[k] += weight * pressure;
+                    means.slip[k] += slip * weight;
+                }
+                if status.number() > report.status[k].number() {
+                    report.status[k] = status;
+                }
+            }
+            if acts {
+                self.add_forces(row, state, Order::Residual, &mut scratch);
+                self.distribute(
+                    &scratch.rows,
+                    &scratch.force,
+                    row,
+                    state,
+                    &mut report,
+                    frame,
+                );
+            }
+        }
+        for (k, weight) in means.weight.iter().enumerate().filter(|(_, w)| **w > 0.0) {
+            report.gap[k] = means.gap[k] / weight;
+            report.pressure[k] = means.pressure[k] / weight;
+            report.slip[k] = means.slip[k] / *weight;
+        }
+        self.finish(report, centre, gap_min, frame);
+        Ok(())
+    }
+
+    fn finish(
+        &self,
+        mut report: ContactFrame,
+        centre: (Vec3, f64),
+        gap_min: Option<f64>,
+        frame: &mut Frame,
+    ) {
+        for (k, area) in report.area.iter().enumerate() {
+            report.traction[k] = report.force[k] / *area;
+            let node = report.nodes[k] as usize;
+            if let Some(to) = frame.contact_pressure.get_mut(node) {
+                *to = to.max(report.pressure[k]);
+            }
+        }
+        if centre.1 > 0.0 {
+            report.center = centre.0 / centre.1;
+        }
+        report.gap_min = gap_min.unwrap_or(0.0);
+        report.work_friction = self.history.work;
+        if self.parts.swapped
+            && let Some(first) = frame.contacts.iter_mut().find(|c| c.name == report.name)
+        {
+            first.add_pass(&report);
+        } else {
+            frame.contacts.push(report);
+        }
+    }
+
+    fn new_report(&self, state: &State) -> ContactFrame {
+        let pair = &self.parts.pair;
+        let n = pair.points.len();
+        let of = |&node: &NodeId| state.x.get(node as usize).copied().unwrap_or_default();
+        let moved = |&node: &NodeId| {
+            let mut u = Vec3::ZERO;
+            for axis in 0..self.layout.ndim {
+                let dof = self.layout.node(node, axis) as usize;
+                u[axis] = state.u.get(dof).copied().unwrap_or_default();
+            }
+            u
+        };
+        let local = |nodes: &[NodeId]| -> Vec<u32> {
+            let place = |node| pair.points.binary_search(node).ok().map(|k| k as u32);
+            nodes.iter().filter_map(place).collect()
+        };
+        let facet = |facets: &Facets, f: u32| -> Option<(Element, Vec<u32>)> {
+            Some((facets.element(f)?, local(facets.nodes(f))))
+        };
+        let facets = pair.secondary.as_ref().map_or_else(Vec::new, |facets| {
+            (0..facets.nfacet() as u32)
+                .filter_map(|f| facet(facets, f))
+                .collect()
+        });
+        let mut area = vec![0.0; n];
+        for row in 0..self.parts.discretization.nrow() {
+            let point = self.parts.discretization.point(row);
+            // shares of a point's area: those of a lumped mass
+            let squares: f64 = point.weights.iter().map(|w| w * w).sum();
+            for (node, shape) in point.nodes.iter().zip(point.weights) {
+                if let Ok(k) = pair.points.binary_search(node) {
+                    area[k] += self.area(row) * shape * shape / squares;
+                }
+            }
+        }
+        ContactFrame {
+            name: self.parts.name.clone(),
+            nodes: pair.points.clone(),
+            points: pair.points.iter().map(of).collect(),
+            displacement: pair.points.iter().map(moved).collect(),
+            facets,
+            gap: vec![f64::NAN; n],
+            pressure: vec![0.0; n],
+            status: vec![Status::Absent; n],
+            force: vec![Vec3::ZERO; n],
+            traction: vec![Vec3::ZERO; n],
+            slip: vec![Vec3::ZERO; n],
+            area,
+            facet_size: self.parts.scale.length,
+            ..ContactFrame::default()
+        }
+    }
+
+    /// Adds the forces of a row to the nodes, the resultants of both sides, and the rigid bodies.
+    fn distribute(
+        &self,
+        rows: &Rows,
+        internal: &[f64],
+        row: usize,
+        state: &State,
+        report: &mut ContactFrame,
+        frame: &mut Frame,
+    ) {
+        let mut column = 0;
+        let vector = |at: usize| {
+            let part = internal.get(at..at + 3);
+            part.map_or(Vec3::ZERO, |f| -Vec3::new(f[0], f[1], f[2]))
+        };
+        let of_point = self.parts.discretization.point(row).nodes;
+        let first_of_point = self.parts.discretization.first_of_point(rows, row);
+        for (place, participant) in rows.participants().iter().enumerate() {
+            let force = vector(column);
+            match *participant {
+                Participant::Node(node) => {
+                    let x = state.x.get(node as usize).copied().unwrap_or_default();
+                    let secondary =
+                        (first_of_point..first_of_point + of_point.len()).contains(&place);
+                    let side = if secondary {
+                        if let Ok(k) = self.parts.pair.points.binary_search(&node) {
+                            report.force[k] += force;
+                        }
+                        &mut report.secondary
+                    } else {
+                        &mut report.primary
+                    };
+                    add(side, force, x.cross(force));
+                    if let Some(to) = frame.contact_force.get_mut(node as usize) {
+                        *to += force;
+                    }
+                    if let Some(body) = self.elimination.body_of(node) {
+                        let origin = state.poses.get(body as usize).map(|p| p.origin);
+                        let rigid = frame.rigid.get_mut(body as usize);
+                        if let (Some(origin), Some(rigid)) = (origin, rigid) {
+                            add(&mut rigid.contact, force, (x - origin).cross(force));
+                        }
+                    }
+                }
+                Participant::Rigid(body) => {
+                    let moment = vector(column + 3);
+                    let origin = state.poses.get(body as usize).map(|p| p.origin);
+                    let origin = origin.unwrap_or_default();
+                    add(&mut report.primary, force, moment + origin.cross(force));
+                    if let Some(rigid) = frame.rigid.get_mut(body as usize) {
+                        add(&mut rigid.contact, force, moment);
+                    }
+                }
+            }
+            column += participant.ncolumn();
+        }
+    }
+}
+
+fn add(to: &mut Resultant, force: Vec3, moment: Vec3) {
+    to.force += force;
+    to.moment += moment;
+}

@@ -1,0 +1,267 @@
+//! Rows, and what acts on them.
+
+use super::{
+    CHUNK, Contact, Interface, Judged, Lambda, Order, Participant, RowOrder, Rows, Scratch, Sink,
+    State, TermError, Wanted,
+};
+use crate::contact::discretization::Links;
+use crate::contact::kernel::{Target, Traction};
+use crate::contact::row::Row;
+use signorini_geometry::surface::Feature;
+
+/// Rounding error of a gap over the coordinates it comes from.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+impl Interface {
+    pub(super) fn chunk(&self, chunk: usize) -> std::ops::Range<usize> {
+        let n = self.parts.discretization.nrow();
+        (chunk * CHUNK).min(n)..((chunk + 1) * CHUNK).min(n)
+    }
+
+    /// Fills a row; its gap is what the law sees.
+    fn fill(
+        &self,
+        row: usize,
+        trial: &State,
+        order: RowOrder,
+        rows: &mut Rows,
+    ) -> Result<(), TermError> {
+        let parts = &self.parts;
+        let laws = self.laws();
+        let wanted = Wanted {
+            order,
+            slip: laws.slips() && order != RowOrder::Gap,
+        };
+        let links = Links {
+            pairing: &self.now,
+            anchors: self.history.anchors(),
+            bond: laws.bond,
+        };
+        parts
+            .discretization
+            .row(row, &parts.pair, &trial.placement(), &links, wanted, rows)
+            .map_err(|e| self.failed(&e))?;
+        let shift = self.shift(row, trial.time);
+        if let Some(row) = rows.rows_mut().first_mut() {
+            row.gap += shift;
+        }
+        Ok(())
+    }
+
+    /// Fills a row where something acts on it; says whether there is one.
+    pub(super) fn acting_row(
+        &self,
+        row: usize,
+        trial: &State,
+        order: RowOrder,
+        rows: &mut Rows,
+    ) -> Result<bool, TermError> {
+        if !self.is_active() {
+            return Ok(false);
+        }
+        let laws = self.laws();
+        if !laws.bond {
+            // gaps first: most rows are open and need nothing else
+            self.fill(row, trial, RowOrder::Gap, rows)?;
+            let lambda = self.lambda(row, trial);
+            let acts = |r: &Row| laws.acts(r.gap, r.normal, &lambda);
+            if !rows.rows().iter().any(acts) {
+                return Ok(false);
+            }
+        } else if self.now.pairs[row].is_none() {
+            return Ok(false);
+        }
+        self.fill(row, trial, order, rows)?;
+        Ok(!rows.rows().is_empty())
+    }
+
+    /// What acts on a filled row.
+    pub(super) fn traction(&self, row: &Row, lambda: &Lambda) -> Traction {
+        let path = self.history.path(row.number);
+        self.laws().traction(row, lambda, path)
+    }
+
+    /// Adds forces and stiffness of a row.
+    pub(super) fn act(
+        &self,
+        row: usize,
+        trial: &State,
+        order: Order,
+        scratch: &mut Scratch,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let row_order = match order {
+            Order::Residual => RowOrder::Gradient,
+            Order::Tangent => RowOrder::Tangent,
+        };
+        let nlambda = self.ncolumn_of_multiplier();
+        let acts = self.acting_row(row, trial, row_order, &mut scratch.rows)?;
+        if !acts {
+            if nlambda > 0 {
+                self.release(row, trial, order, scratch, out);
+            }
+            return Ok(());
+        }
+        let ncolumn = scratch.rows.ncolumn();
+        self.add_forces(row, trial, order, scratch);
+        scratch.rows.dofs(&self.layout, &mut scratch.dofs);
+        self.multiplier_dofs(row, &mut scratch.dofs);
+        out.add(&scratch.dofs, &scratch.force, &scratch.stiffness);
+        let rounding = self.rounding(&scratch.rows, trial);
+        out.uncertain(&scratch.dofs[..ncolumn], rounding);
+        self.allow(row, &scratch.dofs[ncolumn..], out);
+        Ok(())
+    }
+
+    /// Forces, and stiffness where it is wanted, of the row that the scratch holds.
+    pub(super) fn add_forces(
+        &self,
+        number: usize,
+        trial: &State,
+        order: Order,
+        scratch: &mut Scratch,
+    ) {
+        let width = scratch.rows.ncolumn() + self.ncolumn_of_multiplier();
+        scratch.force.clear();
+        scratch.force.resize(width, 0.0);
+        scratch.stiffness.clear();
+        if order == Order::Tangent {
+            scratch.stiffness.resize(width * width, 0.0);
+        }
+        let mut target = Target {
+            force: &mut scratch.force,
+            stiffness: &mut scratch.stiffness,
+        };
+        let lambda = self.lambda(number, trial);
+        let (measure, path) = (self.measure(number), self.history.path(number));
+        let laws = self.laws();
+        for row in scratch.rows.rows() {
+            laws.act(
+                row,
+                measure,
+                &lambda,
+                path,
+                &mut scratch.derivatives,
+                &mut target,
+            );
+        }
+    }
+
+    /// The multiplier of a row on which nothing acts goes to zero.
+    fn release(
+        &self,
+        row: usize,
+        trial: &State,
+        order: Order,
+        scratch: &mut Scratch,
+        out: &mut dyn Sink,
+    ) {
+        let n = self.ncolumn_of_multiplier();
+        let slope = -self.measure(row) / self.parts.scale.penalty;
+        let lambda = self.lambda(row, trial);
+        scratch.force.clear();
+        match n {
+            1 => scratch.force.push(slope * lambda.scalar),
+            _ => scratch
+                .force
+                .extend((0..n).map(|c| slope * lambda.vector[c])),
+        }
+        scratch.stiffness.clear();
+        if order == Order::Tangent {
+            scratch.stiffness.resize(n * n, 0.0);
+            (0..n).for_each(|c| scratch.stiffness[c * n + c] = slope);
+        }
+        scratch.dofs.clear();
+        self.multiplier_dofs(row, &mut scratch.dofs);
+        out.add(&scratch.dofs, &scratch.force, &scratch.stiffness);
+        self.allow(row, &scratch.dofs, out);
+    }
+
+    /// Gaps up to the tolerance count as closed, and what is left of a multiplier likewise.
+    fn allow(&self, row: usize, multipliers: &[crate::system::Dof], out: &mut dyn Sink) {
+        out.uncertain(multipliers, self.parts.gap_tolerance * self.measure(row));
+    }
+
+    /// The rounding error of the forces of a row: that of the positions times the stiffness of the law.
+    fn rounding(&self, rows: &Rows, trial: &State) -> f64 {
+        let size = |p: &Participant| match *p {
+            Participant::Node(node) => trial.x.get(node as usize).map_or(0.0, |x| x.max_abs()),
+            Participant::Rigid(body) => {
+                let pose = trial.poses.get(body as usize);
+                pose.map_or(0.0, |p| p.origin.max_abs())
+            }
+        };
+        let size = rows.participants().iter().map(size).fold(0.0, f64::max);
+        let laws = self.laws();
+        let stiffness = |row: &Row| {
+            let lambda = self.lambda(row.number, trial);
+            let normal = laws.pressure(row.gap, row.normal, &lambda).dgap.abs();
+            normal.max(laws.stick_stiffness()) * self.measure(row.number)
+        };
+        ROUNDING * size * rows.rows().iter().map(stiffness).sum::<f64>()
+    }
+
+    /// The potential of a row.
+    pub(super) fn energy_of(
+        &self,
+        row: usize,
+        trial: &State,
+        rows: &mut Rows,
+    ) -> Result<Option<f64>, TermError> {
+        if !self.is_active() || self.now.pairs[row].is_none() {
+            return Ok(None);
+        }
+        let laws = self.laws();
+        let lambda = self.lambda(row, trial);
+        if laws.bond {
+            self.fill(row, trial, RowOrder::Gradient, rows)?;
+            let stretch = rows.rows().first().map(|r| r.sliding.slip);
+            let stretch = stretch.unwrap_or_default();
+            let stored = 0.5 * laws.scale.penalty * stretch.norm_squared();
+            return Ok(Some(stored + lambda.vector.dot(stretch)));
+        }
+        self.fill(row, trial, RowOrder::Gap, rows)?;
+        let row = rows.rows().first();
+        Ok(row.and_then(|r| {
+            laws.law
+                .energy(r.gap, laws.scalar(r.normal, &lambda), laws.scale)
+        }))
+    }
+
+    /// What a verdict compares, at the present iterate.
+    pub(super) fn judge(&mut self, trial: &State) -> Result<(), TermError> {
+        let mut rows = Rows::default();
+        let mut judged = std::mem::take(&mut self.judged);
+        for (row, judged) in judged.iter_mut().enumerate() {
+            *judged = Judged::default();
+            let Some(pair) = &self.now.pairs[row] else {
+                continue;
+            };
+            if !self.acting_row(row, trial, RowOrder::Gradient, &mut rows)? {
+                continue;
+            }
+            let lambda = self.lambda(row, trial);
+            let state = rows.rows().first().map(|r| {
+                let traction = self.traction(r, &lambda);
+                // what just touches, without pressure, is open to a verdict
+                let nothing = r.gap >= 0.0 && traction.pressure <= 0.0 && !self.laws().bond;
+                if nothing {
+                    Contact::Open
+                } else {
+                    traction.state
+                }
+            });
+            let feature = match pair.feature {
+                Feature::Face => 0,
+                Feature::Edge { .. } => 1,
+                Feature::Vertex => 2,
+            };
+            *judged = Judged {
+                state: state.unwrap_or_default(),
+                facet: Some((pair.anchor.facet, feature)),
+            };
+        }
+        self.judged = judged;
+        Ok(())
+    }
+}

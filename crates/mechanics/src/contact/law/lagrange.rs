@@ -1,0 +1,53 @@
+use super::{ContactLaw, Eval, Multiplier, Scale, TOUCH};
+
+/// Lagrange multipliers with a primal-dual active set: no penetration.
+///
+/// Where nothing is known yet, `λ = 0`, a surface that touches to rounding counts as closed: bodies that touch at the
+/// start are then pressed together from the first solve on.
+#[derive(Clone, Copy, Debug)]
+pub struct Lagrange;
+
+impl Lagrange {
+    fn is_closed(gap: f64, lambda: f64, scale: &Scale) -> bool {
+        lambda > scale.penalty * (gap - TOUCH * scale.length)
+    }
+}
+
+impl ContactLaw for Lagrange {
+    fn multiplier(&self) -> Multiplier {
+        Multiplier::Direct
+    }
+
+    fn pressure(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {
+        if Self::is_closed(gap, lambda, scale) {
+            Eval {
+                value: lambda,
+                dgap: 0.0,
+                dlambda: 1.0,
+            }
+        } else {
+            Eval::default()
+        }
+    }
+
+    fn complementarity(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {
+        let c = scale.penalty;
+        if Self::is_closed(gap, lambda, scale) {
+            Eval {
+                value: -gap,
+                dgap: -1.0,
+                dlambda: 0.0,
+            }
+        } else {
+            Eval {
+                value: -lambda / c,
+                dgap: 0.0,
+                dlambda: -1.0 / c,
+            }
+        }
+    }
+
+    fn energy(&self, _: f64, _: f64, _: &Scale) -> Option<f64> {
+        None
+    }
+}

@@ -1,0 +1,110 @@
+use super::*;
+
+const SCALE: Scale = Scale {
+    penalty: 7.0,
+    length: 1.0,
+};
+
+fn all() -> Vec<Box<dyn ContactLaw>> {
+    let rows = vec![[-0.2, 5.0], [-0.05, 2.0], [0.1, 0.5], [0.3, 0.0]];
+    vec![
+        Box::new(Penalty),
+        Box::new(Lagrange),
+        Box::new(Uzawa),
+        Box::new(AugmentedNewton),
+        Box::new(Exponential { p0: 2.0, c0: 0.1 }),
+        Box::new(Table::new(rows).unwrap()),
+    ]
+}
+
+const GAPS: [f64; 6] = [-0.5, -0.1501, -0.01, 0.02, 0.25, 1.0];
+const LAMBDAS: [f64; 3] = [0.0, 0.6, 3.0];
+
+#[test]
+fn pressure_is_minus_the_slope_of_energy() {
+    for law in all() {
+        for gap in GAPS {
+            for lambda in LAMBDAS {
+                let h = 1e-6;
+                let energy = |g| law.energy(g, lambda, &SCALE);
+                let Some((plus, minus)) = energy(gap + h).zip(energy(gap - h)) else {
+                    continue;
+                };
+                let slope = (plus - minus) / (2.0 * h);
+                let at = law.pressure(gap, lambda, &SCALE);
+                assert!((at.value + slope).abs() < 1e-7 * (1.0 + at.value), "{gap}");
+            }
+        }
+    }
+}
+
+#[test]
+fn derivatives_match_differences() {
+    for law in all() {
+        for gap in GAPS {
+            for lambda in LAMBDAS {
+                let h = 1e-6;
+                type Function<'a> = &'a dyn Fn(f64, f64) -> Eval;
+                let pressure: Function<'_> = &|g, l| law.pressure(g, l, &SCALE);
+                let complementarity: Function<'_> = &|g, l| law.complementarity(g, l, &SCALE);
+                for f in [pressure, complementarity] {
+                    let at = f(gap, lambda);
+                    let dgap = (f(gap + h, lambda).value - f(gap - h, lambda).value) / (2.0 * h);
+                    let dlambda = (f(gap, lambda + h).value - f(gap, lambda).value) / h;
+                    assert!(
+                        (at.dgap - dgap).abs() < 1e-6 * (1.0 + at.dgap.abs()),
+                        "{gap}"
+                    );
+                    if law.multiplier() != Multiplier::None {
+                        assert!((at.dlambda - dlambda).abs() < 1e-6, "{gap} {lambda}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn multipliers_solve_contact_where_complementarity_vanishes() {
+    for law in all().into_iter().filter(|l| l.multiplier().is_unknown()) {
+        let c = |gap, lambda| law.complementarity(gap, lambda, &SCALE).value;
+        assert_eq!(c(0.0, 2.0), 0.0, "closed with pressure");
+        assert_eq!(c(0.3, 0.0), 0.0, "open without");
+        assert!(c(-0.1, 0.0) != 0.0 && c(0.1, 2.0) != 0.0 && c(0.0, -1.0) != 0.0);
+        for (gap, lambda) in [(-0.1, 1.0), (0.05, 2.0), (0.4, 1.0)] {
+            let at = law.complementarity(gap, lambda, &SCALE);
+            let force = law.pressure(gap, lambda, &SCALE);
+            assert_eq!(at.dgap, -force.dlambda, "symmetric");
+        }
+    }
+}
+
+#[test]
+fn augmentation_ends_where_the_gap_closes() {
+    // a spring of stiffness 3 pressed by 0.5 beyond a wall: λ = 1.5
+    let mut lambda = 0.0;
+    for _ in 0..60 {
+        // 3 (0.5 + g) = p
+        let gap = (lambda - 1.5) / (3.0 + SCALE.penalty);
+        lambda = Uzawa.augment(gap, lambda, &SCALE);
+    }
+    assert!((lambda - 1.5).abs() < 1e-9, "{lambda}");
+}
+
+#[test]
+fn tables_that_are_no_laws_are_refused() {
+    let refused = |rows: &[[f64; 2]]| Table::new(rows.to_vec()).unwrap_err();
+    assert_eq!(refused(&[[0.0, 1.0]]), TableError::TooShort);
+    assert_eq!(
+        refused(&[[0.0, 1.0], [0.0, 0.0]]),
+        TableError::Gap { row: 2 }
+    );
+    assert_eq!(
+        refused(&[[0.0, 1.0], [0.5, 2.0]]),
+        TableError::Pressure { row: 2 }
+    );
+    assert_eq!(
+        refused(&[[0.0, 1.0], [0.5, -1.0]]),
+        TableError::Pressure { row: 2 }
+    );
+}

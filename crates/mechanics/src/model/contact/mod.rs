@@ -1,0 +1,274 @@
+//! From the parts of a contact to its interface.
+
+mod sides;
+mod start;
+
+pub(super) use sides::{Sides, Source};
+pub(super) use start::closed;
+
+use super::{
+    ContactChange, ContactPart, ContactSummary, Context, Enforcement, FrictionPart, LimitPart,
+    ModelError, StartSummary, StickPart,
+};
+use crate::contact::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
+use crate::contact::law::Scale;
+use crate::contact::{InterfaceParts, Measure, Phase};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::surface::{ContactSurface, Facets, Placement};
+use std::sync::Arc;
+
+/// Factor of the automatic penalty (E1).
+const PENALTY: f64 = 10.0;
+/// The automatic reach over the largest facet.
+const REACH: f64 = 2.0;
+
+/// What contacts of a model share.
+pub(super) struct Steps<'a> {
+    /// Changes of contacts in each step.
+    pub changes: Vec<Vec<ContactChange>>,
+    /// Gap over the size of the facets that methods with multipliers may leave.
+    pub gap_tol: f64,
+    pub parts: &'a [ContactPart],
+}
+
+impl Steps<'_> {
+    /// What becomes of a contact in each step.
+    fn phases(&self, contact: usize, part: &ContactPart, penalty: f64) -> Vec<Phase> {
+        let friction = |f: &Option<FrictionPart>| f.as_ref().map(|f| friction(f, penalty));
+        let mut now = Phase {
+            active: part.active,
+            friction: friction(&part.friction),
+        };
+        let mut phases = Vec::new();
+        for changes in &self.changes {
+            for change in changes.iter().filter(|c| c.contact == contact) {
+                if let Some(active) = change.active {
+                    now.active = active;
+                }
+                if let Some(changed) = &change.friction {
+                    now.friction = friction(changed);
+                }
+            }
+            phases.push(now.clone());
+        }
+        phases
+    }
+
+    /// Whether a contact has friction in any step.
+    pub fn rubs(&self, contact: usize) -> bool {
+        let at_first = self
+            .parts
+            .get(contact)
+            .is_some_and(|p| p.friction.is_some());
+        let later = self.changes.iter().flatten();
+        let mut later = later.filter(|c| c.contact == contact);
+        at_first || later.any(|c| matches!(c.friction, Some(Some(_))))
+    }
+}
+
+fn friction(part: &FrictionPart, penalty: f64) -> (Arc<dyn FrictionLaw>, Stick) {
+    let law: Arc<dyn FrictionLaw> = match part.limit {
+        LimitPart::Coulomb { mu, cap } => Arc::new(Coulomb { mu, cap }),
+        LimitPart::Tresca(limit) => Arc::new(Tresca(limit)),
+        LimitPart::Falling {
+            stationary,
+            kinetic,
+            transition,
+        } => Arc::new(Falling {
+            stationary,
+            kinetic,
+            transition,
+        }),
+    };
+    let stick = match part.stick {
+        None => Stick::Stiffness(penalty),
+        Some(StickPart::Stiffness(stiffness)) => Stick::Stiffness(stiffness),
+        Some(StickPart::Slip(length)) => Stick::Slip(length),
+    };
+    (law, stick)
+}
+
+impl Context<'_> {
+    pub(super) fn contact(
+        &self,
+        mut sides: Sides,
+        part: &ContactPart,
+        steps: &Steps<'_>,
+        first_multiplier: usize,
+    ) -> Result<(InterfaceParts, ContactSummary), ModelError> {
+        let of = [sides.facets.as_ref(), sides.secondary()];
+        let sizes = of.map(|s| s.map(|s| self.sizes(s)));
+        let largest = sizes
+            .iter()
+            .flatten()
+            .map(|s| s.largest)
+            .fold(0.0, f64::max);
+        let points = &sides.pair.points;
+        let length = match (&sizes[0], &sizes[1]) {
+            (Some(s), _) | (None, Some(s)) => s.mean,
+            (None, None) => self.size_of_cells(points),
+        };
+        let softest = sizes
+            .iter()
+            .flatten()
+            .filter_map(|s| s.stiffness)
+            .chain(self.bare(points, length, sides.secondary().is_none()))
+            .fold(f64::INFINITY, f64::min);
+        let measure = part.measure.unwrap_or(if sides.area.is_empty() {
+            Measure::Node
+        } else {
+            Measure::Area
+        });
+        let given = match part.enforcement {
+            Enforcement::Penalty(penalty)
+            | Enforcement::Uzawa(penalty)
+            | Enforcement::AugmentedNewton(penalty) => penalty,
+            _ => None,
+        };
+        let penalty = match given {
+            Some(penalty) => penalty,
+            None if softest.is_finite() => {
+                let per_area = PENALTY * softest;
+                let area = &sides.area;
+                match measure {
+                    Measure::Area => per_area,
+                    Measure::Node if area.is_empty() => per_area * self.patch(points, length),
+                    Measure::Node => per_area * area.iter().sum::<f64>() / area.len() as f64,
+                }
+            }
+            None => {
+                return Err(ModelError::BothRigid {
+                    contact: part.name.clone(),
+                });
+            }
+        };
+        let size = if largest > 0.0 { largest } else { length };
+        let reach = part.reach.unwrap_or(REACH * size);
+        sides.pair.reach = reach;
+        let at = self.placement();
+        let found = sides.pair_up(&at).map_err(|source| ModelError::Surface {
+            contact: part.name.clone(),
+            source,
+        })?;
+        let bond = match part.tie {
+            None => None,
+            Some(tie) => Some(start::bonds(&sides, &found, tie, &at).map_err(|source| {
+                ModelError::Surface {
+                    contact: part.name.clone(),
+                    source,
+                }
+            })?),
+        };
+        let summary = ContactSummary {
+            name: part.name.clone(),
+            penalty,
+            measure,
+            reach,
+            npoint: sides.pair.points.len(),
+            nfacet: sides.pair.primary.nfacet(),
+            facet_size: length,
+            start: StartSummary::new(&found),
+        };
+        let parts = InterfaceParts {
+            name: part.name.clone(),
+            shifts: start::shifts(&found, part),
+            discretization: sides.discretization,
+            pair: sides.pair,
+            law: sides.law,
+            phases: steps.phases(sides.contact, part, penalty),
+            bond,
+            measure,
+            area: sides.area,
+            present_area: sides.areas,
+            scale: Scale { penalty, length },
+            first_multiplier,
+            gap_tolerance: steps.gap_tol * length,
+            swapped: sides.swapped,
+        };
+        Ok((parts, summary))
+    }
+
+    /// Where everything is at the start.
+    fn placement(&self) -> Placement<'_> {
+        Placement {
+            x: self.reference,
+            poses: &self.poses,
+        }
+    }
+
+    /// The area that each of these bare nodes stands for, on the average.
+    fn patch(&self, points: &[NodeId], length: f64) -> f64 {
+        if self.layout.ndim == 3 {
+            return length * length;
+        }
+        let at = |n: &NodeId| self.reference.get(*n as usize).copied();
+        let extents = points.iter().filter_map(at).map(|x| self.space.extent(x));
+        length * extents.sum::<f64>() / points.len().max(1) as f64
+    }
+
+    /// The mean size of the cells around bare nodes: the length of their shortest edges.
+    fn size_of_cells(&self, points: &[NodeId]) -> f64 {
+        let at = |n: &NodeId| self.reference.get(*n as usize).copied().unwrap_or_default();
+        let mut sizes = Vec::new();
+        for block in 0..self.mesh.blocks.len() as u32 {
+            let ncell = self.mesh.blocks[block as usize].ncell() as u32;
+            for index in 0..ncell {
+                let nodes = self
+                    .mesh
+                    .cell(signorini_geometry::mesh::CellId { block, index });
+                let Some(own) = nodes.iter().find(|n| points.binary_search(n).is_ok()) else {
+                    continue;
+                };
+                let others = nodes.iter().filter(|n| *n != own);
+                let nearest = others.map(|n| (at(n) - at(own)).norm());
+                sizes.push(nearest.fold(f64::INFINITY, f64::min));
+            }
+        }
+        let finite: Vec<f64> = sizes.into_iter().filter(|s| s.is_finite()).collect();
+        finite.iter().sum::<f64>() / finite.len().max(1) as f64
+    }
+
+    /// Sizes of the facets of a surface, and the stiffness M/h behind it.
+    fn sizes(&self, surface: &Facets) -> Sizes {
+        let at = self.placement();
+        let mut sizes = Sizes::default();
+        let mut stiffness = 0.0;
+        let mut deformable = 0;
+        let n = surface.nfacet();
+        for facet in 0..n as u32 {
+            let size = surface.size(&at, facet);
+            sizes.largest = sizes.largest.max(size);
+            sizes.mean += size / n as f64;
+            let face = surface.face(facet);
+            let body = face.and_then(|f| self.owner.get(&f.cell));
+            if let Some(modulus) = body.and_then(|&b| self.modulus[b]) {
+                stiffness += modulus / size;
+                deformable += 1;
+            }
+        }
+        if deformable > 0 {
+            sizes.stiffness = Some(stiffness / f64::from(deformable));
+        }
+        sizes
+    }
+
+    /// The stiffness behind bare nodes of deformable bodies.
+    fn bare(&self, points: &[NodeId], length: f64, wanted: bool) -> Option<f64> {
+        if !wanted
+            || !points
+                .iter()
+                .any(|&n| self.elimination.body_of(n).is_none())
+        {
+            return None;
+        }
+        let softest = self.modulus.iter().flatten().copied();
+        softest.reduce(f64::min).map(|m| m / length)
+    }
+}
+
+#[derive(Default)]
+struct Sizes {
+    mean: f64,
+    largest: f64,
+    stiffness: Option<f64>,
+}

@@ -1,0 +1,375 @@
+//! From parts to the two sides of an interface, and the way they are compared.
+
+use crate::contact::Areas;
+use crate::contact::discretization::projected::Closest;
+use crate::contact::discretization::{
+    Discretization, NodeNormals, NodeToNode, PointToSegment, SurfacePair,
+};
+use crate::contact::law::{
+    AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table, Uzawa,
+};
+use crate::model::{
+    ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind, PointRule,
+    PrimaryPart, SidePart, label,
+};
+use crate::system::Idealisation;
+use signorini_geometry::element::{Element, quadrature};
+use signorini_geometry::mesh::{Face, Mesh, NodeId};
+use signorini_geometry::surface::{ContactSurface, Facets, SurfaceError};
+use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// One pass of a contact, before anything is chosen for it.
+pub(in crate::model) struct Sides {
+    /// The place of the contact in the list.
+    pub contact: usize,
+    pub discretization: Box<dyn Discretization>,
+    pub law: Box<dyn ContactLaw>,
+    pub pair: SurfacePair,
+    /// Facets of the primary side, where it has any.
+    pub facets: Option<Facets>,
+    /// Area of each row; empty where the secondary side has none.
+    pub area: Vec<f64>,
+    pub areas: Option<Areas>,
+    pub swapped: bool,
+}
+
+/// What sides are made from.
+#[derive(Clone, Copy)]
+pub(in crate::model) struct Source<'a> {
+    pub mesh: &'a Mesh,
+    /// Positions at the start.
+    pub reference: &'a [Vec3],
+    pub space: Idealisation,
+}
+
+impl Source<'_> {
+    /// The passes of a contact.
+    pub fn sides(&self, contact: usize, part: &ContactPart) -> Result<Vec<Sides>, ModelError> {
+        let first = self.pass(contact, part, false)?;
+        if !part.two_pass {
+            return Ok(vec![first]);
+        }
+        let (PrimaryPart::Faces(primary), SidePart::Faces(secondary)) =
+            (&part.primary, &part.secondary)
+        else {
+            return Err(ModelError::TwoPass {
+                contact: part.name.clone(),
+            });
+        };
+        let swapped = ContactPart {
+            secondary: SidePart::Faces(primary.clone()),
+            primary: PrimaryPart::Faces(secondary.clone()),
+            ..part.clone()
+        };
+        Ok(vec![first, self.pass(contact, &swapped, true)?])
+    }
+
+    fn pass(&self, contact: usize, part: &ContactPart, swapped: bool) -> Result<Sides, ModelError> {
+        let surface_error = |source| ModelError::Surface {
+            contact: part.name.clone(),
+            source,
+        };
+        let facets = |faces: &[Face]| {
+            Facets::new(self.mesh, faces).map_err(|source| ModelError::Facets {
+                contact: part.name.clone(),
+                source,
+            })
+        };
+        let (points, secondary) = match &part.secondary {
+            SidePart::Faces(faces) => {
+                let surface = facets(faces)?;
+                (surface.all_nodes(), Some(surface))
+            }
+            SidePart::Nodes(nodes) => {
+                let unique: BTreeSet<NodeId> = nodes.iter().copied().collect();
+                (unique.into_iter().collect(), None)
+            }
+        };
+        if points.is_empty() {
+            return Err(ModelError::EmptySide {
+                contact: part.name.clone(),
+            });
+        }
+        let primary = match &part.primary {
+            PrimaryPart::Faces(faces) => Some(facets(faces)?),
+            PrimaryPart::Itself => secondary.clone(),
+            PrimaryPart::Nodes(_) | PrimaryPart::Surface(_) => None,
+        };
+        let same = matches!(part.primary, PrimaryPart::Itself);
+        if same && secondary.is_none() {
+            return Err(ModelError::Unsuited {
+                contact: part.name.clone(),
+                what: "a surface that may touch itself is given by faces, not by bare nodes",
+            });
+        }
+        if let Some(primary) = primary.as_ref().filter(|_| !same) {
+            self.not_glued(part, &points, primary)?;
+        }
+        let law = law(part)?;
+        let unknown = law.multiplier().is_unknown();
+        let closest = if unknown {
+            Closest::Faces
+        } else {
+            Closest::Anywhere
+        };
+        let extent = |x| self.space.extent(x);
+        let nodal = |facets: &Facets| -> Result<Vec<(NodeId, f64)>, ModelError> {
+            let areas = facets.lumped_areas(self.reference, &extent);
+            areas.map_err(surface_error)
+        };
+        let space = self.space;
+        let mut areas: Option<Areas> = None;
+        let (discretization, area): (Box<dyn Discretization>, Vec<f64>) = match self.method(part) {
+            Method::NodeToNode { normals, pairs } => {
+                let pairs = self.node_pairs(part, primary.as_ref(), pairs)?;
+                let normals = node_normals(part, normals, &primary, &secondary)?;
+                let area = match &secondary {
+                    Some(facets) => {
+                        let all = nodal(facets)?;
+                        let of = |node: NodeId| {
+                            let found = all.binary_search_by_key(&node, |a| a.0);
+                            found.map_or(0.0, |k| all[k].1)
+                        };
+                        pairs.iter().map(|p| of(p[0])).collect()
+                    }
+                    None => Vec::new(),
+                };
+                (Box::new(NodeToNode::new(pairs, normals)), area)
+            }
+            Method::GaussPoint(rule) => {
+                let Some(facets) = &secondary else {
+                    return Err(ModelError::Unsuited {
+                        contact: part.name.clone(),
+                        what: "points inside facets need a secondary side made of faces",
+                    });
+                };
+                let points = |element: Element| on_facet(rule, element);
+                let (mut inside, area) =
+                    PointToSegment::inside(facets, points, self.reference, &extent)
+                        .map_err(surface_error)?;
+                inside.closest = closest;
+                inside.small_sliding = part.small_sliding;
+                if part.present_area {
+                    let facets = facets.clone();
+                    areas = Some(Box::new(move |x| {
+                        let points = |element: Element| on_facet(rule, element);
+                        let extent = |x| space.extent(x);
+                        Ok(PointToSegment::inside(&facets, points, x, &extent)?.1)
+                    }));
+                }
+                (Box::new(inside), area)
+            }
+            Method::NodeToSegment | Method::Auto => {
+                let mut at_nodes = PointToSegment::at_nodes(&points);
+                at_nodes.closest = closest;
+                at_nodes.small_sliding = part.small_sliding;
+                let area = match &secondary {
+                    Some(facets) => nodal(facets)?.into_iter().map(|a| a.1).collect(),
+                    None => Vec::new(),
+                };
+                if let Some(facets) = secondary.clone().filter(|_| part.present_area) {
+                    areas = Some(Box::new(move |x| {
+                        let areas = facets.lumped_areas(x, &|x| space.extent(x))?;
+                        Ok(areas.into_iter().map(|a| a.1).collect())
+                    }));
+                }
+                (Box::new(at_nodes), area)
+            }
+        };
+        let surface: Arc<dyn ContactSurface> = match (&part.primary, &primary) {
+            (PrimaryPart::Surface(surface), _) => surface.clone(),
+            (_, Some(facets)) => Arc::new(facets.clone()),
+            (_, None) => Arc::new(crate::contact::discretization::nodes::Nowhere {
+                ntan: self.space.ndim() - 1,
+            }),
+        };
+        Ok(Sides {
+            contact,
+            discretization,
+            law,
+            pair: SurfacePair {
+                points,
+                secondary,
+                primary: surface,
+                reach: 0.0,
+                same,
+            },
+            facets: primary,
+            area,
+            areas,
+            swapped,
+        })
+    }
+
+    fn method(&self, part: &ContactPart) -> Method {
+        match (&part.method, &part.primary) {
+            (Method::Auto, PrimaryPart::Nodes(_)) => Method::NodeToNode {
+                normals: Normals::default(),
+                pairs: PairOrder::default(),
+            },
+            (method, _) => method.clone(),
+        }
+    }
+
+    fn not_glued(
+        &self,
+        part: &ContactPart,
+        points: &[NodeId],
+        primary: &Facets,
+    ) -> Result<(), ModelError> {
+        let of_primary = primary.all_nodes();
+        let shared = points
+            .iter()
+            .filter(|n| of_primary.binary_search(n).is_ok());
+        let shared: Vec<NodeId> = shared.copied().collect();
+        match shared.first() {
+            Some(&node) => Err(ModelError::Glued {
+                contact: part.name.clone(),
+                count: shared.len(),
+                node: label(self.mesh, node),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Secondary and primary node of each pair.
+    fn node_pairs(
+        &self,
+        part: &ContactPart,
+        primary: Option<&Facets>,
+        order: PairOrder,
+    ) -> Result<Vec<[NodeId; 2]>, ModelError> {
+        let of_primary = match (&part.primary, primary) {
+            (PrimaryPart::Nodes(nodes), _) => nodes.clone(),
+            (PrimaryPart::Faces(_), Some(facets)) => facets.all_nodes(),
+            _ => {
+                return Err(ModelError::Unsuited {
+                    contact: part.name.clone(),
+                    what: "node-to-node contact is between the nodes of two sides",
+                });
+            }
+        };
+        let of_secondary = match &part.secondary {
+            SidePart::Nodes(nodes) => nodes.clone(),
+            SidePart::Faces(faces) => {
+                let nodes = faces.iter().filter_map(|&f| self.mesh.face(f));
+                let unique: BTreeSet<NodeId> = nodes.flat_map(|(_, nodes)| nodes).collect();
+                unique.into_iter().collect()
+            }
+        };
+        if order == PairOrder::Listed {
+            if of_primary.len() != of_secondary.len() {
+                return Err(ModelError::PairCount {
+                    contact: part.name.clone(),
+                    secondary: of_secondary.len(),
+                    primary: of_primary.len(),
+                });
+            }
+            let pairs = of_secondary.into_iter().zip(of_primary);
+            return Ok(pairs.map(|(s, p)| [s, p]).collect());
+        }
+        let at = |n: NodeId| self.reference.get(n as usize).copied().unwrap_or_default();
+        let nearest = |s: NodeId| {
+            let distance = |p: &NodeId| (at(*p) - at(s)).norm_squared();
+            let near = of_primary
+                .iter()
+                .min_by(|p, q| distance(p).total_cmp(&distance(q)));
+            near.map(|&p| [s, p])
+        };
+        Ok(of_secondary.into_iter().filter_map(nearest).collect())
+    }
+}
+
+fn node_normals(
+    part: &ContactPart,
+    normals: Normals,
+    primary: &Option<Facets>,
+    secondary: &Option<Facets>,
+) -> Result<NodeNormals, ModelError> {
+    let unsuited = |what| ModelError::Unsuited {
+        contact: part.name.clone(),
+        what,
+    };
+    match normals {
+        Normals::Given(normal) => normal
+            .normalized()
+            .map(NodeNormals::Given)
+            .ok_or_else(|| unsuited("the given normal is zero")),
+        Normals::Primary => primary.clone().map(NodeNormals::Primary).ok_or_else(|| {
+            unsuited("normals of bare nodes cannot be averaged: give the normal, or faces")
+        }),
+        Normals::Secondary => secondary
+            .clone()
+            .map(NodeNormals::Secondary)
+            .ok_or_else(|| {
+                unsuited("normals of bare nodes cannot be averaged: give the normal, or faces")
+            }),
+    }
+}
+
+/// Points of a facet: by default one more along each direction than the degree of the facet.
+fn on_facet(rule: PointRule, element: Element) -> Vec<(Vec3, f64)> {
+    let degree = if element.nnode() > element.ncorner() {
+        2
+    } else {
+        1
+    };
+    let n = rule.points.unwrap_or(degree + 1);
+    let line = match rule.kind {
+        PointKind::Gauss => quadrature::gauss(n),
+        PointKind::Lobatto => quadrature::lobatto(n),
+    };
+    quadrature::on_facet(element, &line)
+}
+
+fn law(part: &ContactPart) -> Result<Box<dyn ContactLaw>, ModelError> {
+    let law: Box<dyn ContactLaw> = match &part.enforcement {
+        Enforcement::Auto | Enforcement::Penalty(_) => Box::new(Penalty),
+        Enforcement::Table(rows) => {
+            Box::new(
+                Table::new(rows.clone()).map_err(|source| ModelError::Table {
+                    contact: part.name.clone(),
+                    source,
+                })?,
+            )
+        }
+        Enforcement::Exponential { p0, c0 } => Box::new(Exponential { p0: *p0, c0: *c0 }),
+        Enforcement::Lagrange => Box::new(Lagrange),
+        Enforcement::Uzawa(_) => Box::new(Uzawa),
+        Enforcement::AugmentedNewton(_) => Box::new(AugmentedNewton),
+    };
+    let curve = matches!(
+        part.enforcement,
+        Enforcement::Table(_) | Enforcement::Exponential { .. }
+    );
+    if part.tie.is_some() && curve && law.multiplier() == Multiplier::None {
+        return Err(ModelError::Unsuited {
+            contact: part.name.clone(),
+            what: "sides that are joined pull, too: a table or an exponential says nothing about that",
+        });
+    }
+    Ok(law)
+}
+
+impl Sides {
+    /// How many multipliers its rows have.
+    pub fn nmultiplier(&self, part: &ContactPart, rubs: bool, ndim: usize) -> usize {
+        let vectors = rubs || part.tie.is_some();
+        crate::contact::nmultiplier(self.law.as_ref(), vectors, ndim) * self.discretization.nrow()
+    }
+
+    /// Facets of the side that carries points.
+    pub fn secondary(&self) -> Option<&Facets> {
+        self.pair.secondary.as_ref()
+    }
+
+    /// Closest points at a configuration, within the reach.
+    pub fn pair_up(
+        &self,
+        at: &signorini_geometry::surface::Placement,
+    ) -> Result<crate::contact::discretization::Pairing, SurfaceError> {
+        crate::contact::closest_points(self.discretization.as_ref(), &self.pair, at)
+    }
+}

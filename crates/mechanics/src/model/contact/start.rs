@@ -1,0 +1,164 @@
+//! Gaps and overlaps at the start, and what is done about them.
+
+use super::{ContactPart, ModelError, Sides, Source};
+use crate::contact::Shift;
+use crate::contact::discretization::{Anchored, Pairing};
+use crate::model::{Interference, SidePart, StartSummary, TiePart};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::surface::{Placement, Pose, SurfaceError, SurfaceJet};
+use signorini_geometry::tensor::Vec3;
+use std::collections::HashMap;
+
+impl StartSummary {
+    pub(super) fn new(found: &Pairing) -> Self {
+        let gaps = found.pairs.iter().flatten().map(|p| p.gap);
+        let smallest = gaps.reduce(f64::min);
+        Self {
+            near: found.pairs.iter().flatten().count(),
+            gap: smallest,
+        }
+    }
+}
+
+/// What is added to the gaps.
+pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
+    let start = &part.start;
+    let overlap = found.pairs.iter().flatten().any(|p| p.gap < 0.0);
+    let leaves = start.interference == Interference::AtOnce || !overlap;
+    if part.tie.is_some() || (start.clearance.is_none() && leaves) {
+        return Vec::new();
+    }
+    let shift = |gap: f64| {
+        if let Some(clearance) = start.clearance {
+            return Shift {
+                constant: clearance - gap,
+                fading: 0.0,
+            };
+        }
+        let overlap = (-gap).max(0.0);
+        match start.interference {
+            Interference::Ramped => Shift {
+                constant: 0.0,
+                fading: overlap,
+            },
+            Interference::StrainFree => Shift {
+                constant: overlap,
+                fading: 0.0,
+            },
+            Interference::AtOnce => Shift::default(),
+        }
+    };
+    let rows = found.pairs.iter();
+    rows.map(|p| p.map_or(Shift::default(), |p| shift(p.gap)))
+        .collect()
+}
+
+/// Where the rows of a bond stick.
+pub(super) fn bonds(
+    sides: &Sides,
+    found: &Pairing,
+    tie: TiePart,
+    at: &Placement,
+) -> Result<Vec<Option<Anchored>>, SurfaceError> {
+    let within = tie.within.unwrap_or(sides.pair.reach);
+    let mut jet = SurfaceJet::default();
+    let mut bonds = Vec::with_capacity(found.pairs.len());
+    for (row, pair) in found.pairs.iter().enumerate() {
+        let Some(pair) = pair.filter(|p| p.gap.abs() <= within) else {
+            bonds.push(None);
+            continue;
+        };
+        let anchor = sides
+            .discretization
+            .anchor(row, &sides.pair, at, &pair, Vec3::ZERO)?;
+        let offset = if sides.facets.is_some() && sides.pair.primary.nfacet() > 0 {
+            sides.pair.primary.jet(at, &anchor.anchor, &mut jet)?;
+            sides.discretization.point(row).position(at) - jet.position
+        } else {
+            anchor.offset
+        };
+        bonds.push(Some(Anchored { offset, ..anchor }));
+    }
+    Ok(bonds)
+}
+
+/// Positions of the nodes with small gaps and overlaps closed: nodes of secondary sides move along the normal onto
+/// the primary side.
+pub(in crate::model) fn closed(
+    source: &Source<'_>,
+    parts: &[ContactPart],
+    poses: &[Pose],
+) -> Result<Vec<Vec3>, ModelError> {
+    let mut x = source.reference.to_vec();
+    for (contact, part) in parts.iter().enumerate() {
+        let closes = part.tie.is_some_and(|t| t.close);
+        let mut below = part.start.close_below;
+        if closes {
+            let within = part.tie.and_then(|t| t.within);
+            below = below.max(within.unwrap_or(f64::INFINITY));
+        }
+        if below <= 0.0 {
+            continue;
+        }
+        let at_nodes = ContactPart {
+            method: crate::model::Method::NodeToSegment,
+            two_pass: false,
+            ..part.clone()
+        };
+        let moved = Source {
+            reference: &x,
+            ..*source
+        };
+        let moves = moves(&moved, contact, &at_nodes, poses, below)?;
+        for (node, to) in moves {
+            if let Some(at) = x.get_mut(node as usize) {
+                *at = to;
+            }
+        }
+    }
+    Ok(x)
+}
+
+fn moves(
+    source: &Source<'_>,
+    contact: usize,
+    part: &ContactPart,
+    poses: &[Pose],
+    below: f64,
+) -> Result<HashMap<NodeId, Vec3>, ModelError> {
+    let mut moves = HashMap::new();
+    let surface_error = |source| ModelError::Surface {
+        contact: part.name.clone(),
+        source,
+    };
+    let at = Placement {
+        x: source.reference,
+        poses,
+    };
+    for mut sides in source.sides(contact, part)? {
+        let facets = [sides.secondary(), sides.facets.as_ref()];
+        let sizes = facets.into_iter().flatten().flat_map(|f| {
+            use signorini_geometry::surface::ContactSurface;
+            (0..f.nfacet() as u32).map(|facet| f.size(&at, facet))
+        });
+        let largest = sizes.fold(0.0, f64::max);
+        sides.pair.reach = if below.is_finite() {
+            below
+        } else {
+            super::REACH * largest
+        };
+        let found = sides.pair_up(&at).map_err(surface_error)?;
+        let mut jet = SurfaceJet::default();
+        for (&node, pair) in sides.pair.points.iter().zip(&found.pairs) {
+            let Some(pair) = pair else { continue };
+            sides
+                .pair
+                .primary
+                .jet(&at, &pair.anchor, &mut jet)
+                .map_err(surface_error)?;
+            moves.insert(node, jet.position);
+        }
+    }
+    let _ = matches!(part.secondary, SidePart::Nodes(_));
+    Ok(moves)
+}
