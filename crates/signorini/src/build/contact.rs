@@ -4,10 +4,11 @@ use super::constraints::unpaired;
 use super::names::Names;
 use super::quoted;
 use super::surfaces::Surfaces;
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{
-    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Limit, Name, Normals, Pairs,
-    Per, Sliding, Stick,
+    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Limit, Normals, Pairs, Per,
+    Sliding, Stick,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
@@ -32,21 +33,15 @@ pub(super) fn contact(
     surfaces: &Surfaces,
     found: &mut Diagnostics,
 ) -> Option<ContactPart> {
-    let primary = primary(part, names, surfaces, found);
-    let secondary = side(part, &part.secondary, names, found);
-    let (primary, secondary) = (primary?, secondary?);
-    if let SidePart::Nodes(nodes) = &secondary {
+    let listed = *part.method == case::Method::NodeToNode && part.pairs == Pairs::Order;
+    let (secondary, primary) = if listed {
+        in_order(part, names, found)?
+    } else {
+        let primary = primary(part, names, surfaces, found);
+        (names.side(&part.secondary, found)?, primary?)
+    };
+    if matches!(secondary, SidePart::Nodes(_)) {
         found.append(bare(part));
-        if let PrimaryPart::Nodes(others) = &primary
-            && part.pairs == Pairs::Order
-            && nodes.len() != others.len()
-        {
-            let sides = [
-                (&part.secondary, nodes.len()),
-                (&part.primary, others.len()),
-            ];
-            found.push(unpaired(&part.place, sides));
-        }
     }
     Some(ContactPart {
         method: method(part),
@@ -86,23 +81,51 @@ fn primary(
         let faces = names.faces(&part.primary, "the primary side", found);
         return faces.map(PrimaryPart::Faces);
     }
-    Some(match side(part, &part.primary, names, found)? {
-        SidePart::Faces(faces) => PrimaryPart::Faces(faces),
-        SidePart::Nodes(nodes) => PrimaryPart::Nodes(nodes),
-    })
+    names.side(&part.primary, found).map(primary_of)
 }
 
-/// Faces where they make up the whole set, bare nodes otherwise; nodes as they are listed where their order counts.
-fn side(
+fn primary_of(side: SidePart) -> PrimaryPart {
+    match side {
+        SidePart::Faces(faces) => PrimaryPart::Faces(faces),
+        SidePart::Nodes(nodes) => PrimaryPart::Nodes(nodes),
+    }
+}
+
+/// The sides of nodes that meet in the order of their lists. The side that gives the normals is one of faces where it
+/// has some: its nodes are then in the order of their numbers, and those of the other side follow.
+fn in_order(
     part: &Contact,
-    name: &Name,
     names: &Names<'_>,
     found: &mut Diagnostics,
-) -> Option<SidePart> {
-    if *part.method == case::Method::NodeToNode && part.pairs == Pairs::Order {
-        return names.nodes_in_order(name, found).map(SidePart::Nodes);
+) -> Option<(SidePart, PrimaryPart)> {
+    let secondary = names.nodes_in_order(&part.secondary, found);
+    let primary = names.nodes_in_order(&part.primary, found);
+    let (secondary, primary) = (secondary?, primary?);
+    if secondary.len() != primary.len() {
+        let sides = [
+            (&part.secondary, secondary.len()),
+            (&part.primary, primary.len()),
+        ];
+        found.push(unpaired(&part.place, sides));
+        return None;
     }
-    names.side(name, found)
+    let faces = match part.normals {
+        Normals::Primary => names.covering(&part.primary, &primary),
+        Normals::Secondary => names.covering(&part.secondary, &secondary),
+        Normals::Given(_) => None,
+    };
+    let mut pairs: Vec<(NodeId, NodeId)> = secondary.into_iter().zip(primary).collect();
+    match (part.normals, &faces) {
+        (_, None) => {}
+        (Normals::Secondary, _) => pairs.sort_unstable_by_key(|pair| pair.0),
+        (_, Some(_)) => pairs.sort_unstable_by_key(|pair| pair.1),
+    }
+    let (secondary, primary) = pairs.into_iter().unzip();
+    Some(match (part.normals, faces) {
+        (Normals::Secondary, Some(faces)) => (SidePart::Faces(faces), PrimaryPart::Nodes(primary)),
+        (_, Some(faces)) => (SidePart::Nodes(secondary), PrimaryPart::Faces(faces)),
+        (_, None) => (SidePart::Nodes(secondary), PrimaryPart::Nodes(primary)),
+    })
 }
 
 /// What bare nodes as the secondary side cannot do.

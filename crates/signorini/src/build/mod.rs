@@ -134,10 +134,6 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
     };
-    found.append(refused::not_solved(&case, &parts));
-    if found.has_errors() {
-        return Err(found);
-    }
     case.initial_temperature = start.map(Spanned::from);
     let model = match signorini_mechanics::model::Model::assemble(parts) {
         Ok(model) => model,
@@ -218,6 +214,7 @@ fn parts<'a>(
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, found);
+    parts.gap_tol = case.solver.newton.gap_tol;
     let surfaces = Surfaces::new(case, mesh, carriers, found);
     parts.contacts = contact::acting(case)
         .filter_map(|c| contact::contact(c, names, &surfaces, found))

@@ -2,59 +2,9 @@
 
 use super::{constraints, loads};
 use signorini_io::case::Case;
-use signorini_io::diagnostic::{Code, Diagnostic, Diagnostics, Place, codes};
-use signorini_mechanics::model::{
-    ConstraintError, ContactPart, Enforcement, LoadError, Method, ModelError, Parts, PrimaryPart,
-    StartPart,
-};
+use signorini_io::diagnostic::{Code, Diagnostic, Place, codes};
+use signorini_mechanics::model::{ConstraintError, LoadError, ModelError};
 use signorini_mechanics::solid::SolidError;
-
-/// Contacts that say more than this version solves.
-pub(super) fn not_solved(case: &Case, parts: &Parts<'_>) -> Diagnostics {
-    let changed = |number: usize| {
-        let mut changes = parts.steps.iter().flat_map(|step| &step.contacts);
-        changes.any(|change| change.contact == number)
-    };
-    let mut found = Diagnostics::new();
-    for (number, part) in parts.contacts.iter().enumerate() {
-        let keys = beyond(part).chain(changed(number).then_some("a change in a [[step.contact]]"));
-        let place = case.contacts.iter().find(|one| one.name.value == part.name);
-        let place = place.map_or_else(Place::nowhere, |one| one.place.clone());
-        for key in keys {
-            let message = format!("contact \"{}\": {key} is not supported yet", part.name);
-            found.push(
-                Diagnostic::error(&codes::NOT_BUILT, message)
-                    .at(&place, "known, but this version cannot do it"),
-            );
-        }
-    }
-    found
-}
-
-/// What a contact says that this version does not solve.
-fn beyond(part: &ContactPart) -> impl Iterator<Item = &'static str> {
-    let known_method = matches!(part.method, Method::Auto | Method::NodeToSegment);
-    let known_law = matches!(
-        part.enforcement,
-        Enforcement::Auto | Enforcement::Penalty(_)
-    );
-    [
-        (!known_method, "this `method`"),
-        (part.two_pass, "`passes` = 2"),
-        (part.present_area, "`area` = \"current\""),
-        (!known_law, "this `enforcement`"),
-        (part.friction.is_some(), "`friction`"),
-        (part.small_sliding, "`sliding` = \"small\""),
-        (part.tie.is_some(), "`tied`"),
-        (part.start != StartPart::default(), "`start`"),
-        (
-            matches!(part.primary, PrimaryPart::Itself),
-            "`primary` = \"self\"",
-        ),
-    ]
-    .into_iter()
-    .filter_map(|(said, key)| said.then_some(key))
-}
 
 /// The message for what makes no model.
 pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
@@ -108,6 +58,18 @@ pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             &codes::BAD_SIDES,
             of_contact(contact).map(|c| &c.place),
             "mesh the two bodies apart, without common nodes",
+        ),
+        ModelError::TwoPass { contact }
+        | ModelError::Unsuited { contact, .. }
+        | ModelError::PairCount { contact, .. } => (
+            &codes::WRONG_KIND,
+            of_contact(contact).map(|c| &c.place),
+            "name surfaces with faces, or give what is missing",
+        ),
+        ModelError::Table { contact, .. } => (
+            &codes::NOT_INCREASING,
+            of_contact(contact).map(|c| &c.place),
+            "gaps increase, pressures fall to 0",
         ),
         ModelError::BothRigid { contact } => (
             &codes::BAD_SIDES,

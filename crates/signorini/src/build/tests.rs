@@ -678,6 +678,29 @@ fn nodes_that_meet_in_order_keep_the_order_of_their_lists() {
 }
 
 #[test]
+fn nodes_in_order_have_the_normals_of_their_faces() {
+    let sets = "turned = { nodes = [8, 7, 6, 5] }\nfour = { nodes = [14, 12, 13, 11] }\n";
+    let of = |normals: &str| {
+        let contact = format!(
+            "[[contact]]\nname = 'c'\nsecondary = 'four'\nprimary = 'turned'\nmethod = 'node-to-node'\n\
+             pairs = 'order'\nnormals = {normals}\n"
+        );
+        cubes(&format!("{sets}{SIDES}{contact}{STEP}"))
+            .contacts
+            .remove(0)
+    };
+    let part = of("'primary'");
+    assert!(matches!(&part.primary, PrimaryPart::Faces(faces) if faces.len() == 1));
+    // 14 meets 8, 12 meets 7, 13 meets 6, 11 meets 5
+    assert!(matches!(&part.secondary, SidePart::Nodes(nodes) if labels(nodes) == [11, 13, 12, 14]));
+    let part = of("'secondary'");
+    assert!(matches!(&part.secondary, SidePart::Faces(faces) if faces.len() == 1));
+    assert!(matches!(&part.primary, PrimaryPart::Nodes(nodes) if labels(nodes) == [5, 7, 6, 8]));
+    let part = of("[0, 0, 1]");
+    assert!(matches!(&part.secondary, SidePart::Nodes(nodes) if labels(nodes) == [14, 12, 13, 11]));
+}
+
+#[test]
 fn a_surface_may_meet_itself() {
     let built = cubes(&format!(
         "{SIDES}{}{STEP}",

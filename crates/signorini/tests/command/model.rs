@@ -31,48 +31,6 @@ fn f45_a_pair_in_two_contacts_is_warned_of() {
 }
 
 #[test]
-fn what_a_contact_says_beyond_this_version_is_refused_and_never_solved_as_something_else() {
-    let per_node = "{ penalty = 1e5, per = \"node\" }";
-    for (from, to, word) in [
-        (
-            "primary = \"top\"",
-            "primary = \"top\"\nfriction = 0.3",
-            "`friction`",
-        ),
-        (
-            "primary = \"top\"",
-            "primary = \"top\"\ntied = true",
-            "`tied`",
-        ),
-        (
-            "primary = \"top\"",
-            "primary = \"top\"\nsliding = \"small\"",
-            "`sliding`",
-        ),
-        (
-            "primary = \"top\"",
-            "primary = \"top\"\nstart = { close_gaps_below = 0.1 }",
-            "`start`",
-        ),
-        (per_node, "{ lagrange = {} }", "`enforcement`"),
-        (per_node, "{ penalty = [[-1, 5], [0, 0]] }", "`enforcement`"),
-        (
-            "primary = \"top\"",
-            "primary = \"top\"\nmethod = \"node-to-node\"",
-            "`method`",
-        ),
-        (
-            "[checkpoint]",
-            "[[step.contact]]\nname = \"tip\"\nactive = false\n[checkpoint]",
-            "a change in a [[step.contact]]",
-        ),
-    ] {
-        let words = ["error[S0111]", "contact \"tip\"", word, "case.toml:"];
-        run_text(&change(BRICK, from, to)).says(3, &words);
-    }
-}
-
-#[test]
 fn f46_sides_that_share_nodes_are_glued() {
     let text = change(
         BRICK,
