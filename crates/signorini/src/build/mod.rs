@@ -162,7 +162,7 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         .iter()
         .map(|c| ContactInfo {
             name: c.name.clone(),
-            method: "node-to-segment",
+            method: method_of(&case, &c.name),
             penalty: c.penalty,
             per: match c.measure {
                 Measure::Area => "area",
@@ -258,8 +258,15 @@ fn choose(
         if *part.method == Method::Auto {
             part.method.value = Method::NodeToSegment;
         }
-        if let Enforcement::Auto | Enforcement::Penalty(_) = part.enforcement {
-            part.enforcement = Enforcement::Penalty(Some(summary.penalty.into()));
+        let chosen = Some(summary.penalty.into());
+        match &mut part.enforcement {
+            Enforcement::Augmented { penalty, .. } => *penalty = chosen,
+            law @ (Enforcement::Auto | Enforcement::Penalty(_)) => {
+                *law = Enforcement::Penalty(chosen);
+            }
+            _ => {}
+        }
+        if part.enforcement != Enforcement::Lagrange {
             part.per = Some(match summary.measure {
                 Measure::Area => Per::Area,
                 Measure::Node => Per::Node,
@@ -282,6 +289,17 @@ fn choose(
         {
             name.value = own.to_owned();
         }
+    }
+}
+
+/// The method in use for a contact.
+fn method_of(case: &Case, contact: &str) -> &'static str {
+    let mut contacts = case.contacts.iter();
+    let part = contacts.find(|one| one.name.value == contact);
+    match part.map(|one| *one.method) {
+        Some(Method::NodeToNode) => "node-to-node",
+        Some(Method::GaussPoint) => "gauss-point",
+        Some(Method::Auto | Method::NodeToSegment) | None => "node-to-segment",
     }
 }
 
