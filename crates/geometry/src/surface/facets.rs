@@ -4,7 +4,7 @@ use super::{
     Anchor, Carrier, ContactSurface, Feature, Outward, Placement, Projection, SurfaceError,
     SurfaceJet, pair,
 };
-use crate::element::{Element, MAX_FACET_NODES};
+use crate::element::{Element, MAX_FACET_NODES, by_name};
 use crate::mesh::{Face, Mesh, NodeId};
 use crate::proximity::Aabb;
 use crate::tensor::{Sym3, Vec3};
@@ -61,7 +61,23 @@ impl Facets {
             nodes.extend(of_face);
             first.push(nodes.len() as u32);
         }
-        let ntan = elements.first().ok_or(FacetsError::Empty)?.dim();
+        Self::connected(elements, first, nodes, faces.to_vec()).ok_or(FacetsError::Empty)
+    }
+
+    /// The surface of triangles that are sides of nothing. `None` where there are none.
+    pub(super) fn of_triangles(triangles: &[[NodeId; 3]]) -> Option<Self> {
+        let elements = vec![by_name("tri3")?; triangles.len()];
+        let first = (0..=triangles.len() as u32).map(|f| 3 * f).collect();
+        Self::connected(elements, first, triangles.concat(), Vec::new())
+    }
+
+    fn connected(
+        elements: Vec<Element>,
+        first: Vec<u32>,
+        nodes: Vec<NodeId>,
+        faces: Vec<Face>,
+    ) -> Option<Self> {
+        let ntan = elements.first()?.dim();
         let mut surface = Self {
             ntan,
             elements,
@@ -70,10 +86,10 @@ impl Facets {
             neighbour_first: Vec::new(),
             neighbours: Vec::new(),
             rim_nodes: Vec::new(),
-            faces: faces.to_vec(),
+            faces,
         };
         surface.connect();
-        Ok(surface)
+        Some(surface)
     }
 
     /// Finds neighbours and rims.
@@ -135,7 +151,7 @@ impl Facets {
         self.elements.get(facet as usize).copied()
     }
 
-    /// The face of the mesh that a facet is.
+    /// The face of the mesh that a facet is; `None` for triangles that are sides of nothing.
     #[must_use]
     pub fn face(&self, facet: u32) -> Option<Face> {
         self.faces.get(facet as usize).copied()

@@ -23,19 +23,55 @@
 //! for a normal, then a tangent, then a gap. [`ContactSurface::project`] is provided for every surface whose
 //! parameters run over the domain of a reference element.
 //!
-//! To add a surface: one file that implements the trait, and one line where cases are built. Its `jet` is checked by
-//! the conformance test of this room against differences of its `position`.
+//! | surface | closest point | closed shapes by [`Side`] |
+//! |---|---|---|
+//! | [`Facets`]: faces of solids, edges in the plane | Newton on faces, edges, vertices | |
+//! | [`Triangulated`]: rigid triangles, as of an STL file | as [`Facets`] | |
+//! | [`Plane`]; a line | closed form | |
+//! | [`Sphere`]; a circle | closed form | • |
+//! | [`Cylinder`]; a circle or a strip | closed form | • |
+//! | [`Cone`], with its apex; a wedge | closed form | • |
+//! | [`Torus`]; two circles | closed form | • |
+//! | [`Polynomial`] `y = f(x)`; extruded in space | the best of all roots | [`Facing`] |
+//! | [`SignedDistance`], φ of the user | Newton on the surface | |
+//!
+//! The rigid ones stand on a [`Mount`], fixed or carried by a rigid body, and are given in the initial configuration.
+//! From [`Plane`] on they are a [`Shape`] each, of which [`Analytical`] makes a surface.
+//!
+//! To add a shape: one file that implements [`Shape`], a line above and in the `zoo` of the tests, and one where cases
+//! are built. To add another surface: the same with [`ContactSurface`]. Its `jet` is checked by the conformance tests
+//! of this room against differences, its `project` against brute force.
 //!
 //! Sources: Wriggers, *Computational Contact Mechanics*, 2nd ed. 2006, chapters 2 and 4; Konyukhov and Schweizerhof,
 //! *Computational Contact Mechanics*, 2013, chapters 2 to 4; Bærentzen and Aanæs, IEEE TVCG 11, 2005 (pseudonormals).
 
+mod analytical;
+mod cone;
+mod cylinder;
 mod facets;
+mod mount;
+mod plane;
+mod polynomial;
 mod projection;
+mod signed_distance;
+mod sphere;
 #[cfg(test)]
 mod tests;
+mod torus;
+mod triangulated;
 
+pub use analytical::{Analytical, AnalyticalError, Patch, Shape, Side};
+pub use cone::Cone;
+pub use cylinder::Cylinder;
 pub use facets::{Facets, FacetsError};
+pub use mount::Mount;
+pub use plane::Plane;
+pub use polynomial::{Facing, MAX_DEGREE, Polynomial};
 pub use projection::{extended_edge, extended_face};
+pub use signed_distance::{SignedDistance, UserFunction};
+pub use sphere::Sphere;
+pub use torus::Torus;
+pub use triangulated::Triangulated;
 
 use crate::element::{Element, MAX_FACET_NODES};
 use crate::mesh::NodeId;
@@ -176,6 +212,12 @@ pub enum SurfaceError {
         /// Number of the facet.
         facet: u32,
     },
+    /// A surface of a model of the plane whose normal is not in it.
+    #[error("the normal of facet {facet} leaves the plane of the model")]
+    OutOfPlane {
+        /// Number of the facet.
+        facet: u32,
+    },
     /// A surface given by the user's own code failed.
     #[error("the user's surface failed: {message}")]
     User {
@@ -183,6 +225,9 @@ pub enum SurfaceError {
         message: String,
     },
 }
+
+/// A point of a shape at which it has no normal.
+const NO_NORMAL: SurfaceError = SurfaceError::Degenerate { facet: 0 };
 
 /// A surface that points can touch. Facets of elements and analytical surfaces alike.
 pub trait ContactSurface: Send + Sync {

@@ -5,6 +5,9 @@ use crate::element::{Side, TABLE, by_name};
 use crate::mesh::{Face, Mesh};
 use crate::random::Random;
 
+mod analytical;
+mod triangulated;
+
 const KINDS: [&str; 7] = ["line2", "tri3", "quad4", "line3", "tri6", "quad8", "quad9"];
 
 /// How far the nodes of a facet of about unit size are moved: mid nodes are half as far apart.
@@ -107,11 +110,10 @@ fn jet_matches_differences_on_warped_facets() {
     }
 }
 
-/// The distance to a facet by a grid that zooms into each of its local minima.
+/// The distance to a facet.
 fn brute_force(element: Element, x: &[Vec3], nodes: &[NodeId], point: Vec3) -> f64 {
-    const N: usize = 24;
     let mut shape = vec![0.0; element.nnode()];
-    let mut distance = |u: f64, v: f64| {
+    smallest(|u, v| {
         element.shape(&in_domain(element, u, v), &mut shape);
         let y: Vec3 = nodes
             .iter()
@@ -119,7 +121,12 @@ fn brute_force(element: Element, x: &[Vec3], nodes: &[NodeId], point: Vec3) -> f
             .map(|(&n, &s)| x[n as usize] * s)
             .sum();
         (point - y).norm()
-    };
+    })
+}
+
+/// The smallest value over the unit square, by a grid that zooms into each of its local minima.
+fn smallest(mut distance: impl FnMut(f64, f64) -> f64) -> f64 {
+    const N: usize = 24;
     let at = |k: usize| k as f64 / (N - 1) as f64;
     let mut grid = vec![0.0; N * N];
     for i in 0..N {

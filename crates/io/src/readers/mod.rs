@@ -9,6 +9,8 @@
 //! [`MeshError`] with its place. What a mesh that could be read still gets wrong (volumes, coincident nodes) is the
 //! matter of [`validate`].
 //!
+//! Triangles of rigid surfaces are no meshes of bodies: [`stl`] reads them by themselves.
+//!
 //! To add a format: one file here with a function of type [`Reader`], and one line in [`READERS`].
 
 mod error;
@@ -17,6 +19,7 @@ mod inline;
 pub mod inp;
 mod labels;
 mod side;
+pub mod stl;
 mod validate;
 pub mod vtu;
 

@@ -59,17 +59,20 @@ pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             of_contact(contact).map(|c| &c.place),
             "mesh the two bodies apart, without common nodes",
         ),
-        ModelError::TwoPass { contact }
-        | ModelError::Unsuited { contact, .. }
-        | ModelError::PairCount { contact, .. } => (
+        ModelError::TwoPass { contact } => (
             &codes::WRONG_KIND,
             of_contact(contact).map(|c| &c.place),
-            "name surfaces with faces, or give what is missing",
+            "name surfaces with faces on both sides, or write  passes = 1",
+        ),
+        ModelError::Unsuited { contact, .. } | ModelError::PairCount { contact, .. } => (
+            &codes::BAD_SIDES,
+            of_contact(contact).map(|c| &c.place),
+            "change the sides, or the way they are compared",
         ),
         ModelError::Table { contact, .. } => (
-            &codes::NOT_INCREASING,
+            &codes::BAD_SIDES,
             of_contact(contact).map(|c| &c.place),
-            "gaps increase, pressures fall to 0",
+            "write  penalty = [[gap, pressure], ...]  with rising gaps and falling pressures",
         ),
         ModelError::BothRigid { contact } => (
             &codes::BAD_SIDES,

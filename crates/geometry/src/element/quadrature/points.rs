@@ -98,7 +98,7 @@ mod tests {
 
     /// ∫ x^k over [-1, 1].
     fn exact(k: usize) -> f64 {
-        if k % 2 == 0 {
+        if k.is_multiple_of(2) {
             2.0 / (k + 1) as f64
         } else {
             0.0

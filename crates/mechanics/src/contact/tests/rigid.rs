@@ -4,160 +4,21 @@ use super::super::discretization::{Pairing, PointToSegment, SurfacePair};
 use super::super::row::Rows;
 use super::{Random, first_rows, largest, pair_up};
 use crate::system::{Dof, Elimination, Layout, NO_DOF, RigidBody, State};
-use signorini_geometry::element::Element;
-use signorini_geometry::proximity::Aabb;
-use signorini_geometry::surface::{
-    Anchor, Carrier, ContactSurface, Outward, Placement, Projection, SurfaceError, SurfaceJet,
-};
-use signorini_geometry::surface::{Feature, Pose};
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::surface::{Analytical, Mount, Shape, Side, SignedDistance, Sphere, Torus};
+use signorini_geometry::tensor::{Sym3, Vec3};
 use std::sync::Arc;
 
-/// A sphere in space or an ellipse in the plane, off the reference point of rigid body 0. Points of the sphere are
-/// kept in the body frame, points of the ellipse as its parameter φ.
-pub(crate) enum Round {
-    Sphere { centre: Vec3, radius: f64 },
-    Ellipse { centre: Vec3, axes: [f64; 2] },
-}
-
-impl Round {
-    fn pose(at: &Placement) -> Pose {
-        at.poses[0]
-    }
-
-    fn centre(&self) -> Vec3 {
-        match self {
-            Self::Sphere { centre, .. } | Self::Ellipse { centre, .. } => *centre,
-        }
-    }
-
-    /// The parameter of the point of an ellipse closest to `p`, a point in its own frame: the best of many, then
-    /// Newton on `(p − ρ)·ρ' = 0`.
-    fn parameter([a, b]: [f64; 2], p: Vec3) -> f64 {
-        let rho = |f: f64| Vec3::new(a * f.cos(), b * f.sin(), 0.0);
-        let tangent = |f: f64| Vec3::new(-a * f.sin(), b * f.cos(), 0.0);
-        let many = (0..64).map(|k| f64::from(k) * std::f64::consts::TAU / 64.0);
-        let nearer = |f: &f64, g: &f64| (p - rho(*f)).norm().total_cmp(&(p - rho(*g)).norm());
-        let mut f = many.min_by(nearer).unwrap();
-        for _ in 0..20 {
-            let (w, t) = (p - rho(f), tangent(f));
-            f += w.dot(t) / (t.dot(t) + w.dot(rho(f)));
-        }
-        f
-    }
-}
-
-impl ContactSurface for Round {
-    fn ntan(&self) -> usize {
-        match self {
-            Self::Sphere { .. } => 2,
-            Self::Ellipse { .. } => 1,
-        }
-    }
-
-    fn nfacet(&self) -> usize {
-        1
-    }
-
-    fn carrier(&self, _: u32) -> Carrier<'_> {
-        Carrier::Rigid(0)
-    }
-
-    fn aabb(&self, at: &Placement, facet: u32) -> Aabb {
-        let pose = Self::pose(at);
-        let centre = pose.origin + pose.rotation * self.centre();
-        Aabb::around([centre]).inflated(self.size(at, facet))
-    }
-
-    fn size(&self, _: &Placement, _: u32) -> f64 {
-        match self {
-            Self::Sphere { radius, .. } => *radius,
-            Self::Ellipse { axes, .. } => axes[0].max(axes[1]),
-        }
-    }
-
-    fn jet(
-        &self,
-        at: &Placement,
-        point: &Anchor,
-        out: &mut SurfaceJet,
-    ) -> Result<(), SurfaceError> {
-        let pose = Self::pose(at);
-        *out = SurfaceJet::default();
-        match self {
-            Self::Sphere { centre, radius } => {
-                out.position = pose.origin + pose.rotation * point.local;
-                out.normal = pose.rotation * (point.local - *centre) / *radius;
-                let across = Vec3::unit(usize::from(out.normal.x.abs() > 0.5));
-                let t = across.cross(out.normal).normalized().unwrap();
-                // geodesics: orthonormal tangents and a curvature that is all normal; t1 is stretched for good measure
-                out.tangent = [t * 2.0, out.normal.cross(t)];
-                let bend = out.normal / -*radius;
-                out.curvature = [bend * 4.0, bend, Vec3::ZERO];
-                out.metric = [4.0, 1.0, 0.0];
-            }
-            Self::Ellipse {
-                centre,
-                axes: [a, b],
-            } => {
-                let (s, c) = point.local.x.sin_cos();
-                let arm = Vec3::new(a * c, b * s, 0.0);
-                let t = pose.rotation * Vec3::new(-a * s, b * c, 0.0);
-                out.position = pose.origin + pose.rotation * (*centre + arm);
-                out.tangent[0] = t;
-                out.normal = t.cross(Vec3::unit(2)) / t.norm();
-                out.curvature[0] = -(pose.rotation * arm);
-                out.metric[0] = t.dot(t);
-            }
-        }
-        Ok(())
-    }
-
-    fn domain(&self, _: u32) -> Option<Element> {
-        None
-    }
-
-    fn neighbours(&self, _: u32) -> &[u32] {
-        &[]
-    }
-
-    fn outward(&self, at: &Placement, found: &Projection) -> Result<Outward, SurfaceError> {
-        let mut jet = SurfaceJet::default();
-        self.jet(at, &found.anchor, &mut jet)?;
-        Ok(Outward {
-            direction: jet.normal,
-            rim: false,
-        })
-    }
-
-    fn project(
-        &self,
-        at: &Placement,
-        facet: u32,
-        point: Vec3,
-        _: Option<Anchor>,
-        out: &mut SurfaceJet,
-    ) -> Result<Option<Projection>, SurfaceError> {
-        let pose = Self::pose(at);
-        let body = pose.rotation.transpose() * (point - pose.origin);
-        let away = body - self.centre();
-        let local = match self {
-            Self::Sphere { centre, radius } => {
-                let Some(direction) = away.normalized() else {
-                    return Ok(None);
-                };
-                *centre + direction * *radius
-            }
-            Self::Ellipse { axes, .. } => Vec3::new(Self::parameter(*axes, away), 0.0, 0.0),
-        };
-        let anchor = Anchor { facet, local };
-        self.jet(at, &anchor, out)?;
-        Ok(Some(Projection {
-            anchor,
-            feature: Feature::Face,
-            distance: (point - out.position).norm(),
-        }))
-    }
+/// `½ Σ (x_i / a_i)² − ½` around a centre in the plane.
+fn ellipse(centre: Vec3, axes: [f64; 2]) -> SignedDistance {
+    let stretch = Sym3::diagonal(axes[0].powi(-2), axes[1].powi(-2), 0.0);
+    let gradient = move |x: Vec3| stretch.to_mat3() * (x - centre);
+    SignedDistance::new(
+        1.0,
+        Box::new(move |x| Ok(0.5 * (x - centre).dot(gradient(x)) - 0.5)),
+        Box::new(move |x| Ok(gradient(x))),
+        Box::new(move |_| Ok(stretch)),
+    )
+    .unwrap()
 }
 
 /// A rigid body with a round surface, a node near it, and a state in which the body has been turned twice.
@@ -170,8 +31,15 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(surface: Round, random: &mut Random) -> Self {
-        let ndim = surface.ntan() + 1;
+    /// The shape around `centre` from the body's reference point, and a node at `offset` from there.
+    fn new(
+        ntan: usize,
+        centre: Vec3,
+        offset: Vec3,
+        shape: impl FnOnce(Vec3) -> Box<dyn Shape>,
+        random: &mut Random,
+    ) -> Self {
+        let ndim = ntan + 1;
         let layout = Layout {
             ndim,
             nnode: 1,
@@ -191,13 +59,7 @@ impl Scene {
             nodes: Vec::new(),
         };
         let elimination = Elimination::new(vec![body], 1);
-        let direction = flat(random.vector()).normalized().unwrap();
-        let mut size = 1.0 + 0.4 * random.signed();
-        if let Round::Ellipse { axes, .. } = &surface {
-            // outside of its evolute the closest point is unique
-            size = axes[0].max(axes[1]) * (0.95 + 0.4 * random.signed().abs());
-        }
-        let reference = vec![origin + surface.centre() + direction * size];
+        let reference = vec![origin + centre + offset];
         let mut state = State::initial(&layout, &reference, &elimination);
         for _ in 0..2 {
             let base = state.clone();
@@ -209,14 +71,15 @@ impl Scene {
             }
             state.advance_from(&base, &du, 1.0, &layout, &reference, &elimination);
         }
-        let centre = state.poses[0].origin + state.poses[0].rotation * surface.centre();
+        let pose = state.poses[0];
         let mut put = vec![0.0; layout.ndof()];
-        let wanted = centre + state.poses[0].rotation * direction * size;
+        let wanted = pose.origin + pose.rotation * (centre + offset);
         for axis in 0..ndim {
             put[axis] = wanted[axis] - state.x[0][axis];
         }
         let base = state.clone();
         state.advance_from(&base, &put, 1.0, &layout, &reference, &elimination);
+        let surface = Analytical::new(Mount::on(ntan, 0, origin), shape(origin + centre)).unwrap();
         let pair = SurfacePair::new(vec![0], Arc::new(surface), 5.0);
         Self {
             pair,
@@ -298,21 +161,32 @@ fn rigid_carrier_rows_match_differences() {
     let mut random = Random::new(5);
     let (mut odd_in_space, mut inside) = (0.0f64, 0);
     for _ in 0..100 {
-        let sphere = Round::Sphere {
-            centre: random.vector(),
-            radius: 1.0,
+        let centre = random.vector();
+        let direction = random.vector().normalized().unwrap();
+        let sphere = |centre| -> Box<dyn Shape> {
+            Box::new(Sphere::new(centre, 1.0, Side::Outside).unwrap())
         };
-        let scene = Scene::new(sphere, &mut random);
+        let offset = direction * (1.0 + 0.4 * random.signed());
+        let scene = Scene::new(2, centre, offset, sphere, &mut random);
         inside += usize::from(scene.rows(&scene.state).0.rows()[0].gap < 0.0);
         odd_in_space = odd_in_space.max(scene.check());
 
-        let centre = random.vector();
-        let ellipse = Round::Ellipse {
-            centre: Vec3::new(centre.x, centre.y, 0.0),
-            axes: [1.0 + 0.2 * random.signed(), 1.0 + 0.2 * random.signed()],
+        let across = direction.cross(random.vector()).normalized().unwrap();
+        let ring = |centre| -> Box<dyn Shape> {
+            Box::new(Torus::new(centre, direction, 1.0, 0.4, Side::Outside).unwrap())
         };
+        let (sin, cos) = (3.0 * random.signed()).sin_cos();
+        let offset = across + (across * cos + direction * sin) * (0.4 + 0.1 * random.signed());
+        Scene::new(2, centre, offset, ring, &mut random).check();
+
+        let flat = |v: Vec3| Vec3::new(v.x, v.y, 0.0);
+        let axes = [1.0 + 0.2 * random.signed(), 1.0 + 0.2 * random.signed()];
+        // outside of its evolute the closest point is unique
+        let size = axes[0].max(axes[1]) * (0.95 + 0.4 * random.signed().abs());
+        let offset = flat(direction).normalized().unwrap() * size;
+        let shape = |centre| -> Box<dyn Shape> { Box::new(ellipse(centre, axes)) };
         // a single rotation commutes with itself
-        assert!(Scene::new(ellipse, &mut random).check() < 1e-12);
+        assert!(Scene::new(1, flat(centre), offset, shape, &mut random).check() < 1e-12);
     }
     assert!((20..80).contains(&inside));
     assert!(

@@ -1,0 +1,50 @@
+use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad, polar};
+use super::mount::{direction, finite, positive};
+use super::{NO_NORMAL, SurfaceError};
+use crate::tensor::{Sym3, Vec3};
+
+/// A round rod or bore without ends. In the plane, a circle where its axis is along z, a strip where it lies in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cylinder {
+    point: Vec3,
+    axis: Vec3,
+    radius: f64,
+    side: Side,
+}
+
+impl Cylinder {
+    /// Around the axis through a point, in a direction of any length.
+    ///
+    /// # Errors
+    /// Components that are not finite, an axis that is zero, a radius that is not positive.
+    pub fn new(point: Vec3, axis: Vec3, radius: f64, side: Side) -> Result<Self, AnalyticalError> {
+        Ok(Self {
+            point: finite("the point of the cylinder", point)?,
+            axis: direction("the axis of the cylinder", axis)?,
+            radius: positive("the radius of the cylinder", radius)?,
+            side,
+        })
+    }
+}
+
+impl Shape for Cylinder {
+    fn closest(&self, point: Vec3) -> Result<Option<Vec3>, SurfaceError> {
+        let (along, away) = polar(point - self.point, self.axis);
+        Ok(away.map(|(_, e)| self.point + self.axis * along + e * self.radius))
+    }
+
+    fn patch(&self, on: Vec3) -> Result<Patch, SurfaceError> {
+        let (_, away) = polar(on - self.point, self.axis);
+        let (_, normal) = away.ok_or(NO_NORMAL)?;
+        let around = Sym3::IDENTITY - dyad(normal) - dyad(self.axis);
+        let patch = Patch::smooth(normal, around * self.radius.recip());
+        Ok(self.side.of(patch))
+    }
+
+    fn out_of_plane(&self) -> Option<&'static str> {
+        let across = self.axis.x == 0.0 && self.axis.y == 0.0;
+        let within = self.axis.z == 0.0 && self.point.z == 0.0;
+        let wanted = "the axis must lie in z = 0 or be along z";
+        (!across && !within).then_some(wanted)
+    }
+}

@@ -1,0 +1,39 @@
+use super::SurfaceError;
+use super::analytical::{AnalyticalError, Patch, Shape};
+use super::mount::{direction, finite};
+use crate::tensor::{Sym3, Vec3};
+
+/// A half space, bounded by a plane; in the plane, by a straight line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    point: Vec3,
+    normal: Vec3,
+}
+
+impl Plane {
+    /// Through a point, with the normal out of the body, of any length.
+    ///
+    /// # Errors
+    /// Components that are not finite, a normal that is zero.
+    pub fn new(point: Vec3, normal: Vec3) -> Result<Self, AnalyticalError> {
+        Ok(Self {
+            point: finite("the point of the plane", point)?,
+            normal: direction("the normal of the plane", normal)?,
+        })
+    }
+}
+
+impl Shape for Plane {
+    fn closest(&self, point: Vec3) -> Result<Option<Vec3>, SurfaceError> {
+        let gap = (point - self.point).dot(self.normal);
+        Ok(Some(point - self.normal * gap))
+    }
+
+    fn patch(&self, _: Vec3) -> Result<Patch, SurfaceError> {
+        Ok(Patch::smooth(self.normal, Sym3::ZERO))
+    }
+
+    fn out_of_plane(&self) -> Option<&'static str> {
+        (self.normal.z != 0.0).then_some("the normal must have no component along z")
+    }
+}

@@ -1,0 +1,47 @@
+use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad};
+use super::mount::{finite, positive};
+use super::{NO_NORMAL, SurfaceError};
+use crate::tensor::{Sym3, Vec3};
+
+/// A ball or a round hole; in the plane, a circle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    centre: Vec3,
+    radius: f64,
+    side: Side,
+}
+
+impl Sphere {
+    /// Around a centre.
+    ///
+    /// # Errors
+    /// A centre that is not finite, a radius that is not positive.
+    pub fn new(centre: Vec3, radius: f64, side: Side) -> Result<Self, AnalyticalError> {
+        Ok(Self {
+            centre: finite("the centre of the sphere", centre)?,
+            radius: positive("the radius of the sphere", radius)?,
+            side,
+        })
+    }
+}
+
+impl Shape for Sphere {
+    fn closest(&self, point: Vec3) -> Result<Option<Vec3>, SurfaceError> {
+        let direction = (point - self.centre).normalized();
+        Ok(direction.map(|e| self.centre + e * self.radius))
+    }
+
+    fn patch(&self, on: Vec3) -> Result<Patch, SurfaceError> {
+        let normal = (on - self.centre).normalized().ok_or(NO_NORMAL)?;
+        let gradient = (Sym3::IDENTITY - dyad(normal)) * self.radius.recip();
+        Ok(self.side.of(Patch::smooth(normal, gradient)))
+    }
+
+    fn ball(&self) -> Option<(Vec3, f64)> {
+        Some((self.centre, self.radius))
+    }
+
+    fn out_of_plane(&self) -> Option<&'static str> {
+        (self.centre.z != 0.0).then_some("the centre must have z = 0")
+    }
+}

@@ -1,0 +1,80 @@
+use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad, polar};
+use super::mount::{direction, finite, positive};
+use super::{NO_NORMAL, SurfaceError};
+use crate::tensor::{Sym3, Vec3};
+
+/// A ring of round section, or a channel of that shape. In the plane, two circles: side by side where the axis lies in
+/// it, one in the other where it is along z.
+///
+/// With `e` away from the axis and `cos ψ = ν·e`, the curvatures of the outside are `1/tube` along the section and
+/// `cos ψ / (radius + tube cos ψ)` around the axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Torus {
+    centre: Vec3,
+    axis: Vec3,
+    radius: f64,
+    tube: f64,
+    side: Side,
+}
+
+impl Torus {
+    /// Around an axis of any length: the radius of the circle in the middle of the tube, and that of the tube.
+    ///
+    /// # Errors
+    /// Components that are not finite, an axis that is zero, a radius that is not positive, a tube that is not thinner
+    /// than the ring.
+    pub fn new(
+        centre: Vec3,
+        axis: Vec3,
+        radius: f64,
+        tube: f64,
+        side: Side,
+    ) -> Result<Self, AnalyticalError> {
+        let radius = positive("the radius of the torus", radius)?;
+        let tube = positive("the tube's radius", tube)?;
+        if tube >= radius {
+            return Err(AnalyticalError::Tube { radius, tube });
+        }
+        Ok(Self {
+            centre: finite("the centre of the torus", centre)?,
+            axis: direction("the axis of the torus", axis)?,
+            radius,
+            tube,
+            side,
+        })
+    }
+
+    /// The point in the middle of the tube that is closest, the direction from there, and that away from the axis.
+    fn section(&self, point: Vec3) -> Option<(Vec3, Vec3, Vec3)> {
+        let (_, away) = polar(point - self.centre, self.axis);
+        let (_, e) = away?;
+        let middle = self.centre + e * self.radius;
+        Some((middle, (point - middle).normalized()?, e))
+    }
+}
+
+impl Shape for Torus {
+    fn closest(&self, point: Vec3) -> Result<Option<Vec3>, SurfaceError> {
+        let section = self.section(point);
+        Ok(section.map(|(middle, normal, _)| middle + normal * self.tube))
+    }
+
+    fn patch(&self, on: Vec3) -> Result<Patch, SurfaceError> {
+        let (_, normal, e) = self.section(on).ok_or(NO_NORMAL)?;
+        let cos = normal.dot(e);
+        let around = dyad(self.axis.cross(e));
+        let along = Sym3::IDENTITY - dyad(normal) - around;
+        let gradient = along * self.tube.recip() + around * (cos / (self.radius + self.tube * cos));
+        Ok(self.side.of(Patch::smooth(normal, gradient)))
+    }
+
+    fn ball(&self) -> Option<(Vec3, f64)> {
+        Some((self.centre, self.radius + self.tube))
+    }
+
+    fn out_of_plane(&self) -> Option<&'static str> {
+        let across = self.axis.x == 0.0 && self.axis.y == 0.0;
+        (self.centre.z != 0.0 || !(across || self.axis.z == 0.0))
+            .then_some("the centre must have z = 0, and the axis must lie in z = 0 or be along z")
+    }
+}
