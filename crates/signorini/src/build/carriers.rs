@@ -48,6 +48,14 @@ impl Carriers {
                 carriers.by_name.insert(group.value.clone(), carrier);
             }
         }
+        let of_surfaces = case
+            .surfaces
+            .iter()
+            .filter_map(|one| one.reference.as_ref());
+        for name in of_surfaces {
+            let used = carriers.get(name);
+            carriers.in_use.extend(used);
+        }
         for constraint in &case.constraints {
             match &constraint.kind {
                 ConstraintKind::Equation { terms, .. } => {
