@@ -285,6 +285,11 @@ codes! {
     ["a node is bound by two constraints", "a bound node is supported too", "a reference without nodes"]
     ["take the node out of one of the sets", "support the reference, not the nodes that follow it"]
 
+    BAD_SURFACE "S0309" Model "a surface that cannot be"
+    "The numbers or triangles of a [[surface]] describe no surface with an outside."
+    ["a radius of zero", "triangles that are turned inside out", "a shape that is not the same on both sides of a plane model"]
+    ["correct the numbers, as the message says", "repair the file of triangles"]
+
     IMPLAUSIBLE "S0402" Input "a value that does not fit the units"
     "A material value would be far outside of what materials have, if the units of the case are what its label says. \
      Nothing is converted: numbers are used as they are."

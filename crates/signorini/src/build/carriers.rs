@@ -98,6 +98,11 @@ impl Carriers {
         Some(&part.name)
     }
 
+    /// Where it is, as far as that was given.
+    pub fn place(&self, carrier: RigidId) -> Option<Vec3> {
+        self.parts.get(carrier as usize).and_then(|part| part.at)
+    }
+
     pub fn parts(&self) -> Vec<CarrierPart> {
         self.parts.clone()
     }

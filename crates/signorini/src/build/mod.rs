@@ -18,13 +18,13 @@ mod temperature;
 #[cfg(test)]
 mod tests;
 
-pub use mesh::read_mesh_of;
+pub use mesh::{read_mesh_of, read_surfaces_of};
 
 use carriers::Carriers;
 use names::Names;
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
-use signorini_io::case::{self, Case, Enforcement, HistorySource, Method, Per, Space};
+use signorini_io::case::{self, Case, Enforcement, HistorySource, Method, Per, Space, Stabilize};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::model::{ContactSummary, LockingSummary, Parts};
@@ -142,17 +142,29 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
             return Err(found);
         }
     };
+    let stabilized = case.solver.stabilize == Stabilize::Auto;
     for unheld in &model.held_by_contact {
+        let what = format!("{unheld} is held only by contact");
+        let message = if stabilized {
+            Diagnostic::warning(&codes::HELD_BY_CONTACT, what)
+        } else {
+            Diagnostic::error(&codes::HELD_BY_CONTACT, what)
+        };
         found.push(
-            Diagnostic::warning(
-                &codes::HELD_BY_CONTACT,
-                format!("{unheld} is held only by contact"),
-            )
+            message
             .note(format!("without contact it is free to {}", unheld.motion))
+            .note(if stabilized {
+                "until contact holds it, a vanishing viscous force does; its work is in summary.json"
+            } else {
+                "nothing else holds it: stabilize = false"
+            })
             .help("hold it by a support, or prescribe its motion with `move` instead of `load`"),
         );
     }
 
+    if found.has_errors() {
+        return Err(found);
+    }
     found.append(bodies::stiff_elements(&case, &names, &mesh));
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     found.silence(&allowed);
@@ -215,6 +227,7 @@ fn parts<'a>(
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, found);
     parts.gap_tol = case.solver.newton.gap_tol;
+    parts.stabilize = case.solver.stabilize == Stabilize::Auto;
     let surfaces = Surfaces::new(case, mesh, carriers, found);
     parts.contacts = contact::acting(case)
         .filter_map(|c| contact::contact(c, names, &surfaces, found))

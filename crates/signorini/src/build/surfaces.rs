@@ -3,8 +3,12 @@
 use super::carriers::Carriers;
 use super::quoted;
 use signorini_geometry::mesh::Mesh;
-use signorini_geometry::surface::{ContactSurface, RigidId};
-use signorini_io::case::{Case, Name, Shape};
+use signorini_geometry::surface::{
+    self as geometry, Analytical, AnalyticalError, Cone, ContactSurface, Cylinder, Mount, Plane,
+    Polynomial, Side, Sphere, Torus, Triangulated,
+};
+use signorini_geometry::tensor::Vec3;
+use signorini_io::case::{Case, Facing, Name, Shape, Surface};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,15 +23,18 @@ impl Surfaces {
             if mesh.sets.contains_key(&one.name.value) {
                 found.push(of_mesh(&one.name));
             }
-            let carrier = one.reference.as_ref().and_then(|name| carriers.get(name));
-            let made = match surface(&one.shape, carrier) {
+            let moved = one.reference.as_ref().and_then(|name| carriers.get(name));
+            let at = moved.and_then(|c| carriers.place(c));
+            let ntan = case.model.space.value.ndim() - 1;
+            let mount = moved.map_or(Mount::fixed(ntan), |body| {
+                Mount::on(ntan, body, at.unwrap_or_default())
+            });
+            let made = match surface(one, mount) {
                 Ok(made) => Some(made),
-                Err(Unbuilt) => {
-                    let message = format!("surface {} is not supported yet", quoted(&one.name));
+                Err(error) => {
+                    let message = format!("surface {}: {error}", quoted(&one.name));
                     found.push(
-                        Diagnostic::error(&codes::NOT_BUILT, message)
-                            .at(&one.place, "known, but this version cannot do it")
-                            .help("until then: mesh the tool and make it a rigid body"),
+                        Diagnostic::error(&codes::BAD_SURFACE, message).at(&one.place, "this one"),
                     );
                     None
                 }
@@ -43,12 +50,65 @@ impl Surfaces {
     }
 }
 
-/// A shape that this version cannot make.
-struct Unbuilt;
-
-/// The surface of a shape, moved by a carrier or fixed in space.
-fn surface(_: &Shape, _: Option<RigidId>) -> Result<Arc<dyn ContactSurface>, Unbuilt> {
-    Err(Unbuilt)
+/// The surface of a shape on its mount.
+fn surface(one: &Surface, mount: Mount) -> Result<Arc<dyn ContactSurface>, AnalyticalError> {
+    let side = |facing: &Facing| match facing {
+        Facing::Outside => Side::Outside,
+        Facing::Inside => Side::Inside,
+    };
+    let vec = |v: &[f64; 3]| Vec3::from(*v);
+    let shape: Box<dyn geometry::Shape> = match &one.shape {
+        Shape::Plane { point, normal } => Box::new(Plane::new(vec(point), vec(normal))?),
+        Shape::Sphere {
+            center,
+            radius,
+            facing,
+        } => Box::new(Sphere::new(vec(center), *radius, side(facing))?),
+        Shape::Cylinder {
+            point,
+            axis,
+            radius,
+            facing,
+        } => {
+            let side = side(facing);
+            Box::new(Cylinder::new(vec(point), vec(axis), *radius, side)?)
+        }
+        Shape::Cone {
+            apex,
+            axis,
+            half_angle,
+        } => {
+            let half_angle = half_angle.to_radians();
+            Box::new(Cone::new(vec(apex), vec(axis), half_angle, Side::Outside)?)
+        }
+        Shape::Torus {
+            center,
+            axis,
+            radius,
+            tube,
+            facing,
+        } => {
+            let side = side(facing);
+            Box::new(Torus::new(vec(center), vec(axis), *radius, *tube, side)?)
+        }
+        Shape::Polynomial {
+            coefficients,
+            above,
+        } => {
+            let facing = if *above {
+                geometry::Facing::Above
+            } else {
+                geometry::Facing::Below
+            };
+            Box::new(Polynomial::new(coefficients, facing)?)
+        }
+        Shape::Stl { .. } => {
+            let read = one.triangles.clone().unwrap_or_default();
+            let surface = Triangulated::new(mount, read.points, &read.triangles)?;
+            return Ok(Arc::new(surface));
+        }
+    };
+    Ok(Arc::new(Analytical::new(mount, shape)?))
 }
 
 fn of_mesh(name: &Name) -> Diagnostic {

@@ -21,6 +21,7 @@ impl Builder {
             name: fields.text("name"),
             shape: self.shape(fields.table("shape")),
             reference: fields.text_if("reference"),
+            triangles: None,
             place,
         }
     }

@@ -2,6 +2,7 @@
 
 use super::Name;
 use crate::diagnostic::{Place, Spanned};
+use crate::readers::stl::Triangles;
 
 /// A rigid surface without a mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +13,8 @@ pub struct Surface {
     pub shape: Shape,
     /// The reference it moves with; none: fixed in space.
     pub reference: Option<Name>,
+    /// The triangles of its file, once it is read.
+    pub triangles: Option<Triangles>,
     /// Where it was written.
     pub place: Place,
 }
