@@ -61,7 +61,7 @@ const PRESSED: Situation = Situation {
     element: "hex8",
     lower: 6,
     upper: 4,
-    moduli: [1000.0, 1000.0],
+    moduli: [1e5, 1000.0],
     gap: 0.0,
     tilt: 0.0,
     press: 0.05,
@@ -80,6 +80,8 @@ const PRESSED: Situation = Situation {
 #[derive(Clone, Copy, Debug)]
 struct Result {
     force: Vec3,
+    /// |shear| over |normal|.
+    rubs: f64,
     iterations: usize,
     increments: usize,
     cutbacks: usize,
@@ -276,6 +278,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
     let mut stepper = Stepper::new(&model.system, StepperSettings::default());
     let mut result = Result {
         force: Vec3::ZERO,
+        rubs: 0.0,
         iterations: 0,
         increments: 0,
         cutbacks: 0,
@@ -284,7 +287,9 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
     let mut watch = |event: &Event<'_>| {
         match event {
             Event::Increment { record, frame } => {
-                result.force = frame.contacts[0].secondary.force;
+                let contact = &frame.contacts[0];
+                result.force = contact.secondary.force;
+                result.rubs = contact.force_shear.norm() / contact.force_normal.norm();
                 result.iterations += record.iterations;
                 result.increments += 1;
                 if verbose {
@@ -363,14 +368,14 @@ fn table() {
     let only = std::env::var("ONLY").unwrap_or_default();
     for s in situations().iter().filter(|s| s.name.contains(&only)) {
         for way in [Way::NodeToSegment, Way::GaussPoint, Way::Lagrange] {
-            match run(s, way, 1) {
+            match run(s, way, std::env::var("REFINE").map_or(1, |r| r.parse().unwrap())) {
                 Ok(r) => println!(
-                    "{:28} {way:?}: F = {:.4} {:.4} {:.4}, Fx/Fz {:.5}, {} iterations, {} increments, {} cut-backs",
+                    "{:28} {way:?}: F = {:.4} {:.4} {:.4}, shear/normal {:.6}, {} iterations, {} increments, {} cut-backs",
                     s.name,
                     r.force.x,
                     r.force.y,
                     r.force.z,
-                    r.force.x / r.force.z,
+                    r.rubs,
                     r.iterations,
                     r.increments,
                     r.cutbacks
