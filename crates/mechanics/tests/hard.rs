@@ -275,7 +275,11 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
         ..Parts::new(&mesh, Idealisation::Space)
     };
     let mut model = Model::assemble(parts).map_err(|e| e.to_string())?;
-    let mut stepper = Stepper::new(&model.system, StepperSettings::default());
+    let mut settings = StepperSettings::default();
+    if std::env::var("NOLS").is_ok() {
+        settings.newton.line_search = signorini_mechanics::solve::LineSearch::Off;
+    }
+    let mut stepper = Stepper::new(&model.system, settings);
     let mut result = Result {
         force: Vec3::ZERO,
         rubs: 0.0,
@@ -368,7 +372,11 @@ fn table() {
     let only = std::env::var("ONLY").unwrap_or_default();
     for s in situations().iter().filter(|s| s.name.contains(&only)) {
         for way in [Way::NodeToSegment, Way::GaussPoint, Way::Lagrange] {
-            match run(s, way, std::env::var("REFINE").map_or(1, |r| r.parse().unwrap())) {
+            match run(
+                s,
+                way,
+                std::env::var("REFINE").map_or(1, |r| r.parse().unwrap()),
+            ) {
                 Ok(r) => println!(
                     "{:28} {way:?}: F = {:.4} {:.4} {:.4}, shear/normal {:.6}, {} iterations, {} increments, {} cut-backs",
                     s.name,

@@ -828,7 +828,10 @@ fn what_sides_cannot_do_is_refused_with_its_reason() {
         (
             format!(
                 "{}{on_floor}",
-                surface.replace("plane = { point = [0, 0, 0], normal = 'z' }", "stl = 'floor.stl'")
+                surface.replace(
+                    "plane = { point = [0, 0, 0], normal = 'z' }",
+                    "stl = 'floor.stl'"
+                )
             ),
             "S0309",
             "surface \"floor\": ",
