@@ -119,11 +119,28 @@ impl<'a> Laws<'a> {
         self.pressure(gap, normal, lambda) != Eval::default()
     }
 
+    /// What the return and its limit follow: the pressure, and where the multiplier is the pressure that of its
+    /// augmented Lagrangian, so that (E6) makes the gap vanish.
+    fn augmented(&self, gap: f64, scalar: f64) -> Eval {
+        let pressure = self.law.pressure(gap, scalar, self.scale);
+        if pressure == Eval::default() || self.law.multiplier() != Multiplier::Direct {
+            return pressure;
+        }
+        let penalty = self.scale.penalty;
+        let missing = self.law.complementarity(gap, scalar, self.scale);
+        Eval {
+            value: (scalar + penalty * missing.value).max(0.0),
+            dgap: penalty * missing.dgap,
+            dlambda: 1.0 + penalty * missing.dlambda,
+        }
+    }
+
     /// Tangential traction per slip, of what sticks.
-    pub fn stick_stiffness(&self) -> f64 {
+    pub fn stick_stiffness(&self, traction: &Traction) -> f64 {
         match (self.bond, self.stick_of()) {
             (true, _) => self.scale.penalty,
             (false, Stick::Stiffness(stiffness)) if self.slips() => stiffness,
+            (false, Stick::Slip(length)) if self.slips() => traction.limit / length,
             _ => 0.0,
         }
     }
@@ -160,11 +177,11 @@ impl<'a> Laws<'a> {
                 ..Traction::default()
             };
         };
-        let sliding = Sliding {
-            pressure: pressure.value,
+        let along = self.scalar(row.normal, lambda);
+        let limit = friction.limit(&Sliding {
+            pressure: self.augmented(row.gap, along).value,
             path,
-        };
-        let limit = friction.limit(&sliding);
+        });
         let (tangential, state) = self.returned(self.trial(row, lambda), &limit);
         let limit = limit.value;
         if self.law.multiplier() == Multiplier::Direct {
@@ -308,7 +325,7 @@ impl<'a> Laws<'a> {
         let wants_tangent = !target.stiffness.is_empty();
         let (nu, sliding) = (row.normal, &row.sliding);
         let along = nu.dot(lambda.vector);
-        let pressure = self.law.pressure(row.gap, -along, self.scale);
+        let pressure = self.augmented(row.gap, -along);
         let open = pressure == Eval::default();
 
         work.reset(width);

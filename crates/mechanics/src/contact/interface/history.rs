@@ -181,6 +181,7 @@ impl Interface {
             };
             // what is left of the way from the anchor has slipped
             let slipped = filled.sliding.slip - elastic;
+            memory.anchor = None;
             if self.laws().friction.is_some() {
                 memory.anchor = self.history.anchors[row];
                 if traction.state == Contact::Slip || exact {
