@@ -106,7 +106,12 @@ impl<'a> Case<'a> {
                 let nodes = vec![0, 1, c, d, 2, e, f, g];
                 ("quad8", nodes, Vec3::new(xi[0], -1.0, 0.0), along)
             }
-            (Some(kind), _) => (kind, entity.clone(), vector(&value["xi"]), Feature::Face),
+            // seen from behind
+            (Some("quad4"), _) => {
+                let local = Vec3::new(xi[1], xi[0], 0.0);
+                ("quad4", vec![0, 3, 2, 1], local, Feature::Face)
+            }
+            (kind, _) => panic!("no such entity: {kind:?}"),
         };
         let surface = facets_of(&mut x, &[(kind, nodes), (name, around)]);
         Self {

@@ -25,6 +25,8 @@ use std::sync::Arc;
 pub(crate) const PENALTY: f64 = 7.0;
 /// How far a point that sticks may be from its anchor, about.
 pub(crate) const LITTLE: f64 = 0.01;
+/// How far others go, at most.
+const FAR: f64 = 0.7;
 
 /// What the primary side is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -353,7 +355,7 @@ impl Scene {
         let mut du = vec![0.0; self.layout.ndof()];
         let points = self.points.iter().zip(&self.up).zip(&self.still);
         for ((&node, &up), &still) in points {
-            let mut way = flat(random.vector(), ndim) * if still { LITTLE } else { 0.4 };
+            let mut way = flat(random.vector(), ndim) * if still { LITTLE } else { FAR };
             way -= up * (0.95 * way.dot(up));
             for c in 0..ndim {
                 du[self.layout.node(node, c) as usize] = way[c];
@@ -497,9 +499,8 @@ fn flat(v: Vec3, ndim: usize) -> Vec3 {
 pub(crate) struct Whole {
     pub force: Vec<f64>,
     pub stiffness: Vec<f64>,
-    /// The most and the least unknowns that came at once.
+    /// The most unknowns that came at once.
     pub most: usize,
-    pub least: usize,
 }
 
 impl Whole {
@@ -512,7 +513,6 @@ impl Whole {
             force: vec![0.0; n],
             stiffness: vec![0.0; square],
             most: 0,
-            least: usize::MAX,
         }
     }
 
@@ -540,7 +540,6 @@ impl Sink for Whole {
     fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]) {
         let n = self.force.len();
         self.most = self.most.max(dofs.len());
-        self.least = self.least.min(dofs.len());
         for (i, &p) in dofs.iter().enumerate().filter(|d| *d.1 != NO_DOF) {
             self.force[p as usize] += force[i];
             if stiffness.is_empty() {

@@ -8,6 +8,7 @@ use super::super::law::{
 use super::scene::{Choice, Kind, Method, Scene};
 use super::{Random, largest};
 use crate::system::{Order, Term};
+use signorini_geometry::surface::Carrier;
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
@@ -157,6 +158,21 @@ fn balance(scene: &mut Scene, method: Method, rubs: bool, bond: bool, name: &str
     }
 }
 
+/// The columns of a row whose anchor is on its facet, with those of its multiplier.
+fn on_one_facet(scene: &Scene) -> usize {
+    let parts = scene.interface.parts();
+    let nodes = match parts.pair.primary.carrier(0) {
+        Carrier::Nodes(nodes) => nodes.len(),
+        _ => 2,
+    };
+    let of_point = parts.discretization.point(0).nodes.len();
+    let of_multiplier = match parts.nmultiplier(scene.layout.ndim) {
+        2 => 3,
+        n => n,
+    };
+    3 * (nodes + of_point) + of_multiplier
+}
+
 /// Tries a combination with a few seeds until all states occurred that can.
 fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool) -> Worst {
     let (mut worst, mut seen) = (Worst::default(), Seen::default());
@@ -198,20 +214,23 @@ fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool
         seen.stick |= report.area_stick > 0.0 && !bond;
         seen.tied |= report.area_stick > 0.0 && bond;
         seen.slip |= report.area_slip > 0.0;
-        seen.elsewhere |= whole.most > whole.least;
+        seen.elsewhere |= whole.most > on_one_facet(&scene);
         let always = law == 2;
+        let goes_on = matches!(method, Method::NodeToSegment) || method.is_inside();
+        let has_other_facets = matches!(kind, Kind::Elements(_)) && goes_on;
         let enough = if bond {
             seen.tied
         } else {
-            (seen.open || always) && seen.slip && (!rubs || seen.stick)
+            let elsewhere = seen.elsewhere || !has_other_facets;
+            (seen.open || always) && seen.slip && (!rubs || seen.stick && elsewhere)
         };
         if enough && worst.tried > 0 {
             return worst;
         }
     }
     panic!(
-        "{name}: open {} stick {} slip {} tried {}",
-        seen.open, seen.stick, seen.slip, worst.tried
+        "{name}: open {} stick {} slip {} anchors on other facets {} tried {}",
+        seen.open, seen.stick, seen.slip, seen.elsewhere, worst.tried
     );
 }
 
@@ -246,17 +265,17 @@ fn tangents_match_differences_on_line2() {
 
 #[test]
 fn tangents_match_differences_on_line3() {
-    walk(Kind::Elements("line3"), true);
+    walk(Kind::Elements("line3"), false);
 }
 
 #[test]
 fn tangents_match_differences_on_tri3() {
-    walk(Kind::Elements("tri3"), true);
+    walk(Kind::Elements("tri3"), false);
 }
 
 #[test]
 fn tangents_match_differences_on_tri6() {
-    walk(Kind::Elements("tri6"), true);
+    walk(Kind::Elements("tri6"), false);
 }
 
 #[test]
@@ -266,12 +285,12 @@ fn tangents_match_differences_on_quad4() {
 
 #[test]
 fn tangents_match_differences_on_quad8() {
-    walk(Kind::Elements("quad8"), true);
+    walk(Kind::Elements("quad8"), false);
 }
 
 #[test]
 fn tangents_match_differences_on_quad9() {
-    walk(Kind::Elements("quad9"), true);
+    walk(Kind::Elements("quad9"), false);
 }
 
 #[test]
@@ -335,4 +354,59 @@ fn a_pressure_that_acts_at_a_distance_is_coupled() {
     let whole = scene.respond(&away, Order::Tangent);
     assert!(largest(&whole.stiffness) > 0.1);
     assert!(scene.pattern().covers(&whole));
+}
+
+#[test]
+fn zz_debug() {
+    let friction = frictions()[1].clone();
+    let choice = Choice {
+        law: laws().swap_remove(4),
+        friction,
+        bond: false,
+    };
+    let mut scene = Scene::with_past(Kind::Elements("quad9"), Method::NodeToSegment, choice, 1);
+    let base = scene.state.clone();
+    let n = scene.layout.ndof();
+    let here = scene.respond(&base, Order::Tangent);
+    scene.interface.verdict(&base);
+    let first = n - scene.layout.nmultiplier;
+    let mut random = Random::new(1);
+    let mut v = vec![0.0; n];
+    v[0..first].fill_with(|| random.signed());
+    let mut forces = Vec::new();
+    let mut pairs = vec![scene.interface.pairing().clone()];
+    for step in [0.0, 1.0, -1.0, 2.0, -2.0] {
+        let there = scene.moved(&v, step * 3e-5);
+        forces.push(scene.respond(&there, Order::Residual).force);
+        pairs.push(scene.interface.pairing().clone());
+        println!("{step} {}", scene.is_settled(&there));
+    }
+    let along = here.along(&v);
+    for i in 0..n {
+        let d = (forces[1][i] - forces[2][i]) / 6e-5;
+        if (d - along[i]).abs() > 1e-4 {
+            println!(
+                "{i} {d} {} values {:?}",
+                along[i],
+                forces.iter().map(|f| f[i]).collect::<Vec<_>>()
+            );
+        }
+    }
+    for row in 0..pairs[0].pairs.len() {
+        let all: Vec<_> = pairs.iter().map(|p| p.pairs[row]).collect();
+        let a = all[0];
+        for b in &all {
+            match (a, b) {
+                (Some(a), Some(b))
+                    if a.anchor.facet == b.anchor.facet
+                        && (a.anchor.local - b.anchor.local).norm() < 1e-3
+                        && (a.gap - b.gap).abs() < 1e-3 => {}
+                (None, None) => {}
+                _ => {
+                    println!("row {row}: {:?}", all);
+                    break;
+                }
+            }
+        }
+    }
 }
