@@ -98,15 +98,14 @@ fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
     let mut worst = Worst::default();
     let first = n - scene.layout.nmultiplier;
     // both, one after the other: what is wrong in one place does not hide behind the other
-    let parts: &[std::ops::Range<usize>] = if first == n {
-        &[0..n]
-    } else {
-        &[0..first, first..n]
-    };
-    for part in parts {
+    for part in [0..first, first..n] {
+        if part.is_empty() {
+            continue;
+        }
         let mut v = vec![0.0; n];
         v[part.clone()].fill_with(|| random.signed());
-        let h = 3e-5;
+        // small enough to stay clear of the kinks of tables and caps, which no verdict tells of
+        let h = 5e-6;
         let mut change = vec![0.0; n];
         let mut same = true;
         for (step, weight) in [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)] {
@@ -177,7 +176,7 @@ fn on_one_facet(scene: &Scene) -> usize {
 fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool) -> Worst {
     let (mut worst, mut seen) = (Worst::default(), Seen::default());
     let mut name = String::new();
-    for seed in 1..=4 {
+    for seed in 1..=12 {
         let choice = Choice {
             law: laws().swap_remove(law),
             friction: friction.clone(),
@@ -201,11 +200,8 @@ fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool
         let state = scene.state.clone();
         let whole = scene.respond(&state, Order::Tangent);
         balance(&mut scene, method, rubs, bond, &name);
-        let is_symmetric = if bond {
-            true
-        } else {
-            !rubs && !matches!(method, Method::PrimaryNormals | Method::SecondaryNormals)
-        };
+        let averages = matches!(method, Method::PrimaryNormals | Method::SecondaryNormals);
+        let is_symmetric = bond || !rubs && !averages;
         if is_symmetric && (kind.ndim() == 2 || matches!(kind, Kind::Elements(_))) {
             assert!(whole.asymmetry() < 1e-12, "{name}: {:e}", whole.asymmetry());
         }
@@ -215,6 +211,7 @@ fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool
         seen.tied |= report.area_stick > 0.0 && bond;
         seen.slip |= report.area_slip > 0.0;
         seen.elsewhere |= whole.most > on_one_facet(&scene);
+        // the exponential never ends
         let always = law == 2;
         let goes_on = matches!(method, Method::NodeToSegment) || method.is_inside();
         let has_other_facets = matches!(kind, Kind::Elements(_)) && goes_on;
@@ -234,20 +231,16 @@ fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool
     );
 }
 
-/// All laws with all frictions, or with some of them where `few`.
-fn walk(kind: Kind, few: bool) {
-    let frictions = frictions();
-    for (m, &method) in methods(kind).iter().enumerate() {
+/// All methods and laws with all frictions, and joined.
+fn walk(kind: Kind) {
+    for method in methods(kind) {
         let mut worst = Worst::default();
         for law in 0..laws().len() {
-            for (f, friction) in frictions.iter().enumerate() {
-                let turn = (m + law) % (frictions.len() - 1) + 1;
-                if !few || f == 0 || f == turn {
-                    worst.add(&check(kind, method, law, friction, false));
-                }
+            for friction in &frictions() {
+                worst.add(&check(kind, method, law, friction, false));
             }
-            let frozen = laws()[law].multiplier();
-            if matches!(law, 0) || frozen != Multiplier::None {
+            // curves join nothing
+            if law == 0 || laws()[law].multiplier() != Multiplier::None {
                 worst.add(&check(kind, method, law, &None, true));
             }
         }
@@ -260,43 +253,43 @@ fn walk(kind: Kind, few: bool) {
 
 #[test]
 fn tangents_match_differences_on_line2() {
-    walk(Kind::Elements("line2"), false);
+    walk(Kind::Elements("line2"));
 }
 
 #[test]
 fn tangents_match_differences_on_line3() {
-    walk(Kind::Elements("line3"), false);
+    walk(Kind::Elements("line3"));
 }
 
 #[test]
 fn tangents_match_differences_on_tri3() {
-    walk(Kind::Elements("tri3"), false);
+    walk(Kind::Elements("tri3"));
 }
 
 #[test]
 fn tangents_match_differences_on_tri6() {
-    walk(Kind::Elements("tri6"), false);
+    walk(Kind::Elements("tri6"));
 }
 
 #[test]
 fn tangents_match_differences_on_quad4() {
-    walk(Kind::Elements("quad4"), false);
+    walk(Kind::Elements("quad4"));
 }
 
 #[test]
 fn tangents_match_differences_on_quad8() {
-    walk(Kind::Elements("quad8"), false);
+    walk(Kind::Elements("quad8"));
 }
 
 #[test]
 fn tangents_match_differences_on_quad9() {
-    walk(Kind::Elements("quad9"), false);
+    walk(Kind::Elements("quad9"));
 }
 
 #[test]
 fn tangents_match_differences_on_rigid_surfaces() {
     for kind in [Kind::Circle, Kind::Sphere, Kind::Torus] {
-        walk(kind, false);
+        walk(kind);
     }
 }
 
@@ -354,59 +347,4 @@ fn a_pressure_that_acts_at_a_distance_is_coupled() {
     let whole = scene.respond(&away, Order::Tangent);
     assert!(largest(&whole.stiffness) > 0.1);
     assert!(scene.pattern().covers(&whole));
-}
-
-#[test]
-fn zz_debug() {
-    let friction = frictions()[1].clone();
-    let choice = Choice {
-        law: laws().swap_remove(4),
-        friction,
-        bond: false,
-    };
-    let mut scene = Scene::with_past(Kind::Elements("quad9"), Method::NodeToSegment, choice, 1);
-    let base = scene.state.clone();
-    let n = scene.layout.ndof();
-    let here = scene.respond(&base, Order::Tangent);
-    scene.interface.verdict(&base);
-    let first = n - scene.layout.nmultiplier;
-    let mut random = Random::new(1);
-    let mut v = vec![0.0; n];
-    v[0..first].fill_with(|| random.signed());
-    let mut forces = Vec::new();
-    let mut pairs = vec![scene.interface.pairing().clone()];
-    for step in [0.0, 1.0, -1.0, 2.0, -2.0] {
-        let there = scene.moved(&v, step * 3e-5);
-        forces.push(scene.respond(&there, Order::Residual).force);
-        pairs.push(scene.interface.pairing().clone());
-        println!("{step} {}", scene.is_settled(&there));
-    }
-    let along = here.along(&v);
-    for i in 0..n {
-        let d = (forces[1][i] - forces[2][i]) / 6e-5;
-        if (d - along[i]).abs() > 1e-4 {
-            println!(
-                "{i} {d} {} values {:?}",
-                along[i],
-                forces.iter().map(|f| f[i]).collect::<Vec<_>>()
-            );
-        }
-    }
-    for row in 0..pairs[0].pairs.len() {
-        let all: Vec<_> = pairs.iter().map(|p| p.pairs[row]).collect();
-        let a = all[0];
-        for b in &all {
-            match (a, b) {
-                (Some(a), Some(b))
-                    if a.anchor.facet == b.anchor.facet
-                        && (a.anchor.local - b.anchor.local).norm() < 1e-3
-                        && (a.gap - b.gap).abs() < 1e-3 => {}
-                (None, None) => {}
-                _ => {
-                    println!("row {row}: {:?}", all);
-                    break;
-                }
-            }
-        }
-    }
 }
