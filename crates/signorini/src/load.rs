@@ -1,9 +1,9 @@
 //! Reading what a run starts from: the case and its mesh, and what is remembered of both.
 
-use crate::build::read_mesh_of;
+use crate::build::{read_mesh_of, read_surfaces_of};
 use sha2::{Digest, Sha256};
 use signorini_geometry::mesh::Mesh;
-use signorini_io::case::{self, Case, MeshSource};
+use signorini_io::case::{self, Case, MeshSource, Shape};
 use signorini_io::diagnostic::Diagnostics;
 use signorini_io::writers::json::Input;
 use std::path::{Path, PathBuf};
@@ -66,8 +66,8 @@ pub struct Loaded {
 /// # Errors
 /// All faults of the case at once; else all faults of the mesh.
 pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Loaded, Diagnostics> {
-    let (case, mut warnings, mut source) = load_case(path, overrides)?;
-    let (mesh, more) = load_mesh(&case, &mut source)?;
+    let (mut case, mut warnings, mut source) = load_case(path, overrides)?;
+    let (mesh, more) = load_mesh(&mut case, &mut source)?;
     warnings.append(more);
     Ok(Loaded {
         case,
@@ -107,12 +107,24 @@ pub fn load_case(
     Ok((case, warnings, source))
 }
 
-/// Reads the mesh of a case.
+/// Reads the mesh of a case, and the surfaces that are given by files.
 ///
 /// # Errors
-/// All faults of the mesh.
-pub fn load_mesh(case: &Case, source: &mut Source) -> Result<(Mesh, Diagnostics), Diagnostics> {
-    let (mesh, mut warnings) = read_mesh_of(case, &source.folder)?;
+/// All faults of the mesh and of those files.
+pub fn load_mesh(case: &mut Case, source: &mut Source) -> Result<(Mesh, Diagnostics), Diagnostics> {
+    let mut warnings = read_surfaces_of(case, &source.folder)?;
+    let (mesh, more) = read_mesh_of(case, &source.folder)?;
+    warnings.append(more);
+    for surface in &case.surfaces {
+        if let Shape::Stl { path } = &surface.shape {
+            let path = source.folder.join(&path.value);
+            let bytes = std::fs::read(&path).unwrap_or_default();
+            source.inputs.push(Input {
+                path: path.display().to_string(),
+                sha256: sha256(&bytes),
+            });
+        }
+    }
     if let MeshSource::File { path } = &case.mesh {
         let path = source.folder.join(&path.value);
         let bytes = std::fs::read(&path).unwrap_or_default();

@@ -40,7 +40,7 @@ pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
         .into());
     }
     let name = owner.case.display().to_string();
-    let (case, mut warnings) = read_case(&name, &text, &owner.overrides)?;
+    let (mut case, mut warnings) = read_case(&name, &text, &owner.overrides)?;
     let mut source = Source {
         name: owner.name.clone(),
         folder: owner.case.parent().unwrap_or(Path::new(".")).to_path_buf(),
@@ -53,7 +53,7 @@ pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
         overrides: owner.overrides,
         mesh: None,
     };
-    let (mesh, more) = load_mesh(&case, &mut source)?;
+    let (mesh, more) = load_mesh(&mut case, &mut source)?;
     warnings.append(more);
     let hash = source.inputs.get(1).map(|input| &input.sha256);
     if hash != owner.mesh_sha256.as_ref() {

@@ -423,16 +423,14 @@ impl Checker<'_> {
             given.sort_by_key(|key| key.span().start);
             given
         };
-        // A key that is refused as not supported counts as given: one message is enough.
-        let later = || {
-            words
-                .keys
-                .iter()
-                .any(|key| key.later.is_some() && table.contains_key(key.name))
+        // A key that is refused as unknown or not supported counts as given: one message is enough.
+        let refused = || {
+            let mut keys = table.keys().map(|key| words.key(key.get_ref()));
+            keys.any(|key| key.is_none_or(|key| key.later.is_some()))
         };
         match rule {
             Rule::ExactlyOne(keys) | Rule::AtLeastOne(keys)
-                if given(keys).is_empty() && !later() =>
+                if given(keys).is_empty() && !refused() =>
             {
                 let of = match (rule, keys.len()) {
                     (Rule::AtLeastOne(_), _) => "one or more of",
@@ -488,7 +486,8 @@ impl Checker<'_> {
 
 /// The keys of a table, for a message.
 pub(super) fn keys_of(words: &Table) -> String {
-    format!("keys of {}: {}", words.heading, listed(words.names()))
+    let names: Vec<&str> = words.names().collect();
+    format!("keys of {}: {}", words.heading, names.join(", "))
 }
 
 fn quoted(keys: &[&str]) -> String {

@@ -65,6 +65,7 @@ pub(super) fn wanted(shape: &Shape) -> String {
         Shape::List(..) => "a list of texts in quotes".to_owned(),
         Shape::Row(form, _) => format!("a row {form}"),
         Shape::Nodes => "a list of rows [id, x, y, z]".to_owned(),
+        Shape::Table(table) if table.keys.is_empty() => "a table {}".to_owned(),
         Shape::Table(table) => {
             let names: Vec<_> = table.names().collect();
             format!("a table {{ {} }}", names.join(", "))

@@ -142,7 +142,13 @@ fn rule(rule: &Rule) -> Value {
     match rule {
         Rule::ExactlyOne(keys) => json!({ "oneOf": each(keys) }),
         Rule::AtLeastOne(keys) => json!({ "anyOf": each(keys) }),
-        Rule::AtMostOne(keys) => json!({ "not": { "required": keys } }),
+        Rule::AtMostOne(keys) => {
+            let pairs = keys.iter().enumerate().flat_map(|(at, one)| {
+                let others = keys.iter().skip(at + 1);
+                others.map(move |other| json!({ "required": [one, other] }))
+            });
+            json!({ "not": { "anyOf": pairs.collect::<Vec<_>>() } })
+        }
         Rule::Needs(key, other) => {
             let mut needs = Map::new();
             needs.insert((*key).to_owned(), json!([other]));

@@ -73,13 +73,8 @@ fn the_brick_of_the_paper_reads_completely() {
     let contact = &case.contacts[0];
     assert_eq!(*contact.method, Method::NodeToSegment);
     assert_eq!(contact.secondary.place.text(), Some("\"tip_node\""));
-    assert_eq!(
-        contact.enforcement,
-        Enforcement::Penalty {
-            penalty: Some(1e5.into()),
-            per: Some(Per::Node)
-        }
-    );
+    assert_eq!(contact.enforcement, Enforcement::Penalty(Some(1e5.into())));
+    assert_eq!((contact.per, &contact.friction), (Some(Per::Node), &None));
     assert_eq!((contact.reach, contact.active), (None, true));
     let step = &case.steps[0];
     assert_eq!(step.increments, Increments::Fixed(60));
@@ -117,12 +112,31 @@ fn what_is_not_supported_yet_is_refused_by_name_and_nothing_else_is() {
     assert_eq!(
         refused(SLIDING),
         [
-            "`friction` with a table is not supported yet",
-            "`start` is not supported yet",
             "`on_trouble = \"stabilize\"` is not supported yet",
             "`format = \"frd\"` is not supported yet",
         ]
     );
+}
+
+/// The paper's case with other keys instead of `friction` of its contact.
+fn contact(keys: &str) -> String {
+    brick("friction    = 0.0", keys)
+}
+
+/// The paper's case with another law.
+fn law(enforcement: &str) -> String {
+    brick("{ penalty = 1.0e5, per = \"node\" }", enforcement)
+}
+
+/// The paper's case with a change of its contact.
+fn step(change: &str) -> String {
+    brick("[output]", &format!("[[step.contact]]\n{change}\n[output]"))
+}
+
+/// The paper's case with a surface as the primary side.
+fn surface(shape: &str) -> String {
+    let surface = format!("[[surface]]\nname = \"floor\"\nshape = {{ {shape} }}\n[[contact]]");
+    brick("[[contact]]", &surface).replace("primary     = \"top\"", "primary     = \"floor\"")
 }
 
 /// Faults of the text of a case, by name.
@@ -246,7 +260,6 @@ fn faults() -> Vec<(&'static str, Vec<u8>)> {
             "negative friction",
             brick("friction    = 0.0", "friction = -0.1"),
         ),
-        text("friction", brick("friction    = 0.0", "friction    = 0.3")),
         text(
             "an unknown method",
             brick("\"node-to-segment\"", "\"node-to-segmnt\""),
@@ -283,6 +296,200 @@ fn faults() -> Vec<(&'static str, Vec<u8>)> {
         text(
             "several at once",
             brick("nu    = 0.0", "nuu   = 0.0").replace("tool\"\nrigid", "tool\"\nrigit"),
+        ),
+        text(
+            "too much friction",
+            brick("friction    = 0.0", "friction    = 30"),
+        ),
+        text(
+            "two limits of friction",
+            contact("friction = { mu = 0.3, tresca = 5.0 }"),
+        ),
+        text(
+            "no limit of friction",
+            contact("friction = { stiffness = 1e3 }"),
+        ),
+        text(
+            "a cap without mu",
+            contact("friction = { tresca = 5.0, cap = 2.0 }"),
+        ),
+        text(
+            "half of a coefficient that falls",
+            contact("friction = { static = 0.3, kinetic = 0.2 }"),
+        ),
+        text(
+            "more friction in motion than at rest",
+            contact("friction = { static = 0.2, kinetic = 0.3, transition = 0.1 }"),
+        ),
+        text(
+            "no length over which friction falls",
+            contact("friction = { static = 0.3, kinetic = 0.2, transition = 0 }"),
+        ),
+        text(
+            "two ways to yield",
+            contact("friction = { mu = 0.3, stiffness = 1e3, elastic_slip = 0.01 }"),
+        ),
+        text(
+            "friction of what is joined",
+            contact("tied = true\nfriction = 0.3\nstart = { close_gaps_below = 0.1 }"),
+        ),
+        text(
+            "a joint that cannot pull",
+            law("{ exponential = { p0 = 1.0, c0 = 0.1 } }")
+                .replace("friction    = 0.0", "tied = true"),
+        ),
+        text("three passes", contact("passes = 3")),
+        text(
+            "what belongs to nodes against nodes",
+            contact("normals = [0, 0, 1]\npairs = \"order\"\nrule = { points = 3 }"),
+        ),
+        text(
+            "what does not go with nodes against nodes",
+            contact("passes = 2\nnormals = [0, 0, 0]")
+                .replace("\"node-to-segment\"", "\"node-to-node\""),
+        ),
+        text(
+            "what does not go with points inside of facets",
+            contact("rule = { kind = \"lobatto\", points = 1 }")
+                .replace("\"node-to-segment\"", "\"gauss-point\""),
+        ),
+        text("mortar", brick("\"node-to-segment\"", "\"mortar\"")),
+        text(
+            "a surface against itself by two names",
+            brick("primary     = \"top\"", "primary     = \"tip_node\""),
+        ),
+        text(
+            "what does not go with self-contact",
+            contact("passes = 2\ntied = true")
+                .replace("primary     = \"top\"", "primary = \"self\""),
+        ),
+        text(
+            "nodes of a surface with itself",
+            brick("primary     = \"top\"", "primary = \"self\"")
+                .replace("\"node-to-segment\"", "\"node-to-node\""),
+        ),
+        text("two laws", law("{ penalty = 1e5, lagrange = {} }")),
+        text(
+            "two laws with multipliers",
+            law("{ lagrange = {}, augmented = \"uzawa\" }"),
+        ),
+        text(
+            "a law without its numbers",
+            law("{ exponential = { p0 = 1.0 } }"),
+        ),
+        text(
+            "gaps that do not increase",
+            law("{ penalty = [[0, 5], [0, 0]] }"),
+        ),
+        text(
+            "pressures that grow with the gap",
+            law("{ penalty = [[-1, 5], [-0.5, 6], [0, 0]] }"),
+        ),
+        text(
+            "pressures that do not end",
+            law("{ penalty = [[-1, 5], [0, 1]] }"),
+        ),
+        text(
+            "a table without pressure",
+            law("{ penalty = [[-1, 0], [0, 0]] }"),
+        ),
+        text(
+            "pressures that pull",
+            law("{ penalty = [[-1, 5], [0, -1]] }"),
+        ),
+        text(
+            "a table beside multipliers",
+            law("{ augmented = \"newton\", penalty = [[-1, 5], [0, 0]] }"),
+        ),
+        text(
+            "a tolerance of one contact",
+            law("{ augmented = \"newton\", gap_tol = 1e-6 }"),
+        ),
+        text(
+            "one pair in two contacts",
+            brick(
+                "[[step]]",
+                "[[contact]]\nname = \"pit\"\nsecondary = \"top\"\nprimary = \"tip_node\"\n[[step]]",
+            ),
+        ),
+        text(
+            "a change of no contact",
+            step("name = \"tap\"\nactive = false"),
+        ),
+        text("a change without content", step("name = \"tip\"")),
+        text(
+            "a contact changed twice",
+            step(
+                "name = \"tip\"\nfriction = 0.1\n[[step.contact]]\nname = \"tip\"\nactive = false",
+            ),
+        ),
+        text(
+            "friction that joined sides get later",
+            step("name = \"tip\"\nfriction = 0.1").replace("friction    = 0.0", "tied = true"),
+        ),
+        text(
+            "a sphere without radius",
+            surface("sphere = { center = [0, 0, 0] }"),
+        ),
+        text(
+            "a radius of zero",
+            surface("sphere = { center = [0, 0, 0], radius = 0 }"),
+        ),
+        text(
+            "a normal without direction",
+            surface("plane = { point = [0, 0, 0], normal = [0, 0, 0] }"),
+        ),
+        text(
+            "a cone that is flat",
+            surface("cone = { apex = [0, 0, 0], axis = \"z\", half_angle = 90 }"),
+        ),
+        text(
+            "a torus that meets itself",
+            surface("torus = { center = [0, 0, 0], axis = \"z\", radius = 1.0, tube = 2.0 }"),
+        ),
+        text(
+            "a circle in space",
+            surface("circle = { center = [0, 0, 0], radius = 1 }"),
+        ),
+        text(
+            "a sphere in the plane",
+            surface("sphere = { center = [0, 0, 1], radius = 1 }")
+                .replace("[mesh]", "[model]\nspace = \"plane-strain\"\n[mesh]"),
+        ),
+        text(
+            "two shapes",
+            surface("stl = \"a.stl\", plane = { point = [0, 0, 0], normal = \"z\" }"),
+        ),
+        text("no shape", surface("")),
+        text("no path", surface("stl = \" \"")),
+        text(
+            "an unknown shape",
+            surface("plain = { point = [0, 0, 0], normal = \"z\" }"),
+        ),
+        text(
+            "a surface that moves with nothing",
+            surface("stl = \"a.stl\"").replace(
+                "name = \"floor\"",
+                "name = \"floor\"\nreference = \"pilot\"",
+            ),
+        ),
+        text(
+            "a surface that nothing touches",
+            surface("stl = \"a.stl\"").replace("primary     = \"floor\"", "primary     = \"top\""),
+        ),
+        text(
+            "a surface on the wrong side",
+            surface("stl = \"a.stl\"")
+                .replace("primary     = \"floor\"", "primary     = \"top\"")
+                .replace("secondary   = \"tip_node\"", "secondary   = \"floor\""),
+        ),
+        text(
+            "a surface with points",
+            surface("stl = \"a.stl\"").replace("friction    = 0.0", "passes = 2"),
+        ),
+        text(
+            "a set and a surface of one name",
+            surface("stl = \"a.stl\"").replace("\"floor\"", "\"top\""),
         ),
         text(
             "units far off",
@@ -608,6 +815,42 @@ fn a_resolved_case_reads_back_to_the_same_case() {
         let (again, _) = read(&written).unwrap_or_else(|all| panic!("{all}"));
         assert_eq!(again, case);
         assert_eq!(resolved(&again), written);
+    }
+}
+
+/// The page of the manual about contacts.
+const PAGE: &str = include_str!("../../../../docs/contact.md");
+
+#[test]
+fn what_the_page_about_contacts_shows_reads_without_a_word() {
+    let blocks = PAGE.split("```toml\n").skip(1);
+    let shown: String = blocks.filter_map(|text| text.split("```").next()).collect();
+    let around = "mesh = { file = 'a.msh' }\nreference = { pilot = { at = [0, 0, 0] } }\n\
+        body = [{ group = 'a', rigid = true }]\n";
+    let (contacts, change) = shown.split_once("[[step.contact]]").unwrap();
+    let case = |contacts: &str| {
+        let text = format!("{around}{contacts}\n[[step]]\nname = 's'\n[[step.contact]]{change}");
+        let (case, warnings) = read(&text).unwrap_or_else(|all| panic!("{all}"));
+        assert!(warnings.is_empty(), "{warnings}");
+        case
+    };
+    assert_eq!(case(contacts).contacts.len(), 4);
+    let cells = PAGE.lines().filter_map(|line| line.strip_prefix("| "));
+    let laws = cells.flat_map(|line| line.split('`').skip(1).step_by(2));
+    let laws: Vec<&str> = laws.filter(|law| law.starts_with('{')).collect();
+    assert_eq!(laws.len(), 9);
+    for law in laws {
+        let of_friction = ["mu", "tresca", "static"]
+            .iter()
+            .any(|word| law.contains(word));
+        let key = if of_friction {
+            "friction"
+        } else {
+            "enforcement"
+        };
+        let other =
+            format!("[[contact]]\nname = 'other'\nsecondary = 'x'\nprimary = 'y'\n{key} = {law}\n");
+        assert_eq!(case(&format!("{contacts}{other}")).contacts.len(), 5);
     }
 }
 

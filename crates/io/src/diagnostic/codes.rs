@@ -193,7 +193,7 @@ codes! {
     ["write the list as the message shows"]
 
     NOT_INCREASING "S0117" Input "a table whose first column does not increase"
-    "A table of values over time is read from its first row to its last; its times must increase from row to row."
+    "A table is read from its first row to its last; its first column, such as time, must increase from row to row."
     ["rows were swapped or doubled", "a jump was written as two rows of one time"]
     ["sort the rows", "write a jump as two rows a small time apart"]
 
@@ -285,6 +285,11 @@ codes! {
     ["a node is bound by two constraints", "a bound node is supported too", "a reference without nodes"]
     ["take the node out of one of the sets", "support the reference, not the nodes that follow it"]
 
+    BAD_SURFACE "S0309" Model "a surface that cannot be"
+    "The numbers or triangles of a [[surface]] describe no surface with an outside."
+    ["a radius of zero", "triangles that are turned inside out", "a shape that is not the same on both sides of a plane model"]
+    ["correct the numbers, as the message says", "repair the file of triangles"]
+
     IMPLAUSIBLE "S0402" Input "a value that does not fit the units"
     "A material value would be far outside of what materials have, if the units of the case are what its label says. \
      Nothing is converted: numbers are used as they are."
@@ -309,6 +314,19 @@ codes! {
      change."
     ["something it belongs to was forgotten", "it was left over from another case"]
     ["add what is missing, as the message says", "delete it", "silence with  allow = [\"S0405\"]  if it is meant so"]
+
+    UNUSUAL "S0406" Input "an unusual value"
+    "The value can be computed with, but hardly anything has one like it."
+    ["a decimal point was forgotten", "a value in percent", "a large number stands for no slip at all"]
+    ["correct the value", "for sides that never slip:  tied = true",
+     "silence with  allow = [\"S0406\"]  if it is meant so"]
+
+    PAIR_TWICE "S0407" Input "two contacts of one pair"
+    "Two contacts have the same two sides, in one order or the other. Where both act at a time both push, so that the \
+     stiffness is that of both."
+    ["an entry was copied and its sides not changed", "the second was meant to look at the other side's points"]
+    ["delete one of the two", "write  passes = 2  to look at the points of both sides",
+     "silence with  allow = [\"S0407\"]  where they act in different steps"]
 
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \

@@ -21,6 +21,8 @@
 //! with the initial area A_0 of the triangle: g_i is the distance from the plane. In the plane, `e_z` takes the place of
 //! the second edge. The three are those that are spread best.
 //!
+//! A *damper* holds what nothing but contact stops, `f = k s (u − u_n)`, ever more weakly (E4).
+//!
 //! A *distributing* carrier follows the mean motion of its nodes, which stay free to deform (E3):
 //!
 //! ```text
@@ -37,12 +39,14 @@
 //! Limits: what turns with a plane, or with a spring along a line, must keep a length; nodes on a line carry no moment
 //! about it. Sources: Crisfield, *Non-linear Finite Element Analysis*, vol. 2, 1997, chapters 16 and 23.
 
+mod damper;
 mod distributing;
 mod plane;
 mod springs;
 #[cfg(test)]
 mod tests;
 
+pub use damper::Damper;
 pub use distributing::{Distributing, DistributingParts};
 pub use plane::Plane;
 pub use springs::{Springs, SpringsParts};

@@ -119,22 +119,6 @@ impl<'a> Laws<'a> {
         self.pressure(gap, normal, lambda) != Eval::default()
     }
 
-    /// What the return and its limit follow: the pressure, and where the multiplier is the pressure that of its
-    /// augmented Lagrangian, so that (E6) makes the gap vanish.
-    fn augmented(&self, gap: f64, scalar: f64) -> Eval {
-        let pressure = self.law.pressure(gap, scalar, self.scale);
-        if pressure == Eval::default() || self.law.multiplier() != Multiplier::Direct {
-            return pressure;
-        }
-        let penalty = self.scale.penalty;
-        let missing = self.law.complementarity(gap, scalar, self.scale);
-        Eval {
-            value: (scalar + penalty * missing.value).max(0.0),
-            dgap: penalty * missing.dgap,
-            dlambda: 1.0 + penalty * missing.dlambda,
-        }
-    }
-
     /// Tangential traction per slip, of what sticks.
     pub fn stick_stiffness(&self, traction: &Traction) -> f64 {
         match (self.bond, self.stick_of()) {
@@ -166,20 +150,20 @@ impl<'a> Laws<'a> {
         if self.bond {
             return self.bonded(row, lambda);
         }
-        let pressure = self.pressure(row.gap, row.normal, lambda);
+        let scalar = self.scalar(row.normal, lambda);
+        let pressure = self.law.trial(row.gap, scalar, self.scale);
         if pressure == Eval::default() {
             return Traction::default();
         }
         let Some(friction) = self.friction() else {
             return Traction {
-                pressure: pressure.value,
+                pressure: self.law.pressure(row.gap, scalar, self.scale).value,
                 state: Contact::Slip,
                 ..Traction::default()
             };
         };
-        let along = self.scalar(row.normal, lambda);
         let limit = friction.limit(&Sliding {
-            pressure: self.augmented(row.gap, along).value,
+            pressure: pressure.value,
             path,
         });
         let (tangential, state) = self.returned(self.trial(row, lambda), &limit);
@@ -325,7 +309,7 @@ impl<'a> Laws<'a> {
         let wants_tangent = !target.stiffness.is_empty();
         let (nu, sliding) = (row.normal, &row.sliding);
         let along = nu.dot(lambda.vector);
-        let pressure = self.augmented(row.gap, -along);
+        let pressure = self.law.trial(row.gap, -along, self.scale);
         let open = pressure == Eval::default();
 
         work.reset(width);

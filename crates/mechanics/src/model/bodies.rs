@@ -1,9 +1,11 @@
-use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError};
+use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError, Unheld};
+use crate::connector::Damper;
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
-use crate::system::{NodalField, Term};
-use signorini_geometry::mesh::{CellId, Mesh};
-use std::collections::HashMap;
+use crate::system::{Dof, NO_DOF, NodalField, Term};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::tensor::Vec3;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 type Terms = Vec<Box<dyn Term>>;
@@ -46,7 +48,62 @@ pub(super) fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<u32> {
     of
 }
 
+/// Stiffness of the viscous forces on a body, over its modulus times its size.
+const DAMPING: f64 = 1e-5;
+
 impl Context<'_> {
+    /// What holds the bodies that nothing but contact stops: on each node the same, and a carrier as a whole.
+    pub(super) fn dampers(&self, bodies: &[BodyPart], free: &[Unheld]) -> Terms {
+        let at = |n: &NodeId| self.reference.get(*n as usize).copied().unwrap_or_default();
+        let softest = self.modulus.iter().flatten().copied();
+        let softest = softest.reduce(f64::min).unwrap_or(1.0);
+        let free = |name: &str| free.iter().any(|f| f.bodies.iter().any(|b| b == name));
+        let mut dofs: Vec<(Dof, f64)> = Vec::new();
+        for (body, modulus) in bodies.iter().zip(self.modulus) {
+            let (Some(modulus), true) = (modulus, free(&body.name)) else {
+                continue;
+            };
+            let nodes: BTreeSet<NodeId> = body
+                .cells
+                .iter()
+                .flat_map(|&c| self.mesh.cell(c).iter().copied())
+                .collect();
+            let stiffness =
+                DAMPING * modulus * self.extent(nodes.iter().map(at)) / nodes.len() as f64;
+            let of_node = |&n: &NodeId| (0..self.layout.ndim).map(move |axis| (n, axis));
+            let of_nodes = nodes.iter().flat_map(of_node);
+            let own = of_nodes.map(|(n, axis)| self.layout.node(n, axis));
+            let own = own.filter(|&d| !self.elimination.depends(d, &self.layout));
+            dofs.extend(own.map(|d| (d, stiffness)));
+        }
+        for (number, carrier) in (0..).zip(self.carriers) {
+            if !free(&carrier.name) {
+                continue;
+            }
+            let size = self.extent(self.reference.iter().copied());
+            let stiffness = DAMPING * softest * size;
+            for axis in 0..3 {
+                dofs.push((self.layout.translation(number, axis), stiffness));
+                dofs.push((self.layout.rotation(number, axis), stiffness * size * size));
+            }
+            dofs.retain(|d| d.0 != NO_DOF);
+        }
+        if dofs.is_empty() {
+            return Terms::new();
+        }
+        vec![Box::new(Damper::new("free bodies", dofs))]
+    }
+
+    /// The size of a body: the diagonal of its box in space, the extent across it in the plane.
+    fn extent(&self, points: impl Iterator<Item = Vec3> + Clone) -> f64 {
+        if self.layout.ndim == 3 {
+            let low = points.clone().fold(Vec3::from([f64::MAX; 3]), Vec3::min);
+            let high = points.fold(Vec3::from([f64::MIN; 3]), Vec3::max);
+            return (high - low).norm();
+        }
+        points.map(|x| self.space.extent(x)).fold(0.0, f64::max)
+    }
+
     /// The terms of the bodies, and what was chosen against locking for these sizes of strains.
     pub(super) fn bodies(
         &self,

@@ -5,8 +5,8 @@
 
 use super::reduction::{Column, Reduced, Row, reduce};
 use super::{
-    BodyKind, BodyPart, CarrierPart, ConstraintKind, ConstraintPart, ModelError, SpringPart,
-    Unknown, label,
+    BodyKind, BodyPart, CarrierPart, ConstraintKind, ConstraintPart, ContactPart, ModelError,
+    PrimaryPart, SpringPart, Unknown, label,
 };
 use crate::connector::{
     ConnectorError, Distributing, DistributingParts, Plane, Springs, SpringsParts,
@@ -16,7 +16,7 @@ use crate::system::{
     Dof, DofName, Elimination, Idealisation, Layout, NO_DOF, Relation, RigidBody, Term, interpolate,
 };
 use signorini_geometry::mesh::{Mesh, NodeId};
-use signorini_geometry::surface::RigidId;
+use signorini_geometry::surface::{Carrier, RigidId};
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
@@ -137,6 +137,7 @@ pub(super) struct Followers<'a> {
     pub carriers: &'a [CarrierPart],
     pub constraints: &'a [ConstraintPart],
     pub springs: &'a [SpringPart],
+    pub contacts: &'a [ContactPart],
 }
 
 impl Followers<'_> {
@@ -175,7 +176,16 @@ impl Followers<'_> {
     pub fn elimination(&self, layout: &Layout) -> Result<(Elimination, Ties), ModelError> {
         let mut nodes = self.rigid_nodes()?;
         let on_rigid = nodes.iter().flatten().copied().collect();
-        let rigid: Vec<bool> = nodes.iter().map(|n| !n.is_empty()).collect();
+        let mut rigid: Vec<bool> = nodes.iter().map(|n| !n.is_empty()).collect();
+        // rigid surfaces are bodies without nodes
+        for contact in self.contacts {
+            if let PrimaryPart::Surface(surface) = &contact.primary
+                && let Carrier::Rigid(carrier) = surface.carrier(0)
+                && let Some(rigid) = rigid.get_mut(carrier as usize)
+            {
+                *rigid = true;
+            }
+        }
         let references = self.references(&nodes);
         let whole = |axes: &[bool; 3]| axes[..layout.ndim].iter().all(|a| *a);
         // whole nodes first, single directions afterwards

@@ -130,6 +130,7 @@ impl Model {
             contacts,
             temperature,
             steps,
+            stabilize,
             gap_tol,
         } = parts;
         let owner = owners(mesh, &bodies)?;
@@ -140,6 +141,7 @@ impl Model {
             carriers: &carriers,
             constraints: &constraints,
             springs: &springs,
+            contacts: &contacts,
         };
         let mut layout = followers.layout();
         let (elimination, ties) = followers.elimination(&layout)?;
@@ -202,7 +204,9 @@ impl Model {
         let mut held = Held::new(mesh, space, &bodies, &carriers, &elimination);
         held.springs(&springs);
         held.constraints(&constraints);
-        contacts.iter().for_each(|contact| held.contact(contact));
+        for (number, contact) in contacts.iter().enumerate() {
+            held.contact(contact, joint.rubs(number), &context.poses);
+        }
         if let Some(first) = steps.first() {
             held.supports(&layout, &first.prescriptions);
         }
@@ -213,6 +217,11 @@ impl Model {
             let nonlinear = *k == Kinematics::Finite;
             steps.iter().any(|s| s.nonlinear == nonlinear)
         });
+        let dampers = if stabilize {
+            context.dampers(&bodies, &held_by_contact)
+        } else {
+            Vec::new()
+        };
         let (mut terms, locking) = context.bodies(bodies, temperature, &sizes)?;
         terms.extend(connectors);
         let mut summaries = Vec::new();
@@ -228,6 +237,7 @@ impl Model {
             }
         }
         terms.extend(loads);
+        terms.extend(dampers);
 
         let unused = (0..mesh.nnode() as NodeId)
             .filter(|n| body_of_node.get(*n as usize).is_none_or(|b| *b == u32::MAX))

@@ -48,6 +48,14 @@ impl Carriers {
                 carriers.by_name.insert(group.value.clone(), carrier);
             }
         }
+        let of_surfaces = case
+            .surfaces
+            .iter()
+            .filter_map(|one| one.reference.as_ref());
+        for name in of_surfaces {
+            let used = carriers.get(name);
+            carriers.in_use.extend(used);
+        }
         for constraint in &case.constraints {
             match &constraint.kind {
                 ConstraintKind::Equation { terms, .. } => {
@@ -88,6 +96,11 @@ impl Carriers {
     pub fn called(&self, name: &str) -> Option<&str> {
         let part = self.parts.get(self.get(name)? as usize)?;
         Some(&part.name)
+    }
+
+    /// Where it is, as far as that was given.
+    pub fn place(&self, carrier: RigidId) -> Option<Vec3> {
+        self.parts.get(carrier as usize).and_then(|part| part.at)
     }
 
     pub fn parts(&self) -> Vec<CarrierPart> {

@@ -67,7 +67,7 @@ fn ends(spring: &Spring, names: &Names<'_>, found: &mut Diagnostics) -> Option<E
     Some(pairs.into_iter().map(|(a, b)| (a, Some(b))).collect())
 }
 
-fn unpaired(place: &Place, [one, other]: [(&Name, usize); 2]) -> Diagnostic {
+pub(super) fn unpaired(place: &Place, [one, other]: [(&Name, usize); 2]) -> Diagnostic {
     Diagnostic::error(
         &codes::WRONG_KIND,
         format!(

@@ -1,64 +1,315 @@
-//! Contacts.
+//! Contacts, and their changes in a step.
 
+use super::constraints::unpaired;
 use super::names::Names;
-use signorini_io::case::{self, Enforcement, Per};
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use super::quoted;
+use super::surfaces::Surfaces;
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::Vec3;
+use signorini_io::case::{
+    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Limit, Normals, Pairs, Per,
+    Sliding, Stick,
+};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
-use signorini_mechanics::model::{self, ContactPart, PrimaryPart, SidePart};
+use signorini_mechanics::model::{
+    self, ContactChange, ContactPart, FrictionPart, LimitPart, Method, PrimaryPart, SidePart,
+    StartPart, StickPart, TiePart,
+};
+
+/// The contacts that act in some step. Their places in this list are their numbers.
+pub(super) fn acting(case: &Case) -> impl Iterator<Item = &Contact> {
+    let begins = |contact: &Contact| {
+        let mut changes = case.steps.iter().flat_map(|step| &step.contacts);
+        changes.any(|one| one.name == contact.name && one.active == Some(true))
+    };
+    let contacts = case.contacts.iter();
+    contacts.filter(move |contact| contact.active || begins(contact))
+}
 
 pub(super) fn contact(
-    part: &case::Contact,
+    part: &Contact,
     names: &Names<'_>,
+    surfaces: &Surfaces,
     found: &mut Diagnostics,
 ) -> Option<ContactPart> {
-    let primary = names.faces(&part.primary, "the primary side", found);
-    let secondary = names.side(&part.secondary, found);
-    if part.primary.value == part.secondary.value {
-        found.push(
-            Diagnostic::error(
-                &codes::BAD_SIDES,
-                format!(
-                    "both sides of contact \"{}\" are \"{}\"",
-                    part.name.value, part.primary.value
-                ),
-            )
-            .at(&part.secondary.place, "the same as `primary`")
-            .help("name two different surfaces"),
-        );
-        return None;
-    }
-    let (penalty, measure) = match &part.enforcement {
-        Enforcement::Auto => (None, None),
-        Enforcement::Penalty { penalty, per } => (
-            penalty.as_ref().map(|p| p.value),
-            per.map(|p| match p {
-                Per::Node => Measure::Node,
-                Per::Area => Measure::Area,
-            }),
-        ),
+    let listed = *part.method == case::Method::NodeToNode && part.pairs == Pairs::Order;
+    let (secondary, primary) = if listed {
+        in_order(part, names, found)?
+    } else {
+        let primary = primary(part, names, surfaces, found);
+        (names.side(&part.secondary, found)?, primary?)
     };
-    let secondary = secondary?;
-    if measure == Some(Measure::Area) && matches!(secondary, SidePart::Nodes(_)) {
-        found.push(
-            Diagnostic::error(
-                &codes::WRONG_KIND,
-                format!(
-                    "contact \"{}\": \"{}\" is bare nodes, a penalty per area needs faces",
-                    part.name.value, part.secondary.value
-                ),
-            )
-            .at(&part.secondary.place, "no whole face of a solid")
-            .help("write  per = \"node\"  in `enforcement`, or name a surface"),
-        );
-        return None;
+    if matches!(secondary, SidePart::Nodes(_)) {
+        found.append(bare(part));
     }
-    let primary = PrimaryPart::Faces(primary?);
     Some(ContactPart {
-        enforcement: penalty.map_or(model::Enforcement::Auto, |p| {
-            model::Enforcement::Penalty(Some(p))
+        method: method(part),
+        two_pass: part.two_pass,
+        present_area: part.area == Area::Current,
+        enforcement: enforcement(&part.enforcement),
+        measure: part.per.map(|per| match per {
+            Per::Node => Measure::Node,
+            Per::Area => Measure::Area,
         }),
-        measure,
+        friction: part.friction.as_ref().map(friction),
+        small_sliding: part.sliding == Sliding::Small,
+        tie: part.tied.map(|tied| TiePart {
+            close: tied.close,
+            within: tied.within,
+        }),
+        start: start(&part.start),
         reach: part.reach,
+        active: part.active,
         ..ContactPart::new(part.name.value.clone(), secondary, primary)
     })
+}
+
+fn primary(
+    part: &Contact,
+    names: &Names<'_>,
+    surfaces: &Surfaces,
+    found: &mut Diagnostics,
+) -> Option<PrimaryPart> {
+    if part.is_with_itself() {
+        return Some(PrimaryPart::Itself);
+    }
+    if let Some(surface) = surfaces.get(&part.primary) {
+        return surface.map(PrimaryPart::Surface);
+    }
+    if *part.method != case::Method::NodeToNode {
+        let faces = names.faces(&part.primary, "the primary side", found);
+        return faces.map(PrimaryPart::Faces);
+    }
+    names.side(&part.primary, found).map(primary_of)
+}
+
+fn primary_of(side: SidePart) -> PrimaryPart {
+    match side {
+        SidePart::Faces(faces) => PrimaryPart::Faces(faces),
+        SidePart::Nodes(nodes) => PrimaryPart::Nodes(nodes),
+    }
+}
+
+/// The sides of nodes that meet in the order of their lists. The side that gives the normals is one of faces where it
+/// has some: its nodes are then in the order of their numbers, and those of the other side follow.
+fn in_order(
+    part: &Contact,
+    names: &Names<'_>,
+    found: &mut Diagnostics,
+) -> Option<(SidePart, PrimaryPart)> {
+    let secondary = names.nodes_in_order(&part.secondary, found);
+    let primary = names.nodes_in_order(&part.primary, found);
+    let (secondary, primary) = (secondary?, primary?);
+    if secondary.len() != primary.len() {
+        let sides = [
+            (&part.secondary, secondary.len()),
+            (&part.primary, primary.len()),
+        ];
+        found.push(unpaired(&part.place, sides));
+        return None;
+    }
+    let faces = match part.normals {
+        Normals::Primary => names.covering(&part.primary, &primary),
+        Normals::Secondary => names.covering(&part.secondary, &secondary),
+        Normals::Given(_) => None,
+    };
+    let mut pairs: Vec<(NodeId, NodeId)> = secondary.into_iter().zip(primary).collect();
+    match (part.normals, &faces) {
+        (_, None) => {}
+        (Normals::Secondary, _) => pairs.sort_unstable_by_key(|pair| pair.0),
+        (_, Some(_)) => pairs.sort_unstable_by_key(|pair| pair.1),
+    }
+    let (secondary, primary) = pairs.into_iter().unzip();
+    Some(match (part.normals, faces) {
+        (Normals::Secondary, Some(faces)) => (SidePart::Faces(faces), PrimaryPart::Nodes(primary)),
+        (_, Some(faces)) => (SidePart::Nodes(secondary), PrimaryPart::Faces(faces)),
+        (_, None) => (SidePart::Nodes(secondary), PrimaryPart::Nodes(primary)),
+    })
+}
+
+/// What bare nodes as the secondary side cannot do.
+fn bare(part: &Contact) -> Diagnostics {
+    let needs = [
+        (
+            part.per == Some(Per::Area),
+            "a penalty per area",
+            "write  per = \"node\"  in `enforcement`, or name a surface",
+        ),
+        (
+            part.area == Area::Current && *part.method != case::Method::NodeToNode,
+            "`area`",
+            "delete `area`, or name a surface",
+        ),
+        (
+            *part.method == case::Method::GaussPoint,
+            "method \"gauss-point\"",
+            "write  method = \"node-to-segment\", or name a surface",
+        ),
+        (
+            part.two_pass,
+            "`passes` = 2",
+            "write  passes = 1, or name a surface",
+        ),
+        (
+            part.is_with_itself(),
+            "contact of a surface with itself",
+            "name a surface, or the other side as `primary`",
+        ),
+    ];
+    let mut found = Diagnostics::new();
+    for (_, what, help) in needs.into_iter().filter(|(wrong, ..)| *wrong) {
+        let message = format!(
+            "contact {}: {} is bare nodes, {what} needs faces",
+            quoted(&part.name),
+            quoted(&part.secondary)
+        );
+        let message = Diagnostic::error(&codes::WRONG_KIND, message);
+        found.push(
+            message
+                .at(&part.secondary.place, "no whole face of a solid")
+                .help(help),
+        );
+    }
+    found
+}
+
+fn method(part: &Contact) -> Method {
+    match *part.method {
+        case::Method::Auto => Method::Auto,
+        case::Method::NodeToSegment => Method::NodeToSegment,
+        case::Method::NodeToNode => Method::NodeToNode {
+            normals: match part.normals {
+                Normals::Primary => model::Normals::Primary,
+                Normals::Secondary => model::Normals::Secondary,
+                Normals::Given(vector) => model::Normals::Given(Vec3::from(vector)),
+            },
+            pairs: match part.pairs {
+                Pairs::Nearest => model::PairOrder::Nearest,
+                Pairs::Order => model::PairOrder::Listed,
+            },
+        },
+        case::Method::GaussPoint => Method::GaussPoint(model::PointRule {
+            kind: match part.rule.kind {
+                case::PointKind::Gauss => model::PointKind::Gauss,
+                case::PointKind::Lobatto => model::PointKind::Lobatto,
+            },
+            points: part.rule.points.map(|points| points as usize),
+        }),
+    }
+}
+
+fn enforcement(part: &Enforcement) -> model::Enforcement {
+    match part {
+        Enforcement::Auto => model::Enforcement::Auto,
+        Enforcement::Penalty(penalty) => {
+            model::Enforcement::Penalty(penalty.as_ref().map(|one| one.value))
+        }
+        Enforcement::Table(rows) => model::Enforcement::Table(rows.clone()),
+        Enforcement::Exponential { p0, c0 } => model::Enforcement::Exponential { p0: *p0, c0: *c0 },
+        Enforcement::Lagrange => model::Enforcement::Lagrange,
+        Enforcement::Augmented { by, penalty } => {
+            let penalty = penalty.as_ref().map(|one| one.value);
+            match by {
+                Augmentation::Uzawa => model::Enforcement::Uzawa(penalty),
+                Augmentation::Newton => model::Enforcement::AugmentedNewton(penalty),
+            }
+        }
+    }
+}
+
+fn friction(part: &Friction) -> FrictionPart {
+    FrictionPart {
+        limit: match part.limit {
+            Limit::Coulomb { mu, cap } => LimitPart::Coulomb {
+                mu,
+                cap: cap.unwrap_or(f64::INFINITY),
+            },
+            Limit::Tresca(limit) => LimitPart::Tresca(limit),
+            Limit::Falling {
+                stationary,
+                kinetic,
+                transition,
+            } => LimitPart::Falling {
+                stationary,
+                kinetic,
+                transition,
+            },
+        },
+        stick: part.stick.map(|stick| match stick {
+            Stick::Stiffness(stiffness) => StickPart::Stiffness(stiffness),
+            Stick::Slip(slip) => StickPart::Slip(slip),
+        }),
+    }
+}
+
+fn start(part: &case::Start) -> StartPart {
+    StartPart {
+        close_below: part.close_gaps_below,
+        clearance: part.clearance,
+        interference: match part.interference {
+            case::Interference::Step => model::Interference::Ramped,
+            case::Interference::Now => model::Interference::AtOnce,
+            case::Interference::StrainFree => model::Interference::StrainFree,
+        },
+    }
+}
+
+/// What steps make of contacts, one step after the other.
+pub(super) struct Changes<'a> {
+    /// The contacts that act at some time, as they are now.
+    contacts: Vec<(&'a Contact, bool, Option<&'a Friction>)>,
+}
+
+impl<'a> Changes<'a> {
+    pub fn new(case: &'a Case) -> Self {
+        let now = |contact: &'a Contact| (contact, contact.active, contact.friction.as_ref());
+        Self {
+            contacts: acting(case).map(now).collect(),
+        }
+    }
+
+    /// The changes of the next step.
+    pub fn of(&mut self, step: &'a case::Step, found: &mut Diagnostics) -> Vec<ContactChange> {
+        let mut changes = Vec::new();
+        for change in &step.contacts {
+            let mut contacts = self.contacts.iter_mut().enumerate();
+            let of_name = contacts.find(|(_, (contact, ..))| contact.name == change.name);
+            let Some((number, (_, active, sliding))) = of_name else {
+                found.push(without_effect(step, change, "it acts in no step"));
+                continue;
+            };
+            let before = (*active, *sliding);
+            *active = change.active.unwrap_or(*active);
+            if let Some(changed) = &change.friction {
+                *sliding = changed.as_ref();
+            }
+            if (*active, *sliding) == before {
+                found.push(without_effect(step, change, "all of it was so before"));
+                continue;
+            }
+            changes.push(ContactChange {
+                contact: number,
+                active: change.active,
+                friction: change
+                    .friction
+                    .as_ref()
+                    .map(|changed| changed.as_ref().map(friction)),
+            });
+        }
+        changes
+    }
+}
+
+fn without_effect(step: &case::Step, change: &case::ContactChange, remark: &str) -> Diagnostic {
+    Diagnostic::new(
+        Severity::Note,
+        &codes::NO_EFFECT,
+        format!(
+            "step {} changes nothing of contact {}",
+            quoted(&step.name),
+            quoted(&change.name)
+        ),
+    )
+    .at(&change.place, remark)
 }

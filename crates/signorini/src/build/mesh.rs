@@ -1,10 +1,57 @@
 //! The mesh of a case, from its text or from a file, and whether it can be used.
 
 use signorini_geometry::mesh::Mesh;
-use signorini_io::case::{Case, MeshSource, Space};
+use signorini_io::case::{Case, MeshSource, Shape, Space};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_io::readers::{self, MeshIssue, Severity};
 use std::path::Path;
+
+/// Reads the triangles of all surfaces of a case that are given by files. `folder` is where the case lies: paths are
+/// relative to it.
+///
+/// # Errors
+/// Files that cannot be read, or hold no triangles.
+pub fn read_surfaces_of(case: &mut Case, folder: &Path) -> Result<Diagnostics, Diagnostics> {
+    let mut found = Diagnostics::new();
+    for surface in &mut case.surfaces {
+        let Shape::Stl { path } = &surface.shape else {
+            continue;
+        };
+        let file = folder.join(&path.value);
+        let name = file.display().to_string();
+        let bytes = match std::fs::read(&file) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                found.push(
+                    Diagnostic::error(
+                        &codes::UNREADABLE,
+                        format!("{name} cannot be read: {error}"),
+                    )
+                    .at(&path.place, "named here")
+                    .help("paths are relative to the case"),
+                );
+                continue;
+            }
+        };
+        match readers::stl::read(&name, &bytes) {
+            Ok((triangles, notes)) => {
+                surface.triangles = Some(triangles);
+                for note in notes {
+                    let severity = signorini_io::diagnostic::Severity::Note;
+                    found.push(Diagnostic::new(severity, &codes::MESH_NOTE, note));
+                }
+            }
+            Err(error) => found.push(
+                Diagnostic::error(&codes::BAD_MESH, error.to_string())
+                    .at(&path.place, "these triangles"),
+            ),
+        }
+    }
+    if found.has_errors() {
+        return Err(found);
+    }
+    Ok(found)
+}
 
 /// The mesh of a case. `folder` is where the case lies: paths of mesh files are relative to it.
 ///

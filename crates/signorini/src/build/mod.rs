@@ -13,17 +13,18 @@ mod mesh;
 mod names;
 mod refused;
 mod steps;
+mod surfaces;
 mod temperature;
 #[cfg(test)]
 mod tests;
 
-pub use mesh::read_mesh_of;
+pub use mesh::{read_mesh_of, read_surfaces_of};
 
 use carriers::Carriers;
 use names::Names;
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
-use signorini_io::case::{self, Case, Enforcement, HistorySource, Method, Per, Space};
+use signorini_io::case::{self, Case, Enforcement, HistorySource, Method, Per, Space, Stabilize};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::model::{ContactSummary, LockingSummary, Parts};
@@ -33,6 +34,7 @@ use signorini_mechanics::system::linear::LinearKind;
 use signorini_mechanics::system::{Idealisation, System};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use surfaces::Surfaces;
 
 /// A case, built: everything a run needs.
 pub struct Model {
@@ -140,17 +142,29 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
             return Err(found);
         }
     };
+    let stabilized = case.solver.stabilize == Stabilize::Auto;
     for unheld in &model.held_by_contact {
+        let what = format!("{unheld} is held only by contact");
+        let message = if stabilized {
+            Diagnostic::warning(&codes::HELD_BY_CONTACT, what)
+        } else {
+            Diagnostic::error(&codes::HELD_BY_CONTACT, what)
+        };
         found.push(
-            Diagnostic::warning(
-                &codes::HELD_BY_CONTACT,
-                format!("{unheld} is held only by contact"),
-            )
+            message
             .note(format!("without contact it is free to {}", unheld.motion))
+            .note(if stabilized {
+                "until contact holds it, a vanishing viscous force does; its work is in summary.json"
+            } else {
+                "nothing else holds it: stabilize = false"
+            })
             .help("hold it by a support, or prescribe its motion with `move` instead of `load`"),
         );
     }
 
+    if found.has_errors() {
+        return Err(found);
+    }
     found.append(bodies::stiff_elements(&case, &names, &mesh));
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     found.silence(&allowed);
@@ -160,7 +174,7 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         .iter()
         .map(|c| ContactInfo {
             name: c.name.clone(),
-            method: "node-to-segment",
+            method: method_of(&case, &c.name),
             penalty: c.penalty,
             per: match c.measure {
                 Measure::Area => "area",
@@ -212,11 +226,11 @@ fn parts<'a>(
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, found);
-    parts.contacts = case
-        .contacts
-        .iter()
-        .filter(|c| c.active)
-        .filter_map(|c| contact::contact(c, names, found))
+    parts.gap_tol = case.solver.newton.gap_tol;
+    parts.stabilize = case.solver.stabilize == Stabilize::Auto;
+    let surfaces = Surfaces::new(case, mesh, carriers, found);
+    parts.contacts = contact::acting(case)
+        .filter_map(|c| contact::contact(c, names, &surfaces, found))
         .collect();
     let (temperature, start) = temperature::at_start(case, mesh, found);
     parts.temperature = temperature;
@@ -249,16 +263,28 @@ fn choose(
     contacts: &[ContactSummary],
     locking: &[LockingSummary],
 ) {
-    let active = case.contacts.iter_mut().filter(|c| c.active);
-    for (part, summary) in active.zip(contacts) {
-        part.method.value = Method::NodeToSegment;
-        part.enforcement = Enforcement::Penalty {
-            penalty: Some(summary.penalty.into()),
-            per: Some(match summary.measure {
+    for summary in contacts {
+        let mut all = case.contacts.iter_mut();
+        let Some(part) = all.find(|one| one.name.value == summary.name) else {
+            continue;
+        };
+        if *part.method == Method::Auto {
+            part.method.value = Method::NodeToSegment;
+        }
+        let chosen = Some(summary.penalty.into());
+        match &mut part.enforcement {
+            Enforcement::Augmented { penalty, .. } => *penalty = chosen,
+            law @ (Enforcement::Auto | Enforcement::Penalty(_)) => {
+                *law = Enforcement::Penalty(chosen);
+            }
+            _ => {}
+        }
+        if part.enforcement != Enforcement::Lagrange {
+            part.per = Some(match summary.measure {
                 Measure::Area => Per::Area,
                 Measure::Node => Per::Node,
-            }),
-        };
+            });
+        }
         part.reach = Some(summary.reach);
     }
     for body in &mut case.bodies {
@@ -276,6 +302,17 @@ fn choose(
         {
             name.value = own.to_owned();
         }
+    }
+}
+
+/// The method in use for a contact.
+fn method_of(case: &Case, contact: &str) -> &'static str {
+    let mut contacts = case.contacts.iter();
+    let part = contacts.find(|one| one.name.value == contact);
+    match part.map(|one| *one.method) {
+        Some(Method::NodeToNode) => "node-to-node",
+        Some(Method::GaussPoint) => "gauss-point",
+        Some(Method::Auto | Method::NodeToSegment) | None => "node-to-segment",
     }
 }
 

@@ -19,6 +19,8 @@ pub(super) struct Names<'a> {
     mesh: &'a Mesh,
     space: Idealisation,
     sets: BTreeMap<String, Set>,
+    /// Surfaces, which have neither nodes nor faces.
+    surfaces: BTreeSet<String>,
     nodes: HashMap<u64, NodeId>,
     index: FaceIndex,
 }
@@ -55,6 +57,11 @@ impl<'a> Names<'a> {
             mesh,
             space: idealisation(&case.model),
             sets: mesh.sets.clone(),
+            surfaces: case
+                .surfaces
+                .iter()
+                .map(|one| one.name.value.clone())
+                .collect(),
             nodes: labels
                 .map(|(node, &label)| (label, node as NodeId))
                 .collect(),
@@ -192,8 +199,17 @@ impl<'a> Names<'a> {
 
     fn get(&self, name: &Name, found: &mut Diagnostics) -> Option<&Set> {
         let set = self.sets.get(&name.value);
-        if set.is_none() {
-            let known = self.sets.keys().map(String::as_str);
+        if set.is_none() && self.surfaces.contains(&name.value) {
+            found.push(
+                Diagnostic::error(
+                    &codes::WRONG_KIND,
+                    format!("surface {} has no nodes and no faces", quoted(name)),
+                )
+                .at(&name.place, "it can only be the primary side of a contact")
+                .help("to move it, name its `reference`"),
+            );
+        } else if set.is_none() {
+            let known = self.sets.keys().chain(&self.surfaces).map(String::as_str);
             let mut message = Diagnostic::error(
                 &codes::NOT_IN_MESH,
                 format!("the mesh has no set or group called {}", quoted(name)),

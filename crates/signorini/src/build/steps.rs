@@ -1,6 +1,7 @@
-//! Steps: supports, motions, loads, temperatures, as changes of what earlier steps leave behind.
+//! Steps: supports, motions, loads, contacts, temperatures, as changes of what earlier steps leave behind.
 
 use super::carriers::Carriers;
+use super::contact::Changes;
 use super::loads::{self, Coupling};
 use super::names::Names;
 use super::quoted;
@@ -27,6 +28,7 @@ impl Builder<'_> {
         let mut nonlinear = true;
         let mut goes_on = false;
         let mut couplings = Vec::new();
+        let mut contacts = Changes::new(self.case);
         let mut steps = Vec::new();
         for (number, step) in self.case.steps.iter().enumerate() {
             match step.geometry {
@@ -41,10 +43,11 @@ impl Builder<'_> {
                 nonlinear,
                 changes: self.changes(step, found),
                 loads: self.loads(number, step, &mut couplings, found),
-                contacts: Vec::new(),
+                contacts: contacts.of(step, found),
                 temperatures: self.temperatures(step, found),
             };
-            let changes = part.changes.len() + part.loads.len() + part.temperatures.len();
+            let motions = part.changes.len() + part.temperatures.len();
+            let changes = motions + part.loads.len() + step.contacts.len();
             if changes == 0 && !goes_on && !found.has_errors() {
                 found.push(changes_nothing(step));
             }
@@ -202,7 +205,10 @@ fn changes_nothing(step: &Step) -> Diagnostic {
         &codes::NO_EFFECT,
         format!("step {} changes nothing", quoted(&step.name)),
     )
-    .at(&step.place, "all supports and loads stay as they are")
+    .at(
+        &step.place,
+        "all supports, loads and contacts stay as they are",
+    )
 }
 
 /// Whether a motion goes on through later steps.

@@ -7,7 +7,8 @@ use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{read_case, resolved};
 use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{
-    BodyKind, Change, ConstraintKind, Load, PrimaryPart, SidePart, StepPart, Target, Unknown,
+    self, BodyKind, Change, ConstraintKind, ContactChange, ContactPart, FrictionPart, LimitPart,
+    Load, PrimaryPart, SidePart, StartPart, StepPart, StickPart, Target, TiePart, Unknown,
 };
 use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::Motion;
@@ -525,6 +526,349 @@ fn what_cannot_be_is_refused_with_its_reason() {
     }
 }
 
+/// The faces where the cubes touch, and bare nodes of theirs.
+const SIDES: &str = "over = { plane = 'z', at = 1, of = 'low' }\nunder = { plane = 'z', at = 1, of = 'high' }\n\
+    corner = { nodes = [13, 11] }\nedge = { nodes = [6, 5] }\nthree = { nodes = [5, 6, 7] }\n\
+    [[body]]\ngroup = 'high'\nmaterial = 'steel'\n";
+const CONTACT: &str = "[[contact]]\nname = 'c'\nsecondary = 'under'\nprimary = 'over'\n";
+
+#[test]
+fn contacts_become_what_they_say() {
+    let contact = |keys: &str| {
+        let built = cubes(&format!("{SIDES}{CONTACT}{keys}\n{STEP}"));
+        built.contacts.into_iter().next().unwrap()
+    };
+    let plain = contact("");
+    let default = ContactPart::new("c", plain.secondary.clone(), PrimaryPart::Itself);
+    let same = |a: &ContactPart, b: &ContactPart| {
+        let of = |part: &ContactPart| ContactPart {
+            primary: PrimaryPart::Itself,
+            ..part.clone()
+        };
+        assert_eq!(format!("{:?}", of(a)), format!("{:?}", of(b)));
+    };
+    same(&plain, &default);
+    let changed = |keys: &str, change: &dyn Fn(&mut ContactPart)| {
+        let mut wanted = default.clone();
+        change(&mut wanted);
+        same(&contact(keys), &wanted);
+    };
+    changed("method = 'node-to-segment'\npasses = 2", &|part| {
+        part.method = model::Method::NodeToSegment;
+        part.two_pass = true;
+    });
+    changed("method = 'gauss-point'", &|part| {
+        part.method = model::Method::GaussPoint(model::PointRule {
+            kind: model::PointKind::Gauss,
+            points: None,
+        });
+    });
+    changed(
+        "method = 'gauss-point'\nrule = { kind = 'lobatto', points = 4 }\narea = 'current'",
+        &|part| {
+            part.method = model::Method::GaussPoint(model::PointRule {
+                kind: model::PointKind::Lobatto,
+                points: Some(4),
+            });
+            part.present_area = true;
+        },
+    );
+    changed("method = 'node-to-node'\nnormals = [0, 3, 0]", &|part| {
+        part.method = model::Method::NodeToNode {
+            normals: model::Normals::Given(Vec3::new(0.0, 3.0, 0.0)),
+            pairs: model::PairOrder::Nearest,
+        };
+    });
+    type Law = model::Enforcement;
+    for (keys, law) in [
+        ("penalty = 'auto'", Law::Penalty(None)),
+        ("penalty = 5", Law::Penalty(Some(5.0))),
+        (
+            "penalty = [[-1, 5], [0, 0]]",
+            Law::Table(vec![[-1.0, 5.0], [0.0, 0.0]]),
+        ),
+        (
+            "exponential = { p0 = 2, c0 = 0.5 }",
+            Law::Exponential { p0: 2.0, c0: 0.5 },
+        ),
+        ("lagrange = {}", Law::Lagrange),
+        ("augmented = 'uzawa'", Law::Uzawa(None)),
+        (
+            "augmented = 'newton', penalty = 3",
+            Law::AugmentedNewton(Some(3.0)),
+        ),
+    ] {
+        changed(&format!("enforcement = {{ {keys} }}"), &|part| {
+            part.enforcement = law.clone();
+        });
+    }
+    changed("enforcement = { per = 'node' }", &|part| {
+        part.enforcement = Law::Penalty(None);
+        part.measure = Some(Measure::Node);
+    });
+    let coulomb = |mu, cap| LimitPart::Coulomb { mu, cap };
+    let falling = LimitPart::Falling {
+        stationary: 0.4,
+        kinetic: 0.2,
+        transition: 2.0,
+    };
+    for (friction, limit, stick) in [
+        ("0.3", coulomb(0.3, f64::INFINITY), None),
+        ("{ mu = 0.3, cap = 7 }", coulomb(0.3, 7.0), None),
+        (
+            "{ tresca = 4, stiffness = 9 }",
+            LimitPart::Tresca(4.0),
+            Some(StickPart::Stiffness(9.0)),
+        ),
+        (
+            "{ static = 0.4, kinetic = 0.2, transition = 2, elastic_slip = 0.1 }",
+            falling,
+            Some(StickPart::Slip(0.1)),
+        ),
+    ] {
+        changed(&format!("friction = {friction}"), &|part| {
+            part.friction = Some(FrictionPart { limit, stick });
+        });
+    }
+    changed("friction = { mu = 0, stiffness = 9 }", &|_| {});
+    changed("sliding = 'small'\nreach = 0.5", &|part| {
+        part.small_sliding = true;
+        part.reach = Some(0.5);
+    });
+    for (tied, close, within) in [
+        ("true", false, None),
+        ("{ within = 0.1 }", false, Some(0.1)),
+        ("{ offset = 'close' }", true, None),
+    ] {
+        changed(&format!("tied = {tied}"), &|part| {
+            part.tie = Some(TiePart { close, within });
+        });
+    }
+    changed(
+        "start = { close_gaps_below = 0.1, clearance = 0, interference = 'strain-free' }",
+        &|part| {
+            part.start = StartPart {
+                close_below: 0.1,
+                clearance: Some(0.0),
+                interference: model::Interference::StrainFree,
+            };
+        },
+    );
+    changed("start = { interference = 'now' }", &|part| {
+        part.start.interference = model::Interference::AtOnce;
+    });
+}
+
+#[test]
+fn nodes_that_meet_in_order_keep_the_order_of_their_lists() {
+    let contact = |keys: &str| {
+        let contact = format!(
+            "[[contact]]\nname = 'c'\nsecondary = 'corner'\nprimary = 'edge'\nmethod = 'node-to-node'\n{keys}\n"
+        );
+        let part = cubes(&format!("{SIDES}{contact}{STEP}")).contacts.remove(0);
+        match (part.secondary, part.primary) {
+            (SidePart::Nodes(secondary), PrimaryPart::Nodes(primary)) => {
+                (labels(&secondary), labels(&primary))
+            }
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(contact("pairs = 'order'"), (vec![13, 11], vec![6, 5]));
+    assert_eq!(contact(""), (vec![11, 13], vec![5, 6]));
+}
+
+#[test]
+fn nodes_in_order_have_the_normals_of_their_faces() {
+    let sets = "turned = { nodes = [8, 7, 6, 5] }\nfour = { nodes = [14, 12, 13, 11] }\n";
+    let of = |normals: &str| {
+        let contact = format!(
+            "[[contact]]\nname = 'c'\nsecondary = 'four'\nprimary = 'turned'\nmethod = 'node-to-node'\n\
+             pairs = 'order'\nnormals = {normals}\n"
+        );
+        cubes(&format!("{sets}{SIDES}{contact}{STEP}"))
+            .contacts
+            .remove(0)
+    };
+    let part = of("'primary'");
+    assert!(matches!(&part.primary, PrimaryPart::Faces(faces) if faces.len() == 1));
+    // 14 meets 8, 12 meets 7, 13 meets 6, 11 meets 5
+    assert!(matches!(&part.secondary, SidePart::Nodes(nodes) if labels(nodes) == [11, 13, 12, 14]));
+    let part = of("'secondary'");
+    assert!(matches!(&part.secondary, SidePart::Faces(faces) if faces.len() == 1));
+    assert!(matches!(&part.primary, PrimaryPart::Nodes(nodes) if labels(nodes) == [5, 7, 6, 8]));
+    let part = of("[0, 0, 1]");
+    assert!(matches!(&part.secondary, SidePart::Nodes(nodes) if labels(nodes) == [14, 12, 13, 11]));
+}
+
+#[test]
+fn a_surface_may_meet_itself() {
+    let built = cubes(&format!(
+        "{SIDES}{}{STEP}",
+        CONTACT.replace("'over'", "'self'")
+    ));
+    assert!(matches!(built.contacts[0].primary, PrimaryPart::Itself));
+}
+
+#[test]
+fn steps_change_contacts_that_act_at_some_time() {
+    let other = |name: &str, secondary: &str| {
+        format!(
+            "[[contact]]\nname = '{name}'\nsecondary = '{secondary}'\nprimary = 'over'\nactive = false\n"
+        )
+    };
+    let (never, late) = (other("never", "corner"), other("late", "high"));
+    let change = |keys: &str| format!("[[step.contact]]\n{keys}\n");
+    let steps = format!(
+        "{STEP}{}[[step]]\nname = 'two'\n{}{}[[step]]\nname = 'three'\n{}{}",
+        change("name = 'c'\nfriction = 0.3"),
+        change("name = 'c'\nactive = false\nfriction = 0"),
+        change("name = 'late'\nactive = true"),
+        change("name = 'late'\nactive = true\nfriction = 0.0"),
+        change("name = 'never'\nactive = false"),
+    );
+    let built = cubes(&format!("{SIDES}{never}{CONTACT}{late}{steps}"));
+    let parts: Vec<_> = built
+        .contacts
+        .iter()
+        .map(|c| (c.name.as_str(), c.active))
+        .collect();
+    assert_eq!(parts, [("c", true), ("late", false)]);
+    let rough = FrictionPart {
+        limit: LimitPart::Coulomb {
+            mu: 0.3,
+            cap: f64::INFINITY,
+        },
+        stick: None,
+    };
+    let change = |contact, active, friction| ContactChange {
+        contact,
+        active,
+        friction,
+    };
+    assert_eq!(
+        built.steps[0].contacts,
+        [change(0, None, Some(Some(rough)))]
+    );
+    assert_eq!(
+        built.steps[1].contacts,
+        [
+            change(0, Some(false), Some(None)),
+            change(1, Some(true), None)
+        ]
+    );
+    assert!(built.steps[2].contacts.is_empty());
+    let notes = built.warnings.plain();
+    for word in [
+        "step \"three\" changes nothing of contact \"late\"",
+        "all of it was so before",
+        "step \"three\" changes nothing of contact \"never\"",
+        "it acts in no step",
+    ] {
+        assert!(notes.contains(word), "{word}: {notes}");
+    }
+}
+
+#[test]
+fn what_sides_cannot_do_is_refused_with_its_reason() {
+    let bare = CONTACT.replace("'under'", "'corner'");
+    let surface =
+        "[[surface]]\nname = 'floor'\nshape = { plane = { point = [0, 0, 0], normal = 'z' } }\n";
+    let on_floor = CONTACT.replace("'over'", "'floor'");
+    for (text, code, word) in [
+        (
+            format!("{bare}enforcement = {{ per = 'area' }}\n"),
+            "S0203",
+            "a penalty per area needs faces",
+        ),
+        (
+            format!("{bare}passes = 2\n"),
+            "S0203",
+            "`passes` = 2 needs faces",
+        ),
+        (
+            format!("{bare}area = 'current'\n"),
+            "S0203",
+            "`area` needs faces",
+        ),
+        (
+            format!("{bare}method = 'gauss-point'\n"),
+            "S0203",
+            "\"gauss-point\" needs faces",
+        ),
+        (
+            bare.replace("'over'", "'self'"),
+            "S0203",
+            "with itself needs faces",
+        ),
+        (
+            CONTACT.replace("'over'", "'edge'"),
+            "S0203",
+            "\"edge\" has no faces: the primary side needs some",
+        ),
+        (
+            format!(
+                "{}method = 'node-to-node'\npairs = 'order'\n",
+                bare.replace("'over'", "'three'")
+            ),
+            "S0203",
+            "\"corner\" has 2 nodes and \"three\" has 3: they cannot be paired",
+        ),
+        (
+            format!("{surface}{}", CONTACT.replace("'over'", "'flor'")),
+            "S0405",
+            "did you mean \"floor\"?",
+        ),
+        (
+            format!(
+                "{surface}{on_floor}[[spring]]\nname = 's'\non = 'floor'\nstiffness = 1\ndirection = 'x'\n"
+            ),
+            "S0203",
+            "surface \"floor\" has no nodes and no faces",
+        ),
+        (
+            format!(
+                "{}{on_floor}",
+                surface.replace("plane = { point = [0, 0, 0], normal = 'z' }", "stl = 'floor.stl'")
+            ),
+            "S0309",
+            "surface \"floor\": ",
+        ),
+    ] {
+        let (found, said) = refused(&format!("{SIDES}{text}{STEP}"));
+        assert!(
+            found == code && said.contains(word),
+            "{code} {word}: {said}"
+        );
+    }
+}
+
+#[test]
+fn a_surface_has_a_name_that_no_group_of_the_mesh_has() {
+    let surface = "[[surface]]\nname = 'floor'\nshape = { stl = 'floor.stl' }\n";
+    let contact = CONTACT.replace("'over'", "'floor'");
+    let text = format!("{CUBES}{BASE}{SIDES}{surface}{contact}{STEP}");
+    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+    let (mut mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
+    mesh.sets.insert("floor".into(), Default::default());
+    let all = build(case, mesh).err().unwrap().plain();
+    assert!(
+        all.contains("S0113") && all.contains("both a group of the mesh and a surface"),
+        "{all}"
+    );
+}
+
+#[test]
+fn a_reference_that_a_surface_follows_moves_something() {
+    let surface = "[reference.pilot]\nat = [0, 0, 5]\n[[surface]]\nname = 'floor'\n\
+        shape = { sphere = { center = [0, 0, 5], radius = 1 } }\nreference = 'pilot'\n";
+    let contact = CONTACT.replace("'over'", "'floor'");
+    let moved = "[[step.move]]\non = 'pilot'\nuz = -1\n";
+    cubes(&format!("{SIDES}{surface}{contact}{STEP}{moved}"));
+    let alone = surface.replace("\nreference = 'pilot'", "");
+    let (_, said) = refused(&format!("{SIDES}{alone}{contact}{STEP}{moved}"));
+    assert!(said.contains("\"pilot\" moves nothing"), "{said}");
+}
+
 /// A ring, in the plane of its section.
 const RING: &str = r#"
 [model]
@@ -570,8 +914,9 @@ fn a_body_of_revolution_lies_on_one_side_of_its_axis() {
 fn a_resolved_case_becomes_the_same_parts() {
     let text = "[reference.pilot]\nat = [0, 0, 5]\n[[body]]\ngroup = 'high'\nrigid = true\nreference = 'pilot'\n\
         [[spring]]\nname = 's'\nbetween = ['base', 'top']\nstiffness = 3\n\
-        [[constraint]]\nkind = 'equal'\non = 'top'\ndofs = ['x']\n[[contact]]\nname = 'c'\nsecondary = 'high'\nprimary = 'top'\n";
-    let steps = "[[step.load]]\non = 'top'\npressure = 0.5\ntable = [[0, 0], [1, 2]]\n[[step.temperature]]\non = 'all'\nvalue = 50\n\
+        [[constraint]]\nkind = 'equal'\non = 'top'\ndofs = ['x']\n[[contact]]\nname = 'c'\nsecondary = 'high'\nprimary = 'top'\n\
+        method = 'gauss-point'\nfriction = { mu = 0.3, cap = 2 }\nstart = { clearance = 0.1 }\n";
+    let steps = "[[step.contact]]\nname = 'c'\nactive = false\n[[step.load]]\non = 'top'\npressure = 0.5\ntable = [[0, 0], [1, 2]]\n[[step.temperature]]\non = 'all'\nvalue = 50\n\
         [[step]]\nname = 'two'\n[[step.free]]\non = 'base'\nu = ['x']\n[[step.load]]\non = 'all'\ngravity = [0, 0, -1]\n";
     let text = format!(
         "{CUBES}{BASE}top = {{ plane = [0, 0, 3], at = 1, of = 'low' }}\n{text}{STEP}{steps}"

@@ -37,12 +37,12 @@ pub struct Run {
 impl Run {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
-        let (case, warnings, mut source) = match load_case(&self.case, &self.changes.set) {
+        let (mut case, warnings, mut source) = match load_case(&self.case, &self.changes.set) {
             Ok(read) => read,
             Err(found) => return refused(&found, &self.solve),
         };
         let nthread = threads::make(self.solve.threads, case.solver.threads);
-        let (mesh, more) = match load_mesh(&case, &mut source) {
+        let (mesh, more) = match load_mesh(&mut case, &mut source) {
             Ok(read) => read,
             Err(found) => return refused(&joined(warnings, found), &self.solve),
         };

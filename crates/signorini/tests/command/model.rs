@@ -21,6 +21,41 @@ fn f45_a_surface_against_itself_is_refused() {
 }
 
 #[test]
+fn f45_a_pair_in_two_contacts_is_warned_of() {
+    let second =
+        "[[contact]]\nname = \"again\"\nsecondary = \"tip_node\"\nprimary = \"top\"\n[[step]]";
+    let text = change(BRICK, "[[step]]", second);
+    run_text(&text).says(0, &["warning[S0407]", "are of one pair", "case.toml:"]);
+    let silenced = run_text(&format!("allow = [\"S0407\"]\n{text}"));
+    assert!(!silenced.says(0, &[]).err.contains("S0407"));
+}
+
+#[test]
+fn what_a_contact_says_reaches_the_solver() {
+    let per_node = "enforcement = { penalty = 1e5, per = \"node\" }";
+    let force = |enforcement: &str, keys: &str| {
+        let text = change(BRICK, per_node, &format!("{enforcement}\n{keys}"));
+        let folder = crate::support::folder_with(&text);
+        crate::support::run(folder.path(), &["run", "case.toml"]).says(0, &["✓ solved"]);
+        let history = crate::support::read(&crate::support::result(&folder, "history.csv"));
+        let rows: Vec<Vec<&str>> = history
+            .lines()
+            .map(|row| row.split(',').collect())
+            .collect();
+        let column = rows[0].iter().position(|name| *name == "tip.force_z");
+        rows.last().unwrap()[column.unwrap()]
+            .parse::<f64>()
+            .unwrap()
+    };
+    let soft = force(per_node, "");
+    let table = "enforcement = { penalty = [[-1, 1e5], [0, 0]], per = \"node\" }";
+    let same = force(table, "");
+    assert!((same / soft - 1.0).abs() < 1e-9, "{soft} {same}");
+    let hard = force("enforcement = { lagrange = {} }", "");
+    assert!(hard > soft && hard < 1.1 * soft, "{soft} {hard}");
+}
+
+#[test]
 fn f46_sides_that_share_nodes_are_glued() {
     let text = change(
         BRICK,

@@ -59,6 +59,9 @@ fn f11_a_reference_to_nothing_is_met_with_what_there_is() {
     run_text(&text).says(3, &["\"topp\"", "did you mean"]);
     let text = change(BRICK, "material = \"soft\"", "material = \"softt\"");
     run_text(&text).says(3, &["softt", "soft"]);
+    let other = "[[step.contact]]\nname = \"tap\"\nactive = false\n[checkpoint]";
+    let text = change(BRICK, "[checkpoint]", other);
+    run_text(&text).says(3, &["S0114", "did you mean \"tip\"?"]);
 }
 
 #[test]
@@ -109,6 +112,16 @@ fn f19_f20_values_out_of_range_are_told_their_range() {
             "penalty = 1e5",
             "penalty = 0.0",
             &["S0109", "greater than 0"],
+        ),
+        (
+            "primary = \"top\"",
+            "primary = \"top\"\nfriction = -0.1",
+            &["S0109", "at least 0"],
+        ),
+        (
+            "penalty = 1e5",
+            "penalty = [[-1, 5], [-1, 0]]",
+            &["S0117", "-1 comes after -1"],
         ),
     ] {
         run_text(&change(BRICK, from, to)).says(3, words);

@@ -3,7 +3,7 @@
 #![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
 use serde_json::Value;
-use signorini::build::{Model, build, read_mesh_of};
+use signorini::build::{Model, build, read_mesh_of, read_surfaces_of};
 use signorini_io::case::read_case;
 use signorini_mechanics::solve::{
     Event, Flow, IncrementRecord, IterationRecord, RunError, Stepper,
@@ -55,8 +55,9 @@ pub fn model_in(folder: &Path, name: &str, text: &str, set: &[(&str, &str)]) -> 
         .iter()
         .map(|(k, v)| (k.to_string(), v.to_string()))
         .collect();
-    let (case, _) =
+    let (mut case, _) =
         read_case(name, text.as_bytes(), &set).unwrap_or_else(|e| panic!("{}", e.plain()));
+    read_surfaces_of(&mut case, folder).unwrap_or_else(|e| panic!("{}", e.plain()));
     let (mesh, _) = read_mesh_of(&case, folder).unwrap_or_else(|e| panic!("{}", e.plain()));
     build(case, mesh).unwrap_or_else(|e| panic!("{}", e.plain()))
 }

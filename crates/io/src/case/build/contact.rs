@@ -1,92 +1,393 @@
-//! Contacts.
+//! Contacts, and their changes in a step.
 
-use super::super::fields::Fields;
+use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
 use super::Builder;
-use crate::diagnostic::{Place, Spanned, codes};
+use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
+
+/// Rubber on dry concrete has about half of it.
+const ROUGH: f64 = 2.0;
 
 impl Builder {
     pub(super) fn contact(&mut self, fields: Fields<'_>, place: Place) -> Contact {
-        let friction = fields
-            .number_if("friction")
-            .unwrap_or_else(|| fields.number("friction").into());
-        if *friction > 0.0 {
-            self.later(
-                &format!("`friction` = {}", friction.value),
-                &friction.place,
-                "friction = 0.0",
-            );
-        }
-        if fields.count("passes") == 2 {
-            self.later("`passes` = 2", &fields.place("passes"), "passes = 1");
-        }
-        if fields.flag("tied") {
-            self.later(
-                "`tied` = true",
-                &fields.place("tied"),
-                "one body, with a mesh that is joined",
-            );
-        }
         let method = fields.text("method");
-        Contact {
+        let contact = Contact {
             name: fields.text("name"),
             secondary: fields.text("secondary"),
-            primary: self.primary(fields),
+            primary: fields.text("primary"),
             method: Spanned::new(
                 match method.value.as_str() {
+                    "node-to-node" => Method::NodeToNode,
                     "node-to-segment" => Method::NodeToSegment,
+                    "gauss-point" => Method::GaussPoint,
                     _ => Method::Auto,
                 },
                 method.place,
             ),
-            enforcement: enforcement(fields),
-            friction,
+            two_pass: fields.count("passes") == 2,
+            rule: self.rule(fields),
+            area: if fields.text("area").value == "current" {
+                Area::Current
+            } else {
+                Area::Reference
+            },
+            enforcement: self.enforcement(fields),
+            per: fields.table("enforcement").text_if("per").map(|word| {
+                if word.value == "node" {
+                    Per::Node
+                } else {
+                    Per::Area
+                }
+            }),
+            friction: self.friction(fields),
+            sliding: if fields.text("sliding").value == "small" {
+                Sliding::Small
+            } else {
+                Sliding::Finite
+            },
+            tied: tied(fields),
+            start: start(fields.table("start")),
+            normals: self.normals(fields),
+            pairs: if fields.text("pairs").value == "order" {
+                Pairs::Order
+            } else {
+                Pairs::Nearest
+            },
             reach: fields.number_if("reach").map(|reach| reach.value),
             active: fields.flag("active"),
             place,
+        };
+        self.sides(&contact);
+        self.what_goes_with_the_method(&contact, fields);
+        if contact.tied.is_some() {
+            self.what_goes_with_a_tie(&contact, fields);
         }
+        contact
     }
 
-    fn primary(&mut self, fields: Fields<'_>) -> Name {
-        let primary = fields.text("primary");
-        if primary.value == "self" {
-            self.later(
-                "`primary = \"self\"`",
-                &primary.place,
-                "the surface on the other side",
-            );
-        } else if !primary.is_empty() && primary.value == fields.text("secondary").value {
+    fn sides(&mut self, contact: &Contact) {
+        let (primary, secondary) = (&contact.primary, &contact.secondary);
+        if !primary.is_empty() && primary == secondary {
             self.error(
                 &codes::CONTRADICTION,
                 format!(
                     "both sides of contact \"{}\" are \"{}\"",
-                    fields.text("name").value,
-                    primary.value
+                    contact.name.value, primary.value
                 ),
                 &primary.place,
-                "name the other side",
+                "name the other side, or write \"self\" for contact of a surface with itself",
             );
         }
-        primary
+    }
+
+    fn what_goes_with_the_method(&mut self, contact: &Contact, fields: Fields<'_>) {
+        let mut only = |key: &str, wrong: bool, remark: &str| {
+            if wrong {
+                let message = format!("`{key}` does not go with this `method`");
+                self.found.push(
+                    Diagnostic::error(&codes::CONTRADICTION, message)
+                        .at(&fields.place(key), remark)
+                        .at(&contact.method.place, ""),
+                );
+            }
+        };
+        let method = *contact.method;
+        for key in ["normals", "pairs"] {
+            only(
+                key,
+                fields.has(key) && method != Method::NodeToNode,
+                "it belongs to  method = \"node-to-node\"",
+            );
+        }
+        only(
+            "rule",
+            fields.has("rule") && method != Method::GaussPoint,
+            "it belongs to  method = \"gauss-point\"",
+        );
+        only(
+            "passes",
+            contact.two_pass && method == Method::NodeToNode,
+            "two passes belong to \"node-to-segment\" and \"gauss-point\"",
+        );
+        only(
+            "enforcement",
+            contact.per == Some(Per::Node) && method == Method::GaussPoint,
+            "points inside of facets stand for areas: write  per = \"area\"",
+        );
+        if contact.is_with_itself() {
+            let mut alone = |key: &str, wrong: bool, remark: &str| {
+                if wrong {
+                    let message = format!("this `{key}` means nothing with  primary = \"self\"");
+                    self.error(&codes::CONTRADICTION, message, &fields.place(key), remark);
+                }
+            };
+            alone("passes", contact.two_pass, "both sides are the same");
+            alone(
+                "method",
+                method == Method::NodeToNode,
+                "write \"node-to-segment\" or \"gauss-point\"",
+            );
+            alone(
+                "tied",
+                contact.tied.is_some(),
+                "it would be joined to itself",
+            );
+        }
+    }
+
+    fn what_goes_with_a_tie(&mut self, contact: &Contact, fields: Fields<'_>) {
+        let one_sided = matches!(
+            contact.enforcement,
+            Enforcement::Table(_) | Enforcement::Exponential { .. }
+        );
+        for (key, wrong, remark) in [
+            (
+                "friction",
+                contact.friction.is_some(),
+                "what is joined does not slide",
+            ),
+            (
+                "start",
+                fields.has("start"),
+                "say it by  tied = { offset, within }",
+            ),
+            (
+                "enforcement",
+                one_sided,
+                "a joint also pulls: give a number as `penalty`",
+            ),
+        ] {
+            if wrong {
+                self.error(
+                    &codes::CONTRADICTION,
+                    format!("`{key}` does not go with sides that are joined"),
+                    &fields.place(key),
+                    remark,
+                );
+            }
+        }
+    }
+
+    fn rule(&mut self, fields: Fields<'_>) -> PointRule {
+        let rule = fields.table("rule");
+        let points = rule.count_if("points");
+        let kind = if rule.text("kind").value == "lobatto" {
+            PointKind::Lobatto
+        } else {
+            PointKind::Gauss
+        };
+        if let Some(points) = points.as_ref().filter(|points| ***points == 1)
+            && kind == PointKind::Lobatto
+        {
+            self.error(
+                &codes::OUT_OF_RANGE,
+                "a rule with both ends has at least two points",
+                &points.place,
+                "must be at least 2",
+            );
+        }
+        PointRule {
+            kind,
+            points: points.map(|points| points.value),
+        }
+    }
+
+    fn enforcement(&mut self, fields: Fields<'_>) -> Enforcement {
+        let given = fields.get("enforcement");
+        if !given.is_some_and(|value| value.get_ref().is_table()) {
+            return Enforcement::Auto;
+        }
+        let table = fields.table("enforcement");
+        let penalty = table.number_if("penalty");
+        let rows = table.get("penalty");
+        let rows = rows.filter(|value| value.get_ref().is_array());
+        if let Some(word) = table.text_if("augmented") {
+            if let Some(rows) = rows {
+                self.error(
+                    &codes::CONTRADICTION,
+                    "`augmented` needs one number as `penalty`",
+                    &table.at(rows.span()),
+                    "a table",
+                );
+            }
+            let by = if word.value == "newton" {
+                Augmentation::Newton
+            } else {
+                Augmentation::Uzawa
+            };
+            return Enforcement::Augmented { by, penalty };
+        }
+        if table.has("exponential") {
+            let law = table.table("exponential");
+            return Enforcement::Exponential {
+                p0: law.number("p0"),
+                c0: law.number("c0"),
+            };
+        }
+        if table.has("lagrange") {
+            return Enforcement::Lagrange;
+        }
+        match rows {
+            Some(_) => Enforcement::Table(self.pressures(table)),
+            None => Enforcement::Penalty(penalty),
+        }
+    }
+
+    /// Rows of gap and pressure: gaps increase, pressures fall to zero.
+    fn pressures(&mut self, fields: Fields<'_>) -> Vec<[f64; 2]> {
+        let mut table: Vec<[f64; 2]> = Vec::new();
+        for row in fields.rows("penalty") {
+            let Some([gap, pressure]) = numbers(row.get_ref()) else {
+                // it has been told, and what is missing would draw other messages after it
+                return table;
+            };
+            if let Some([before, harder]) = table.last().copied() {
+                let fault = if gap <= before {
+                    let message = "the gaps of `penalty` do not increase";
+                    Some((
+                        &codes::NOT_INCREASING,
+                        message,
+                        format!("{gap} comes after {before}"),
+                    ))
+                } else if pressure > harder {
+                    let message = "the pressures of `penalty` grow with the gap";
+                    Some((
+                        &codes::OUT_OF_RANGE,
+                        message,
+                        format!("{pressure} comes after {harder}"),
+                    ))
+                } else {
+                    None
+                };
+                if let Some((code, message, remark)) = fault {
+                    self.error(code, message, &fields.at(row.span()), remark);
+                    return table;
+                }
+            }
+            table.push([gap, pressure]);
+        }
+        let ends = table.first().zip(table.last());
+        if let Some(([_, first], [_, last])) = ends {
+            let remark = if *last > 0.0 {
+                "the last pressure must be 0, or the sides push at any distance"
+            } else if *first == 0.0 {
+                "no row has a pressure: nothing would push"
+            } else {
+                return table;
+            };
+            let message = "the pressures of `penalty` do not fall to 0";
+            let place = fields.place("penalty");
+            self.error(&codes::OUT_OF_RANGE, message, &place, remark);
+        }
+        table
+    }
+
+    /// Friction; none where its limit is zero.
+    fn friction(&mut self, fields: Fields<'_>) -> Option<Friction> {
+        let number = fields.number_if("friction");
+        let table = fields.table("friction");
+        let coefficient = table.number_if("static").or_else(|| table.number_if("mu"));
+        if let Some(mu) = number.as_ref().or(coefficient.as_ref()) {
+            self.plausible(mu);
+        }
+        if let Some(mu) = number {
+            let limit = Limit::Coulomb {
+                mu: mu.value,
+                cap: None,
+            };
+            return (*mu > 0.0).then_some(Friction { limit, stick: None });
+        }
+        let value = |key: &str| table.number_if(key).map(|number| number.value);
+        let limit = if let Some(stationary) = table.number_if("static") {
+            let kinetic = table.number_if("kinetic").unwrap_or_default();
+            if *kinetic > *stationary {
+                self.found.push(
+                    Diagnostic::error(
+                        &codes::OUT_OF_RANGE,
+                        format!(
+                            "`kinetic` = {} is greater than `static` = {}",
+                            kinetic.value, stationary.value
+                        ),
+                    )
+                    .at(&kinetic.place, "")
+                    .at(&stationary.place, ""),
+                );
+            }
+            Limit::Falling {
+                stationary: stationary.value,
+                kinetic: kinetic.value,
+                transition: table.number("transition"),
+            }
+        } else if let Some(tresca) = value("tresca") {
+            Limit::Tresca(tresca)
+        } else {
+            Limit::Coulomb {
+                mu: value("mu").filter(|mu| *mu > 0.0)?,
+                cap: value("cap"),
+            }
+        };
+        let stick = value("stiffness").map(Stick::Stiffness);
+        Some(Friction {
+            limit,
+            stick: stick.or(value("elastic_slip").map(Stick::Slip)),
+        })
+    }
+
+    fn plausible(&mut self, mu: &Spanned<f64>) {
+        if **mu > ROUGH {
+            self.found.push(
+                Diagnostic::warning(
+                    &codes::UNUSUAL,
+                    format!("a coefficient of friction of {}", mu.value),
+                )
+                .at(&mu.place, "rubber on dry concrete has about 1")
+                .note("silence with  allow = [\"S0406\"]"),
+            );
+        }
+    }
+
+    fn normals(&mut self, fields: Fields<'_>) -> Normals {
+        if fields.text("normals").value == "secondary" {
+            return Normals::Secondary;
+        }
+        match self.vector_within(fields, "normals") {
+            Some(vector) => {
+                self.has_direction(vector, "normals", &fields.place("normals"));
+                Normals::Given(vector)
+            }
+            None => Normals::Primary,
+        }
+    }
+
+    pub(super) fn contact_change(&mut self, fields: Fields<'_>, place: Place) -> ContactChange {
+        ContactChange {
+            name: fields.text("name"),
+            active: fields.flag_if("active"),
+            friction: fields.has("friction").then(|| self.friction(fields)),
+            place,
+        }
     }
 }
 
-fn enforcement(fields: Fields<'_>) -> Enforcement {
-    let table = fields.table("enforcement");
+fn tied(fields: Fields<'_>) -> Option<Tied> {
+    let table = fields.table("tied");
     let is_table = fields
-        .get("enforcement")
+        .get("tied")
         .is_some_and(|value| value.get_ref().is_table());
-    if !is_table {
-        return Enforcement::Auto;
-    }
-    Enforcement::Penalty {
-        penalty: table.number_if("penalty"),
-        per: table.text_if("per").map(|word| {
-            if word.value == "node" {
-                Per::Node
-            } else {
-                Per::Area
-            }
-        }),
+    (is_table || fields.flag("tied")).then(|| Tied {
+        close: table.text("offset").value == "close",
+        within: table.number_if("within").map(|within| within.value),
+    })
+}
+
+fn start(fields: Fields<'_>) -> Start {
+    Start {
+        close_gaps_below: fields.number("close_gaps_below"),
+        clearance: fields.number_if("clearance").map(|gap| gap.value),
+        interference: match fields.text("interference").value.as_str() {
+            "now" => Interference::Now,
+            "strain-free" => Interference::StrainFree,
+            _ => Interference::Step,
+        },
     }
 }

@@ -6,6 +6,7 @@ mod geometry;
 mod names;
 mod run;
 mod steps;
+mod surface;
 
 use toml::de::{DeTable, DeValue};
 
@@ -34,6 +35,9 @@ pub(super) fn build(document: &DeTable<'_>, origins: &Origins) -> (Case, Diagnos
     builder.names(&case);
     builder.cycles(&case);
     builder.references(&case, root);
+    builder.surfaces(&case);
+    builder.pairs(&case);
+    builder.contact_changes(&case);
     (case, builder.found)
 }
 
@@ -52,14 +56,6 @@ impl Builder {
     ) {
         self.found
             .push(Diagnostic::error(code, message).at(place, remark));
-    }
-
-    fn later(&mut self, what: &str, place: &Place, instead: &str) {
-        self.found.push(
-            Diagnostic::error(&codes::NOT_BUILT, format!("{what} is not supported yet"))
-                .at(place, "known, but this version cannot do it")
-                .help(format!("until then: {instead}")),
-        );
     }
 
     fn case(&mut self, root: Fields<'_>) -> Case {
@@ -110,6 +106,11 @@ impl Builder {
                 .tables("spring")
                 .into_iter()
                 .map(|(fields, place)| self.spring(fields, place))
+                .collect(),
+            surfaces: root
+                .tables("surface")
+                .into_iter()
+                .map(|(fields, place)| self.surface(fields, place))
                 .collect(),
             contacts: root
                 .tables("contact")
@@ -207,14 +208,19 @@ impl Builder {
             });
         }
         let vector = self.vector(fields, key)?;
+        self.has_direction(vector, key, &fields.place(key));
+        Some(vector)
+    }
+
+    /// Refuses a vector of length zero.
+    fn has_direction(&mut self, vector: [f64; 3], key: &str, place: &Place) {
         if vector == [0.0; 3] {
             self.error(
                 &codes::OUT_OF_RANGE,
                 format!("`{key}` has no direction"),
-                &fields.place(key),
+                place,
                 "a vector of length zero",
             );
         }
-        Some(vector)
     }
 }

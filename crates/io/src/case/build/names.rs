@@ -17,7 +17,9 @@ impl Builder {
             .iter()
             .flat_map(|body| body.groups.iter().map(|group| ("body", group)));
         let references = case.references.iter().map(|one| ("reference", &one.name));
-        self.unique(groups.chain(sets).chain(references.clone()));
+        let surfaces = case.surfaces.iter().map(|one| ("surface", &one.name));
+        let all = groups.chain(sets).chain(surfaces.clone());
+        self.unique(all.chain(references.clone()));
         self.unique(case.springs.iter().map(|one| ("spring", &one.name)));
         self.unique(
             case.contacts
@@ -72,7 +74,7 @@ impl Builder {
                 .map(|group| group.as_str())
                 .collect();
             let sets = case.sets.iter().map(|set| ("set", &set.name));
-            for (kind, name) in sets.chain(references) {
+            for (kind, name) in sets.chain(surfaces).chain(references) {
                 let is_body = || bodies.contains(name.as_str());
                 if let Some(group) = groups.get(name.as_str()).filter(|_| !is_body()) {
                     self.name_twice(("group of elements", group), (kind, name));
@@ -236,8 +238,13 @@ impl Builder {
             | ConstraintKind::Distributing { reference, .. } => Some(reference),
             _ => None,
         });
+        let of_surfaces = case
+            .surfaces
+            .iter()
+            .filter_map(|one| one.reference.as_ref());
         for name in of_bodies
             .chain(of_constraints)
+            .chain(of_surfaces)
             .filter(|_| known("reference"))
         {
             self.reference("reference", name, &points);
@@ -261,6 +268,10 @@ impl Builder {
                 _ => {}
             }
         }
+        let changes = case.steps.iter().flat_map(|step| &step.contacts);
+        for change in changes.filter(|_| known("contact")) {
+            self.reference("contact", &change.name, &contacts);
+        }
         if case.bodies.is_empty() && root.has("body") && known("body") {
             self.found.push(
                 Diagnostic::error(&codes::MISSING, "there is no body")
@@ -272,6 +283,129 @@ impl Builder {
                 Diagnostic::error(&codes::MISSING, "there is no step: nothing would happen")
                     .help("write [[step]]"),
             );
+        }
+    }
+
+    /// Surfaces where none can be, and those that take no part.
+    pub(super) fn surfaces(&mut self, case: &Case) {
+        let of_name: BTreeMap<&str, &Surface> = case
+            .surfaces
+            .iter()
+            .map(|one| (one.name.as_str(), one))
+            .collect();
+        let mut used = BTreeSet::new();
+        for contact in &case.contacts {
+            if let Some(surface) = of_name.get(contact.secondary.as_str()) {
+                used.insert(surface.name.as_str());
+                self.error(
+                    &codes::CONTRADICTION,
+                    format!(
+                        "the secondary side of contact \"{}\" is a surface without nodes",
+                        contact.name.value
+                    ),
+                    &contact.secondary.place,
+                    "a [[surface]] is always `primary`",
+                );
+            }
+            let Some(surface) = of_name.get(contact.primary.as_str()) else {
+                continue;
+            };
+            used.insert(surface.name.as_str());
+            let needs = if *contact.method == Method::NodeToNode {
+                "\"node-to-node\" needs nodes on both sides"
+            } else if contact.two_pass {
+                "two passes need points on both sides"
+            } else {
+                continue;
+            };
+            self.found.push(
+                Diagnostic::error(
+                    &codes::CONTRADICTION,
+                    format!("surface \"{}\" has no nodes", surface.name.value),
+                )
+                .at(&contact.primary.place, needs)
+                .help("write  method = \"node-to-segment\"  and  passes = 1"),
+            );
+        }
+        let idle = case.surfaces.iter();
+        for surface in idle.filter(|one| !used.contains(one.name.as_str())) {
+            self.found.push(
+                Diagnostic::warning(
+                    &codes::NO_EFFECT,
+                    format!("surface \"{}\" touches nothing", surface.name.value),
+                )
+                .at(&surface.place, "no contact has it as `primary`"),
+            );
+        }
+    }
+
+    /// Pairs of sides that stand in two contacts, in one order or the other.
+    pub(super) fn pairs(&mut self, case: &Case) {
+        let mut seen: BTreeMap<[&str; 2], &Contact> = BTreeMap::new();
+        for contact in &case.contacts {
+            let mut sides = [contact.secondary.as_str(), contact.primary.as_str()];
+            sides.sort_unstable();
+            if sides.contains(&"") {
+                continue;
+            }
+            let Some(first) = seen.get(&sides) else {
+                seen.insert(sides, contact);
+                continue;
+            };
+            let swapped = first.secondary != contact.secondary;
+            let how = if swapped { ", with sides swapped" } else { "" };
+            let mut one = Diagnostic::warning(
+                &codes::PAIR_TWICE,
+                format!(
+                    "contacts \"{}\" and \"{}\" are of one pair{how}",
+                    first.name.value, contact.name.value
+                ),
+            )
+            .at(&contact.place, "where both act, both push")
+            .at(&first.place, "the first");
+            if swapped {
+                one = one.help("one contact with  passes = 2  looks at both sides");
+            }
+            self.found.push(one);
+        }
+    }
+
+    /// Changes of contacts that contradict what is changed, or each other.
+    pub(super) fn contact_changes(&mut self, case: &Case) {
+        let of_name: BTreeMap<&str, &Contact> = case
+            .contacts
+            .iter()
+            .map(|one| (one.name.as_str(), one))
+            .collect();
+        for step in &case.steps {
+            let mut seen: BTreeMap<&str, &ContactChange> = BTreeMap::new();
+            for change in step.contacts.iter().filter(|one| !one.name.is_empty()) {
+                if let Some(first) = seen.insert(change.name.as_str(), change) {
+                    self.found.push(
+                        Diagnostic::error(
+                            &codes::CONTRADICTION,
+                            format!(
+                                "step \"{}\" changes contact \"{}\" twice",
+                                step.name.value, change.name.value
+                            ),
+                        )
+                        .at(&change.place, "the second")
+                        .at(&first.place, "the first")
+                        .help("write one of them"),
+                    );
+                }
+                let tied = of_name.get(change.name.as_str());
+                if tied.is_some_and(|contact| contact.tied.is_some())
+                    && matches!(change.friction, Some(Some(_)))
+                {
+                    self.error(
+                        &codes::CONTRADICTION,
+                        format!("the sides of contact \"{}\" are joined", change.name.value),
+                        &change.place,
+                        "what is joined does not slide: delete `friction`",
+                    );
+                }
+            }
         }
     }
 

@@ -84,6 +84,11 @@ impl Builder {
                 .into_iter()
                 .map(|(one, place)| self.load(one, place))
                 .collect(),
+            contacts: fields
+                .tables("contact")
+                .into_iter()
+                .map(|(one, place)| self.contact_change(one, place))
+                .collect(),
             temperatures: fields
                 .tables("temperature")
                 .into_iter()

@@ -1,7 +1,10 @@
-//! Contacts.
+//! Contacts, and their changes in a step.
 
 use super::Name;
 use crate::diagnostic::{Place, Spanned};
+
+/// The word for the secondary side itself, as `primary`.
+pub const SELF: &str = "self";
 
 /// A pair of surfaces that may touch.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,14 +13,32 @@ pub struct Contact {
     pub name: Name,
     /// The side that carries the points.
     pub secondary: Name,
-    /// The side that is projected onto.
+    /// The side that is projected onto: a set, a surface, or [`SELF`].
     pub primary: Name,
     /// How the two sides are discretized.
     pub method: Spanned<Method>,
+    /// Whether also with the sides swapped.
+    pub two_pass: bool,
+    /// The points of [`Method::GaussPoint`].
+    pub rule: PointRule,
+    /// The areas that points stand for.
+    pub area: Area,
     /// How penetration is prevented.
     pub enforcement: Enforcement,
-    /// Coulomb's coefficient of friction.
-    pub friction: Spanned<f64>,
+    /// Per node (force per length) or per area (stress per length); none: by what the secondary side is.
+    pub per: Option<Per>,
+    /// Friction; none: frictionless.
+    pub friction: Option<Friction>,
+    /// How far points slide.
+    pub sliding: Sliding,
+    /// Whether the sides are joined.
+    pub tied: Option<Tied>,
+    /// What is done about gaps and overlaps at the start; by default for sides that are joined.
+    pub start: Start,
+    /// The normals of [`Method::NodeToNode`].
+    pub normals: Normals,
+    /// The pairs of [`Method::NodeToNode`].
+    pub pairs: Pairs,
     /// How far from each other the sides are searched (length); none: found by the program.
     pub reach: Option<f64>,
     /// Whether it acts from the first step on.
@@ -26,14 +47,54 @@ pub struct Contact {
     pub place: Place,
 }
 
+impl Contact {
+    /// Whether it is a contact of a surface with itself.
+    pub fn is_with_itself(&self) -> bool {
+        self.primary.value == SELF
+    }
+}
+
 /// How the two sides of a contact are discretized.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// The program chooses.
     #[default]
     Auto,
+    /// Nodes of one side against nodes of the other.
+    NodeToNode,
     /// Nodes of the secondary side against segments of the primary side.
     NodeToSegment,
+    /// Points inside the facets of the secondary side against segments of the primary side.
+    GaussPoint,
+}
+
+/// Points of a facet, along each of its directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PointRule {
+    /// Which ones.
+    pub kind: PointKind,
+    /// How many; none: one more than the degree of the facet.
+    pub points: Option<u64>,
+}
+
+/// A family of points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PointKind {
+    /// Inside.
+    #[default]
+    Gauss,
+    /// With the ends.
+    Lobatto,
+}
+
+/// The areas that points stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Area {
+    /// Those at the start.
+    #[default]
+    Reference,
+    /// Those of the deformed surface.
+    Current,
 }
 
 /// How penetration is prevented.
@@ -42,13 +103,35 @@ pub enum Enforcement {
     /// The program chooses.
     #[default]
     Auto,
-    /// A pressure or force proportional to the penetration.
-    Penalty {
-        /// The factor; none: from the stiffness behind the surface.
-        penalty: Option<Spanned<f64>>,
-        /// Per node (force per length) or per area (stress per length); none: by what the secondary side is.
-        per: Option<Per>,
+    /// A pressure or force proportional to the penetration; none: from the stiffness behind the surface.
+    Penalty(Option<Spanned<f64>>),
+    /// Linear between rows of gap and pressure: gaps increase, pressures fall to zero.
+    Table(Vec<[f64; 2]>),
+    /// Exponential in the gap.
+    Exponential {
+        /// Pressure at zero gap.
+        p0: f64,
+        /// The gap at which it has fallen to 1 %.
+        c0: f64,
     },
+    /// Multipliers.
+    Lagrange,
+    /// Multipliers beside a penalty.
+    Augmented {
+        /// How they are found.
+        by: Augmentation,
+        /// The penalty; none: from the stiffness behind the surface.
+        penalty: Option<Spanned<f64>>,
+    },
+}
+
+/// How the multipliers of an augmented Lagrangian are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Augmentation {
+    /// They are updated between solutions.
+    Uzawa,
+    /// They are solved for.
+    Newton,
 }
 
 /// What a penalty refers to.
@@ -58,4 +141,122 @@ pub enum Per {
     Node,
     /// Its area.
     Area,
+}
+
+/// Friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Friction {
+    /// The largest shear traction; more than nothing.
+    pub limit: Limit,
+    /// What sticking yields; none: the program chooses.
+    pub stick: Option<Stick>,
+}
+
+/// The largest shear traction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// A share of the pressure.
+    Coulomb {
+        /// The coefficient.
+        mu: f64,
+        /// The traction it never exceeds.
+        cap: Option<f64>,
+    },
+    /// A constant.
+    Tresca(f64),
+    /// A share of the pressure that falls with the length of slip.
+    Falling {
+        /// The coefficient before any slip.
+        stationary: f64,
+        /// The coefficient after much slip; at most the other.
+        kinetic: f64,
+        /// The length of slip over which it falls.
+        transition: f64,
+    },
+}
+
+/// What sticking yields.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stick {
+    /// Shear traction per elastic slip.
+    Stiffness(f64),
+    /// The elastic slip (length) at which points slip.
+    Slip(f64),
+}
+
+/// How far points slide.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sliding {
+    /// As far as it goes.
+    #[default]
+    Finite,
+    /// Within the tangent plane that each meets first.
+    Small,
+}
+
+/// Sides that are joined.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tied {
+    /// Whether distances at the start are closed without strain, or stay.
+    pub close: bool,
+    /// Points further away (length) are not joined; none: all within reach.
+    pub within: Option<f64>,
+}
+
+/// What is done about gaps and overlaps at the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Start {
+    /// Gaps and overlaps up to this (length) are removed by moving nodes.
+    pub close_gaps_below: f64,
+    /// What gaps are taken to be (length); none: as measured.
+    pub clearance: Option<f64>,
+    /// What becomes of overlaps.
+    pub interference: Interference,
+}
+
+/// What becomes of overlaps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interference {
+    /// They are resolved over the first step in which the contact acts.
+    #[default]
+    Step,
+    /// They are resolved at once.
+    Now,
+    /// They stay, without pressure.
+    StrainFree,
+}
+
+/// Where node-to-node contact takes its normals from.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Normals {
+    /// From the primary side.
+    #[default]
+    Primary,
+    /// From the secondary side.
+    Secondary,
+    /// Given, towards the secondary side; not zero, of any length.
+    Given([f64; 3]),
+}
+
+/// Which nodes meet in node-to-node contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pairs {
+    /// The nearest.
+    #[default]
+    Nearest,
+    /// Those of one place in the two lists.
+    Order,
+}
+
+/// A change of a contact, from a step on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactChange {
+    /// The contact.
+    pub name: Name,
+    /// Whether it acts; none: as before.
+    pub active: Option<bool>,
+    /// Its friction, which may be none; nothing: as before.
+    pub friction: Option<Option<Friction>>,
+    /// Where it was written.
+    pub place: Place,
 }

@@ -8,12 +8,14 @@ mod contact;
 mod geometry;
 mod run;
 mod steps;
+mod surface;
 
 pub use bodies::*;
 pub use contact::*;
 pub use geometry::*;
 pub use run::*;
 pub use steps::*;
+pub use surface::*;
 
 use crate::diagnostic::Spanned;
 
@@ -47,6 +49,8 @@ pub struct Case {
     pub bodies: Vec<Body>,
     /// Springs.
     pub springs: Vec<Spring>,
+    /// Rigid surfaces without a mesh.
+    pub surfaces: Vec<Surface>,
     /// Pairs of surfaces that may touch.
     pub contacts: Vec<Contact>,
     /// Constraints between displacements.
@@ -66,12 +70,13 @@ pub struct Case {
 }
 
 impl Case {
-    /// The names a case with its mesh in place knows of itself: groups of elements, sets, references. A mesh file adds
-    /// its own.
+    /// The names a case with its mesh in place knows of itself: groups of elements, sets, surfaces, references. A mesh
+    /// file adds its own.
     pub fn names(&self) -> Vec<&str> {
         let sets = self.sets.iter().map(|set| set.name.as_str());
         let references = self.references.iter().map(|one| one.name.as_str());
-        let mut names: Vec<&str> = sets.chain(references).collect();
+        let surfaces = self.surfaces.iter().map(|one| one.name.as_str());
+        let mut names: Vec<&str> = sets.chain(references).chain(surfaces).collect();
         if let MeshSource::Inline { elements, .. } = &self.mesh {
             names.extend(
                 elements

@@ -1,6 +1,6 @@
 //! Amplitudes and steps.
 
-use super::{Axis, Name};
+use super::{Axis, ContactChange, Name};
 use crate::diagnostic::{Place, Spanned};
 
 /// A function of time: linear between its rows, constant outside.
@@ -43,6 +43,8 @@ pub struct Step {
     pub frees: Vec<Free>,
     /// Loads.
     pub loads: Vec<Load>,
+    /// Changes of contacts.
+    pub contacts: Vec<ContactChange>,
     /// Temperatures.
     pub temperatures: Vec<Temperature>,
     /// Where it was written.

@@ -2,16 +2,20 @@
 //!
 //! The vocabulary gives the order of the keys and the remark behind each of them; reading the text gives the same case.
 
+mod contact;
 mod model;
 mod run;
 mod steps;
+mod surface;
 mod write;
 
 use super::parts::*;
 use super::vocabulary::CASE;
-use model::{body, constraint, contact, material, mesh, model, reference, set_content, spring};
+use contact::contact;
+use model::{body, constraint, material, mesh, model, reference, set_content, spring};
 use run::{checkpoint, expectation, output, solver};
 use steps::{amplitude, step};
+use surface::surface;
 use write::{Entries, Value, list, named, tables, write_table};
 
 /// A case as a complete TOML text, which reads back to the same case.
@@ -49,6 +53,10 @@ fn tree(case: &Case) -> Entries {
         ),
         ("body", tables(&case.bodies, body)),
         ("spring", tables(&case.springs, spring)),
+        (
+            "surface",
+            tables(&case.surfaces, |one| surface(one, case.model.space.ndim())),
+        ),
         ("contact", tables(&case.contacts, contact)),
         ("constraint", tables(&case.constraints, constraint)),
     ]);

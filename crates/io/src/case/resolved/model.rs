@@ -1,4 +1,4 @@
-//! The mesh, sets, materials, bodies, springs, constraints, contacts.
+//! The mesh, sets, materials, bodies, springs, constraints.
 
 use super::super::build::COMPONENTS;
 use super::super::parts::*;
@@ -235,42 +235,6 @@ pub(super) fn constraint(constraint: &Constraint) -> Entries {
             let mut entries = of_kind("equal", on);
             entries.push(("dofs", self::axes(*axes)));
             entries
-        }
-    }
-}
-
-pub(super) fn contact(contact: &Contact) -> Entries {
-    let method = match *contact.method {
-        Method::Auto => "auto",
-        Method::NodeToSegment => "node-to-segment",
-    };
-    vec![
-        ("name", (&contact.name.value).into()),
-        ("secondary", (&contact.secondary.value).into()),
-        ("primary", (&contact.primary.value).into()),
-        ("method", method.into()),
-        ("enforcement", enforcement(&contact.enforcement)),
-        ("friction", contact.friction.value.into()),
-        ("sliding", "finite".into()),
-        ("passes", 1_u64.into()),
-        ("tied", false.into()),
-        ("reach", contact.reach.map_or("auto".into(), Value::Number)),
-        ("active", contact.active.into()),
-    ]
-}
-
-fn enforcement(enforcement: &Enforcement) -> Value {
-    match enforcement {
-        Enforcement::Auto => "auto".into(),
-        Enforcement::Penalty { penalty, per } => {
-            let penalty = penalty
-                .as_ref()
-                .map_or("auto".into(), |penalty| Value::Number(penalty.value));
-            let mut entries = vec![("penalty", penalty)];
-            entries.extend(
-                per.map(|per| ("per", if per == Per::Node { "node" } else { "area" }.into())),
-            );
-            Value::Table(entries)
         }
     }
 }

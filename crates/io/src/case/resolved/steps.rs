@@ -1,6 +1,7 @@
 //! Amplitudes and steps.
 
 use super::super::parts::*;
+use super::contact::contact_change;
 use super::write::{Entries, Value, list, tables};
 
 pub(super) fn amplitude(one: &Amplitude) -> Entries {
@@ -33,6 +34,7 @@ pub(super) fn step(step: &Step) -> Entries {
             tables(&step.frees, |one| held(&one.on, one.u, one.rot)),
         ),
         ("load", tables(&step.loads, load)),
+        ("contact", tables(&step.contacts, contact_change)),
         ("temperature", tables(&step.temperatures, temperature)),
     ]
 }

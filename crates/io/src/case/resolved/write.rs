@@ -161,6 +161,7 @@ fn inline(value: &Value, outermost: bool) -> String {
                 format!("[{}]", items.join(", "))
             }
         }
+        Value::Table(entries) if entries.is_empty() => "{}".to_owned(),
         Value::Table(entries) => {
             let entries: Vec<String> = entries
                 .iter()

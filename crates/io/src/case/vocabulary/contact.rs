@@ -1,4 +1,4 @@
-//! Contacts.
+//! Contacts, and their changes in a step.
 
 use super::*;
 
@@ -14,9 +14,13 @@ pub(super) static CONTACT: Table = Table {
         )
         .required()
         .hints(&["slave", "source"]),
-        key("primary", Shape::Text, "the side they may not pass through")
-            .required()
-            .hints(&["master", "target"]),
+        key(
+            "primary",
+            Shape::Text,
+            "the side they may not pass through: a set, a [[surface]], or \"self\"",
+        )
+        .required()
+        .hints(&["master", "target"]),
         key(
             "method",
             Shape::Choice(METHODS),
@@ -24,36 +28,52 @@ pub(super) static CONTACT: Table = Table {
         )
         .or(Default::Text("auto")),
         key(
-            "enforcement",
-            Shape::Either(ENFORCEMENTS),
-            "how penetration is prevented",
-        )
-        .or(Default::Text("auto")),
-        key(
-            "friction",
-            Shape::Either(FRICTIONS),
-            "coefficient of friction",
-        )
-        .or(Default::Number(0.0))
-        .hints(&["mu"]),
-        key(
-            "sliding",
-            Shape::Choice(&[word("finite"), Choice::later("small", "finite")]),
-            "how far points slide",
-        )
-        .or(Default::Text("finite")),
-        key(
             "passes",
             Shape::Integer(1, 2),
             "1, or 2: also with the sides swapped",
         )
         .or(Default::Integer(1)),
+        key("rule", Shape::Table(&RULE), RULE.doc).hints(&["integration", "quadrature"]),
+        key(
+            "area",
+            Shape::Choice(&[word("reference"), word("current")]),
+            "whether points stand for the area they have at the start, or now",
+        )
+        .or(Default::Text("reference")),
+        key(
+            "enforcement",
+            Shape::Either(ENFORCEMENTS),
+            "how penetration is prevented",
+        )
+        .or(Default::Text("auto")),
+        FRICTION_KEY.or(Default::Number(0.0)),
+        key(
+            "sliding",
+            Shape::Choice(&[word("finite"), word("small")]),
+            "how far points slide; small: each keeps the tangent plane it meets first",
+        )
+        .or(Default::Text("finite")),
         key(
             "tied",
-            Shape::Either(&[Shape::Flag, Shape::Later(&Shape::Table(&LATER), "")]),
-            "whether the sides are glued",
+            Shape::Either(&[Shape::Flag, Shape::Table(&TIED)]),
+            "whether the sides are joined: false, true or { offset, within }",
         )
-        .or(Default::Flag(false)),
+        .or(Default::Flag(false))
+        .hints(&["bonded", "glued", "tie"]),
+        key("start", Shape::Table(&START), START.doc).hints(&["adjust", "initial"]),
+        key(
+            "normals",
+            Shape::Either(&[Shape::Choice(&[word("primary"), word("secondary")]), VECTOR]),
+            "of node-to-node: those of a side, or a vector towards the secondary side",
+        )
+        .or(Default::Text("primary"))
+        .hints(&["normal"]),
+        key(
+            "pairs",
+            Shape::Choice(&[word("nearest"), word("order")]),
+            "of node-to-node: which nodes meet, the nearest or those of one place in the two lists",
+        )
+        .or(Default::Text("nearest")),
         key(
             "reach",
             Shape::Either(&[AUTO, POSITIVE]),
@@ -66,60 +86,203 @@ pub(super) static CONTACT: Table = Table {
             "whether it acts from the first step on",
         )
         .or(Default::Flag(true)),
-        key("rule", Shape::Table(&LATER), "integration points").later(""),
-        key("area", Shape::Text, "reference or current")
-            .later("leave it away: areas are those of the reference"),
-        key(
-            "start",
-            Shape::Table(&LATER),
-            "gaps and overlaps at the start",
-        )
-        .later("close gaps in the mesh"),
-        key("normals", Shape::Text, "whose normals")
-            .later("leave it away: normals are those of the primary side"),
-        key("pairs", Shape::Text, "how nodes are paired").later(""),
     ],
     rules: &[],
 };
 const METHODS: &[Choice] = &[
     word("auto"),
+    word("node-to-node"),
     word("node-to-segment"),
-    Choice::later("node-to-node", "node-to-segment"),
-    Choice::later("gauss-point", "node-to-segment"),
-    Choice::later("mortar", "node-to-segment"),
+    word("gauss-point"),
+    Choice::later("mortar", "gauss-point"),
 ];
 const ENFORCEMENTS: &[Shape] = &[AUTO, Shape::Table(&ENFORCEMENT)];
-const FRICTIONS: &[Shape] = &[
-    NOT_NEGATIVE,
-    Shape::Later(&Shape::Table(&LATER), "friction = 0.0"),
-];
+const FRICTIONS: &[Shape] = &[NOT_NEGATIVE, Shape::Table(&FRICTION)];
+const FRICTION_KEY: Key = key(
+    "friction",
+    Shape::Either(FRICTIONS),
+    "coefficient of friction, or a table of what limits it",
+)
+.hints(&["mu"]);
 
-pub(super) static ENFORCEMENT: Table = Table {
+static RULE: Table = Table {
+    heading: "rule",
+    doc: "points of gauss-point, along each direction of a facet",
+    keys: &[
+        key(
+            "kind",
+            Shape::Choice(&[word("gauss"), word("lobatto")]),
+            "points inside, or with the ends",
+        )
+        .or(Default::Text("gauss")),
+        key(
+            "points",
+            Shape::Either(&[AUTO, Shape::Integer(1, 10)]),
+            "how many; auto: one more than the degree of the facet",
+        )
+        .or(Default::Text("auto")),
+    ],
+    rules: &[],
+};
+
+static ENFORCEMENT: Table = Table {
     heading: "enforcement",
     doc: "how penetration is prevented",
     keys: &[
         key(
             "penalty",
-            Shape::Either(PENALTIES),
-            "force or pressure per penetration",
+            Shape::Either(&[AUTO, POSITIVE, PRESSURES]),
+            "force or pressure per penetration, or rows [gap, pressure]",
         )
         .or(Default::Text("auto"))
         .hints(&["stiffness", "epsilon"]),
+        key("exponential", Shape::Table(&EXPONENTIAL), EXPONENTIAL.doc),
+        key("lagrange", Shape::Table(&LAGRANGE), LAGRANGE.doc).hints(&["multipliers"]),
+        key(
+            "augmented",
+            Shape::Choice(&[word("uzawa"), word("newton")]),
+            "multipliers beside a penalty, updated between solutions or solved for with them",
+        ),
         key(
             "per",
             Shape::Choice(&[word("node"), word("area")]),
             "a force per node, or a pressure; absent: by what the secondary side is",
         ),
-        key("gap_tol", ANY, "penetration allowed").later("solver.newton.gap_tol"),
-        key("exponential", Shape::Table(&LATER), "soft contact").later("{ penalty = \"auto\" }"),
         key(
-            "lagrange",
-            Shape::Table(&LATER),
-            "no penetration, by multipliers",
+            "gap_tol",
+            Shape::Either(&[
+                AUTO,
+                Shape::Later(
+                    &POSITIVE,
+                    "newton = { gap_tol = .. }  in [solver], for all contacts",
+                ),
+            ]),
+            "largest penetration of `augmented`; auto: that of [solver] newton",
         )
-        .later("{ penalty = \"auto\" }"),
-        key("augmented", Shape::Text, "augmented Lagrangian").later("{ penalty = \"auto\" }"),
+        .or(Default::Text("auto")),
+    ],
+    rules: &[
+        Rule::AtMostOne(&["exponential", "lagrange", "augmented"]),
+        Rule::AtMostOne(&["penalty", "exponential"]),
+        Rule::AtMostOne(&["penalty", "lagrange"]),
+        Rule::AtMostOne(&["lagrange", "per"]),
+        Rule::Needs("gap_tol", "augmented"),
+    ],
+};
+const PRESSURES: Shape = Shape::List(
+    &Shape::Row("[gap, pressure]", &[ANY, NOT_NEGATIVE]),
+    2,
+    MANY,
+);
+
+static EXPONENTIAL: Table = Table {
+    heading: "exponential",
+    doc: "a pressure that grows exponentially as the gap closes",
+    keys: &[
+        key("p0", POSITIVE, "pressure at zero gap").required(),
+        key("c0", POSITIVE, "the gap at which it has fallen to 1 %").required(),
     ],
     rules: &[],
 };
-const PENALTIES: &[Shape] = &[AUTO, POSITIVE, Shape::Later(&TIME_TABLE, "one number")];
+
+static LAGRANGE: Table = Table {
+    heading: "lagrange",
+    doc: "no penetration at all, by multipliers: {}",
+    keys: &[],
+    rules: &[],
+};
+
+static FRICTION: Table = Table {
+    heading: "friction",
+    doc: "what limits friction, and what sticking yields",
+    keys: &[
+        key("mu", NOT_NEGATIVE, "coefficient of friction"),
+        key("cap", POSITIVE, "largest shear traction, with `mu`").hints(&["tau_max", "taumax"]),
+        key("tresca", POSITIVE, "shear traction wherever it touches").hints(&["shear"]),
+        key("static", POSITIVE, "coefficient before any slip").hints(&["mu_s", "mu_static"]),
+        key("kinetic", NOT_NEGATIVE, "coefficient after much slip").hints(&[
+            "mu_k",
+            "mu_kinetic",
+            "dynamic",
+        ]),
+        key(
+            "transition",
+            POSITIVE,
+            "length of slip over which the one becomes the other",
+        )
+        .hints(&["decay"]),
+        key(
+            "elastic_slip",
+            POSITIVE,
+            "how far points move before they slip (length)",
+        ),
+        key("stiffness", POSITIVE, "shear traction per elastic slip").hints(&["penalty"]),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["mu", "tresca", "static"]),
+        Rule::Needs("cap", "mu"),
+        Rule::Needs("static", "kinetic"),
+        Rule::Needs("kinetic", "static"),
+        Rule::Needs("static", "transition"),
+        Rule::Needs("transition", "static"),
+        Rule::AtMostOne(&["elastic_slip", "stiffness"]),
+    ],
+};
+
+static TIED: Table = Table {
+    heading: "tied",
+    doc: "sides that are joined",
+    keys: &[
+        key(
+            "offset",
+            Shape::Choice(&[word("keep"), word("close")]),
+            "whether distances at the start stay, or are closed without strain",
+        )
+        .or(Default::Text("keep")),
+        key(
+            "within",
+            POSITIVE,
+            "points further away are not joined (length); absent: all within reach",
+        ),
+    ],
+    rules: &[],
+};
+
+static START: Table = Table {
+    heading: "start",
+    doc: "what is done about gaps and overlaps at the start",
+    keys: &[
+        key(
+            "close_gaps_below",
+            NOT_NEGATIVE,
+            "gaps and overlaps up to this are removed by moving nodes, without strain",
+        )
+        .or(Default::Number(0.0))
+        .hints(&["adjust", "close_gaps"]),
+        key(
+            "clearance",
+            Shape::Either(&[Shape::Choice(&[word("measured")]), NOT_NEGATIVE]),
+            "gaps are taken to be this, whatever the mesh says",
+        )
+        .or(Default::Text("measured")),
+        key(
+            "interference",
+            Shape::Choice(&[word("step"), word("now"), word("strain-free")]),
+            "overlaps are resolved over the first step, at once, or stay without pressure",
+        )
+        .or(Default::Text("step"))
+        .hints(&["overlap", "shrink"]),
+    ],
+    rules: &[],
+};
+
+pub(super) static CONTACT_CHANGE: Table = Table {
+    heading: "[[step.contact]]",
+    doc: "changes of contacts, from this step on",
+    keys: &[
+        key("name", Shape::Text, "the contact").required(),
+        key("active", Shape::Flag, "whether it acts"),
+        FRICTION_KEY,
+    ],
+    rules: &[Rule::AtLeastOne(&["active", "friction"])],
+};

@@ -11,6 +11,7 @@ mod contact;
 mod geometry;
 mod run;
 mod steps;
+mod surface;
 
 pub use run::FIELDS;
 
@@ -19,6 +20,7 @@ use contact::CONTACT;
 use geometry::{INITIAL, MESH, MODEL, REFERENCE, SET};
 use run::{CHECKPOINT, EXPECT, OUTPUT, SOLVER};
 use steps::{AMPLITUDE, STEP};
+use surface::SURFACE;
 
 /// A table of a case: what may stand in it.
 #[derive(Debug)]
@@ -273,8 +275,7 @@ pub static CASE: Table = Table {
         key("amplitude", Shape::Named(&AMPLITUDE), AMPLITUDE.doc).hints(&["amplitudes"]),
         key("material", Shape::Named(&MATERIAL), MATERIAL.doc).hints(&["materials"]),
         key("body", Shape::Tables(&BODY), BODY.doc).required().hints(&["bodies", "part", "section"]),
-        key("surface", Shape::Tables(&LATER), "analytical or triangulated rigid surfaces")
-            .later("mesh the tool and make it a rigid body"),
+        key("surface", Shape::Tables(&SURFACE), SURFACE.doc).hints(&["surfaces"]),
         key("contact", Shape::Tables(&CONTACT), CONTACT.doc).hints(&["contacts", "pair", "interface"]),
         key("spring", Shape::Tables(&SPRING), SPRING.doc).hints(&["springs"]),
         key("constraint", Shape::Tables(&CONSTRAINT), CONSTRAINT.doc)
@@ -286,13 +287,5 @@ pub static CASE: Table = Table {
         key("checkpoint", Shape::Table(&CHECKPOINT), CHECKPOINT.doc).hints(&["restart"]),
         key("expect", Shape::Tables(&EXPECT), EXPECT.doc).hints(&["check", "test"]),
     ],
-    rules: &[],
-};
-
-/// The content of tables that this version does not read.
-static LATER: Table = Table {
-    heading: "",
-    doc: "",
-    keys: &[],
     rules: &[],
 };

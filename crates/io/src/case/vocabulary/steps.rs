@@ -1,5 +1,6 @@
 //! Amplitudes and steps.
 
+use super::contact::CONTACT_CHANGE;
 use super::*;
 
 pub(super) static AMPLITUDE: Table = Table {
@@ -51,10 +52,9 @@ pub(super) static STEP: Table = Table {
         key("load", Shape::Tables(&LOAD), LOAD.doc).hints(&["force"]),
         key(
             "contact",
-            Shape::Tables(&LATER),
-            "changes of a contact in this step",
-        )
-        .later("`active` and `friction` in [[contact]], for all steps"),
+            Shape::Tables(&CONTACT_CHANGE),
+            CONTACT_CHANGE.doc,
+        ),
         key("temperature", Shape::Tables(&TEMPERATURE), TEMPERATURE.doc),
     ],
     rules: &[],

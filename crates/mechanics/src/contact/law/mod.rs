@@ -91,6 +91,22 @@ pub trait ContactLaw: Send + Sync {
         Eval::default()
     }
 
+    /// The pressure that a multiplier is compared with, `λ + ε c(g, λ)`: what friction is limited by. Without a multiplier
+    /// that is solved for, the pressure itself.
+    fn trial(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {
+        let at = self.pressure(gap, lambda, scale);
+        if !self.multiplier().is_unknown() || at == Eval::default() {
+            return at;
+        }
+        let c = self.complementarity(gap, lambda, scale);
+        Eval {
+            // not even by rounding: a limit of friction has no sign
+            value: (lambda + scale.penalty * c.value).max(0.0),
+            dgap: scale.penalty * c.dgap,
+            dlambda: 1.0 + scale.penalty * c.dlambda,
+        }
+    }
+
     /// The multiplier after an increment's iterations.
     fn augment(&self, _gap: f64, lambda: f64, _scale: &Scale) -> f64 {
         lambda

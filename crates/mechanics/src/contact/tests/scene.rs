@@ -311,7 +311,7 @@ impl Scene {
             .begin_step(&StepContext::default(), &state)
             .unwrap();
         let still = |(k, node): (usize, &NodeId)| match kind {
-            Kind::Elements(_) => x[*node as usize].x < 1.1,
+            Kind::Elements(_) => x[*node as usize].x < if ndim == 2 { 2.2 } else { 1.1 },
             _ => k.is_multiple_of(2),
         };
         Self {

@@ -19,6 +19,9 @@ use std::sync::Arc;
 
 /// Factor of the automatic penalty (E1).
 const PENALTY: f64 = 10.0;
+/// Factor of the automatic parameter of laws that solve for multipliers: it changes the way to the solution only, and
+/// what slips turns round for ever where it is large.
+const COMPLEMENTARITY: f64 = 1.0;
 /// The automatic reach over the largest facet.
 const REACH: f64 = 2.0;
 
@@ -128,7 +131,12 @@ impl Context<'_> {
         let penalty = match given {
             Some(penalty) => penalty,
             None if softest.is_finite() => {
-                let per_area = PENALTY * softest;
+                let factor = if sides.law.multiplier().is_unknown() {
+                    COMPLEMENTARITY
+                } else {
+                    PENALTY
+                };
+                let per_area = factor * softest;
                 let area = &sides.area;
                 match measure {
                     Measure::Area => per_area,
@@ -143,13 +151,14 @@ impl Context<'_> {
             }
         };
         let size = if largest > 0.0 { largest } else { length };
-        let reach = part.reach.unwrap_or(REACH * size);
-        sides.pair.reach = reach;
         let at = self.placement();
-        let found = sides.pair_up(&at).map_err(|source| ModelError::Surface {
-            contact: part.name.clone(),
-            source,
-        })?;
+        let found = sides
+            .look_around(&at, part.reach, REACH * size)
+            .map_err(|source| ModelError::Surface {
+                contact: part.name.clone(),
+                source,
+            })?;
+        let reach = sides.pair.reach;
         let bond = match part.tie {
             None => None,
             Some(tie) => Some(start::bonds(&sides, &found, tie, &at).map_err(|source| {

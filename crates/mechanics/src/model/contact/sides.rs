@@ -1,13 +1,13 @@
 //! From parts to the two sides of an interface, and the way they are compared.
 
-use crate::contact::Areas;
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
-    Discretization, NodeNormals, NodeToNode, PointToSegment, SurfacePair,
+    Discretization, NodeNormals, NodeToNode, Pairing, PointToSegment, SurfacePair,
 };
 use crate::contact::law::{
     AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table, Uzawa,
 };
+use crate::contact::{Areas, closest_points};
 use crate::model::{
     ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind, PointRule,
     PrimaryPart, SidePart, label,
@@ -15,10 +15,13 @@ use crate::model::{
 use crate::system::Idealisation;
 use signorini_geometry::element::{Element, quadrature};
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
-use signorini_geometry::surface::{ContactSurface, Facets, SurfaceError};
+use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
+
+/// How often the reach is doubled to find what is near at the start.
+const DOUBLINGS: usize = 6;
 
 /// One pass of a contact, before anything is chosen for it.
 pub(in crate::model) struct Sides {
@@ -365,11 +368,32 @@ impl Sides {
         self.pair.secondary.as_ref()
     }
 
+    /// Chooses the reach, unless it is given, and answers with the closest points at the start. Sides further apart than
+    /// the usual reach are looked for further away, so that a body that goes a long way to its contact is seen coming.
+    pub fn look_around(
+        &mut self,
+        at: &Placement,
+        given: Option<f64>,
+        usual: f64,
+    ) -> Result<Pairing, SurfaceError> {
+        self.pair.reach = given.unwrap_or(usual);
+        let found = self.pair_up(at)?;
+        if given.is_some() || found.pairs.iter().any(Option::is_some) {
+            return Ok(found);
+        }
+        for _ in 0..DOUBLINGS {
+            self.pair.reach *= 2.0;
+            let further = self.pair_up(at)?;
+            if further.pairs.iter().any(Option::is_some) {
+                return Ok(further);
+            }
+        }
+        self.pair.reach = usual;
+        Ok(found)
+    }
+
     /// Closest points at a configuration, within the reach.
-    pub fn pair_up(
-        &self,
-        at: &signorini_geometry::surface::Placement,
-    ) -> Result<crate::contact::discretization::Pairing, SurfaceError> {
-        crate::contact::closest_points(self.discretization.as_ref(), &self.pair, at)
+    pub fn pair_up(&self, at: &Placement) -> Result<Pairing, SurfaceError> {
+        closest_points(self.discretization.as_ref(), &self.pair, at)
     }
 }

@@ -3,12 +3,13 @@
 use super::null_space::null_space;
 use super::{Held, Motion, NCOMPONENT, Rows};
 use crate::model::{
-    ConstraintKind, ConstraintPart, ContactPart, PrimaryPart, SidePart, SpringPart, Unknown,
+    ConstraintKind, ConstraintPart, ContactPart, Method, Normals, PrimaryPart, SidePart,
+    SpringPart, Unknown,
 };
 use crate::solve::Prescription;
 use crate::system::{DofName, Layout};
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::RigidId;
+use signorini_geometry::surface::{Carrier, ContactSurface, Placement, Pose, RigidId, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
 
@@ -78,32 +79,88 @@ impl Held<'_> {
         }
     }
 
-    /// The two sides cannot approach along the normals of the primary side.
-    pub fn contact(&mut self, contact: &ContactPart) {
-        let secondary: BTreeSet<usize> = match &contact.secondary {
-            SidePart::Nodes(nodes) => nodes.iter().filter_map(|&n| self.unit(n)).collect(),
+    /// The two sides cannot approach along the normals of the primary side; where they rub, or are joined, they cannot
+    /// part in any direction. What is joined is held, the rest only by contact.
+    pub fn contact(&mut self, contact: &ContactPart, rubs: bool, poses: &[Pose]) {
+        let of_secondary: BTreeSet<NodeId> = match &contact.secondary {
+            SidePart::Nodes(nodes) => nodes.iter().copied().collect(),
             SidePart::Faces(faces) => {
                 let nodes = faces.iter().filter_map(|&f| self.mesh.face(f));
-                let units = nodes.flat_map(|(_, nodes)| nodes);
-                units.filter_map(|n| self.unit(n)).collect()
+                nodes.flat_map(|(_, nodes)| nodes).collect()
             }
         };
-        let PrimaryPart::Faces(faces) = &contact.primary else {
-            return;
-        };
-        for &face in faces {
-            let Some((_, nodes)) = self.mesh.face(face) else {
-                continue;
-            };
-            let corners: Vec<Vec3> = nodes.iter().map(|&n| self.point(n)).collect();
-            let Some(normal) = normal(&corners) else {
-                continue;
-            };
-            let primary = nodes.first().and_then(|&n| self.unit(n));
-            for &unit in secondary.iter().filter(|&&u| Some(u) != primary) {
-                for &at in &corners {
-                    let mut row = vec![(unit, self.moves(unit, at, normal))];
-                    row.extend(primary.map(|p| (p, self.moves(p, at, normal * -1.0))));
+        let joined = contact.tie.is_some();
+        let every_way = rubs || joined;
+        let mut stops: Vec<(usize, Option<usize>, Vec3, Vec3)> = Vec::new();
+        match &contact.primary {
+            PrimaryPart::Faces(faces) => {
+                let units: BTreeSet<usize> =
+                    of_secondary.iter().filter_map(|&n| self.unit(n)).collect();
+                for &face in faces {
+                    let Some((_, nodes)) = self.mesh.face(face) else {
+                        continue;
+                    };
+                    let corners: Vec<Vec3> = nodes.iter().map(|&n| self.point(n)).collect();
+                    let Some(normal) = normal(&corners) else {
+                        continue;
+                    };
+                    let primary = nodes.first().and_then(|&n| self.unit(n));
+                    for &unit in units.iter().filter(|&&u| Some(u) != primary) {
+                        stops.extend(corners.iter().map(|&at| (unit, primary, at, normal)));
+                    }
+                }
+            }
+            PrimaryPart::Surface(surface) => {
+                let at = Placement {
+                    x: &self.mesh.points,
+                    poses,
+                };
+                for &node in &of_secondary {
+                    let Some(unit) = self.unit(node) else {
+                        continue;
+                    };
+                    let point = self.point(node);
+                    let Some((facet, normal)) = nearest(surface.as_ref(), &at, point) else {
+                        continue;
+                    };
+                    let primary = match surface.carrier(facet) {
+                        Carrier::Rigid(body) => self.carrier(body),
+                        Carrier::Nodes(_) | Carrier::Fixed => None,
+                    };
+                    stops.push((unit, primary, point, normal));
+                }
+            }
+            PrimaryPart::Nodes(nodes) => {
+                let given = match contact.method {
+                    Method::NodeToNode {
+                        normals: Normals::Given(normal),
+                        ..
+                    } => normal,
+                    _ => Vec3::ZERO,
+                };
+                for &node in &of_secondary {
+                    let others = nodes.iter().map(|&n| self.unit(n));
+                    let others: BTreeSet<Option<usize>> = others.collect();
+                    let Some(unit) = self.unit(node) else {
+                        continue;
+                    };
+                    let others = others.into_iter().filter(|o| *o != Some(unit));
+                    let at = self.point(node);
+                    stops.extend(others.map(|other| (unit, other, at, given)));
+                }
+            }
+            PrimaryPart::Itself => {}
+        }
+        for (unit, primary, at, normal) in stops {
+            let axes = [0, 1, 2].map(Vec3::unit);
+            let alone = [normal];
+            let directions = if every_way { &axes[..] } else { &alone[..] };
+            for &direction in directions {
+                let mut row = vec![(unit, self.moves(unit, at, direction))];
+                row.extend(primary.map(|p| (p, self.moves(p, at, direction * -1.0))));
+                if joined {
+                    self.rows.push(row);
+                } else {
                     self.by_contact.push(row);
                 }
             }
@@ -339,4 +396,18 @@ fn normal(corners: &[Vec3]) -> Option<Vec3> {
         _ => return None,
     };
     normal.normalized()
+}
+
+/// The facet of a surface that is nearest to a point, and its normal there.
+fn nearest(surface: &dyn ContactSurface, at: &Placement, point: Vec3) -> Option<(u32, Vec3)> {
+    let mut jet = SurfaceJet::default();
+    let mut best: Option<(f64, u32, Vec3)> = None;
+    for facet in 0..surface.nfacet() as u32 {
+        let found = surface.project(at, facet, point, None, &mut jet).ok()?;
+        let Some(found) = found else { continue };
+        if best.is_none_or(|(distance, ..)| found.distance < distance) {
+            best = Some((found.distance, facet, jet.normal));
+        }
+    }
+    best.map(|(_, facet, normal)| (facet, normal))
 }

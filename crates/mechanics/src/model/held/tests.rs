@@ -230,14 +230,18 @@ fn contact_is_told_from_supports() {
     let model = cubes(&[ORIGIN, Vec3::new(0.0, 0.0, 1.1)]);
     let contact = |held: &mut Held<'_>| {
         let cell = |index| CellId { block: 0, index };
-        held.contact(&ContactPart::new(
-            "c",
-            SidePart::Nodes(vec![8, 9, 10, 11]),
-            PrimaryPart::Faces(vec![Face {
-                cell: cell(0),
-                side: 1,
-            }]),
-        ));
+        held.contact(
+            &ContactPart::new(
+                "c",
+                SidePart::Nodes(vec![8, 9, 10, 11]),
+                PrimaryPart::Faces(vec![Face {
+                    cell: cell(0),
+                    side: 1,
+                }]),
+            ),
+            false,
+            &[],
+        );
     };
     let base = |held: &mut Held<'_>| fix(held, &BOTTOM, &[0, 1, 2]);
     let mut held = model.held();

@@ -33,6 +33,8 @@ pub struct Parts<'a> {
     pub temperature: Vec<f64>,
     /// The steps.
     pub steps: Vec<StepPart>,
+    /// Whether viscous forces hold bodies that nothing but contact stops.
+    pub stabilize: bool,
     /// Gap over the size of the facets that contact methods with multipliers may leave.
     pub gap_tol: f64,
 }
@@ -51,6 +53,7 @@ impl<'a> Parts<'a> {
             contacts: Vec::new(),
             temperature: Vec::new(),
             steps: Vec::new(),
+            stabilize: true,
             gap_tol: 1e-6,
         }
     }

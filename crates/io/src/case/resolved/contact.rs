@@ -1,0 +1,166 @@
+//! Contacts, and their changes in a step.
+
+use super::super::parts::*;
+use super::write::{Entries, Value, list};
+use crate::diagnostic::Spanned;
+
+pub(super) fn contact(contact: &Contact) -> Entries {
+    let method = match *contact.method {
+        Method::Auto => "auto",
+        Method::NodeToNode => "node-to-node",
+        Method::NodeToSegment => "node-to-segment",
+        Method::GaussPoint => "gauss-point",
+    };
+    let area = match contact.area {
+        Area::Reference => "reference",
+        Area::Current => "current",
+    };
+    let sliding = match contact.sliding {
+        Sliding::Finite => "finite",
+        Sliding::Small => "small",
+    };
+    let passes: u64 = if contact.two_pass { 2 } else { 1 };
+    let mut entries = vec![
+        ("name", (&contact.name.value).into()),
+        ("secondary", (&contact.secondary.value).into()),
+        ("primary", (&contact.primary.value).into()),
+        ("method", method.into()),
+        ("passes", passes.into()),
+        ("area", area.into()),
+        ("enforcement", enforcement(contact)),
+        ("friction", friction(contact.friction.as_ref())),
+        ("sliding", sliding.into()),
+        ("tied", contact.tied.as_ref().map_or(false.into(), tied)),
+        ("reach", auto(contact.reach)),
+        ("active", contact.active.into()),
+    ];
+    match *contact.method {
+        Method::GaussPoint => entries.push(("rule", rule(contact.rule))),
+        Method::NodeToNode => entries.extend([
+            ("normals", normals(&contact.normals)),
+            ("pairs", pairs(contact.pairs)),
+        ]),
+        Method::Auto | Method::NodeToSegment => {}
+    }
+    if contact.tied.is_none() {
+        entries.push(("start", start(&contact.start)));
+    }
+    entries
+}
+
+fn auto(number: Option<f64>) -> Value {
+    number.map_or("auto".into(), Value::Number)
+}
+
+fn rule(rule: PointRule) -> Value {
+    let kind = match rule.kind {
+        PointKind::Gauss => "gauss",
+        PointKind::Lobatto => "lobatto",
+    };
+    let points = rule.points.map_or("auto".into(), Value::Count);
+    Value::Table(vec![("kind", kind.into()), ("points", points)])
+}
+
+fn normals(normals: &Normals) -> Value {
+    match normals {
+        Normals::Primary => "primary".into(),
+        Normals::Secondary => "secondary".into(),
+        Normals::Given(vector) => vector.into(),
+    }
+}
+
+fn pairs(pairs: Pairs) -> Value {
+    match pairs {
+        Pairs::Nearest => "nearest",
+        Pairs::Order => "order",
+    }
+    .into()
+}
+
+fn enforcement(contact: &Contact) -> Value {
+    let number = |penalty: &Option<Spanned<f64>>| auto(penalty.as_ref().map(|one| one.value));
+    let mut entries: Entries = match &contact.enforcement {
+        Enforcement::Auto => return "auto".into(),
+        Enforcement::Penalty(penalty) => vec![("penalty", number(penalty))],
+        Enforcement::Table(rows) => vec![("penalty", list(rows))],
+        Enforcement::Exponential { p0, c0 } => {
+            let law = vec![("p0", (*p0).into()), ("c0", (*c0).into())];
+            vec![("exponential", Value::Table(law))]
+        }
+        Enforcement::Lagrange => vec![("lagrange", Value::Table(Vec::new()))],
+        Enforcement::Augmented { by, penalty } => {
+            let by = match by {
+                Augmentation::Uzawa => "uzawa",
+                Augmentation::Newton => "newton",
+            };
+            vec![
+                ("augmented", by.into()),
+                ("penalty", number(penalty)),
+                ("gap_tol", "auto".into()),
+            ]
+        }
+    };
+    let per = contact.per.map(|per| match per {
+        Per::Node => "node",
+        Per::Area => "area",
+    });
+    entries.extend(per.map(|per| ("per", per.into())));
+    Value::Table(entries)
+}
+
+fn friction(friction: Option<&Friction>) -> Value {
+    let Some(friction) = friction else {
+        return 0.0.into();
+    };
+    let mut entries: Entries = match friction.limit {
+        Limit::Coulomb { mu, cap: None } if friction.stick.is_none() => return mu.into(),
+        Limit::Coulomb { mu, cap } => {
+            let cap = cap.map(|cap| ("cap", cap.into()));
+            std::iter::once(("mu", mu.into())).chain(cap).collect()
+        }
+        Limit::Tresca(limit) => vec![("tresca", limit.into())],
+        Limit::Falling {
+            stationary,
+            kinetic,
+            transition,
+        } => vec![
+            ("static", stationary.into()),
+            ("kinetic", kinetic.into()),
+            ("transition", transition.into()),
+        ],
+    };
+    entries.extend(friction.stick.map(|stick| match stick {
+        Stick::Stiffness(stiffness) => ("stiffness", stiffness.into()),
+        Stick::Slip(slip) => ("elastic_slip", slip.into()),
+    }));
+    Value::Table(entries)
+}
+
+fn tied(tied: &Tied) -> Value {
+    let offset = if tied.close { "close" } else { "keep" };
+    let mut entries = vec![("offset", offset.into())];
+    entries.extend(tied.within.map(|within| ("within", within.into())));
+    Value::Table(entries)
+}
+
+fn start(start: &Start) -> Value {
+    let interference = match start.interference {
+        Interference::Step => "step",
+        Interference::Now => "now",
+        Interference::StrainFree => "strain-free",
+    };
+    let clearance = start.clearance.map_or("measured".into(), Value::Number);
+    Value::Table(vec![
+        ("close_gaps_below", start.close_gaps_below.into()),
+        ("clearance", clearance),
+        ("interference", interference.into()),
+    ])
+}
+
+pub(super) fn contact_change(change: &ContactChange) -> Entries {
+    let mut entries = vec![("name", (&change.name.value).into())];
+    entries.extend(change.active.map(|active| ("active", active.into())));
+    let friction = change.friction.as_ref();
+    entries.extend(friction.map(|friction| ("friction", self::friction(friction.as_ref()))));
+    entries
+}

@@ -1,0 +1,395 @@
+//! Situations in which contact programs fail.
+//!
+//! SOURCE      Written for the purpose.
+//! GOAL        Every method converges with default settings, to the right answer.
+//! MESH        A block of 1 × 1 × 1 with 4 × 4 × 4 cells on a block of 2 × 2 × 1 with 6 × 6 × 2: meshes do not match.
+//! CONDITIONS  Small and large steps, loads and motions, with free rigid modes, overlaps, friction, bad stiffnesses.
+//! EXPECTED    The vertical force: that of the load, or of a mesh twice as fine; |Fx|/Fz = μ in full sliding.
+//! TOLERANCE   3 % in force, 1e-3 in friction.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::Grid;
+use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
+use signorini_geometry::tensor::Vec3;
+use signorini_mechanics::load::Course;
+use signorini_mechanics::material::NeoHookean;
+use signorini_mechanics::model::{
+    BodyKind, BodyPart, Change, ContactPart, Enforcement, FrictionPart, LimitPart, Load, LoadPart,
+    Method, Model, Parts, PointKind, PointRule, PrimaryPart, SidePart, StepPart, StickPart, Target,
+};
+use signorini_mechanics::solid::{Integration, Locking};
+use signorini_mechanics::solve::{
+    Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
+};
+use signorini_mechanics::system::Idealisation;
+
+/// A situation; the default is a block pressed by 5 %.
+#[derive(Clone)]
+struct Situation {
+    name: &'static str,
+    element: &'static str,
+    lower: usize,
+    upper: usize,
+    /// Moduli of the lower and the upper block.
+    moduli: [f64; 2],
+    /// Where the foot of the upper block is at the start.
+    gap: f64,
+    /// About y, in degrees.
+    tilt: f64,
+    /// How far its head is pressed down; a load where there is a force.
+    press: f64,
+    force: f64,
+    /// Whether the head is held sideways.
+    guided: bool,
+    slide: f64,
+    mu: f64,
+    /// Stiffness of sticking over the penalty.
+    stick: f64,
+    /// The penalty over the automatic one.
+    penalty: f64,
+    /// All lengths.
+    unit: f64,
+    increments: usize,
+    /// Whether the secondary side is the lower block.
+    swapped: bool,
+}
+
+const PRESSED: Situation = Situation {
+    name: "pressed",
+    element: "hex8",
+    lower: 6,
+    upper: 4,
+    moduli: [1e5, 1000.0],
+    gap: 0.0,
+    tilt: 0.0,
+    press: 0.05,
+    force: 0.0,
+    guided: true,
+    slide: 0.0,
+    mu: 0.0,
+    stick: 1.0,
+    penalty: 1.0,
+    unit: 1.0,
+    increments: 4,
+    swapped: false,
+};
+
+/// What came of it.
+#[derive(Clone, Copy, Debug)]
+struct Result {
+    force: Vec3,
+    /// |shear| over |normal|.
+    rubs: f64,
+    iterations: usize,
+    increments: usize,
+    cutbacks: usize,
+}
+
+/// Two grids in one mesh.
+struct Blocks {
+    mesh: Mesh,
+    low: Part,
+    high: Part,
+}
+
+struct Part {
+    cells: Vec<CellId>,
+    places: Vec<Vec3>,
+    first: NodeId,
+    faces: Vec<Face>,
+}
+
+impl Part {
+    fn nodes(&self, wanted: impl Fn(Vec3) -> bool) -> Vec<NodeId> {
+        let places = self.places.iter().enumerate();
+        let found = places.filter(|(_, x)| wanted(**x));
+        found.map(|(n, _)| self.first + n as NodeId).collect()
+    }
+}
+
+fn add(mesh: &mut Mesh, grid: &Grid, z: f64) -> Part {
+    let first = mesh.points.len() as NodeId;
+    mesh.points.extend_from_slice(&grid.mesh.points);
+    mesh.node_labels = (1..=mesh.points.len() as u64).collect();
+    let face = grid.faces(|x| (x.z - z).abs() < 1e-9);
+    let mut cells = Vec::new();
+    for &cell in &grid.cells {
+        let nodes: Vec<NodeId> = grid.mesh.cell(cell).iter().map(|n| n + first).collect();
+        let element = grid.mesh.element(cell).unwrap();
+        cells.push(mesh.push_cell(element, &nodes, mesh.ncell() as u64 + 1));
+    }
+    let place = |cell: CellId| grid.cells.iter().position(|&c| c == cell).unwrap();
+    let faces = face.iter().map(|f| Face {
+        cell: cells[place(f.cell)],
+        side: f.side,
+    });
+    Part {
+        faces: faces.collect(),
+        cells,
+        places: grid.places.clone(),
+        first,
+    }
+}
+
+fn blocks(s: &Situation, refine: usize) -> Blocks {
+    let unit = s.unit;
+    let low = Grid::new(s.element, s.lower * refine, 2 * refine, |x| {
+        Vec3::new(2.0 * x.x, 2.0 * x.y, x.z - 1.0) * unit
+    });
+    let angle = s.tilt.to_radians();
+    let corner = angle.sin();
+    let high = Grid::new(s.element, s.upper * refine, s.upper * refine, |x| {
+        let turned = Vec3::new(
+            angle.cos() * x.x + angle.sin() * x.z,
+            x.y,
+            angle.cos() * x.z - angle.sin() * x.x + corner,
+        );
+        (turned + Vec3::new(0.4, 0.5, s.gap)) * unit
+    });
+    let mut mesh = Mesh::default();
+    let low = add(&mut mesh, &low, 1.0);
+    let high = add(&mut mesh, &high, 0.0);
+    Blocks { mesh, low, high }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    NodeToSegment,
+    GaussPoint,
+    Lagrange,
+}
+
+fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, String> {
+    let Blocks { mesh, low, high } = blocks(s, refine);
+    let base = low.nodes(|x| x.z < 1e-9);
+    let head = high.nodes(|x| x.z > 1.0 - 1e-9);
+    let hold = |nodes: &[NodeId], axes: &[usize]| {
+        let motions = axes.iter().map(|&axis| (axis, Motion::Hold)).collect();
+        Change::Prescribe(Target::Nodes(nodes.to_vec()), motions)
+    };
+    let unit = s.unit;
+    let mut changes = vec![hold(&base, &[0, 1, 2])];
+    if s.guided {
+        changes.push(hold(&head, &[0, 1]));
+    }
+    let mut loads = Vec::new();
+    if s.force > 0.0 {
+        let top = signorini_geometry::mesh::boundary(&mesh, high.cells.iter().copied());
+        let is_head = |f: &Face| {
+            let (_, nodes) = mesh.face(*f).unwrap();
+            nodes.iter().all(|n| head.contains(n))
+        };
+        loads.push(LoadPart {
+            name: "weight".into(),
+            load: Load::Force {
+                faces: top.into_iter().filter(is_head).collect(),
+                total: Vec3::new(0.0, 0.0, -s.force * unit * unit),
+            },
+            course: Course::Ramp,
+        });
+    } else {
+        let down = vec![(2, Motion::Ramp(-s.press * unit))];
+        changes.push(Change::Prescribe(Target::Nodes(head.clone()), down));
+    }
+    let increments = |n: usize| Increments::Adaptive {
+        initial: 1.0 / n as f64,
+        min: 1e-4,
+        max: 1.0,
+        count_max: 200,
+    };
+    let step = |name: &str, changes, loads, n| StepPart {
+        name: name.into(),
+        duration: 1.0,
+        increments: increments(n),
+        nonlinear: true,
+        changes,
+        loads,
+        contacts: Vec::new(),
+        temperatures: Vec::new(),
+    };
+    let mut steps = vec![step("press", changes, loads, s.increments)];
+    if s.slide != 0.0 {
+        let along = vec![(0, Motion::Ramp(s.slide * unit))];
+        let slide = Change::Prescribe(Target::Nodes(head), along);
+        steps.push(step("slide", vec![slide], Vec::new(), 10));
+    }
+    let solid = |name: &str, cells: &[CellId], modulus| BodyPart {
+        name: name.into(),
+        cells: cells.to_vec(),
+        kind: BodyKind::Solid {
+            material: Box::new(NeoHookean::new(modulus, 0.3)),
+            density: None,
+            integration: Integration::Full,
+            locking: Locking::Auto,
+        },
+    };
+    let (secondary, primary) = if s.swapped {
+        (low.faces, high.faces)
+    } else {
+        (high.faces, low.faces)
+    };
+    let mut contact = ContactPart::new(
+        "touch",
+        SidePart::Faces(secondary),
+        PrimaryPart::Faces(primary),
+    );
+    // 10 M/h of the softer side
+    let cells = (s.lower as f64 / 2.0, s.upper as f64);
+    let sides = [s.moduli[0] * cells.0, s.moduli[1] * cells.1];
+    let modulus = sides[0].min(sides[1]) * refine as f64 * 0.7 / (1.3 * 0.4);
+    let automatic = 10.0 * modulus / unit;
+    if s.penalty != 1.0 {
+        contact.enforcement = Enforcement::Penalty(Some(automatic * s.penalty));
+    }
+    match way {
+        Way::NodeToSegment => contact.method = Method::NodeToSegment,
+        Way::GaussPoint => {
+            contact.method = Method::GaussPoint(PointRule {
+                kind: PointKind::Gauss,
+                points: None,
+            });
+        }
+        Way::Lagrange => {
+            contact.method = Method::NodeToSegment;
+            contact.enforcement = Enforcement::Lagrange;
+        }
+    }
+    if s.mu > 0.0 {
+        contact.friction = Some(FrictionPart {
+            limit: LimitPart::Coulomb {
+                mu: s.mu,
+                cap: f64::INFINITY,
+            },
+            stick: (s.stick != 1.0).then_some(StickPart::Stiffness(automatic * s.stick)),
+        });
+    }
+    let parts = Parts {
+        bodies: vec![
+            solid("low", &low.cells, s.moduli[0]),
+            solid("high", &high.cells, s.moduli[1]),
+        ],
+        contacts: vec![contact],
+        steps,
+        ..Parts::new(&mesh, Idealisation::Space)
+    };
+    let mut model = Model::assemble(parts).map_err(|e| e.to_string())?;
+    let mut settings = StepperSettings::default();
+    if std::env::var("NOLS").is_ok() {
+        settings.newton.line_search = signorini_mechanics::solve::LineSearch::Off;
+    }
+    let mut stepper = Stepper::new(&model.system, settings);
+    let mut result = Result {
+        force: Vec3::ZERO,
+        rubs: 0.0,
+        iterations: 0,
+        increments: 0,
+        cutbacks: 0,
+    };
+    let verbose = std::env::var("VERBOSE").is_ok();
+    let mut watch = |event: &Event<'_>| {
+        match event {
+            Event::Increment { record, frame } => {
+                let contact = &frame.contacts[0];
+                result.force = contact.secondary.force;
+                result.rubs = contact.force_shear.norm() / contact.force_normal.norm();
+                result.iterations += record.iterations;
+                result.increments += 1;
+                if verbose {
+                    println!(
+                        "  inc {} t {:.3} it {} F {:?}",
+                        record.increment, record.time, record.iterations, result.force
+                    );
+                }
+            }
+            Event::Iteration(r) if verbose => println!(
+                "    it {} res {:.2e} corr {:.2e} ls {:.3} closed {} flips {}",
+                r.iteration, r.residual, r.correction, r.line_search, r.closed, r.flips
+            ),
+            Event::Cutback { cause, .. } => {
+                if verbose {
+                    println!("  cut: {}", cause.failure);
+                }
+                result.cutbacks += 1
+            }
+            _ => {}
+        }
+        Flow::Continue
+    };
+    let outcome = stepper.run(&mut model.system, &model.steps, &mut watch);
+    match outcome {
+        Ok(Outcome::Finished) => Ok(result),
+        Ok(Outcome::Stopped) => Err("stopped".into()),
+        Err(e) => Err(e.to_string()),
+    }
+}
+
+fn situations() -> Vec<Situation> {
+    let s = |name, change: &dyn Fn(&mut Situation)| {
+        let mut s = Situation { name, ..PRESSED };
+        change(&mut s);
+        s
+    };
+    vec![
+        PRESSED,
+        s("loaded", &|s| s.force = 40.0),
+        s("gap closed under load", &|s| (s.force, s.gap) = (40.0, 0.1)),
+        s("held sideways by friction", &|s| {
+            (s.force, s.guided, s.mu) = (40.0, false, 0.3)
+        }),
+        s("overlap, 4 increments", &|s| {
+            (s.gap, s.press) = (-0.05, 0.0)
+        }),
+        s("overlap, 1 increment", &|s| {
+            (s.gap, s.press, s.increments) = (-0.05, 0.0, 1)
+        }),
+        s("slid, mu 0.3", &|s| (s.slide, s.mu) = (0.5, 0.3)),
+        s("slid, mu 1.0", &|s| (s.slide, s.mu) = (0.5, 1.0)),
+        s("stick ten times stiffer", &|s| {
+            (s.slide, s.mu, s.stick) = (0.5, 0.3, 10.0)
+        }),
+        s("stiffness ratio 20,000", &|s| s.moduli = [2e7, 1000.0]),
+        s("stiffness ratio 1/20,000", &|s| s.moduli = [1000.0, 2e7]),
+        s("coarse secondary", &|s| (s.upper, s.lower) = (2, 10)),
+        s("swapped", &|s| s.swapped = true),
+        s("tilted", &|s| (s.tilt, s.press) = (3.0, 0.08)),
+        s("penalty x 1000", &|s| s.penalty = 1000.0),
+        s("tet10", &|s| {
+            (s.element, s.upper, s.lower) = ("tet10", 2, 3)
+        }),
+        s("hex20", &|s| {
+            (s.element, s.upper, s.lower) = ("hex20", 2, 3)
+        }),
+        s("metres for millimetres", &|s| s.unit = 1e-3),
+        s("off the edge", &|s| (s.slide, s.mu) = (1.1, 0.0)),
+    ]
+}
+
+#[test]
+#[ignore = "a table: run by hand"]
+fn table() {
+    let only = std::env::var("ONLY").unwrap_or_default();
+    for s in situations().iter().filter(|s| s.name.contains(&only)) {
+        for way in [Way::NodeToSegment, Way::GaussPoint, Way::Lagrange] {
+            match run(
+                s,
+                way,
+                std::env::var("REFINE").map_or(1, |r| r.parse().unwrap()),
+            ) {
+                Ok(r) => println!(
+                    "{:28} {way:?}: F = {:.4} {:.4} {:.4}, shear/normal {:.6}, {} iterations, {} increments, {} cut-backs",
+                    s.name,
+                    r.force.x,
+                    r.force.y,
+                    r.force.z,
+                    r.rubs,
+                    r.iterations,
+                    r.increments,
+                    r.cutbacks
+                ),
+                Err(e) => println!("{:28} {way:?}: {}", s.name, &e[..e.len().min(300)]),
+            }
+        }
+    }
+}

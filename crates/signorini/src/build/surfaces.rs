@@ -1,0 +1,120 @@
+//! Rigid surfaces that are given by a formula or by triangles.
+
+use super::carriers::Carriers;
+use super::quoted;
+use signorini_geometry::mesh::Mesh;
+use signorini_geometry::surface::{
+    self as geometry, Analytical, AnalyticalError, Cone, ContactSurface, Cylinder, Mount, Plane,
+    Polynomial, Side, Sphere, Torus, Triangulated,
+};
+use signorini_geometry::tensor::Vec3;
+use signorini_io::case::{Case, Facing, Name, Shape, Surface};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The surfaces of a case, by name; nothing for those that cannot be made, which has been told.
+pub(super) struct Surfaces(BTreeMap<String, Option<Arc<dyn ContactSurface>>>);
+
+impl Surfaces {
+    pub fn new(case: &Case, mesh: &Mesh, carriers: &Carriers, found: &mut Diagnostics) -> Self {
+        let mut surfaces = BTreeMap::new();
+        for one in &case.surfaces {
+            if mesh.sets.contains_key(&one.name.value) {
+                found.push(of_mesh(&one.name));
+            }
+            let moved = one.reference.as_ref().and_then(|name| carriers.get(name));
+            let at = moved.and_then(|c| carriers.place(c));
+            let ntan = case.model.space.value.ndim() - 1;
+            let mount = moved.map_or(Mount::fixed(ntan), |body| {
+                Mount::on(ntan, body, at.unwrap_or_default())
+            });
+            let made = match surface(one, mount) {
+                Ok(made) => Some(made),
+                Err(error) => {
+                    let message = format!("surface {}: {error}", quoted(&one.name));
+                    found.push(
+                        Diagnostic::error(&codes::BAD_SURFACE, message).at(&one.place, "this one"),
+                    );
+                    None
+                }
+            };
+            surfaces.insert(one.name.value.clone(), made);
+        }
+        Self(surfaces)
+    }
+
+    /// What a name stands for; outside nothing where it is no surface.
+    pub fn get(&self, name: &Name) -> Option<Option<Arc<dyn ContactSurface>>> {
+        self.0.get(&name.value).cloned()
+    }
+}
+
+/// The surface of a shape on its mount.
+fn surface(one: &Surface, mount: Mount) -> Result<Arc<dyn ContactSurface>, AnalyticalError> {
+    let side = |facing: &Facing| match facing {
+        Facing::Outside => Side::Outside,
+        Facing::Inside => Side::Inside,
+    };
+    let vec = |v: &[f64; 3]| Vec3::from(*v);
+    let shape: Box<dyn geometry::Shape> = match &one.shape {
+        Shape::Plane { point, normal } => Box::new(Plane::new(vec(point), vec(normal))?),
+        Shape::Sphere {
+            center,
+            radius,
+            facing,
+        } => Box::new(Sphere::new(vec(center), *radius, side(facing))?),
+        Shape::Cylinder {
+            point,
+            axis,
+            radius,
+            facing,
+        } => {
+            let side = side(facing);
+            Box::new(Cylinder::new(vec(point), vec(axis), *radius, side)?)
+        }
+        Shape::Cone {
+            apex,
+            axis,
+            half_angle,
+        } => {
+            let half_angle = half_angle.to_radians();
+            Box::new(Cone::new(vec(apex), vec(axis), half_angle, Side::Outside)?)
+        }
+        Shape::Torus {
+            center,
+            axis,
+            radius,
+            tube,
+            facing,
+        } => {
+            let side = side(facing);
+            Box::new(Torus::new(vec(center), vec(axis), *radius, *tube, side)?)
+        }
+        Shape::Polynomial {
+            coefficients,
+            above,
+        } => {
+            let facing = if *above {
+                geometry::Facing::Above
+            } else {
+                geometry::Facing::Below
+            };
+            Box::new(Polynomial::new(coefficients, facing)?)
+        }
+        Shape::Stl { .. } => {
+            let read = one.triangles.clone().unwrap_or_default();
+            let surface = Triangulated::new(mount, read.points, &read.triangles)?;
+            return Ok(Arc::new(surface));
+        }
+    };
+    Ok(Arc::new(Analytical::new(mount, shape)?))
+}
+
+fn of_mesh(name: &Name) -> Diagnostic {
+    Diagnostic::error(
+        &codes::NAME_TWICE,
+        format!("{} is both a group of the mesh and a surface", quoted(name)),
+    )
+    .at(&name.place, "rename this one")
+}
