@@ -126,7 +126,7 @@ impl Model {
 /// # Errors
 /// Names that the mesh does not have, sets of the wrong kind, and what makes no well-posed model: all messages at once
 /// as far as they do not follow from each other.
-pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
+pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
     let mut found = Diagnostics::new();
     let names = Names::new(&case, &mesh, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
@@ -193,6 +193,8 @@ pub fn build(mut case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
         .collect();
     let references = carriers.infos();
     drop(names);
+    // gaps that are closed at the start move nodes
+    mesh.points.clone_from_slice(&model.system.reference);
     Ok(Model {
         name: String::from("case"),
         system: model.system,
