@@ -5,6 +5,8 @@ use super::{
     Verdict,
 };
 use crate::contact::discretization::{Anchored, Pair};
+use crate::contact::friction::Stick;
+use crate::contact::kernel::Past;
 use crate::contact::row::RowOrder;
 use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
@@ -15,6 +17,8 @@ pub(super) struct History {
     anchors: Vec<Option<Anchored>>,
     /// Multipliers that are frozen.
     lambdas: Vec<Lambda>,
+    /// Limits of friction, where they are held for the sake of convergence.
+    limits: Option<Vec<f64>>,
     /// Work spent in friction.
     pub work: f64,
 }
@@ -43,6 +47,7 @@ impl History {
             anchors: Vec::new(),
             lambdas: Vec::new(),
             accepted,
+            limits: None,
             work: 0.0,
         };
         history.begin();
@@ -73,14 +78,25 @@ impl History {
         self.lambdas.get(row).copied().unwrap_or_default()
     }
 
-    pub fn path(&self, row: usize) -> f64 {
-        self.accepted.get(row).map_or(0.0, |m| m.path)
+    pub fn past(&self, row: usize) -> Past {
+        Past {
+            path: self.accepted.get(row).map_or(0.0, |m| m.path),
+            limit: self.limits.as_ref().and_then(|l| l.get(row).copied()),
+        }
+    }
+
+    /// Whether limits of friction are held.
+    pub fn holds_limits(&self) -> bool {
+        self.limits.is_some()
     }
 
     pub fn slip(&self, row: usize) -> Vec3 {
         self.accepted.get(row).map_or(Vec3::ZERO, |m| m.slip)
     }
 }
+
+/// What may be left of a change of the limits of friction, over the largest.
+const LIMIT_TOLERANCE: f64 = 1e-7;
 
 /// Numbers of a pair, of a memory and of a judgement, in a checkpoint.
 const PAIR: usize = 11;
@@ -147,6 +163,64 @@ impl Interface {
         })
     }
 
+    /// Holds the limits of friction; says whether that is anything new.
+    /// What slips then has a potential, and its tangent is symmetric.
+    pub(super) fn hold_limits(&mut self) -> bool {
+        if self.laws().friction.is_none() || self.history.limits.is_some() {
+            return false;
+        }
+        // everything sticks to begin with, unless sticking itself is given by the limit
+        let start = match self.laws().stick {
+            Stick::Stiffness(_) => f64::INFINITY,
+            Stick::Slip(_) => 0.0,
+        };
+        self.history.limits = Some(vec![start; self.history.accepted.len()]);
+        true
+    }
+
+    /// Limits that are held become those of the pressures found with them.
+    pub(super) fn renew_limits(&mut self, trial: &State) -> Result<Verdict, TermError> {
+        let Some(limits) = &self.history.limits else {
+            return Ok(Verdict::Settled);
+        };
+        let mut rows = Rows::default();
+        let mut renewed = Vec::with_capacity(limits.len());
+        for row in 0..limits.len() {
+            let acts = self.acting_row(row, trial, RowOrder::Gap, &mut rows)?;
+            let filled = rows.rows().first().filter(|_| acts);
+            let path = self.history.past(row).path;
+            let limit = |r| self.laws().limit(r, &self.lambda(row, trial), path);
+            renewed.push(filled.map_or(0.0, limit));
+        }
+        let largest = renewed.iter().fold(0.0f64, |m, l| m.max(*l));
+        let changes = renewed
+            .iter()
+            .zip(limits)
+            .map(|(new, old)| (new - old).abs());
+        let (row, change) = changes.enumerate().fold((0, 0.0), |worst, (row, change)| {
+            if change > worst.1 {
+                (row, change)
+            } else {
+                worst
+            }
+        });
+        let settled = change <= LIMIT_TOLERANCE * largest;
+        self.history.limits = Some(renewed);
+        if settled {
+            return Ok(Verdict::Settled);
+        }
+        let nodes = self.parts.discretization.point(row).nodes;
+        Ok(Verdict::Repeat {
+            changes: 1,
+            why: format!(
+                "contact \"{}\": its limits of friction still change by {:.1e} of the largest",
+                self.parts.name,
+                change / largest
+            ),
+            nodes: nodes.first().copied().into_iter().collect(),
+        })
+    }
+
     /// History moves on: points that slipped stick where they came to, points that opened forget.
     pub(super) fn remember(&mut self, state: &State) -> Result<(), TermError> {
         let mut rows = Rows::default();
@@ -198,6 +272,7 @@ impl Interface {
         }
         self.history.accepted = next;
         self.history.work += work;
+        self.history.limits = None;
         self.history.begin();
         Ok(())
     }
