@@ -144,10 +144,11 @@ impl<'a> Laws<'a> {
     }
 
     /// Tangential traction per slip, of what sticks.
-    pub fn stick_stiffness(&self) -> f64 {
+    pub fn stick_stiffness(&self, traction: &Traction) -> f64 {
         match (self.bond, self.stick_of()) {
             (true, _) => self.scale.penalty,
             (false, Stick::Stiffness(stiffness)) if self.slips() => stiffness,
+            (false, Stick::Slip(length)) if self.slips() => traction.limit / length,
             _ => 0.0,
         }
     }

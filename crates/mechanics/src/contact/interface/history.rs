@@ -1,17 +1,18 @@
 //! What a contact remembers.
 
 use super::{
-    Archive, ArchiveError, Contact, Interface, Judged, Lambda, NONE, Rows, State, TermError,
-    Verdict,
+    Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, NONE, Rows, State,
+    TermError, Verdict,
 };
 use crate::contact::discretization::{Anchored, Pair};
 use crate::contact::friction::Stick;
 use crate::contact::kernel::Past;
-use crate::contact::row::RowOrder;
+use crate::contact::row::{Row, RowOrder};
 use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 
-/// What rows remember: the accepted values, and where they stick in the present increment.
+/// What rows remember: the accepted values, and those that the present increment works with. These stay until the next
+/// begins, so that what is told of an accepted state is what acted in it.
 pub(super) struct History {
     accepted: Vec<Memory>,
     anchors: Vec<Option<Anchored>>,
@@ -19,6 +20,8 @@ pub(super) struct History {
     lambdas: Vec<Lambda>,
     /// Limits of friction, where they are held for the sake of convergence.
     limits: Option<Vec<f64>>,
+    /// Lengths of slip at the start of the increment.
+    paths: Vec<f64>,
     /// Work spent in friction.
     pub work: f64,
 }
@@ -46,6 +49,7 @@ impl History {
         let mut history = Self {
             anchors: Vec::new(),
             lambdas: Vec::new(),
+            paths: Vec::new(),
             accepted,
             limits: None,
             work: 0.0,
@@ -60,6 +64,8 @@ impl History {
         self.anchors.extend(self.accepted.iter().map(|m| m.anchor));
         self.lambdas.clear();
         self.lambdas.extend(self.accepted.iter().map(|m| m.lambda));
+        self.paths.clear();
+        self.paths.extend(self.accepted.iter().map(|m| m.path));
     }
 
     pub fn reject(&mut self) {
@@ -80,7 +86,7 @@ impl History {
 
     pub fn past(&self, row: usize) -> Past {
         Past {
-            path: self.accepted.get(row).map_or(0.0, |m| m.path),
+            path: self.paths.get(row).copied().unwrap_or_default(),
             limit: self.limits.as_ref().and_then(|l| l.get(row).copied()),
         }
     }
@@ -128,19 +134,7 @@ impl Interface {
                 lambdas.push(before);
                 continue;
             };
-            let traction = self.traction(filled, &before);
-            let vector = traction.tangential - filled.normal * traction.pressure;
-            let after = if self.parts.has_vectors() {
-                Lambda {
-                    scalar: 0.0,
-                    vector,
-                }
-            } else {
-                Lambda {
-                    scalar: traction.pressure,
-                    vector: Vec3::ZERO,
-                }
-            };
+            let after = self.multiplier_of(filled, &before);
             let change =
                 (after.scalar - before.scalar).abs() + (after.vector - before.vector).norm();
             if change > worst.0 * penalty {
@@ -148,10 +142,10 @@ impl Interface {
             }
             lambdas.push(after);
         }
-        self.history.lambdas = lambdas;
         let Some(row) = worst.1.filter(|_| worst.0 > self.parts.gap_tolerance) else {
             return Ok(Verdict::Settled);
         };
+        self.history.lambdas = lambdas;
         let nodes = self.parts.discretization.point(row).nodes;
         Ok(Verdict::Repeat {
             changes: 1,
@@ -221,6 +215,22 @@ impl Interface {
         })
     }
 
+    /// The multiplier that makes a traction of its own.
+    fn multiplier_of(&self, filled: &Row, before: &Lambda) -> Lambda {
+        let traction = self.traction(filled, before);
+        if self.parts.has_vectors() {
+            Lambda {
+                scalar: 0.0,
+                vector: traction.tangential - filled.normal * traction.pressure,
+            }
+        } else {
+            Lambda {
+                scalar: traction.pressure,
+                vector: Vec3::ZERO,
+            }
+        }
+    }
+
     /// History moves on: points that slipped stick where they came to, points that opened forget.
     pub(super) fn remember(&mut self, state: &State) -> Result<(), TermError> {
         let mut rows = Rows::default();
@@ -229,16 +239,18 @@ impl Interface {
         let mut work = 0.0;
         let mut next = Vec::with_capacity(self.history.accepted.len());
         for (row, memory) in self.history.accepted.iter().enumerate() {
-            let mut memory = Memory {
-                lambda: self.history.lambda(row),
-                ..*memory
-            };
+            let mut memory = *memory;
+            let lambda = self.lambda(row, state);
+            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut rows)?;
+            if self.parts.law.multiplier() == Multiplier::Frozen {
+                let filled = rows.rows().first().filter(|_| acts);
+                memory.lambda =
+                    filled.map_or(Lambda::default(), |r| self.multiplier_of(r, &lambda));
+            }
             if self.parts.bond.is_some() {
                 next.push(memory);
                 continue;
             }
-            let lambda = self.lambda(row, state);
-            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut rows)?;
             let (Some(filled), Some(found)) =
                 (rows.rows().first().filter(|_| acts), &self.now.pairs[row])
             else {
@@ -255,6 +267,7 @@ impl Interface {
             };
             // what is left of the way from the anchor has slipped
             let slipped = filled.sliding.slip - elastic;
+            memory.anchor = None;
             if self.laws().friction.is_some() {
                 memory.anchor = self.history.anchors[row];
                 if traction.state == Contact::Slip || exact {
@@ -273,7 +286,6 @@ impl Interface {
         self.history.accepted = next;
         self.history.work += work;
         self.history.limits = None;
-        self.history.begin();
         Ok(())
     }
 

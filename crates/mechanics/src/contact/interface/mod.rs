@@ -383,7 +383,7 @@ impl Term for Interface {
             });
         }
         self.stick(&at).map_err(|e| self.failed(&e))?;
-        Ok(self.couple())
+        Ok(self.couple(trial))
     }
 
     fn nchunk(&self) -> usize {

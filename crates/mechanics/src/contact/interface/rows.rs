@@ -196,7 +196,8 @@ impl Interface {
         let stiffness = |row: &Row| {
             let lambda = self.lambda(row.number, trial);
             let normal = laws.pressure(row.gap, row.normal, &lambda).dgap.abs();
-            normal.max(laws.stick_stiffness()) * self.measure(row.number)
+            let tangential = laws.stick_stiffness(&self.traction(row, &lambda));
+            normal.max(tangential) * self.measure(row.number)
         };
         ROUNDING * size * rows.rows().iter().map(stiffness).sum::<f64>()
     }
