@@ -173,6 +173,22 @@ class CheckResults(InFolder):
         self.change_grid("volume_0001.vtu", lambda g: g.point_data.remove("reaction_force"))
         self.expect_failure("volume frame 1: there is no point array 'reaction_force'")
 
+    def test_pressures_of_gauss_points_may_exceed_those_of_nodes_but_not_fall_below(self):
+        def scale(factor):
+            def change(grid):
+                grid.point_data["contact_pressure"] = factor * np.array(grid.point_data["contact_pressure"])
+
+            self.change_grid("contact_0003.vtu", change)
+
+        scale(0.9)
+        self.expect_failure("contact frame 3: pressure_max of tip")
+        with open(self.path("case.resolved.toml"), "a", encoding="utf-8") as file:
+            file.write('[[contact]]\nname = "tip"\nmethod = "gauss-point"\n')
+        code, said = run("check_results.py", self.folder)
+        self.assertEqual(code, 0, said)
+        scale(1.2)
+        self.expect_failure("contact frame 3: pressure_max of tip")
+
     def test_stress_in_another_order_is_found(self):
         def change(grid):
             grid.point_data["stress"] = np.array(grid.point_data["stress"])[:, [2, 3, 0, 1, 4, 5]]
