@@ -2,12 +2,13 @@
 
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, StepContext,
-    Symmetry, Term, TermError, Work,
+    Symmetry, Term, TermError, Verdict, Work,
 };
 
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
-/// They fade over each step, `s = 1 − τ` with the part `τ` of the step that is over when the increment begins, and they
-/// are so weak that they matter only where nothing else resists. Their work is reported.
+/// They fade over each step, `s = 1 − τ` with the part `τ` of the step that is over when the increment begins. A solution
+/// that was found with them is looked for without them next, and they come back only where that fails: where contact
+/// holds the bodies they act no more. Their work is reported.
 pub struct Damper {
     name: String,
     /// Unknowns, and k of each.
@@ -15,6 +16,9 @@ pub struct Damper {
     /// u_n.
     start: Vec<f64>,
     fading: f64,
+    /// Whether they act, and whether they have to in this increment.
+    acts: bool,
+    needed: bool,
     step: StepContext,
     work: f64,
 }
@@ -31,6 +35,8 @@ impl Damper {
             start: vec![0.0; dofs.len()],
             dofs,
             fading: 1.0,
+            acts: true,
+            needed: false,
             step: StepContext::default(),
             work: 0.0,
         }
@@ -38,7 +44,7 @@ impl Damper {
 
     fn chunk(&self, chunk: usize) -> impl Iterator<Item = (Dof, f64, f64)> {
         let dofs = self.dofs.iter().zip(&self.start).skip(chunk * CHUNK);
-        let fading = self.fading;
+        let fading = if self.acts { self.fading } else { 0.0 };
         dofs.take(CHUNK)
             .map(move |(&(dof, stiffness), &start)| (dof, fading * stiffness, start))
     }
@@ -123,20 +129,43 @@ impl Term for Damper {
         Ok(Some(self.chunk(chunk).map(energy).sum()))
     }
 
+    fn converged(&mut self, _: &State) -> Result<Verdict, TermError> {
+        if !self.acts || self.needed {
+            return Ok(Verdict::Settled);
+        }
+        self.acts = false;
+        Ok(Verdict::Repeat {
+            changes: 1,
+            why: String::from("bodies that only contact holds were let go"),
+            nodes: Vec::new(),
+        })
+    }
+
+    fn rescue(&mut self) -> bool {
+        let back = !self.acts;
+        self.acts = true;
+        self.needed |= back;
+        back
+    }
+
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.work += self.spent(state);
+        self.needed = false;
         Ok(())
     }
 
     fn save(&self, out: &mut Archive) {
-        out.put(format!("damper.{}", self.name), &[self.work]);
+        let acts = f64::from(u8::from(self.acts));
+        out.put(format!("damper.{}", self.name), &[self.work, acts]);
     }
 
     fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
-        from.get(
-            &format!("damper.{}", self.name),
-            std::slice::from_mut(&mut self.work),
-        )
+        let mut stored = [0.0; 2];
+        from.get(&format!("damper.{}", self.name), &mut stored)?;
+        self.work = stored[0];
+        self.acts = stored[1] != 0.0;
+        self.needed = false;
+        Ok(())
     }
 
     fn report(&self, _: &State, frame: &mut Frame) -> Result<(), TermError> {

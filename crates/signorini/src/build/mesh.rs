@@ -35,7 +35,7 @@ pub fn read_surfaces_of(case: &mut Case, folder: &Path) -> Result<Diagnostics, D
         };
         match readers::stl::read(&name, &bytes) {
             Ok((triangles, notes)) => {
-                surface.triangles = Some(triangles);
+                surface.triangles = Some((triangles.points, triangles.triangles));
                 for note in notes {
                     let severity = signorini_io::diagnostic::Severity::Note;
                     found.push(Diagnostic::new(severity, &codes::MESH_NOTE, note));

@@ -103,8 +103,8 @@ fn surface(one: &Surface, mount: Mount) -> Result<Arc<dyn ContactSurface>, Analy
             Box::new(Polynomial::new(coefficients, facing)?)
         }
         Shape::Stl { .. } => {
-            let read = one.triangles.clone().unwrap_or_default();
-            let surface = Triangulated::new(mount, read.points, &read.triangles)?;
+            let (points, triangles) = one.triangles.clone().unwrap_or_default();
+            let surface = Triangulated::new(mount, points, &triangles)?;
             return Ok(Arc::new(surface));
         }
     };

@@ -2,7 +2,8 @@
 
 use super::Name;
 use crate::diagnostic::{Place, Spanned};
-use crate::readers::stl::Triangles;
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::Vec3;
 
 /// A rigid surface without a mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +85,9 @@ pub enum Shape {
         path: Spanned<String>,
     },
 }
+
+/// Triangles: points, and the corners of each triangle among them.
+pub type Triangles = (Vec<Vec3>, Vec<[NodeId; 3]>);
 
 /// Where bodies are, of a closed surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Candidates;
 use signorini_geometry::surface::{
-    ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
+    Anchor, ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
 };
 use signorini_geometry::tensor::Vec3;
 
@@ -24,6 +24,8 @@ pub struct PointToSegment {
     pub closest: Closest,
     /// Whether every point keeps the tangent plane that it meets first.
     pub small_sliding: bool,
+    /// A facet that each point is on, where the surface may touch itself; empty elsewhere.
+    own: Vec<u32>,
 }
 
 /// How far a point that slips may leave the facet it is on, in parameters of the facet, within one increment.
@@ -77,6 +79,45 @@ impl PointToSegment {
     }
 }
 
+impl PointToSegment {
+    /// Tells each point a facet it is on: a surface may touch itself only where its normals oppose each other.
+    pub fn on(&mut self, facets: &Facets) {
+        let holds = |facet: u32, nodes: &[NodeId]| {
+            let of_facet = facets.nodes(facet);
+            nodes.iter().all(|n| of_facet.contains(n))
+        };
+        let facet = |row: usize| {
+            let nodes = self.point(row).nodes;
+            (0..facets.nfacet() as u32).find(|&f| holds(f, nodes))
+        };
+        self.own = (0..self.nrow())
+            .map(|row| facet(row).unwrap_or(0))
+            .collect();
+    }
+
+    /// The facets near a point that face it.
+    fn facing(
+        &self,
+        row: usize,
+        surface: &dyn ContactSurface,
+        at: &Placement,
+        near: &[u32],
+    ) -> Vec<u32> {
+        let normal = |facet: u32| {
+            let local = surface.domain(facet)?.centre();
+            let mut jet = SurfaceJet::default();
+            surface.jet(at, &Anchor { facet, local }, &mut jet).ok()?;
+            Some(jet.normal)
+        };
+        let own = self.own.get(row).copied().and_then(normal);
+        let faces = |f: &u32| {
+            let both = own.zip(normal(*f));
+            both.is_some_and(|(own, other)| own.dot(other) < 0.0)
+        };
+        near.iter().copied().filter(faces).collect()
+    }
+}
+
 impl Discretization for PointToSegment {
     fn nrow(&self) -> usize {
         self.first.len().saturating_sub(1)
@@ -117,7 +158,12 @@ impl Discretization for PointToSegment {
                 return Ok(());
             }
             let how = (before.map(|p| p.anchor), pair.reach, self.closest);
-            *found = closest(surface, at, point, near.near(row), how)?;
+            *found = if self.own.is_empty() {
+                closest(surface, at, point, near.near(row), how)?
+            } else {
+                let facing = self.facing(row, surface, at, near.near(row));
+                closest(surface, at, point, &facing, how)?
+            };
             if let Some(found) = found.as_mut().filter(|_| self.small_sliding) {
                 surface.jet(at, &found.anchor, &mut jet)?;
                 let away = point - jet.position;

@@ -137,12 +137,13 @@ impl Interface {
             let after = self.multiplier_of(filled, &before);
             let change =
                 (after.scalar - before.scalar).abs() + (after.vector - before.vector).norm();
-            if change > worst.0 * penalty {
-                worst = (change / penalty, Some(row));
+            let gap = change / penalty;
+            if gap > self.tolerance(row, &after, trial) && gap > worst.0 {
+                worst = (gap, Some(row));
             }
             lambdas.push(after);
         }
-        let Some(row) = worst.1.filter(|_| worst.0 > self.parts.gap_tolerance) else {
+        let Some(row) = worst.1 else {
             return Ok(Verdict::Settled);
         };
         self.history.lambdas = lambdas;

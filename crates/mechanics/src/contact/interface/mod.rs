@@ -337,7 +337,9 @@ impl Term for Interface {
 
     fn symmetry(&self) -> Symmetry {
         let rubs = self.phase().is_some_and(|p| p.friction.is_some());
-        if rubs || !self.parts.discretization.is_symmetric() {
+        // multipliers that are tractions keep their form where there is no friction for a while
+        let tractions = self.nmultiplier() > 1 && self.parts.bond.is_none();
+        if rubs || tractions || !self.parts.discretization.is_symmetric() {
             Symmetry::Unsymmetric
         } else if self.nmultiplier() > 0 {
             Symmetry::Symmetric

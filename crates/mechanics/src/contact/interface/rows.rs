@@ -12,6 +12,9 @@ use signorini_geometry::surface::Feature;
 /// Rounding error of a gap over the coordinates it comes from.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// What a traction that is limited by friction may be off by, over itself.
+const TRACTION: f64 = 1e-7;
+
 impl Interface {
     pub(super) fn chunk(&self, chunk: usize) -> std::ops::Range<usize> {
         let n = self.parts.discretization.nrow();
@@ -109,7 +112,7 @@ impl Interface {
         out.add(&scratch.dofs, &scratch.force, &scratch.stiffness);
         let rounding = self.rounding(&scratch.rows, trial);
         out.uncertain(&scratch.dofs[..ncolumn], rounding);
-        self.allow(row, &scratch.dofs[ncolumn..], out);
+        self.allow(row, trial, &scratch.dofs[ncolumn..], out);
         Ok(())
     }
 
@@ -174,12 +177,31 @@ impl Interface {
         scratch.dofs.clear();
         self.multiplier_dofs(row, &mut scratch.dofs);
         out.add(&scratch.dofs, &scratch.force, &scratch.stiffness);
-        self.allow(row, &scratch.dofs, out);
+        self.allow(row, trial, &scratch.dofs, out);
     }
 
     /// Gaps up to the tolerance count as closed, and what is left of a multiplier likewise.
-    fn allow(&self, row: usize, multipliers: &[crate::system::Dof], out: &mut dyn Sink) {
-        out.uncertain(multipliers, self.parts.gap_tolerance * self.measure(row));
+    fn allow(
+        &self,
+        row: usize,
+        trial: &State,
+        multipliers: &[crate::system::Dof],
+        out: &mut dyn Sink,
+    ) {
+        let tolerance = self.tolerance(row, &self.lambda(row, trial), trial);
+        out.uncertain(multipliers, tolerance * self.measure(row));
+    }
+
+    /// What may be left of the equations of a multiplier, as a gap. A traction that is limited by friction is known to a
+    /// part of itself, too, but not beyond the rounding of positions.
+    pub(super) fn tolerance(&self, row: usize, lambda: &Lambda, trial: &State) -> f64 {
+        if self.parts.bond.is_some() || !self.parts.has_vectors() {
+            return self.parts.gap_tolerance;
+        }
+        let point = self.parts.discretization.point(row);
+        let place = point.position(&trial.placement()).max_abs();
+        let part = TRACTION * lambda.vector.norm() / self.parts.scale.penalty;
+        self.parts.gap_tolerance.min(part + ROUNDING * place)
     }
 
     /// The rounding error of the forces of a row: that of the positions times the stiffness of the law.

@@ -61,6 +61,12 @@ impl Source<'_> {
                 contact: part.name.clone(),
             });
         };
+        if first.law.multiplier().is_unknown() {
+            return Err(ModelError::Unsuited {
+                contact: part.name.clone(),
+                what: "two passes by multipliers constrain each point twice: take one pass, or a penalty",
+            });
+        }
         let swapped = ContactPart {
             secondary: SidePart::Faces(primary.clone()),
             primary: PrimaryPart::Faces(secondary.clone()),
