@@ -4,10 +4,11 @@
 //! GOAL        one pass of node to segment fails by percents, two passes fail by what the penalty yields, Gauss points by
 //!             the quadrature of kinks: documented, not hidden
 //! MESH        two unit squares one upon the other, nl × 2 quad4 below and nu × 2 above, (nl, nu) = (3,4), (5,8), (7,3)
-//! CONDITIONS  small strain, plane strain, E = 1, nu = 0.3, no locking remedy; pressure 1 on top, u_y = 0 below,
+//! CONDITIONS  small strain and small sliding (nothing but the linear problem: strains are near 1), plane strain, E = 1, nu = 0.3, no locking remedy; pressure 1 on top, u_y = 0 below,
 //!             u_x = 0 at the left; no friction; penalties in units of E over the height of a block
 //! EXPECTED    stress −1 along y at all Gauss points (2 × 2 of every cell)
-//! TOLERANCE   bounds on the largest error, at the tests; forces to round-off
+//!             A second step, in which nothing moves, ends the viscous force that holds the upper square while it settles.
+//! TOLERANCE   3 % of the error itself, as an independent program has it with two digits; forces 1e-8
 use crate::common::{Run, model, run};
 use crate::scene::{Scene, Side, equal};
 use signorini::build::Model;
@@ -49,6 +50,7 @@ locking = "none"
 name = "interface"
 secondary = "{secondary}"
 primary = "{primary}"
+sliding = "small"
 {contact}
 [[step]]
 name = "press"
@@ -63,6 +65,10 @@ u = ["x"]
 [[step.load]]
 on = "lid"
 pressure = 1.0
+[[step]]
+name = "hold"
+geometry = "linear"
+increments = 1
 [solver]
 newton = {{ force_tol = 1e-11 }}
 "#
@@ -122,42 +128,69 @@ fn line(name: &str, upper_is_secondary: bool, contact: &str) -> Vec<f64> {
     found
 }
 
-#[test]
-fn one_pass_of_node_to_segment_fails_by_percents() {
-    for upper in [true, false] {
-        let by = "method = \"node-to-segment\"\nenforcement = { lagrange = {} }";
-        let found = line("node-to-segment, multipliers", upper, by);
-        assert!(found.iter().all(|e| (0.005..0.4).contains(e)), "{found:?}");
+/// The numbers of an independent program, of two digits.
+fn as_published(found: &[f64], expected: [f64; 2]) {
+    for (found, expected) in [found[0], found[2]].iter().zip(expected) {
+        assert!(
+            (found / expected - 1.0).abs() < 0.03,
+            "{found} for {expected}"
+        );
     }
 }
 
 #[test]
+fn one_pass_of_node_to_segment_fails_by_percents() {
+    let by = "method = \"node-to-segment\"\nenforcement = { lagrange = {} }";
+    let found = line("node-to-segment, multipliers", true, by);
+    as_published(&found, [5.2e-2, 2.2e-1]);
+    let found = line("node-to-segment, multipliers", false, by);
+    as_published(&found, [9.9e-2, 1.8e-2]);
+}
+
+#[test]
 fn two_passes_fail_by_what_the_penalty_yields() {
-    for upper in [true, false] {
-        let mut before = vec![f64::INFINITY; 3];
-        for penalty in [1e2, 1e4, 1e6] {
-            let by = format!(
-                "method = \"node-to-segment\"\npasses = 2\nenforcement = {{ penalty = {penalty:?}, per = \"area\" }}"
+    let mut before = vec![f64::INFINITY; 3];
+    for (penalty, expected) in [
+        (1e2, [1.5e-2, 2.9e-2]),
+        (1e4, [4.6e-4, 1.6e-3]),
+        (1e6, [4.7e-6, 1.7e-5]),
+    ] {
+        // each pass with half the penalty, so that both have all of it
+        let by = format!(
+            "method = \"node-to-segment\"\npasses = 2\nenforcement = {{ penalty = {:?}, per = \"area\" }}",
+            0.5 * penalty
+        );
+        let found = line(&format!("two passes, penalty {penalty:.0e}"), true, &by);
+        let swapped = line(&format!("two passes, penalty {penalty:.0e}"), false, &by);
+        as_published(&found, expected);
+        for ((found, swapped), before) in found.iter().zip(&swapped).zip(&before) {
+            assert!(
+                (found - swapped).abs() < 1e-10,
+                "either side may come first"
             );
-            let found = line(&format!("two passes, penalty {penalty:.0e}"), upper, &by);
-            assert!(found.iter().zip(&before).all(|(e, b)| e < b), "{found:?}");
-            before = found;
+            assert!(found < before);
         }
+        before = found;
     }
 }
 
 #[test]
 fn gauss_points_fail_by_their_quadrature() {
+    let with = |points: usize, upper: bool| {
+        let by = format!(
+            "method = \"gauss-point\"\nrule = {{ points = {points} }}\nenforcement = {{ penalty = 1e2, per = \"area\" }}"
+        );
+        line(
+            &format!("gauss-point, {points} points, penalty 1e2"),
+            upper,
+            &by,
+        )
+    };
+    as_published(&with(2, true), [2.2e-3, 5.0e-2]);
+    as_published(&with(2, false), [7.4e-3, 8.3e-4]);
+    as_published(&with(8, true), [4.3e-4, 9.2e-4]);
     for upper in [true, false] {
-        for points in [2, 3, 4, 6, 8, 10] {
-            let by = format!(
-                "method = \"gauss-point\"\nrule = {{ points = {points} }}\nenforcement = {{ penalty = 1e2, per = \"area\" }}"
-            );
-            let _found = line(
-                &format!("gauss-point, {points} points, penalty 1e2"),
-                upper,
-                &by,
-            );
-        }
+        let (few, many) = (with(2, upper), with(10, upper));
+        assert!(few.iter().zip(&many).all(|(few, many)| many < &(few / 5.0)));
     }
 }
