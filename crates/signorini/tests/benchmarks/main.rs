@@ -10,6 +10,9 @@ mod common;
 mod scene;
 
 mod bars;
+mod beam;
 mod friction_loop;
+mod hertz;
 mod patch;
+mod slip;
 mod stack;
