@@ -410,9 +410,9 @@ fn eliminate(a: &mut [Vec<f64>], x: &mut [f64]) {
         for i in 0..n {
             if i != k {
                 let factor = a[i][k] / a[k][k];
-                for j in k..n {
-                    let subtract = factor * a[k][j];
-                    a[i][j] -= subtract;
+                let pivot = a[k].clone();
+                for (to, from) in a[i].iter_mut().zip(&pivot).skip(k) {
+                    *to -= factor * from;
                 }
                 x[i] -= factor * x[k];
             }

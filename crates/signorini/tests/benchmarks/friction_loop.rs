@@ -92,8 +92,8 @@ fn shear_is_the_coefficient_times_the_pressure_and_turns_with_the_motion() {
     for (enforcement, driven) in ways {
         let run = slid(enforcement, driven);
         for (step, sign) in [(1, -1.0), (2, 1.0)] {
-            let frames = run.frames.iter().filter(|f| f.step_number == step);
-            let contact = &frames.last().unwrap().contacts[0];
+            let mut frames = run.frames.iter().filter(|f| f.step_number == step);
+            let contact = &frames.next_back().unwrap().contacts[0];
             let force = contact.secondary.force;
             let ratio = force.x / force.z;
             println!(
@@ -108,4 +108,14 @@ fn shear_is_the_coefficient_times_the_pressure_and_turns_with_the_motion() {
             }
         }
     }
+}
+
+#[test]
+#[ignore = "fails: Uzawa's updates end before friction has settled, at 0.199976 instead of 0.2"]
+fn uzawa_settles_friction_too() {
+    let run = slid("{ augmented = \"uzawa\" }", "head");
+    let mut frames = run.frames.iter().filter(|f| f.step_number == 1);
+    let force = frames.next_back().unwrap().contacts[0].secondary.force;
+    let ratio = force.x / force.z;
+    assert!((ratio + 0.2).abs() < 1e-6 * 0.2, "{ratio}");
 }

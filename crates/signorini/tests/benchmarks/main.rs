@@ -14,5 +14,6 @@ mod beam;
 mod friction_loop;
 mod hertz;
 mod patch;
+mod rings;
 mod slip;
 mod stack;

@@ -85,12 +85,12 @@ fn errors((model, run): &(Model, Run)) -> [f64; 3] {
     let (lambda, mu) = (0.3 / (1.3 * 0.4), 1.0 / 2.6);
     let mut worst = [0.0f64; 3];
     for (block, means) in model.mesh.blocks.iter().zip(&frame.cell_stress) {
-        for i in 0..block.ncell() {
+        for (i, mean) in means.iter().enumerate() {
             let nodes: Vec<usize> = block.cell(i).iter().map(|n| *n as usize).collect();
             if nodes.len() < 4 {
                 continue; // an edge
             }
-            worst[1] = worst[1].max((means[i].yy() + 1.0).abs());
+            worst[1] = worst[1].max((mean.yy() + 1.0).abs());
             // a rectangle: derivatives of the bilinear shape functions
             let (low, high) = (model.mesh.points[nodes[0]], model.mesh.points[nodes[2]]);
             let size = high - low;

@@ -97,6 +97,31 @@ impl Scene {
         Grid { nodes, cells }
     }
 
+    /// A ring of quad8 about the origin: `n` around, turned by an angle, rows between the radii. Its cells, row by row.
+    pub fn ring(&mut self, group: &str, n: usize, radii: &[f64], turn: f64) -> Vec<Vec<usize>> {
+        let step = std::f64::consts::PI / n as f64;
+        let mut circle = |r: f64, every: usize| {
+            let places = (0..2 * n).step_by(every).map(|i| turn + i as f64 * step);
+            let nodes = places.map(|t| self.node(&[r * t.cos(), r * t.sin()]));
+            nodes.collect::<Vec<_>>()
+        };
+        let circles: Vec<Vec<usize>> = radii.iter().map(|r| circle(*r, 1)).collect();
+        let between = radii.windows(2).map(|r| circle(0.5 * (r[0] + r[1]), 2));
+        let between: Vec<Vec<usize>> = between.collect();
+        let mut rows = Vec::new();
+        for (row, pair) in circles.windows(2).enumerate() {
+            let (low, high, sides) = (&pair[0], &pair[1], &between[row]);
+            let cells = (0..n).map(|i| {
+                let (a, b, c) = (2 * i, 2 * i + 1, (2 * i + 2) % (2 * n));
+                let corners = [low[a], high[a], high[c], low[c]];
+                let middles = [sides[i], high[b], sides[(i + 1) % n], low[b]];
+                self.cell("quad8", group, [corners, middles].concat())
+            });
+            rows.push(cells.collect());
+        }
+        rows
+    }
+
     /// Hex8 over the products of three lists of coordinates; labels of nodes by z, y, x.
     pub fn bricks(&mut self, group: &str, axes: [&[f64]; 3]) -> Vec<Vec<Vec<usize>>> {
         let [xs, ys, zs] = axes;

@@ -114,9 +114,7 @@ force = [{shear:?}, 0.0]
 "#
     ));
     let run = run(&mut model("cattaneo", &text, &[]));
-    if let Some(error) = &run.error {
-        panic!("{by}: {error:?}");
-    }
+    assert!(run.error.is_none(), "{by}: {:?}", run.error);
     report(by, &run);
     let contact = &run.frames.last().unwrap().contacts[0];
     // the contact moves with the shear, by half an element
@@ -245,9 +243,7 @@ fn a_pad_on_an_incline_slides_until_its_springs_hold_it_ssnv503() {
     ] {
         for (push, slid) in [(3564.0, 0.0), (3636.0, 9.0)] {
             let run = pad(push / 20.0, by);
-            if let Some(error) = &run.error {
-                panic!("{by} {push}: {error:?}");
-            }
+            assert!(run.error.is_none(), "{by} {push}: {:?}", run.error);
             report(by, &run);
             let frame = run.frames.last().unwrap();
             let mean = |axis: usize| {
@@ -328,9 +324,7 @@ body_force = [{fx:?}, {fy:?}]
 "#
             ));
             let run = run(&mut model("slope", &text, &[]));
-            if let Some(error) = &run.error {
-                panic!("{by} {tan}: {error:?}");
-            }
+            assert!(run.error.is_none(), "{by} {tan}: {:?}", run.error);
             report(by, &run);
             let expected = (weight * (angle.sin() - mu * angle.cos()) / stiffness).max(0.0);
             let slid = run.frames.last().unwrap().displacement[0].x;
