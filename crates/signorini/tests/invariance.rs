@@ -34,6 +34,8 @@ struct Blocks {
     young: [f64; 2],
     thickness: f64,
     enforcement: String,
+    /// More keys of the contact.
+    contact: &'static str,
     /// The secondary side as a set.
     secondary: String,
     /// Nodes that do not move along z.
@@ -105,6 +107,7 @@ impl Blocks {
             young: [1000.0, 2000.0],
             thickness: 1.0,
             enforcement: "\"auto\"".into(),
+            contact: "",
             secondary: String::new(),
             flat: Vec::new(),
             geometry: "nonlinear",
@@ -211,8 +214,8 @@ impl Blocks {
         }
         write!(
             text,
-            "[[contact]]\nname = \"blocks\"\nsecondary = \"foot\"\nprimary = \"top\"\nenforcement = {}\n",
-            self.enforcement
+            "[[contact]]\nname = \"blocks\"\nsecondary = \"foot\"\nprimary = \"top\"\nenforcement = {}\n{}\n",
+            self.enforcement, self.contact
         )
         .unwrap();
         for (number, motion) in self.motions.iter().enumerate() {
@@ -366,6 +369,35 @@ fn units_change_neither_iterations_nor_results() {
             );
             let penalty = outcome.model.contacts[0].penalty / base.model.contacts[0].penalty;
             assert!((penalty / (stress / length) - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn units_change_nothing_with_any_law_and_friction() {
+    for (enforcement, contact) in [
+        ("\"auto\"", "friction = 0.3"),
+        ("\"auto\"", "friction = 0.3\nmethod = \"gauss-point\""),
+        ("{ lagrange = {} }", ""),
+        ("{ lagrange = {} }", "friction = 0.3"),
+        ("{ augmented = \"newton\" }", "friction = 0.3"),
+        ("{ augmented = \"uzawa\" }", ""),
+        ("\"auto\"", "tied = true"),
+    ] {
+        let blocks = Blocks {
+            enforcement: enforcement.into(),
+            contact,
+            ..Blocks::plane()
+        };
+        let base = blocks.solve();
+        for (length, stress) in [(1e3, 1.0), (1e6, 1.0), (1.0, 1e6), (1.0, 1e-6)] {
+            let mut other = blocks.mapped(scale(length), Vec3::ZERO);
+            other.young = blocks.young.map(|e| e * stress);
+            other.thickness = length;
+            let outcome = other.solve();
+            let force = stress * length * length;
+            let (one, two) = ((&blocks, &base), (&other, &outcome));
+            assert_same(one, two, scale(length), force, 1e-9);
         }
     }
 }

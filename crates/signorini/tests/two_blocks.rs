@@ -77,6 +77,48 @@ fn plane_blocks_match_for_both_materials() {
     }
 }
 
+/// Multipliers, and Uzawa's way to the same solution.
+#[test]
+fn plane_blocks_with_friction_match_by_multipliers() {
+    let data = oracle("two_block_2d.json");
+    let top = indices(&data["mesh"]["top_nodes"]);
+    let steps = data["runs"]["nh_lm_mu0.3"]["steps"].as_array().unwrap();
+    let path = path_of(&data["runs"]["nh_lm_mu0.3"], steps);
+    for enforcement in [
+        "{ lagrange = {} }",
+        "{ augmented = \"newton\", penalty = 2e4, per = \"node\" }",
+        "{ augmented = \"uzawa\", penalty = 1e5, per = \"node\" }",
+    ] {
+        let text = text("two_blocks_2d");
+        let text = &text[..text.find("[[step]]").unwrap()];
+        let text = format!("{text}{path}");
+        let set = [
+            ("material.soft.model", "\"neo-hookean\""),
+            ("material.stiff.model", "\"neo-hookean\""),
+            ("contact.0.enforcement", enforcement),
+            ("contact.0.friction", "0.3"),
+        ];
+        let mut model = model("two_blocks_2d", &text, &set);
+        let result = run(&mut model);
+        check(enforcement, &result, steps, &top, 2);
+    }
+}
+
+/// The steps of a run that presses in 5 increments and slides in the others.
+fn path_of(run: &Value, steps: &[Value]) -> String {
+    let slide = run["slide_per_step"].as_f64().unwrap();
+    let nslide = steps.len() - 5;
+    let far = slide * nslide as f64;
+    format!(
+        "[[step]]\nname = \"press\"\nincrements = {{ fixed = 5 }}\n\
+         [[step.fix]]\non = \"base\"\nu = \"all\"\n\
+         [[step.move]]\non = \"head\"\nux = 0.0\nuy = -0.05\n\
+         [[step]]\nname = \"slide\"\nincrements = {{ fixed = {nslide} }}\n\
+         [[step.move]]\non = \"head\"\nux = {far}\n\
+         [solver]\nnewton = {{ force_tol = 1e-11, gap_tol = 1e-13, max_iterations = 40 }}\n"
+    )
+}
+
 #[test]
 fn a_node_comes_to_rest_in_a_concave_corner() {
     let data = oracle("two_block_2d_vertex.json");

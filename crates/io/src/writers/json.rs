@@ -238,6 +238,9 @@ pub struct Summary {
     pub contacts: BTreeMap<String, ContactSummary>,
     /// The expectations of the case, in order.
     pub expectations: Vec<Expectation>,
+    /// Work spent by viscous forces that hold what only contact stops.
+    #[serde(default, deserialize_with = "nan::of_number")]
+    pub work_stabilization: f64,
     /// Wall time of each phase, in seconds.
     #[serde(deserialize_with = "nan::of_map")]
     pub time: BTreeMap<String, f64>,
@@ -290,6 +293,12 @@ pub struct ContactSummary {
     /// Area that slips.
     #[serde(deserialize_with = "nan::of_number")]
     pub area_slip: f64,
+    /// What the forces of both sides do not balance, over the force: the worst of all increments.
+    #[serde(default, deserialize_with = "nan::of_number")]
+    pub imbalance_force: f64,
+    /// What their moments do not balance, over the force times the size of a facet: the worst of all increments.
+    #[serde(default, deserialize_with = "nan::of_number")]
+    pub imbalance_moment: f64,
 }
 
 /// One expectation of a [`Summary`].
@@ -583,7 +592,7 @@ mod tests {
         };
         assert_eq!(
             keys(&value),
-            "contacts diagnostics exit_code expectations inputs memory_peak_bytes status steps time unknowns version"
+            "contacts diagnostics exit_code expectations inputs memory_peak_bytes status steps time unknowns version work_stabilization"
         );
         assert_eq!(
             keys(&value["steps"][0]),
@@ -591,7 +600,7 @@ mod tests {
         );
         assert_eq!(
             keys(&value["contacts"]["ball-block"]),
-            "area_open area_slip area_stick force gap_min moment pressure_max"
+            "area_open area_slip area_stick force gap_min imbalance_force imbalance_moment moment pressure_max"
         );
         assert_eq!(keys(&value["expectations"][0]), "got ok value what");
         assert_eq!(keys(&value["inputs"][0]), "path sha256");

@@ -45,6 +45,30 @@ pub(super) struct Traction {
     pub state: Contact,
 }
 
+/// What a row brings with it from before.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Past {
+    /// Length of all slip since contact was made.
+    pub path: f64,
+    /// The limit of friction, where it is held for the sake of convergence.
+    pub limit: Option<f64>,
+}
+
+impl Past {
+    fn limit_of(&self, friction: &dyn FrictionLaw, pressure: f64) -> Limit {
+        let held = self.limit.map(|value| Limit {
+            value,
+            dpressure: 0.0,
+        });
+        held.unwrap_or_else(|| {
+            friction.limit(&Sliding {
+                pressure,
+                path: self.path,
+            })
+        })
+    }
+}
+
 /// Whether and how a row touches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Contact {
@@ -120,10 +144,11 @@ impl<'a> Laws<'a> {
     }
 
     /// Tangential traction per slip, of what sticks.
-    pub fn stick_stiffness(&self) -> f64 {
+    pub fn stick_stiffness(&self, traction: &Traction) -> f64 {
         match (self.bond, self.stick_of()) {
             (true, _) => self.scale.penalty,
             (false, Stick::Stiffness(stiffness)) if self.slips() => stiffness,
+            (false, Stick::Slip(length)) if self.slips() => traction.limit / length,
             _ => 0.0,
         }
     }
@@ -144,8 +169,41 @@ impl<'a> Laws<'a> {
         }
     }
 
+    /// The limit of friction at a row's pressure.
+    pub fn limit(&self, row: &Row, lambda: &Lambda, path: f64) -> f64 {
+        let scalar = self.scalar(row.normal, lambda);
+        let pressure = self.law.trial(row.gap, scalar, self.scale);
+        let past = Past { path, limit: None };
+        let limit = |f: &dyn FrictionLaw| past.limit_of(f, pressure.value).value;
+        if pressure == Eval::default() {
+            return 0.0;
+        }
+        self.friction.map_or(0.0, limit)
+    }
+
+    /// The potential of friction with its limit held.
+    pub fn friction_energy(&self, row: &Row, lambda: &Lambda, limit: f64) -> f64 {
+        let trial = self.trial(row, lambda);
+        let size = trial.norm();
+        match self.stick_of() {
+            Stick::Stiffness(stiffness) if stiffness > 0.0 => {
+                let along = lambda.vector.dot(row.normal);
+                let start = (lambda.vector - row.normal * along).norm_squared();
+                let stored = if size <= limit {
+                    0.5 * size * size
+                } else {
+                    limit * size - 0.5 * limit * limit
+                };
+                (stored - 0.5 * start) / stiffness
+            }
+            Stick::Slip(length) if size <= length => 0.5 * limit * size * size / length,
+            Stick::Slip(length) => limit * (size - 0.5 * length),
+            Stick::Stiffness(_) => 0.0,
+        }
+    }
+
     /// What acts on a row, without derivatives.
-    pub fn traction(&self, row: &Row, lambda: &Lambda, path: f64) -> Traction {
+    pub fn traction(&self, row: &Row, lambda: &Lambda, past: Past) -> Traction {
         if self.bond {
             return self.bonded(row, lambda);
         }
@@ -161,11 +219,7 @@ impl<'a> Laws<'a> {
                 ..Traction::default()
             };
         };
-        let sliding = Sliding {
-            pressure: pressure.value,
-            path,
-        };
-        let limit = friction.limit(&sliding);
+        let limit = past.limit_of(friction, pressure.value);
         let (tangential, state) = self.returned(self.trial(row, lambda), &limit);
         let limit = limit.value;
         if self.law.multiplier() == Multiplier::Direct {
@@ -239,14 +293,14 @@ impl<'a> Laws<'a> {
         row: &Row,
         measure: f64,
         lambda: &Lambda,
-        path: f64,
+        past: Past,
         work: &mut Derivatives,
         target: &mut Target<'_>,
     ) {
         if self.bond {
             self.tie(row, measure, lambda, target);
         } else if let Some(friction) = self.friction() {
-            self.rub(friction, row, measure, lambda, path, work, target);
+            self.rub(friction, row, measure, lambda, past, work, target);
         } else {
             self.press(row, measure, lambda.scalar, target);
         }
@@ -299,7 +353,7 @@ impl<'a> Laws<'a> {
         row: &Row,
         measure: f64,
         lambda: &Lambda,
-        path: f64,
+        past: Past,
         work: &mut Derivatives,
         target: &mut Target<'_>,
     ) {
@@ -327,10 +381,7 @@ impl<'a> Laws<'a> {
             work.trial[n + c] = Vec3::unit(c) - nu * nu[c];
             work.actual_tangential[n + c] = work.trial[n + c];
         }
-        let limit = friction.limit(&Sliding {
-            pressure: pressure.value,
-            path,
-        });
+        let limit = past.limit_of(friction, pressure.value);
         let trial = self.trial(row, lambda);
         let mut tangential = Vec3::ZERO;
         if !open && limit != Limit::default() {

@@ -17,18 +17,58 @@
 //! | b | `weights`: with which a pressure acts on the columns | one number for each column |
 //! | ∂b/∂d | `dweights` | columns × columns |
 //! | ν | `normal` | unit vector, out of the primary side |
+//! | B | `operator`: with which a traction acts on the columns, `Bᵀν = b` | a vector for each column |
+//! | ∂B/∂d | `turns` | a sum of products |
+//! | e | `slip`: from the place where it sticks, in the tangent plane | vector |
 //! | w | `measure`: tributary area, 1 per node | number |
 //! | p | pressure, ≥ 0 | number |
+//! | t | tangential traction, along the slip that it resists | vector |
+//! | λ | multiplier: a pressure without friction, else the traction `−p ν + t` | number or vector |
+//! | P | `I − ννᵀ` | |
 //!
-//! A *column* is one component of one participant: three for a node, six for a rigid body. With these,
+//! A *column* is one component of one participant: three for a node, six for a rigid body. Without friction,
 //!
 //! ```text
-//! f = −w p b                          (E1)
-//! K = −w (b dpᵀ + p ∂b/∂d),  dp = p'(g) G        (E2)
+//! f = −w p b,  f_λ = w c(g, λ)                                               (E1)
+//! K = −w (b dpᵀ + p ∂b/∂d),  dp = p_,g G + p_,λ dλ,  K_λ = w (c_,g Gᵀ, c_,λ)  (E2)
 //! ```
 //!
-//! For a projected point `b = G` and `∂b/∂d` is the Hessian of the gap, so that the tangent is symmetric; for mortar it
-//! is not. Friction adds a tangential traction with weights of its own to (E1) and (E2).
+//! For a projected point `b = G` and `∂b/∂d` is the Hessian of the gap, so that the tangent is symmetric, and that of
+//! `c` is its transpose; where normals are averaged it is not. With friction, the trial is returned to the limit
+//! `L(p, s)` of the law, `s` the slip before the increment:
+//!
+//! ```text
+//! z = Pλ + k e,   t = z where |z| ≤ L (sticks),   t = L z/|z| where not (slips)
+//! f = w (Bᵀt − p b)                                                          (E3)
+//! K = w (Bᵀdt + (∂B/∂d)ᵀt − b dpᵀ − p ∂b/∂d)                                 (E4)
+//! dz = P dλ − ((ν·λ) I + ν λᵀ) dν + k de
+//! dt = dz (sticks),   dt = z/|z| L_p dp + L/|z| (I − zzᵀ/|z|²) dz (slips)
+//! ```
+//!
+//! `k` is the stiffness of what sticks. Where a slip length ℓ is given instead, the trial is `e`, and `t = L e/ℓ` up to
+//! `|e| = ℓ`; then the pressure is in `dt` of what sticks, too. Multipliers stick exactly, with `k = ε`; frozen ones are
+//! the traction of a solution before, and `λ ← −p ν + t`. Those that are solved for add one vector equation for all
+//! states,
+//!
+//! ```text
+//! f_λ = −(w/ε) (λ + p̂ ν − t),   p̂ = λ_N + ε c(g, λ_N),   λ_N = −ν·λ          (E5)
+//! ```
+//!
+//! with the limit `L(p̂, s)`; it reads `w (g ν + e) = 0` where it sticks, and `−(w/ε) λ = 0` where it is open. The augmented
+//! Lagrangian has `p̂ = p` and acts by (E3); a [`Direct`](law::Multiplier::Direct) multiplier is the traction, `λ` in the
+//! place of `t − p ν`. Bonds are linear,
+//!
+//! ```text
+//! f = w Bᵀ(λ + ε e),   f_λ = w e,   e the whole way from the anchor           (E6)
+//! ```
+//!
+//! without ε where the multiplier is the traction. Tractions of a pair at a distance have a moment, `w (r − ρ) × t`: nothing
+//! for what is frictionless, `w g ν × t` with friction, which vanishes with the gap. With multipliers, `∂f/∂λ` and
+//! `∂f_λ/∂d` of what sticks are each other's transposes where the anchor is the closest point; the rest of the
+//! tangent is unsymmetric, `(∂B/∂d)ᵀλ`.
+//!
+//! What is remembered is a place on the primary side and, of frozen multipliers, the traction. After an increment, a point
+//! that slipped has its anchor behind it by `t/k`, a point that stuck keeps its anchor, and a point that opened has none.
 //!
 //! To add a discretization, a law or a friction law: one file in its room that implements the trait, and one line
 //! where cases are built. Sources: Wriggers 2006, chapters 6 and 9; Konyukhov and Schweizerhof 2013; Faltus and Horák,

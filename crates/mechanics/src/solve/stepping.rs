@@ -325,12 +325,10 @@ impl Stepper {
                         }
                         // a failure from an extrapolated start says nothing about one from the last state
                         let extrapolated = attempt == 1 && !self.progress.rate.is_empty();
-                        let next = if extrapolated {
-                            dt
-                        } else {
-                            dt * severity(&failure)
-                        };
-                        if !extrapolated && min.is_none_or(|m| next < m) {
+                        // and terms may know a safer way
+                        let again = extrapolated || rescued(system);
+                        let next = if again { dt } else { dt * severity(&failure) };
+                        if !again && min.is_none_or(|m| next < m) {
                             return Err(RunError::NotConverged {
                                 step: step.name.clone(),
                                 increment: self.progress.increment + 1,
@@ -540,6 +538,12 @@ impl Stepper {
         };
         Ok(())
     }
+}
+
+/// Whether a term knows a safer way.
+fn rescued(system: &mut System) -> bool {
+    let safer = system.terms.iter_mut().map(|term| term.rescue());
+    safer.fold(false, |any, one| any | one)
 }
 
 /// Relative difference below which two times are equal.

@@ -77,6 +77,10 @@ pub struct ContactFrame {
     pub secondary: Resultant,
     /// What the secondary side exerts on the primary; moment about the origin.
     pub primary: Resultant,
+    /// The part of the force on the secondary side that pressures exert.
+    pub force_normal: Vec3,
+    /// The part that tangential tractions exert.
+    pub force_shear: Vec3,
     /// The largest pressure.
     pub pressure_max: f64,
     /// The smallest gap; 0 where nothing is within reach.
@@ -107,6 +111,8 @@ impl ContactFrame {
             to.force += from.force;
             to.moment += from.moment;
         }
+        self.force_normal -= pass.force_normal;
+        self.force_shear -= pass.force_shear;
         self.pressure_max = self.pressure_max.max(pass.pressure_max);
         self.gap_min = self.gap_min.min(pass.gap_min);
         self.slip_max = self.slip_max.max(pass.slip_max);

@@ -298,6 +298,12 @@ pub trait Term: Send + Sync {
         Ok(Verdict::Settled)
     }
 
+    /// The iteration failed: says whether the term knows a slower and safer way to the same solution, which it then goes
+    /// until the increment is accepted.
+    fn rescue(&mut self) -> bool {
+        false
+    }
+
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     fn has_saddle(&self) -> bool {
         false

@@ -279,6 +279,7 @@ impl Run<'_, '_> {
             steps: self.recorder.counts.steps.clone(),
             contacts: std::mem::take(&mut self.recorder.contacts),
             expectations: verdicts,
+            work_stabilization: self.recorder.work_stabilization,
             time: [
                 ("read", self.options.seconds[0]),
                 ("build", self.options.seconds[1]),

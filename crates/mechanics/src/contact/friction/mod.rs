@@ -105,4 +105,19 @@ mod tests {
         assert!((mu(0.1) - (0.2 + 0.2 * (-1.0f64).exp())).abs() < 1e-15);
         assert!((mu(10.0) - 0.2).abs() < 1e-15);
     }
+
+    #[test]
+    fn a_cap_cuts_the_limit_off() {
+        let law = Coulomb { mu: 0.5, cap: 1.0 };
+        let limit = |pressure| {
+            law.limit(&Sliding {
+                pressure,
+                path: 0.0,
+            })
+        };
+        assert_eq!((limit(1.0).value, limit(1.0).dpressure), (0.5, 0.5));
+        assert_eq!((limit(2.0).value, limit(2.0).dpressure), (1.0, 0.0));
+        assert_eq!(limit(9.0).value, 1.0);
+        assert_eq!(limit(0.0).value, 0.0);
+    }
 }

@@ -1,20 +1,27 @@
 //! What a contact remembers.
 
 use super::{
-    Archive, ArchiveError, Contact, Interface, Judged, Lambda, NONE, Rows, State, TermError,
-    Verdict,
+    Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, NONE, Rows, State,
+    TermError, Verdict,
 };
 use crate::contact::discretization::{Anchored, Pair};
-use crate::contact::row::RowOrder;
+use crate::contact::friction::Stick;
+use crate::contact::kernel::Past;
+use crate::contact::row::{Row, RowOrder};
 use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 
-/// What rows remember: the accepted values, and where they stick in the present increment.
+/// What rows remember: the accepted values, and those that the present increment works with. These stay until the next
+/// begins, so that what is told of an accepted state is what acted in it.
 pub(super) struct History {
     accepted: Vec<Memory>,
     anchors: Vec<Option<Anchored>>,
     /// Multipliers that are frozen.
     lambdas: Vec<Lambda>,
+    /// Limits of friction, where they are held for the sake of convergence.
+    limits: Option<Vec<f64>>,
+    /// Lengths of slip at the start of the increment.
+    paths: Vec<f64>,
     /// Work spent in friction.
     pub work: f64,
 }
@@ -42,7 +49,9 @@ impl History {
         let mut history = Self {
             anchors: Vec::new(),
             lambdas: Vec::new(),
+            paths: Vec::new(),
             accepted,
+            limits: None,
             work: 0.0,
         };
         history.begin();
@@ -55,6 +64,8 @@ impl History {
         self.anchors.extend(self.accepted.iter().map(|m| m.anchor));
         self.lambdas.clear();
         self.lambdas.extend(self.accepted.iter().map(|m| m.lambda));
+        self.paths.clear();
+        self.paths.extend(self.accepted.iter().map(|m| m.path));
     }
 
     pub fn reject(&mut self) {
@@ -73,14 +84,25 @@ impl History {
         self.lambdas.get(row).copied().unwrap_or_default()
     }
 
-    pub fn path(&self, row: usize) -> f64 {
-        self.accepted.get(row).map_or(0.0, |m| m.path)
+    pub fn past(&self, row: usize) -> Past {
+        Past {
+            path: self.paths.get(row).copied().unwrap_or_default(),
+            limit: self.limits.as_ref().and_then(|l| l.get(row).copied()),
+        }
+    }
+
+    /// Whether limits of friction are held.
+    pub fn holds_limits(&self) -> bool {
+        self.limits.is_some()
     }
 
     pub fn slip(&self, row: usize) -> Vec3 {
         self.accepted.get(row).map_or(Vec3::ZERO, |m| m.slip)
     }
 }
+
+/// What may be left of a change of the limits of friction, over the largest.
+const LIMIT_TOLERANCE: f64 = 1e-7;
 
 /// Numbers of a pair, of a memory and of a judgement, in a checkpoint.
 const PAIR: usize = 11;
@@ -112,19 +134,7 @@ impl Interface {
                 lambdas.push(before);
                 continue;
             };
-            let traction = self.traction(filled, &before);
-            let vector = traction.tangential - filled.normal * traction.pressure;
-            let after = if self.parts.has_vectors() {
-                Lambda {
-                    scalar: 0.0,
-                    vector,
-                }
-            } else {
-                Lambda {
-                    scalar: traction.pressure,
-                    vector: Vec3::ZERO,
-                }
-            };
+            let after = self.multiplier_of(filled, &before);
             let change =
                 (after.scalar - before.scalar).abs() + (after.vector - before.vector).norm();
             if change > worst.0 * penalty {
@@ -132,10 +142,10 @@ impl Interface {
             }
             lambdas.push(after);
         }
-        self.history.lambdas = lambdas;
         let Some(row) = worst.1.filter(|_| worst.0 > self.parts.gap_tolerance) else {
             return Ok(Verdict::Settled);
         };
+        self.history.lambdas = lambdas;
         let nodes = self.parts.discretization.point(row).nodes;
         Ok(Verdict::Repeat {
             changes: 1,
@@ -147,6 +157,80 @@ impl Interface {
         })
     }
 
+    /// Holds the limits of friction; says whether that is anything new.
+    /// What slips then has a potential, and its tangent is symmetric.
+    pub(super) fn hold_limits(&mut self) -> bool {
+        if self.laws().friction.is_none() || self.history.limits.is_some() {
+            return false;
+        }
+        // everything sticks to begin with, unless sticking itself is given by the limit
+        let start = match self.laws().stick {
+            Stick::Stiffness(_) => f64::INFINITY,
+            Stick::Slip(_) => 0.0,
+        };
+        self.history.limits = Some(vec![start; self.history.accepted.len()]);
+        true
+    }
+
+    /// Limits that are held become those of the pressures found with them.
+    pub(super) fn renew_limits(&mut self, trial: &State) -> Result<Verdict, TermError> {
+        let Some(limits) = &self.history.limits else {
+            return Ok(Verdict::Settled);
+        };
+        let mut rows = Rows::default();
+        let mut renewed = Vec::with_capacity(limits.len());
+        for row in 0..limits.len() {
+            let acts = self.acting_row(row, trial, RowOrder::Gap, &mut rows)?;
+            let filled = rows.rows().first().filter(|_| acts);
+            let path = self.history.past(row).path;
+            let limit = |r| self.laws().limit(r, &self.lambda(row, trial), path);
+            renewed.push(filled.map_or(0.0, limit));
+        }
+        let largest = renewed.iter().fold(0.0f64, |m, l| m.max(*l));
+        let changes = renewed
+            .iter()
+            .zip(limits)
+            .map(|(new, old)| (new - old).abs());
+        let (row, change) = changes.enumerate().fold((0, 0.0), |worst, (row, change)| {
+            if change > worst.1 {
+                (row, change)
+            } else {
+                worst
+            }
+        });
+        let settled = change <= LIMIT_TOLERANCE * largest;
+        self.history.limits = Some(renewed);
+        if settled {
+            return Ok(Verdict::Settled);
+        }
+        let nodes = self.parts.discretization.point(row).nodes;
+        Ok(Verdict::Repeat {
+            changes: 1,
+            why: format!(
+                "contact \"{}\": its limits of friction still change by {:.1e} of the largest",
+                self.parts.name,
+                change / largest
+            ),
+            nodes: nodes.first().copied().into_iter().collect(),
+        })
+    }
+
+    /// The multiplier that makes a traction of its own.
+    fn multiplier_of(&self, filled: &Row, before: &Lambda) -> Lambda {
+        let traction = self.traction(filled, before);
+        if self.parts.has_vectors() {
+            Lambda {
+                scalar: 0.0,
+                vector: traction.tangential - filled.normal * traction.pressure,
+            }
+        } else {
+            Lambda {
+                scalar: traction.pressure,
+                vector: Vec3::ZERO,
+            }
+        }
+    }
+
     /// History moves on: points that slipped stick where they came to, points that opened forget.
     pub(super) fn remember(&mut self, state: &State) -> Result<(), TermError> {
         let mut rows = Rows::default();
@@ -155,16 +239,18 @@ impl Interface {
         let mut work = 0.0;
         let mut next = Vec::with_capacity(self.history.accepted.len());
         for (row, memory) in self.history.accepted.iter().enumerate() {
-            let mut memory = Memory {
-                lambda: self.history.lambda(row),
-                ..*memory
-            };
+            let mut memory = *memory;
+            let lambda = self.lambda(row, state);
+            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut rows)?;
+            if self.parts.law.multiplier() == Multiplier::Frozen {
+                let filled = rows.rows().first().filter(|_| acts);
+                memory.lambda =
+                    filled.map_or(Lambda::default(), |r| self.multiplier_of(r, &lambda));
+            }
             if self.parts.bond.is_some() {
                 next.push(memory);
                 continue;
             }
-            let lambda = self.lambda(row, state);
-            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut rows)?;
             let (Some(filled), Some(found)) =
                 (rows.rows().first().filter(|_| acts), &self.now.pairs[row])
             else {
@@ -181,6 +267,7 @@ impl Interface {
             };
             // what is left of the way from the anchor has slipped
             let slipped = filled.sliding.slip - elastic;
+            memory.anchor = None;
             if self.laws().friction.is_some() {
                 memory.anchor = self.history.anchors[row];
                 if traction.state == Contact::Slip || exact {
@@ -198,7 +285,7 @@ impl Interface {
         }
         self.history.accepted = next;
         self.history.work += work;
-        self.history.begin();
+        self.history.limits = None;
         Ok(())
     }
 

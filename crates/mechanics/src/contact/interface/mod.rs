@@ -383,7 +383,7 @@ impl Term for Interface {
             });
         }
         self.stick(&at).map_err(|e| self.failed(&e))?;
-        Ok(self.couple())
+        Ok(self.couple(trial))
     }
 
     fn nchunk(&self) -> usize {
@@ -412,7 +412,7 @@ impl Term for Interface {
         work: &mut Work,
     ) -> Result<Option<f64>, TermError> {
         let laws = self.laws();
-        if laws.friction.is_some() || self.nmultiplier() > 0 {
+        if (laws.friction.is_some() && !self.history.holds_limits()) || self.nmultiplier() > 0 {
             return Ok(None);
         }
         let rows = &mut work.of::<Scratch>().rows;
@@ -455,11 +455,19 @@ impl Term for Interface {
     }
 
     fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
-        if self.parts.law.multiplier() == Multiplier::Frozen {
-            self.augment(trial)
-        } else {
-            Ok(Verdict::Settled)
+        let limits = self.renew_limits(trial)?;
+        if self.parts.law.multiplier() != Multiplier::Frozen {
+            return Ok(limits);
         }
+        let multipliers = self.augment(trial)?;
+        Ok(match multipliers {
+            Verdict::Settled => limits,
+            changed => changed,
+        })
+    }
+
+    fn rescue(&mut self) -> bool {
+        self.hold_limits()
     }
 
     fn has_saddle(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use super::{Carrier, ContactSurface, Interface, NONE, dofs_of};
 use crate::contact::discretization::{Discretization, Pair, Pairing, SurfacePair};
+use crate::contact::law::Eval;
 use crate::system::{Dof, NO_DOF, PatternSink, State};
 use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{Feature, Placement, SurfaceError, SurfaceJet, extended_face};
@@ -67,7 +68,8 @@ pub fn closest_points(
 impl Interface {
     pub(super) fn search(&mut self, at: &Placement) -> Result<(), SurfaceError> {
         if self.parts.bond.is_some() {
-            return self.hold(at);
+            self.hold();
+            return Ok(());
         }
         let pair = &self.parts.pair;
         let discretization = self.parts.discretization.as_ref();
@@ -86,25 +88,16 @@ impl Interface {
         Ok(())
     }
 
-    /// Bonds stay where they are.
-    fn hold(&mut self, at: &Placement) -> Result<(), SurfaceError> {
-        let surface = self.parts.pair.primary.as_ref();
-        let mut jet = SurfaceJet::default();
-        for (row, pair) in self.now.pairs.iter_mut().enumerate() {
-            let Some(anchor) = self.history.anchors()[row] else {
-                *pair = None;
-                continue;
-            };
-            let point = self.parts.discretization.point(row).position(at);
-            surface.jet(at, &anchor.anchor, &mut jet)?;
-            *pair = Some(Pair {
-                anchor: anchor.anchor,
+    /// Bonds stay where they are, however far they stretch.
+    fn hold(&mut self) {
+        for (pair, anchor) in self.now.pairs.iter_mut().zip(self.history.anchors()) {
+            *pair = anchor.map(|a| Pair {
+                anchor: a.anchor,
                 feature: Feature::Face,
-                gap: (point - jet.position - anchor.offset).dot(jet.normal),
+                gap: 0.0,
                 held: None,
             });
         }
-        Ok(())
     }
 
     /// Rows that touch, or may, and stick nowhere yet, stick where they are.
@@ -207,16 +200,26 @@ impl Interface {
 
     /// Couples every row that touches, or may soon, with its facet and that of its anchor; says whether that adds to
     /// what was coupled.
-    pub(super) fn couple(&mut self) -> bool {
+    pub(super) fn couple(&mut self, trial: &State) -> bool {
         let soon = 0.25 * self.parts.pair.reach;
-        let facet = |pair: &Option<Pair>| match pair {
-            Some(p) if p.gap < soon => p.anchor.facet,
-            _ => NONE,
+        let laws = self.laws();
+        let acts = |row: usize, gap: f64| {
+            let lambda = self.lambda(row, trial);
+            let most = lambda.scalar.max(lambda.vector.norm());
+            laws.law.pressure(gap, most, laws.scale) != Eval::default()
+        };
+        let facet = |row: usize| match &self.now.pairs[row] {
+            Some(p) => {
+                let gap = p.gap + self.shift(row, trial.time);
+                let near = laws.bond || gap < soon || acts(row, gap);
+                if near { p.anchor.facet } else { NONE }
+            }
+            None => NONE,
         };
         let surface = self.parts.pair.primary.as_ref();
         let anchors = self.history.anchors();
         let wanted = |row: usize| -> [u32; 2] {
-            let near = facet(&self.now.pairs[row]);
+            let near = facet(row);
             let stuck = anchors[row].map_or(NONE, |a| a.anchor.facet);
             [near, if near == NONE { NONE } else { stuck }]
         };

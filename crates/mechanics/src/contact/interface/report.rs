@@ -39,7 +39,10 @@ impl Interface {
             }
             if let Some(filled) = found.filter(|_| acts) {
                 let traction = self.traction(filled, &self.lambda(row, state));
-                pressure = traction.pressure * self.measure(row) / area;
+                let measure = self.measure(row);
+                pressure = traction.pressure * measure / area;
+                report.force_normal += filled.normal * (traction.pressure * measure);
+                report.force_shear -= traction.tangential * measure;
                 status = match traction.state {
                     _ if pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
                     Contact::Open => Status::Open,

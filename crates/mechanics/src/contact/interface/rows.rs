@@ -77,8 +77,8 @@ impl Interface {
 
     /// What acts on a filled row.
     pub(super) fn traction(&self, row: &Row, lambda: &Lambda) -> Traction {
-        let path = self.history.path(row.number);
-        self.laws().traction(row, lambda, path)
+        let past = self.history.past(row.number);
+        self.laws().traction(row, lambda, past)
     }
 
     /// Adds forces and stiffness of a row.
@@ -133,14 +133,14 @@ impl Interface {
             stiffness: &mut scratch.stiffness,
         };
         let lambda = self.lambda(number, trial);
-        let (measure, path) = (self.measure(number), self.history.path(number));
+        let (measure, past) = (self.measure(number), self.history.past(number));
         let laws = self.laws();
         for row in scratch.rows.rows() {
             laws.act(
                 row,
                 measure,
                 &lambda,
-                path,
+                past,
                 &mut scratch.derivatives,
                 &mut target,
             );
@@ -196,7 +196,8 @@ impl Interface {
         let stiffness = |row: &Row| {
             let lambda = self.lambda(row.number, trial);
             let normal = laws.pressure(row.gap, row.normal, &lambda).dgap.abs();
-            normal.max(laws.stick_stiffness()) * self.measure(row.number)
+            let tangential = laws.stick_stiffness(&self.traction(row, &lambda));
+            normal.max(tangential) * self.measure(row.number)
         };
         ROUNDING * size * rows.rows().iter().map(stiffness).sum::<f64>()
     }
@@ -220,12 +221,22 @@ impl Interface {
             let stored = 0.5 * laws.scale.penalty * stretch.norm_squared();
             return Ok(Some(stored + lambda.vector.dot(stretch)));
         }
-        self.fill(row, trial, RowOrder::Gap, rows)?;
-        let row = rows.rows().first();
-        Ok(row.and_then(|r| {
-            laws.law
-                .energy(r.gap, laws.scalar(r.normal, &lambda), laws.scale)
-        }))
+        let held = self.history.past(row).limit;
+        let order = match held {
+            Some(_) => RowOrder::Gradient,
+            None => RowOrder::Gap,
+        };
+        self.fill(row, trial, order, rows)?;
+        let Some(row) = rows.rows().first() else {
+            return Ok(None);
+        };
+        let scalar = laws.scalar(row.normal, &lambda);
+        let normal = laws.law.energy(row.gap, scalar, laws.scale);
+        let along = match held.filter(|_| laws.acts(row.gap, row.normal, &lambda)) {
+            Some(limit) => laws.friction_energy(row, &lambda, limit),
+            None => 0.0,
+        };
+        Ok(normal.map(|e| e + along))
     }
 
     /// What a verdict compares, at the present iterate.

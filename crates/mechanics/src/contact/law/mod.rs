@@ -100,7 +100,8 @@ pub trait ContactLaw: Send + Sync {
         }
         let c = self.complementarity(gap, lambda, scale);
         Eval {
-            value: lambda + scale.penalty * c.value,
+            // not even by rounding: a limit of friction has no sign
+            value: (lambda + scale.penalty * c.value).max(0.0),
             dgap: scale.penalty * c.dgap,
             dlambda: 1.0 + scale.penalty * c.dlambda,
         }

@@ -108,3 +108,25 @@ fn tables_that_are_no_laws_are_refused() {
         TableError::Pressure { row: 2 }
     );
 }
+
+#[test]
+fn curves_pass_through_what_they_are_given() {
+    let p = |law: &dyn ContactLaw, gap| law.pressure(gap, 0.0, &SCALE).value;
+    let exponential = Exponential { p0: 2.0, c0: 0.1 };
+    assert_eq!(p(&exponential, 0.0), 2.0);
+    assert!((p(&exponential, 0.1) - 0.02).abs() < 1e-15);
+    // a tangent below −2 c0
+    let (a, b) = (p(&exponential, -0.3), p(&exponential, -0.4));
+    assert!((b - a - (a - p(&exponential, -0.2))).abs() < 1e-9 * b);
+
+    let rows = [[-0.2, 5.0], [-0.05, 2.0], [0.1, 0.5], [0.3, 0.25]];
+    let table = Table::new(rows.to_vec()).unwrap();
+    for [gap, pressure] in rows {
+        assert!((p(&table, gap) - pressure).abs() < 1e-14, "{gap}");
+    }
+    assert!(
+        (p(&table, -0.35) - 8.0).abs() < 1e-13,
+        "with the first slope"
+    );
+    assert_eq!(p(&table, 7.0), 0.25, "the last pressure");
+}

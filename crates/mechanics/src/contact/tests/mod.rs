@@ -5,7 +5,11 @@ mod dual;
 mod interface;
 mod paper;
 pub(crate) mod printed;
+mod reference;
 mod rigid;
+mod scene;
+mod sliding;
+mod table;
 
 use super::discretization::{Discretization, Links, Pairing, SurfacePair};
 use super::row::Rows;

@@ -212,8 +212,23 @@ impl Source<'_> {
                 normals: Normals::default(),
                 pairs: PairOrder::default(),
             },
+            (Method::Auto, _) if self.is_quadratic(part) => Method::GaussPoint(PointRule {
+                kind: PointKind::Gauss,
+                points: None,
+            }),
             (method, _) => method.clone(),
         }
+    }
+
+    /// Whether the nodal forces of an even pressure on the secondary side are not all positive: nodes alone cannot carry
+    /// it.
+    fn is_quadratic(&self, part: &ContactPart) -> bool {
+        let SidePart::Faces(faces) = &part.secondary else {
+            return false;
+        };
+        let elements = faces.iter().filter_map(|&f| self.mesh.face(f));
+        let mut names = elements.map(|(element, _)| element.name());
+        names.any(|name| matches!(name, "tri6" | "quad8"))
     }
 
     fn not_glued(

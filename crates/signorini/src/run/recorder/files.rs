@@ -188,6 +188,7 @@ impl Opened {
             narrator: Narrator::default(),
             listener,
             contacts: BTreeMap::new(),
+            work_stabilization: 0.0,
             error: None,
             stop: None,
             write_seconds: 0.0,

@@ -101,6 +101,8 @@ pub struct Recorder<'l> {
     pub expectations: Expectations,
     /// What every contact carried at the last accepted increment.
     pub contacts: BTreeMap<String, ContactSummary>,
+    /// Work spent so far in holding what only contact stops.
+    pub work_stabilization: f64,
     /// The first failure of the disk; nothing is written after it.
     pub error: Option<OutputError>,
     /// Why to stop.

@@ -118,7 +118,12 @@ impl Recorder<'_> {
         });
         self.expectations
             .look(self.files.history.nrow(), frame, &row);
-        self.contacts = frame.contacts.iter().map(summary).collect();
+        let before = std::mem::take(&mut self.contacts);
+        let contacts = frame.contacts.iter();
+        self.contacts = contacts
+            .map(|c| (c.name.clone(), summary(c, before.get(&c.name))))
+            .collect();
+        self.work_stabilization = frame.work_stabilization;
         let event = Event::Increment {
             step: name,
             inc: record.increment as u64,
@@ -210,15 +215,23 @@ fn state(contact: &ContactFrame) -> (String, ContactState) {
     (contact.name.clone(), state)
 }
 
-fn summary(contact: &ContactFrame) -> (String, ContactSummary) {
-    let summary = ContactSummary {
-        force: contact.secondary.force.to_array(),
-        moment: contact.secondary.moment.to_array(),
+/// A contact with the worst balance so far.
+fn summary(contact: &ContactFrame, before: Option<&ContactSummary>) -> ContactSummary {
+    let (one, other) = (&contact.secondary, &contact.primary);
+    let force = one.force.norm();
+    let over = |value: f64, size: f64| if force > 0.0 { value / size } else { 0.0 };
+    let forces = over((one.force + other.force).norm(), force);
+    let arm = force * contact.facet_size;
+    let moments = over((one.moment + other.moment).norm(), arm);
+    ContactSummary {
+        force: one.force.to_array(),
+        moment: one.moment.to_array(),
         pressure_max: contact.pressure_max,
         gap_min: contact.gap_min,
         area_open: contact.area_open,
         area_stick: contact.area_stick,
         area_slip: contact.area_slip,
-    };
-    (contact.name.clone(), summary)
+        imbalance_force: before.map_or(forces, |b| forces.max(b.imbalance_force)),
+        imbalance_moment: before.map_or(moments, |b| moments.max(b.imbalance_moment)),
+    }
 }
