@@ -1,0 +1,19 @@
+//! Benchmarks of contact with exact answers: bars, beams, patches, stacks of blocks, Hertz, friction, interference fits.
+//!
+//! Every module tells its source, mesh, conditions, expected values and tolerance. Closed forms are ported with their
+//! source. Meshes are made by [`scene`].
+
+#![allow(clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod scene;
+
+mod bars;
+mod beam;
+mod friction_loop;
+mod hertz;
+mod patch;
+mod rings;
+mod slip;
+mod stack;

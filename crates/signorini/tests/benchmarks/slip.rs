@@ -1,0 +1,338 @@
+//! Friction with exact answers: partial slip of cylinders, a pad on an incline, a block on a slope.
+//!
+//! SOURCE      Johnson, *Contact Mechanics*, 1985, (7.28)–(7.30) (Cattaneo 1938, Mindlin 1949); statics
+//! GOAL        slip begins where and when Coulomb's law says, and goes as far as springs let it
+//! MESH        half discs graded to the contact; a pad of 8 × 4, a block of 2 × 2 quad4
+//! CONDITIONS  small strain, forces prescribed, multipliers and penalties
+//! EXPECTED    closed forms at the tests
+//! TOLERANCE   stick radius to an element; displacements of blocks 1e-5, of the pad 2e-4: it is elastic, 300/E times 20
+use crate::common::{Run, model, run};
+use crate::scene::{Grid, Scene, Side, equal, graded};
+use signorini_mechanics::system::Status;
+use std::f64::consts::PI;
+
+/// The half of a disc that touches y = 0 in the origin, above (`up` = 1) or below (−1) it.
+fn half(scene: &mut Scene, group: &str, radius: f64, [fine, h]: [f64; 2], up: f64) -> Grid {
+    let right = graded(fine / radius, h / radius, 1.25, 0.5 * PI);
+    let left = right.iter().skip(1).rev().map(|t| -t);
+    let angles: Vec<f64> = left.chain(right.iter().copied()).collect();
+    let depths = graded(3.0 * h, h, 1.3, 0.8 * radius);
+    scene.grid(group, [&angles, &depths], |t, d| {
+        let r = radius - d;
+        [up * r * t.sin(), up * (radius - r * t.cos())]
+    })
+}
+
+#[test]
+fn partial_slip_of_cylinders_cattaneo_mindlin() {
+    cattaneo("method = \"node-to-segment\"");
+    cattaneo("method = \"gauss-point\"");
+}
+
+#[test]
+#[ignore = "fails: friction that begins in a later step leaves the equations of multipliers inaccurate before"]
+fn partial_slip_of_cylinders_by_multipliers() {
+    cattaneo("method = \"node-to-segment\"\nenforcement = { lagrange = {} }");
+}
+
+/// Pressed without friction, as the theory has it, sheared with it.
+fn cattaneo(by: &str) {
+    // R = 8, E = 200, nu = 0.3, P = 10, mu = 0.3, Q = 0.93616: c = a √(1 − Q/(mu P))
+    let modulus = 100.0 / (1.0 - 0.09);
+    let (force, shear, mu) = (10.0, 0.93616, 0.3);
+    let a = (4.0 * force * 4.0 / (PI * modulus)).sqrt();
+    let p0 = 2.0 * force / (PI * a);
+    let c = a * (1.0 - shear / (mu * force)).sqrt();
+    assert!((a - 0.680778).abs() < 1e-6 && (c - 0.564655).abs() < 1e-6);
+    let h = a / 14.0;
+    let ellipse = |x: f64, a: f64| (1.0 - (x / a).powi(2)).max(0.0).sqrt();
+    let traction = |x: f64| mu * p0 * (ellipse(x, a) - c / a * ellipse(x, c));
+    let mut scene = Scene::default();
+    let upper = half(&mut scene, "upper", 8.0, [20.0 * h, h], 1.0);
+    let lower = half(&mut scene, "lower", 8.0, [20.0 * h, h], -1.0);
+    let ends = |g: &Grid| [g.faces(Side::Left), g.faces(Side::Right)].concat();
+    scene.faces("arc", &upper.faces(Side::Bottom));
+    scene.faces("base_arc", &lower.faces(Side::Bottom));
+    scene.faces("head", &ends(&upper));
+    scene.faces("base", &ends(&lower));
+    scene.set("handle", &upper.along(Side::Left)[..1]);
+    let text = scene.case(&format!(
+        r#"
+[model]
+space = "plane-strain"
+[material.m]
+model = "linear-elastic"
+E = 200.0
+nu = 0.3
+[[body]]
+group = ["upper", "lower"]
+material = "m"
+[[contact]]
+name = "contact"
+secondary = "arc"
+primary = "base_arc"
+{by}
+[[constraint]]
+kind = "equal"
+on = "head"
+dofs = ["x", "y"]
+[[step]]
+name = "touch"
+geometry = "linear"
+increments = 2
+[[step.fix]]
+on = "base"
+u = "all"
+[[step.move]]
+on = "handle"
+ux = 0.0
+uy = -0.1
+[[step]]
+name = "press"
+geometry = "linear"
+increments = 2
+[[step.free]]
+on = "handle"
+u = ["y"]
+[[step.load]]
+on = "head"
+force = [0.0, -{force:?}]
+[[step]]
+name = "shear"
+geometry = "linear"
+increments = 4
+[[step.contact]]
+name = "contact"
+friction = {mu}
+[[step.free]]
+on = "handle"
+u = ["x"]
+[[step.load]]
+name = "shear"
+on = "head"
+force = [{shear:?}, 0.0]
+"#
+    ));
+    let run = run(&mut model("cattaneo", &text, &[]));
+    assert!(run.error.is_none(), "{by}: {:?}", run.error);
+    report(by, &run);
+    let contact = &run.frames.last().unwrap().contacts[0];
+    // the contact moves with the shear, by half an element
+    let center = contact.center.x;
+    let mut slipping = f64::INFINITY;
+    let (mut error, mut size) = (0.0, 0.0);
+    for (i, x) in contact.points.iter().enumerate() {
+        let x = x.x - center;
+        if contact.status[i] != Status::Stick {
+            slipping = slipping.min(x.abs());
+        }
+        let expected = -traction(x);
+        error += (contact.traction[i].x - expected).powi(2);
+        size += expected * expected;
+    }
+    let stick = contact.points.iter().map(|x| (x.x - center).abs());
+    let stick = stick.filter(|x| *x < slipping).fold(0.0, f64::max);
+    let error = (error / size).sqrt();
+    println!(
+        "  stick radius {stick:.5} for {c:.5} ({:+.2} h), p0 {:+.2} %, shear {:.3} % off in L2, force {:?}",
+        (stick - c) / h,
+        100.0 * (contact.pressure_max / p0 - 1.0),
+        100.0 * error,
+        contact.secondary.force.to_array()
+    );
+    assert!((stick - c).abs() < h, "{by}: {stick} for {c}");
+}
+
+fn report(name: &str, run: &Run) {
+    let iterations: Vec<usize> = run.increments.iter().map(|i| i.iterations).collect();
+    println!(
+        "{name}: iterations {iterations:?}, {} cutbacks",
+        run.cutbacks.len()
+    );
+}
+
+/// A pad of 40 × 20, 2 above an incline of 30 degrees: pressed on with 12000, then pushed up along it.
+fn pad(push: f64, by: &str) -> Run {
+    let (cos, sin) = (3f64.sqrt() / 2.0, 0.5);
+    let mut scene = Scene::default();
+    // along the incline and away from it
+    let turned = |s: f64, n: f64| [s * cos - n * sin, s * sin + n * cos];
+    let grid = scene.grid(
+        "pad",
+        [&equal(-20.0, 20.0, 8), &equal(2.0, 22.0, 4)],
+        turned,
+    );
+    scene.faces("sole", &grid.faces(Side::Bottom));
+    scene.faces("head", &grid.faces(Side::Top));
+    scene.faces("heel", &grid.faces(Side::Left));
+
+    let corner = grid.along(Side::Right);
+    scene.set("sprung", &[corner[0], corner[4]]);
+    scene.set("upper_nodes", &grid.along(Side::Top));
+    // softly held away from the incline too, so that no viscous force has to
+    let [mx, my] = turned(0.0, -2.0 - 1e-6);
+    let text = scene.case(&format!(
+        r#"
+[model]
+space = "plane-strain"
+[material.m]
+model = "linear-elastic"
+E = 1e8
+nu = 0.3
+[[body]]
+group = "pad"
+material = "m"
+[[spring]]
+name = "return"
+on = "sprung"
+stiffness = 2.0
+direction = [{cos:?}, {sin:?}]
+[[spring]]
+name = "soft"
+on = "sprung"
+stiffness = 1e-6
+direction = [-{sin:?}, {cos:?}]
+[[surface]]
+name = "incline"
+shape = {{ plane = {{ point = [0.0, 0.0], normal = [-{sin:?}, {cos:?}] }} }}
+[[contact]]
+name = "sole"
+secondary = "sole"
+primary = "incline"
+friction = 0.3
+{by}
+[[step]]
+name = "approach"
+geometry = "linear"
+increments = 1
+[[step.move]]
+on = "upper_nodes"
+ux = {mx:?}
+uy = {my:?}
+[[step]]
+name = "press"
+geometry = "linear"
+increments = 1
+[[step.free]]
+on = "upper_nodes"
+u = "all"
+[[step.load]]
+on = "head"
+pressure = 300.0
+[[step]]
+name = "push"
+geometry = "linear"
+increments = 4
+[[step.load]]
+name = "push"
+on = "heel"
+pressure = {push:?}
+[solver]
+newton = {{ force_tol = 1e-10, gap_tol = 1e-13 }}
+"#
+    ));
+    run(&mut model("pad", &text, &[]))
+}
+
+#[test]
+fn a_pad_on_an_incline_slides_until_its_springs_hold_it_ssnv503() {
+    // threshold mu Rn = 3600; above it the two springs of 2 carry the rest: 36/4 = 9
+    for by in [
+        "method = \"node-to-segment\"\nenforcement = { lagrange = {} }",
+        "method = \"node-to-segment\"",
+    ] {
+        for (push, slid) in [(3564.0, 0.0), (3636.0, 9.0)] {
+            let run = pad(push / 20.0, by);
+            assert!(run.error.is_none(), "{by} {push}: {:?}", run.error);
+            report(by, &run);
+            let frame = run.frames.last().unwrap();
+            let mean = |axis: usize| {
+                frame.displacement.iter().map(|u| u[axis]).sum::<f64>()
+                    / frame.displacement.len() as f64
+            };
+            let (cos, sin) = (3f64.sqrt() / 2.0, 0.5);
+            let expected = [1.0 + slid * cos, -2.0 * cos + slid * sin];
+            let got = [mean(0), mean(1)];
+            println!(
+                "  {push}: u {got:.8?} for {expected:.8?}, {:?}",
+                frame.contacts[0].secondary.force.to_array()
+            );
+            for (got, expected) in got.iter().zip(expected) {
+                assert!(
+                    (got - expected).abs() < 2e-4,
+                    "{by} {push}: {got} for {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_block_on_a_slope_slips_where_the_slope_exceeds_the_friction() {
+    // weight W at the angle a: the spring k carries W (sin a − mu cos a) where tan a > mu
+    let (mu, weight, stiffness) = (0.3f64, 10.0, 5.0);
+    for by in [
+        "method = \"node-to-segment\"\nenforcement = { lagrange = {} }",
+        "method = \"gauss-point\"\nenforcement = { penalty = 1e7 }",
+    ] {
+        for tan in [0.99 * mu, 1.01 * mu, 2.0 * mu] {
+            let angle = tan.atan();
+            let mut scene = Scene::default();
+            let ends = equal(0.0, 1.0, 2);
+            let grid = scene.grid("block", [&ends, &ends], |x, y| [2.0 * x, y]);
+            scene.faces("sole", &grid.faces(Side::Bottom));
+            scene.set("tied", &[grid.nodes[0][0]]);
+            scene.set("sole_nodes", &grid.along(Side::Bottom));
+            let (fx, fy) = (0.5 * weight * angle.sin(), -0.5 * weight * angle.cos());
+            let text = scene.case(&format!(
+                r#"
+[model]
+space = "plane-strain"
+[material.m]
+model = "linear-elastic"
+E = 1e8
+nu = 0.3
+[[body]]
+group = "block"
+material = "m"
+[[spring]]
+name = "leash"
+on = "tied"
+stiffness = {stiffness:?}
+direction = "x"
+[[spring]]
+name = "soft"
+on = "sole_nodes"
+stiffness = 1e-6
+direction = "y"
+[[surface]]
+name = "slope"
+shape = {{ plane = {{ point = [0.0, 0.0], normal = "y" }} }}
+[[contact]]
+name = "sole"
+secondary = "sole"
+primary = "slope"
+friction = {mu:?}
+{by}
+[[step]]
+name = "weight"
+geometry = "linear"
+increments = 2
+[[step.load]]
+on = "block"
+body_force = [{fx:?}, {fy:?}]
+"#
+            ));
+            let run = run(&mut model("slope", &text, &[]));
+            assert!(run.error.is_none(), "{by} {tan}: {:?}", run.error);
+            report(by, &run);
+            let expected = (weight * (angle.sin() - mu * angle.cos()) / stiffness).max(0.0);
+            let slid = run.frames.last().unwrap().displacement[0].x;
+            println!("  tan {tan:.4}: slid {slid:.9} for {expected:.9}");
+            assert!(
+                (slid - expected).abs() < 1e-5,
+                "{by} {tan}: {slid} for {expected}"
+            );
+        }
+    }
+}
