@@ -111,7 +111,6 @@ fn shear_is_the_coefficient_times_the_pressure_and_turns_with_the_motion() {
 }
 
 #[test]
-#[ignore = "fails: Uzawa's updates end before friction has settled, at 0.199976 instead of 0.2"]
 fn uzawa_settles_friction_too() {
     let run = slid("{ augmented = \"uzawa\" }", "head");
     let mut frames = run.frames.iter().filter(|f| f.step_number == 1);
