@@ -5,7 +5,7 @@
 //! MESH        A block of 1 × 1 × 1 with 4 × 4 × 4 cells on a block of 2 × 2 × 1 with 6 × 6 × 2: meshes do not match.
 //! CONDITIONS  Small and large steps, loads and motions, with free rigid modes, overlaps, friction, bad stiffnesses.
 //! EXPECTED    The vertical force: that of the load, or of a mesh twice as fine; shear over normal force = μ in full sliding.
-//! TOLERANCE   3 % in force, 1e-3 in friction and under loads; 8 % for node-to-segment on quadratic faces, which cannot
+//! TOLERANCE   3 % in force, 1e-3 in friction and under loads; half off an edge 4 %, and for nodes an eighth, half a cell of four; 8 % for node-to-segment on quadratic faces, which cannot
 //!             carry their consistent forces (`auto` takes points inside facets there).
 #![allow(clippy::unwrap_used)]
 
@@ -343,6 +343,9 @@ fn situations() -> Vec<Situation> {
             (s.element, s.upper, s.lower) = ("hex20", 2, 3)
         }),
         s("metres for millimetres", &|s| s.unit = 1e-3),
+        s("half off the edge", &|s| {
+            (s.slide, s.height, s.press) = (1.1, 0.5, 0.01)
+        }),
     ]
 }
 
@@ -383,10 +386,11 @@ fn every_method_gets_through_every_situation() {
         "| situation | method | force | off by | shear/normal | increments | iterations | cut-backs |"
     );
     println!("|---|---|---|---|---|---|---|---|");
-    for s in situations() {
+    let only = std::env::var("SITUATION").unwrap_or_default();
+    for s in situations().iter().filter(|s| s.name.contains(&only)) {
         for way in [Way::NodeToSegment, Way::GaussPoint, Way::Lagrange] {
-            let r = run(&s, way, 1).unwrap_or_else(|e| panic!("{} {way:?}: {e}", s.name));
-            let (force, tolerance) = expected(&s, &fine);
+            let r = run(s, way, 1).unwrap_or_else(|e| panic!("{} {way:?}: {e}", s.name));
+            let (force, tolerance) = expected(s, &fine);
             let off = r.force.z / force - 1.0;
             println!(
                 "| {} | {way:?} | {:.5} | {:+.2} % | {:.4} | {} | {} | {} |",
@@ -404,7 +408,13 @@ fn every_method_gets_through_every_situation() {
             }
             // nodes alone cannot carry the consistent forces of quadratic faces
             let nodal = s.element == "hex20" && way == Way::NodeToSegment;
-            let tolerance = if nodal { 0.08 } else { tolerance };
+            let tolerance = match (s.name, way) {
+                _ if nodal => 0.08,
+                // where the edge is between two nodes is not known to methods that look at nodes only
+                ("half off the edge", Way::GaussPoint) => 0.04,
+                ("half off the edge", _) => 0.125,
+                _ => tolerance,
+            };
             assert!(off.abs() < tolerance, "{} {way:?}: {off:+.4} {r:?}", s.name);
         }
     }
