@@ -2,6 +2,7 @@
 //! balance, energy and renumbering.
 
 mod dual;
+mod held;
 mod interface;
 mod paper;
 pub(crate) mod printed;
