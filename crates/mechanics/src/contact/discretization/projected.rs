@@ -63,7 +63,7 @@ use signorini_geometry::tensor::{Mat3, Vec3};
 pub const RIM: f64 = 0.05;
 
 /// How far past its facet a point on an edge or a vertex may rest on its continuation, where only faces count.
-const BEYOND: f64 = 0.5;
+pub const BEYOND: f64 = 0.5;
 
 /// Relative difference below which two distances are equal.
 const TIE: f64 = 1e-12;
@@ -110,6 +110,27 @@ fn carried_by(carrier: Carrier<'_>) -> impl Iterator<Item = Participant> + '_ {
     };
     let nodes = nodes.iter().map(|&n| Participant::Node(n));
     nodes.chain(body.map(Participant::Rigid))
+}
+
+/// The closest point of the continuation of the facet that `from` is on, up to `beyond` past it, in its parameters.
+///
+/// # Errors
+/// A facet that has no normal.
+pub fn on_continuation(
+    surface: &dyn ContactSurface,
+    at: &Placement,
+    from: Anchor,
+    point: Vec3,
+    beyond: f64,
+) -> Result<Option<Pair>, SurfaceError> {
+    let mut jet = SurfaceJet::default();
+    let found = extended_face(surface, at, from, point, beyond, &mut jet)?;
+    Ok(found.map(|f| Pair {
+        anchor: f.anchor,
+        feature: Feature::Face,
+        gap: (point - jet.position).dot(jet.normal),
+        held: None,
+    }))
 }
 
 /// The closest of the near facets.
@@ -162,24 +183,12 @@ pub fn closest(
         outward = surface.outward(at, &found)?;
     }
     if outward.rim {
-        let extended = extended_face(surface, at, found.anchor, point, RIM, &mut jet)?;
-        return Ok(extended.map(|e| Pair {
-            anchor: e.anchor,
-            feature: Feature::Face,
-            gap: (point - jet.position).dot(jet.normal),
-            held: None,
-        }));
+        return on_continuation(surface, at, found.anchor, point, RIM);
     }
     if on == Closest::Faces && found.feature != Feature::Face {
         let kept = hint.filter(|h| surface.neighbours(found.anchor.facet).contains(&h.facet));
         let from = kept.unwrap_or(found.anchor);
-        let extended = extended_face(surface, at, from, point, BEYOND, &mut jet)?;
-        return Ok(extended.map(|e| Pair {
-            anchor: e.anchor,
-            feature: Feature::Face,
-            gap: (point - jet.position).dot(jet.normal),
-            held: None,
-        }));
+        return on_continuation(surface, at, from, point, BEYOND);
     }
     surface.jet(at, &found.anchor, &mut jet)?;
     let away = point - jet.position;

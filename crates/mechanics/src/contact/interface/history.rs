@@ -147,15 +147,8 @@ impl Interface {
             return Ok(Verdict::Settled);
         };
         self.history.lambdas = lambdas;
-        let nodes = self.parts.discretization.point(row).nodes;
-        Ok(Verdict::Repeat {
-            changes: 1,
-            why: format!(
-                "contact \"{}\": its multipliers still change by a gap of {:.3e}",
-                self.parts.name, worst.0
-            ),
-            nodes: nodes.first().copied().into_iter().collect(),
-        })
+        let change = format!("multipliers still change by a gap of {:.3e}", worst.0);
+        Ok(self.goes_on(row, &change))
     }
 
     /// Holds the limits of friction; says whether that is anything new.
@@ -204,16 +197,19 @@ impl Interface {
         if settled {
             return Ok(Verdict::Settled);
         }
+        let part = change / largest;
+        let change = format!("limits of friction still change by {part:.1e} of the largest");
+        Ok(self.goes_on(row, &change))
+    }
+
+    /// What was frozen has changed, most of all at this row.
+    fn goes_on(&self, row: usize, change: &str) -> Verdict {
         let nodes = self.parts.discretization.point(row).nodes;
-        Ok(Verdict::Repeat {
+        Verdict::Repeat {
             changes: 1,
-            why: format!(
-                "contact \"{}\": its limits of friction still change by {:.1e} of the largest",
-                self.parts.name,
-                change / largest
-            ),
+            why: format!("contact \"{}\": its {change}", self.parts.name),
             nodes: nodes.first().copied().into_iter().collect(),
-        })
+        }
     }
 
     /// The multiplier that makes a traction of its own.

@@ -1,18 +1,16 @@
 //! Search, pairing, where rows stick, and what is coupled with what.
 
 use super::{Carrier, ContactSurface, Interface, NONE, dofs_of};
+use crate::contact::discretization::projected::{BEYOND, on_continuation};
 use crate::contact::discretization::{Discretization, Pair, Pairing, SurfacePair};
 use crate::contact::law::Eval;
 use crate::system::{Dof, NO_DOF, PatternSink, State};
 use signorini_geometry::proximity::{Aabb, Search};
-use signorini_geometry::surface::{Feature, Placement, SurfaceError, SurfaceJet, extended_face};
+use signorini_geometry::surface::{Feature, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
 /// Changes of facet in one increment after which a row stays on the facet it is on.
 const RESTLESS: u8 = 4;
-
-/// How far past its facet a point that stays on it may go, in parameters of the facet.
-const BEYOND: f64 = 0.5;
 
 /// The search for what is near, with its buffers.
 #[derive(Default)]
@@ -300,12 +298,5 @@ fn stays(
     let Some(before) = before.filter(|p| surface.domain(p.anchor.facet).is_some()) else {
         return Ok(None);
     };
-    let mut jet = SurfaceJet::default();
-    let found = extended_face(surface, at, before.anchor, point, BEYOND, &mut jet)?;
-    Ok(found.map(|f| Pair {
-        anchor: f.anchor,
-        feature: Feature::Face,
-        gap: (point - jet.position).dot(jet.normal),
-        held: None,
-    }))
+    on_continuation(surface, at, before.anchor, point, BEYOND)
 }

@@ -3,7 +3,7 @@
 use super::{ContactPart, ModelError, Sides, Source};
 use crate::contact::Shift;
 use crate::contact::discretization::{Anchored, Pairing};
-use crate::model::{Interference, SidePart, StartSummary, TiePart};
+use crate::model::{Interference, StartSummary, TiePart};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Placement, Pose, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -159,6 +159,5 @@ fn moves(
             moves.insert(node, jet.position);
         }
     }
-    let _ = matches!(part.secondary, SidePart::Nodes(_));
     Ok(moves)
 }
