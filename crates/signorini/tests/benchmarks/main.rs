@@ -11,6 +11,7 @@ mod scene;
 
 mod bars;
 mod beam;
+mod enforcement;
 mod friction_loop;
 mod hertz;
 mod patch;

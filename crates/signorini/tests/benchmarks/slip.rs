@@ -33,21 +33,17 @@ fn partial_slip_of_cylinders_by_multipliers() {
     cattaneo("method = \"node-to-segment\"\nenforcement = { lagrange = {} }");
 }
 
-/// Pressed without friction, as the theory has it, sheared with it.
-fn cattaneo(by: &str) {
-    // R = 8, E = 200, nu = 0.3, P = 10, mu = 0.3, Q = 0.93616: c = a √(1 − Q/(mu P))
-    let modulus = 100.0 / (1.0 - 0.09);
-    let (force, shear, mu) = (10.0, 0.93616, 0.3);
-    let a = (4.0 * force * 4.0 / (PI * modulus)).sqrt();
-    let p0 = 2.0 * force / (PI * a);
-    let c = a * (1.0 - shear / (mu * force)).sqrt();
-    assert!((a - 0.680778).abs() < 1e-6 && (c - 0.564655).abs() < 1e-6);
-    let h = a / 14.0;
-    let ellipse = |x: f64, a: f64| (1.0 - (x / a).powi(2)).max(0.0).sqrt();
-    let traction = |x: f64| mu * p0 * (ellipse(x, a) - c / a * ellipse(x, c));
+/// P, Q and mu.
+const PRESSED: f64 = 10.0;
+const SHEARED: f64 = 0.93616;
+const FRICTION: f64 = 0.3;
+
+/// Two cylinders of radius 8, pressed without friction, as the theory has it, and sheared with it; with elements of these
+/// sizes at the contact, above and below.
+pub fn cylinders(hs: [f64; 2], by: &str, set: &[(&str, &str)]) -> Run {
     let mut scene = Scene::default();
-    let upper = half(&mut scene, "upper", 8.0, [20.0 * h, h], 1.0);
-    let lower = half(&mut scene, "lower", 8.0, [20.0 * h, h], -1.0);
+    let upper = half(&mut scene, "upper", 8.0, [20.0 * hs[0], hs[0]], 1.0);
+    let lower = half(&mut scene, "lower", 8.0, [20.0 * hs[1], hs[1]], -1.0);
     let ends = |g: &Grid| [g.faces(Side::Left), g.faces(Side::Right)].concat();
     scene.faces("arc", &upper.faces(Side::Bottom));
     scene.faces("base_arc", &lower.faces(Side::Bottom));
@@ -94,25 +90,40 @@ on = "handle"
 u = ["y"]
 [[step.load]]
 on = "head"
-force = [0.0, -{force:?}]
+force = [0.0, -{PRESSED:?}]
 [[step]]
 name = "shear"
 geometry = "linear"
 increments = 4
 [[step.contact]]
 name = "contact"
-friction = {mu}
+friction = {FRICTION}
 [[step.free]]
 on = "handle"
 u = ["x"]
 [[step.load]]
 name = "shear"
 on = "head"
-force = [{shear:?}, 0.0]
+force = [{SHEARED:?}, 0.0]
 "#
     ));
-    let run = run(&mut model("cattaneo", &text, &[]));
+    let run = run(&mut model("cattaneo", &text, set));
     assert!(run.error.is_none(), "{by}: {:?}", run.error);
+    run
+}
+
+/// The shear and the length that sticks are those of theory.
+fn cattaneo(by: &str) {
+    // R = 8, E = 200, nu = 0.3: c = a √(1 − Q/(mu P))
+    let modulus = 100.0 / (1.0 - 0.09);
+    let a = (4.0 * PRESSED * 4.0 / (PI * modulus)).sqrt();
+    let p0 = 2.0 * PRESSED / (PI * a);
+    let c = a * (1.0 - SHEARED / (FRICTION * PRESSED)).sqrt();
+    assert!((a - 0.680778).abs() < 1e-6 && (c - 0.564655).abs() < 1e-6);
+    let h = a / 14.0;
+    let ellipse = |x: f64, a: f64| (1.0 - (x / a).powi(2)).max(0.0).sqrt();
+    let traction = |x: f64| FRICTION * p0 * (ellipse(x, a) - c / a * ellipse(x, c));
+    let run = cylinders([h, h], by, &[]);
     report(by, &run);
     let contact = &run.frames.last().unwrap().contacts[0];
     // the contact moves with the shear, by half an element
