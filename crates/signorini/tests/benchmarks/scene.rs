@@ -1,5 +1,8 @@
 //! Meshes made in a test, written as the text of a case.
 
+use signorini_geometry::element::{Element, by_name};
+use signorini_geometry::tensor::Vec3;
+use std::collections::HashMap;
 use std::fmt::Write;
 
 /// Nodes, cells and sets.
@@ -122,35 +125,48 @@ impl Scene {
         rows
     }
 
-    /// Hex8 over the products of three lists of coordinates; labels of nodes by z, y, x.
-    pub fn bricks(&mut self, group: &str, axes: [&[f64]; 3]) -> Vec<Vec<Vec<usize>>> {
-        let [xs, ys, zs] = axes;
-        let mut nodes = Vec::new();
-        for z in zs {
-            let layer = ys.iter().map(|y| {
-                let row = xs.iter().map(|x| self.node(&[*x, *y, *z]));
-                row.collect::<Vec<_>>()
-            });
-            nodes.push(layer.collect::<Vec<_>>());
-        }
-        for k in 1..zs.len() {
-            for j in 1..ys.len() {
-                for i in 1..xs.len() {
-                    let corners = |k: usize| {
-                        let layer: &Vec<Vec<usize>> = &nodes[k];
-                        [
-                            layer[j - 1][i - 1],
-                            layer[j - 1][i],
-                            layer[j][i],
-                            layer[j][i - 1],
-                        ]
-                    };
-                    let cell = [corners(k - 1), corners(k)].concat();
-                    self.cell("hex8", group, cell);
-                }
+    /// Cells of a solid element over the products of three lists of coordinates, mapped into space; tetrahedra are six to
+    /// a box.
+    pub fn solid(
+        &mut self,
+        group: &str,
+        element: &'static str,
+        axes: [&[f64]; 3],
+        map: impl Fn([f64; 3]) -> [f64; 3],
+    ) {
+        let cells = cells_of_box(by_name(element).unwrap());
+        let mut known = HashMap::new();
+        let coordinate = |axis: usize, half: usize| {
+            let ends = axes[axis];
+            0.5 * (ends[half / 2] + ends[half.div_ceil(2)])
+        };
+        let size = [0, 1, 2].map(|axis| axes[axis].len() - 1);
+        for place in 0..size[0] * size[1] * size[2] {
+            let at = [
+                place % size[0],
+                place / size[0] % size[1],
+                place / (size[0] * size[1]),
+            ];
+            for cell in &cells {
+                let node = |offset: &[usize; 3]| {
+                    let halves = [0, 1, 2].map(|axis| 2 * at[axis] + offset[axis]);
+                    let x = [0, 1, 2].map(|axis| coordinate(axis, halves[axis]));
+                    *known.entry(halves).or_insert_with(|| self.node(&map(x)))
+                };
+                let nodes = cell.iter().map(node).collect();
+                self.cell(element, group, nodes);
             }
         }
-        nodes
+    }
+
+    /// Hex8 over the products of three lists of coordinates.
+    pub fn bricks(&mut self, group: &str, axes: [&[f64]; 3]) {
+        self.solid(group, "hex8", axes, |x| x);
+    }
+
+    /// The first node at a place.
+    pub fn label(&self, x: &[f64]) -> usize {
+        self.nodes.iter().position(|at| at == x).unwrap() + 1
     }
 
     /// A set of nodes.
@@ -190,6 +206,27 @@ impl Scene {
         }
         format!("{text}]\n[sets]\n{}\n{rest}", self.sets)
     }
+}
+
+/// The cells of an element that fill a box, as places of their nodes in halves of its edges.
+fn cells_of_box(element: Element) -> Vec<Vec<[usize; 3]>> {
+    let halves = |x: Vec3| x.to_array().map(|x| (2.0 * x).round() as usize);
+    if element.ncorner() == 8 {
+        let ones = Vec3::new(1.0, 1.0, 1.0);
+        let place = |xi: &Vec3| halves((*xi + ones) * 0.5);
+        return vec![element.nodes().iter().map(place).collect()];
+    }
+    // from the origin along one axis, along another, to the opposite corner
+    let paths = [(0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)];
+    let cell = |(n, (first, second)): (usize, (usize, usize))| {
+        let way = [Vec3::unit(first), Vec3::unit(first) + Vec3::unit(second)];
+        let end = Vec3::new(1.0, 1.0, 1.0);
+        // the last three turn the other way round
+        let [a, b] = if n < 3 { way } else { [way[1], way[0]] };
+        let place = |xi: &Vec3| halves(a * xi.x + b * xi.y + end * xi.z);
+        element.nodes().iter().map(place).collect()
+    };
+    paths.into_iter().enumerate().map(cell).collect()
 }
 
 /// So many equal parts of an interval: their ends.

@@ -76,9 +76,9 @@ fn compressed(sides: &str, d: f64, method: &str, increments: usize) -> (Run, usi
         scene.faces("roof", &lower.faces(Side::Top));
     } else {
         let ends = equal(0.0, 1.0, 2);
-        let lower = scene.bricks("lower", [&ends, &ends, &ends]);
+        scene.bricks("lower", [&ends, &ends, &ends]);
         scene.bricks("upper", [&ends, &ends, &[1.0, 1.5, 2.0]]);
-        interface = lower[2][1][1] - 1;
+        interface = scene.label(&[0.5, 0.5, 1.0]) - 1;
         let of = |first: usize, side: &'static str| (first..first + 4).map(move |c| (c, side));
         scene.faces("foot", &of(9, "S1").collect::<Vec<_>>());
         scene.faces("roof", &of(5, "S2").collect::<Vec<_>>());

@@ -117,7 +117,7 @@ static RULE: Table = Table {
         .or(Default::Text("gauss")),
         key(
             "points",
-            Shape::Either(&[AUTO, Shape::Integer(1, 10)]),
+            Shape::Either(&[AUTO, Shape::Integer(1, 32)]),
             "how many; auto: one more than the degree of the facet",
         )
         .or(Default::Text("auto")),
