@@ -6,7 +6,7 @@
 //! CONDITIONS  small displacements; multipliers, Uzawa's augmented Lagrangian, penalty; against a surface, a side and a node
 //! EXPECTED    closed forms at the functions below
 //! TOLERANCE   1e-10 for multipliers and Uzawa; for penalties the error is force/penalty, of slope −1
-use crate::common::{Run, model, run};
+use crate::common::{Run, run};
 use crate::scene::{Scene, equal};
 
 /// How pressures are found.
@@ -49,55 +49,25 @@ fn stopped(stop: &str, gap: f64, enforcement: &str, load: &str, nbar: usize) -> 
             "method = \"node-to-node\"\nnormals = [-1.0, 0.0]",
         ),
     };
-    let text = scene.case(&format!(
-        r#"
-[model]
-space = "plane-strain"
-[material.m]
-model = "linear-elastic"
-E = 10.0
-nu = 0.0
-expansion = {{ alpha = 1e-3, reference = 0.0 }}
-[[body]]
-group = ["bar", "pin"]
-material = "m"
-area = 1.0
-[[body]]
-group = "plate"
-material = "m"
-[[surface]]
-name = "wall"
-shape = {{ plane = {{ point = [{x:?}, 0.0], normal = [-1.0, 0.0] }} }}
-[[contact]]
-name = "stop"
-secondary = "tip"
-primary = "{primary}"
-{method}
-enforcement = {enforcement}
-[[step]]
-name = "load"
-geometry = "linear"
-increments = 1
-[[step.fix]]
-on = "left"
-u = "all"
-[[step.fix]]
-on = "bar_nodes"
-u = ["y"]
-[[step.fix]]
-on = "plate_nodes"
-u = "all"
-[[step.fix]]
-on = "pin_nodes"
-u = "all"
-{load}
-[solver]
-newton = {{ force_tol = 1e-13, gap_tol = 1e-12, max_iterations = 60 }}
-"#
-    ));
-    let run = run(&mut model("bar", &text, &[]));
-    assert!(run.error.is_none(), "{stop} {enforcement}: {:?}", run.error);
-    run
+    scene
+        .elastic("plane-strain", 10.0, 0.0)
+        .also("expansion = { alpha = 1e-3, reference = 0.0 }")
+        .body(&["bar", "pin"], "area = 1.0")
+        .body(&["plate"], "")
+        .plane("wall", [x, 0.0], [-1.0, 0.0])
+        .contact(
+            "tip",
+            primary,
+            &format!("{method}\nenforcement = {enforcement}"),
+        )
+        .step("load", 1)
+        .fix("left", "xy")
+        .fix("bar_nodes", "y")
+        .fix("plate_nodes", "xy")
+        .fix("pin_nodes", "xy")
+        .also(load)
+        .newton("force_tol = 1e-13, gap_tol = 1e-12, max_iterations = 60")
+        .run()
 }
 
 fn pull(force: f64) -> String {
@@ -212,44 +182,19 @@ fn two_bars_share_the_force_once_their_gap_is_closed() {
         scene.set("right", &labels[2..3]);
         scene.set("ends", &[labels[0], labels[3]]);
         scene.set("both", &labels);
-        let text = scene.case(&format!(
-            r#"
-[model]
-space = "plane-strain"
-[material.m]
-model = "linear-elastic"
-E = 10.0
-nu = 0.0
-[[body]]
-group = ["first", "second"]
-material = "m"
-area = 1.0
-[[contact]]
-name = "gap"
-secondary = "left"
-primary = "right"
-method = "node-to-node"
-normals = [-1.0, 0.0]
-enforcement = {enforcement}
-[[step]]
-name = "load"
-geometry = "linear"
-increments = 1
-[[step.fix]]
-on = "both"
-u = ["y"]
-[[step.fix]]
-on = "ends"
-u = "all"
-[[step.load]]
-on = "left"
-force = [3.0, 0.0]
-[solver]
-newton = {{ force_tol = 1e-13, gap_tol = 1e-12, max_iterations = 60 }}
-"#
-        ));
-        let run = run(&mut model("two bars", &text, &[]));
-        assert!(run.error.is_none(), "{enforcement}: {:?}", run.error);
+        let by = format!(
+            "method = \"node-to-node\"\nnormals = [-1.0, 0.0]\nenforcement = {enforcement}"
+        );
+        let run = scene
+            .elastic("plane-strain", 10.0, 0.0)
+            .body(&["first", "second"], "area = 1.0")
+            .contact("left", "right", &by)
+            .step("load", 1)
+            .fix("both", "y")
+            .fix("ends", "xy")
+            .load("left", "force = [3.0, 0.0]")
+            .newton("force_tol = 1e-13, gap_tol = 1e-12, max_iterations = 60")
+            .run();
         let frame = run.frames.last().unwrap();
         let (u1, u2) = (frame.displacement[1].x, frame.displacement[2].x);
         let n = run.increments[0].iterations;
@@ -367,35 +312,16 @@ impl Chain {
                 self.force[i]
             );
         }
-        let text = scene.case(&format!(
-            r#"
-[model]
-space = "plane-strain"
-[material.m]
-model = "linear-elastic"
-E = 1.0
-nu = 0.0
-{bodies}
-[[body]]
-group = "stops"
-material = "m"
-area = 1.0
-[[step]]
-name = "load"
-geometry = "linear"
-increments = 1
-[[step.fix]]
-on = "every"
-u = ["y"]
-[[step.fix]]
-on = "ends"
-u = "all"
-{loads}
-[solver]
-newton = {{ force_tol = 1e-13, gap_tol = 1e-13, max_iterations = 100 }}
-"#
-        ));
-        run(&mut model("chain", &text, &[]))
+        let case = scene
+            .elastic("plane-strain", 1.0, 0.0)
+            .also(&bodies)
+            .body(&["stops"], "area = 1.0")
+            .step("load", 1)
+            .fix("every", "y")
+            .fix("ends", "xy")
+            .also(&loads)
+            .newton("force_tol = 1e-13, gap_tol = 1e-13, max_iterations = 100");
+        run(&mut case.model(&[]))
     }
 }
 

@@ -6,7 +6,6 @@
 //! CONDITIONS  plane stress, nu = 0, EI = L = q = 1, stop at the gap 0.05 under the lower corner of the tip
 //! EXPECTED    R = 0.225, tip at −0.05
 //! TOLERANCE   1 %: shear bends the solid by 0.2 % more; the tip to round-off for multipliers
-use crate::common::{model, run};
 use crate::scene::{Scene, Side, equal};
 
 #[test]
@@ -20,12 +19,12 @@ fn a_cantilever_is_held_by_the_stop_under_its_tip() {
             true,
         ),
         (
-            "anvil",
+            "anvil_top",
             "method = \"node-to-segment\"\nenforcement = { lagrange = {} }",
             true,
         ),
         (
-            "anvil",
+            "anvil_top",
             "method = \"node-to-segment\"\nenforcement = { augmented = \"uzawa\" }",
             true,
         ),
@@ -49,56 +48,19 @@ fn a_cantilever_is_held_by_the_stop_under_its_tip() {
         scene.set("pin", &[pin]);
         scene.set("root", &beam.along(Side::Left));
         scene.set("tip", &[beam.nodes[0][40]]);
-        scene.faces("anvil", &anvil.faces(Side::Top));
+        scene.faces("anvil_top", &anvil.faces(Side::Top));
         scene.set("held", &[anvil.nodes.concat(), vec![pin, under]].concat());
-        let text = scene
-            .case(&format!(
-                r#"
-[model]
-space = "plane-stress"
-[material.m]
-model = "linear-elastic"
-E = {young:?}
-nu = 0.0
-[[body]]
-group = ["beam", "anvil"]
-material = "m"
-[[body]]
-group = "post"
-material = "m"
-area = 1.0
-[[surface]]
-name = "stop"
-shape = {{ plane = {{ point = [0.0, -0.05], normal = "y" }} }}
-[[contact]]
-name = "contact"
-secondary = "tip"
-primary = "{}"
-{by}
-[[step]]
-name = "load"
-geometry = "linear"
-increments = 1
-[[step.fix]]
-on = "root"
-u = "all"
-[[step.fix]]
-on = "held"
-u = "all"
-[[step.load]]
-on = "beam"
-body_force = [0.0, {:?}]
-"#,
-                if primary == "anvil" {
-                    "anvil_top"
-                } else {
-                    primary
-                },
-                -1.0 / height
-            ))
-            .replace("anvil = { faces", "anvil_top = { faces");
-        let run = run(&mut model("beam", &text, &[]));
-        assert!(run.error.is_none(), "{primary} {by}: {:?}", run.error);
+        let run = scene
+            .elastic("plane-stress", young, 0.0)
+            .body(&["beam", "anvil"], "")
+            .body(&["post"], "area = 1.0")
+            .plane("stop", [0.0, -0.05], [0.0, 1.0])
+            .contact("tip", primary, by)
+            .step("load", 1)
+            .fix("root", "xy")
+            .fix("held", "xy")
+            .load("beam", &format!("body_force = [0.0, {:?}]", -1.0 / height))
+            .run();
         let frame = run.frames.last().unwrap();
         let force = frame.contacts[0].secondary.force.y;
         let tip = frame.displacement[beam.nodes[0][40] - 1].y;

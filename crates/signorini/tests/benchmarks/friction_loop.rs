@@ -7,7 +7,7 @@
 //!             head slid by 0.9 to each side, across edges
 //! EXPECTED    tangential force ∓0.2 times the normal force; penetration pressure/penalty = 1e-5
 //! TOLERANCE   ratio 1e-6; penetration 1e-6 (the brick does not turn)
-use crate::common::{Run, model, run};
+use crate::common::Run;
 use crate::scene::{Scene, equal};
 
 fn slid(enforcement: &str, driven: &str) -> Run {
@@ -28,56 +28,23 @@ fn slid(enforcement: &str, driven: &str) -> Run {
         "all_of_brick",
         "box = [[-0.1, -0.1, 0.9], [3.1, 3.1, 2.1]], of = \"brick\"",
     );
-    let text = scene.case(&format!(
-        r#"
-[material.steel]
-model = "linear-elastic"
-E = 210000.0
-nu = 0.3
-[[body]]
-group = ["block", "brick"]
-material = "steel"
-[[contact]]
-name = "foot"
-secondary = "foot"
-primary = "top"
-method = "node-to-segment"
-enforcement = {enforcement}
-friction = {{ mu = 0.2, stiffness = 80.0 }}
-[[step]]
-name = "press"
-geometry = "linear"
-increments = 1
-[[step.fix]]
-on = "held"
-u = "all"
-[[step.fix]]
-on = "{driven}"
-u = ["x", "y"]
-[[step.load]]
-on = "lid"
-pressure = 100.0
-[[step]]
-name = "forth"
-geometry = "linear"
-increments = 10
-[[step.move]]
-on = "{driven}"
-ux = 0.9
-[[step]]
-name = "back"
-geometry = "linear"
-increments = 10
-[[step.move]]
-on = "{driven}"
-ux = -0.9
-[solver]
-newton = {{ force_tol = 1e-10 }}
-"#
-    ));
-    let run = run(&mut model("friction loop", &text, &[]));
-    assert!(run.error.is_none(), "{:?}", run.error);
-    run
+    let contact = format!(
+        "method = \"node-to-segment\"\nenforcement = {enforcement}\nfriction = {{ mu = 0.2, stiffness = 80.0 }}"
+    );
+    scene
+        .elastic("3d", 210_000.0, 0.3)
+        .body(&["block", "brick"], "")
+        .contact("foot", "top", &contact)
+        .step("press", 1)
+        .fix("held", "xyz")
+        .fix(driven, "xy")
+        .load("lid", "pressure = 100.0")
+        .step("forth", 10)
+        .displace(driven, "ux = 0.9")
+        .step("back", 10)
+        .displace(driven, "ux = -0.9")
+        .newton("force_tol = 1e-10")
+        .run()
 }
 
 #[test]

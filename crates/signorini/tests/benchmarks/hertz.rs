@@ -29,8 +29,8 @@
 //! | 0.49 | 1000 | +0.35 % | +0.24 % | +0.19 % | +0.08 % |
 //!
 //! A nearly incompressible block has Sneddon's force. At ν = 0.3 and 85 degrees it is 2 % more, of which γ explains 1.6.
-use crate::common::{Run, model, run};
-use crate::scene::{Grid, Scene, Side, graded};
+use crate::common::Run;
+use crate::scene::{Case, Grid, Scene, Side, graded};
 use std::f64::consts::PI;
 
 /// The quarter of a disc that touches y = 0 in the origin, above or below it: sizes of elements at the contact.
@@ -48,43 +48,6 @@ fn quarter(scene: &mut Scene, group: &str, radius: f64, [fine, h]: [f64; 2], up:
             let r = radius - d;
             [r * t.sin(), r * t.cos() - radius]
         })
-    }
-}
-
-struct Problem<'a> {
-    space: &'a str,
-    young: f64,
-    nu: f64,
-    contact: &'a str,
-    loading: &'a str,
-}
-
-impl Problem<'_> {
-    fn solve(&self, scene: &Scene, bodies: &str) -> Run {
-        let text = scene.case(&format!(
-            r#"
-[model]
-space = "{}"
-[material.m]
-model = "linear-elastic"
-E = {:?}
-nu = {:?}
-[[body]]
-group = {bodies}
-material = "m"
-[[contact]]
-name = "contact"
-{}
-[[step]]
-name = "press"
-geometry = "linear"
-{}
-"#,
-            self.space, self.young, self.nu, self.contact, self.loading
-        ));
-        let run = run(&mut model("hertz", &text, &[]));
-        assert!(run.error.is_none(), "{}: {:?}", self.contact, run.error);
-        run
     }
 }
 
@@ -125,28 +88,20 @@ fn on_a_plane(space: &str, h: f64, force: f64, by: &str) -> Run {
     scene.faces("arc", &disc.faces(Side::Bottom));
     scene.faces("middle", &disc.faces(Side::Right));
     scene.set("axis", &disc.along(Side::Left));
-    let problem = Problem {
-        space,
-        young: 1.0,
-        nu: 0.3,
-        contact: &format!("secondary = \"arc\"\nprimary = \"floor\"\n{by}"),
-        loading: &format!(
-            r#"
-increments = 2
-[[step.fix]]
-on = "axis"
-u = ["x"]
-[[step.load]]
-on = "middle"
-force = [0.0, -{force:?}]
-coupling = "rigid-y"
-[[surface]]
-name = "floor"
-shape = {{ plane = {{ point = [0.0, 0.0], normal = "y" }} }}
-"#
-        ),
-    };
-    problem.solve(&scene, "\"disc\"")
+    scene
+        .elastic(space, 1.0, 0.3)
+        .body(&["disc"], "")
+        .plane("floor", [0.0, 0.0], [0.0, 1.0])
+        .contact("arc", "floor", by)
+        .step("press", 2)
+        .fix("axis", "x")
+        .load("middle", &rigid(force))
+        .run()
+}
+
+/// A force down on a plane that moves as one.
+fn rigid(force: f64) -> String {
+    format!("force = [0.0, -{force:?}]\ncoupling = \"rigid-y\"")
 }
 
 #[test]
@@ -204,8 +159,8 @@ fn a_sphere_on_a_plane_johnson_4_24() {
     }
 }
 
-/// Two equal discs of elements of different size, the lower one held, the upper one loaded or moved.
-fn two_discs(space: &str, radius: f64, young: f64, h: f64, by: &str, loading: &str) -> Run {
+/// Two equal discs of elements of different size, the lower one held.
+fn two_discs(space: &str, radius: f64, young: f64, h: f64, by: &str) -> Case {
     let mut scene = Scene::default();
     let upper = quarter(&mut scene, "upper", radius, [40.0 * h, h], 1.0);
     let lower = quarter(&mut scene, "lower", radius, [48.0 * h, 1.2 * h], -1.0);
@@ -215,24 +170,13 @@ fn two_discs(space: &str, radius: f64, young: f64, h: f64, by: &str, loading: &s
     scene.set("base", &lower.along(Side::Left));
     let axis = [upper.along(Side::Left), lower.along(Side::Right)].concat();
     scene.set("axis", &axis);
-    let problem = Problem {
-        space,
-        young,
-        nu: 0.3,
-        contact: &format!("secondary = \"arc\"\nprimary = \"base_arc\"\n{by}"),
-        loading: &format!(
-            r#"
-increments = 2
-[[step.fix]]
-on = "axis"
-u = ["x"]
-[[step.fix]]
-on = "base"
-u = ["y"]
-{loading}"#
-        ),
-    };
-    problem.solve(&scene, "[\"upper\", \"lower\"]")
+    scene
+        .elastic(space, young, 0.3)
+        .body(&["upper", "lower"], "")
+        .contact("arc", "base_arc", by)
+        .step("press", 2)
+        .fix("axis", "x")
+        .fix("base", "y")
 }
 
 #[test]
@@ -244,8 +188,8 @@ fn two_cylinders_johnson_4_45() {
     assert!((a - 0.68077837).abs() < 1e-8 && (p0 - 9.35135129).abs() < 1e-8);
     for by in ENFORCEMENTS {
         let h = a / 20.0;
-        let load = "[[step.load]]\non = \"head\"\nforce = [0.0, -5.0]\ncoupling = \"rigid-y\"";
-        let found = outcome(by, &two_discs("plane-strain", 8.0, 200.0, h, by, load), a);
+        let case = two_discs("plane-strain", 8.0, 200.0, h, by);
+        let found = outcome(by, &case.load("head", &rigid(5.0)).run(), a);
         println!(
             "  p0 {:+.3} %, of the ellipse {:+.3} %, a {:+.3} h",
             100.0 * (found.0 / p0 - 1.0),
@@ -268,9 +212,8 @@ fn two_spheres_ssnv104() {
     for by in ENFORCEMENTS {
         let modulus = 1e4 / (1.0 - 0.09);
         let a = 50f64.sqrt();
-        let motion = "[[step.move]]\non = \"head\"\nuy = -2.0";
-        let run = two_discs("axisymmetric", 50.0, 2e4, 7.07 / 20.0, by, motion);
-        let found = outcome(by, &run, a);
+        let case = two_discs("axisymmetric", 50.0, 2e4, 7.07 / 20.0, by);
+        let found = outcome(by, &case.displace("head", "uy = -2.0").run(), a);
         let p0 = (6.0 * found.2 * modulus * modulus / (PI.powi(3) * 625.0)).cbrt();
         println!(
             "  p0 {:+.3} % of that of the force, {:+.3} % of that of the approach",
@@ -300,6 +243,9 @@ struct Indented {
     half: f64,
     width: f64,
 }
+
+/// What the plane before is moved with.
+const PILOT: &str = "reference = \"pilot\"\n[reference]\npilot = { at = [0.0, 0.0] }";
 
 impl Cone {
     const RADIUS: f64 = 0.14;
@@ -331,35 +277,17 @@ impl Cone {
         scene.set("axis", &block.along(Side::Left));
         scene.set("base", &block.along(Side::Bottom));
         let length = slope.hypot(1.0);
-        let problem = Problem {
-            space: "axisymmetric",
-            young: 1.0,
-            nu: self.nu,
-            contact: &format!("secondary = \"top\"\nprimary = \"cone\"\n{by}"),
-            loading: &format!(
-                r#"
-increments = 2
-[[step.fix]]
-on = "axis"
-u = ["x"]
-[[step.fix]]
-on = "base"
-u = "all"
-[[step.move]]
-on = "pilot"
-uy = -{depth:?}
-[reference]
-pilot = {{ at = [0.0, 0.0] }}
-[[surface]]
-name = "cone"
-shape = {{ plane = {{ point = [0.0, 0.0], normal = [{:?}, {:?}] }} }}
-reference = "pilot"
-"#,
-                slope / length,
-                -1.0 / length
-            ),
-        };
-        let run = problem.solve(&scene, "\"block\"");
+        let run = scene
+            .elastic("axisymmetric", 1.0, self.nu)
+            .body(&["block"], "")
+            .plane("cone", [0.0, 0.0], [slope / length, -1.0 / length])
+            .also(PILOT)
+            .contact("top", "cone", by)
+            .step("press", 2)
+            .fix("axis", "x")
+            .fix("base", "xy")
+            .displace("pilot", &format!("uy = -{depth:?}"))
+            .run();
         let contact = &run.frames.last().unwrap().contacts[0];
         let places = contact.nodes.iter().map(|n| scene.at(*n as usize + 1)[0]);
         let off = |r: f64| (r - 0.5 * a).abs();
@@ -474,39 +402,25 @@ fn punch(by: &str, meshed: bool) -> Run {
     let faces = block.faces(Side::Top);
     scene.set("axis", &block.along(Side::Left));
     scene.set("base", &block.along(Side::Bottom));
-    let (primary, moved, bodies);
+    let mut case;
     if meshed {
         let tool = scene.grid("tool", [&inside, &[0.0, 0.1]], |x, y| [x, y]);
         scene.faces("face", &tool.faces(Side::Bottom));
         scene.faces("top", &faces);
-        (primary, moved) = ("face", "tool");
-        bodies = "[[body]]\ngroup = \"tool\"\nrigid = true\n";
+        case = scene.elastic("axisymmetric", 1.0, 0.3);
+        case = case.also("[[body]]\ngroup = \"tool\"\nrigid = true");
     } else {
         scene.faces("top", &faces[..inside.len() - 1]);
-        (primary, moved) = ("plane", "pilot");
-        bodies = "[reference]\npilot = { at = [0.0, 0.0] }\n[[surface]]\nname = \"plane\"\nshape = { plane = { point = [0.0, 0.0], normal = [0.0, -1.0] } }\nreference = \"pilot\"\n";
+        case = scene.elastic("axisymmetric", 1.0, 0.3);
+        case = case.plane("face", [0.0, 0.0], [0.0, -1.0]).also(PILOT);
     }
-    let problem = Problem {
-        space: "axisymmetric",
-        young: 1.0,
-        nu: 0.3,
-        contact: &format!("secondary = \"top\"\nprimary = \"{primary}\"\n{by}"),
-        loading: &format!(
-            r#"
-increments = 1
-[[step.fix]]
-on = "axis"
-u = ["x"]
-[[step.fix]]
-on = "base"
-u = "all"
-[[step.move]]
-on = "{moved}"
-uy = -0.01
-{bodies}"#
-        ),
-    };
-    problem.solve(&scene, "\"block\"")
+    case.body(&["block"], "")
+        .contact("top", "face", by)
+        .step("press", 1)
+        .fix("axis", "x")
+        .fix("base", "xy")
+        .displace(if meshed { "tool" } else { "pilot" }, "uy = -0.01")
+        .run()
 }
 
 #[test]

@@ -12,8 +12,8 @@
 //! EXPECTED    stress −1 upwards at the points of all cells' full rules (quad4 2 × 2, hex8 2³, hex20 3³, tet10 4)
 //! TOLERANCE   plane: 3 % of the error itself, as an independent program has it with two digits; space: 6 % of the two digits
 //!             of docs/patch_test.md; forces 1e-8
-use crate::common::{Run, model, run};
-use crate::scene::{Scene, Side, equal};
+use crate::common::Run;
+use crate::scene::{Scene, Side, equal, finished};
 use signorini::build::Model;
 use signorini_geometry::mesh::Block;
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -35,7 +35,7 @@ fn squares((nl, nu): (usize, usize), upper_is_secondary: bool, contact: &str) ->
     scene.faces("roof", &lower.faces(Side::Top));
     scene.faces("foot", &upper.faces(Side::Bottom));
     scene.faces("lid", &upper.faces(Side::Top));
-    press(&scene, "plane-strain", "y", "", upper_is_secondary, contact)
+    press(&scene, "plane-strain", "y", upper_is_secondary, contact)
 }
 
 /// Presses the lid of a scene down on its base.
@@ -43,7 +43,6 @@ fn press(
     scene: &Scene,
     space: &str,
     up: &str,
-    fixes: &str,
     upper_is_secondary: bool,
     contact: &str,
 ) -> (Model, Run) {
@@ -52,49 +51,23 @@ fn press(
     } else {
         ("roof", "foot")
     };
-    let text = scene.case(&format!(
-        r#"
-[model]
-space = "{space}"
-[material.m]
-model = "linear-elastic"
-E = 1.0
-nu = 0.3
-[[body]]
-group = ["lower", "upper"]
-material = "m"
-locking = "none"
-[[contact]]
-name = "interface"
-secondary = "{secondary}"
-primary = "{primary}"
-sliding = "small"
-{contact}
-[[step]]
-name = "press"
-geometry = "linear"
-increments = 1
-[[step.fix]]
-on = "base"
-u = ["{up}"]
-[[step.fix]]
-on = "left"
-u = ["x"]
-{fixes}
-[[step.load]]
-on = "lid"
-pressure = 1.0
-[[step]]
-name = "hold"
-geometry = "linear"
-increments = 1
-[solver]
-newton = {{ force_tol = 1e-11 }}
-"#
-    ));
-    let mut model = model("patch", &text, &[]);
-    let run = run(&mut model);
-    assert!(run.error.is_none(), "{contact}: {:?}", run.error);
+    let mut case = scene
+        .elastic(space, 1.0, 0.3)
+        .body(&["lower", "upper"], "locking = \"none\"")
+        .contact(
+            secondary,
+            primary,
+            &format!("sliding = \"small\"\n{contact}"),
+        )
+        .step("press", 1)
+        .fix("base", up)
+        .fix("left", "x");
+    if space == "3d" {
+        case = case.fix("back", "y");
+    }
+    let case = case.load("lid", "pressure = 1.0").step("hold", 1);
+    let mut model = case.newton("force_tol = 1e-11").model(&[]);
+    let run = finished(&mut model);
     (model, run)
 }
 
@@ -243,8 +216,7 @@ fn cubes(
     ] {
         scene.place(name, place);
     }
-    let fixes = "[[step.fix]]\non = \"back\"\nu = [\"y\"]\n";
-    press(&scene, "3d", "z", fixes, upper_is_secondary, contact)
+    press(&scene, "3d", "z", upper_is_secondary, contact)
 }
 
 /// The meshes in space.

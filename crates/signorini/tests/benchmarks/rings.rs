@@ -7,7 +7,6 @@
 //! EXPECTED    p = 2.57554945 for an overlap of 0.01, linear in it; torque 0
 //! TOLERANCE   mean pressure 2 %, on half the elements' size 0.5 %: parabolas leave the circle by 6 % of the overlap, then
 //!             by 0.4 %; single nodes scatter by more, which is printed. Torque over p R A 1e-3
-use crate::common::{model, run};
 use crate::scene::{Scene, equal};
 use std::f64::consts::PI;
 
@@ -39,50 +38,16 @@ fn a_ring_is_shrunk_upon_another_lame() {
         let side = |row: &[usize], name| row.iter().map(|c| (*c, name)).collect::<Vec<_>>();
         scene.faces("hub", &side(&inner[3], "S2"));
         scene.faces("bore", &side(&outer[0], "S4"));
-        let text = scene.case(&format!(
-            r#"
-[model]
-space = "plane-strain"
-[material.m]
-model = "linear-elastic"
-E = 1000.0
-nu = 0.3
-[[body]]
-group = ["inner", "outer"]
-material = "m"
-[[contact]]
-name = "fit"
-secondary = "bore"
-primary = "hub"
-{by}
-[[spring]]
-name = "x"
-on = "bore"
-stiffness = 1e-6
-direction = "x"
-[[spring]]
-name = "y"
-on = "bore"
-stiffness = 1e-6
-direction = "y"
-[[spring]]
-name = "hub x"
-on = "hub"
-stiffness = 1e-6
-direction = "x"
-[[spring]]
-name = "hub y"
-on = "hub"
-stiffness = 1e-6
-direction = "y"
-[[step]]
-name = "shrink"
-geometry = "linear"
-increments = 1
-"#
-        ));
-        let run = run(&mut model("rings", &text, &[]));
-        assert!(run.error.is_none(), "{by}: {:?}", run.error);
+        let run = scene
+            .elastic("plane-strain", 1000.0, 0.3)
+            .body(&["inner", "outer"], "")
+            .contact("bore", "hub", by)
+            .spring("x", "bore", 1e-6, [1.0, 0.0])
+            .spring("y", "bore", 1e-6, [0.0, 1.0])
+            .spring("hub x", "hub", 1e-6, [1.0, 0.0])
+            .spring("hub y", "hub", 1e-6, [0.0, 1.0])
+            .step("shrink", 1)
+            .run();
         let contact = &run.frames.last().unwrap().contacts[0];
         let area: f64 = contact.area.iter().sum();
         let radial: f64 = contact

@@ -1,5 +1,7 @@
 //! Meshes made in a test, written as the text of a case.
 
+use crate::common::{Run, model, run};
+use signorini::build::Model;
 use signorini_geometry::element::{Element, by_name};
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
@@ -188,6 +190,13 @@ impl Scene {
         writeln!(self.sets, "{name} = {{ {place} }}").unwrap();
     }
 
+    /// A case of linear elastic bodies at small strain.
+    pub fn elastic(&self, space: &str, young: f64, nu: f64) -> Case {
+        Case(self.case(&format!(
+            "[model]\nspace = {space:?}\n[material.m]\nmodel = \"linear-elastic\"\nE = {young:?}\nnu = {nu:?}\n"
+        )))
+    }
+
     /// The case: the mesh, and what else is said.
     pub fn case(&self, rest: &str) -> String {
         let mut text = String::from("format = 1\n[mesh]\nnodes = [\n");
@@ -227,6 +236,101 @@ fn cells_of_box(element: Element) -> Vec<Vec<[usize; 3]>> {
         element.nodes().iter().map(place).collect()
     };
     paths.into_iter().enumerate().map(cell).collect()
+}
+
+/// The text of a case, to which tables are added one by one.
+pub struct Case(String);
+
+impl Case {
+    /// More keys of the last table, or more tables.
+    pub fn also(mut self, text: &str) -> Self {
+        self.0 += text;
+        self.0.push('\n');
+        self
+    }
+
+    fn table(self, heading: &str, on: &str, keys: &str) -> Self {
+        self.also(&format!("[[{heading}]]\non = {on:?}\n{keys}"))
+    }
+
+    /// Groups of cells; bars have an area among their keys.
+    pub fn body(self, groups: &[&str], keys: &str) -> Self {
+        self.also(&format!(
+            "[[body]]\ngroup = {groups:?}\nmaterial = \"m\"\n{keys}"
+        ))
+    }
+
+    /// The contact of that name.
+    pub fn contact(self, secondary: &str, primary: &str, keys: &str) -> Self {
+        self.also(&format!(
+            "[[contact]]\nname = \"contact\"\nsecondary = {secondary:?}\nprimary = {primary:?}\n{keys}"
+        ))
+    }
+
+    /// A rigid plane.
+    pub fn plane(self, name: &str, point: [f64; 2], normal: [f64; 2]) -> Self {
+        self.also(&format!(
+            "[[surface]]\nname = {name:?}\nshape = {{ plane = {{ point = {point:?}, normal = {normal:?} }} }}"
+        ))
+    }
+
+    /// A spring between a set and the ground.
+    pub fn spring(self, name: &str, on: &str, stiffness: f64, direction: [f64; 2]) -> Self {
+        let keys = format!("name = {name:?}\nstiffness = {stiffness:?}\ndirection = {direction:?}");
+        self.table("spring", on, &keys)
+    }
+
+    pub fn step(self, name: &str, increments: usize) -> Self {
+        self.also(&format!(
+            "[[step]]\nname = {name:?}\ngeometry = \"linear\"\nincrements = {increments}"
+        ))
+    }
+
+    /// Supports along axes, as in "xy".
+    pub fn fix(self, on: &str, axes: &str) -> Self {
+        self.table("step.fix", on, &listed(axes))
+    }
+
+    /// Axes along which nothing holds a set any more.
+    pub fn free(self, on: &str, axes: &str) -> Self {
+        self.table("step.free", on, &listed(axes))
+    }
+
+    /// Prescribed displacements, as keys.
+    pub fn displace(self, on: &str, keys: &str) -> Self {
+        self.table("step.move", on, keys)
+    }
+
+    /// A load, as keys.
+    pub fn load(self, on: &str, keys: &str) -> Self {
+        self.table("step.load", on, keys)
+    }
+
+    /// Numbers of Newton's method.
+    pub fn newton(self, keys: &str) -> Self {
+        self.also(&format!("[solver]\nnewton = {{ {keys} }}"))
+    }
+
+    pub fn model(&self, set: &[(&str, &str)]) -> Model {
+        model("benchmark", &self.0, set)
+    }
+
+    /// Runs to the end.
+    pub fn run(&self) -> Run {
+        finished(&mut self.model(&[]))
+    }
+}
+
+/// Runs a model to the end.
+pub fn finished(model: &mut Model) -> Run {
+    let run = run(model);
+    assert!(run.error.is_none(), "{:?}", run.error);
+    run
+}
+
+fn listed(axes: &str) -> String {
+    let axes: Vec<String> = axes.chars().map(String::from).collect();
+    format!("u = {axes:?}")
 }
 
 /// So many equal parts of an interval: their ends.

@@ -6,8 +6,8 @@
 //! CONDITIONS  small strain, forces prescribed, multipliers and penalties
 //! EXPECTED    closed forms at the tests
 //! TOLERANCE   stick radius to an element; displacements of blocks 1e-5, of the pad 2e-4: it is elastic, 300/E times 20
-use crate::common::{Run, model, run};
-use crate::scene::{Grid, Scene, Side, equal, graded};
+use crate::common::Run;
+use crate::scene::{Grid, Scene, Side, equal, finished, graded};
 use std::f64::consts::PI;
 
 /// The half of a disc that touches y = 0 in the origin, above (`up` = 1) or below (−1) it.
@@ -50,66 +50,27 @@ pub fn cylinders(hs: [f64; 2], by: &str, set: &[(&str, &str)]) -> Run {
     scene.faces("head", &ends(&upper));
     scene.faces("base", &ends(&lower));
     scene.set("handle", &upper.along(Side::Left)[..1]);
-    let text = scene.case(&format!(
-        r#"
-[model]
-space = "plane-strain"
-[material.m]
-model = "linear-elastic"
-E = 200.0
-nu = 0.3
-[[body]]
-group = ["upper", "lower"]
-material = "m"
-[[contact]]
-name = "contact"
-secondary = "arc"
-primary = "base_arc"
-{by}
-[[constraint]]
-kind = "equal"
-on = "head"
-dofs = ["x", "y"]
-[[step]]
-name = "touch"
-geometry = "linear"
-increments = 2
-[[step.fix]]
-on = "base"
-u = "all"
-[[step.move]]
-on = "handle"
-ux = 0.0
-uy = -0.1
-[[step]]
-name = "press"
-geometry = "linear"
-increments = 2
-[[step.free]]
-on = "handle"
-u = ["y"]
-[[step.load]]
-on = "head"
-force = [0.0, -{PRESSED:?}]
-[[step]]
-name = "shear"
-geometry = "linear"
-increments = 4
-[[step.contact]]
-name = "contact"
-friction = {FRICTION}
-[[step.free]]
-on = "handle"
-u = ["x"]
-[[step.load]]
-name = "shear"
-on = "head"
-force = [{SHEARED:?}, 0.0]
-"#
-    ));
-    let run = run(&mut model("cattaneo", &text, set));
-    assert!(run.error.is_none(), "{by}: {:?}", run.error);
-    run
+    let case = scene
+        .elastic("plane-strain", 200.0, 0.3)
+        .body(&["upper", "lower"], "")
+        .contact("arc", "base_arc", by)
+        .also("[[constraint]]\nkind = \"equal\"\non = \"head\"\ndofs = [\"x\", \"y\"]")
+        .step("touch", 2)
+        .fix("base", "xy")
+        .displace("handle", "ux = 0.0\nuy = -0.1")
+        .step("press", 2)
+        .free("handle", "y")
+        .load("head", &format!("force = [0.0, -{PRESSED:?}]"))
+        .step("shear", 4)
+        .also(&format!(
+            "[[step.contact]]\nname = \"contact\"\nfriction = {FRICTION}"
+        ))
+        .free("handle", "x")
+        .load(
+            "head",
+            &format!("name = \"shear\"\nforce = [{SHEARED:?}, 0.0]"),
+        );
+    finished(&mut case.model(set))
 }
 
 /// The shear and the length that sticks are those of theory.
@@ -176,67 +137,22 @@ fn pad(push: f64, by: &str) -> Run {
     scene.set("upper_nodes", &grid.along(Side::Top));
     // softly held away from the incline too, so that no viscous force has to
     let [mx, my] = turned(0.0, -2.0 - 1e-6);
-    let text = scene.case(&format!(
-        r#"
-[model]
-space = "plane-strain"
-[material.m]
-model = "linear-elastic"
-E = 1e8
-nu = 0.3
-[[body]]
-group = "pad"
-material = "m"
-[[spring]]
-name = "return"
-on = "sprung"
-stiffness = 2.0
-direction = [{cos:?}, {sin:?}]
-[[spring]]
-name = "soft"
-on = "sprung"
-stiffness = 1e-6
-direction = [-{sin:?}, {cos:?}]
-[[surface]]
-name = "incline"
-shape = {{ plane = {{ point = [0.0, 0.0], normal = [-{sin:?}, {cos:?}] }} }}
-[[contact]]
-name = "sole"
-secondary = "sole"
-primary = "incline"
-friction = 0.3
-{by}
-[[step]]
-name = "approach"
-geometry = "linear"
-increments = 1
-[[step.move]]
-on = "upper_nodes"
-ux = {mx:?}
-uy = {my:?}
-[[step]]
-name = "press"
-geometry = "linear"
-increments = 1
-[[step.free]]
-on = "upper_nodes"
-u = "all"
-[[step.load]]
-on = "head"
-pressure = 300.0
-[[step]]
-name = "push"
-geometry = "linear"
-increments = 4
-[[step.load]]
-name = "push"
-on = "heel"
-pressure = {push:?}
-[solver]
-newton = {{ force_tol = 1e-10, gap_tol = 1e-13 }}
-"#
-    ));
-    run(&mut model("pad", &text, &[]))
+    scene
+        .elastic("plane-strain", 1e8, 0.3)
+        .body(&["pad"], "")
+        .spring("return", "sprung", 2.0, [cos, sin])
+        .spring("soft", "sprung", 1e-6, [-sin, cos])
+        .plane("incline", [0.0, 0.0], [-sin, cos])
+        .contact("sole", "incline", &format!("friction = 0.3\n{by}"))
+        .step("approach", 1)
+        .displace("upper_nodes", &format!("ux = {mx:?}\nuy = {my:?}"))
+        .step("press", 1)
+        .free("upper_nodes", "xy")
+        .load("head", "pressure = 300.0")
+        .step("push", 4)
+        .load("heel", &format!("name = \"push\"\npressure = {push:?}"))
+        .newton("force_tol = 1e-10, gap_tol = 1e-13")
+        .run()
 }
 
 #[test]
@@ -248,7 +164,6 @@ fn a_pad_on_an_incline_slides_until_its_springs_hold_it_ssnv503() {
     ] {
         for (push, slid) in [(3564.0, 0.0), (3636.0, 9.0)] {
             let run = pad(push / 20.0, by);
-            assert!(run.error.is_none(), "{by} {push}: {:?}", run.error);
             report(by, &run);
             let frame = run.frames.last().unwrap();
             let mean = |axis: usize| {
@@ -289,47 +204,16 @@ fn a_block_on_a_slope_slips_where_the_slope_exceeds_the_friction() {
             scene.set("tied", &[grid.nodes[0][0]]);
             scene.set("sole_nodes", &grid.along(Side::Bottom));
             let (fx, fy) = (0.5 * weight * angle.sin(), -0.5 * weight * angle.cos());
-            let text = scene.case(&format!(
-                r#"
-[model]
-space = "plane-strain"
-[material.m]
-model = "linear-elastic"
-E = 1e8
-nu = 0.3
-[[body]]
-group = "block"
-material = "m"
-[[spring]]
-name = "leash"
-on = "tied"
-stiffness = {stiffness:?}
-direction = "x"
-[[spring]]
-name = "soft"
-on = "sole_nodes"
-stiffness = 1e-6
-direction = "y"
-[[surface]]
-name = "slope"
-shape = {{ plane = {{ point = [0.0, 0.0], normal = "y" }} }}
-[[contact]]
-name = "sole"
-secondary = "sole"
-primary = "slope"
-friction = {mu:?}
-{by}
-[[step]]
-name = "weight"
-geometry = "linear"
-increments = 2
-[[step.load]]
-on = "block"
-body_force = [{fx:?}, {fy:?}]
-"#
-            ));
-            let run = run(&mut model("slope", &text, &[]));
-            assert!(run.error.is_none(), "{by} {tan}: {:?}", run.error);
+            let run = scene
+                .elastic("plane-strain", 1e8, 0.3)
+                .body(&["block"], "")
+                .spring("leash", "tied", stiffness, [1.0, 0.0])
+                .spring("soft", "sole_nodes", 1e-6, [0.0, 1.0])
+                .plane("slope", [0.0, 0.0], [0.0, 1.0])
+                .contact("sole", "slope", &format!("friction = {mu:?}\n{by}"))
+                .step("weight", 2)
+                .load("block", &format!("body_force = [{fx:?}, {fy:?}]"))
+                .run();
             report(by, &run);
             let expected = (weight * (angle.sin() - mu * angle.cos()) / stiffness).max(0.0);
             let slid = run.frames.last().unwrap().displacement[0].x;
