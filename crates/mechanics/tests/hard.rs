@@ -2,11 +2,12 @@
 //!
 //! SOURCE      Written for the purpose.
 //! GOAL        Every method converges with default settings, to the right answer.
-//! MESH        A block of 1 × 1 × 1 with 4 × 4 × 4 cells on a block of 2 × 2 × 1 with 6 × 6 × 2: meshes do not match.
+//! MESH        A block of 1 × 1 × 1 with 5 × 5 × 5 cells on a block of 2 × 2 × 1 with 6 × 6 × 2, 1,089 unknowns: meshes do not match.
 //! CONDITIONS  Small and large steps, loads and motions, with free rigid modes, overlaps, friction, bad stiffnesses.
 //! EXPECTED    The vertical force: that of the load, or of a mesh twice as fine; shear over normal force = μ in full sliding.
-//! TOLERANCE   3 % in force, 1e-3 in friction, 1e-6 under loads; half off an edge 4 %, and for nodes an eighth, half a cell of four; 8 % for node-to-segment on quadratic faces, which cannot
-//!             carry their consistent forces (`auto` takes points inside facets there).
+//! TOLERANCE   3 % in force, 1e-3 in friction, 1e-6 under loads; 5 % for node-to-segment on quadratic faces, which cannot carry
+//!             their consistent forces (`auto` takes points inside facets there); half off an edge 13 % for nodes, which do not
+//!             see the half cell in front of the edge, a fifth of what is left
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -62,7 +63,7 @@ const PRESSED: Situation = Situation {
     name: "pressed",
     element: "hex8",
     lower: 6,
-    upper: 4,
+    upper: 5,
     moduli: [1e5, 1000.0],
     height: 1.0,
     gap: 0.0,
@@ -340,7 +341,7 @@ fn situations() -> Vec<Situation> {
             (s.element, s.upper, s.lower) = ("tet10", 2, 3)
         }),
         s("hex20", &|s| {
-            (s.element, s.upper, s.lower) = ("hex20", 2, 3)
+            (s.element, s.upper, s.lower) = ("hex20", 3, 3)
         }),
         s("metres for millimetres", &|s| s.unit = 1e-3),
         s("half off the edge", &|s| {
@@ -356,8 +357,8 @@ fn expected(s: &Situation, fine: &dyn Fn(&Situation) -> f64) -> (f64, f64) {
     }
     let converged = Situation {
         element: "hex8",
-        upper: 4,
-        lower: 6,
+        upper: PRESSED.upper,
+        lower: PRESSED.lower,
         moduli: PRESSED.moduli,
         penalty: 1.0,
         unit: 1.0,
@@ -370,7 +371,7 @@ fn expected(s: &Situation, fine: &dyn Fn(&Situation) -> f64) -> (f64, f64) {
 }
 
 #[test]
-#[ignore = "takes a minute: run by .ci/run"]
+#[ignore = "takes two minutes: run by .ci/run"]
 fn every_method_gets_through_every_situation() {
     let known: RefCell<Vec<(String, f64)>> = RefCell::default();
     let fine = |s: &Situation| {
@@ -404,15 +405,13 @@ fn every_method_gets_through_every_situation() {
             );
             if s.mu > 0.0 && s.slide > 0.0 {
                 assert!((r.rubs - s.mu).abs() < 1e-3, "{} {way:?}: {r:?}", s.name);
-                continue;
             }
             // nodes alone cannot carry the consistent forces of quadratic faces
             let nodal = s.element == "hex20" && way == Way::NodeToSegment;
             let tolerance = match (s.name, way) {
-                _ if nodal => 0.08,
+                _ if nodal => 0.05,
                 // where the edge is between two nodes is not known to methods that look at nodes only
-                ("half off the edge", Way::GaussPoint) => 0.04,
-                ("half off the edge", _) => 0.125,
+                ("half off the edge", Way::NodeToSegment | Way::Lagrange) => 0.13,
                 _ => tolerance,
             };
             assert!(off.abs() < tolerance, "{} {way:?}: {off:+.4} {r:?}", s.name);
