@@ -111,10 +111,7 @@ fn what_is_not_supported_yet_is_refused_by_name_and_nothing_else_is() {
     );
     assert_eq!(
         refused(SLIDING),
-        [
-            "`on_trouble = \"stabilize\"` is not supported yet",
-            "`format = \"frd\"` is not supported yet",
-        ]
+        ["`format = \"frd\"` is not supported yet"]
     );
 }
 
@@ -768,7 +765,7 @@ fn absent_keys_take_the_defaults_of_the_vocabulary() {
     assert_eq!(case.model.thickness, 1.0);
     assert_eq!(case.steps[0].increments, Increments::Count(10));
     assert_eq!(case.steps[0].duration, 1.0);
-    assert_eq!(case.solver.on_trouble, [Remedy::Cut]);
+    assert_eq!(case.solver.on_trouble, [Remedy::Cut, Remedy::Stabilize]);
     assert_eq!(case.output.every, Every::Increments(1));
     assert_eq!(case.output.fields.len(), 3);
     let (case, _) = read_with(text, "step.s.increments", "{ initial = 0.1 }").unwrap();

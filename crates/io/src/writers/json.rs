@@ -101,6 +101,19 @@ pub enum Event {
         /// Why.
         why: String,
     },
+    /// There was no equilibrium nearby: viscous forces led to another.
+    Stabilized {
+        /// The step.
+        step: String,
+        /// The increment.
+        inc: u64,
+        /// The attempt that succeeded.
+        att: u64,
+        /// Total time at its start.
+        time: f64,
+        /// Stages that it took.
+        stages: u64,
+    },
     /// A frame is complete and listed.
     Frame {
         /// Its number.
@@ -524,6 +537,16 @@ mod tests {
                     why: text(),
                 },
                 "cutback",
+            ),
+            (
+                Event::Stabilized {
+                    step: text(),
+                    inc: 1,
+                    att: 2,
+                    time: 0.0,
+                    stages: 9,
+                },
+                "stabilized",
             ),
             (
                 Event::Frame {

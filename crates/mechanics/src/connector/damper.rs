@@ -1,4 +1,4 @@
-//! What holds a body that nothing but contact stops, until contact does.
+//! What holds a body that nothing but contact stops, until contact does; and what slows a jump.
 
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, StepContext,
@@ -6,47 +6,84 @@ use crate::system::{
 };
 
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
-/// They fade over each step, `s = 1 − τ` with the part `τ` of the step that is over when the increment begins. A solution
-/// that was found with them is looked for without them next, and they come back only where that fails: where contact
-/// holds the bodies they act no more. Their work is reported.
+/// Their work is reported.
 pub struct Damper {
     name: String,
     /// Unknowns, and k of each.
     dofs: Vec<(Dof, f64)>,
     /// u_n.
     start: Vec<f64>,
-    fading: f64,
-    /// Whether they act, and whether they have to in this increment.
-    acts: bool,
-    needed: bool,
-    step: StepContext,
+    strength: Strength,
     work: f64,
+}
+
+/// How s comes about.
+#[derive(Clone, Copy, Debug)]
+enum Strength {
+    /// They fade over each step, `s = 1 − τ` with the part `τ` of the step that is over when the increment begins. A
+    /// solution that was found with them is looked for without them next, and they come back only where that fails:
+    /// where contact holds the bodies they act no more.
+    UntilHeld {
+        fading: f64,
+        /// Whether they act, and whether they have to in this increment.
+        acts: bool,
+        needed: bool,
+        step: StepContext,
+    },
+    /// As [`Term::damp`] says.
+    Asked(f64),
 }
 
 /// Unknowns evaluated together.
 const CHUNK: usize = 1024;
 
 impl Damper {
-    /// Viscous forces on these unknowns, with the stiffness of each.
+    /// Viscous forces on these unknowns, with the stiffness of each, until contact holds them.
     #[must_use]
-    pub fn new(name: impl Into<String>, dofs: Vec<(Dof, f64)>) -> Self {
-        Self {
-            name: name.into(),
-            start: vec![0.0; dofs.len()],
-            dofs,
+    pub fn until_held(name: impl Into<String>, dofs: Vec<(Dof, f64)>) -> Self {
+        let strength = Strength::UntilHeld {
             fading: 1.0,
             acts: true,
             needed: false,
             step: StepContext::default(),
+        };
+        Self::new(name, dofs, strength)
+    }
+
+    /// Viscous forces on these unknowns, with the stiffness of each at strength 1, when they are asked for.
+    #[must_use]
+    pub fn when_asked(name: impl Into<String>, dofs: Vec<(Dof, f64)>) -> Self {
+        Self::new(name, dofs, Strength::Asked(0.0))
+    }
+
+    fn new(name: impl Into<String>, dofs: Vec<(Dof, f64)>, strength: Strength) -> Self {
+        Self {
+            name: name.into(),
+            start: vec![0.0; dofs.len()],
+            dofs,
+            strength,
             work: 0.0,
         }
     }
 
+    /// s.
+    const fn strength(&self) -> f64 {
+        match self.strength {
+            Strength::UntilHeld {
+                fading, acts: true, ..
+            } => fading,
+            Strength::UntilHeld { acts: false, .. } => 0.0,
+            Strength::Asked(strength) => strength,
+        }
+    }
+
     fn chunk(&self, chunk: usize) -> impl Iterator<Item = (Dof, f64, f64)> {
-        let dofs = self.dofs.iter().zip(&self.start).skip(chunk * CHUNK);
-        let fading = if self.acts { self.fading } else { 0.0 };
-        dofs.take(CHUNK)
-            .map(move |(&(dof, stiffness), &start)| (dof, fading * stiffness, start))
+        let strength = self.strength();
+        let dofs = self.dofs.iter().zip(&self.start);
+        let acting = if strength > 0.0 { CHUNK } else { 0 };
+        dofs.skip(chunk * CHUNK)
+            .take(acting)
+            .map(move |(&(dof, stiffness), &start)| (dof, strength * stiffness, start))
     }
 
     /// The work of the present increment.
@@ -85,14 +122,18 @@ impl Term for Damper {
         Part::Interface
     }
 
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.step = *step;
+    fn begin_step(&mut self, now: &StepContext, _: &State) -> Result<(), TermError> {
+        if let Strength::UntilHeld { step, .. } = &mut self.strength {
+            *step = *now;
+        }
         Ok(())
     }
 
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
-        let over = (from.time - self.step.start) / self.step.duration;
-        self.fading = (1.0 - over).clamp(0.0, 1.0);
+        if let Strength::UntilHeld { fading, step, .. } = &mut self.strength {
+            let over = (from.time - step.start) / step.duration;
+            *fading = (1.0 - over).clamp(0.0, 1.0);
+        }
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
             *start = value(from, dof);
         }
@@ -130,10 +171,15 @@ impl Term for Damper {
     }
 
     fn converged(&mut self, _: &State) -> Result<Verdict, TermError> {
-        if !self.acts || self.needed {
+        let Strength::UntilHeld {
+            acts: acts @ true,
+            needed: false,
+            ..
+        } = &mut self.strength
+        else {
             return Ok(Verdict::Settled);
-        }
-        self.acts = false;
+        };
+        *acts = false;
         Ok(Verdict::Repeat {
             changes: 1,
             why: String::from("bodies that only contact holds were let go"),
@@ -142,20 +188,34 @@ impl Term for Damper {
     }
 
     fn rescue(&mut self) -> bool {
-        let back = !self.acts;
-        self.acts = true;
-        self.needed |= back;
+        let Strength::UntilHeld { acts, needed, .. } = &mut self.strength else {
+            return false;
+        };
+        let back = !*acts;
+        *acts = true;
+        *needed |= back;
         back
+    }
+
+    fn damp(&mut self, asked: f64) -> bool {
+        let Strength::Asked(strength) = &mut self.strength else {
+            return false;
+        };
+        *strength = asked;
+        true
     }
 
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.work += self.spent(state);
-        self.needed = false;
+        if let Strength::UntilHeld { needed, .. } = &mut self.strength {
+            *needed = false;
+        }
         Ok(())
     }
 
     fn save(&self, out: &mut Archive) {
-        let acts = f64::from(u8::from(self.acts));
+        let acts = matches!(self.strength, Strength::UntilHeld { acts: true, .. });
+        let acts = f64::from(u8::from(acts));
         out.put(format!("damper.{}", self.name), &[self.work, acts]);
     }
 
@@ -163,8 +223,10 @@ impl Term for Damper {
         let mut stored = [0.0; 2];
         from.get(&format!("damper.{}", self.name), &mut stored)?;
         self.work = stored[0];
-        self.acts = stored[1] != 0.0;
-        self.needed = false;
+        if let Strength::UntilHeld { acts, needed, .. } = &mut self.strength {
+            *acts = stored[1] != 0.0;
+            *needed = false;
+        }
         Ok(())
     }
 

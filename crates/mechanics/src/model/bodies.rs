@@ -48,19 +48,32 @@ pub(super) fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<u32> {
     of
 }
 
-/// Stiffness of the viscous forces on a body, over its modulus times its size.
+/// Stiffness of the viscous forces on a body that only contact holds, over its modulus times its size.
 const DAMPING: f64 = 1e-5;
 
 impl Context<'_> {
-    /// What holds the bodies that nothing but contact stops: on each node the same, and a carrier as a whole.
-    pub(super) fn dampers(&self, bodies: &[BodyPart], free: &[Unheld]) -> Terms {
+    /// What holds the bodies that nothing but contact stops.
+    pub(super) fn holds(&self, bodies: &[BodyPart], free: &[Unheld]) -> Option<Damper> {
+        let free = |name: &str| free.iter().any(|f| f.bodies.iter().any(|b| b == name));
+        let mut dofs = self.viscous(bodies, &free);
+        dofs.iter_mut().for_each(|d| d.1 *= DAMPING);
+        (!dofs.is_empty()).then(|| Damper::until_held("free bodies", dofs))
+    }
+
+    /// What slows all bodies where the solver asks for it.
+    pub(super) fn brake(&self, bodies: &[BodyPart]) -> Damper {
+        Damper::when_asked("stabilization", self.viscous(bodies, &|_| true))
+    }
+
+    /// The unknowns of bodies and carriers, and what is stiffness on each: the modulus times the size of a body, the
+    /// same on each of its nodes.
+    fn viscous(&self, bodies: &[BodyPart], named: &dyn Fn(&str) -> bool) -> Vec<(Dof, f64)> {
         let at = |n: &NodeId| self.reference.get(*n as usize).copied().unwrap_or_default();
         let softest = self.modulus.iter().flatten().copied();
         let softest = softest.reduce(f64::min).unwrap_or(1.0);
-        let free = |name: &str| free.iter().any(|f| f.bodies.iter().any(|b| b == name));
         let mut dofs: Vec<(Dof, f64)> = Vec::new();
         for (body, modulus) in bodies.iter().zip(self.modulus) {
-            let (Some(modulus), true) = (modulus, free(&body.name)) else {
+            let (Some(modulus), true) = (modulus, named(&body.name)) else {
                 continue;
             };
             let nodes: BTreeSet<NodeId> = body
@@ -68,8 +81,7 @@ impl Context<'_> {
                 .iter()
                 .flat_map(|&c| self.mesh.cell(c).iter().copied())
                 .collect();
-            let stiffness =
-                DAMPING * modulus * self.extent(nodes.iter().map(at)) / nodes.len() as f64;
+            let stiffness = modulus * self.extent(nodes.iter().map(at)) / nodes.len() as f64;
             let of_node = |&n: &NodeId| (0..self.layout.ndim).map(move |axis| (n, axis));
             let of_nodes = nodes.iter().flat_map(of_node);
             let own = of_nodes.map(|(n, axis)| self.layout.node(n, axis));
@@ -77,21 +89,18 @@ impl Context<'_> {
             dofs.extend(own.map(|d| (d, stiffness)));
         }
         for (number, carrier) in (0..).zip(self.carriers) {
-            if !free(&carrier.name) {
+            if !named(&carrier.name) {
                 continue;
             }
             let size = self.extent(self.reference.iter().copied());
-            let stiffness = DAMPING * softest * size;
+            let stiffness = softest * size;
             for axis in 0..3 {
                 dofs.push((self.layout.translation(number, axis), stiffness));
                 dofs.push((self.layout.rotation(number, axis), stiffness * size * size));
             }
             dofs.retain(|d| d.0 != NO_DOF);
         }
-        if dofs.is_empty() {
-            return Terms::new();
-        }
-        vec![Box::new(Damper::new("free bodies", dofs))]
+        dofs
     }
 
     /// The size of a body: the diagonal of its box in space, the extent across it in the plane.

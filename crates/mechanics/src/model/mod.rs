@@ -217,11 +217,9 @@ impl Model {
             let nonlinear = *k == Kinematics::Finite;
             steps.iter().any(|s| s.nonlinear == nonlinear)
         });
-        let dampers = if stabilize {
-            context.dampers(&bodies, &held_by_contact)
-        } else {
-            Vec::new()
-        };
+        let holds = stabilize.then(|| context.holds(&bodies, &held_by_contact));
+        let brake = (!contacts.is_empty()).then(|| context.brake(&bodies));
+        let dampers = [holds.flatten(), brake];
         let (mut terms, locking) = context.bodies(bodies, temperature, &sizes)?;
         terms.extend(connectors);
         let mut summaries = Vec::new();
@@ -237,7 +235,9 @@ impl Model {
             }
         }
         terms.extend(loads);
-        terms.extend(dampers);
+        for damper in dampers.into_iter().flatten() {
+            terms.push(Box::new(damper));
+        }
 
         let unused = (0..mesh.nnode() as NodeId)
             .filter(|n| body_of_node.get(*n as usize).is_none_or(|b| *b == u32::MAX))

@@ -86,6 +86,17 @@ pub enum Event<'a> {
         /// The size tried next.
         next: f64,
     },
+    /// There was no equilibrium nearby: the increment was taken in slow motion, with viscous forces.
+    Stabilized {
+        /// Number of the step, from 0.
+        step: usize,
+        /// Increment within the step, from 1.
+        increment: usize,
+        /// Attempt that succeeded, from 1.
+        attempt: usize,
+        /// Stages that it took.
+        stages: usize,
+    },
     /// An increment was accepted.
     Increment {
         /// Its record.

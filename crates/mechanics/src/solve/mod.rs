@@ -7,7 +7,7 @@
 //!     converged?  r small, nothing changed, du small
 //!     K du = −r − K du_p                           du_p: prescribed motion of nodes, in the first solve only
 //!     line search  u ← u + α du
-//!   accept, or cut the increment
+//!   accept, or cut the increment, or go through it in slow motion
 //! ```
 //!
 //! An increment has converged when
@@ -34,6 +34,7 @@ mod event;
 mod forecast;
 mod line_search;
 mod newton;
+mod stabilization;
 mod stepping;
 #[cfg(test)]
 mod tests;

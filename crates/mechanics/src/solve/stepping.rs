@@ -65,12 +65,24 @@ pub struct Step {
 }
 
 /// The numbers of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepperSettings {
     /// Those of Newton's method.
     pub newton: NewtonSettings,
     /// Which linear solver.
     pub linear: LinearKind,
+    /// After how many sizes that failed viscous forces help an increment; none: never.
+    pub stabilize_after: Option<usize>,
+}
+
+impl Default for StepperSettings {
+    fn default() -> Self {
+        Self {
+            newton: NewtonSettings::default(),
+            linear: LinearKind::default(),
+            stabilize_after: Some(2),
+        }
+    }
 }
 
 /// How a run ended well.
@@ -126,20 +138,29 @@ pub enum RunError {
 
 /// Runs steps, one increment after the other.
 pub struct Stepper {
-    newton: Newton,
-    state: State,
-    progress: Progress,
+    pub(super) newton: Newton,
+    pub(super) state: State,
+    pub(super) progress: Progress,
     guess: Vec<f64>,
+    stabilize_after: Option<usize>,
+}
+
+/// An increment that was accepted.
+pub(super) struct Accepted {
+    pub iterations: usize,
+    pub residual: f64,
+    /// What the observer said meanwhile.
+    pub flow: Flow,
 }
 
 /// Where a run is: with the state and the histories of the terms, all that it needs to go on.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Progress {
-    step: usize,
+pub(super) struct Progress {
+    pub step: usize,
     /// Accepted increments of this step.
-    increment: usize,
+    pub increment: usize,
     /// Total time at the start of the step.
-    step_start: f64,
+    pub step_start: f64,
     /// Time since then.
     time: f64,
     /// Size of the next increment; none at the start of a step.
@@ -148,8 +169,8 @@ struct Progress {
     easy: usize,
     /// Values of the prescribed dofs at the start of the step.
     origin: Vec<f64>,
-    /// Change of the state per time in the last increment of this step; empty where there was none.
-    rate: Vec<f64>,
+    /// Change of the state per time in the last increment of this step; empty where it says nothing about the next.
+    pub rate: Vec<f64>,
 }
 
 /// Iterations up to which an increment counts as easy.
@@ -173,6 +194,7 @@ impl Stepper {
             state: system.initial_state(),
             progress: Progress::default(),
             guess: Vec::new(),
+            stabilize_after: settings.stabilize_after,
         }
     }
 
@@ -291,72 +313,80 @@ impl Stepper {
             let mut dt = self.progress.dt.unwrap_or(first).min(max);
             let mut tried = Vec::new();
             let mut attempt = 1;
-            let stop = loop {
+            let mut failed = 0;
+            let accepted = loop {
                 let end = self.end_of_increment(step, dt);
                 dt = end - self.progress.time;
                 tried.push(dt);
                 self.targets(step, end, &mut targets);
-                match self.attempt(system, end, &targets, attempt, observer) {
-                    Ok((iterations, residual, flow)) => {
-                        self.adapt(iterations, attempt, dt, max);
-                        let record = IncrementRecord {
-                            step: self.progress.step,
-                            increment: self.progress.increment + 1,
-                            attempts: attempt,
-                            iterations,
-                            time: self.state.time,
-                            step_time: (end, step.duration),
-                            dt,
-                            residual,
-                        };
-                        self.progress.increment += 1;
-                        self.progress.time = end;
-                        let frame = self.frame(system, step)?;
-                        let event = Event::Increment {
-                            record: &record,
-                            frame: &frame,
-                        };
-                        let after = observer.notice(&event);
-                        break flow == Flow::Stop || after == Flow::Stop;
+                let failure = match self.attempt(system, end, &targets, attempt, observer) {
+                    Ok(accepted) => {
+                        self.adapt(accepted.iterations, attempt, dt, max);
+                        break accepted;
                     }
-                    Err(failure) => {
-                        for term in &mut system.terms {
-                            term.reject();
-                        }
-                        // a failure from an extrapolated start says nothing about one from the last state
-                        let extrapolated = attempt == 1 && !self.progress.rate.is_empty();
-                        // and terms may know a safer way
-                        let again = extrapolated || rescued(system);
-                        let next = if again { dt } else { dt * severity(&failure) };
-                        if !again && min.is_none_or(|m| next < m) {
-                            return Err(RunError::NotConverged {
-                                step: step.name.clone(),
-                                increment: self.progress.increment + 1,
-                                time: self.progress.time,
-                                duration: step.duration,
-                                tried,
-                                min,
-                                cause: Box::new(failure),
-                            });
-                        }
-                        let cause = Cause { failure, dt };
-                        let event = Event::Cutback {
-                            step: self.progress.step,
-                            increment: self.progress.increment + 1,
-                            attempt,
-                            cause: &cause,
-                            next,
-                        };
-                        if observer.notice(&event) == Flow::Stop {
-                            break true;
-                        }
-                        self.progress.easy = 0;
-                        dt = next;
-                        attempt += 1;
+                    Err(failure) => failure,
+                };
+                reject(system);
+                // a failure from an extrapolated start says nothing about one from the last state
+                let extrapolated = attempt == 1 && !self.progress.rate.is_empty();
+                failed += usize::from(!extrapolated);
+                let due = self.stabilize_after.is_some_and(|n| failed == n + 1);
+                if !extrapolated && due {
+                    attempt += 1;
+                    let helped = self.stabilize(system, end, &targets, attempt, observer)?;
+                    if let Some(accepted) = helped {
+                        break accepted;
                     }
                 }
+                // and terms may know a safer way
+                let again = extrapolated || rescued(system);
+                let next = if again { dt } else { dt * severity(&failure) };
+                if !again && min.is_none_or(|m| next < m) {
+                    return Err(RunError::NotConverged {
+                        step: step.name.clone(),
+                        increment: self.progress.increment + 1,
+                        time: self.progress.time,
+                        duration: step.duration,
+                        tried,
+                        min,
+                        cause: Box::new(failure),
+                    });
+                }
+                let cause = Cause { failure, dt };
+                let event = Event::Cutback {
+                    step: self.progress.step,
+                    increment: self.progress.increment + 1,
+                    attempt,
+                    cause: &cause,
+                    next,
+                };
+                if observer.notice(&event) == Flow::Stop {
+                    return Ok(Outcome::Stopped);
+                }
+                self.progress.easy = 0;
+                dt = next;
+                attempt += 1;
             };
-            if stop {
+            let end = self.progress.time + dt;
+            let record = IncrementRecord {
+                step: self.progress.step,
+                increment: self.progress.increment + 1,
+                attempts: attempt,
+                iterations: accepted.iterations,
+                time: self.state.time,
+                step_time: (end, step.duration),
+                dt,
+                residual: accepted.residual,
+            };
+            self.progress.increment += 1;
+            self.progress.time = end;
+            let frame = self.frame(system, step)?;
+            let event = Event::Increment {
+                record: &record,
+                frame: &frame,
+            };
+            let after = observer.notice(&event);
+            if accepted.flow == Flow::Stop || after == Flow::Stop {
                 return Ok(Outcome::Stopped);
             }
         }
@@ -371,12 +401,8 @@ impl Stepper {
         targets: &[(Dof, f64)],
         attempt: usize,
         observer: &mut dyn Observer,
-    ) -> Result<(usize, f64, Flow), Failure> {
-        let place = Place {
-            step: self.progress.step,
-            increment: self.progress.increment + 1,
-            attempt,
-        };
+    ) -> Result<Accepted, Failure> {
+        let place = self.place(attempt);
         let mut flow = Flow::Continue;
         let time = self.progress.step_start + end;
         let dt = end - self.progress.time;
@@ -399,11 +425,30 @@ impl Stepper {
         let rate = change.map(|(now, before)| (now - before) / dt);
         self.progress.rate.clear();
         self.progress.rate.extend(rate);
+        self.accept(system)?;
+        Ok(Accepted {
+            iterations: converged.iterations,
+            residual: converged.residual,
+            flow,
+        })
+    }
+
+    /// Where the present increment stands.
+    pub(super) const fn place(&self, attempt: usize) -> Place {
+        Place {
+            step: self.progress.step,
+            increment: self.progress.increment + 1,
+            attempt,
+        }
+    }
+
+    /// The trial state becomes the accepted one.
+    pub(super) fn accept(&mut self, system: &mut System) -> Result<(), TermError> {
         self.state.clone_from(&self.newton.trial);
         for term in &mut system.terms {
             term.accept(&self.state)?;
         }
-        Ok((converged.iterations, converged.residual, flow))
+        Ok(())
     }
 
     /// The step time at which an increment of about `dt` ends: on the grid where increments are fixed, and at the
@@ -537,6 +582,13 @@ impl Stepper {
             rate,
         };
         Ok(())
+    }
+}
+
+/// Takes all terms back to their accepted history.
+pub(super) fn reject(system: &mut System) {
+    for term in &mut system.terms {
+        term.reject();
     }
 }
 

@@ -304,6 +304,12 @@ pub trait Term: Send + Sync {
         false
     }
 
+    /// Viscous forces of this strength act from now on, against what moves since the accepted state: none at 0. Says
+    /// whether the term has any.
+    fn damp(&mut self, _strength: f64) -> bool {
+        false
+    }
+
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     fn has_saddle(&self) -> bool {
         false

@@ -326,6 +326,15 @@ fn of_body<'a>(
     locking.iter().filter(move |one| one.body == body)
 }
 
+/// How many sizes of an increment fail before viscous forces help: where sizes come first, some.
+fn stabilize_after(remedies: &[case::Remedy]) -> Option<usize> {
+    let place = remedies.iter().position(|r| *r == case::Remedy::Stabilize);
+    place.map(|before| if before == 0 { 0 } else { SIZES })
+}
+
+/// Sizes of an increment that fail before viscous forces help, where smaller ones are tried first.
+const SIZES: usize = 1;
+
 fn settings(solver: &case::Solver) -> StepperSettings {
     let newton = &solver.newton;
     StepperSettings {
@@ -341,6 +350,7 @@ fn settings(solver: &case::Solver) -> StepperSettings {
             case::LinearChoice::Auto => LinearKind::Auto,
             case::LinearChoice::Direct => LinearKind::Direct,
         },
+        stabilize_after: stabilize_after(&solver.on_trouble),
     }
 }
 

@@ -90,6 +90,26 @@ impl Narrator {
                 ));
                 lines
             }
+            (
+                Event::Stabilized {
+                    step,
+                    inc,
+                    att,
+                    stages,
+                    ..
+                },
+                _,
+            ) => {
+                let mut lines = self.head();
+                lines.push(line(
+                    format!(
+                        " {step:<12}{inc:>4}  {att:>3}  no equilibrium nearby: led to another by viscous forces, in \
+                         {stages} stages"
+                    ),
+                    Level::Normal,
+                ));
+                lines
+            }
             (Event::Checkpoint { file, .. }, _) => {
                 vec![line(format!("   saved to {file}"), Level::Verbose)]
             }

@@ -25,14 +25,10 @@ pub(super) static SOLVER: Table = Table {
         .or(Default::Text("auto")),
         key(
             "on_trouble",
-            Shape::List(
-                &Shape::Choice(&[word("cut"), Choice::later("stabilize", "cut")]),
-                0,
-                2,
-            ),
+            Shape::List(&Shape::Choice(&[word("cut"), word("stabilize")]), 0, 2),
             "what is tried, in order, when an increment does not converge",
         )
-        .or(Default::Texts(&["cut"])),
+        .or(Default::Texts(&["cut", "stabilize"])),
         key(
             "threads",
             Shape::Either(&[AUTO, Shape::Integer(1, 4096)]),

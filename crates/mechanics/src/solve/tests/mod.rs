@@ -2,6 +2,7 @@
 
 mod newton;
 mod restart;
+mod stabilization;
 mod stepping;
 
 use super::{
@@ -10,7 +11,7 @@ use super::{
 };
 use crate::load::{NodalForces, Schedule};
 use crate::system::{
-    Dof, Elimination, Layout, Order, Part, PatternSink, Sink, State, Symmetry, System, Term,
+    Dof, Elimination, Frame, Layout, Order, Part, PatternSink, Sink, State, Symmetry, System, Term,
     TermError, Verdict, Work,
 };
 use signorini_geometry::mesh::NodeId;
@@ -310,7 +311,7 @@ fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> To
                 reactions.push(frame.reaction_force.iter().map(|f| f.x).collect());
             }
             Event::Cutback { cause, next, .. } => cuts.push([cause.dt, *next]),
-            Event::Step { .. } => {}
+            Event::Step { .. } | Event::Stabilized { .. } => {}
         }
         Flow::Continue
     });

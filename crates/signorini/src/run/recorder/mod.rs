@@ -275,6 +275,12 @@ impl Observer for Recorder<'_> {
                 cause,
                 next,
             } => self.cutback([*step, *increment, *attempt], cause, *next),
+            Happening::Stabilized {
+                step,
+                increment,
+                attempt,
+                stages,
+            } => self.stabilized([*step, *increment, *attempt], *stages),
             Happening::Increment { record, frame } => {
                 self.increment(record, frame);
                 if self.is_due() {

@@ -85,6 +85,17 @@ impl Recorder<'_> {
         self.tell(&event, Detail::Cutback(cause));
     }
 
+    pub(super) fn stabilized(&mut self, [step, increment, attempt]: [usize; 3], stages: usize) {
+        let event = Event::Stabilized {
+            step: self.step_name(step),
+            inc: increment as u64,
+            att: attempt as u64,
+            time: self.time,
+            stages: stages as u64,
+        };
+        self.tell(&event, Detail::None);
+    }
+
     pub(super) fn increment(&mut self, record: &IncrementRecord, frame: &Frame) {
         self.counts.increments += 1;
         if let Some(step) = self.counts.steps.get_mut(record.step) {
