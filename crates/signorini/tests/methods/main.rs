@@ -37,17 +37,16 @@ use std::sync::Arc;
 
 const SMOOTH: &str = "";
 const ROUGH: &str = "friction = 0.2";
+const TIED: &str = "tied = true";
 
-/// Forces of one way with all laws that it may have.
+/// Forces of one way with all laws that it may have; `auto` may be two ways.
 fn compare(scenes: &[Scene], outcomes: &[Option<Outcome>]) {
     let force = |o: &Outcome| o.pressed.contacts[0].secondary.force.norm();
-    let (exact, others) = outcomes.split_at(EXACT);
-    let reference = exact.iter().chain(&others[..1]).flatten().next().map(force);
     for (scene, outcome) in scenes.iter().zip(outcomes) {
-        let (Some(outcome), Some(reference)) = (outcome, reference) else {
-            continue;
-        };
-        let off = (force(outcome) / reference - 1.0).abs();
+        let Some(outcome) = outcome else { continue };
+        let mut all = outcomes.iter().flatten();
+        let reference = all.find(|o| o.method == outcome.method).map(force);
+        let off = (force(outcome) / reference.unwrap() - 1.0).abs();
         let is_exact = LAWS[..EXACT].iter().any(|l| l.1 == scene.law);
         let gap = outcome.pressed.contacts[0].gap_min.abs();
         let bound = if is_exact {
@@ -61,6 +60,9 @@ fn compare(scenes: &[Scene], outcomes: &[Option<Outcome>]) {
 
 /// What friction says of the end of the slide.
 fn rubs(scene: &Scene, outcome: &Outcome) {
+    if scene.keys == TIED {
+        return;
+    }
     let contact = &outcome.slid.contacts[0];
     let ratio = contact.force_shear.norm() / contact.force_normal.norm();
     let mu = if scene.keys == ROUGH { MU } else { 0.0 };
@@ -85,7 +87,10 @@ fn walk(elements: &[&'static str], below: impl Fn(Below) -> bool) {
         let (mut solved, mut refused, mut iterations, mut cutbacks) = (0, 0, 0, 0);
         for &below in &places {
             for (_, method) in METHODS {
-                for keys in [SMOOTH, ROUGH] {
+                for keys in [SMOOTH, ROUGH, TIED] {
+                    if keys == TIED && below != Below::Block {
+                        continue;
+                    }
                     let scenes = LAWS.map(|(_, law)| Scene {
                         element,
                         below,

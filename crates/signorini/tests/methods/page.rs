@@ -7,7 +7,8 @@ use std::fmt::Write;
 const HEAD: &str = "# What goes with what
 
 Every way to compare two sides, every law, every kind of facet and every surface, with friction and without: `+` is
-pressed and slid by the tests of `crates/signorini/tests/methods`, a number is the reason why the program refuses it.
+solved, a number is the reason why the program refuses it. The tests of `crates/signorini/tests/methods` press and slide
+a block by every way with a `+`, but for contact of a surface with itself.
 [contact.md](contact.md) tells what the keys mean. Written by
 
 ```
@@ -39,29 +40,19 @@ impl Reasons {
     /// How a cell of a table tells what becomes of a scene; with friction and without, in the plane and in space the
     /// same.
     fn cell(&mut self, scene: &Scene, elements: &[&'static str]) -> String {
-        let tied = scene.keys.contains("tied");
-        let all: &[&str] = if tied {
-            &[scene.keys]
-        } else {
-            &["", "friction = 0.2"]
+        let all = match scene.keys {
+            "" => vec!["", "friction = 0.2"],
+            keys => vec![keys],
         };
-        let mut found = Vec::new();
-        for &element in elements {
-            for &keys in all {
-                let scene = Scene {
-                    element,
-                    keys: if tied {
-                        scene.keys
-                    } else if keys.is_empty() {
-                        ""
-                    } else {
-                        "friction = 0.2"
-                    },
-                    ..*scene
-                };
-                found.push(scene.model().err());
-            }
-        }
+        let ways = elements.iter().flat_map(|&element| {
+            let of = |keys: &&'static str| Scene {
+                element,
+                keys,
+                ..*scene
+            };
+            all.iter().map(of).collect::<Vec<_>>()
+        });
+        let found: Vec<Option<Refusal>> = ways.map(|scene| scene.model().err()).collect();
         let first = found[0].clone();
         assert!(found.iter().all(|f| *f == first), "{scene:?}: {found:?}");
         first.map_or("+".into(), |refusal| self.number(refusal))

@@ -141,6 +141,8 @@ pub struct Refusal {
 
 /// What came of pressing and sliding.
 pub struct Outcome {
+    /// The method in use.
+    pub method: &'static str,
     pub iterations: usize,
     pub cutbacks: usize,
     /// At the end of each step.
@@ -360,6 +362,7 @@ ux = {SLIDE:?}
             frames.find(|f| f.step == step).unwrap().clone()
         };
         let outcome = Outcome {
+            method: model.contacts[0].method,
             iterations: run.increments.iter().map(|i| i.iterations).sum(),
             cutbacks: run.cutbacks.len(),
             pressed: last_of("press"),
