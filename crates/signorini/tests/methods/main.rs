@@ -88,7 +88,8 @@ fn walk(elements: &[&'static str], below: impl Fn(Below) -> bool) {
         for &below in &places {
             for (_, method) in METHODS {
                 for keys in [SMOOTH, ROUGH, TIED] {
-                    // joined wedges: node-to-node by `lagrange` and by `newton` differ by 1 %, which is an open question
+                    // joined wedges: node-to-node by `lagrange` and by `newton` differ by 1 %. A known defect: ties of nodes
+                    // whose primary side is faces take a wrong offset at the start (`bonds` of the model)
                     let joins = below == Below::Block && element != "wedge6";
                     if keys == TIED && !joins {
                         continue;
