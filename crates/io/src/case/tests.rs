@@ -350,6 +350,21 @@ fn faults() -> Vec<(&'static str, Vec<u8>)> {
             contact("rule = { kind = \"lobatto\", points = 1 }")
                 .replace("\"node-to-segment\"", "\"gauss-point\""),
         ),
+        text(
+            "small sliding of nodes against nodes",
+            contact("sliding = \"small\"").replace("\"node-to-segment\"", "\"node-to-node\""),
+        ),
+        text(
+            "multipliers at too many points",
+            law("{ lagrange = {} }")
+                .replace("friction    = 0.0", "passes = 2")
+                .replace("\"node-to-segment\"", "\"gauss-point\""),
+        ),
+        text(
+            "multipliers of a surface with itself",
+            law("{ augmented = \"newton\" }")
+                .replace("primary     = \"top\"", "primary = \"self\""),
+        ),
         text("mortar", brick("\"node-to-segment\"", "\"mortar\"")),
         text(
             "a surface against itself by two names",

@@ -60,6 +60,8 @@ use std::sync::Arc;
 pub struct ContactSummary {
     /// Its name.
     pub name: String,
+    /// The method in use.
+    pub method: Method,
     /// The penalty in use.
     pub penalty: f64,
     /// What it refers to.

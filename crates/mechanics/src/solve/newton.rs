@@ -295,6 +295,8 @@ impl Newton {
         }
         let mut motion = self.start(system, base, goal);
         let mut correction = 0.0;
+        // since what terms keep frozen changed last
+        let mut solved = false;
         let mut alpha = 1.0;
         let mut decrement = 0.0;
         let mut unsettled = None;
@@ -305,7 +307,7 @@ impl Newton {
         loop {
             self.prepare(system)?;
             let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
-            let little = iterations > 0 && correction <= CORRECTION * moved;
+            let little = solved && correction <= CORRECTION * moved;
             // after a small correction there is probably no need for a tangent
             let first = if little {
                 Order::Residual
@@ -344,6 +346,7 @@ impl Newton {
                         augmentations += 1;
                         last = iterations + self.settings.max_iterations;
                         correction = 0.0;
+                        solved = false;
                         continue;
                     }
                     Some(changed) => {
@@ -383,6 +386,7 @@ impl Newton {
             alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
             correction = alpha * largest(&self.du[..nmotion]);
             motion = false;
+            solved = true;
             iterations += 1;
         }
     }

@@ -137,7 +137,7 @@ fn bare(part: &Contact) -> Diagnostics {
             "write  per = \"node\"  in `enforcement`, or name a surface",
         ),
         (
-            part.area == Area::Current && *part.method != case::Method::NodeToNode,
+            part.area == Area::Current,
             "`area`",
             "delete `area`, or name a surface",
         ),
@@ -197,6 +197,24 @@ fn method(part: &Contact) -> Method {
             points: part.rule.points.map(|points| points as usize),
         }),
     }
+}
+
+/// What a case calls the method in use.
+pub(super) fn word(method: &Method) -> &'static str {
+    match method {
+        Method::NodeToNode { .. } => "node-to-node",
+        Method::GaussPoint(_) => "gauss-point",
+        Method::Auto | Method::NodeToSegment => "node-to-segment",
+    }
+}
+
+/// Writes the method in use into a contact that leaves it open.
+pub(super) fn choose(part: &mut Contact, method: &Method) {
+    part.method.value = match method {
+        Method::NodeToNode { .. } => case::Method::NodeToNode,
+        Method::GaussPoint(_) => case::Method::GaussPoint,
+        Method::Auto | Method::NodeToSegment => case::Method::NodeToSegment,
+    };
 }
 
 fn enforcement(part: &Enforcement) -> model::Enforcement {

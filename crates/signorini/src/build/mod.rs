@@ -174,7 +174,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
         .iter()
         .map(|c| ContactInfo {
             name: c.name.clone(),
-            method: method_of(&case, &c.name),
+            method: contact::word(&c.method),
             penalty: c.penalty,
             per: match c.measure {
                 Measure::Area => "area",
@@ -271,7 +271,7 @@ fn choose(
             continue;
         };
         if *part.method == Method::Auto {
-            part.method.value = Method::NodeToSegment;
+            contact::choose(part, &summary.method);
         }
         let chosen = Some(summary.penalty.into());
         match &mut part.enforcement {
@@ -304,17 +304,6 @@ fn choose(
         {
             name.value = own.to_owned();
         }
-    }
-}
-
-/// The method in use for a contact.
-fn method_of(case: &Case, contact: &str) -> &'static str {
-    let mut contacts = case.contacts.iter();
-    let part = contacts.find(|one| one.name.value == contact);
-    match part.map(|one| *one.method) {
-        Some(Method::NodeToNode) => "node-to-node",
-        Some(Method::GaussPoint) => "gauss-point",
-        Some(Method::Auto | Method::NodeToSegment) | None => "node-to-segment",
     }
 }
 

@@ -59,6 +59,7 @@ impl Builder {
         };
         self.sides(&contact);
         self.what_goes_with_the_method(&contact, fields);
+        self.what_goes_with_multipliers(&contact, fields);
         if contact.tied.is_some() {
             self.what_goes_with_a_tie(&contact, fields);
         }
@@ -110,6 +111,11 @@ impl Builder {
             "two passes belong to \"node-to-segment\" and \"gauss-point\"",
         );
         only(
+            "sliding",
+            contact.sliding == Sliding::Small && method == Method::NodeToNode,
+            "pairs of nodes stay what they are: delete `sliding`",
+        );
+        only(
             "enforcement",
             contact.per == Some(Per::Node) && method == Method::GaussPoint,
             "points inside of facets stand for areas: write  per = \"area\"",
@@ -132,6 +138,48 @@ impl Builder {
                 contact.tied.is_some(),
                 "it would be joined to itself",
             );
+        }
+    }
+
+    /// Multipliers leave no penetration, and nodes can follow only as many as there are of them: those at the nodes of
+    /// one side.
+    fn what_goes_with_multipliers(&mut self, contact: &Contact, fields: Fields<'_>) {
+        let exact = matches!(
+            contact.enforcement,
+            Enforcement::Lagrange | Enforcement::Augmented { .. }
+        );
+        for (key, wrong, why, instead) in [
+            (
+                "method",
+                *contact.method == Method::GaussPoint,
+                "points inside of facets are more than their nodes",
+                "write  method = \"node-to-segment\", or give a `penalty` alone",
+            ),
+            (
+                "passes",
+                contact.two_pass,
+                "the points of both sides",
+                "write  passes = 1, or give a `penalty` alone",
+            ),
+            (
+                "primary",
+                contact.is_with_itself(),
+                "the points of both sides",
+                "give a `penalty` alone",
+            ),
+        ] {
+            if exact && wrong {
+                let message = format!("`{key}` makes too many points for multipliers");
+                self.found.push(
+                    Diagnostic::error(&codes::CONTRADICTION, message)
+                        .at(&fields.place(key), why)
+                        .at(
+                            &fields.place("enforcement"),
+                            "no motion of the nodes meets all their conditions",
+                        )
+                        .help(instead),
+                );
+            }
         }
     }
 

@@ -170,6 +170,7 @@ impl Context<'_> {
         };
         let summary = ContactSummary {
             name: part.name.clone(),
+            method: sides.method,
             penalty,
             measure,
             reach,

@@ -27,6 +27,8 @@ const DOUBLINGS: usize = 6;
 pub(in crate::model) struct Sides {
     /// The place of the contact in the list.
     pub contact: usize,
+    /// The method in use.
+    pub method: Method,
     pub discretization: Box<dyn Discretization>,
     pub law: Box<dyn ContactLaw>,
     pub pair: SurfacePair,
@@ -61,10 +63,10 @@ impl Source<'_> {
                 contact: part.name.clone(),
             });
         };
-        if first.law.multiplier().is_unknown() {
+        if first.law.multiplier() != Multiplier::None {
             return Err(ModelError::Unsuited {
                 contact: part.name.clone(),
-                what: "two passes by multipliers constrain each point twice: take one pass, or a penalty",
+                what: "two passes by multipliers hold each point twice: take one pass, or a penalty",
             });
         }
         let swapped = ContactPart {
@@ -106,7 +108,15 @@ impl Source<'_> {
             PrimaryPart::Itself => secondary.clone(),
             PrimaryPart::Nodes(_) | PrimaryPart::Surface(_) => None,
         };
+        let law = law(part)?;
+        let exact = law.multiplier() != Multiplier::None;
         let same = matches!(part.primary, PrimaryPart::Itself);
+        if same && exact {
+            return Err(ModelError::Unsuited {
+                contact: part.name.clone(),
+                what: "a surface that touches itself has multipliers on both sides, which hold each point twice: take a penalty",
+            });
+        }
         if same && secondary.is_none() {
             return Err(ModelError::Unsuited {
                 contact: part.name.clone(),
@@ -116,9 +126,7 @@ impl Source<'_> {
         if let Some(primary) = primary.as_ref().filter(|_| !same) {
             self.not_glued(part, &points, primary)?;
         }
-        let law = law(part)?;
-        let unknown = law.multiplier().is_unknown();
-        let closest = if unknown {
+        let closest = if law.multiplier().is_unknown() {
             Closest::Faces
         } else {
             Closest::Anywhere
@@ -130,24 +138,31 @@ impl Source<'_> {
         };
         let space = self.space;
         let mut areas: Option<Areas> = None;
-        let (discretization, area): (Box<dyn Discretization>, Vec<f64>) = match self.method(part) {
+        let method = self.method(part, exact);
+        let (discretization, area): (Box<dyn Discretization>, Vec<f64>) = match method {
             Method::NodeToNode { normals, pairs } => {
                 let pairs = self.node_pairs(part, primary.as_ref(), pairs)?;
                 let normals = node_normals(part, normals, &primary, &secondary)?;
                 let area = match &secondary {
-                    Some(facets) => {
-                        let all = nodal(facets)?;
-                        let of = |node: NodeId| {
-                            let found = all.binary_search_by_key(&node, |a| a.0);
-                            found.map_or(0.0, |k| all[k].1)
-                        };
-                        pairs.iter().map(|p| of(p[0])).collect()
-                    }
+                    Some(facets) => of_pairs(&pairs, &nodal(facets)?),
                     None => Vec::new(),
                 };
+                if let Some(facets) = secondary.clone().filter(|_| part.present_area) {
+                    let pairs = pairs.clone();
+                    areas = Some(Box::new(move |x| {
+                        let areas = facets.lumped_areas(x, &|x| space.extent(x))?;
+                        Ok(of_pairs(&pairs, &areas))
+                    }));
+                }
                 (Box::new(NodeToNode::new(pairs, normals)), area)
             }
             Method::GaussPoint(rule) => {
+                if exact {
+                    return Err(ModelError::Unsuited {
+                        contact: part.name.clone(),
+                        what: "points inside facets are too many for multipliers: take nodes, or a penalty",
+                    });
+                }
                 let Some(facets) = &secondary else {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
@@ -158,7 +173,6 @@ impl Source<'_> {
                 let (mut inside, area) =
                     PointToSegment::inside(facets, points, self.reference, &extent)
                         .map_err(surface_error)?;
-                inside.closest = closest;
                 inside.small_sliding = part.small_sliding;
                 if part.present_area {
                     let facets = facets.clone();
@@ -196,6 +210,7 @@ impl Source<'_> {
         };
         Ok(Sides {
             contact,
+            method,
             discretization,
             law,
             pair: SurfacePair {
@@ -212,16 +227,21 @@ impl Source<'_> {
         })
     }
 
-    fn method(&self, part: &ContactPart) -> Method {
+    /// The method in use. Points inside facets are more than their nodes, and no motion of these meets the conditions of
+    /// as many multipliers.
+    fn method(&self, part: &ContactPart, exact: bool) -> Method {
         match (&part.method, &part.primary) {
             (Method::Auto, PrimaryPart::Nodes(_)) => Method::NodeToNode {
                 normals: Normals::default(),
                 pairs: PairOrder::default(),
             },
-            (Method::Auto, _) if self.is_quadratic(part) => Method::GaussPoint(PointRule {
-                kind: PointKind::Gauss,
-                points: None,
-            }),
+            (Method::Auto, _) if self.is_quadratic(part) && !exact => {
+                Method::GaussPoint(PointRule {
+                    kind: PointKind::Gauss,
+                    points: None,
+                })
+            }
+            (Method::Auto, _) => Method::NodeToSegment,
             (method, _) => method.clone(),
         }
     }
@@ -304,6 +324,15 @@ impl Source<'_> {
         };
         Ok(of_secondary.into_iter().filter_map(nearest).collect())
     }
+}
+
+/// Areas of the secondary nodes of pairs, from those of all nodes in their order.
+fn of_pairs(pairs: &[[NodeId; 2]], areas: &[(NodeId, f64)]) -> Vec<f64> {
+    let of = |node: NodeId| {
+        let found = areas.binary_search_by_key(&node, |a| a.0).ok();
+        found.and_then(|k| areas.get(k)).map_or(0.0, |a| a.1)
+    };
+    pairs.iter().map(|p| of(p[0])).collect()
 }
 
 fn node_normals(
