@@ -11,8 +11,9 @@ pub struct Damper {
     name: String,
     /// Unknowns, and k of each.
     dofs: Vec<(Dof, f64)>,
-    /// u_n.
+    /// u_n, and how far from there the unknowns move freely.
     start: Vec<f64>,
+    drift: Vec<f64>,
     strength: Strength,
     work: f64,
 }
@@ -60,6 +61,7 @@ impl Damper {
         Self {
             name: name.into(),
             start: vec![0.0; dofs.len()],
+            drift: Vec::new(),
             dofs,
             strength,
             work: 0.0,
@@ -135,7 +137,8 @@ impl Term for Damper {
             *fading = (1.0 - over).clamp(0.0, 1.0);
         }
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
-            *start = value(from, dof);
+            let drift = self.drift.get(dof as usize).copied();
+            *start = value(from, dof) + drift.unwrap_or_default();
         }
         Ok(())
     }
@@ -197,11 +200,13 @@ impl Term for Damper {
         back
     }
 
-    fn damp(&mut self, asked: f64) -> bool {
+    fn damp(&mut self, asked: f64, drift: &[f64]) -> bool {
         let Strength::Asked(strength) = &mut self.strength else {
             return false;
         };
         *strength = asked;
+        self.drift.clear();
+        self.drift.extend_from_slice(drift);
         true
     }
 

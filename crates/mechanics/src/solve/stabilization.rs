@@ -5,11 +5,12 @@
 //! in a time of its own, at the loads of the end of the increment (E1), in stages of implicit Euler
 //!
 //! ```text
-//! r(u_{n+1}) + c_n k (u_{n+1} − u_n) = 0                                                        (E1)
+//! r(u_{n+1}) + c_n k (u_{n+1} − u_n − d_n) = 0                                                  (E1)
 //! ```
 //!
-//! with a viscosity `c_n` that falls as stages succeed and grows where one fails. What slips on the way slips stage by
-//! stage. When viscosity has fallen to [`FAINT`], the equilibrium is looked for without it. So the state that is
+//! with a viscosity `c_n` that falls as stages succeed and grows where one fails. The drift `d_n` is what the state would
+//! have changed by at the rate before the jump; it belongs to the first stage, which takes the loads to the end of the
+//! increment. What slips on the way slips stage by stage. When viscosity has fallen to [`FAINT`], the equilibrium is looked for without it. So the state that is
 //! accepted is one of equilibrium like any other; which of several it is, and what friction dissipates on the way, is
 //! what a slow jump would give. The work of the viscous forces is reported.
 //!
@@ -51,7 +52,7 @@ impl Stepper {
         attempt: usize,
         observer: &mut dyn Observer,
     ) -> Result<Option<Accepted>, TermError> {
-        if !damp(system, 1.0) {
+        if !damp(system, 0.0, &[]) {
             return Ok(None);
         }
         let mut before = Archive::default();
@@ -60,7 +61,7 @@ impl Stepper {
         self.newton.settings.max_iterations = iterations.min(MAX_ITERATIONS);
         let found = self.slow_motion(system, end, targets, attempt, observer);
         self.newton.settings.max_iterations = iterations;
-        damp(system, 0.0);
+        damp(system, 0.0, &[]);
         let Some((accepted, stages)) = found else {
             reject(system);
             self.load(system, &before)
@@ -69,8 +70,7 @@ impl Stepper {
                 })?;
             return Ok(None);
         };
-        // the jump says nothing about what comes after it
-        self.progress.rate.clear();
+        self.progress.jumped = true;
         let event = Event::Stabilized {
             step: self.progress.step,
             increment: self.progress.increment + 1,
@@ -92,6 +92,8 @@ impl Stepper {
     ) -> Option<(Accepted, usize)> {
         let mut viscosity = 1.0;
         let mut patience = 0;
+        let dt = end - self.progress.time;
+        let mut drift: Vec<f64> = self.progress.rate.iter().map(|r| r * dt).collect();
         let mut accepted = Accepted {
             iterations: 0,
             residual: 0.0,
@@ -99,7 +101,7 @@ impl Stepper {
         };
         for stage in 1..=MAX_STAGES {
             let last = viscosity < FAINT;
-            damp(system, if last { 0.0 } else { viscosity });
+            damp(system, if last { 0.0 } else { viscosity }, &drift);
             let goal = Goal {
                 time: self.progress.step_start + end,
                 targets,
@@ -123,6 +125,7 @@ impl Stepper {
                 continue;
             };
             self.accept(system).ok()?;
+            drift.clear();
             accepted.iterations += solved.iterations;
             accepted.residual = solved.residual;
             if last {
@@ -139,7 +142,7 @@ impl Stepper {
 }
 
 /// Asks all terms for viscous forces; says whether there are any.
-fn damp(system: &mut System, viscosity: f64) -> bool {
+fn damp(system: &mut System, viscosity: f64, drift: &[f64]) -> bool {
     let terms = system.terms.iter_mut();
-    terms.fold(false, |any, term| any | term.damp(viscosity))
+    terms.fold(false, |any, term| any | term.damp(viscosity, drift))
 }

@@ -162,15 +162,17 @@ pub(super) struct Progress {
     /// Total time at the start of the step.
     pub step_start: f64,
     /// Time since then.
-    time: f64,
+    pub time: f64,
     /// Size of the next increment; none at the start of a step.
     dt: Option<f64>,
     /// Accepted increments in a row that were easy.
     easy: usize,
     /// Values of the prescribed dofs at the start of the step.
     origin: Vec<f64>,
-    /// Change of the state per time in the last increment of this step; empty where it says nothing about the next.
+    /// Change of the state per time in the last increment of this step that did not jump; empty where there was none.
     pub rate: Vec<f64>,
+    /// Whether the last increment jumped: then the rate before it says nothing of the next start.
+    pub jumped: bool,
 }
 
 /// Iterations up to which an increment counts as easy.
@@ -328,7 +330,7 @@ impl Stepper {
                 };
                 reject(system);
                 // a failure from an extrapolated start says nothing about one from the last state
-                let extrapolated = attempt == 1 && !self.progress.rate.is_empty();
+                let extrapolated = attempt == 1 && self.extrapolates();
                 failed += usize::from(!extrapolated);
                 let due = self.stabilize_after.is_some_and(|n| failed == n + 1);
                 if !extrapolated && due {
@@ -408,10 +410,11 @@ impl Stepper {
         let dt = end - self.progress.time;
         self.guess.clear();
         self.guess.extend(self.progress.rate.iter().map(|r| r * dt));
+        let extrapolated = attempt == 1 && self.extrapolates();
         let goal = Goal {
             time,
             targets,
-            guess: (!self.guess.is_empty() && attempt == 1).then_some(&self.guess[..]),
+            guess: extrapolated.then_some(&self.guess[..]),
         };
         let converged = self
             .newton
@@ -425,12 +428,18 @@ impl Stepper {
         let rate = change.map(|(now, before)| (now - before) / dt);
         self.progress.rate.clear();
         self.progress.rate.extend(rate);
+        self.progress.jumped = false;
         self.accept(system)?;
         Ok(Accepted {
             iterations: converged.iterations,
             residual: converged.residual,
             flow,
         })
+    }
+
+    /// Whether the increment before says something about the next.
+    const fn extrapolates(&self) -> bool {
+        !self.progress.rate.is_empty() && !self.progress.jumped
     }
 
     /// Where the present increment stands.
@@ -536,6 +545,7 @@ impl Stepper {
                 p.time,
                 dt,
                 p.easy as f64,
+                f64::from(u8::from(p.jumped)),
             ],
         );
         out.put("progress.origin", &p.origin);
@@ -551,9 +561,9 @@ impl Stepper {
     /// # Errors
     /// The archive belongs to another model.
     pub fn load(&mut self, system: &mut System, from: &Archive) -> Result<(), ArchiveError> {
-        let mut progress = [0.0; 6];
+        let mut progress = [0.0; 7];
         from.get("progress", &mut progress)?;
-        let [step, increment, step_start, time, dt, easy] = progress;
+        let [step, increment, step_start, time, dt, easy, jumped] = progress;
         let mut origin = vec![0.0; from.length("progress.origin")?];
         from.get("progress.origin", &mut origin)?;
         let mut rate = vec![0.0; from.length("progress.rate")?];
@@ -580,6 +590,7 @@ impl Stepper {
             easy: easy as usize,
             origin,
             rate,
+            jumped: jumped != 0.0,
         };
         Ok(())
     }

@@ -304,9 +304,9 @@ pub trait Term: Send + Sync {
         false
     }
 
-    /// Viscous forces of this strength act from now on, against what moves since the accepted state: none at 0. Says
-    /// whether the term has any.
-    fn damp(&mut self, _strength: f64) -> bool {
+    /// Viscous forces of this strength act from the next increment on, none at 0, against what moves since its start
+    /// beyond `drift`: a number for each unknown, or nothing. Says whether the term has any.
+    fn damp(&mut self, _strength: f64, _drift: &[f64]) -> bool {
         false
     }
 

@@ -8,7 +8,7 @@ const HEAD: &str = "# What goes with what
 
 Every way to compare two sides, every law, every kind of facet and every surface, with friction and without: `+` is
 solved, a number is the reason why the program refuses it. The tests of `crates/signorini/tests/methods` press and slide
-a block by every way with a `+`, but for contact of a surface with itself and joined wedge6.
+a block by every way with a `+`, but for contact of a surface with itself.
 [contact.md](contact.md) tells what the keys mean. Written by
 
 ```

@@ -3,7 +3,7 @@
 use super::{ContactPart, ModelError, Sides, Source};
 use crate::contact::Shift;
 use crate::contact::discretization::{Anchored, Pairing};
-use crate::model::{Interference, StartSummary, TiePart};
+use crate::model::{Interference, Method, StartSummary, TiePart};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Placement, Pose, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -71,7 +71,8 @@ pub(super) fn bonds(
         let anchor = sides
             .discretization
             .anchor(row, &sides.pair, at, &pair, Vec3::ZERO)?;
-        let offset = if sides.facets.is_some() && sides.pair.primary.nfacet() > 0 {
+        let between_nodes = matches!(sides.method, Method::NodeToNode { .. });
+        let offset = if sides.facets.is_some() && !between_nodes {
             sides.pair.primary.jet(at, &anchor.anchor, &mut jet)?;
             sides.discretization.point(row).position(at) - jet.position
         } else {
