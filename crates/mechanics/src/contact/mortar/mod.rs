@@ -1,0 +1,105 @@
+//! Mortar integrals: what the multipliers of a secondary facet see of both sides, over the part that is covered.
+//!
+//! ```text
+//!  Plane of the facet ─▶ overlap ─▶ Pair: ∫N_j, ∫N_j N_k, ∫N_j N^m_l      one for each primary facet it meets
+//!                                     │ added up
+//!                                     ▼
+//!                          dual basis ψ = A Ñ of the covered part ─▶ D_j, M_jl, ν
+//! ```
+//!
+//! | symbol | name in code | shape |
+//! |---|---|---|
+//! | j, k | nodes of the secondary facet | `nnode` |
+//! | l | nodes of the primary facets it meets, one facet after the other | `nprimary` |
+//! | v | columns: coordinates x, y, z of the nodes, secondary first | `ncolumn` |
+//! | N_j, N^m_l | shape functions | |
+//! | T, Ñ = T N | [`Transformation`] of quadratic facets | `nnode` × `nnode` |
+//! | A, ψ = A Ñ | coefficients of the dual basis | `nnode` × `nnode` |
+//! | D_j = ∫ψ_j Ñ_j = ∫ψ_j | `d` | `nnode` numbers |
+//! | M_jl = ∫ψ_j N^m_l | `m` | `nnode` × `nprimary` |
+//! | D⁰_j | `full`: `∫Ñ_j` over the whole facet | `nnode` numbers |
+//! | ν = −n0 | `normal`: out of the primary side | vector |
+//!
+//! With `cov` the covered part of a facet and the same points for all integrals,
+//!
+//! ```text
+//! S = ∫_cov Ñ Ñᵀ,  D = diag ∫_cov Ñ,  A = D S⁻¹                              (E1)
+//! dA = (dD − A dS) S⁻¹                                                       (E2)
+//! M = A T m,  dM = dA T m + A T dm,  m = ∫ N N^mᵀ                            (E3)
+//! Σ_j ψ_j = 1,  Σ_l M_jl = D_j,  Σ_k ∫ψ_j Ñ_k x̃_k = Σ_l M_jl x_l  for x linear on coincident surfaces
+//! ```
+//!
+//! `S` is inverted in the scale of its diagonal, where its condition does not depend on how little is covered. Where the
+//! covered part is an island inside the facet it does: above `MAX_CONDITION` the basis is `ψ = Ñ` and `D` lumped, which
+//! keeps `Σ_l M_jl = D_j` and uniform pressures but not linear fields. A node that is covered by less than
+//! [`MIN_COVERAGE`] of `D⁰`, over all its facets, has no multiplier: that is the caller's to decide.
+//!
+//! *Quadratic facets* have weights `∫N_j` of either sign. Those of `Ñ` are non-negative at every point:
+//!
+//! ```text
+//! Ñ_corner = N_corner + α Σ N_edge,  Ñ_edge = (1 − 2α) N_edge                (E4)
+//! ```
+//!
+//! over the edges that meet in the corner, `α = 1/4`, and 3/8 for quad8; of quad9 it is the tensor product of that of
+//! line3. The displacements that belong to `Ñ` are `x̃ = T⁻ᵀ x`, and `∫ψ_j N_k = D_j T⁻ᵀ_jk`.
+//!
+//! *Derivatives.* Cells depend on the places of nodes on the plane alone, two numbers each: these are the variables of the
+//! dual numbers that go through clipping and integration. Their own derivatives by the coordinates follow once for each
+//! pair. What couples several primary facets is (E2) and (E3), by the product rule.
+//!
+//! *Normal.* With one normal for each facet, `ν D` and `ν M` are the operators by which a pressure acts, linear and angular
+//! momentum are exact without friction, and nodes of the secondary side do not couple.
+//!
+//! The standard basis `ψ = N` has `∫N_j N_k` and `∫N_j N^m_l`, which are those of [`Pair`].
+//!
+//! Sources: Hüeber and Wohlmuth, CMAME 194, 2005, 3147–3166 (dual bases); Cichosz and Bischoff, CMAME 200, 2011,
+//! 1317–1332, and Popp, Seitz, Gee and Wall, CMAME 264, 2013, 67–80 (covered part); Popp, Wohlmuth, Gee and Wall, SIAM J.
+//! Sci. Comput. 34, 2012, B421–B446 (quadratic facets).
+
+mod basis;
+mod covered;
+mod pair;
+#[cfg(test)]
+mod tests;
+mod transformation;
+
+pub use covered::{Covered, MIN_COVERAGE};
+pub use pair::{Frame, Pair};
+pub use transformation::Transformation;
+
+use signorini_geometry::element::Element;
+use signorini_geometry::tensor::Vec3;
+use thiserror::Error;
+
+/// A facet where it is now.
+#[derive(Clone, Copy, Debug)]
+pub struct Facet<'a> {
+    /// Its element: a line, triangle or quadrilateral.
+    pub element: Element,
+    /// Positions of its nodes.
+    pub x: &'a [Vec3],
+}
+
+/// Why a facet has no integrals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum MortarError {
+    /// The tangents of the secondary facet are parallel or zero at its centre, or it is folded on its own plane.
+    #[error("a facet of the secondary side is folded or has no normal")]
+    Secondary,
+    /// The map of one of the facets has no inverse at a point of what they have in common.
+    #[error(
+        "primary facet {number} and the secondary facet cannot be compared: one of them is folded"
+    )]
+    Folded {
+        /// The place of the primary facet in the list.
+        number: usize,
+    },
+    /// A facet has not one position for each node, or more nodes than a facet may have.
+    #[error("facet of kind {element} with {positions} positions")]
+    Positions {
+        /// The name of the element.
+        element: &'static str,
+        /// How many positions there are.
+        positions: usize,
+    },
+}
