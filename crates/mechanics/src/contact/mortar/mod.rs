@@ -56,10 +56,13 @@
 //! 1317–1332, and Popp, Seitz, Gee and Wall, CMAME 264, 2013, 67–80 (covered part); Popp, Wohlmuth, Gee and Wall, SIAM J.
 //! Sci. Comput. 34, 2012, B421–B446 (quadratic facets).
 
+#[allow(clippy::needless_range_loop)] // indices as in the equations
 mod basis;
+#[allow(clippy::needless_range_loop)]
 mod covered;
 mod pair;
 #[cfg(test)]
+#[allow(clippy::needless_range_loop)]
 mod tests;
 mod transformation;
 
