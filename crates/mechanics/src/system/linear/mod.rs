@@ -15,6 +15,7 @@
 mod cholesky;
 mod direct;
 mod forecast;
+mod gathered;
 mod lu;
 mod matrix;
 mod metis;
