@@ -168,7 +168,7 @@ impl Analysis {
     /// The analyzed pattern.
     fn instance(&self, kind: Kind) -> Result<Instance, LinearError> {
         let matrix = &self.gathered.matrix;
-        let entries = (0u32..).zip(&self.order).flat_map(|(row, _)| {
+        let entries = (0..self.order.len() as u32).flat_map(|row| {
             let columns = matrix.column(row as usize).iter();
             columns.map(move |&column| (row, column))
         });
