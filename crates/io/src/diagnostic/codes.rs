@@ -163,8 +163,10 @@ codes! {
     NOT_BUILT "S0111" Input "known, but not supported yet"
     "The case format has a meaning for this, but this version cannot do it. It is refused, because ignoring it would \
      give an answer to another question."
-    ["the case was written for a newer version", "the manual describes a later version"]
-    ["take what the message proposes instead", "delete the line", "look for a newer version"]
+    ["the case was written for a newer version", "the manual describes a later version",
+     "the program was built without an optional part"]
+    ["take what the message proposes instead", "delete the line", "look for a newer version",
+     "build the program with that part"]
 
     CONTRADICTION "S0112" Input "keys that exclude each other, or need each other"
     "Of several keys exactly one (or at most, or at least one) may be given, and that is not so here."

@@ -15,6 +15,8 @@ pub struct Damper {
     start: Vec<f64>,
     drift: Vec<f64>,
     strength: Strength,
+    /// Whether it has begun or ceased to act since it was looked at.
+    changed: bool,
     work: f64,
 }
 
@@ -64,6 +66,7 @@ impl Damper {
             drift: Vec::new(),
             dofs,
             strength,
+            changed: false,
             work: 0.0,
         }
     }
@@ -111,6 +114,9 @@ impl Term for Damper {
     }
 
     fn pattern(&self, out: &mut dyn PatternSink) {
+        if matches!(self.strength, Strength::Asked(0.0)) {
+            return;
+        }
         for &(dof, _) in &self.dofs {
             out.interface(&[dof]);
         }
@@ -141,6 +147,10 @@ impl Term for Damper {
             *start = value(from, dof) + drift.unwrap_or_default();
         }
         Ok(())
+    }
+
+    fn prepare(&mut self, _: &State) -> Result<bool, TermError> {
+        Ok(std::mem::take(&mut self.changed))
     }
 
     fn nchunk(&self) -> usize {
@@ -204,6 +214,7 @@ impl Term for Damper {
         let Strength::Asked(strength) = &mut self.strength else {
             return false;
         };
+        self.changed |= (*strength > 0.0) != (asked > 0.0);
         *strength = asked;
         self.drift.clear();
         self.drift.extend_from_slice(drift);

@@ -316,7 +316,7 @@ impl Stepper {
             let mut tried = Vec::new();
             let mut attempt = 1;
             let mut failed = 0;
-            let accepted = loop {
+            let (end, accepted) = loop {
                 let end = self.end_of_increment(step, dt);
                 dt = end - self.progress.time;
                 tried.push(dt);
@@ -324,26 +324,28 @@ impl Stepper {
                 let failure = match self.attempt(system, end, &targets, attempt, observer) {
                     Ok(accepted) => {
                         self.adapt(accepted.iterations, attempt, dt, max);
-                        break accepted;
+                        break (end, accepted);
                     }
                     Err(failure) => failure,
                 };
                 reject(system);
                 // a failure from an extrapolated start says nothing about one from the last state
                 let extrapolated = attempt == 1 && self.extrapolates();
+                let smaller = dt * severity(&failure);
+                let smallest = min.is_none_or(|m| smaller < m);
                 failed += usize::from(!extrapolated);
-                let due = self.stabilize_after.is_some_and(|n| failed == n + 1);
-                if !extrapolated && due {
+                let due = |n| failed == n + 1 || (smallest && failed <= n);
+                if !extrapolated && self.stabilize_after.is_some_and(due) {
                     attempt += 1;
                     let helped = self.stabilize(system, end, &targets, attempt, observer)?;
                     if let Some(accepted) = helped {
-                        break accepted;
+                        break (end, accepted);
                     }
                 }
                 // and terms may know a safer way
                 let again = extrapolated || rescued(system);
-                let next = if again { dt } else { dt * severity(&failure) };
-                if !again && min.is_none_or(|m| next < m) {
+                let next = if again { dt } else { smaller };
+                if !again && smallest {
                     return Err(RunError::NotConverged {
                         step: step.name.clone(),
                         increment: self.progress.increment + 1,
@@ -369,7 +371,6 @@ impl Stepper {
                 dt = next;
                 attempt += 1;
             };
-            let end = self.progress.time + dt;
             let record = IncrementRecord {
                 step: self.progress.step,
                 increment: self.progress.increment + 1,

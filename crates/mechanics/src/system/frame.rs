@@ -67,7 +67,7 @@ pub struct ContactFrame {
     pub status: Vec<Status>,
     /// Contact force on each secondary node.
     pub force: Vec<Vec3>,
-    /// Traction on each secondary node: force over tributary area.
+    /// Traction on the secondary side at each node, the mean over the points around it.
     pub traction: Vec<Vec3>,
     /// Accumulated slip at each node.
     pub slip: Vec<Vec3>,
@@ -102,7 +102,8 @@ pub struct ContactFrame {
 }
 
 impl ContactFrame {
-    /// Adds the second pass of this contact, whose sides are swapped.
+    /// Adds the second pass of this contact, whose sides are swapped; its pressures and tractions at the nodes are in
+    /// already.
     pub fn add_pass(&mut self, pass: &Self) {
         for (to, from) in [
             (&mut self.secondary, &pass.primary),
@@ -113,7 +114,8 @@ impl ContactFrame {
         }
         self.force_normal -= pass.force_normal;
         self.force_shear -= pass.force_shear;
-        self.pressure_max = self.pressure_max.max(pass.pressure_max);
+        // the sides feel the pressures of both passes
+        self.pressure_max = self.pressure.iter().copied().fold(0.0, f64::max);
         self.gap_min = self.gap_min.min(pass.gap_min);
         self.slip_max = self.slip_max.max(pass.slip_max);
         self.work_friction += pass.work_friction;

@@ -30,7 +30,7 @@ use signorini_mechanics::contact::Measure;
 use signorini_mechanics::model::{ContactSummary, LockingSummary, Parts};
 use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{LineSearch, NewtonSettings, Step, StepperSettings};
-use signorini_mechanics::system::linear::LinearKind;
+use signorini_mechanics::system::linear::{LinearKind, SOLVERS};
 use signorini_mechanics::system::{Idealisation, System};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -130,6 +130,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
     let mut found = Diagnostics::new();
     let names = Names::new(&case, &mesh, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
+    let settings = settings(&case.solver, &mut found);
     let (parts, start) = match parts(&case, &mesh, &names, &carriers, &mut found) {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
@@ -199,7 +200,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
         name: String::from("case"),
         system: model.system,
         steps: model.steps,
-        settings: settings(&case.solver),
+        settings,
         contacts,
         locking: model.locking,
         references,
@@ -324,7 +325,7 @@ fn stabilize_after(remedies: &[case::Remedy]) -> Option<usize> {
 /// Sizes of an increment that fail before viscous forces help, where smaller ones are tried first.
 const SIZES: usize = 1;
 
-fn settings(solver: &case::Solver) -> StepperSettings {
+fn settings(solver: &case::Solver, found: &mut Diagnostics) -> StepperSettings {
     let newton = &solver.newton;
     StepperSettings {
         newton: NewtonSettings {
@@ -335,11 +336,28 @@ fn settings(solver: &case::Solver) -> StepperSettings {
                 case::LineSearch::Auto | case::LineSearch::On => LineSearch::Auto,
             },
         },
-        linear: match solver.linear {
-            case::LinearChoice::Auto => LinearKind::Auto,
-            case::LinearChoice::Direct => LinearKind::Direct,
-        },
+        linear: linear(&solver.linear, found),
         stabilize_after: stabilize_after(&solver.on_trouble),
+    }
+}
+
+/// The linear solver of that name, which not every build has.
+fn linear(choice: &Spanned<case::LinearChoice>, found: &mut Diagnostics) -> LinearKind {
+    let word = choice.word();
+    match SOLVERS.iter().find(|solver| solver.name == word) {
+        Some(solver) => solver.kind,
+        None => {
+            found.push(
+                Diagnostic::error(
+                    &codes::NOT_BUILT,
+                    format!("`linear = \"{word}\"` needs a library that this program was built without"),
+                )
+                .at(&choice.place, "known, but not in this build")
+                .note("with the library (Debian: libmumps-seq-dev):  cargo build --release --features mumps")
+                .help("without it:  linear = \"direct\""),
+            );
+            LinearKind::default()
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use super::console::Console;
 use super::templates::TEMPLATES;
 use super::threads;
 use signorini::{RunOptions, build};
+use signorini_mechanics::system::linear::SOLVERS;
 use std::time::Instant;
 
 /// Tells what there is to know about program and machine, and solves something small.
@@ -16,6 +17,8 @@ pub fn execute() -> u8 {
         std::env::consts::ARCH
     ));
     out.line(&format!("threads   {}", threads::make(None, None)));
+    let solvers: Vec<&str> = SOLVERS.iter().map(|solver| solver.name).collect();
+    out.line(&format!("linear    {}", solvers.join(", ")));
     let folder = std::env::temp_dir();
     out.line(&format!("temporary {}", folder.display()));
     match trial(&folder.join(format!("signorini-doctor-{}", std::process::id()))) {

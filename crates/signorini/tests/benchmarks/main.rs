@@ -14,6 +14,7 @@ mod beam;
 mod enforcement;
 mod friction_loop;
 mod hertz;
+mod ironing;
 mod patch;
 mod rings;
 mod slip;

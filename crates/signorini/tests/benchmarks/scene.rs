@@ -197,6 +197,11 @@ impl Scene {
         )))
     }
 
+    /// A case of which nothing but this is said yet.
+    pub fn case_of(&self, rest: &str) -> Case {
+        Case(self.case(rest) + "\n")
+    }
+
     /// The case: the mesh, and what else is said.
     pub fn case(&self, rest: &str) -> String {
         let mut text = String::from("format = 1\n[mesh]\nnodes = [\n");

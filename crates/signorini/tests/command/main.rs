@@ -8,6 +8,7 @@ mod check;
 mod events;
 mod files;
 mod help;
+mod linear;
 mod mesh;
 mod model;
 mod numerics;

@@ -45,6 +45,10 @@ fn joined_within(method: &str) -> f64 {
     if method == "node-to-node" { 0.45 } else { 0.2 }
 }
 
+/// By how much the integral of the pressures at the nodes may differ from the force: on blocks of a few cells they are
+/// means over a good part of what touches.
+const EVEN: f64 = 0.2;
+
 /// Forces of one way with all laws that it may have; `auto` may be two ways.
 fn compare(scenes: &[Scene], outcomes: &[Option<Outcome>]) {
     let force = |o: &Outcome| o.pressed.contacts[0].secondary.force.norm();
@@ -62,6 +66,25 @@ fn compare(scenes: &[Scene], outcomes: &[Option<Outcome>]) {
         };
         assert!(off < bound, "{scene:?}: force off by {off:e} of {bound:e}");
     }
+}
+
+/// What nodes are told adds up to what the sides are told, of two passes, too.
+fn adds_up(scene: &Scene, outcome: &Outcome) {
+    let contact = &outcome.pressed.contacts[0];
+    let whole = contact.secondary.force;
+    let sum = contact.force.iter().fold(Vec3::ZERO, |s, f| s + *f);
+    let off = (sum - whole).norm() / whole.norm();
+    assert!(off < 1e-12, "{scene:?}: forces at nodes are off by {off:e}");
+    if scene.keys == TIED {
+        return;
+    }
+    let pressures = contact.pressure.iter().zip(&contact.area);
+    let sum: f64 = pressures.map(|(p, a)| p * a).sum();
+    let ratio = sum / contact.force_normal.norm();
+    assert!(
+        (ratio - 1.0).abs() < EVEN,
+        "{scene:?}: pressures add up to {ratio} of the force"
+    );
 }
 
 /// What friction says of the end of the slide.
@@ -112,6 +135,7 @@ fn walk(elements: &[&'static str], below: impl Fn(Below) -> bool) {
                             continue;
                         };
                         rubs(scene, outcome);
+                        adds_up(scene, outcome);
                         solved += 1;
                         iterations += outcome.iterations;
                         cutbacks += outcome.cutbacks;

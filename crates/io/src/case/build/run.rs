@@ -4,11 +4,12 @@ use super::super::fields::Fields;
 use super::super::parts::*;
 use super::super::scalar::shortened;
 use super::Builder;
-use crate::diagnostic::{Place, codes};
+use crate::diagnostic::{Place, Spanned, codes};
 
 impl Builder {
     pub(super) fn solver(&mut self, fields: Fields<'_>) -> Solver {
         let newton = fields.table("newton");
+        let linear = fields.text("linear");
         if fields.flag_if("stabilize") == Some(true) {
             self.error(
                 &codes::NOT_A_CHOICE,
@@ -28,10 +29,13 @@ impl Builder {
                     None => LineSearch::Auto,
                 },
             },
-            linear: if fields.text("linear").value == "direct" {
-                LinearChoice::Direct
-            } else {
-                LinearChoice::Auto
+            linear: Spanned {
+                value: match linear.value.as_str() {
+                    "direct" => LinearChoice::Direct,
+                    "mumps" => LinearChoice::Mumps,
+                    _ => LinearChoice::Auto,
+                },
+                place: linear.place,
             },
             stabilize: if fields.has("stabilize") && fields.flag_if("stabilize") == Some(false) {
                 Stabilize::Off

@@ -9,7 +9,7 @@ pub struct Solver {
     /// The nonlinear equations of an increment.
     pub newton: Newton,
     /// The linear equations of an iteration.
-    pub linear: LinearChoice,
+    pub linear: Spanned<LinearChoice>,
     /// Whether a vanishing viscous force holds bodies that nothing else holds.
     pub stabilize: Stabilize,
     /// What is tried, in order, when an increment does not converge.
@@ -51,6 +51,20 @@ pub enum LinearChoice {
     Auto,
     /// By factorization.
     Direct,
+    /// By that of the library MUMPS, which not every build has.
+    Mumps,
+}
+
+impl LinearChoice {
+    /// Its word in a case, which is the solver's name.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Direct => "direct",
+            Self::Mumps => "mumps",
+        }
+    }
 }
 
 /// Whether a vanishing viscous force holds bodies that nothing else holds.

@@ -24,15 +24,7 @@ pub(super) fn solver(solver: &Solver) -> Entries {
                 ("line_search", line_search),
             ]),
         ),
-        (
-            "linear",
-            if solver.linear == LinearChoice::Direct {
-                "direct"
-            } else {
-                "auto"
-            }
-            .into(),
-        ),
+        ("linear", solver.linear.word().into()),
         (
             "stabilize",
             match solver.stabilize {

@@ -12,9 +12,10 @@ pub(super) static SOLVER: Table = Table {
             Shape::Choice(&[
                 word("auto"),
                 word("direct"),
+                word("mumps"),
                 Choice::later("iterative", "direct"),
             ]),
-            "how linear equations are solved",
+            "how linear equations are solved; mumps where the program was built with it",
         )
         .or(Default::Text("auto")),
         key(

@@ -1,10 +1,12 @@
 //! What a contact tells of an accepted state.
 
-use super::{Contact, Interface, Order, Participant, RowOrder, Rows, Scratch, State, TermError};
+use super::{
+    Contact, Interface, Measure, Order, Participant, RowOrder, Rows, Scratch, State, TermError,
+};
 use crate::system::{ContactFrame, Frame, Resultant, Status};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::{ContactSurface, Facets};
+use signorini_geometry::surface::{Carrier, ContactSurface, Facets, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
 /// Sums over the rows around each node, with their areas and the squares of their shape functions as weights.
@@ -12,26 +14,70 @@ struct Means {
     weight: Vec<f64>,
     gap: Vec<f64>,
     pressure: Vec<f64>,
+    traction: Vec<Vec3>,
     slip: Vec<Vec3>,
+}
+
+/// What a row adds to the means.
+struct OfRow {
+    gap: f64,
+    pressure: f64,
+    /// On the side whose means these are.
+    traction: Vec3,
+    slip: Vec3,
+}
+
+impl Means {
+    fn new(n: usize) -> Self {
+        Self {
+            weight: vec![0.0; n],
+            gap: vec![0.0; n],
+            pressure: vec![0.0; n],
+            traction: vec![Vec3::ZERO; n],
+            slip: vec![Vec3::ZERO; n],
+        }
+    }
+
+    fn add(&mut self, k: usize, weight: f64, row: &OfRow) {
+        self.weight[k] += weight;
+        self.gap[k] += weight * row.gap;
+        self.pressure[k] += weight * row.pressure;
+        self.traction[k] += row.traction * weight;
+        self.slip[k] += row.slip * weight;
+    }
+
+    /// The means themselves, where there are any.
+    fn of(&self, k: usize) -> Option<OfRow> {
+        let weight = self.weight.get(k).copied().filter(|w| *w > 0.0)?;
+        Some(OfRow {
+            gap: self.gap[k] / weight,
+            pressure: self.pressure[k] / weight,
+            traction: self.traction[k] / weight,
+            slip: self.slip[k] / weight,
+        })
+    }
 }
 
 impl Interface {
     pub(super) fn describe(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let mut report = self.new_report(state);
         let mut scratch = Scratch::default();
-        let n = report.nodes.len();
-        let mut means = Means {
-            weight: vec![0.0; n],
-            gap: vec![0.0; n],
-            pressure: vec![0.0; n],
-            slip: vec![Vec3::ZERO; n],
-        };
+        let mut means = Means::new(report.nodes.len());
+        // the second pass acts on the nodes of the first, which are its primary side
+        let place = |c: &ContactFrame| self.parts.swapped && c.name == report.name;
+        let first = frame.contacts.iter().position(place);
+        let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
         let mut centre = (Vec3::ZERO, 0.0);
         let mut gap_min: Option<f64> = None;
         for row in 0..self.parts.discretization.nrow() {
             let area = self.area(row);
             let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
-            let (mut pressure, mut status) = (0.0, Status::Absent);
+            // a point of a rule may have no area at all
+            let per_area = match self.parts.measure {
+                Measure::Area => 1.0,
+                Measure::Node => area.recip(),
+            };
+            let (mut pressure, mut pull, mut status) = (0.0, Vec3::ZERO, Status::Absent);
             let found = scratch.rows.rows().first();
             if let Some(filled) = found {
                 gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
@@ -40,7 +86,8 @@ impl Interface {
             if let Some(filled) = found.filter(|_| acts) {
                 let traction = self.traction(filled, &self.lambda(row, state));
                 let measure = self.measure(row);
-                pressure = traction.pressure * measure / area;
+                pressure = traction.pressure * per_area;
+                pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
                 report.force_normal += filled.normal * (traction.pressure * measure);
                 report.force_shear -= traction.tangential * measure;
                 status = match traction.state {
@@ -57,6 +104,12 @@ impl Interface {
                 Status::Slip => report.area_slip += area,
             }
             let slip = self.history.slip(row);
+            let of_row = found.map(|filled| OfRow {
+                gap: filled.gap,
+                pressure,
+                traction: pull,
+                slip,
+            });
             report.pressure_max = report.pressure_max.max(pressure);
             report.slip_max = report.slip_max.max(slip.norm());
             let point = self.parts.discretization.point(row);
@@ -67,50 +120,37 @@ impl Interface {
                 let Ok(k) = self.parts.pair.points.binary_search(node) else {
                     continue;
                 };
-                let weight = area * shape * shape;
-                if let Some(filled) = found {
-                    means.weight[k] += weight;
-                    means.gap[k] += weight * filled.gap;
-                    means.pressure[k] += weight * pressure;
-                    means.slip[k] += slip * weight;
+                if let Some(of_row) = &of_row {
+                    means.add(k, area * shape * shape, of_row);
                 }
                 if status.number() > report.status[k].number() {
                     report.status[k] = status;
                 }
             }
+            if let (Some(first), Some(of_row)) = (first, of_row) {
+                let nodes = &frame.contacts[first].nodes;
+                self.add_across(row, state, area, of_row, nodes, &mut across)?;
+            }
             if acts {
                 self.add_forces(row, state, Order::Residual, &mut scratch);
-                self.distribute(
-                    &scratch.rows,
-                    &scratch.force,
-                    row,
-                    state,
-                    &mut report,
-                    frame,
-                );
+                let forces = (&scratch.rows, &scratch.force[..]);
+                self.distribute(row, forces, state, (&mut report, first), frame);
             }
         }
-        for (k, weight) in means.weight.iter().enumerate().filter(|(_, w)| **w > 0.0) {
-            report.gap[k] = means.gap[k] / weight;
-            report.pressure[k] = means.pressure[k] / weight;
-            report.slip[k] = means.slip[k] / *weight;
+        for k in 0..report.nodes.len() {
+            if let Some(mean) = means.of(k) {
+                report.gap[k] = mean.gap;
+                report.pressure[k] = mean.pressure;
+                report.traction[k] = mean.traction;
+                report.slip[k] = mean.slip;
+            }
         }
-        self.finish(report, centre, gap_min, frame);
-        Ok(())
-    }
-
-    fn finish(
-        &self,
-        mut report: ContactFrame,
-        centre: (Vec3, f64),
-        gap_min: Option<f64>,
-        frame: &mut Frame,
-    ) {
-        for (k, area) in report.area.iter().enumerate() {
-            report.traction[k] = report.force[k] / *area;
-            let node = report.nodes[k] as usize;
-            if let Some(to) = frame.contact_pressure.get_mut(node) {
-                *to = to.max(report.pressure[k]);
+        if let Some(first) = first.and_then(|c| frame.contacts.get_mut(c)) {
+            for k in 0..first.nodes.len() {
+                if let Some(mean) = across.of(k) {
+                    first.pressure[k] += mean.pressure;
+                    first.traction[k] += mean.traction;
+                }
             }
         }
         if centre.1 > 0.0 {
@@ -118,13 +158,55 @@ impl Interface {
         }
         report.gap_min = gap_min.unwrap_or(0.0);
         report.work_friction = self.history.work;
-        if self.parts.swapped
-            && let Some(first) = frame.contacts.iter_mut().find(|c| c.name == report.name)
-        {
-            first.add_pass(&report);
-        } else {
-            frame.contacts.push(report);
+        match first.and_then(|c| frame.contacts.get_mut(c)) {
+            Some(first) => first.add_pass(&report),
+            None => frame.contacts.push(report),
         }
+        let whole = first.unwrap_or(frame.contacts.len() - 1);
+        let Frame {
+            contacts,
+            contact_pressure,
+            ..
+        } = frame;
+        for (&node, pressure) in contacts[whole].nodes.iter().zip(&contacts[whole].pressure) {
+            if let Some(to) = contact_pressure.get_mut(node as usize) {
+                *to = to.max(*pressure);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a row to the means at the nodes of the facet that it acts on.
+    fn add_across(
+        &self,
+        row: usize,
+        state: &State,
+        area: f64,
+        of_row: OfRow,
+        nodes: &[NodeId],
+        means: &mut Means,
+    ) -> Result<(), TermError> {
+        let surface = self.parts.pair.primary.as_ref();
+        let Some(found) = &self.now.pairs[row] else {
+            return Ok(());
+        };
+        let mut jet = SurfaceJet::default();
+        surface
+            .jet(&state.placement(), &found.anchor, &mut jet)
+            .map_err(|e| self.failed(&e))?;
+        let Carrier::Nodes(facet) = surface.carrier(found.anchor.facet) else {
+            return Ok(());
+        };
+        let reaction = OfRow {
+            traction: -of_row.traction,
+            ..of_row
+        };
+        for (node, shape) in facet.iter().zip(jet.shape) {
+            if let Ok(k) = nodes.binary_search(node) {
+                means.add(k, area * shape * shape, &reaction);
+            }
+        }
+        Ok(())
     }
 
     fn new_report(&self, state: &State) -> ContactFrame {
@@ -180,14 +262,14 @@ impl Interface {
         }
     }
 
-    /// Adds the forces of a row to the nodes, the resultants of both sides, and the rigid bodies.
+    /// Adds the forces of a row to the nodes, the resultants of both sides, and the rigid bodies; and to the nodes of
+    /// the first pass, where this is the second.
     fn distribute(
         &self,
-        rows: &Rows,
-        internal: &[f64],
         row: usize,
+        (rows, internal): (&Rows, &[f64]),
         state: &State,
-        report: &mut ContactFrame,
+        (report, first): (&mut ContactFrame, Option<usize>),
         frame: &mut Frame,
     ) {
         let mut column = 0;
@@ -210,6 +292,11 @@ impl Interface {
                         }
                         &mut report.secondary
                     } else {
+                        if let Some(first) = first.and_then(|c| frame.contacts.get_mut(c))
+                            && let Ok(k) = first.nodes.binary_search(&node)
+                        {
+                            first.force[k] += force;
+                        }
                         &mut report.primary
                     };
                     add(side, force, x.cross(force));

@@ -1,6 +1,5 @@
 //! What a direct solution costs, told from the pattern alone.
 
-use super::direct::node_of;
 use super::matrix::Matrix;
 use super::ordering::{self, Ordering};
 use super::{LinearError, Problem, cholesky};
@@ -45,7 +44,7 @@ impl Forecast {
             ..Self::default()
         };
         if problem.nequation > 0 {
-            let order = ordering::order(&matrix, &node_of(problem), problem.sign, Ordering::Auto)?;
+            let order = ordering::order(problem, &matrix, Ordering::Auto)?;
             (forecast.nfactor, forecast.work) = cholesky::size(&matrix, &order)?;
         }
         Ok(Some(forecast))

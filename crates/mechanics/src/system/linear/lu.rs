@@ -109,9 +109,7 @@ impl Lu {
     /// Factorizes the matrix with `shift` added to its diagonal.
     pub fn factorize(&mut self, matrix: &mut Matrix, shift: f64) -> Result<(), LinearError> {
         let n = matrix.nequation();
-        if shift != 0.0 {
-            (0..n).for_each(|e| shift_diagonal(matrix, e, shift));
-        }
+        matrix.shift(shift);
         let (start, row, value) = match &mut self.whole {
             Some(whole) => {
                 for (value, &at) in whole.value.iter_mut().zip(&whole.from) {
@@ -145,9 +143,7 @@ impl Lu {
                 nentry: row.len(),
             },
         });
-        if shift != 0.0 {
-            (0..n).for_each(|e| shift_diagonal(matrix, e, -shift));
-        }
+        matrix.shift(-shift);
         result
     }
 
@@ -162,9 +158,4 @@ impl Lu {
             MemStack::new(&mut self.memory),
         );
     }
-}
-
-fn shift_diagonal(matrix: &mut Matrix, e: usize, shift: f64) {
-    let at = matrix.diagonal(e);
-    matrix.value[at] += shift;
 }

@@ -186,6 +186,16 @@ impl Matrix {
         }
     }
 
+    /// Adds `shift` to the diagonal.
+    pub fn shift(&mut self, shift: f64) {
+        if shift != 0.0 {
+            for e in 0..self.nequation() {
+                let at = self.diagonal(e);
+                self.value[at] += shift;
+            }
+        }
+    }
+
     /// Adds up bulk and interface and equilibrates.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Nested dissection by METIS: the only call into C of this room.
+//! Nested dissection by METIS: the only call into that library.
 //!
 //! G. Karypis and V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs,
 //! SIAM J. Sci. Comput. 20 (1998) 359–392.

@@ -15,9 +15,12 @@
 mod cholesky;
 mod direct;
 mod forecast;
+mod gathered;
 mod lu;
 mod matrix;
 mod metis;
+#[cfg(feature = "mumps")]
+mod mumps;
 mod operator;
 mod ordering;
 #[cfg(test)]
@@ -25,6 +28,8 @@ mod tests;
 
 pub use direct::Direct;
 pub use forecast::Forecast;
+#[cfg(feature = "mumps")]
+pub use mumps::Mumps;
 pub use operator::{apply, apply_absolute};
 
 use super::sparsity::{BlockPattern, NONE, Pattern};
@@ -287,6 +292,19 @@ pub enum LinearError {
         /// The first number outside.
         end: usize,
     },
+    /// A foreign library gives up for a reason of its own.
+    #[error(
+        "{name} gives up with code {code}, {detail}: its manual tells what they mean; \
+        the solver \"direct\" does without it"
+    )]
+    Library {
+        /// The library.
+        name: &'static str,
+        /// Its code.
+        code: i32,
+        /// What it says about the code.
+        detail: i32,
+    },
     /// A call came before the one that it depends on.
     #[error("linear solver: call {before} first")]
     Order {
@@ -303,6 +321,9 @@ pub enum LinearKind {
     Auto,
     /// A sparse factorization.
     Direct,
+    /// That of the library MUMPS.
+    #[cfg(feature = "mumps")]
+    Mumps,
 }
 
 /// A line of the table of solvers.
@@ -327,6 +348,12 @@ pub const SOLVERS: &[SolverEntry] = &[
         kind: LinearKind::Direct,
         name: "direct",
         build: || Box::new(Direct::reproducible()),
+    },
+    #[cfg(feature = "mumps")]
+    SolverEntry {
+        kind: LinearKind::Mumps,
+        name: "mumps",
+        build: || Box::new(Mumps::new()),
     },
 ];
 

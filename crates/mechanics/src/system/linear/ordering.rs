@@ -15,7 +15,7 @@
 //! elimination tree, so that columns of like pattern lie side by side.
 
 use super::metis;
-use super::{LinearError, matrix::Matrix};
+use super::{LinearError, Problem, matrix::Matrix};
 use crate::system::sparsity::NONE;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -94,16 +94,14 @@ pub(super) enum Ordering {
     NestedDissection,
 }
 
-/// Orders the equations of a symmetric matrix: `order[new] = old`.
-///
-/// `node` gives the node of each equation, [`NONE`] where it has none; `sign` is −1 for multipliers.
+/// Orders the equations of a problem and its matrix: `order[new] = old`. What is not symmetric is ordered as A + Aᵀ.
 pub(super) fn order(
+    problem: &Problem,
     matrix: &Matrix,
-    node: &[u32],
-    sign: &[i8],
     ordering: Ordering,
 ) -> Result<Vec<u32>, LinearError> {
-    let group = groups(matrix, node, sign);
+    let sign = problem.sign;
+    let group = groups(matrix, &node_of(problem), sign);
     let ngroup = group.iter().map(|&g| g as usize + 1).max().unwrap_or(0);
     let mut weight = vec![0u32; ngroup];
     for &g in &group {
@@ -128,6 +126,22 @@ pub(super) fn order(
         None => minimum_degree(&graph)?,
     };
     Ok(expand(&group, &postorder(&graph, &first), sign))
+}
+
+/// The node of each equation; none for those outside the bulk.
+fn node_of(problem: &Problem) -> Vec<u32> {
+    let mut node = vec![NONE; problem.nequation];
+    let nbulk = problem.bulk.nrow() * problem.bulk.block;
+    for (d, &e) in problem
+        .equation
+        .iter()
+        .enumerate()
+        .take(nbulk)
+        .filter(|&(_, &e)| e != NONE)
+    {
+        node[e as usize] = (d / problem.bulk.block) as u32;
+    }
+    node
 }
 
 /// The group of each equation, numbered by first appearance.

@@ -229,8 +229,14 @@ fn random_matrix(n: usize, symmetry: Symmetry, random: &mut Random) -> Vec<f64> 
     matrix
 }
 
+/// One of every kind that this build has.
+fn solvers() -> impl Iterator<Item = Box<dyn LinearSolver>> {
+    let kinds = SOLVERS.iter().filter(|s| s.kind != LinearKind::Auto);
+    kinds.map(|s| (s.build)())
+}
+
 /// Solves and compares with the dense oracle; the report comes back.
-fn check(system: &System, solver: &mut Direct, seed: u64, tolerance: f64) -> SolveReport {
+fn check(system: &System, solver: &mut dyn LinearSolver, seed: u64, tolerance: f64) -> SolveReport {
     let assembled = system.assemble();
     let mut random = Random(seed);
     let rhs = random.vector(assembled.nequation);
@@ -363,6 +369,10 @@ fn definite_systems_match_the_dense_oracle() {
             let report = check(&system, &mut Direct::with_ordering(ordering), seed, 1e-9);
             assert_eq!((report.negative_pivots, report.refinements), (0, 0));
         }
+        for mut solver in solvers() {
+            let report = check(&system, solver.as_mut(), seed, 1e-9);
+            assert_eq!((report.negative_pivots, report.refinements), (0, 0));
+        }
     }
 }
 
@@ -376,7 +386,9 @@ fn unsymmetric_systems_match_the_dense_oracle() {
         (200, 1, 20, 5),
     ] {
         let system = System::random(nnode, block, nextra, Symmetry::Unsymmetric, seed);
-        check(&system, &mut Direct::new(), seed, 1e-8);
+        for mut solver in solvers() {
+            check(&system, solver.as_mut(), seed, 1e-8);
+        }
     }
 }
 
@@ -395,12 +407,13 @@ fn indefinite_tangents_are_solved_and_their_negative_pivots_counted() {
             .interface
             .extend((0..system.ndof as u32).map(|dof| (vec![dof], vec![-push])));
         let negative = values.iter().filter(|&&value| value < push).count();
-        let mut solver = Direct::new();
-        for _ in 0..2 {
-            assert_eq!(
-                check(&system, &mut solver, seed, 1e-7).negative_pivots,
-                negative
-            );
+        for mut solver in solvers() {
+            for _ in 0..2 {
+                assert_eq!(
+                    check(&system, solver.as_mut(), seed, 1e-7).negative_pivots,
+                    negative
+                );
+            }
         }
     }
 }
@@ -412,11 +425,18 @@ fn a_tangent_that_recovers_is_factorized_as_definite_again() {
     pushed.interface.push((vec![59], vec![-1e3]));
     let mut relieved = stable.clone();
     relieved.interface.push((vec![59], vec![0.0]));
-    let mut solver = Direct::new();
-    assert_eq!(check(&relieved, &mut solver, 1, 1e-9).negative_pivots, 0);
-    assert_eq!(check(&pushed, &mut solver, 1, 1e-9).negative_pivots, 1);
-    for _ in 0..2 {
-        assert_eq!(check(&relieved, &mut solver, 1, 1e-9).negative_pivots, 0);
+    for mut solver in solvers() {
+        assert_eq!(
+            check(&relieved, solver.as_mut(), 1, 1e-9).negative_pivots,
+            0
+        );
+        assert_eq!(check(&pushed, solver.as_mut(), 1, 1e-9).negative_pivots, 1);
+        for _ in 0..2 {
+            assert_eq!(
+                check(&relieved, solver.as_mut(), 1, 1e-9).negative_pivots,
+                0
+            );
+        }
     }
 }
 
@@ -437,6 +457,75 @@ fn saddles_with_a_zero_block_are_solved_in_every_order() {
             // the shift on the zero block is always refined away
             assert!(report.refinements > 0, "{report:?}");
         }
+        for mut solver in solvers() {
+            let report = check(&system, solver.as_mut(), 3, 1e-6);
+            assert_eq!(report.negative_pivots, nmultiplier);
+        }
+    }
+}
+
+/// Two blocks on top of each other that slip: a penalty between them, and friction of `mu` times its force.
+fn slipping_blocks(n: [usize; 3], penalty: f64, mu: f64) -> System {
+    let layer = (n[0] + 1) * (n[1] + 1);
+    let mut system = System::new(2 * nnode(n), 3, 0, Symmetry::Unsymmetric);
+    add_block(&mut system, n, [1.0; 3], 1.0, 0);
+    add_block(&mut system, n, [1.0; 3], 20.0, nnode(n));
+    let top = 3 * (2 * nnode(n) - layer) as u32;
+    system.held = (0..3 * layer as u32)
+        .chain(top..system.ndof as u32)
+        .collect();
+    for node in 0..layer {
+        let lower = 3 * (nnode(n) - layer + node) as u32;
+        let upper = 3 * (nnode(n) + node) as u32;
+        // the gap is u(upper, z) - u(lower, z); forces act along x and z
+        let force = [-mu, -1.0, mu, 1.0].map(|f| f * penalty);
+        let matrix = force.iter().flat_map(|f| [0.0, -f, 0.0, *f]).collect();
+        let dofs = vec![lower, lower + 2, upper, upper + 2];
+        system.interface.push((dofs, matrix));
+    }
+    system
+}
+
+#[test]
+fn all_solvers_agree_on_systems_of_contact() {
+    let n = [6, 5, 4];
+    let systems = [
+        clamped_block(n, [1.0; 3]),
+        tied_blocks(n, [1.0, 20.0]),
+        tied_blocks(n, [2.1e5, 70.0]),
+        slipping_blocks(n, 10.0, 0.3),
+        slipping_blocks(n, 1e4, 0.9),
+    ];
+    for (at, system) in systems.iter().enumerate() {
+        let assembled = system.assemble();
+        // forces on displacements, as gaps are closed in a Newton iteration
+        let truth = Random(7).vector(assembled.nequation);
+        let (mut raw, mut product) = (vec![0.0; system.ndof], vec![0.0; system.ndof]);
+        let mut rhs = vec![0.0; assembled.nequation];
+        let numbered = || {
+            assembled
+                .equation
+                .iter()
+                .enumerate()
+                .filter(|&(_, &e)| e != NONE)
+        };
+        numbered().for_each(|(d, &e)| raw[d] = truth[e as usize]);
+        let (bulk, interface) = (&assembled.bulk, &assembled.interface);
+        apply(bulk, interface, &assembled.values(), &raw, &mut product);
+        numbered().for_each(|(d, &e)| rhs[e as usize] = product[d]);
+        for mut solver in solvers() {
+            let mut x = vec![f64::NAN; rhs.len()];
+            solver.analyze(&assembled.problem()).unwrap();
+            solver.factorize(&assembled.values()).unwrap();
+            let report = solver
+                .solve(&assembled.values(), &rhs, &mut x, 1e-12)
+                .unwrap();
+            let off = x.iter().zip(&truth).map(|(x, truth)| (x - truth).abs());
+            let off = off.fold(0.0, f64::max);
+            println!("system {at}: {report:?}, off by {off:.1e}");
+            assert!(report.residual <= 1e-12, "system {at}: {report:?}");
+            assert!(off < 1e-8, "system {at}: off by {off:e}");
+        }
     }
 }
 
@@ -450,8 +539,10 @@ fn zero_diagonals_that_are_no_multipliers_are_solved() {
             vec![0.0, 2.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 3.0],
         ));
     }
-    let report = check(&system, &mut Direct::new(), 1, 1e-12);
-    assert_eq!(report.negative_pivots, 4);
+    for mut solver in solvers() {
+        let report = check(&system, solver.as_mut(), 1, 1e-12);
+        assert_eq!(report.negative_pivots, 4);
+    }
 }
 
 #[test]
@@ -475,26 +566,27 @@ fn bodies_that_nothing_holds_are_singular() {
                 system.symmetry = symmetry;
                 system.held = held;
                 let assembled = system.assemble();
-                let mut solver = Direct::new();
-                solver.analyze(&assembled.problem()).unwrap();
-                let error = solver.factorize(&assembled.values()).unwrap_err();
-                assert!(
-                    matches!(error, LinearError::Singular { equation: Some(_) }),
-                    "{symmetry:?} {n:?} {error:?}"
-                );
-                let (rhs, mut x) = (
-                    vec![1.0; assembled.nequation],
-                    vec![0.0; assembled.nequation],
-                );
-                let error = solver
-                    .solve(&assembled.values(), &rhs, &mut x, 1e-8)
-                    .unwrap_err();
-                assert_eq!(
-                    error,
-                    LinearError::Order {
-                        before: "factorize"
-                    }
-                );
+                for mut solver in solvers() {
+                    solver.analyze(&assembled.problem()).unwrap();
+                    let error = solver.factorize(&assembled.values()).unwrap_err();
+                    assert!(
+                        matches!(error, LinearError::Singular { equation: Some(_) }),
+                        "{symmetry:?} {n:?} {error:?}"
+                    );
+                    let (rhs, mut x) = (
+                        vec![1.0; assembled.nequation],
+                        vec![0.0; assembled.nequation],
+                    );
+                    let error = solver
+                        .solve(&assembled.values(), &rhs, &mut x, 1e-8)
+                        .unwrap_err();
+                    assert_eq!(
+                        error,
+                        LinearError::Order {
+                            before: "factorize"
+                        }
+                    );
+                }
             }
         }
     }
@@ -515,21 +607,22 @@ fn the_named_equation_belongs_to_the_free_body() {
             let held = if free_is_first { nnode(n) } else { 0 };
             system.held = (3 * held as u32..3 * held as u32 + 36).collect();
             let assembled = system.assemble();
-            let mut solver = Direct::new();
-            solver.analyze(&assembled.problem()).unwrap();
-            let error = solver.factorize(&assembled.values()).unwrap_err();
-            let LinearError::Singular {
-                equation: Some(equation),
-            } = error
-            else {
-                panic!("{error:?}")
-            };
-            let dof = assembled
-                .equation
-                .iter()
-                .position(|&e| e as usize == equation)
-                .unwrap();
-            assert_eq!(dof < 3 * nnode(n), free_is_first, "{symmetry:?}: dof {dof}");
+            for mut solver in solvers() {
+                solver.analyze(&assembled.problem()).unwrap();
+                let error = solver.factorize(&assembled.values()).unwrap_err();
+                let LinearError::Singular {
+                    equation: Some(equation),
+                } = error
+                else {
+                    panic!("{error:?}")
+                };
+                let dof = assembled
+                    .equation
+                    .iter()
+                    .position(|&e| e as usize == equation)
+                    .unwrap();
+                assert_eq!(dof < 3 * nnode(n), free_is_first, "{symmetry:?}: dof {dof}");
+            }
         }
     }
 }
@@ -578,10 +671,11 @@ fn a_zero_row_is_named() {
         system.held.clear();
         system.interface.retain(|(dofs, _)| !dofs.contains(&30));
         let assembled = system.assemble();
-        let mut solver = Direct::new();
-        solver.analyze(&assembled.problem()).unwrap();
-        let error = solver.factorize(&assembled.values()).unwrap_err();
-        assert_eq!(error, LinearError::Singular { equation: Some(30) });
+        for mut solver in solvers() {
+            solver.analyze(&assembled.problem()).unwrap();
+            let error = solver.factorize(&assembled.values()).unwrap_err();
+            assert_eq!(error, LinearError::Singular { equation: Some(30) });
+        }
     }
 }
 
@@ -593,13 +687,14 @@ fn a_doubled_constraint_is_not_solved_wrongly() {
     system.ndof += 1;
     system.interface.push((dofs, row));
     let assembled = system.assemble();
-    let mut solver = Direct::new();
-    solver.analyze(&assembled.problem()).unwrap();
-    let error = solver.factorize(&assembled.values()).unwrap_err();
-    assert!(
-        matches!(error, LinearError::Singular { equation: Some(_) }),
-        "{error:?}"
-    );
+    for mut solver in solvers() {
+        solver.analyze(&assembled.problem()).unwrap();
+        let error = solver.factorize(&assembled.values()).unwrap_err();
+        assert!(
+            matches!(error, LinearError::Singular { equation: Some(_) }),
+            "{error:?}"
+        );
+    }
 }
 
 #[test]
@@ -625,70 +720,71 @@ fn ill_conditioned_systems_reach_the_residual() {
                 ));
             }
             let assembled = system.assemble();
-            let mut solver = Direct::new();
-            solver.analyze(&assembled.problem()).unwrap();
-            solver.factorize(&assembled.values()).unwrap();
-            // a right-hand side of the size of the terms that cancel: 1e-12 can be asked
-            let truth = Random(1).vector(assembled.nequation);
-            let mut raw = vec![0.0; system.ndof];
-            for (d, &e) in assembled
-                .equation
-                .iter()
-                .enumerate()
-                .filter(|&(_, &e)| e != NONE)
-            {
-                raw[d] = truth[e as usize];
+            for mut solver in solvers() {
+                solver.analyze(&assembled.problem()).unwrap();
+                solver.factorize(&assembled.values()).unwrap();
+                // a right-hand side of the size of the terms that cancel: 1e-12 can be asked
+                let truth = Random(1).vector(assembled.nequation);
+                let mut raw = vec![0.0; system.ndof];
+                for (d, &e) in assembled
+                    .equation
+                    .iter()
+                    .enumerate()
+                    .filter(|&(_, &e)| e != NONE)
+                {
+                    raw[d] = truth[e as usize];
+                }
+                let mut product = vec![0.0; system.ndof];
+                apply(
+                    &assembled.bulk,
+                    &assembled.interface,
+                    &assembled.values(),
+                    &raw,
+                    &mut product,
+                );
+                let mut rhs = vec![0.0; assembled.nequation];
+                for (d, &e) in assembled
+                    .equation
+                    .iter()
+                    .enumerate()
+                    .filter(|&(_, &e)| e != NONE)
+                {
+                    rhs[e as usize] = product[d];
+                }
+                let mut x = vec![0.0; assembled.nequation];
+                let report = solver
+                    .solve(&assembled.values(), &rhs, &mut x, 1e-14)
+                    .unwrap();
+                assert!(
+                    report.residual <= 1e-14,
+                    "{symmetry:?} {penalty:e} {report:?}"
+                );
+                // any other: as far as round-off lets it, and the solver says how far
+                let rhs = Random(2).vector(assembled.nequation);
+                let report = solver
+                    .solve(&assembled.values(), &rhs, &mut x, 1e-15)
+                    .unwrap();
+                for (d, &e) in assembled
+                    .equation
+                    .iter()
+                    .enumerate()
+                    .filter(|&(_, &e)| e != NONE)
+                {
+                    raw[d] = x[e as usize];
+                }
+                apply_absolute(
+                    &assembled.bulk,
+                    &assembled.interface,
+                    &assembled.values(),
+                    &raw,
+                    &mut product,
+                );
+                let attainable = 4.0 * f64::EPSILON * largest(&product) / largest(&rhs);
+                assert!(
+                    report.residual <= attainable,
+                    "{penalty:e} {report:?} {attainable:e}"
+                );
             }
-            let mut product = vec![0.0; system.ndof];
-            apply(
-                &assembled.bulk,
-                &assembled.interface,
-                &assembled.values(),
-                &raw,
-                &mut product,
-            );
-            let mut rhs = vec![0.0; assembled.nequation];
-            for (d, &e) in assembled
-                .equation
-                .iter()
-                .enumerate()
-                .filter(|&(_, &e)| e != NONE)
-            {
-                rhs[e as usize] = product[d];
-            }
-            let mut x = vec![0.0; assembled.nequation];
-            let report = solver
-                .solve(&assembled.values(), &rhs, &mut x, 1e-14)
-                .unwrap();
-            assert!(
-                report.residual <= 1e-14,
-                "{symmetry:?} {penalty:e} {report:?}"
-            );
-            // any other: as far as round-off lets it, and the solver says how far
-            let rhs = Random(2).vector(assembled.nequation);
-            let report = solver
-                .solve(&assembled.values(), &rhs, &mut x, 1e-15)
-                .unwrap();
-            for (d, &e) in assembled
-                .equation
-                .iter()
-                .enumerate()
-                .filter(|&(_, &e)| e != NONE)
-            {
-                raw[d] = x[e as usize];
-            }
-            apply_absolute(
-                &assembled.bulk,
-                &assembled.interface,
-                &assembled.values(),
-                &raw,
-                &mut product,
-            );
-            let attainable = 4.0 * f64::EPSILON * largest(&product) / largest(&rhs);
-            assert!(
-                report.residual <= attainable,
-                "{penalty:e} {report:?} {attainable:e}"
-            );
         }
     }
 }
@@ -700,21 +796,22 @@ fn slender_structures_are_not_taken_for_free_bodies() {
         let mut system = clamped_block([1, 1, 200], [1.0, 1.0, 10.0]);
         system.symmetry = symmetry;
         let assembled = system.assemble();
-        let mut solver = Direct::new();
-        solver.analyze(&assembled.problem()).unwrap();
-        solver.factorize(&assembled.values()).unwrap();
-        let mut rhs = vec![0.0; assembled.nequation];
-        for corner in 0..4 {
-            rhs[assembled.nequation - 3 * corner - 3] = 0.25;
+        for mut solver in solvers() {
+            solver.analyze(&assembled.problem()).unwrap();
+            solver.factorize(&assembled.values()).unwrap();
+            let mut rhs = vec![0.0; assembled.nequation];
+            for corner in 0..4 {
+                rhs[assembled.nequation - 3 * corner - 3] = 0.25;
+            }
+            let mut x = vec![0.0; assembled.nequation];
+            solver
+                .solve(&assembled.values(), &rhs, &mut x, 1e-10)
+                .unwrap();
+            // Euler–Bernoulli, F L³ / 3 E I; fully integrated bricks of that length lock in shear, so only the order counts
+            let beam = 2000f64.powi(3) / 3.0 * 12.0;
+            let tip = x[assembled.nequation - 3] / beam;
+            assert!((0.005..1.05).contains(&tip), "{tip}");
         }
-        let mut x = vec![0.0; assembled.nequation];
-        solver
-            .solve(&assembled.values(), &rhs, &mut x, 1e-10)
-            .unwrap();
-        // Euler–Bernoulli, F L³ / 3 E I; fully integrated bricks of that length lock in shear, so only the order counts
-        let beam = 2000f64.powi(3) / 3.0 * 12.0;
-        let tip = x[assembled.nequation - 3] / beam;
-        assert!((0.005..1.05).contains(&tip), "{tip}");
     }
 }
 
@@ -729,7 +826,7 @@ fn repeated_factorizations_give_the_same_bits() {
         system.symmetry = symmetry;
         let assembled = system.assemble();
         let rhs = Random(3).vector(assembled.nequation);
-        let solve = |solver: &mut Direct| {
+        let solve = |solver: &mut dyn LinearSolver| {
             let mut x = vec![0.0; rhs.len()];
             solver.analyze(&assembled.problem()).unwrap();
             solver.factorize(&assembled.values()).unwrap();
@@ -738,15 +835,16 @@ fn repeated_factorizations_give_the_same_bits() {
                 .unwrap();
             x.iter().map(|x| x.to_bits()).collect::<Vec<_>>()
         };
-        let mut solver = Direct::new();
-        let first = solve(&mut solver);
-        assert_eq!(first, solve(&mut solver));
-        assert_eq!(first, solve(&mut Direct::new()));
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(1)
-            .build()
-            .unwrap();
-        assert_eq!(first, pool.install(|| solve(&mut Direct::new())));
+        for fresh in SOLVERS.iter().map(|s| s.build) {
+            let mut solver = fresh();
+            let first = solve(solver.as_mut());
+            assert!(first == solve(solver.as_mut()) && first == solve(fresh().as_mut()));
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(1)
+                .build()
+                .unwrap();
+            assert!(first == pool.install(|| solve(fresh().as_mut())));
+        }
     }
 }
 
@@ -800,15 +898,16 @@ fn two_dofs_may_share_an_equation() {
         Symmetry::Unsymmetric,
     ] {
         assembled.symmetry = symmetry;
-        let mut solver = Direct::new();
-        let mut x = vec![0.0; n];
-        solver.analyze(&assembled.problem()).unwrap();
-        solver.factorize(&assembled.values()).unwrap();
-        solver
-            .solve(&assembled.values(), &rhs, &mut x, 1e-12)
-            .unwrap();
-        for (i, x) in x.iter().enumerate() {
-            assert!((x - oracle[(i, 0)]).abs() < 1e-9, "{symmetry:?} {i}");
+        for mut solver in solvers() {
+            let mut x = vec![0.0; n];
+            solver.analyze(&assembled.problem()).unwrap();
+            solver.factorize(&assembled.values()).unwrap();
+            solver
+                .solve(&assembled.values(), &rhs, &mut x, 1e-12)
+                .unwrap();
+            for (i, x) in x.iter().enumerate() {
+                assert!((x - oracle[(i, 0)]).abs() < 1e-9, "{symmetry:?} {i}");
+            }
         }
     }
 }
@@ -899,21 +998,22 @@ fn a_factor_that_is_a_little_old_serves_as_preconditioner() {
         let new = system.assemble();
         let rhs = Random(5).vector(new.nequation);
         let mut x = vec![0.0; new.nequation];
-        let mut solver = Direct::new();
-        solver.analyze(&old.problem()).unwrap();
-        solver.factorize(&old.values()).unwrap();
-        let report = solver.solve(&new.values(), &rhs, &mut x, 1e-5).unwrap();
-        assert!(
-            report.refinements > 0 && report.residual <= 1e-5,
-            "{report:?}"
-        );
-        let error = solver.solve(&new.values(), &rhs, &mut x, 1e-14);
-        if symmetry != Symmetry::Symmetric {
-            // not enough for this: it says so
+        for mut solver in solvers() {
+            solver.analyze(&old.problem()).unwrap();
+            solver.factorize(&old.values()).unwrap();
+            let report = solver.solve(&new.values(), &rhs, &mut x, 1e-5).unwrap();
             assert!(
-                matches!(error, Err(LinearError::Inaccurate { residual, .. }) if residual > 1e-14),
-                "{error:?}"
+                report.refinements > 0 && report.residual <= 1e-5,
+                "{report:?}"
             );
+            let error = solver.solve(&new.values(), &rhs, &mut x, 1e-14);
+            if symmetry != Symmetry::Symmetric {
+                // not enough for this: it says so
+                assert!(
+                    matches!(error, Err(LinearError::Inaccurate { residual, .. }) if residual > 1e-14),
+                    "{error:?}"
+                );
+            }
         }
     }
 }
@@ -967,32 +1067,33 @@ fn numbers_that_are_not_finite_are_refused() {
     ] {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let assembled = System::random(10, 3, 2, symmetry, 3).assemble();
-            let mut solver = Direct::new();
-            solver.analyze(&assembled.problem()).unwrap();
-            let mut broken = assembled.bulk_values.clone();
-            let diagonal = assembled.bulk.position(5, 5).unwrap();
-            broken[9 * diagonal..9 * diagonal + 9].fill(bad);
-            let values = Values {
-                bulk: &broken,
-                interface: &assembled.interface_values,
-            };
-            assert_eq!(solver.factorize(&values), Err(LinearError::NotFinite));
-            solver.factorize(&assembled.values()).unwrap();
-            let mut rhs = vec![1.0; assembled.nequation];
-            let mut x = rhs.clone();
-            assert_eq!(
-                solver.solve(&values, &rhs, &mut x, 1e-8),
-                Err(LinearError::NotFinite)
-            );
-            rhs[3] = bad;
-            assert_eq!(
-                solver.solve(&assembled.values(), &rhs, &mut x, 1e-8),
-                Err(LinearError::NotFinite)
-            );
-            rhs[3] = 1.0;
-            solver
-                .solve(&assembled.values(), &rhs, &mut x, 1e-8)
-                .unwrap();
+            for mut solver in solvers() {
+                solver.analyze(&assembled.problem()).unwrap();
+                let mut broken = assembled.bulk_values.clone();
+                let diagonal = assembled.bulk.position(5, 5).unwrap();
+                broken[9 * diagonal..9 * diagonal + 9].fill(bad);
+                let values = Values {
+                    bulk: &broken,
+                    interface: &assembled.interface_values,
+                };
+                assert_eq!(solver.factorize(&values), Err(LinearError::NotFinite));
+                solver.factorize(&assembled.values()).unwrap();
+                let mut rhs = vec![1.0; assembled.nequation];
+                let mut x = rhs.clone();
+                assert_eq!(
+                    solver.solve(&values, &rhs, &mut x, 1e-8),
+                    Err(LinearError::NotFinite)
+                );
+                rhs[3] = bad;
+                assert_eq!(
+                    solver.solve(&assembled.values(), &rhs, &mut x, 1e-8),
+                    Err(LinearError::NotFinite)
+                );
+                rhs[3] = 1.0;
+                solver
+                    .solve(&assembled.values(), &rhs, &mut x, 1e-8)
+                    .unwrap();
+            }
         }
     }
 }
@@ -1007,116 +1108,120 @@ fn nothing_to_solve_succeeds() {
         let mut system = System::random(3, 2, 0, symmetry, 1);
         system.held = (0..6).collect();
         for assembled in [system.assemble(), System::new(0, 3, 0, symmetry).assemble()] {
-            let mut solver = choose(LinearKind::Auto);
-            solver.analyze(&assembled.problem()).unwrap();
-            solver.factorize(&assembled.values()).unwrap();
-            let report = solver
-                .solve(&assembled.values(), &[], &mut [], 1e-10)
-                .unwrap();
-            assert_eq!(report, SolveReport::default());
+            for mut solver in solvers() {
+                solver.analyze(&assembled.problem()).unwrap();
+                solver.factorize(&assembled.values()).unwrap();
+                let report = solver
+                    .solve(&assembled.values(), &[], &mut [], 1e-10)
+                    .unwrap();
+                assert_eq!(report, SolveReport::default());
+            }
         }
     }
     // and no force gives no motion
     let assembled = System::random(10, 3, 2, Symmetry::Definite, 3).assemble();
-    let mut solver = choose(LinearKind::Direct);
-    solver.analyze(&assembled.problem()).unwrap();
-    solver.factorize(&assembled.values()).unwrap();
-    let mut x = vec![1.0; assembled.nequation];
-    let report = solver
-        .solve(
-            &assembled.values(),
-            &vec![0.0; assembled.nequation],
-            &mut x,
-            1e-10,
-        )
-        .unwrap();
-    assert!(report.residual == 0.0 && x.iter().all(|&x| x == 0.0));
+    for kind in SOLVERS.iter().map(|s| s.kind) {
+        let mut solver = choose(kind);
+        solver.analyze(&assembled.problem()).unwrap();
+        solver.factorize(&assembled.values()).unwrap();
+        let mut x = vec![1.0; assembled.nequation];
+        let report = solver
+            .solve(
+                &assembled.values(),
+                &vec![0.0; assembled.nequation],
+                &mut x,
+                1e-10,
+            )
+            .unwrap();
+        assert!(report.residual == 0.0 && x.iter().all(|&x| x == 0.0));
+    }
 }
 
 #[test]
 fn calls_out_of_order_and_lists_that_do_not_fit_are_refused() {
     let assembled = System::random(10, 3, 2, Symmetry::Definite, 3).assemble();
-    let mut solver = Direct::new();
-    let rhs = vec![1.0; assembled.nequation];
-    let mut x = rhs.clone();
-    assert_eq!(
-        solver.factorize(&assembled.values()),
-        Err(LinearError::Order { before: "analyze" })
-    );
-    assert_eq!(
-        solver.solve(&assembled.values(), &rhs, &mut x, 1e-8),
-        Err(LinearError::Order { before: "analyze" })
-    );
-    solver.analyze(&assembled.problem()).unwrap();
-    assert_eq!(
-        solver.solve(&assembled.values(), &rhs, &mut x, 1e-8),
-        Err(LinearError::Order {
-            before: "factorize"
-        })
-    );
-    let short = Values {
-        bulk: &assembled.bulk_values[1..],
-        interface: &assembled.interface_values,
-    };
-    assert!(matches!(
-        solver.factorize(&short),
-        Err(LinearError::Shape {
-            what: "bulk values",
-            ..
-        })
-    ));
-    solver.factorize(&assembled.values()).unwrap();
-    let error = solver.solve(&assembled.values(), &rhs[1..], &mut x, 1e-8);
-    assert!(matches!(
-        error,
-        Err(LinearError::Shape {
-            what: "right-hand sides",
-            ..
-        })
-    ));
+    for mut solver in solvers() {
+        let rhs = vec![1.0; assembled.nequation];
+        let mut x = rhs.clone();
+        assert_eq!(
+            solver.factorize(&assembled.values()),
+            Err(LinearError::Order { before: "analyze" })
+        );
+        assert_eq!(
+            solver.solve(&assembled.values(), &rhs, &mut x, 1e-8),
+            Err(LinearError::Order { before: "analyze" })
+        );
+        solver.analyze(&assembled.problem()).unwrap();
+        assert_eq!(
+            solver.solve(&assembled.values(), &rhs, &mut x, 1e-8),
+            Err(LinearError::Order {
+                before: "factorize"
+            })
+        );
+        let short = Values {
+            bulk: &assembled.bulk_values[1..],
+            interface: &assembled.interface_values,
+        };
+        assert!(matches!(
+            solver.factorize(&short),
+            Err(LinearError::Shape {
+                what: "bulk values",
+                ..
+            })
+        ));
+        solver.factorize(&assembled.values()).unwrap();
+        let error = solver.solve(&assembled.values(), &rhs[1..], &mut x, 1e-8);
+        assert!(matches!(
+            error,
+            Err(LinearError::Shape {
+                what: "right-hand sides",
+                ..
+            })
+        ));
 
-    let problem = assembled.problem();
-    let refused = |problem: &Problem| Direct::new().analyze(problem).unwrap_err();
-    let mut equation = assembled.equation.clone();
-    equation[0] = assembled.nequation as u32;
-    assert!(matches!(
-        refused(&Problem {
-            equation: &equation,
-            ..problem
-        }),
-        LinearError::Range { .. }
-    ));
-    assert!(matches!(
-        refused(&Problem {
-            equation: &equation[1..],
-            ..problem
-        }),
-        LinearError::Shape { .. }
-    ));
-    assert!(matches!(
-        refused(&Problem {
-            sign: &[],
-            ..problem
-        }),
-        LinearError::Shape { .. }
-    ));
-    let mut bulk = assembled.bulk.clone();
-    bulk.column[0] = NONE;
-    assert!(matches!(
-        refused(&Problem {
-            bulk: &bulk,
-            ..problem
-        }),
-        LinearError::Range { .. }
-    ));
-    bulk.column[0] = 10;
-    assert!(matches!(
-        refused(&Problem {
-            bulk: &bulk,
-            ..problem
-        }),
-        LinearError::Range { .. }
-    ));
+        let problem = assembled.problem();
+        let mut refused = |problem: &Problem| solver.analyze(problem).unwrap_err();
+        let mut equation = assembled.equation.clone();
+        equation[0] = assembled.nequation as u32;
+        assert!(matches!(
+            refused(&Problem {
+                equation: &equation,
+                ..problem
+            }),
+            LinearError::Range { .. }
+        ));
+        assert!(matches!(
+            refused(&Problem {
+                equation: &equation[1..],
+                ..problem
+            }),
+            LinearError::Shape { .. }
+        ));
+        assert!(matches!(
+            refused(&Problem {
+                sign: &[],
+                ..problem
+            }),
+            LinearError::Shape { .. }
+        ));
+        let mut bulk = assembled.bulk.clone();
+        bulk.column[0] = NONE;
+        assert!(matches!(
+            refused(&Problem {
+                bulk: &bulk,
+                ..problem
+            }),
+            LinearError::Range { .. }
+        ));
+        bulk.column[0] = 10;
+        assert!(matches!(
+            refused(&Problem {
+                bulk: &bulk,
+                ..problem
+            }),
+            LinearError::Range { .. }
+        ));
+    }
 }
 
 #[test]
@@ -1160,6 +1265,15 @@ fn matrices_that_resist_elimination_without_pivoting_are_solved() {
         for (x, truth) in x.iter().zip(&truth) {
             assert!((x - truth).abs() < 1e-7, "{x} {truth}");
         }
+    }
+    for mut solver in solvers() {
+        solver.analyze(&assembled.problem()).unwrap();
+        solver.factorize(&assembled.values()).unwrap();
+        let report = solver
+            .solve(&assembled.values(), &rhs, &mut x, 1e-13)
+            .unwrap();
+        let off = x.iter().zip(&truth).map(|(x, truth)| (x - truth).abs());
+        assert!(report.residual <= 1e-13 && off.fold(0.0, f64::max) < 1e-7);
     }
 }
 
@@ -1247,6 +1361,27 @@ fn timing_of_fifty_thousand_equations() {
                 solver.nfactor() as f64 / 1e6,
                 report.residual
             );
+        }
+        for symmetry in [
+            Symmetry::Definite,
+            Symmetry::Symmetric,
+            Symmetry::Unsymmetric,
+        ] {
+            let problem = Problem {
+                symmetry,
+                ..assembled.problem()
+            };
+            for entry in SOLVERS.iter().filter(|s| s.kind != LinearKind::Auto) {
+                let mut solver = (entry.build)();
+                solver.analyze(&problem).unwrap();
+                let from = clock();
+                solver.factorize(&assembled.values()).unwrap();
+                println!(
+                    "  {symmetry:?}, {}: factorize {:?}",
+                    entry.name,
+                    from.elapsed()
+                );
+            }
         }
     }
 }

@@ -1,0 +1,262 @@
+//! The gathered matrix, and what a factor of it is used for, whichever it is: to look for free motions, and to solve
+//! and refine until the residual is small.
+//!
+//! A free motion is looked for by two steps of inverse iteration and one correction with the matrix itself. A vector x
+//! with |A x| < 4·10⁻¹⁵ |A| |x| is one: round-off leaves some 10⁻¹⁶ of a free motion, growing with the root of the size,
+//! and 10⁻¹³ of the softest motion of a stiffness matrix whose entries still resolve it.
+//!
+//! A factor comes as a function that solves with it, in place and in equilibrated unknowns.
+
+use super::matrix::Matrix;
+use super::{Kept, LinearError, Problem, SolveReport, Values, apply, apply_absolute, largest};
+use crate::system::sparsity::NONE;
+
+/// Refinements of one solution.
+const REFINEMENTS: usize = 3;
+/// What is left of a free motion after multiplication, relative to what is added up: at most this, or
+const FREE: f64 = 4e-15;
+/// this times the root of the number of equations (measured: a third of it at 30,000).
+const FREE_PER_ROOT: f64 = 0.5 * f64::EPSILON;
+/// A residual of so many units of round-off of what is added up cannot be improved.
+const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+/// What is added to the diagonal to find the free motion of a matrix whose factor broke down.
+pub(super) const NAMING_SHIFT: f64 = 1e-10;
+
+/// A factor that gives no numbers.
+#[derive(Debug)]
+pub(super) struct Breakdown;
+
+/// A problem with the matrix of its last values.
+pub(super) struct Gathered {
+    pub kept: Kept,
+    pub matrix: Matrix,
+    work: Work,
+}
+
+struct Work {
+    raw_x: Vec<f64>,
+    raw_y: Vec<f64>,
+    residual: Vec<f64>,
+    change: Vec<f64>,
+    best: Vec<f64>,
+}
+
+impl Gathered {
+    pub fn new(problem: &Problem) -> Result<Self, LinearError> {
+        let n = problem.nequation;
+        Ok(Self {
+            kept: Kept::new(problem),
+            matrix: Matrix::new(problem)?,
+            work: Work {
+                raw_x: vec![0.0; problem.ndof],
+                raw_y: vec![0.0; problem.ndof],
+                residual: vec![0.0; n],
+                change: vec![0.0; n],
+                best: vec![0.0; n],
+            },
+        })
+    }
+
+    /// Whether the problem is the one that this was made for.
+    pub fn is(&self, problem: &Problem) -> bool {
+        self.work.raw_x.len() == problem.ndof && self.kept.is(problem)
+    }
+
+    /// Takes the values of a tangent into the matrix.
+    ///
+    /// # Errors
+    /// `Shape`, `NotFinite`, and `Singular` with the equation where a row is zero.
+    pub fn gather(&mut self, values: &Values) -> Result<(), LinearError> {
+        self.kept.check(values)?;
+        self.matrix.gather(&self.kept, values)
+    }
+
+    /// Checks that the lists of a solution fit.
+    pub fn check(&self, values: &Values, rhs: &[f64], x: &[f64]) -> Result<(), LinearError> {
+        self.kept.check(values)?;
+        let wanted = self.matrix.nequation();
+        for (what, got) in [("right-hand sides", rhs.len()), ("unknowns", x.len())] {
+            if got != wanted {
+                return Err(LinearError::Shape { what, got, wanted });
+            }
+        }
+        Ok(())
+    }
+
+    /// The equation that moves most in a free motion, if there is one; found by inverse iteration from a scattered start.
+    pub fn free_motion(
+        &self,
+        mut back_substitute: impl FnMut(&mut [f64]),
+    ) -> Result<Option<usize>, Breakdown> {
+        let n = self.matrix.nequation();
+        let free = FREE.max(FREE_PER_ROOT * (n as f64).sqrt());
+        let scattered = |e: usize| 0.5 + ((e as f64 + 1.0) * 0.618_033_988_749_894_9).fract();
+        let mut x: Vec<f64> = (0..n)
+            .map(|e| {
+                if e % 2 == 0 {
+                    scattered(e)
+                } else {
+                    -scattered(e)
+                }
+            })
+            .collect();
+        let mut product = vec![0.0; n];
+        for _ in 0..2 {
+            back_substitute(&mut x);
+            let size = largest(&x);
+            if !size.is_finite() || size == 0.0 {
+                return Err(Breakdown);
+            }
+            x.iter_mut().for_each(|x| *x /= size);
+        }
+        for correction in 0..2 {
+            self.matrix.multiply(&x, &mut product, f64::abs);
+            let sum = largest(&product);
+            self.matrix.multiply(&x, &mut product, |a| a);
+            if largest(&product) < free * sum {
+                let moved = x
+                    .iter()
+                    .zip(&self.matrix.column_scale)
+                    .map(|(x, scale)| (x * scale).abs());
+                return Ok(moved
+                    .enumerate()
+                    .max_by(|a, b| a.1.total_cmp(&b.1))
+                    .map(|(e, _)| e));
+            }
+            // a factor of A + shift gives a motion that is off by the shift: correct it with A itself
+            if correction == 0 {
+                back_substitute(&mut product);
+                x.iter_mut().zip(&product).for_each(|(x, y)| *x -= y);
+            }
+        }
+        Ok(None)
+    }
+
+    /// Solves and refines, at least `at_least` times, until the residual of the operator is at most `rtol` or round-off.
+    ///
+    /// # Errors
+    /// `Inaccurate`, `NotFinite`.
+    pub fn refine(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        rtol: f64,
+        at_least: usize,
+        mut back_substitute: impl FnMut(&mut [f64]),
+    ) -> Result<SolveReport, LinearError> {
+        let wanted = largest(rhs);
+        if !wanted.is_finite() {
+            return Err(LinearError::NotFinite);
+        }
+        let mut report = SolveReport::default();
+        x.fill(0.0);
+        if wanted == 0.0 {
+            return Ok(report);
+        }
+        report.residual = 1.0;
+        self.work.residual.copy_from_slice(rhs);
+        self.work.best.fill(0.0);
+        for refinement in 0..=REFINEMENTS {
+            let change = &mut self.work.change;
+            for ((c, r), scale) in change
+                .iter_mut()
+                .zip(&self.work.residual)
+                .zip(&self.matrix.row_scale)
+            {
+                *c = r * scale;
+            }
+            back_substitute(change);
+            for ((x, c), scale) in x.iter_mut().zip(change).zip(&self.matrix.column_scale) {
+                *x += *c * scale;
+            }
+            report.iterations += 1;
+            report.refinements = refinement;
+            self.measure(values, rhs, x);
+            let residual = largest(&self.work.residual) / wanted;
+            if !residual.is_finite() {
+                return Err(LinearError::NotFinite);
+            }
+            let gain = residual / report.residual;
+            if gain < 1.0 {
+                report.residual = residual;
+                self.work.best.copy_from_slice(x);
+            }
+            if (report.residual <= rtol && refinement >= at_least) || (refinement > 0 && gain > 0.5)
+            {
+                break;
+            }
+        }
+        x.copy_from_slice(&self.work.best);
+        if report.residual <= rtol || report.residual <= self.round_off(values, x) / wanted {
+            Ok(report)
+        } else {
+            Err(LinearError::Inaccurate {
+                residual: report.residual,
+                wanted: rtol,
+            })
+        }
+    }
+
+    /// The true residual, through the operator as it was assembled.
+    fn measure(&mut self, values: &Values, rhs: &[f64], x: &[f64]) {
+        let Work {
+            raw_x,
+            raw_y,
+            residual,
+            ..
+        } = &mut self.work;
+        spread(&self.kept.equation, x, raw_x);
+        apply(&self.kept.bulk, &self.kept.interface, values, raw_x, raw_y);
+        residual.copy_from_slice(rhs);
+        for (&e, y) in self
+            .kept
+            .equation
+            .iter()
+            .zip(raw_y)
+            .filter(|&(&e, _)| e != NONE)
+        {
+            residual[e as usize] -= *y;
+        }
+    }
+
+    /// How large a residual round-off alone may leave.
+    fn round_off(&mut self, values: &Values, x: &[f64]) -> f64 {
+        let Work { raw_x, raw_y, .. } = &mut self.work;
+        spread(&self.kept.equation, x, raw_x);
+        apply_absolute(&self.kept.bulk, &self.kept.interface, values, raw_x, raw_y);
+        let equations = self
+            .kept
+            .equation
+            .iter()
+            .zip(raw_y)
+            .filter(|&(&e, _)| e != NONE);
+        ROUND_OFF * equations.fold(0.0, |max: f64, (_, y)| max.max(*y))
+    }
+}
+
+impl Kept {
+    /// Checks that values belong to the patterns.
+    fn check(&self, values: &Values) -> Result<(), LinearError> {
+        for (what, got, wanted) in [
+            ("bulk values", values.bulk.len(), self.bulk.nvalue()),
+            (
+                "interface values",
+                values.interface.len(),
+                self.interface.nentry(),
+            ),
+        ] {
+            if got != wanted {
+                return Err(LinearError::Shape { what, got, wanted });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Unknowns from equations to raw degrees of freedom, zero where there is no equation.
+fn spread(equation: &[u32], x: &[f64], raw: &mut [f64]) {
+    for (&e, raw) in equation.iter().zip(raw) {
+        *raw = x.get(e as usize).copied().unwrap_or(0.0);
+    }
+}
