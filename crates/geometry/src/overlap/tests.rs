@@ -282,7 +282,7 @@ fn integrals_over_covered_facets_are_exact_however_they_are_distorted_in_their_p
 
             let places: Vec<Pair<f64>> = x.iter().map(|x| [x.x, x.y]).collect();
             let bend = Flat::new(small, &places, Facing::Same).unwrap().bend();
-            let promised = (RATIO * bend).powi(MAX_DEGREE as i32).max(EXACT);
+            let promised = (FACTOR * (RATIO * bend).powi(MAX_DEGREE as i32)).max(EXACT);
             largest_bend = largest_bend.max(bend);
             let first = moments([small, large], &between([small, large], [&x, &around]));
             let second = moments([large, small], &between([large, small], [&around, &x]));
