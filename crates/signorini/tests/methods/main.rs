@@ -46,8 +46,8 @@ fn joined_within(method: &str) -> f64 {
 }
 
 /// By how much the integral of the pressures at the nodes may differ from the force: on blocks of a few cells they are
-/// means over a good part of what touches.
-const EVEN: f64 = 0.2;
+/// means over a good part of what touches. Those of one of two passes would be half of it.
+const EVEN: f64 = 0.4;
 
 /// Forces of one way with all laws that it may have; `auto` may be two ways.
 fn compare(scenes: &[Scene], outcomes: &[Option<Outcome>]) {
