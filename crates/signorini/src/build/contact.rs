@@ -147,6 +147,11 @@ fn bare(part: &Contact) -> Diagnostics {
             "write  method = \"node-to-segment\", or name a surface",
         ),
         (
+            *part.method == case::Method::Mortar,
+            "method \"mortar\"",
+            "write  method = \"node-to-segment\", or name a surface",
+        ),
+        (
             part.two_pass,
             "`passes` = 2",
             "write  passes = 1, or name a surface",
@@ -178,6 +183,7 @@ fn method(part: &Contact) -> Method {
     match *part.method {
         case::Method::Auto => Method::Auto,
         case::Method::NodeToSegment => Method::NodeToSegment,
+        case::Method::Mortar => Method::Mortar,
         case::Method::NodeToNode => Method::NodeToNode {
             normals: match part.normals {
                 Normals::Primary => model::Normals::Primary,
@@ -204,6 +210,7 @@ pub(super) fn word(method: &Method) -> &'static str {
     match method {
         Method::NodeToNode { .. } => "node-to-node",
         Method::GaussPoint(_) => "gauss-point",
+        Method::Mortar => "mortar",
         Method::Auto | Method::NodeToSegment => "node-to-segment",
     }
 }
@@ -213,6 +220,7 @@ pub(super) fn choose(part: &mut Contact, method: &Method) {
     part.method.value = match method {
         Method::NodeToNode { .. } => case::Method::NodeToNode,
         Method::GaussPoint(_) => case::Method::GaussPoint,
+        Method::Mortar => case::Method::Mortar,
         Method::Auto | Method::NodeToSegment => case::Method::NodeToSegment,
     };
 }

@@ -20,6 +20,7 @@ impl Builder {
                     "node-to-node" => Method::NodeToNode,
                     "node-to-segment" => Method::NodeToSegment,
                     "gauss-point" => Method::GaussPoint,
+                    "mortar" => Method::Mortar,
                     _ => Method::Auto,
                 },
                 method.place,
@@ -107,7 +108,7 @@ impl Builder {
         );
         only(
             "passes",
-            contact.two_pass && method == Method::NodeToNode,
+            contact.two_pass && matches!(method, Method::NodeToNode | Method::Mortar),
             "two passes belong to \"node-to-segment\" and \"gauss-point\"",
         );
         only(
@@ -117,8 +118,14 @@ impl Builder {
         );
         only(
             "enforcement",
-            contact.per == Some(Per::Node) && method == Method::GaussPoint,
-            "points inside of facets stand for areas: write  per = \"area\"",
+            contact.per == Some(Per::Node)
+                && matches!(method, Method::GaussPoint | Method::Mortar),
+            "it has pressures, and no forces of nodes: write  per = \"area\"",
+        );
+        only(
+            "area",
+            contact.area == Area::Current && method == Method::Mortar,
+            "its pressures are those of the present area: delete `area`",
         );
         if contact.is_with_itself() {
             let mut alone = |key: &str, wrong: bool, remark: &str| {
@@ -130,7 +137,7 @@ impl Builder {
             alone("passes", contact.two_pass, "both sides are the same");
             alone(
                 "method",
-                method == Method::NodeToNode,
+                matches!(method, Method::NodeToNode | Method::Mortar),
                 "write \"node-to-segment\" or \"gauss-point\"",
             );
             alone(

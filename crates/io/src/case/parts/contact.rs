@@ -66,6 +66,8 @@ pub enum Method {
     NodeToSegment,
     /// Points inside the facets of the secondary side against segments of the primary side.
     GaussPoint,
+    /// Means over the facets of the secondary side against all facets that they meet.
+    Mortar,
 }
 
 /// Points of a facet, along each of its directions.

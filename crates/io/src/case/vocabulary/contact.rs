@@ -94,7 +94,7 @@ const METHODS: &[Choice] = &[
     word("node-to-node"),
     word("node-to-segment"),
     word("gauss-point"),
-    Choice::later("mortar", "gauss-point"),
+    word("mortar"),
 ];
 const ENFORCEMENTS: &[Shape] = &[AUTO, Shape::Table(&ENFORCEMENT)];
 const FRICTIONS: &[Shape] = &[NOT_NEGATIVE, Shape::Table(&FRICTION)];

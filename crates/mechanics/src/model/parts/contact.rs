@@ -57,6 +57,8 @@ pub enum Method {
     NodeToSegment,
     /// Points inside the secondary facets against segments of the primary side.
     GaussPoint(PointRule),
+    /// Means over secondary facets against all facets of the primary side that they meet.
+    Mortar,
 }
 
 /// Where node-to-node contact takes its normals from.
