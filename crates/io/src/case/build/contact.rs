@@ -94,13 +94,22 @@ impl Builder {
             }
         };
         let method = *contact.method;
-        for key in ["normals", "pairs"] {
-            only(
-                key,
-                fields.has(key) && method != Method::NodeToNode,
-                "it belongs to  method = \"node-to-node\"",
-            );
-        }
+        let of_mortar = contact.normals == Normals::Nodal;
+        only(
+            "normals",
+            fields.has("normals")
+                && match method {
+                    Method::NodeToNode => of_mortar,
+                    Method::Mortar => !of_mortar,
+                    _ => true,
+                },
+            "\"nodal\" belongs to  method = \"mortar\", all others to \"node-to-node\"",
+        );
+        only(
+            "pairs",
+            fields.has("pairs") && method != Method::NodeToNode,
+            "it belongs to  method = \"node-to-node\"",
+        );
         only(
             "rule",
             fields.has("rule") && method != Method::GaussPoint,
@@ -402,8 +411,10 @@ impl Builder {
     }
 
     fn normals(&mut self, fields: Fields<'_>) -> Normals {
-        if fields.text("normals").value == "secondary" {
-            return Normals::Secondary;
+        match fields.text("normals").value.as_str() {
+            "secondary" => return Normals::Secondary,
+            "nodal" => return Normals::Nodal,
+            _ => {}
         }
         match self.vector_within(fields, "normals") {
             Some(vector) => {

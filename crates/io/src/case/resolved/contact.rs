@@ -41,6 +41,9 @@ pub(super) fn contact(contact: &Contact) -> Entries {
             ("normals", normals(&contact.normals)),
             ("pairs", pairs(contact.pairs)),
         ]),
+        Method::Mortar if contact.normals == Normals::Nodal => {
+            entries.push(("normals", "nodal".into()));
+        }
         Method::Auto | Method::NodeToSegment | Method::Mortar => {}
     }
     if contact.tied.is_none() {
@@ -66,6 +69,7 @@ fn normals(normals: &Normals) -> Value {
     match normals {
         Normals::Primary => "primary".into(),
         Normals::Secondary => "secondary".into(),
+        Normals::Nodal => "nodal".into(),
         Normals::Given(vector) => vector.into(),
     }
 }

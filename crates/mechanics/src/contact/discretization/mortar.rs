@@ -84,8 +84,7 @@ pub struct Mortar {
     kinds: Vec<(Element, Inverse)>,
     kind: Vec<usize>,
     area: Vec<f64>,
-    /// Which normals a pressure acts along.
-    pub normals: Normals,
+    normals: Normals,
     held: Option<Weights>,
 }
 
@@ -107,7 +106,7 @@ impl Mortar {
     ///
     /// # Errors
     /// A facet without a normal.
-    pub fn new(facets: &Facets, x: &[Vec3]) -> Result<Self, SurfaceError> {
+    pub fn new(facets: &Facets, normals: Normals, x: &[Vec3]) -> Result<Self, SurfaceError> {
         let nodes = along_a_curve(facets.all_nodes(), x);
         let mut kinds: Vec<(Element, Inverse)> = Vec::new();
         let mut kind = Vec::new();
@@ -157,7 +156,7 @@ impl Mortar {
             kinds,
             kind,
             area,
-            normals: Normals::Facet,
+            normals,
             held: None,
         })
     }

@@ -250,10 +250,11 @@ impl Scene {
         let second = &pair.secondary;
         let discretization: Box<dyn Discretization> = match method {
             Method::Mortar | Method::NodalMortar | Method::HeldMortar => {
-                let mut mortar = Mortar::new(second.as_ref().unwrap(), &x).unwrap();
-                if method == Method::NodalMortar {
-                    mortar.normals = mortar::Normals::Nodal;
-                }
+                let normals = match method {
+                    Method::NodalMortar => mortar::Normals::Nodal,
+                    _ => mortar::Normals::Facet,
+                };
+                let mut mortar = Mortar::new(second.as_ref().unwrap(), normals, &x).unwrap();
                 if choice.bond || method == Method::HeldMortar {
                     let (x, poses) = (&x[..], &poses[..]);
                     mortar = mortar.held_at(&pair, &Placement { x, poses }).unwrap();

@@ -184,7 +184,7 @@ impl Source<'_> {
                 }
                 (Box::new(inside), area)
             }
-            Method::Mortar => {
+            Method::Mortar { normals } => {
                 let (Some(facets), Some(_)) = (&secondary, &primary) else {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
@@ -197,7 +197,7 @@ impl Source<'_> {
                         what: "mortar contact has one pass between two surfaces, and pressures per present area",
                     });
                 }
-                let mortar = Mortar::new(facets, self.reference).map_err(surface_error)?;
+                let mortar = Mortar::new(facets, normals, self.reference).map_err(surface_error)?;
                 let area = mortar_areas(&mortar, self.reference, self.space);
                 (Box::new(mortar), area)
             }
@@ -404,7 +404,7 @@ fn on_facet(rule: PointRule, element: Element) -> Vec<(Vec3, f64)> {
 
 fn law(part: &ContactPart) -> Result<Box<dyn ContactLaw>, ModelError> {
     let law: Box<dyn ContactLaw> = match &part.enforcement {
-        Enforcement::Auto if part.method == Method::Mortar => Box::new(Lagrange),
+        Enforcement::Auto if matches!(part.method, Method::Mortar { .. }) => Box::new(Lagrange),
         Enforcement::Auto | Enforcement::Penalty(_) => Box::new(Penalty),
         Enforcement::Table(rows) => {
             Box::new(
@@ -470,10 +470,11 @@ impl Sides {
 
     /// Keeps what mortar rows see of both sides at this configuration for good.
     pub fn hold(&mut self, at: &Placement, space: Idealisation) -> Result<(), SurfaceError> {
-        let (Method::Mortar, Some(facets)) = (&self.method, &self.pair.secondary) else {
+        let (&Method::Mortar { normals }, Some(facets)) = (&self.method, &self.pair.secondary)
+        else {
             return Ok(());
         };
-        let mortar = Mortar::new(facets, at.x)?.held_at(&self.pair, at)?;
+        let mortar = Mortar::new(facets, normals, at.x)?.held_at(&self.pair, at)?;
         self.area = mortar_areas(&mortar, at.x, space);
         self.discretization = Box::new(mortar);
         Ok(())

@@ -1,6 +1,7 @@
 //! Contacts, as plain data.
 
 use crate::contact::Measure;
+use crate::contact::discretization::mortar;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::ContactSurface;
 use signorini_geometry::tensor::Vec3;
@@ -58,7 +59,10 @@ pub enum Method {
     /// Points inside the secondary facets against segments of the primary side.
     GaussPoint(PointRule),
     /// Means over secondary facets against all facets of the primary side that they meet.
-    Mortar,
+    Mortar {
+        /// Whose normals pressures act along.
+        normals: mortar::Normals,
+    },
 }
 
 /// Where node-to-node contact takes its normals from.
