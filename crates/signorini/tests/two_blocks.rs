@@ -20,7 +20,10 @@ use std::fmt::Write;
 /// Compares displacements and forces with a reference, to 1e-8.
 fn check(key: &str, run: &Run, steps: &[Value], nodes_of_top: &[usize], ndim: usize) {
     let [displacement, force] = differences(key, run, steps, nodes_of_top, ndim);
-    assert!(displacement < 1e-8, "{key}: displacements differ by {displacement:e}");
+    assert!(
+        displacement < 1e-8,
+        "{key}: displacements differ by {displacement:e}"
+    );
     assert!(force < 1e-8, "{key}: forces differ by {force:e}");
     for frame in &run.frames[..steps.len()] {
         let contact = &frame.contacts[0];
@@ -249,7 +252,11 @@ fn blocks_in_space_match_across_faces_edges_and_vertices() {
     let data = oracle("two_block_3d_nts.json");
     let top = indices(&data["mesh"]["top"]);
     for (key, penalty) in [("p1e+04", "1e4"), ("p1e+05", "1e5")] {
-        let result = run(&mut model("blocks", &blocks_in_space(&data, Some(penalty)), &[]));
+        let result = run(&mut model(
+            "blocks",
+            &blocks_in_space(&data, Some(penalty)),
+            &[],
+        ));
         let steps = data["runs"][key].as_array().unwrap();
         check(key, &result, steps, &top, 3);
         let got: Vec<usize> = result.increments.iter().map(|i| i.iterations).collect();
@@ -344,8 +351,7 @@ fn blocks_in_space_match_by_mortar() {
         let contact = format!("method = \"mortar\"\nfriction = {friction}\n{normals}");
         let text = blocks_in_space(&data, None).replace("method = \"mortar\"\n", &contact);
         let result = run(&mut model("blocks", &text, &[]));
-        let [displacement, force] =
-            differences(key, &result, steps.as_array().unwrap(), &top, 3);
+        let [displacement, force] = differences(key, &result, steps.as_array().unwrap(), &top, 3);
         let moment = moment_left(&result);
         println!(
             "{key}: u {displacement:.1e} R {force:.1e} moment {moment:.1e} {:?}",

@@ -127,8 +127,7 @@ impl Builder {
         );
         only(
             "enforcement",
-            contact.per == Some(Per::Node)
-                && matches!(method, Method::GaussPoint | Method::Mortar),
+            contact.per == Some(Per::Node) && matches!(method, Method::GaussPoint | Method::Mortar),
             "it has pressures, and no forces of nodes: write  per = \"area\"",
         );
         only(

@@ -2,8 +2,8 @@
 
 use super::pairing::Coupled;
 use super::{
-    Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, State,
-    TermError, Verdict,
+    Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, State, TermError,
+    Verdict,
 };
 use crate::contact::discretization::{Anchored, NOWHERE, Pair};
 use crate::contact::friction::Stick;

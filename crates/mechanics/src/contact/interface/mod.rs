@@ -15,8 +15,8 @@ use crate::system::{
     StepContext, Symmetry, Term, TermError, Verdict, Work,
 };
 use history::History;
-use pairing::{Coupled, Near};
 pub use pairing::closest_points;
+use pairing::{Coupled, Near};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, ContactSurface, SurfaceError};
 use signorini_geometry::tensor::Vec3;

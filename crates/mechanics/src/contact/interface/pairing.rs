@@ -355,7 +355,8 @@ impl Coupled {
     /// The ends of rows, then the facets.
     pub fn to_numbers(&self) -> Vec<f64> {
         let ends = self.end.iter().map(|&e| e as f64);
-        ends.chain(self.facets.iter().map(|&f| f64::from(f))).collect()
+        ends.chain(self.facets.iter().map(|&f| f64::from(f)))
+            .collect()
     }
 
     /// Those of so many rows; `None` where they are not such numbers.

@@ -244,8 +244,10 @@ fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool
 fn walk(kind: Kind) {
     for method in methods(kind) {
         let mut worst = Worst::default();
+        // rows know nothing of laws, and those of mortar take their time
+        let every = if method.is_mortar() { 3 } else { 1 };
         for law in 0..laws().len() {
-            for friction in &frictions() {
+            for friction in frictions().iter().step_by(every) {
                 worst.add(&check(kind, method, law, friction, false));
             }
             // curves join nothing
