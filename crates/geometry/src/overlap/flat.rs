@@ -25,6 +25,8 @@ pub struct Flat<T> {
     /// Least and largest coordinates.
     bounds: [Pair<f64>; 2],
     bend: f64,
+    /// X_,1 and X_,2 at the centre.
+    tangents: [Pair<f64>; 2],
 }
 
 /// The Jacobian of the map at the parameters of a node must be this large compared with that at the centre.
@@ -56,6 +58,7 @@ impl<T: Real> Flat<T> {
             convex: true,
             bounds,
             bend: bend(element, &values, facing)?,
+            tangents: jacobian(element, &values, &element.centre()),
         };
         let outline = flat.outline();
         flat.convex = element.dim() == 1 || outline.is_convex(TOUCH * flat.size());
@@ -83,9 +86,40 @@ impl<T: Real> Flat<T> {
         self.element.dim()
     }
 
-    /// δ: how far the map is from an affine one.
+    #[cfg(test)]
     pub(super) fn bend(&self) -> f64 {
         self.bend
+    }
+
+    /// δ of the part of it that has these corners: how far the map is from an affine one.
+    pub(super) fn bend_within(&self, corners: &[Pair<T>]) -> f64 {
+        if self.bend == 0.0 {
+            return 0.0;
+        }
+        let mut extent = [[f64::MAX, f64::MIN]; 2];
+        for p in corners {
+            let xi = solve(self.element, self.tangents, p.map(|c| c.value()));
+            for ([least, most], xi) in extent.iter_mut().zip(xi) {
+                *least = least.min(xi);
+                *most = most.max(xi);
+            }
+        }
+        let widest = extent.iter().map(|e| e[1] - e[0]).fold(0.0, f64::max);
+        let part = (widest / self.width()).min(1.0);
+        let narrowest = 1.0 - self.bend * (1.0 - part);
+        if narrowest <= 0.0 {
+            return self.bend;
+        }
+        (self.bend * part / narrowest).min(self.bend)
+    }
+
+    /// The width of its reference domain.
+    fn width(&self) -> f64 {
+        if self.element.dim() == 2 && self.element.ncorner() == 3 {
+            1.0
+        } else {
+            2.0
+        }
     }
 
     /// The degree of its shape functions as polynomials of the parameters.

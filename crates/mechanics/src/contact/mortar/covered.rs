@@ -202,13 +202,17 @@ impl Covered {
         let pairs = &self.pairs[..self.met.len()];
         let zero: Small = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
         let (mut g, mut s, mut w, mut h, mut b) = (zero, zero, zero, zero, zero);
+        let mut whole = [0.0; MAX_FACET_NODES];
+        for (k, whole) in whole[..n].iter_mut().enumerate() {
+            *whole = pairs.iter().map(|p| p.n(k)).sum();
+        }
         zeros(&mut self.d, n);
         for j in 0..n {
             for k in 0..n {
                 g[j][k] = pairs.iter().map(|p| p.nn(j, k)).sum();
-                let all: f64 = pairs.iter().map(|p| p.n(k)).sum();
-                self.d[j] += t.get(j, k) * all;
+                self.d[j] += t.get(j, k) * whole[k];
             }
+            self.d[j] = self.d[j].max(0.0);
         }
         each(n, &mut s, |j, k| {
             let over = |i: usize| (0..n).map(|m| t.get(k, m) * g[i][m]).sum::<f64>();
@@ -228,6 +232,12 @@ impl Covered {
                 each(n, &mut b, |j, k| d[j] * w[j][k]);
             }
             None => each(n, &mut b, |j, k| t.get(j, k)),
+        }
+        // Σ_l M_jl = D_j but for rounding, however large the condition of S
+        for (row, d) in b.iter_mut().zip(&self.d) {
+            let sum = (0..n).map(|k| row[k] * whole[k]).sum::<f64>();
+            let scale = if *d > 0.0 && sum > 0.0 { d / sum } else { 0.0 };
+            row.iter_mut().for_each(|b| *b *= scale);
         }
         zeros(&mut self.m, n * self.nprimary);
         let mut first = 0;
@@ -280,6 +290,9 @@ impl Covered {
                 }
             }
             first += pair.ncolumn() - own;
+        }
+        for j in (0..n).filter(|&j| self.d[j] <= 0.0) {
+            self.dd[j * nc..][..nc].fill(0.0);
         }
         if self.lumped {
             return;

@@ -41,11 +41,26 @@
 //! ```
 //!
 //! over the edges that meet in the corner, `α = 1/4`, and 3/8 for quad8; of quad9 it is the tensor product of that of
-//! line3. The displacements that belong to `Ñ` are `x̃ = T⁻ᵀ x`, and `∫ψ_j N_k = D_j T⁻ᵀ_jk`.
+//! line3. Beyond a bent edge, inside the polygon of the facet, they may be negative: where nothing but such a sliver is
+//! covered and `D_j < 0`, it is zero with all its row. The displacements that belong to `Ñ` are `x̃ = T⁻ᵀ x`, and `∫ψ_j N_k = D_j T⁻ᵀ_jk`.
 //!
 //! *Derivatives.* Cells depend on the places of nodes on the plane alone, two numbers each: these are the variables of the
 //! dual numbers that go through clipping and integration. Their own derivatives by the coordinates follow once for each
 //! pair. What couples several primary facets is (E2) and (E3), by the product rule.
+//!
+//! *What is compared.* A primary facet counts where its projection onto the plane is one to one and turned towards the
+//! secondary facet, however obliquely. Others, by the angle between `−n0` and their normal at the centre:
+//!
+//! | projection | angle | |
+//! |---|---|---|
+//! | one to one, facing | < 90° | compared |
+//! | turned round | > 90° | passed over |
+//! | folded, or without an inverse at a point | > 60° | passed over: a flank, seen edge-on |
+//! | folded, or without an inverse at a point | ≤ 60° | [`MortarError::Folded`]: the increment is cut |
+//!
+//! A facet that passes from the first row to the second or third takes with it what it still covers. This is continuous
+//! for affine facets, which vanish at 90°; a curved one is lost with the cosine of its angle times its area. Facets whose
+//! projections have no box in common are never compared, whatever they look like.
 //!
 //! *Normal.* With one normal for each facet, `ν D` and `ν M` are the operators by which a pressure acts, linear and angular
 //! momentum are exact without friction, and nodes of the secondary side do not couple.
@@ -89,7 +104,7 @@ pub enum MortarError {
     /// The tangents of the secondary facet are parallel or zero at its centre, or it is folded on its own plane.
     #[error("a facet of the secondary side is folded or has no normal")]
     Secondary,
-    /// The map of one of the facets has no inverse at a point of what they have in common.
+    /// A primary facet in front of the secondary one is folded in the projection: its map has no inverse at a point.
     #[error(
         "primary facet {number} and the secondary facet cannot be compared: one of them is folded"
     )]

@@ -7,6 +7,10 @@ use signorini_geometry::tensor::Vec3;
 /// Coordinates of the secondary facet, of which there are at most this many.
 type Coordinates = Dual<{ 3 * MAX_FACET_NODES }>;
 
+/// A primary facet that is folded in the projection is passed over where its normal at the centre deviates by more than
+/// 60 degrees from facing: half of it could be bent by as many as the rest, so that it is only seen edge-on.
+const FACING: f64 = 0.5;
+
 /// A secondary facet on its auxiliary plane, with derivatives by the coordinates of its nodes.
 #[derive(Clone, Debug)]
 pub struct Frame {
@@ -49,6 +53,31 @@ impl Frame {
     pub(super) fn dnormal(&self, a: usize) -> impl Iterator<Item = f64> {
         let slopes = self.plane.normal[a].slope.into_iter().map(|s| -s);
         slopes.take(3 * self.element.nnode())
+    }
+
+    /// The cosine of the angle by which a facet fails to face this one at its centre.
+    fn faces(&self, other: &Facet) -> f64 {
+        let x = other.x.iter().map(|x| x.to_array());
+        let mut nodes = [[0.0; 3]; MAX_FACET_NODES];
+        nodes.iter_mut().zip(x).for_each(|(node, x)| *node = x);
+        let plane = Plane::of(other.element, &nodes[..other.x.len()]);
+        plane.map_or(0.0, |plane| Vec3::from(plane.normal).dot(self.normal()))
+    }
+
+    /// Whether the boxes around the places of two facets have nothing in common.
+    fn apart(&self, other: &Facet) -> bool {
+        let [origin, e1, e2] = [self.plane.origin, self.plane.axes[0], self.plane.axes[1]]
+            .map(|v| Vec3::from(v.map(|c| c.value)));
+        let outside = |own: &dyn Fn(usize) -> f64, axis: Vec3| {
+            let range = |least: f64, most: f64, c: f64| (least.min(c), most.max(c));
+            let all = (0..self.element.nnode()).map(own);
+            let (a, b) = all.fold((f64::MAX, f64::MIN), |(l, m), c| range(l, m, c));
+            let all = other.x.iter().map(|&x| axis.dot(x - origin));
+            let (c, d) = all.fold((f64::MAX, f64::MIN), |(l, m), c| range(l, m, c));
+            b < c || d < a
+        };
+        outside(&|i| self.places[i][0].value, e1)
+            || (self.element.dim() == 2 && outside(&|i| self.places[i][1].value, e2))
     }
 
     /// The places of nodes on the plane: of the facet itself where `nodes` is none.
@@ -98,7 +127,8 @@ impl Pair {
     /// Integrates; answers whether the two share anything. Without `derivatives` only values are found.
     ///
     /// # Errors
-    /// A facet is folded, or not as [`Facet`] says. `number` is that of the primary facet in messages.
+    /// A facet is folded while it faces the other, or not as [`Facet`] says. `number` is that of the primary facet in
+    /// messages.
     pub fn integrate(
         &mut self,
         frame: &Frame,
@@ -110,6 +140,9 @@ impl Pair {
         (self.nsecondary, self.nprimary) = (frame.element.nnode(), primary.x.len());
         let (ns, nm) = (self.nsecondary, self.nprimary);
         let dim = frame.element.dim();
+        if frame.apart(primary) {
+            return Ok(false);
+        }
         let places = [frame.project(None), frame.project(Some(primary.x))];
         let elements = [frame.element, primary.element];
         let found = match (derivatives, dim * (ns + nm)) {
@@ -120,10 +153,12 @@ impl Pair {
             (_, ..=24) => self.over(elements, &places, Dual::<24>::variable),
             _ => self.over(elements, &places, Dual::<36>::variable),
         };
-        let found = found.map_err(|why| match why {
-            Fault::Secondary => MortarError::Secondary,
-            Fault::Point => MortarError::Folded { number },
-        })?;
+        let found = match found {
+            Ok(found) => found,
+            Err(Fault::Secondary) => return Err(MortarError::Secondary),
+            Err(Fault::Primary) if frame.faces(primary) < FACING => false,
+            Err(Fault::Primary) => return Err(MortarError::Folded { number }),
+        };
         if found && derivatives {
             self.chain(frame, &places, dim);
         }
@@ -152,9 +187,7 @@ impl Pair {
             flats[k] = Flat::new(elements[k], &x[..n], facing);
         }
         let secondary = flats[0].as_ref().ok_or(Fault::Secondary)?;
-        let Some(primary) = &flats[1] else {
-            return Ok(false);
-        };
+        let primary = flats[1].as_ref().ok_or(Fault::Primary)?;
         let mut sums = Sums::new(elements);
         let found = overlap::integrate(secondary, primary, |point| sums.add(point))?;
         self.values.clear();
@@ -270,12 +303,12 @@ impl Pair {
 /// Which facet cannot be integrated over.
 enum Fault {
     Secondary,
-    Point,
+    Primary,
 }
 
 impl From<OverlapError> for Fault {
     fn from(_: OverlapError) -> Self {
-        Self::Point
+        Self::Primary
     }
 }
 

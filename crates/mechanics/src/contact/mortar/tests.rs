@@ -393,6 +393,172 @@ fn rows_of_both_sides_have_the_same_sum() {
     }
 }
 
+/// What holds of every facet that was integrated over: `Σ_l M_jl = D_j ≥ 0`.
+fn balanced(covered: &Covered, what: &str) {
+    for (j, d) in covered.d().iter().enumerate() {
+        let sum: f64 = covered.m(j).iter().sum();
+        assert!((d - sum).abs() < 1e-13, "{what}: {d:e} {sum:e}");
+        assert!(*d >= 0.0, "{what}: {d:e}");
+    }
+}
+
+/// The integrals, or why there are none.
+fn attempt(elements: [Element; 2], x: [&[Vec3]; 2]) -> Result<Covered, MortarError> {
+    let [own, other] = [0, 1].map(|k| Facet {
+        element: elements[k],
+        x: x[k],
+    });
+    let mut covered = Covered::default();
+    covered.evaluate(&own, &[other], true)?;
+    Ok(covered)
+}
+
+/// A facet bent about the y axis by `half` an angle to either side, its normal at the centre turned by `angle` from −e_z.
+fn bent(element: Element, half: f64, angle: f64) -> Vec<Vec3> {
+    let turn = Mat3::rotation(Vec3::new(0.0, angle, 0.0));
+    let place = |xi: &Vec3| {
+        let at = (*xi - element.centre()) * 2.0 / if element.ncorner() == 3 { 1.0 } else { 2.0 };
+        let phi = at.x * half;
+        turn * Vec3::new(phi.sin() / half, -at.y, (phi.cos() - 1.0) / half)
+    };
+    element.nodes().iter().map(place).collect()
+}
+
+#[test]
+fn flanks_seen_edge_on_never_stop_a_run() {
+    for name in FACES {
+        let other = by_name(name).unwrap();
+        let (mut met, mut passed) = (0, 0);
+        for own in ["quad4", "quad8", "tri6"].map(|n| by_name(n).unwrap()) {
+            let x = facet(own, 0.0, &mut Random::new(1));
+            for half in [1e-6, 0.01, 0.1, 0.3, 0.5] {
+                for degrees in (120..=240).map(|d| f64::from(d) * 0.5) {
+                    for sign in [-1.0, 1.0] {
+                        let angle = sign * degrees.to_radians();
+                        let flank = bent(other, sign * half, angle);
+                        let what = format!("{name} bent by {half} at {degrees}");
+                        match attempt([own, other], [&x, &flank]) {
+                            Ok(covered) => {
+                                balanced(&covered, &what);
+                                if covered.met().is_empty() {
+                                    passed += 1
+                                } else {
+                                    met += 1
+                                }
+                            }
+                            Err(why) => assert!(degrees <= 60.0, "{what}: {why}"),
+                        }
+                    }
+                }
+            }
+        }
+        println!("{name}: {met} flanks compared, {passed} passed over");
+        assert!(met > 100 && passed > 100);
+    }
+}
+
+#[test]
+fn a_facet_folded_in_front_of_another_is_said_and_one_beside_it_is_not() {
+    let quad = by_name("quad8").unwrap();
+    let x = facet(quad, 0.0, &mut Random::new(1));
+    let mut folded: Vec<Vec3> = x.iter().map(|x| Vec3::new(x.x, -x.y, 0.1)).collect();
+    folded[5] = Vec3::new(-0.3, 0.1, 0.1);
+    let found = attempt([quad; 2], [&x, &folded]);
+    assert_eq!(found.unwrap_err(), MortarError::Folded { number: 0 });
+    let beside: Vec<Vec3> = folded
+        .iter()
+        .map(|&x| x + Vec3::new(2.5, 0.0, 0.0))
+        .collect();
+    assert!(attempt([quad; 2], [&x, &beside]).unwrap().met().is_empty());
+}
+
+#[test]
+fn a_corner_of_a_block_over_the_edge_of_another_covers_what_its_lower_face_does() {
+    let quad = by_name("quad4").unwrap();
+    let x = facet(quad, 0.0, &mut Random::new(1));
+    for tilt in [
+        0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, -1e-15, -1e-12, -1e-9, -1e-6, -1e-3,
+    ] {
+        // the lower face of a block with its corner over the edge x = 1, and its two flanks at that corner
+        let turn = Mat3::rotation(Vec3::new(tilt, -tilt, 0.0));
+        let face = |corners: [[f64; 3]; 4]| -> Vec<Vec3> {
+            let place = |c: [f64; 3]| turn * Vec3::from(c) + Vec3::new(0.4, -0.3, 0.01);
+            corners.into_iter().map(place).collect()
+        };
+        let lower = face([
+            [0.0, 0.0, 0.0],
+            [0.0, 2.0, 0.0],
+            [2.0, 2.0, 0.0],
+            [2.0, 0.0, 0.0],
+        ]);
+        let left = face([
+            [0.0, 0.0, 0.0],
+            [0.0, 0.0, 2.0],
+            [0.0, 2.0, 2.0],
+            [0.0, 2.0, 0.0],
+        ]);
+        let front = face([
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [2.0, 0.0, 2.0],
+            [0.0, 0.0, 2.0],
+        ]);
+        let facets = [&lower, &left, &front].map(|x| Facet { element: quad, x });
+        let own = Facet {
+            element: quad,
+            x: &x,
+        };
+        let mut covered = Covered::default();
+        covered.evaluate(&own, &facets, true).unwrap();
+        balanced(&covered, "a corner");
+        let area: f64 = covered.d().iter().sum();
+        assert!(
+            (area - 0.6 * 1.3).abs() < 10.0 * tilt.abs() + 1e-14,
+            "{tilt:e}: {area}"
+        );
+    }
+}
+
+#[test]
+fn overlaps_however_thin_or_oblique_balance() {
+    let mut random = Random::new(7);
+    for elements in pairings() {
+        let line = elements[0].dim() == 1;
+        let mut met = 0;
+        for _ in 0..200 {
+            let x = facet(elements[0], 0.1 * random.unit().powi(3), &mut random);
+            let [mut other, _] = primaries(elements[1], 0.1 * random.unit().powi(3), &mut random);
+            // away until a strip or a corner is left, and turned a little
+            let width = 10f64.powf(-16.0 * random.unit());
+            let turn = random.vector() * 10f64.powf(-12.0 * random.unit());
+            let turn = if line {
+                Vec3::new(0.0, 0.0, turn.z)
+            } else {
+                turn
+            };
+            let turn = Mat3::rotation(turn);
+            other.iter_mut().for_each(|p| *p = turn * *p);
+            for a in 0..if random.unit() < 0.5 {
+                1
+            } else {
+                elements[0].dim()
+            } {
+                let most = x.iter().map(|p| p[a]).fold(f64::MIN, f64::max);
+                let least = other.iter().map(|p| p[a]).fold(f64::MAX, f64::min);
+                other.iter_mut().for_each(|p| p[a] += most - width - least);
+            }
+            match attempt(elements, [&x, &other]) {
+                Ok(covered) => {
+                    balanced(&covered, &format!("{elements:?} {width:e}"));
+                    met += covered.met().len();
+                }
+                Err(why) => panic!("{elements:?} {width:e}: {why}"),
+            }
+        }
+        assert!(met > 30, "{elements:?}: {met}");
+    }
+}
+
 #[test]
 fn linear_fields_pass_from_one_side_to_the_other_where_surfaces_coincide() {
     let mut random = Random::new(2);
