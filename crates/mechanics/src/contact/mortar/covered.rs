@@ -233,11 +233,8 @@ impl Covered {
             }
             None => each(n, &mut b, |j, k| t.get(j, k)),
         }
-        // Σ_l M_jl = D_j but for rounding, however large the condition of S
-        for (row, d) in b.iter_mut().zip(&self.d) {
-            let sum = (0..n).map(|k| row[k] * whole[k]).sum::<f64>();
-            let scale = if *d > 0.0 && sum > 0.0 { d / sum } else { 0.0 };
-            row.iter_mut().for_each(|b| *b *= scale);
+        for (row, _) in b.iter_mut().zip(&self.d).filter(|(_, d)| **d <= 0.0) {
+            row.fill(0.0);
         }
         zeros(&mut self.m, n * self.nprimary);
         let mut first = 0;
@@ -251,10 +248,29 @@ impl Covered {
             }
             first += nm;
         }
+        self.balance(t);
         self.dd.clear();
         self.dm.clear();
         if derivatives {
             self.differentiate(t, &w, &h, &b);
+        }
+    }
+
+    /// What rounding leaves of `Σ_l M_jl = D_j`, as much of it as the condition of S lets through, goes to the primary
+    /// nodes as `Ñ_j` would distribute it.
+    fn balance(&mut self, t: &Transformation) {
+        let (n, np) = (self.nnode, self.nprimary);
+        let pairs = &self.pairs[..self.met.len()];
+        for (j, &d) in self.d.iter().enumerate().filter(|(_, d)| **d > 0.0) {
+            let row = &mut self.m[j * np..][..np];
+            let lumped = pairs.iter().flat_map(|pair| {
+                let of = move |l: usize| (0..n).map(|k| t.get(j, k) * pair.nm(k, l)).sum::<f64>();
+                (0..pair.nnode()[1]).map(of)
+            });
+            let rest = (d - row.iter().sum::<f64>()) / d;
+            row.iter_mut()
+                .zip(lumped)
+                .for_each(|(m, part)| *m += rest * part);
         }
     }
 
