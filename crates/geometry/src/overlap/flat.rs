@@ -18,6 +18,7 @@ pub enum Facing {
 pub struct Flat<T> {
     element: Element,
     x: [Pair<T>; MAX_FACET_NODES],
+    values: [Pair<f64>; MAX_FACET_NODES],
     /// Nodes on the boundary, counter-clockwise on the plane; on a line, the ends from left to right.
     boundary: [u8; MAX_FACET_NODES],
     nboundary: usize,
@@ -25,7 +26,9 @@ pub struct Flat<T> {
     /// Least and largest coordinates.
     bounds: [Pair<f64>; 2],
     bend: f64,
-    /// X_,1 and X_,2 at the centre.
+    /// The parameters of the centre, its place, and X_,1 and X_,2 there.
+    centre: Pair<f64>,
+    middle: Pair<f64>,
     tangents: [Pair<f64>; 2],
 }
 
@@ -50,15 +53,19 @@ impl<T: Real> Flat<T> {
             bounds[1][a] = bounds[1][a].max(p[a]);
         }
         let (boundary, nboundary) = boundary(element, facing);
+        let centre = element.centre();
         let mut flat = Self {
             element,
             x,
+            values,
             boundary,
             nboundary,
             convex: true,
             bounds,
             bend: bend(element, &values, facing)?,
-            tangents: jacobian(element, &values, &element.centre()),
+            centre: [centre.x, centre.y],
+            middle: place(element, &values, &centre),
+            tangents: jacobian(element, &values, &centre),
         };
         let outline = flat.outline();
         flat.convex = element.dim() == 1 || outline.is_convex(TOUCH * flat.size());
@@ -78,15 +85,21 @@ impl<T: Real> Flat<T> {
         &self.x[..self.element.nnode()]
     }
 
-    pub(super) fn values(&self) -> [Pair<f64>; MAX_FACET_NODES] {
-        self.x.map(|p| p.map(|c| c.value()))
+    pub(super) fn values(&self) -> &[Pair<f64>; MAX_FACET_NODES] {
+        &self.values
+    }
+
+    /// The parameters of a place by the map at the centre, continued as an affine one.
+    pub(super) fn affine(&self, p: Pair<f64>) -> Pair<f64> {
+        let [a, b] = solve(self.element, self.tangents, minus(p, self.middle));
+        [self.centre[0] + a, self.centre[1] + b]
     }
 
     pub(super) fn dim(&self) -> usize {
         self.element.dim()
     }
 
-    #[cfg(test)]
+    /// δ.
     pub(super) fn bend(&self) -> f64 {
         self.bend
     }
@@ -167,12 +180,13 @@ impl<T: Real> Flat<T> {
         if self.convex {
             return self.outline();
         }
-        let place = |k: usize| self.x[usize::from(self.boundary[k % self.nboundary])];
-        let mut n = [0.0; MAX_FACET_NODES];
-        self.element
-            .shape(&self.element.centre(), &mut n[..self.element.nnode()]);
+        let node = |k: usize| self.x[usize::from(self.boundary[k % self.nboundary])];
         let mut triangle = Polygon::new();
-        for corner in [combine(n, self.x()), place(k), place(k + 1)] {
+        for corner in [
+            place(self.element, self.x(), &self.element.centre()),
+            node(k),
+            node(k + 1),
+        ] {
             triangle.push(corner);
         }
         triangle
@@ -248,11 +262,7 @@ fn bend(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], facing: Facing) -> O
 }
 
 /// The tangents `X_,1` and `X_,2`; the second is zero on a line.
-pub(super) fn jacobian(
-    element: Element,
-    x: &[Pair<f64>; MAX_FACET_NODES],
-    xi: &Vec3,
-) -> [Pair<f64>; 2] {
+fn jacobian(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], xi: &Vec3) -> [Pair<f64>; 2] {
     let mut dn = [Vec3::ZERO; MAX_FACET_NODES];
     element.dshape(xi, &mut dn[..element.nnode()]);
     let along = |a: usize| combine(dn.iter().map(|d| d[a]), x);
@@ -271,7 +281,7 @@ fn determinant(element: Element, [t1, t2]: [Pair<f64>; 2]) -> f64 {
 }
 
 /// The change of parameters that makes a change of place.
-pub(super) fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pair<f64> {
+fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pair<f64> {
     let over = 1.0 / determinant(element, t);
     if element.dim() == 1 {
         return [place[0] * over, 0.0];
@@ -279,9 +289,9 @@ pub(super) fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pa
     [cross2(place, t[1]) * over, cross2(t[0], place) * over]
 }
 
-/// The place of parameters, less `p`.
-pub(super) fn residual<T: Real>(element: Element, x: &[Pair<T>], xi: &Vec3, p: Pair<T>) -> Pair<T> {
+/// The place of parameters.
+fn place<T: Real>(element: Element, x: &[Pair<T>], xi: &Vec3) -> Pair<T> {
     let mut n = [0.0; MAX_FACET_NODES];
     element.shape(xi, &mut n[..element.nnode()]);
-    minus(combine(n, x), p)
+    combine(n, x)
 }

@@ -56,8 +56,8 @@ fn opposite(element: Element, noise: f64, random: &mut Random) -> Vec<Vec3> {
     x.map(|x| turn * over(x) + shift).collect()
 }
 
-/// The points of two facets, given in space.
-fn points<T: Real>(elements: [Element; 2], x: [&[[T; 3]]; 2]) -> Vec<Point<T>> {
+/// The points of two facets, given in space, and what they are made of.
+fn points<T: Real>(elements: [Element; 2], x: [&[[T; 3]]; 2]) -> Vec<(Point, Vec<Pair<T>>)> {
     let plane = Plane::of(elements[0], x[0]).unwrap();
     let flat = |k: usize, facing| {
         let places: Vec<Pair<T>> = x[k].iter().map(|&x| plane.project(x)).collect();
@@ -66,7 +66,8 @@ fn points<T: Real>(elements: [Element; 2], x: [&[[T; 3]]; 2]) -> Vec<Point<T>> {
     let mut found = Vec::new();
     if let Some(primary) = flat(1, Facing::Opposite) {
         let secondary = flat(0, Facing::Same).unwrap();
-        integrate(&secondary, &primary, |p| found.push(*p)).unwrap();
+        let cell = |cell: &Cell<T>| cell.points(0, |p| found.push((*p, cell.corners().to_vec())));
+        integrate(&secondary, &primary, cell).unwrap();
     }
     found
 }
@@ -75,12 +76,15 @@ fn plain(x: &[Vec3]) -> Vec<[f64; 3]> {
     x.iter().map(|x| x.to_array()).collect()
 }
 
-fn between(elements: [Element; 2], x: [&[Vec3]; 2]) -> Vec<Point<f64>> {
+fn between(elements: [Element; 2], x: [&[Vec3]; 2]) -> Vec<Point> {
     let [a, b] = x.map(plain);
     points(elements, [&a, &b])
+        .into_iter()
+        .map(|p| p.0)
+        .collect()
 }
 
-fn measure(points: &[Point<f64>]) -> f64 {
+fn measure(points: &[Point]) -> f64 {
     points.iter().map(|p| p.weight).sum()
 }
 
@@ -118,7 +122,7 @@ fn an_overlap_of_squares_is_a_rectangle() {
         );
         assert_eq!(found.is_empty(), exact == 0.0, "{shift:?}");
         let inside =
-            |p: &Point<f64>| quad.contains(&Vec3::new(p.primary[0], p.primary[1], 0.0), 1e-12);
+            |p: &Point| quad.contains(&Vec3::new(p.primary.xi[0], p.primary.xi[1], 0.0), 1e-12);
         assert!(found.iter().all(inside));
     }
 }
@@ -217,8 +221,8 @@ fn areas_of_random_overlaps_are_those_of_brute_force() {
             }
             for p in &found {
                 let [q, r] = [
-                    at(elements[0], &nodes[0], p.secondary),
-                    at(elements[1], &nodes[1], p.primary),
+                    at(elements[0], &nodes[0], p.secondary.xi),
+                    at(elements[1], &nodes[1], p.primary.xi),
                 ];
                 assert!((q - r).max_abs() < 1e-13, "{elements:?}: {q:?} {r:?}");
             }
@@ -228,12 +232,12 @@ fn areas_of_random_overlaps_are_those_of_brute_force() {
 }
 
 /// Σ w and Σ w N_j(ξ) of either facet, scaled: what rules must give exactly where facets are covered.
-fn moments(elements: [Element; 2], points: &[Point<f64>]) -> [Vec<f64>; 2] {
+fn moments(elements: [Element; 2], points: &[Point]) -> [Vec<f64>; 2] {
     let of = |k: usize| {
         let mut sum = vec![0.0; elements[k].nnode()];
         let mut n = sum.clone();
         for p in points {
-            let xi = [p.secondary, p.primary][k];
+            let xi = [p.secondary.xi, p.primary.xi][k];
             elements[k].shape(&Vec3::new(xi[0], xi[1], 0.0), &mut n);
             sum.iter_mut().zip(&n).for_each(|(s, n)| *s += p.weight * n);
         }
@@ -314,7 +318,7 @@ fn errors_of_rules_fall_as_stated() {
                 for degree in (q..=MAX_DEGREE).step_by(2) {
                     let mut sums = Products::new(n);
                     let mut add = |p: Pair<f64>, w: f64| {
-                        let xi = locate::parameters(&flat, p).unwrap();
+                        let xi = locate::parameters(&flat, p).unwrap().xi;
                         sums.add(element, xi, w);
                     };
                     if element.dim() == 1 {
@@ -523,13 +527,13 @@ fn points_and_weights_do_not_notice_a_rigid_motion() {
         assert_eq!(before.len(), after.len());
         assert!(!before.is_empty());
         for (p, q) in before.iter().zip(&after) {
-            let all = |p: &Point<f64>| {
+            let all = |p: &Point| {
                 [
                     p.weight,
-                    p.secondary[0],
-                    p.secondary[1],
-                    p.primary[0],
-                    p.primary[1],
+                    p.secondary.xi[0],
+                    p.secondary.xi[1],
+                    p.primary.xi[0],
+                    p.primary.xi[1],
                 ]
             };
             for (p, q) in all(p).iter().zip(all(q)) {
@@ -558,6 +562,10 @@ fn derivatives_of_points_and_weights_match_differences() {
                 x[k].iter().enumerate().map(node).collect()
             });
             let exact = points(elements, [&seeded[0], &seeded[1]]);
+            let plane = Plane::of(elements[0], &seeded[0]).unwrap();
+            let places = [0, 1].map(|k: usize| -> Vec<Pair<Dual<54>>> {
+                seeded[k].iter().map(|&x| plane.project(x)).collect()
+            });
             let components = if elements[0].dim() == 1 { 2 } else { 3 };
             for variable in 0..3 * (nodes[0] + nodes[1]) {
                 let (node, c) = (variable / 3, variable % 3);
@@ -579,33 +587,32 @@ fn derivatives_of_points_and_weights_match_differences() {
                 if steps.iter().any(|s| s.len() != exact.len()) {
                     continue; // a corner comes or goes
                 }
-                for (k, p) in exact.iter().enumerate() {
-                    let parts = |p: &Point<f64>| {
-                        [
-                            p.weight,
-                            p.secondary[0],
-                            p.secondary[1],
-                            p.primary[0],
-                            p.primary[1],
-                        ]
-                    };
+                for (k, (p, corners)) in exact.iter().enumerate() {
+                    // w, and N_0 of either facet
+                    let parts = |p: &Point| [p.weight, p.secondary.shape[0], p.primary.shape[0]];
                     let [a, b, c, d] = [0, 1, 2, 3].map(|s| parts(&steps[s][k]));
-                    let ours = [
-                        p.weight,
-                        p.secondary[0],
-                        p.secondary[1],
-                        p.primary[0],
-                        p.primary[1],
-                    ];
-                    for (i, ours) in ours.iter().enumerate() {
+                    let mut weight = 0.0;
+                    let mut at = [0.0; 2];
+                    for f in &p.follows {
+                        for a in 0..2 {
+                            let dc = corners[f.corner][a].slope[variable];
+                            weight += f.dweight[a] * dc;
+                            at[a] += f.share * dc;
+                        }
+                    }
+                    let of = |there: &Parameters, k: usize| {
+                        let mut rest = at;
+                        for (n, x) in there.shape.iter().zip(&places[k]) {
+                            rest = [0, 1].map(|a| rest[a] - n * x[a].slope[variable]);
+                        }
+                        there.gradient[0][0] * rest[0] + there.gradient[0][1] * rest[1]
+                    };
+                    let ours = [weight, of(&p.secondary, 0), of(&p.primary, 1)];
+                    for (i, &ours) in ours.iter().enumerate() {
                         let slope = (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * h);
-                        let error = (slope - ours.slope[variable]).abs() / (1.0 + slope.abs());
+                        let error = (slope - ours).abs() / (1.0 + slope.abs());
                         worst = worst.max(error);
-                        assert!(
-                            error < 1e-7,
-                            "{elements:?} {i}: {slope} {}",
-                            ours.slope[variable]
-                        );
+                        assert!(error < 1e-7, "{elements:?} {i}: {slope} {ours}");
                     }
                 }
             }

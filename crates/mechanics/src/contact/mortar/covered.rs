@@ -1,5 +1,6 @@
 use super::basis::{Small, inverse};
-use super::{Facet, Frame, MortarError, Pair, Transformation};
+use super::pair::zeros;
+use super::{Facet, Frame, Measure, MortarError, Pair, Transformation};
 use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::tensor::Vec3;
 
@@ -10,9 +11,10 @@ pub const MIN_COVERAGE: f64 = 1e-8;
 /// the other, and keeps its memory.
 ///
 /// # Units
-/// D, M and `full` are areas, lengths in the plane.
+/// D, M and `full` are areas; lengths in the plane; areas of surfaces of revolution where so [measured](Measure).
 #[derive(Clone, Debug, Default)]
 pub struct Covered {
+    measure: Measure,
     nnode: usize,
     nprimary: usize,
     ncolumn: usize,
@@ -40,12 +42,16 @@ fn add(to: &mut [f64], factor: f64, from: &[f64]) {
     }
 }
 
-fn zeros(v: &mut Vec<f64>, n: usize) {
-    v.clear();
-    v.resize(n, 0.0);
-}
-
 impl Covered {
+    /// One for integrals of this measure; the default is that of [`Measure::Flat`].
+    #[must_use]
+    pub fn new(measure: Measure) -> Self {
+        Self {
+            measure,
+            ..Self::default()
+        }
+    }
+
     /// Integrates over what a secondary facet shares with primary facets near it.
     ///
     /// # Errors
@@ -56,7 +62,7 @@ impl Covered {
         primaries: &[Facet],
         derivatives: bool,
     ) -> Result<(), MortarError> {
-        let frame = Frame::of(secondary)?;
+        let frame = Frame::measured(secondary, self.measure)?;
         self.nnode = secondary.x.len();
         self.normal = frame.normal();
         for (a, dnormal) in self.dnormal.iter_mut().enumerate() {
@@ -79,7 +85,7 @@ impl Covered {
         self.nprimary = nprimary.sum();
         self.ncolumn = 3 * (self.nnode + self.nprimary);
         let t = Transformation::of(secondary.element);
-        self.measure(secondary, &t);
+        self.measure_whole(&frame, secondary, &t);
         self.combine(&t, derivatives);
         Ok(())
     }
@@ -168,7 +174,7 @@ impl Covered {
     }
 
     /// D⁰, with the rule of the whole facet and areas of the plane.
-    fn measure(&mut self, facet: &Facet, t: &Transformation) {
+    fn measure_whole(&mut self, frame: &Frame, facet: &Facet, t: &Transformation) {
         let (element, n) = (facet.element, self.nnode);
         let mut whole = [0.0; MAX_FACET_NODES];
         let (mut shape, mut dshape) = ([0.0; MAX_FACET_NODES], [Vec3::ZERO; MAX_FACET_NODES]);
@@ -187,7 +193,9 @@ impl Covered {
             } else {
                 tangent(1)
             };
-            let area = -w * tangent(0).cross(t2).dot(self.normal);
+            let place = shape.iter().zip(facet.x).map(|(&n, &x)| x * n).sum();
+            let factor = frame.factor().at(frame.along(place));
+            let area = -w * tangent(0).cross(t2).dot(self.normal) * factor;
             add(&mut whole, area, &shape[..n]);
         }
         self.full.clear();

@@ -44,9 +44,25 @@
 //! line3. Beyond a bent edge, inside the polygon of the facet, they may be negative: where nothing but such a sliver is
 //! covered and `D_j < 0`, it is zero with all its row. The displacements that belong to `Ñ` are `x̃ = T⁻ᵀ x`, and `∫ψ_j N_k = D_j T⁻ᵀ_jk`.
 //!
-//! *Derivatives.* Cells depend on the places of nodes on the plane alone, two numbers each: these are the variables of the
-//! dual numbers that go through clipping and integration. Their own derivatives by the coordinates follow once for each
-//! pair. What couples several primary facets is (E2) and (E3), by the product rule.
+//! *Derivatives.* Cells depend on the places of nodes on the plane alone, two numbers each. Points of cells follow their
+//! corners and the nodes ((E4) of [`signorini_geometry::overlap`]); corners carry derivatives by the places that make
+//! them, as dual numbers; places depend on coordinates by the axes of the plane. The three stages are taken for all
+//! points, for each cell, and once for each pair. What couples several primary facets is (E2) and (E3), by the product
+//! rule.
+//!
+//! *Axisymmetry.* Lines of the x-y plane stand for surfaces of revolution about the axis y, r = x. All integrals, `D⁰` too,
+//! have the factor
+//!
+//! ```text
+//! 2π r,   r(p) = [(p_b − p) r_a + (p − p_a) r_b]/(p_b − p_a)                 (E5)
+//! ```
+//!
+//! between the ends a, b of the secondary facet. Any r that is common to both sides keeps `Σ_l M_jl = D_j`, and with it
+//! momentum along the axis; where surfaces coincide all choices are one, and patch tests pass. This one is the radius of
+//! the chord, which is parallel to the auxiliary line: a uniform pressure p on a covered facet then has the exact
+//! resultant along the axis, `∫2π r p dr = π p (r_b² − r_a²)`, on bent facets too. The auxiliary line itself, through the
+//! mean of the nodes, is off by a third of the sagitta there, and would give `1 + 2δr/(r_a + r_b)` times as much. What
+//! acts on primary nodes at a gap is the force of the secondary circumference, not the traction of it.
 //!
 //! *What is compared.* A primary facet counts where its projection onto the plane is one to one and turned towards the
 //! secondary facet, however obliquely. Others, by the angle between `−n0` and their normal at the centre:
@@ -88,6 +104,16 @@ pub use transformation::Transformation;
 use signorini_geometry::element::Element;
 use signorini_geometry::tensor::Vec3;
 use thiserror::Error;
+
+/// What integrals are taken over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Measure {
+    /// Areas in space, lengths in the plane.
+    #[default]
+    Flat,
+    /// Surfaces that lines make when they turn about the axis `x = 0`: `2π r ds` over the full circumference, (E5).
+    Revolved,
+}
 
 /// A facet where it is now.
 #[derive(Clone, Copy, Debug)]
