@@ -1,5 +1,5 @@
 use super::polygon::{Polygon, cross2};
-use super::{Pair, TOUCH};
+use super::{BENT, EXACT, Pair, TOUCH};
 use crate::element::{Element, MAX_FACET_NODES};
 use crate::scalar::{Real, combine, minus};
 use crate::tensor::{Sym3, Vec3};
@@ -26,6 +26,8 @@ pub struct Flat<T> {
     /// Least and largest coordinates.
     bounds: [Pair<f64>; 2],
     bend: f64,
+    /// The largest distance of a node from the line between the ends of its edge.
+    sagitta: f64,
     /// The parameters of the centre, its place, and X_,1 and X_,2 there.
     centre: Pair<f64>,
     middle: Pair<f64>,
@@ -63,6 +65,7 @@ impl<T: Real> Flat<T> {
             convex: true,
             bounds,
             bend: bend(element, &values, facing)?,
+            sagitta: sagitta(element, &values),
             centre: [centre.x, centre.y],
             middle: place(element, &values, &centre),
             tangents: jacobian(element, &values, &centre),
@@ -133,6 +136,11 @@ impl<T: Real> Flat<T> {
         } else {
             2.0
         }
+    }
+
+    /// What rules may miss of the integral of one of its shape functions.
+    pub(super) fn accuracy(&self) -> f64 {
+        (0.01 * self.sagitta / self.size()).clamp(EXACT, BENT)
     }
 
     /// The degree of its shape functions as polynomials of the parameters.
@@ -259,6 +267,20 @@ fn bend(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], facing: Facing) -> O
     // half the facet is 1 in the parameters of lines and quadrilaterals, and 1/2 in those of triangles
     let triangle = element.dim() == 2 && element.ncorner() == 3;
     Some(if triangle { 0.5 * bend } else { bend })
+}
+
+/// How far nodes of edges are from the lines between their ends; on a line there is no such distance.
+fn sagitta(element: Element, x: &[Pair<f64>; MAX_FACET_NODES]) -> f64 {
+    let corners = element.ncorner();
+    if element.dim() == 1 || element.nnode() == corners {
+        return 0.0;
+    }
+    let mids = element.edges().iter().zip(&x[corners..]);
+    let heights = mids.map(|(&[a, b], mid)| {
+        let along = minus(x[b], x[a]);
+        cross2(along, minus(*mid, x[a])).abs() / along[0].hypot(along[1])
+    });
+    heights.fold(0.0, f64::max)
 }
 
 /// The tangents `X_,1` and `X_,2`; the second is zero on a line.

@@ -58,7 +58,8 @@
 //! least, up to [`MAX_DEGREE`], for which
 //!
 //! - products of two shape functions of facets with affine maps are exact: `d ≥ q + max(q, q^m)`, and
-//! - (E3) is 1e-12 on either facet: a patch test needs integrals of single shape functions. Of products it needs that
+//! - (E3) is 1e-12 on either facet; where its edges are bent and the polygon is not exact, a hundredth of their sagitta,
+//!   at most 1e-8: a patch test needs integrals of single shape functions. Of products it needs that
 //!   they are taken at the same points; their errors are (E3) with 2q for the q beside d, some 1e-11.
 //!
 //! Patch tests stay exact to 1e-12 on distorted facets up to `δ = 0.32`, of lines 0.3, and beyond it if cells are smaller
@@ -108,6 +109,9 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// What rules on facets with maps that are not affine may miss of an integral of a shape function, relative to the area.
 const EXACT: f64 = 1e-12;
+
+/// The same where edges are bent: a hundredth of the sagitta, relative to the size of the facet, and no more than this.
+const BENT: f64 = 1e-8;
 
 /// A point of a cell.
 #[derive(Clone, Copy, Debug)]
@@ -177,8 +181,10 @@ pub fn integrate<T: Real>(
     for i in 0..secondary.npiece() {
         let subject = secondary.piece(i);
         for k in 0..primary.npiece() {
-            let cut = subject.intersection(&primary.piece(k), tolerance);
-            over.polygon(&cut, &mut each)?;
+            let other = primary.piece(k);
+            if subject.near(&other) {
+                over.polygon(&subject.intersection(&other, tolerance), &mut each)?;
+            }
         }
     }
     Ok(())
@@ -207,7 +213,8 @@ impl<T: Real> Both<'_, T> {
     fn degree(&self, corners: &[Pair<T>]) -> usize {
         let (a, b) = (self.secondary, self.primary);
         let product = a.degree() + a.degree().max(b.degree());
-        let needed = [a, b].map(|f| degree_for(f.dim(), f.degree(), f.bend_within(corners)));
+        let needed =
+            [a, b].map(|f| degree_for(f.dim(), f.degree(), f.bend_within(corners), f.accuracy()));
         product.max(needed[0]).max(needed[1]).min(MAX_DEGREE)
     }
 
@@ -325,9 +332,9 @@ fn follow(corner: usize, share: f64, dweight: Pair<f64>) -> Follow {
     }
 }
 
-/// The least degree for which (E3) is [`EXACT`], from `q` and δ; more than [`MAX_DEGREE`] where there is none.
-fn degree_for(dim: usize, q: usize, bend: f64) -> usize {
-    let exact = |d: &usize| error_bound(dim, q, bend, *d) <= EXACT;
+/// The least degree for which (E3) is this accurate, from `q` and δ; more than [`MAX_DEGREE`] where there is none.
+fn degree_for(dim: usize, q: usize, bend: f64, accuracy: f64) -> usize {
+    let exact = |d: &usize| error_bound(dim, q, bend, *d) <= accuracy;
     (q..=MAX_DEGREE).find(exact).unwrap_or(MAX_DEGREE + 1)
 }
 

@@ -484,7 +484,7 @@ fn nearly_affine_facets_need_few_points() {
         let places: Vec<Pair<f64>> = element.nodes().iter().map(|x| [x.x, x.y]).collect();
         let q = Flat::new(element, &places, Facing::Same).unwrap().degree();
         let points = |bend: f64| {
-            let degree = degree_for(element.dim(), q, bend).clamp(2 * q, MAX_DEGREE);
+            let degree = degree_for(element.dim(), q, bend, EXACT).clamp(2 * q, MAX_DEGREE);
             of_degree(element.dim(), degree).len()
         };
         let bends = [0.0, 0.003, 0.03, 0.1, 0.3];

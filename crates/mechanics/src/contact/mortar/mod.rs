@@ -30,9 +30,16 @@
 //! ```
 //!
 //! `S` is inverted in the scale of its diagonal, where its condition does not depend on how little is covered. Where the
-//! covered part is an island inside the facet it does: above `MAX_CONDITION` the basis is `ψ = Ñ` and `D` lumped, which
-//! keeps `Σ_l M_jl = D_j` and uniform pressures but not linear fields. A node that is covered by less than
-//! [`MIN_COVERAGE`] of `D⁰`, over all its facets, has no multiplier: that is the caller's to decide.
+//! covered part is an island inside the facet it does: above `MAX_CONDITION`, in the norm of the largest row sum, which
+//! is n times that of the eigenvalues at most, the basis is `ψ = Ñ` and `D` lumped, which keeps `Σ_l M_jl = D_j` and
+//! uniform pressures but not linear fields. A node that is covered by less than [`MIN_COVERAGE`] of `D⁰`, over all its
+//! facets, has no multiplier: that is the caller's to decide.
+//!
+//! *The switch* between the two bases is a jump, not a kink: `D` is the same on either side, and so is the force of a
+//! uniform pressure, but rows of `M` jump by as much as the dual ones exceed `|M_jl| ≤ D_j`, and forces on single primary
+//! nodes and gaps with them. Derivatives are those of the basis that was taken. Where an iterate crosses it the next
+//! residual is not what the last linearization said, for one iteration; where a solution lies on it, iterates may
+//! alternate, until the increment is cut. Only facets of which an island is covered are concerned.
 //!
 //! *Quadratic facets* have weights `∫N_j` of either sign. Those of `Ñ` are non-negative at every point:
 //!
