@@ -72,7 +72,11 @@ const ROOMS: [Room; 32] = [
     room("mechanics::contact::mortar", &["geometry"]),
     room(
         "mechanics::contact::discretization",
-        &["mechanics::contact::row", "geometry"],
+        &[
+            "mechanics::contact::row",
+            "mechanics::contact::mortar",
+            "geometry",
+        ],
     ),
     room("mechanics::solve", &["mechanics::system"]),
     room("mechanics::model", &["mechanics", "geometry"]),

@@ -33,6 +33,11 @@ fn partial_slip_of_cylinders_by_multipliers() {
     cattaneo("method = \"node-to-segment\"\nenforcement = { lagrange = {} }");
 }
 
+#[test]
+fn partial_slip_of_cylinders_by_mortar() {
+    cattaneo("method = \"mortar\"");
+}
+
 /// P, Q and mu.
 const PRESSED: f64 = 10.0;
 const SHEARED: f64 = 0.93616;

@@ -15,8 +15,8 @@ use crate::system::{
     StepContext, Symmetry, Term, TermError, Verdict, Work,
 };
 use history::History;
-use pairing::Near;
 pub use pairing::closest_points;
+use pairing::{Coupled, Near};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, ContactSurface, SurfaceError};
 use signorini_geometry::tensor::Vec3;
@@ -158,8 +158,11 @@ pub struct Interface {
     history: History,
     /// Whether the accepted choices are those of a state, and not just of nothing.
     started: bool,
-    /// The facets that the pattern couples each row with, neighbours included: of its closest point and of its anchor.
-    coupled: Vec<[u32; 2]>,
+    /// Whether they were read from an archive, which holds no weights.
+    resumed: bool,
+    /// What the pattern couples each row with, and what the present iterate asks for.
+    coupled: Coupled,
+    wanted: Coupled,
     step: StepContext,
     /// The step in which it acts first.
     first_step: Option<StepContext>,
@@ -173,8 +176,6 @@ struct Judged {
     state: Contact,
     facet: Option<(u32, u8)>,
 }
-
-const NONE: u32 = u32::MAX;
 
 #[derive(Default)]
 struct Scratch {
@@ -190,9 +191,7 @@ impl Interface {
     #[must_use]
     pub fn new(parts: InterfaceParts, layout: Layout, elimination: Arc<Elimination>) -> Self {
         let nrow = parts.discretization.nrow();
-        let nothing = Pairing {
-            pairs: vec![None; nrow],
-        };
+        let nothing = Pairing::nothing(nrow);
         let history = History::new(nrow, parts.bond.as_deref());
         Self {
             parts,
@@ -206,7 +205,9 @@ impl Interface {
             next: nothing,
             history,
             started: false,
-            coupled: vec![[NONE; 2]; nrow],
+            resumed: false,
+            coupled: Coupled::default(),
+            wanted: Coupled::default(),
             step: StepContext::default(),
             first_step: None,
             changes: vec![0; nrow],
@@ -364,10 +365,15 @@ impl Term for Interface {
         let at = from.placement();
         if !self.started {
             self.search(&at).map_err(|e| self.failed(&e))?;
-            self.accepted.pairs.clone_from(&self.now.pairs);
+            self.accepted.clone_from(&self.now);
             self.started = true;
             self.judge(from)?;
             self.accepted_judged.clone_from(&self.judged);
+        }
+        if std::mem::take(&mut self.resumed) {
+            // weights are those of where the run stopped
+            self.search(&at).map_err(|e| self.failed(&e))?;
+            self.accepted.weights.clone_from(&self.now.weights);
         }
         self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.changes.fill(0);
@@ -482,7 +488,7 @@ impl Term for Interface {
     }
 
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
-        self.accepted.pairs.clone_from(&self.now.pairs);
+        self.accepted.clone_from(&self.now);
         self.accepted_judged.clone_from(&self.judged);
         self.started = true;
         self.changes.fill(0);
@@ -490,7 +496,7 @@ impl Term for Interface {
     }
 
     fn reject(&mut self) {
-        self.now.pairs.clone_from(&self.accepted.pairs);
+        self.now.clone_from(&self.accepted);
         self.judged.clone_from(&self.accepted_judged);
         self.history.reject();
         self.changes.fill(0);

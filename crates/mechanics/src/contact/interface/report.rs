@@ -70,8 +70,9 @@ impl Interface {
         let mut centre = (Vec3::ZERO, 0.0);
         let mut gap_min: Option<f64> = None;
         for row in 0..self.parts.discretization.nrow() {
-            let area = self.area(row);
             let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
+            let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
+            let area = self.area(row) * coverage;
             // a point of a rule may have no area at all
             let per_area = match self.parts.measure {
                 Measure::Area => 1.0,
@@ -85,7 +86,7 @@ impl Interface {
             }
             if let Some(filled) = found.filter(|_| acts) {
                 let traction = self.traction(filled, &self.lambda(row, state));
-                let measure = self.measure(row);
+                let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
                 pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
                 report.force_normal += filled.normal * (traction.pressure * measure);
@@ -277,16 +278,13 @@ impl Interface {
             let part = internal.get(at..at + 3);
             part.map_or(Vec3::ZERO, |f| -Vec3::new(f[0], f[1], f[2]))
         };
-        let of_point = self.parts.discretization.point(row).nodes;
-        let first_of_point = self.parts.discretization.first_of_point(rows, row);
+        let secondary = self.parts.discretization.secondary(rows, row);
         for (place, participant) in rows.participants().iter().enumerate() {
             let force = vector(column);
             match *participant {
                 Participant::Node(node) => {
                     let x = state.x.get(node as usize).copied().unwrap_or_default();
-                    let secondary =
-                        (first_of_point..first_of_point + of_point.len()).contains(&place);
-                    let side = if secondary {
+                    let side = if secondary.contains(&place) {
                         if let Ok(k) = self.parts.pair.points.binary_search(&node) {
                             report.force[k] += force;
                         }

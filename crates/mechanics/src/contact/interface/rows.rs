@@ -37,6 +37,7 @@ impl Interface {
         };
         let links = Links {
             pairing: &self.now,
+            accepted: &self.accepted,
             anchors: self.history.anchors(),
             bond: laws.bond,
         };

@@ -103,10 +103,12 @@ mod pair;
 #[allow(clippy::needless_range_loop)]
 mod tests;
 mod transformation;
+mod weights;
 
 pub use covered::{Covered, MIN_COVERAGE};
 pub use pair::{Frame, Pair};
 pub use transformation::Transformation;
+pub use weights::{OfFacet, OfRow, Weights};
 
 use signorini_geometry::element::Element;
 use signorini_geometry::tensor::Vec3;
