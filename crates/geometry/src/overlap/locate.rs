@@ -73,16 +73,15 @@ impl<'a, T: Real> Map<'a, T> {
         let n = element.nnode();
         element.shape(&xi, &mut self.shape[..n]);
         element.dshape(&xi, &mut self.slopes[..n]);
-        self.place = [0.0; 2];
-        self.tangents = [[0.0; 2]; 2];
+        let mut sums = [[0.0; 2]; 3];
         let nodes = self.flat.values().iter().zip(&self.shape).zip(&self.slopes);
-        for ((x, n), d) in nodes.take(n) {
-            for a in 0..2 {
-                self.place[a] += n * x[a];
-                self.tangents[0][a] += d.x * x[a];
-                self.tangents[1][a] += d.y * x[a];
+        for ((x, &n), d) in nodes.take(n) {
+            for (sum, factor) in sums.iter_mut().zip([n, d.x, d.y]) {
+                *sum = [sum[0] + factor * x[0], sum[1] + factor * x[1]];
             }
         }
+        let [place, t1, t2] = sums;
+        (self.place, self.tangents) = (place, [t1, t2]);
     }
 
     /// The change of parameters that makes a change of place.

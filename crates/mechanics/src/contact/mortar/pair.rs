@@ -62,9 +62,9 @@ impl Frame {
         };
         frame.x[..facet.x.len()].copy_from_slice(facet.x);
         let found = match 3 * facet.x.len() {
-            ..=6 => frame.erect::<6>(facet),
-            ..=12 => frame.erect::<12>(facet),
-            ..=18 => frame.erect::<18>(facet),
+            0..=6 => frame.erect::<6>(facet),
+            7..=12 => frame.erect::<12>(facet),
+            13..=18 => frame.erect::<18>(facet),
             _ => frame.erect::<COORDINATES>(facet),
         };
         found.ok_or(MortarError::Secondary)?;
@@ -376,7 +376,7 @@ impl Pair {
                 let [g, h] = [own.gradient[j], own.gradient[k]];
                 self.move_with(integral, point, weighted, (b, g), (a, h));
             }
-            for l in 0..nm {
+            for (l, of_other) in of_other[..nm].iter().enumerate() {
                 let integral = self.place_nm(j, l);
                 let row = &mut self.by_place[integral * self.nvariable..][..self.nvariable];
                 let (a, b) = (other.shape[l], own.shape[j]);
@@ -384,7 +384,7 @@ impl Pair {
                 for (to, p) in first.iter_mut().zip(&of_own[j]) {
                     *to += a * p;
                 }
-                for (to, p) in rest[..dm].iter_mut().zip(&of_other[l]) {
+                for (to, p) in rest[..dm].iter_mut().zip(of_other) {
                     *to += b * p;
                 }
                 let [g, h] = [own.gradient[j], other.gradient[l]];
