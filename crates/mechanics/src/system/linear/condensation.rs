@@ -81,8 +81,8 @@ const NOWHERE: usize = usize::MAX;
 pub(super) struct Numbers {
     /// Closed groups, in the order of elimination.
     order: Vec<u32>,
-    /// The pivots of each group; none where it is open.
-    pivots: Vec<Option<Pivots>>,
+    /// The pivots of each group.
+    pivots: Vec<Pivots>,
     /// The values of the lines.
     line: Vec<f64>,
     /// Columns of E, one for each multiplier of the closed groups in their order.
@@ -368,18 +368,15 @@ impl Condensation {
         numbers.pivots.clear();
         let mut diagonal = Vec::new();
         for group in &self.groups {
-            if multipliers.is_open(kept, &group.multiplier, interface) {
-                numbers.pivots.push(None);
-                continue;
-            }
             let found = multipliers.pivots(kept, group, interface);
-            numbers.pivots.push(Some(found.ok_or(Refusal::Host)?));
-            let entries = group.multiplier.iter().flat_map(|&m| kept.interface_row(m));
-            let among = |(column, at): (u32, usize)| {
+            let pivots = found.ok_or(Refusal::Host)?;
+            numbers.pivots.push(pivots);
+            let acts = |&(column, at): &(u32, usize)| {
                 self.group_of[column as usize] != NONE && interface[at] != 0.0
             };
-            if self.symmetric && entries.into_iter().any(among) {
-                diagonal.extend(&group.multiplier);
+            let yields = |&&m: &&u32| kept.interface_row(m).any(|entry| acts(&entry));
+            if self.symmetric {
+                diagonal.extend(pivots.multipliers().iter().filter(yields));
             }
         }
         if !diagonal.is_empty() {
@@ -405,20 +402,16 @@ impl Condensation {
             pair,
             ..
         } = numbers;
-        let closed = |g: usize| pivots[g].is_some();
+        let closed = |g: usize| !pivots[g].rows().is_empty();
         pivot.clear();
         pivot.resize(self.equation.len(), NONE);
-        for (g, (group, pivots)) in self.groups.iter().zip(pivots.iter()).enumerate() {
-            for (_, &p) in group
-                .multiplier
-                .iter()
-                .zip(pivots.iter().flat_map(|p| &p.row))
-            {
+        for (g, pivots) in pivots.iter().enumerate() {
+            for &p in pivots.rows() {
                 pivot[p as usize] = g as u32;
             }
         }
         let after = |g: usize| {
-            let columns = self.groups[g].multiplier.iter();
+            let columns = pivots[g].multipliers().iter();
             let entries = columns.flat_map(|&m| multipliers.column(m));
             let acts = entries.filter(|&(_, at)| interface[at] != 0.0);
             acts.map(|(row, _)| pivot[row as usize])
@@ -439,10 +432,10 @@ impl Condensation {
             while let Some(&g) = order.get(next) {
                 for other in after(g as usize) {
                     let before = &mut before[other as usize];
-                    *before = before.saturating_sub(1);
-                    if *before == 0 {
+                    if *before == 1 {
                         order.push(other);
                     }
+                    *before = before.saturating_sub(1);
                 }
                 next += 1;
             }
@@ -451,7 +444,7 @@ impl Condensation {
             let Some(&most) = waiting.iter().max_by_key(|&&g| (before[g], usize::MAX - g)) else {
                 break;
             };
-            stay.extend(&self.groups[most].multiplier);
+            stay.extend(pivots[most].multipliers());
             before[most] = 0;
             order.push(most as u32);
         }
@@ -461,8 +454,8 @@ impl Condensation {
         pivot.fill(NONE);
         pair.clear();
         for &g in order.iter() {
-            let rows = pivots[g as usize].iter().flat_map(|p| &p.row);
-            for (&m, &p) in self.groups[g as usize].multiplier.iter().zip(rows) {
+            let pivots = &pivots[g as usize];
+            for (&m, &p) in pivots.multipliers().iter().zip(pivots.rows()) {
                 pivot[p as usize] = pair.len() as u32;
                 pair.push((m, p));
             }
@@ -502,13 +495,13 @@ impl Condensation {
             while let Some(first) = due.iter().copied().min() {
                 due.retain(|&r| r != first);
                 let g = order[first as usize] as usize;
-                let Some(Pivots { row, inverse }) = &pivots[g] else {
-                    continue;
-                };
-                let group = &self.groups[g].multiplier;
-                let load = row.map(|p| sum.get(p as usize).copied().unwrap_or(0.0));
-                for (&m, line) in group.iter().zip(inverse) {
-                    let lambda: f64 = -line.iter().zip(load).map(|(s, f)| s * f).sum::<f64>();
+                let pivots = &pivots[g];
+                let mut load = [0.0; WIDTH];
+                for (load, &p) in load.iter_mut().zip(pivots.rows()) {
+                    *load = sum[p as usize];
+                }
+                for (&m, line) in pivots.multipliers().iter().zip(&pivots.inverse) {
+                    let lambda = -line.iter().zip(load).map(|(s, f)| s * f).sum::<f64>();
                     for (i, at) in multipliers.column(m) {
                         let change = interface[at] * lambda;
                         if change == 0.0 {
@@ -527,7 +520,7 @@ impl Condensation {
                         }
                     }
                 }
-                for &p in row.iter().take(group.len()) {
+                for &p in pivots.rows() {
                     sum[p as usize] = 0.0;
                 }
             }
@@ -672,13 +665,9 @@ impl Condensation {
     ) {
         let interface = values.interface;
         x.fill(0.0);
-        for (group, _) in self
-            .groups
-            .iter()
-            .zip(&numbers.pivots)
-            .filter(|(_, p)| p.is_none())
-        {
-            for &m in &group.multiplier {
+        for (group, pivots) in self.groups.iter().zip(&numbers.pivots) {
+            let closed = pivots.multipliers();
+            for &m in group.multiplier.iter().filter(|m| !closed.contains(m)) {
                 let diagonal = kept.interface_row(m).find(|(column, _)| *column == m);
                 let lambda = diagonal.map_or(0.0, |(_, at)| r[m as usize] / interface[at]);
                 x[m as usize] = lambda;
@@ -692,12 +681,9 @@ impl Condensation {
         }
         if self.symmetric {
             for &g in numbers.order.iter().rev() {
-                let (group, Some(pivots)) = (&self.groups[g as usize], &numbers.pivots[g as usize])
-                else {
-                    continue;
-                };
+                let pivots = &numbers.pivots[g as usize];
                 let mut gap = [0.0; WIDTH];
-                for (gap, &m) in gap.iter_mut().zip(&group.multiplier) {
+                for (gap, &m) in gap.iter_mut().zip(pivots.multipliers()) {
                     *gap = r[m as usize];
                     for (i, at) in multipliers.column(m) {
                         if numbers.pivot[i as usize] != NONE {
@@ -705,8 +691,8 @@ impl Condensation {
                         }
                     }
                 }
-                for (a, &p) in pivots.row.iter().enumerate().take(group.multiplier.len()) {
-                    let terms = pivots.inverse.iter().zip(gap).take(group.multiplier.len());
+                for (a, &p) in pivots.rows().iter().enumerate() {
+                    let terms = pivots.inverse.iter().zip(gap);
                     x[p as usize] = terms.map(|(line, gap)| line[a] * gap).sum();
                 }
             }
@@ -754,20 +740,13 @@ impl Condensation {
             }
         }
         for &g in &numbers.order {
-            let (group, Some(pivots)) = (&self.groups[g as usize], &numbers.pivots[g as usize])
-            else {
-                continue;
-            };
+            let pivots = &numbers.pivots[g as usize];
             let mut force = [0.0; WIDTH];
-            for (force, &p) in force
-                .iter_mut()
-                .zip(&pivots.row)
-                .take(group.multiplier.len())
-            {
+            for (force, &p) in force.iter_mut().zip(pivots.rows()) {
                 let row = self.lines.row(p, &numbers.line);
                 *force = r[p as usize] - row.map(|(column, a)| a * x[column as usize]).sum::<f64>();
             }
-            for (&m, line) in group.multiplier.iter().zip(&pivots.inverse) {
+            for (&m, line) in pivots.multipliers().iter().zip(&pivots.inverse) {
                 x[m as usize] = line.iter().zip(force).map(|(s, f)| s * f).sum();
             }
         }

@@ -1,24 +1,24 @@
-//! Where multipliers can be eliminated: the multipliers that act together, and for each such group a node that is its
-//! host, among those it acts on.
+//! Where multipliers can be eliminated: each with an equation of a node that is its host, among those it acts on.
 //!
-//! Multipliers with the same row of the pattern form a group: the traction of one point. A good host is one that few
-//! other groups act on, with a block that inverts well. A group that is open has no values yet; its pattern is all
-//! there is to go by. Each host serves one group, and a group without a host stays as it is.
+//! A good host is one that few other multipliers act on, with a large coefficient. Multipliers with a common host form a
+//! group and are eliminated together, by the block of their coefficients in it: a traction at its own node, or what two
+//! contacts exert on a node of both. A multiplier that is open has no coefficients yet; its pattern is all there is to
+//! go by. One that finds no host stays as it is.
 
 use super::{Kept, Values};
 use crate::system::sparsity::NONE;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
-/// The most multipliers that form a group, and dofs that a host has.
+/// The most dofs that a host has, and multipliers with it.
 pub(super) const WIDTH: usize = 3;
 /// A small square matrix.
 pub(super) type Block = [[f64; WIDTH]; WIDTH];
-/// A host's smallest pivot over the group's largest coefficient: at least this for a host that is kept,
+/// The smallest pivot of a group over its largest coefficient: at least this for a host that is kept,
 const KEEP: f64 = 0.05;
 /// and this for a new one.
 const TAKE: f64 = 0.2;
-/// Groups that act on more dofs stay as they are: they would couple all of them.
-const WIDE: usize = 400;
+/// Multipliers that act on more nodes stay as they are: they would couple all of them.
+const WIDE: usize = 100;
 
 /// The columns of the multipliers.
 #[derive(Default)]
@@ -32,7 +32,7 @@ pub(super) struct Multipliers {
     at: Vec<usize>,
 }
 
-/// Multipliers that are eliminated together.
+/// Multipliers with a common host.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Group {
     /// Raw dofs.
@@ -41,13 +41,34 @@ pub(super) struct Group {
     pub host: Vec<u32>,
 }
 
-/// The pivots of a group: `S[a][c]` is the coefficient of multiplier c in the equation of dof `row[a]`.
+/// The pivots of the multipliers of a group that are closed: `S[a][c]` is the coefficient of multiplier c in the
+/// equation of dof `row[a]`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pivots {
-    /// Raw dofs, one for each multiplier.
-    pub row: [u32; WIDTH],
+    multiplier: [u32; WIDTH],
+    row: [u32; WIDTH],
+    n: usize,
     /// S⁻¹.
     pub inverse: Block,
+}
+
+impl Pivots {
+    const OPEN: Self = Self {
+        multiplier: [NONE; WIDTH],
+        row: [NONE; WIDTH],
+        n: 0,
+        inverse: [[0.0; WIDTH]; WIDTH],
+    };
+
+    /// Raw dofs of the multipliers.
+    pub fn multipliers(&self) -> &[u32] {
+        &self.multiplier[..self.n]
+    }
+
+    /// Raw dofs of their pivots.
+    pub fn rows(&self) -> &[u32] {
+        &self.row[..self.n]
+    }
 }
 
 impl Multipliers {
@@ -55,6 +76,9 @@ impl Multipliers {
         let nbulk = kept.bulk.nrow() * kept.bulk.block;
         let mut number = vec![NONE; kept.equation.len()];
         let mut dof = Vec::new();
+        if kept.shares_equations() {
+            return Self::default();
+        }
         for (d, &e) in kept.equation.iter().enumerate().skip(nbulk) {
             if e != NONE && kept.sign[e as usize] < 0 {
                 number[d] = dof.len() as u32;
@@ -116,59 +140,74 @@ impl Multipliers {
         }
     }
 
-    /// Whether nothing but the diagonal is in the rows of a group, so that its multipliers are known beforehand.
-    pub fn is_open(&self, kept: &Kept, group: &[u32], interface: &[f64]) -> bool {
-        group.iter().all(|&m| {
-            let row = m as usize;
-            let entries = kept.interface.row_start[row]..kept.interface.row_start[row + 1];
-            entries.into_iter().all(|at| {
-                let column = kept.interface.column[at];
-                let diagonal = column == m;
-                (interface[at] != 0.0) == diagonal || kept.equation[column as usize] == NONE
-            })
+    /// Whether nothing but the diagonal is in the row of a multiplier, so that it is known beforehand.
+    pub fn is_open(kept: &Kept, multiplier: u32, interface: &[f64]) -> bool {
+        let row = multiplier as usize;
+        let mut entries = kept.interface.row_start[row]..kept.interface.row_start[row + 1];
+        entries.all(|at| {
+            let column = kept.interface.column[at];
+            (interface[at] != 0.0) == (column == multiplier)
+                || kept.equation[column as usize] == NONE
         })
     }
 
-    /// The pivots of a group in a host, and the smallest over the group's largest coefficient.
+    /// The largest coefficient of a multiplier in the equations of displacements.
+    fn largest(&self, kept: &Kept, multiplier: u32, interface: &[f64]) -> f64 {
+        let column = self.column(multiplier);
+        let acts = column.filter(|&(row, _)| kept.is_displacement(row));
+        acts.fold(0.0, |max: f64, (_, at)| max.max(interface[at].abs()))
+    }
+
+    /// The pivots of those of the multipliers that are closed, if every one is at least `least` of the largest
+    /// coefficient.
     fn pivots_of(
         &self,
         kept: &Kept,
-        group: &[u32],
+        multipliers: &[u32],
         host: &[u32],
         interface: &[f64],
-    ) -> Option<(Pivots, f64)> {
-        if group.len() > host.len() || host.len() > WIDTH {
+        least: f64,
+    ) -> Option<Pivots> {
+        let mut pivots = Pivots::OPEN;
+        let mut largest = 0.0f64;
+        let closed = |&&m: &&u32| !Self::is_open(kept, m, interface);
+        for &m in multipliers.iter().filter(closed) {
+            *pivots.multiplier.get_mut(pivots.n)? = m;
+            pivots.n += 1;
+            largest = largest.max(self.largest(kept, m, interface));
+        }
+        let n = pivots.n;
+        if n == 0 {
+            return Some(pivots);
+        }
+        if n > host.len() || host.len() > WIDTH {
             return None;
         }
         let mut block = Block::default();
         for (line, &row) in block.iter_mut().zip(host) {
-            for (b, &m) in line.iter_mut().zip(group) {
+            for (b, &m) in line.iter_mut().zip(pivots.multipliers()) {
                 *b = self.coefficient(row, m, interface);
             }
         }
-        let acts = |&(row, _): &(u32, usize)| kept.is_displacement(row);
-        let columns = group.iter().flat_map(|&m| self.column(m).filter(acts));
-        let largest = columns.fold(0.0, |max: f64, (_, at)| max.max(interface[at].abs()));
-        let (order, smallest) = pivot_order(&block, host.len(), group.len())?;
-        let mut square = Block::default();
-        let mut row = [NONE; WIDTH];
-        for (a, &from) in order[..group.len()].iter().enumerate() {
-            square[a] = block[from];
-            row[a] = host[from];
+        let (order, smallest) = pivot_order(&block, host.len(), n)?;
+        if smallest.is_nan() || smallest < least * largest {
+            return None;
         }
-        let inverse = inverse(&square, group.len())?;
-        Some((Pivots { row, inverse }, smallest / largest))
+        let mut square = Block::default();
+        for (a, &from) in order[..n].iter().enumerate() {
+            square[a] = block[from];
+            pivots.row[a] = host[from];
+        }
+        pivots.inverse = inverse(&square, n)?;
+        Some(pivots)
     }
 
     /// The pivots of a group, where its host still serves.
     pub fn pivots(&self, kept: &Kept, group: &Group, interface: &[f64]) -> Option<Pivots> {
-        let found = self.pivots_of(kept, &group.multiplier, &group.host, interface);
-        found
-            .filter(|(_, quality)| *quality >= KEEP)
-            .map(|(pivots, _)| pivots)
+        self.pivots_of(kept, &group.multiplier, &group.host, interface, KEEP)
     }
 
-    /// The groups that have a host. Without values, patterns decide.
+    /// The multipliers that have a host. Without values, patterns decide.
     ///
     /// `stays` says of a raw dof that its multiplier is not to be eliminated, `before` which node was a multiplier's host.
     pub fn groups(
@@ -178,95 +217,84 @@ impl Multipliers {
         stays: &[bool],
         before: &[u32],
     ) -> Vec<Group> {
-        let alike = self.alike(kept, stays);
-        let interface = values.map(|v| v.interface);
-        let nodes: Vec<Vec<u32>> = alike
-            .iter()
-            .map(|group| self.nodes(kept, group, interface))
-            .collect();
-        let mut share: HashMap<u32, f64> = HashMap::new();
-        for &node in nodes.iter().flatten() {
-            *share.entry(node).or_default() += 1.0;
-        }
-        let mut offers: Vec<(f64, u32, u32)> = Vec::new();
-        for (g, group) in alike.iter().enumerate() {
-            for &node in &nodes[g] {
-                let host = kept.equations_of(node);
-                let quality = match interface.filter(|i| !self.is_open(kept, group, i)) {
-                    Some(interface) => self
-                        .pivots_of(kept, group, &host, interface)
-                        .map_or(0.0, |(_, quality)| quality),
-                    None if group.len() <= host.len() => 1.0,
-                    None => 0.0,
+        let candidates = || self.dof.iter().copied().filter(|&m| !stays[m as usize]);
+        let interface = |m: u32| {
+            let values = values.map(|v| v.interface);
+            values.filter(|i| !Self::is_open(kept, m, i))
+        };
+        // (multiplier, node, coefficient over the largest)
+        let mut acts: Vec<(u32, u32, f64)> = Vec::new();
+        for m in candidates() {
+            let begin = acts.len();
+            let largest = interface(m).map(|i| self.largest(kept, m, i));
+            for (row, at) in self.column(m).filter(|&(row, _)| kept.is_displacement(row)) {
+                let size = match (interface(m), largest) {
+                    (Some(interface), Some(largest)) => interface[at].abs() / largest,
+                    _ => 1.0,
                 };
-                let was = group.iter().all(|&m| before[m as usize] == node);
-                if quality >= TAKE || (was && quality >= KEEP) {
-                    let old = if was { 4.0 } else { 1.0 };
-                    offers.push((old * quality / share[&node], g as u32, node));
+                let node = kept.node_of(row);
+                match acts[begin..].iter_mut().find(|(_, n, _)| *n == node) {
+                    Some((.., most)) => *most = most.max(size),
+                    None => acts.push((m, node, size)),
                 }
             }
-        }
-        offers.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-        let mut host_of = vec![NONE; alike.len()];
-        let mut taken: HashMap<u32, ()> = HashMap::new();
-        for (_, g, node) in offers {
-            if host_of[g as usize] == NONE && !taken.contains_key(&node) {
-                host_of[g as usize] = node;
-                taken.insert(node, ());
+            acts.retain(|&(.., size)| size > 0.0);
+            if acts.len() - begin > WIDE {
+                acts.truncate(begin);
             }
         }
-        let hosted = alike.into_iter().zip(host_of).filter(|(_, h)| *h != NONE);
-        hosted
-            .map(|(multiplier, node)| Group {
-                multiplier,
-                host: kept.equations_of(node),
+        let mut share: HashMap<u32, f64> = HashMap::new();
+        for &(_, node, _) in &acts {
+            *share.entry(node).or_default() += 1.0;
+        }
+        let was = |m: u32, node: u32| before[m as usize] == node;
+        let mut offers: Vec<(f64, u32, u32)> = acts
+            .iter()
+            .map(|&(m, node, size)| {
+                let bonus = if was(m, node) { 4.0 } else { 1.0 };
+                (bonus * size / share[&node], m, node)
             })
-            .collect()
-    }
+            .collect();
+        offers.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
 
-    /// Multipliers with the same row of the pattern, in the order in which they first appear.
-    fn alike(&self, kept: &Kept, stays: &[bool]) -> Vec<Vec<u32>> {
-        let mut number: HashMap<&[u32], usize> = HashMap::new();
-        let mut groups: Vec<Vec<u32>> = Vec::new();
-        for &m in self.dof.iter().filter(|&&m| !stays[m as usize]) {
-            let row = m as usize;
-            let range = kept.interface.row_start[row]..kept.interface.row_start[row + 1];
-            let g = *number
-                .entry(&kept.interface.column[range])
-                .or_insert(groups.len());
-            if g == groups.len() {
-                groups.push(Vec::new());
+        let mut hosted = vec![false; kept.equation.len()];
+        let mut groups: BTreeMap<u32, Group> = BTreeMap::new();
+        for (_, m, node) in offers {
+            if hosted[m as usize] {
+                continue;
             }
-            groups[g].push(m);
-        }
-        groups.retain(|group| group.len() <= WIDTH);
-        groups
-    }
-
-    /// The nodes that a group acts on; none where there are too many.
-    fn nodes(&self, kept: &Kept, group: &[u32], interface: Option<&[f64]>) -> Vec<u32> {
-        let interface = interface.filter(|i| !self.is_open(kept, group, i));
-        let mut nodes = Vec::new();
-        let mut ndof = 0;
-        for &m in group {
-            let acts = |&(row, at): &(u32, usize)| {
-                kept.is_displacement(row) && interface.is_none_or(|i| i[at] != 0.0)
-            };
-            for (row, _) in self.column(m).filter(acts) {
-                nodes.push(kept.node_of(row));
-                ndof += 1;
+            let group = groups.entry(node).or_insert_with(|| Group {
+                multiplier: Vec::new(),
+                host: kept.equations_of(node),
+            });
+            if group.multiplier.len() == group.host.len() {
+                continue;
+            }
+            group.multiplier.push(m);
+            let least = if was(m, node) { KEEP } else { TAKE };
+            let fits = values.is_none_or(|v| {
+                let (multipliers, host) = (&group.multiplier, &group.host);
+                let found = self.pivots_of(kept, multipliers, host, v.interface, least);
+                found.is_some()
+            });
+            if fits {
+                hosted[m as usize] = true;
+            } else {
+                group.multiplier.pop();
             }
         }
-        if ndof > WIDE * group.len() {
-            return Vec::new();
-        }
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
+        groups.retain(|_, group| !group.multiplier.is_empty());
+        groups.into_values().collect()
     }
 }
 
 impl Kept {
+    /// Whether some equation is that of several raw dofs: then nothing is eliminated.
+    fn shares_equations(&self) -> bool {
+        let used = self.equation.iter().filter(|&&e| e != NONE).count();
+        used > self.sign.len()
+    }
+
     /// Whether a raw dof is an unknown with the sign of a displacement.
     fn is_displacement(&self, dof: u32) -> bool {
         let equation = self.equation[dof as usize];
