@@ -232,6 +232,14 @@ impl Condensation {
         condensation
     }
 
+    /// The structure for the hosts that the pattern alone chooses; none where there is nothing to eliminate.
+    pub fn by_pattern(kept: &Kept) -> Option<Self> {
+        let multipliers = Multipliers::new(kept);
+        let ndof = kept.equation.len();
+        let groups = multipliers.groups(kept, None, &vec![false; ndof], &vec![NONE; ndof]);
+        (!groups.is_empty()).then(|| Self::new(kept, &multipliers, groups))
+    }
+
     /// Makes room for the numbers of an elimination: a multiplier that acts on the host of another changes what that
     /// one acts on, too.
     pub fn grow(&mut self, kept: &Kept, numbers: &Numbers) {

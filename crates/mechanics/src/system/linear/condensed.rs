@@ -37,6 +37,8 @@ pub struct Condensed {
     numbers: Numbers,
     /// The values that the numbers belong to.
     seen: Vec<f64>,
+    /// Whether the factor is that of the numbers.
+    is_new: bool,
     /// Whether the whole problem was factorized last.
     is_whole: bool,
     /// Per raw dof of a multiplier, its host so far.
@@ -62,6 +64,7 @@ impl Condensed {
             condensation: None,
             numbers: Numbers::default(),
             seen: Vec::new(),
+            is_new: false,
             is_whole: false,
             hosts: Vec::new(),
             stays: Vec::new(),
@@ -166,6 +169,7 @@ impl Condensed {
         if self.seen == values.interface && condensation.is_of(values, numbers) {
             return true;
         }
+        self.is_new = false;
         self.seen.clear();
         let outcome = condensation
             .eliminate(kept, &self.multipliers, values, numbers)
@@ -314,7 +318,7 @@ impl LinearSolver for Condensed {
         if !self.eliminate(values)? {
             return self.factorize_whole(values);
         }
-        self.is_whole = false;
+        (self.is_whole, self.is_new) = (false, true);
         let inner_values = Values {
             bulk: values.bulk,
             interface: &self.numbers.interface,
@@ -343,7 +347,6 @@ impl LinearSolver for Condensed {
             return self.whole.solve(values, rhs, x, rtol);
         }
         kept.check_solution(values, rhs, x)?;
-        let own = self.seen == values.interface;
         if !self.follow(values) {
             return Err(LinearError::Inaccurate {
                 residual: 1.0,
@@ -351,7 +354,9 @@ impl LinearSolver for Condensed {
             });
         }
         match self.refine(values, rhs, x, rtol) {
-            Err(LinearError::Inaccurate { .. }) if own => {
+            Err(LinearError::Inaccurate { .. }) if self.is_new => {
+                // here, and for as long as the pattern stays
+                self.condensation = None;
                 self.factorize_whole(values)?;
                 self.whole.solve(values, rhs, x, rtol)
             }

@@ -10,6 +10,10 @@
 //! assembled, in both its parts, and refined or refused. A matrix that is singular to round-off (a body that nothing
 //! holds) is an error that names the equation which moves most in the free motion.
 //!
+//! Multipliers are condensed where they can be ([`Condensed`]): the factor is then one of displacements alone, and L Lᵀ
+//! where the whole system is symmetric. What is left is solved as a saddle-point problem, as all of it is by
+//! [`LinearKind::Saddle`].
+//!
 //! One more solver: a file with a struct that implements [`LinearSolver`], and a line in [`SOLVERS`].
 
 mod cholesky;

@@ -231,7 +231,6 @@ fn a_body_held_only_by_multipliers_is_solved_by_cholesky() {
         assert!(solver.inner().is_definite());
         assert_eq!(solver.neliminated(), system.ndof - system.multiplier_from);
         assert_eq!(report.negative_pivots, solver.neliminated());
-        assert_eq!(report.iterations, 1);
     }
 }
 
