@@ -35,9 +35,7 @@ fn partial_slip_of_cylinders_by_multipliers() {
 
 #[test]
 fn partial_slip_of_cylinders_by_mortar() {
-    for sliding in ["small", "finite"] {
-        cattaneo(&format!("method = \"mortar\"\nsliding = \"{sliding}\""));
-    }
+    cattaneo("method = \"mortar\"");
 }
 
 /// P, Q and mu.
@@ -96,36 +94,24 @@ fn cattaneo(by: &str) {
     let contact = &run.frames.last().unwrap().contacts[0];
     // the contact moves with the shear, by half an element
     let center = contact.center.x;
-    let (mut error, mut size) = (0.0, 0.0);
+    let (mut error, mut size, mut mean, mut count) = (0.0, 0.0, 0.0, 0.0);
     for (i, x) in contact.points.iter().enumerate() {
         let x = x.x - center;
         let expected = -traction(x);
+        mean += (contact.traction[i].x - expected).abs() / (FRICTION * p0);
+        count += f64::from(u8::from(x.abs() < a));
         error += (contact.traction[i].x - expected).powi(2);
         size += expected * expected;
     }
     // half the length that sticks, of points or of nodes
     let stick = contact.area_stick / 2.0;
     let error = (error / size).sqrt();
-    if std::env::var("SHOW").is_ok() {
-        for (i, x) in contact.points.iter().enumerate() {
-            if (x.x - center).abs() < 1.1 * a {
-                println!(
-                    "{:+.4} p {:.4} of {:.4} q {:.5} of {:.5} {:?}",
-                    (x.x - center) / a,
-                    contact.pressure[i],
-                    p0 * ellipse(x.x - center, a),
-                    contact.traction[i].x,
-                    -traction(x.x - center),
-                    contact.status[i]
-                );
-            }
-        }
-    }
     println!(
-        "  stick radius {stick:.5} for {c:.5} ({:+.2} h), p0 {:+.2} %, shear {:.3} % off in L2, force {:?}",
+        "  stick radius {stick:.5} for {c:.5} ({:+.2} h), p0 {:+.2} %, shear {:.3} % off in L2, by {:.2} % of mu p0 on the average, force {:?}",
         (stick - c) / h,
         100.0 * (contact.pressure_max / p0 - 1.0),
         100.0 * error,
+        100.0 * mean / count,
         contact.secondary.force.to_array()
     );
     assert!((stick - c).abs() < h, "{by}: {stick} for {c}");
