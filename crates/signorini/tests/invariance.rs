@@ -402,6 +402,61 @@ fn units_change_nothing_with_any_law_and_friction() {
     }
 }
 
+/// With facets as the secondary side, mortar contact and friction.
+fn with_mortar(mut blocks: Blocks) -> Blocks {
+    let up = blocks.ndim - 1;
+    let level = blocks.position(blocks.foot[0])[up];
+    let touches = |c: &&Cell| {
+        let at = |l: &u32| (blocks.position(*l)[up] - level).abs() < 1e-9;
+        c.group == "upper" && c.nodes.iter().any(at)
+    };
+    let side = if up == 1 { "-y" } else { "-z" };
+    let cells = blocks.elements.iter().filter(touches);
+    let faces: Vec<String> = cells.map(|c| format!("[{}, {side:?}]", c.label)).collect();
+    blocks.secondary = format!("faces = [{}]", faces.join(", "));
+    blocks.contact = "friction = 0.3\nmethod = \"mortar\"";
+    blocks
+}
+
+#[test]
+fn units_change_nothing_with_mortar_and_friction() {
+    for blocks in [Blocks::plane(), Blocks::space()].map(with_mortar) {
+        let base = blocks.solve();
+        for (length, stress, tolerance) in [
+            // powers of two lose nothing but what logarithms do
+            (1024.0, 1.0, 1e-10),
+            (1.0, 2f64.powi(-20), 1e-10),
+            (1e3, 1.0, 1e-9),
+            (1e-3, 1e6, 1e-9),
+        ] {
+            let mut other = blocks.mapped(scale(length), Vec3::ZERO);
+            other.young = blocks.young.map(|e| e * stress);
+            other.thickness = length;
+            let outcome = other.solve();
+            let force = stress * length * length;
+            let (one, two) = ((&blocks, &base), (&other, &outcome));
+            assert_same(one, two, scale(length), force, tolerance);
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_bit_of_mortar_contact() {
+    for blocks in [Blocks::plane(), Blocks::space()].map(with_mortar) {
+        let outcomes = [1, 2].map(|n| {
+            let threads = rayon::ThreadPoolBuilder::new().num_threads(n);
+            threads.build().unwrap().install(|| blocks.solve())
+        });
+        let [one, two] = outcomes;
+        for (one, two) in one.run.frames.iter().zip(&two.run.frames) {
+            assert_eq!(one.displacement, two.displacement);
+            assert_eq!(one.contact_force, two.contact_force);
+            assert_eq!(one.contacts[0].pressure, two.contacts[0].pressure);
+        }
+        assert_eq!(one.iterations(), two.iterations());
+    }
+}
+
 #[test]
 fn place_and_orientation_do_not_matter() {
     let turns = [

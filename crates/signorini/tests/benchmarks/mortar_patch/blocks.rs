@@ -7,10 +7,12 @@ use signorini_geometry::element::{Element, by_name};
 use signorini_geometry::mesh::Block;
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use signorini_mechanics::contact::mortar::{Facet, Frame, Pair};
+use signorini_mechanics::system::Status;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 pub const NU: f64 = 0.3;
+pub const NEWTON: &str = "force_tol = 1e-13, gap_tol = 1e-14, max_iterations = 30";
 const GROUPS: [&str; 2] = ["lower", "upper"];
 
 /// How large strains and motions may be.
@@ -30,6 +32,8 @@ pub struct Blocks {
     pub elements: [&'static str; 2],
     /// Ends of the cells of each across, along every axis but the last.
     pub across: [Vec<Vec<f64>>; 2],
+    /// The same along the last axis.
+    pub heights: [Vec<f64>; 2],
     /// How far corners are moved within the planes across the last axis, in parts of the cells.
     pub distortion: f64,
     pub seed: u64,
@@ -54,11 +58,18 @@ pub struct Errors {
     pub displacement: f64,
     pub stress: f64,
     pub pressure: f64,
+    /// Of the forces that contact exerts on the nodes of both sides, along the last axis.
+    pub force: f64,
 }
 
 impl Errors {
     pub fn most(&self) -> f64 {
-        self.displacement.max(self.stress).max(self.pressure)
+        self.of_forces().max(self.pressure)
+    }
+
+    /// Without pressures of nodes, which are differences of small forces where little is covered.
+    pub fn of_forces(&self) -> f64 {
+        self.displacement.max(self.stress).max(self.force)
     }
 
     pub fn or(self, other: Self) -> Self {
@@ -66,51 +77,75 @@ impl Errors {
             displacement: self.displacement.max(other.displacement),
             stress: self.stress.max(other.stress),
             pressure: self.pressure.max(other.pressure),
+            force: self.force.max(other.force),
         }
     }
 }
 
 /// A number in [−1, 1) that belongs to these (splitmix64).
 fn noise(keys: [u64; 4]) -> f64 {
-    let mut z = keys
-        .iter()
-        .fold(0u64, |z, k| (z ^ k).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(23));
+    let mut z = keys.iter().fold(0u64, |z, k| {
+        (z ^ k).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(23)
+    });
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// `∫N` over a facet, or over the part of it in a box across the last axis.
-pub fn weights(scene: &Scene, element: Element, nodes: &[usize], within: [Vec3; 2]) -> Vec<f64> {
+fn places(scene: &Scene, nodes: &[usize]) -> Vec<Vec3> {
     let place = |n: &usize| match *scene.at(*n) {
         [x, y, z] => Vec3::new(x, y, z),
         [x, y] => Vec3::new(x, y, 0.0),
         _ => Vec3::ZERO,
     };
-    let x: Vec<Vec3> = nodes.iter().map(place).collect();
-    let facet = Facet { element, x: &x };
-    let frame = Frame::of(&facet).unwrap();
-    let [a, b] = within;
-    let (cover, mut corners) = match element.dim() {
-        1 => (by_name("line2"), vec![a, Vec3::new(b.x, x[0].y, 0.0)]),
+    nodes.iter().map(place).collect()
+}
+
+/// `∫N` over a flat facet.
+fn whole(scene: &Scene, element: Element, nodes: &[usize]) -> Vec<f64> {
+    let x = places(scene, nodes);
+    let mut sums = vec![0.0; nodes.len()];
+    let (mut n, mut dn) = (sums.clone(), vec![Vec3::ZERO; nodes.len()]);
+    for (xi, w) in element.surface_rule().iter() {
+        element.shape(xi, &mut n);
+        element.dshape(xi, &mut dn);
+        let tangent = |a: usize| x.iter().zip(&dn).map(|(x, d)| *x * d[a]).sum::<Vec3>();
+        let area = match element.dim() {
+            1 => tangent(0).norm(),
+            _ => tangent(0).cross(tangent(1)).norm(),
+        };
+        for (sum, n) in sums.iter_mut().zip(&n) {
+            *sum += w * area * n;
+        }
+    }
+    sums
+}
+
+/// `∫N` over the part of a facet of the interface that a box across the last axis covers.
+fn part(scene: &Scene, element: Element, nodes: &[usize], [a, b]: [Vec3; 2]) -> Vec<f64> {
+    let x = places(scene, nodes);
+    let frame = Frame::of(&Facet { element, x: &x }).unwrap();
+    let (kind, mut corners) = match element.dim() {
+        1 => ("line2", vec![a, b]),
         _ => {
             let corner = |x: f64, y: f64| Vec3::new(x, y, a.z);
-            let corners = [corner(a.x, a.y), corner(b.x, a.y), corner(b.x, b.y), corner(a.x, b.y)];
-            (by_name("quad4"), corners.to_vec())
+            let (right, behind) = (corner(b.x, a.y), corner(a.x, b.y));
+            ("quad4", vec![a, right, b, behind])
         }
     };
-    if element.dim() == 1 {
-        corners[0].y = x[0].y;
-    }
-    // what covers faces the facet: its normal is ν
-    let up = frame.normal()[element.dim()] > 0.0;
-    if up == (element.dim() == 1) {
+    // what covers a facet faces it: a line to the right looks down, a square seen from above looks up
+    let upwards = frame.normal()[element.dim()] > 0.0;
+    if upwards == (element.dim() == 1) {
         corners.reverse();
     }
+    let cover = Facet {
+        element: by_name(kind).unwrap(),
+        x: &corners,
+    };
     let mut pair = Pair::default();
-    let cover = Facet { element: cover.unwrap(), x: &corners };
     let found = pair.integrate(&frame, &cover, 0, false).unwrap();
-    (0..nodes.len()).map(|j| if found { pair.n(j) } else { 0.0 }).collect()
+    let share = |j: usize| if found { pair.n(j) } else { 0.0 };
+    (0..nodes.len()).map(share).collect()
 }
 
 impl Blocks {
@@ -122,6 +157,7 @@ impl Blocks {
         Self {
             elements,
             across: [vec![below; ndim - 1], above[..ndim - 1].to_vec()],
+            heights: [vec![0.0, 1.0], vec![1.0, 2.0]],
             distortion,
             seed: 1,
             upper_is_secondary: true,
@@ -153,7 +189,7 @@ impl Blocks {
     fn corner(&self, block: usize, at: [usize; 3]) -> Vec3 {
         let up = self.up();
         let mut x = Vec3::ZERO;
-        x[up] = (block + at[up]) as f64;
+        x[up] = self.heights[block][at[up]];
         for (axis, ends) in self.across[block].iter().enumerate() {
             let k = at[axis];
             x[axis] = ends[k];
@@ -174,7 +210,7 @@ impl Blocks {
             for (size, ends) in size.iter_mut().zip(&self.across[block]) {
                 *size = ends.len() - 1;
             }
-            size[self.up()] = 1;
+            size[self.up()] = self.heights[block].len() - 1;
             let corner = |at| self.corner(block, at);
             scene.straight(group, self.elements[block], size, corner);
         }
@@ -215,7 +251,11 @@ impl Blocks {
             Strains::Linear => -stress / stretch.powi(up as i32),
             Strains::Finite => -stress * (1.0 + lower) / stretch.powi(up as i32),
         };
-        Exact { gradient, origin, pressure }
+        Exact {
+            gradient,
+            origin,
+            pressure,
+        }
     }
 
     /// The case of that state: rollers below, at the beginnings, and on top; what is not covered is loaded.
@@ -236,7 +276,10 @@ impl Blocks {
             for axis in 0..up {
                 let (name, at) = (format!("{group}_{axis}"), self.end(block, false)[axis]);
                 let axis = axes[axis];
-                scene.place(&name, &format!("plane = {axis:?}, at = {at:?}, of = {group:?}"));
+                scene.place(
+                    &name,
+                    &format!("plane = {axis:?}, at = {at:?}, of = {group:?}"),
+                );
                 writeln!(held, "[[step.fix]]\non = {name:?}\nu = [{axis:?}]").unwrap();
             }
         }
@@ -245,9 +288,13 @@ impl Blocks {
         let top = axes[up];
         self.begin(scene)
             .also(&self.step("press"))
-            .also(&format!("[[step.fix]]\non = \"base\"\nu = [{top:?}]\n{held}"))
-            .also(&format!("[[step.move]]\non = \"lid\"\nu{top} = {way:?}\n{loads}"))
-            .newton("force_tol = 1e-12, gap_tol = 1e-13, max_iterations = 30")
+            .also(&format!(
+                "[[step.fix]]\non = \"base\"\nu = [{top:?}]\n{held}"
+            ))
+            .also(&format!(
+                "[[step.move]]\non = \"lid\"\nu{top} = {way:?}\n{loads}"
+            ))
+            .newton(NEWTON)
     }
 
     /// The head of a step of one increment.
@@ -284,12 +331,15 @@ impl Blocks {
             true => ("foot", "roof"),
             false => ("roof", "foot"),
         };
-        let keys = format!("method = \"mortar\"\nsliding = {sliding:?}\n{}", self.contact);
+        let keys = format!(
+            "method = \"mortar\"\nsliding = {sliding:?}\n{}",
+            self.contact
+        );
         scene.case_of(&text).contact(secondary, primary, &keys)
     }
 
-    /// Forces at nodes for the traction that acts where nothing covers the interface, dead and per area of the start.
-    fn loads(&self, scene: &mut Scene, exact: &Exact) -> String {
+    /// `∫N` over all of the interface, and over what both blocks share, at the nodes of both sides: positive above.
+    fn shares(&self, scene: &Scene) -> BTreeMap<usize, [f64; 2]> {
         let up = self.up();
         let [a, b] = [0, 1].map(|block| [self.end(block, false), self.end(block, true)]);
         let mut shared = [Vec3::ZERO; 2];
@@ -297,29 +347,38 @@ impl Blocks {
             shared[0][axis] = a[0][axis].max(b[0][axis]);
             shared[1][axis] = a[1][axis].min(b[1][axis]);
         }
-        let all = [Vec3::new(-9.0, -9.0, 1.0), Vec3::new(9.0, 9.0, 1.0)];
         for corner in &mut shared {
             corner[up] = 1.0;
         }
-        let mut forces = BTreeMap::new();
-        for (group, sign) in [("lower", -1.0), ("upper", 1.0)] {
+        let mut shares = BTreeMap::new();
+        for (group, sign) in GROUPS.iter().zip([-1.0, 1.0]) {
             for (_, element, nodes) in scene.facets(group, up, 1.0) {
-                let whole = weights(scene, element, &nodes, all);
-                let part = weights(scene, element, &nodes, shared);
+                let whole = whole(scene, element, &nodes);
+                let part = part(scene, element, &nodes, shared);
                 for ((node, whole), part) in nodes.iter().zip(whole).zip(part) {
-                    *forces.entry(*node).or_insert(0.0) += sign * (whole - part);
+                    let share = shares.entry(*node).or_insert([0.0; 2]);
+                    share[0] += sign * whole;
+                    share[1] += sign * part;
                 }
             }
         }
+        shares
+    }
+
+    /// Forces at nodes for the traction that acts where nothing covers the interface, dead and per area of the start.
+    fn loads(&self, scene: &mut Scene, exact: &Exact) -> String {
+        let up = self.up();
         let nominal = exact.pressure * self.area_ratio(exact);
         let mut text = String::new();
-        for (node, weight) in forces.into_iter().filter(|(_, w)| w.abs() > 1e-15) {
-            let mut force = Vec3::ZERO;
-            force[up] = weight * nominal;
-            let force = &force.to_array()[..=up];
-            let name = format!("node_{node}");
-            scene.set(&name, &[node]);
-            writeln!(text, "[[step.load]]\non = {name:?}\nper_node = {force:?}").unwrap();
+        for (node, [whole, part]) in self.shares(scene) {
+            if (whole - part).abs() > 1e-15 {
+                let mut force = Vec3::ZERO;
+                force[up] = (whole - part) * nominal;
+                let force = &force.to_array()[..=up];
+                let name = format!("node_{node}");
+                scene.set(&name, &[node]);
+                writeln!(text, "[[step.load]]\non = {name:?}\nper_node = {force:?}").unwrap();
+            }
         }
         text
     }
@@ -332,13 +391,95 @@ impl Blocks {
         }
     }
 
+    /// A homogeneous deformation in so many steps: base and lid are moved, the sides loaded as it demands.
+    pub fn deformed(&self, gradient: Mat3, steps: usize) -> Errors {
+        let mut scene = self.scene();
+        let up = self.up();
+        let axes = &["x", "y", "z"][..=up];
+        for (name, at, of) in [
+            ("base", 0.0, 0),
+            ("roof", 1.0, 0),
+            ("foot", 1.0, 1),
+            ("lid", 2.0, 1),
+        ] {
+            let (of, axis) = (GROUPS[of], axes[up]);
+            scene.place(name, &format!("plane = {axis:?}, at = {at:?}, of = {of:?}"));
+        }
+        let sides = self.sides(&mut scene);
+        let mut case = self.begin(&scene);
+        for step in 1..=steps {
+            let now = gradient * (step as f64 / steps as f64);
+            let u = now * Vec3::unit(up) * 2.0;
+            let mut text = self.step(&format!("step {step}"));
+            text += "\n[[step.fix]]\non = \"base\"\nu = \"all\"\n[[step.move]]\non = \"lid\"\n";
+            for (axis, u) in axes.iter().zip(u.to_array()) {
+                writeln!(text, "u{axis} = {u:?}").unwrap();
+            }
+            let f = Mat3::IDENTITY + now;
+            let nominal =
+                self.stress(0, now) * f.inverse().unwrap().0.transpose() * f.determinant();
+            for (node, area) in &sides {
+                let force = nominal * *area;
+                let force = &force.to_array()[..=up];
+                writeln!(
+                    text,
+                    "[[step.load]]\nname = \"at {node}\"\non = \"node_{node}\"\nper_node = {force:?}"
+                )
+                .unwrap();
+            }
+            case = case.also(&text);
+        }
+        let mut model = case.newton(NEWTON).model(&[]);
+        let run = finished(&mut model);
+        let normal = self.stress(0, gradient).rows[up][up];
+        let exact = Exact {
+            gradient: [gradient; 2],
+            origin: [Vec3::ZERO; 2],
+            pressure: -normal,
+        };
+        let contact = &run.frames.last().unwrap().contacts[0];
+        assert!(
+            contact.status.iter().all(|s| *s == Status::Stick),
+            "{:?}",
+            contact.status
+        );
+        self.compare(&model, &run, &exact)
+    }
+
+    /// `∫N dA` over the sides, outwards, at nodes, each of which becomes a set.
+    fn sides(&self, scene: &mut Scene) -> BTreeMap<usize, Vec3> {
+        let mut areas = BTreeMap::new();
+        for (block, group) in GROUPS.iter().enumerate() {
+            for axis in 0..self.up() {
+                for (last, sign) in [(false, -1.0), (true, 1.0)] {
+                    let at = self.end(block, last)[axis];
+                    for (_, element, nodes) in scene.facets(group, axis, at) {
+                        for (node, n) in nodes.iter().zip(whole(scene, element, &nodes)) {
+                            *areas.entry(*node).or_insert(Vec3::ZERO) +=
+                                Vec3::unit(axis) * (sign * n);
+                        }
+                    }
+                }
+            }
+        }
+        for node in areas.keys() {
+            scene.set(&format!("node_{node}"), &[*node]);
+        }
+        areas
+    }
+
     /// Solves and compares.
     pub fn errors(&self, exact: &Exact) -> Errors {
+        let (model, run) = self.solve(exact);
+        self.compare(&model, &run, exact)
+    }
+
+    pub fn solve(&self, exact: &Exact) -> (Model, Run) {
         let mut scene = self.scene();
         let case = self.case(&mut scene, exact);
         let mut model = case.model(&[]);
         let run = finished(&mut model);
-        self.compare(&model, &run, exact)
+        (model, run)
     }
 
     pub fn compare(&self, model: &Model, run: &Run, exact: &Exact) -> Errors {
@@ -347,10 +488,18 @@ impl Blocks {
         let mut errors = Errors::default();
         let mut largest = 0.0f64;
         let nominal = exact.pressure;
-        for block in model.mesh.blocks.iter().filter(|b| b.element.dim() == up + 1) {
+        for block in model
+            .mesh
+            .blocks
+            .iter()
+            .filter(|b| b.element.dim() == up + 1)
+        {
             for cell in 0..block.ncell() {
                 let nodes = block.cell(cell);
-                let height: f64 = nodes.iter().map(|n| model.mesh.points[*n as usize][up]).sum();
+                let height: f64 = nodes
+                    .iter()
+                    .map(|n| model.mesh.points[*n as usize][up])
+                    .sum();
                 let body = usize::from(height > nodes.len() as f64);
                 let (gradient, origin) = (exact.gradient[body], exact.origin[body]);
                 for &node in nodes {
@@ -369,10 +518,20 @@ impl Blocks {
         }
         errors.displacement /= largest;
         let contact = &frame.contacts[0];
-        let reached = contact.gap.iter().zip(&contact.pressure).filter(|(g, _)| !g.is_nan());
-        for (_, pressure) in reached {
-            errors.pressure = errors.pressure.max((pressure / nominal - 1.0).abs());
+        for (pressure, gap) in contact.pressure.iter().zip(&contact.gap) {
+            if !gap.is_nan() {
+                errors.pressure = errors.pressure.max((pressure / nominal - 1.0).abs());
+            }
         }
+        let mut most = 0.0f64;
+        for (node, [_, part]) in self.shares(&self.scene()) {
+            let force = part * nominal * self.area_ratio(exact);
+            let node = model.node(node as u64).unwrap() as usize;
+            let off = (frame.contact_force[node][up] - force).abs();
+            errors.force = errors.force.max(off);
+            most = most.max(force.abs());
+        }
+        errors.force /= most;
         errors
     }
 
