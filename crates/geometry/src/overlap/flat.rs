@@ -1,5 +1,5 @@
 use super::polygon::{Polygon, cross2};
-use super::{Pair, TOUCH};
+use super::{BENT, EXACT, Pair, TOUCH};
 use crate::element::{Element, MAX_FACET_NODES};
 use crate::scalar::{Real, combine, minus};
 use crate::tensor::{Sym3, Vec3};
@@ -18,6 +18,7 @@ pub enum Facing {
 pub struct Flat<T> {
     element: Element,
     x: [Pair<T>; MAX_FACET_NODES],
+    values: [Pair<f64>; MAX_FACET_NODES],
     /// Nodes on the boundary, counter-clockwise on the plane; on a line, the ends from left to right.
     boundary: [u8; MAX_FACET_NODES],
     nboundary: usize,
@@ -25,6 +26,12 @@ pub struct Flat<T> {
     /// Least and largest coordinates.
     bounds: [Pair<f64>; 2],
     bend: f64,
+    /// The largest distance of a node from the line between the ends of its edge.
+    sagitta: f64,
+    /// The parameters of the centre, its place, and X_,1 and X_,2 there.
+    centre: Pair<f64>,
+    middle: Pair<f64>,
+    tangents: [Pair<f64>; 2],
 }
 
 /// The Jacobian of the map at the parameters of a node must be this large compared with that at the centre.
@@ -48,14 +55,20 @@ impl<T: Real> Flat<T> {
             bounds[1][a] = bounds[1][a].max(p[a]);
         }
         let (boundary, nboundary) = boundary(element, facing);
+        let centre = element.centre();
         let mut flat = Self {
             element,
             x,
+            values,
             boundary,
             nboundary,
             convex: true,
             bounds,
             bend: bend(element, &values, facing)?,
+            sagitta: sagitta(element, &values),
+            centre: [centre.x, centre.y],
+            middle: place(element, &values, &centre),
+            tangents: jacobian(element, &values, &centre),
         };
         let outline = flat.outline();
         flat.convex = element.dim() == 1 || outline.is_convex(TOUCH * flat.size());
@@ -75,17 +88,59 @@ impl<T: Real> Flat<T> {
         &self.x[..self.element.nnode()]
     }
 
-    pub(super) fn values(&self) -> [Pair<f64>; MAX_FACET_NODES] {
-        self.x.map(|p| p.map(|c| c.value()))
+    pub(super) fn values(&self) -> &[Pair<f64>; MAX_FACET_NODES] {
+        &self.values
+    }
+
+    /// The parameters of a place by the map at the centre, continued as an affine one.
+    pub(super) fn affine(&self, p: Pair<f64>) -> Pair<f64> {
+        let [a, b] = solve(self.element, self.tangents, minus(p, self.middle));
+        [self.centre[0] + a, self.centre[1] + b]
     }
 
     pub(super) fn dim(&self) -> usize {
         self.element.dim()
     }
 
-    /// δ: how far the map is from an affine one.
+    /// δ.
     pub(super) fn bend(&self) -> f64 {
         self.bend
+    }
+
+    /// δ of the part of it that has these corners: how far the map is from an affine one.
+    pub(super) fn bend_within(&self, corners: &[Pair<T>]) -> f64 {
+        if self.bend == 0.0 {
+            return 0.0;
+        }
+        let mut extent = [[f64::MAX, f64::MIN]; 2];
+        for p in corners {
+            let xi = solve(self.element, self.tangents, p.map(|c| c.value()));
+            for ([least, most], xi) in extent.iter_mut().zip(xi) {
+                *least = least.min(xi);
+                *most = most.max(xi);
+            }
+        }
+        let widest = extent.iter().map(|e| e[1] - e[0]).fold(0.0, f64::max);
+        let part = (widest / self.width()).min(1.0);
+        let narrowest = 1.0 - self.bend * (1.0 - part);
+        if narrowest <= 0.0 {
+            return self.bend;
+        }
+        (self.bend * part / narrowest).min(self.bend)
+    }
+
+    /// The width of its reference domain.
+    fn width(&self) -> f64 {
+        if self.element.dim() == 2 && self.element.ncorner() == 3 {
+            1.0
+        } else {
+            2.0
+        }
+    }
+
+    /// What rules may miss of the integral of one of its shape functions.
+    pub(super) fn accuracy(&self) -> f64 {
+        (0.01 * self.sagitta / self.size()).clamp(EXACT, BENT)
     }
 
     /// The degree of its shape functions as polynomials of the parameters.
@@ -133,12 +188,13 @@ impl<T: Real> Flat<T> {
         if self.convex {
             return self.outline();
         }
-        let place = |k: usize| self.x[usize::from(self.boundary[k % self.nboundary])];
-        let mut n = [0.0; MAX_FACET_NODES];
-        self.element
-            .shape(&self.element.centre(), &mut n[..self.element.nnode()]);
+        let node = |k: usize| self.x[usize::from(self.boundary[k % self.nboundary])];
         let mut triangle = Polygon::new();
-        for corner in [combine(n, self.x()), place(k), place(k + 1)] {
+        for corner in [
+            place(self.element, self.x(), &self.element.centre()),
+            node(k),
+            node(k + 1),
+        ] {
             triangle.push(corner);
         }
         triangle
@@ -213,12 +269,22 @@ fn bend(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], facing: Facing) -> O
     Some(if triangle { 0.5 * bend } else { bend })
 }
 
+/// How far nodes of edges are from the lines between their ends; on a line there is no such distance.
+fn sagitta(element: Element, x: &[Pair<f64>; MAX_FACET_NODES]) -> f64 {
+    let corners = element.ncorner();
+    if element.dim() == 1 || element.nnode() == corners {
+        return 0.0;
+    }
+    let mids = element.edges().iter().zip(&x[corners..]);
+    let heights = mids.map(|(&[a, b], mid)| {
+        let along = minus(x[b], x[a]);
+        cross2(along, minus(*mid, x[a])).abs() / along[0].hypot(along[1])
+    });
+    heights.fold(0.0, f64::max)
+}
+
 /// The tangents `X_,1` and `X_,2`; the second is zero on a line.
-pub(super) fn jacobian(
-    element: Element,
-    x: &[Pair<f64>; MAX_FACET_NODES],
-    xi: &Vec3,
-) -> [Pair<f64>; 2] {
+fn jacobian(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], xi: &Vec3) -> [Pair<f64>; 2] {
     let mut dn = [Vec3::ZERO; MAX_FACET_NODES];
     element.dshape(xi, &mut dn[..element.nnode()]);
     let along = |a: usize| combine(dn.iter().map(|d| d[a]), x);
@@ -237,7 +303,7 @@ fn determinant(element: Element, [t1, t2]: [Pair<f64>; 2]) -> f64 {
 }
 
 /// The change of parameters that makes a change of place.
-pub(super) fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pair<f64> {
+fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pair<f64> {
     let over = 1.0 / determinant(element, t);
     if element.dim() == 1 {
         return [place[0] * over, 0.0];
@@ -245,9 +311,9 @@ pub(super) fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pa
     [cross2(place, t[1]) * over, cross2(t[0], place) * over]
 }
 
-/// The place of parameters, less `p`.
-pub(super) fn residual<T: Real>(element: Element, x: &[Pair<T>], xi: &Vec3, p: Pair<T>) -> Pair<T> {
+/// The place of parameters.
+fn place<T: Real>(element: Element, x: &[Pair<T>], xi: &Vec3) -> Pair<T> {
     let mut n = [0.0; MAX_FACET_NODES];
     element.shape(xi, &mut n[..element.nnode()]);
-    minus(combine(n, x), p)
+    combine(n, x)
 }

@@ -69,6 +69,18 @@ impl<T: Real> Polygon<T> {
         })
     }
 
+    /// Whether the boxes around two polygons meet.
+    pub(super) fn near(&self, other: &Self) -> bool {
+        let range = |of: &Self, a: usize| {
+            let all = of.corners().iter().map(|p| p[a].value());
+            all.fold([f64::MAX, f64::MIN], |[l, m], c| [l.min(c), m.max(c)])
+        };
+        (0..2).all(|a| {
+            let (own, other) = (range(self, a), range(other, a));
+            own[0] <= other[1] && other[0] <= own[1]
+        })
+    }
+
     /// What it has in common with a convex one.
     pub(super) fn intersection(&self, other: &Self, tolerance: f64) -> Self {
         let mut rest = *self;
@@ -87,6 +99,10 @@ impl<T: Real> Polygon<T> {
             let h = line.height(values(p));
             if h.abs() <= tolerance { 0.0 } else { h }
         };
+        if self.corners().iter().all(|p| side(p) >= 0.0) {
+            let inside = self.corners().iter().any(|p| side(p) > 0.0);
+            return if inside { *self } else { Self::new() };
+        }
         let mut kept = Self::new();
         let mut inside = false;
         for (p, q) in self.sides() {

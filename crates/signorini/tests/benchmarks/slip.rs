@@ -33,6 +33,13 @@ fn partial_slip_of_cylinders_by_multipliers() {
     cattaneo("method = \"node-to-segment\"\nenforcement = { lagrange = {} }");
 }
 
+#[test]
+fn partial_slip_of_cylinders_by_mortar() {
+    for sliding in ["small", "finite"] {
+        cattaneo(&format!("method = \"mortar\"\nsliding = \"{sliding}\""));
+    }
+}
+
 /// P, Q and mu.
 const PRESSED: f64 = 10.0;
 const SHEARED: f64 = 0.93616;
@@ -99,6 +106,13 @@ fn cattaneo(by: &str) {
     // half the length that sticks, of points or of nodes
     let stick = contact.area_stick / 2.0;
     let error = (error / size).sqrt();
+    if std::env::var("SHOW").is_ok() {
+        for (i, x) in contact.points.iter().enumerate() {
+            if (x.x - center).abs() < 1.1 * a {
+                println!("{:+.4} p {:.4} of {:.4} q {:.5} of {:.5} {:?}", (x.x - center) / a, contact.pressure[i], p0 * ellipse(x.x - center, a), contact.traction[i].x, -traction(x.x - center), contact.status[i]);
+            }
+        }
+    }
     println!(
         "  stick radius {stick:.5} for {c:.5} ({:+.2} h), p0 {:+.2} %, shear {:.3} % off in L2, force {:?}",
         (stick - c) / h,

@@ -218,8 +218,8 @@ pub trait Discretization: Send + Sync {
 pub struct Links<'a> {
     /// The closest points.
     pub pairing: &'a Pairing,
-    /// Those of the last accepted state.
-    pub accepted: &'a Pairing,
+    /// Those at the start of the increment.
+    pub before: &'a Pairing,
     /// Where they stick; empty without friction.
     pub anchors: &'a [Option<Anchored>],
     /// Whether they are joined there.

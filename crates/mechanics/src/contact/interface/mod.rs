@@ -149,9 +149,11 @@ pub struct Interface {
     layout: Layout,
     elimination: Arc<Elimination>,
     near: Near,
-    /// The choices for the present iterate, those of the last accepted state, and those last judged.
+    /// The choices for the present iterate, those of the last accepted state, and those at the start of the increment:
+    /// these stay until the next begins, so that what is told of an accepted state is what acted in it.
     now: Pairing,
     accepted: Pairing,
+    before: Pairing,
     judged: Vec<Judged>,
     accepted_judged: Vec<Judged>,
     next: Pairing,
@@ -200,6 +202,7 @@ impl Interface {
             near: Near::default(),
             now: nothing.clone(),
             accepted: nothing.clone(),
+            before: nothing.clone(),
             judged: vec![Judged::default(); nrow],
             accepted_judged: vec![Judged::default(); nrow],
             next: nothing,
@@ -375,6 +378,7 @@ impl Term for Interface {
             self.search(&at).map_err(|e| self.failed(&e))?;
             self.accepted.weights.clone_from(&self.now.weights);
         }
+        self.before.clone_from(&self.accepted);
         self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.changes.fill(0);
         self.history.begin();

@@ -261,7 +261,7 @@ impl Interface {
         let discretization = self.parts.discretization.as_ref();
         discretization.more_facets(row, &self.now, out);
         if self.laws().slips() {
-            discretization.more_facets(row, &self.accepted, out);
+            discretization.more_facets(row, &self.before, out);
         }
         out[first..].sort_unstable();
         let mut kept = first;

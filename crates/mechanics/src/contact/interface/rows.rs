@@ -37,7 +37,7 @@ impl Interface {
         };
         let links = Links {
             pairing: &self.now,
-            accepted: &self.accepted,
+            before: &self.before,
             anchors: self.history.anchors(),
             bond: laws.bond,
         };

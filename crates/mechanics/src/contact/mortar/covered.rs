@@ -1,5 +1,6 @@
 use super::basis::{Small, inverse};
-use super::{Facet, Frame, MortarError, Pair, Transformation};
+use super::pair::zeros;
+use super::{Facet, Frame, Measure, MortarError, Pair, Transformation};
 use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::tensor::Vec3;
 
@@ -10,9 +11,10 @@ pub const MIN_COVERAGE: f64 = 1e-8;
 /// the other, and keeps its memory.
 ///
 /// # Units
-/// D, M and `full` are areas, lengths in the plane.
+/// D, M and `full` are areas; lengths in the plane; areas of surfaces of revolution where so [measured](Measure).
 #[derive(Clone, Debug, Default)]
 pub struct Covered {
+    measure: Measure,
     nnode: usize,
     nprimary: usize,
     ncolumn: usize,
@@ -40,12 +42,16 @@ fn add(to: &mut [f64], factor: f64, from: &[f64]) {
     }
 }
 
-fn zeros(v: &mut Vec<f64>, n: usize) {
-    v.clear();
-    v.resize(n, 0.0);
-}
-
 impl Covered {
+    /// One for integrals of this measure; the default is that of [`Measure::Flat`].
+    #[must_use]
+    pub fn new(measure: Measure) -> Self {
+        Self {
+            measure,
+            ..Self::default()
+        }
+    }
+
     /// Integrates over what a secondary facet shares with primary facets near it.
     ///
     /// # Errors
@@ -56,7 +62,7 @@ impl Covered {
         primaries: &[Facet],
         derivatives: bool,
     ) -> Result<(), MortarError> {
-        let frame = Frame::of(secondary)?;
+        let frame = Frame::measured(secondary, self.measure)?;
         self.nnode = secondary.x.len();
         self.normal = frame.normal();
         for (a, dnormal) in self.dnormal.iter_mut().enumerate() {
@@ -79,7 +85,7 @@ impl Covered {
         self.nprimary = nprimary.sum();
         self.ncolumn = 3 * (self.nnode + self.nprimary);
         let t = Transformation::of(secondary.element);
-        self.measure(secondary, &t);
+        self.measure_whole(&frame, secondary, &t);
         self.combine(&t, derivatives);
         Ok(())
     }
@@ -168,7 +174,7 @@ impl Covered {
     }
 
     /// D⁰, with the rule of the whole facet and areas of the plane.
-    fn measure(&mut self, facet: &Facet, t: &Transformation) {
+    fn measure_whole(&mut self, frame: &Frame, facet: &Facet, t: &Transformation) {
         let (element, n) = (facet.element, self.nnode);
         let mut whole = [0.0; MAX_FACET_NODES];
         let (mut shape, mut dshape) = ([0.0; MAX_FACET_NODES], [Vec3::ZERO; MAX_FACET_NODES]);
@@ -187,7 +193,9 @@ impl Covered {
             } else {
                 tangent(1)
             };
-            let area = -w * tangent(0).cross(t2).dot(self.normal);
+            let place = shape.iter().zip(facet.x).map(|(&n, &x)| x * n).sum();
+            let factor = frame.factor().at(frame.along(place));
+            let area = -w * tangent(0).cross(t2).dot(self.normal) * factor;
             add(&mut whole, area, &shape[..n]);
         }
         self.full.clear();
@@ -202,13 +210,17 @@ impl Covered {
         let pairs = &self.pairs[..self.met.len()];
         let zero: Small = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
         let (mut g, mut s, mut w, mut h, mut b) = (zero, zero, zero, zero, zero);
+        let mut whole = [0.0; MAX_FACET_NODES];
+        for (k, whole) in whole[..n].iter_mut().enumerate() {
+            *whole = pairs.iter().map(|p| p.n(k)).sum();
+        }
         zeros(&mut self.d, n);
         for j in 0..n {
             for k in 0..n {
                 g[j][k] = pairs.iter().map(|p| p.nn(j, k)).sum();
-                let all: f64 = pairs.iter().map(|p| p.n(k)).sum();
-                self.d[j] += t.get(j, k) * all;
+                self.d[j] += t.get(j, k) * whole[k];
             }
+            self.d[j] = self.d[j].max(0.0);
         }
         each(n, &mut s, |j, k| {
             let over = |i: usize| (0..n).map(|m| t.get(k, m) * g[i][m]).sum::<f64>();
@@ -229,6 +241,9 @@ impl Covered {
             }
             None => each(n, &mut b, |j, k| t.get(j, k)),
         }
+        for (row, _) in b.iter_mut().zip(&self.d).filter(|(_, d)| **d <= 0.0) {
+            row.fill(0.0);
+        }
         zeros(&mut self.m, n * self.nprimary);
         let mut first = 0;
         for pair in pairs {
@@ -241,10 +256,29 @@ impl Covered {
             }
             first += nm;
         }
+        self.balance(t);
         self.dd.clear();
         self.dm.clear();
         if derivatives {
             self.differentiate(t, &w, &h, &b);
+        }
+    }
+
+    /// What rounding leaves of `Σ_l M_jl = D_j`, as much of it as the condition of S lets through, goes to the primary
+    /// nodes as `Ñ_j` would distribute it.
+    fn balance(&mut self, t: &Transformation) {
+        let (n, np) = (self.nnode, self.nprimary);
+        let pairs = &self.pairs[..self.met.len()];
+        for (j, &d) in self.d.iter().enumerate().filter(|(_, d)| **d > 0.0) {
+            let row = &mut self.m[j * np..][..np];
+            let lumped = pairs.iter().flat_map(|pair| {
+                let of = move |l: usize| (0..n).map(|k| t.get(j, k) * pair.nm(k, l)).sum::<f64>();
+                (0..pair.nnode()[1]).map(of)
+            });
+            let rest = (d - row.iter().sum::<f64>()) / d;
+            row.iter_mut()
+                .zip(lumped)
+                .for_each(|(m, part)| *m += rest * part);
         }
     }
 
@@ -280,6 +314,9 @@ impl Covered {
                 }
             }
             first += pair.ncolumn() - own;
+        }
+        for j in (0..n).filter(|&j| self.d[j] <= 0.0) {
+            self.dd[j * nc..][..nc].fill(0.0);
         }
         if self.lumped {
             return;

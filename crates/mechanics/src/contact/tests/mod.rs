@@ -144,7 +144,7 @@ pub(crate) fn first_rows(
     let mut rows = Rows::default();
     let links = Links {
         pairing,
-        accepted: pairing,
+        before: pairing,
         anchors: &[],
         bond: false,
     };

@@ -405,7 +405,7 @@ impl Discretization for Mortar {
             at,
             weights,
             now,
-            past: links.accepted.weights.row(row).filter(|_| slides),
+            past: links.before.weights.row(row).filter(|_| slides),
             anchor: links.anchors.get(row).and_then(Option::as_ref),
             bond: links.bond,
         };
