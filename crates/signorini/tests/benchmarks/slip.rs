@@ -109,7 +109,15 @@ fn cattaneo(by: &str) {
     if std::env::var("SHOW").is_ok() {
         for (i, x) in contact.points.iter().enumerate() {
             if (x.x - center).abs() < 1.1 * a {
-                println!("{:+.4} p {:.4} of {:.4} q {:.5} of {:.5} {:?}", (x.x - center) / a, contact.pressure[i], p0 * ellipse(x.x - center, a), contact.traction[i].x, -traction(x.x - center), contact.status[i]);
+                println!(
+                    "{:+.4} p {:.4} of {:.4} q {:.5} of {:.5} {:?}",
+                    (x.x - center) / a,
+                    contact.pressure[i],
+                    p0 * ellipse(x.x - center, a),
+                    contact.traction[i].x,
+                    -traction(x.x - center),
+                    contact.status[i]
+                );
             }
         }
     }

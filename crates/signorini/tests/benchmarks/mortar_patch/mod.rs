@@ -1,4 +1,18 @@
-//! The patch test of two blocks that are joined by mortar contact.
+//! The patch test of two blocks in mortar contact, for every pairing of facets.
+//!
+//! SOURCE      Taylor, Papadopoulos 1991; Popp, Gitterle, Gee, Wall 2010; Cichosz, Bischoff 2011 (covered part); grids and
+//!             runs of an independent program where the folder shared/reference is beside the repository.
+//! GOAL        stresses, displacements, pressures and forces are exact: what docs/patch_test.md says of mortar contact
+//! MESH        two unit blocks, 2 cells across below and 3 above, one up; corners moved within their planes by up to 0.12
+//!             of a cell, edges straight; quad4, tri3, quad8, quad9, tri6 in the plane; hex8, tet4, wedge6, hex20, hex27,
+//!             tet10, wedge15 in space
+//! CONDITIONS  uniaxial stress: rollers below and at the beginnings, lid moved down. Weights of the start and moduli 1:2;
+//!             present weights at small strain; Saint-Venant and Kirchhoff's law at 10 % of strain. Overhanging parts
+//!             carry the pressure as loads, without lateral strain where weights move. Sticking: F = I + 0.25 e1 ⊗ e_up
+//!             − 0.12 e_up ⊗ e_up, sides loaded with P N.
+//! EXPECTED    u = H (X − O) in each block, its stress at all points of cells, pressures per present area, forces at nodes
+//! TOLERANCE   relative to the largest: 1e-12 in the plane, 1e-11 in space. Pressures of nodes that are little covered
+//!             are printed only; where such nodes are dropped, what they would carry.
 mod blocks;
 
 use crate::common::{numbers, reference, relative};
@@ -90,7 +104,7 @@ fn in_space(strains: Strains, young: [f64; 2], strain: f64, all: bool) {
             blocks.errors(&blocks.pressed(strain))
         };
         told(&format!("{strains:?}"), elements, errors);
-        assert!(errors.most() < 1e-10, "{elements:?}: {errors:?}");
+        assert!(errors.most() < 1e-11, "{elements:?}: {errors:?}");
     }
 }
 
@@ -148,7 +162,7 @@ fn in_the_plane_overhang_passes() {
 #[test]
 fn in_space_overhang_passes() {
     for elements in FACES.map(|e| [e, e]) {
-        overhang(elements, 1e-10);
+        overhang(elements, 1e-11);
     }
 }
 
@@ -171,7 +185,7 @@ fn stresses_stay_exact_however_little_is_covered() {
                 .count();
             let allowed = match (dropped, blocks.ndim()) {
                 (0, 2) => 1e-12,
-                (0, _) => 1e-10,
+                (0, _) => 1e-11,
                 // D_jk of quadratic facets is up to 1/(1 − 2α) = 4 times D_j
                 _ => 4.0 * dropped as f64 * MIN_COVERAGE,
             };
@@ -216,7 +230,7 @@ fn overhanging_grids_are_solved_as_in_the_reference() {
         assert_eq!(covered as u64, row["n_covered"].as_u64().unwrap());
         assert!((least - row["min_wt"].as_f64().unwrap()).abs() < 1e-14);
         assert!(
-            errors.most() < if case == "2d" { 1e-12 } else { 1e-10 },
+            errors.most() < if case == "2d" { 1e-12 } else { 1e-11 },
             "{errors:?}"
         );
         checked += 1;
