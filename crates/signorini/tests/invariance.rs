@@ -133,6 +133,17 @@ impl Blocks {
         self.nodes.iter().find(|n| n.0 == label).unwrap().1
     }
 
+    /// The foot as a set of faces.
+    fn faces_of_foot(&self) -> String {
+        let up = self.ndim - 1;
+        let side = if up == 1 { "-y" } else { "-z" };
+        let touches =
+            |c: &&Cell| c.group == "upper" && c.nodes.iter().any(|n| self.foot.contains(n));
+        let cells = self.elements.iter().filter(touches);
+        let faces: Vec<String> = cells.map(|c| format!("[{}, {side:?}]", c.label)).collect();
+        format!("faces = [{}]", faces.join(", "))
+    }
+
     /// In space: pressed, then moved aside across edges.
     fn space() -> Self {
         let (low, high) = (Vec3::new(3.0, 3.0, 1.5), Vec3::new(1.3, 1.1, 0.8));
@@ -404,16 +415,7 @@ fn units_change_nothing_with_any_law_and_friction() {
 
 /// With facets as the secondary side, mortar contact and friction.
 fn with_mortar(mut blocks: Blocks) -> Blocks {
-    let up = blocks.ndim - 1;
-    let level = blocks.position(blocks.foot[0])[up];
-    let touches = |c: &&Cell| {
-        let at = |l: &u32| (blocks.position(*l)[up] - level).abs() < 1e-9;
-        c.group == "upper" && c.nodes.iter().any(at)
-    };
-    let side = if up == 1 { "-y" } else { "-z" };
-    let cells = blocks.elements.iter().filter(touches);
-    let faces: Vec<String> = cells.map(|c| format!("[{}, {side:?}]", c.label)).collect();
-    blocks.secondary = format!("faces = [{}]", faces.join(", "));
+    blocks.secondary = blocks.faces_of_foot();
     blocks.contact = "friction = 0.3\nmethod = \"mortar\"";
     blocks
 }
@@ -619,15 +621,7 @@ fn forces_balance_and_reactions_are_the_contact_force() {
 
 #[test]
 fn a_side_given_as_nodes_or_as_faces_gives_the_same_force() {
-    for (blocks, side) in [(Blocks::plane(), "-y"), (Blocks::space(), "-z")] {
-        let up = blocks.ndim - 1;
-        let level = blocks.position(blocks.foot[0])[up];
-        let touches = |c: &&Cell| {
-            let at = |l: &u32| (blocks.position(*l)[up] - level).abs() < 1e-9;
-            c.group == "upper" && c.nodes.iter().any(at)
-        };
-        let cells = blocks.elements.iter().filter(touches);
-        let faces: Vec<String> = cells.map(|c| format!("[{}, {side:?}]", c.label)).collect();
+    for blocks in [Blocks::plane(), Blocks::space()] {
         for enforcement in [
             "\"auto\"",
             "{ penalty = \"auto\", per = \"node\" }",
@@ -637,7 +631,7 @@ fn a_side_given_as_nodes_or_as_faces_gives_the_same_force() {
             let mut as_nodes = blocks.clone();
             as_nodes.enforcement = enforcement.into();
             let mut as_faces = as_nodes.clone();
-            as_faces.secondary = format!("faces = [{}]", faces.join(", "));
+            as_faces.secondary = as_faces.faces_of_foot();
             let outcomes = (as_nodes.solve(), as_faces.solve());
             let (one, two) = ((&as_nodes, &outcomes.0), (&as_faces, &outcomes.1));
             assert_same(one, two, Mat3::IDENTITY, 1.0, 1e-12);

@@ -11,7 +11,8 @@ use signorini_mechanics::system::Status;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-pub const NU: f64 = 0.3;
+const NU: f64 = 0.3;
+/// Rounding is all that is left.
 pub const NEWTON: &str = "force_tol = 1e-13, gap_tol = 1e-14, max_iterations = 30";
 const GROUPS: [&str; 2] = ["lower", "upper"];
 
@@ -176,7 +177,7 @@ impl Blocks {
         self.ndim() - 1
     }
 
-    /// The present ends of a block across, first or last along all axes.
+    /// The ends of a block across, first or last along all axes.
     fn end(&self, block: usize, last: bool) -> Vec3 {
         let mut end = Vec3::ZERO;
         for (axis, ends) in self.across[block].iter().enumerate() {
@@ -482,6 +483,7 @@ impl Blocks {
         (model, run)
     }
 
+    /// How far off the last state is.
     pub fn compare(&self, model: &Model, run: &Run, exact: &Exact) -> Errors {
         let frame = run.frames.last().unwrap();
         let up = self.up();
