@@ -32,6 +32,8 @@ pub struct Rows {
     ncolumn: usize,
     rows: Vec<Row>,
     nrow: usize,
+    /// How many participants are of the secondary side, where these come first.
+    pub(super) nsecondary: usize,
     /// What those who fill rows keep from one to the next.
     pub(super) scratch: Work,
 }

@@ -203,8 +203,21 @@ pub trait Discretization: Send + Sync {
     }
 
     /// Nodes that a row depends on beyond its point and the facets around its closest point.
-    fn more_nodes(&self, _row: usize) -> &[NodeId] {
+    fn more_nodes<'a>(&'a self, _row: usize, _pairing: &'a Pairing) -> &'a [NodeId] {
         &[]
+    }
+
+    /// An increment begins at these choices: makes those that hold for all of it, and says whether rows now see others.
+    ///
+    /// # Errors
+    /// A facet that has no normal.
+    fn begin(
+        &self,
+        _pair: &SurfacePair,
+        _at: &Placement,
+        _from: &mut Pairing,
+    ) -> Result<bool, SurfaceError> {
+        Ok(false)
     }
 
     /// Whether a pressure acts with the weights with which the gap changes.

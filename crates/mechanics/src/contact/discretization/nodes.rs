@@ -322,7 +322,7 @@ impl Discretization for NodeToNode {
         0..1
     }
 
-    fn more_nodes(&self, row: usize) -> &[NodeId] {
+    fn more_nodes<'a>(&'a self, row: usize, _: &'a Pairing) -> &'a [NodeId] {
         self.nodes.get(row).map_or(&[], Vec::as_slice)
     }
 

@@ -162,6 +162,8 @@ pub struct Interface {
     started: bool,
     /// Whether they were read from an archive, which holds no weights.
     resumed: bool,
+    /// Whether rows see others than the pattern knows.
+    sees_others: bool,
     /// What the pattern couples each row with, and what the present iterate asks for.
     coupled: Coupled,
     wanted: Coupled,
@@ -209,6 +211,7 @@ impl Interface {
             history,
             started: false,
             resumed: false,
+            sees_others: false,
             coupled: Coupled::default(),
             wanted: Coupled::default(),
             step: StepContext::default(),
@@ -377,6 +380,14 @@ impl Term for Interface {
             // weights are those of where the run stopped
             self.search(&at).map_err(|e| self.failed(&e))?;
             self.accepted.weights.clone_from(&self.now.weights);
+        }
+        let parts = &self.parts;
+        let others = parts
+            .discretization
+            .begin(&parts.pair, &at, &mut self.accepted);
+        if others.map_err(|e| self.failed(&e))? {
+            self.now.clone_from(&self.accepted);
+            self.sees_others = true;
         }
         self.before.clone_from(&self.accepted);
         self.measure_again(&at).map_err(|e| self.failed(&e))?;

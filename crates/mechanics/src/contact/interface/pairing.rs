@@ -226,7 +226,7 @@ impl Interface {
             let mut facets = wanted.row(row).iter();
             facets.all(|facet| coupled.iter().any(|c| covers(c, facet)))
         };
-        let more = !(0..self.now.pairs.len()).all(covered);
+        let more = std::mem::take(&mut self.sees_others) || !(0..self.now.pairs.len()).all(covered);
         if more {
             std::mem::swap(&mut self.coupled, &mut wanted);
         }
@@ -293,7 +293,7 @@ impl Interface {
                 continue;
             }
             let nodes = discretization.point(row).nodes.iter();
-            for &node in nodes.chain(discretization.more_nodes(row)) {
+            for &node in nodes.chain(discretization.more_nodes(row, &self.now)) {
                 of_row.extend((0..3).map(|c| self.layout.node(node, c)));
             }
             facets.clear();

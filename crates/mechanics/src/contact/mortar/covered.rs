@@ -52,6 +52,11 @@ impl Covered {
         }
     }
 
+    /// What its integrals are taken over from now on.
+    pub fn measured(&mut self, measure: Measure) {
+        self.measure = measure;
+    }
+
     /// Integrates over what a secondary facet shares with primary facets near it.
     ///
     /// # Errors

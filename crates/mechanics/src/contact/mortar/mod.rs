@@ -108,7 +108,7 @@ mod weights;
 pub use covered::{Covered, MIN_COVERAGE};
 pub use pair::{Frame, Pair};
 pub use transformation::Transformation;
-pub use weights::{OfFacet, OfRow, Weights};
+pub use weights::{Guests, OfFacet, OfRow, Weights};
 
 use signorini_geometry::element::Element;
 use signorini_geometry::tensor::Vec3;

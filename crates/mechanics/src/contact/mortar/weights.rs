@@ -12,6 +12,30 @@ pub struct Weights {
     pub(crate) stamp: u64,
     pub(crate) rows: Vec<OfRow>,
     pub(crate) facets: Vec<OfFacet>,
+    pub(crate) guests: Guests,
+}
+
+/// Nodes that are hardly covered leave their function ψ to others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Guests {
+    /// Rows that have left it.
+    pub(crate) left: Vec<bool>,
+    /// What each row has taken over: a facet, a place in it, and which part.
+    pub(crate) taken: Vec<Vec<(u32, usize, f64)>>,
+}
+
+impl Guests {
+    /// The functions of a row: those of the facets around its node, and those taken over.
+    pub(crate) fn of<'a>(
+        &'a self,
+        row: usize,
+        around: &'a [(u32, usize)],
+    ) -> impl Iterator<Item = (u32, usize, f64)> + 'a {
+        let left = self.left.get(row).is_some_and(|l| *l);
+        let own = around.iter().filter(move |_| !left);
+        let own = own.map(|&(facet, place)| (facet, place, 1.0));
+        own.chain(self.taken.get(row).into_iter().flatten().copied())
+    }
 }
 
 /// One row: sums over the facets around its node.
@@ -23,8 +47,10 @@ pub struct OfRow {
     pub full: f64,
     /// The sum of which ν_j is the direction.
     pub normal: Vec3,
-    /// Nodes: those of the facets around the node first, then those of the facets that these meet.
+    /// Nodes: so many of the facets around the node first, then those of the facets that these meet.
     pub nodes: Vec<NodeId>,
+    /// How many are of the secondary side.
+    pub nsecondary: usize,
     /// `D_jk` of the former, `−M_jl` of the latter.
     pub scalar: Vec<f64>,
     /// The same with normals: what a pressure acts with.
@@ -73,6 +99,7 @@ impl Clone for Weights {
         self.stamp = other.stamp;
         self.rows.clone_from(&other.rows);
         self.facets.clone_from(&other.facets);
+        self.guests.clone_from(&other.guests);
     }
 }
 
@@ -85,6 +112,7 @@ impl Clone for OfRow {
 
     fn clone_from(&mut self, other: &Self) {
         (self.d, self.full, self.normal) = (other.d, other.full, other.normal);
+        self.nsecondary = other.nsecondary;
         self.nodes.clone_from(&other.nodes);
         self.scalar.clone_from(&other.scalar);
         self.vector.clone_from(&other.vector);

@@ -254,7 +254,8 @@ impl Scene {
                     Method::NodalMortar => mortar::Normals::Nodal,
                     _ => mortar::Normals::Facet,
                 };
-                let mut mortar = Mortar::new(second.as_ref().unwrap(), normals, &x).unwrap();
+                let mut mortar =
+                    Mortar::new(second.as_ref().unwrap(), normals, Default::default(), &x).unwrap();
                 if choice.bond || method == Method::HeldMortar {
                     let (x, poses) = (&x[..], &poses[..]);
                     mortar = mortar.held_at(&pair, &Placement { x, poses }).unwrap();

@@ -7,6 +7,7 @@ use crate::contact::discretization::{
 use crate::contact::law::{
     AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table, Uzawa,
 };
+use crate::contact::mortar::Measure;
 use crate::contact::{Areas, closest_points};
 use crate::model::{
     ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind, PointRule,
@@ -197,7 +198,8 @@ impl Source<'_> {
                         what: "mortar contact has one pass between two surfaces, and pressures per present area",
                     });
                 }
-                let mortar = Mortar::new(facets, normals, self.reference).map_err(surface_error)?;
+                let mortar = Mortar::new(facets, normals, measure(self.space), self.reference)
+                    .map_err(surface_error)?;
                 let area = mortar_areas(&mortar, self.reference, self.space);
                 (Box::new(mortar), area)
             }
@@ -343,12 +345,24 @@ impl Source<'_> {
     }
 }
 
-/// Areas of mortar rows, with the extent across the plane.
+/// Areas of mortar rows, with the thickness of the plane.
 fn mortar_areas(mortar: &Mortar, x: &[Vec3], space: Idealisation) -> Vec<f64> {
     let nodes = mortar.nodes().iter();
     let at = nodes.map(|&n| x.get(n as usize).copied().unwrap_or_default());
     let areas = at.zip(mortar.areas());
-    areas.map(|(x, area)| area * space.extent(x)).collect()
+    let thickness = |x| match measure(space) {
+        Measure::Flat => space.extent(x),
+        Measure::Revolved => 1.0,
+    };
+    areas.map(|(x, area)| area * thickness(x)).collect()
+}
+
+/// What mortar integrals are taken over.
+fn measure(space: Idealisation) -> Measure {
+    match space {
+        Idealisation::Axisymmetric => Measure::Revolved,
+        _ => Measure::Flat,
+    }
 }
 
 /// Areas of the secondary nodes of pairs, from those of all nodes in their order.
@@ -474,7 +488,7 @@ impl Sides {
         else {
             return Ok(());
         };
-        let mortar = Mortar::new(facets, normals, at.x)?.held_at(&self.pair, at)?;
+        let mortar = Mortar::new(facets, normals, measure(space), at.x)?.held_at(&self.pair, at)?;
         self.area = mortar_areas(&mortar, at.x, space);
         self.discretization = Box::new(mortar);
         Ok(())

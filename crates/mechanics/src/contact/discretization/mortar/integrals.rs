@@ -2,7 +2,7 @@
 
 use super::nodes_of;
 use crate::contact::discretization::SurfacePair;
-use crate::contact::mortar::{Covered, Facet, MortarError, OfFacet};
+use crate::contact::mortar::{Covered, Facet, Measure, MortarError, OfFacet};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
@@ -22,6 +22,13 @@ pub(super) struct Integrator {
 }
 
 impl Integrator {
+    pub fn new(measure: Measure) -> Self {
+        Self {
+            covered: Covered::new(measure),
+            ..Self::default()
+        }
+    }
+
     pub fn place(&mut self, facets: &Facets, facet: u32, x: &[Vec3]) {
         self.own.clear();
         positions(facets.nodes(facet), x, &mut self.own);
@@ -123,6 +130,7 @@ impl Kept {
         &mut self,
         stamp: u64,
         facet: u32,
+        measure: Measure,
         integrate: impl FnOnce(&mut Integrator) -> Result<(), SurfaceError>,
     ) -> Result<&Covered, SurfaceError> {
         self.clock += 1;
@@ -144,6 +152,7 @@ impl Kept {
         if found.is_none() {
             // not known before it is done
             slot.stamp = 0;
+            slot.integrator.covered.measured(measure);
             integrate(&mut slot.integrator)?;
             (slot.stamp, slot.facet) = (stamp, facet);
         }

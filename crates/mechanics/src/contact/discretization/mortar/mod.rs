@@ -47,7 +47,7 @@ mod place;
 
 use super::projected::Point;
 use super::{Anchored, Discretization, Links, NOWHERE, Pair, Pairing, SurfacePair};
-use crate::contact::mortar::{Facet, OfFacet, OfRow, Transformation, Weights};
+use crate::contact::mortar::{Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights};
 use crate::contact::row::{Participant, RowOrder, Rows, Wanted};
 use integrals::Integrator;
 use place::{Place, Workspace};
@@ -59,8 +59,12 @@ use signorini_geometry::surface::{
     Anchor, Carrier, ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet,
 };
 use signorini_geometry::tensor::Vec3;
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The part of a node's function, over the facets around it that meet anything, below which others take it over.
+const WEAK: f64 = 0.5;
 
 /// Facets integrated by one task.
 const TASK: usize = 16;
@@ -78,6 +82,7 @@ pub enum Normals {
 /// Rows of the nodes of a surface made of facets.
 pub struct Mortar {
     nodes: Vec<NodeId>,
+    row_of: HashMap<NodeId, usize>,
     /// Facets around each node, and its place in them.
     around: Vec<Vec<(u32, usize)>>,
     /// Nodes of those facets, its own first.
@@ -87,6 +92,7 @@ pub struct Mortar {
     kind: Vec<usize>,
     area: Vec<f64>,
     normals: Normals,
+    measure: Measure,
     held: Option<Weights>,
 }
 
@@ -99,18 +105,21 @@ impl Mortar {
     ///
     /// # Errors
     /// A facet without a normal.
-    pub fn new(facets: &Facets, normals: Normals, x: &[Vec3]) -> Result<Self, SurfaceError> {
+    pub fn new(
+        facets: &Facets,
+        normals: Normals,
+        measure: Measure,
+        x: &[Vec3],
+    ) -> Result<Self, SurfaceError> {
         let nodes = along_a_curve(facets.all_nodes(), x);
         let mut kinds: Vec<(Element, Inverse)> = Vec::new();
         let mut kind = Vec::new();
-        let mut place = std::collections::HashMap::new();
-        for (row, &node) in nodes.iter().enumerate() {
-            place.insert(node, row);
-        }
+        let rows = nodes.iter().enumerate();
+        let row_of: HashMap<NodeId, usize> = rows.map(|(row, &node)| (node, row)).collect();
         let mut around = vec![Vec::new(); nodes.len()];
         let mut near: Vec<Vec<NodeId>> = nodes.iter().map(|&n| vec![n]).collect();
         let mut area = vec![0.0; nodes.len()];
-        let mut integrator = Integrator::default();
+        let mut integrator = Integrator::new(measure);
         for facet in 0..facets.nfacet() as u32 {
             let missing = SurfaceError::NoSuchFacet { facet };
             let element = facets.element(facet).ok_or(missing)?;
@@ -130,7 +139,7 @@ impl Mortar {
                 .map_err(|_| SurfaceError::Degenerate { facet })?;
             let of_facet = facets.nodes(facet);
             for (k, (node, full)) in of_facet.iter().zip(covered.full()).enumerate() {
-                let Some(&row) = place.get(node) else {
+                let Some(&row) = row_of.get(node) else {
                     continue;
                 };
                 around[row].push((facet, k));
@@ -144,12 +153,14 @@ impl Mortar {
         }
         Ok(Self {
             nodes,
+            row_of,
             around,
             near,
             kinds,
             kind,
             area,
             normals,
+            measure,
             held: None,
         })
     }
@@ -165,6 +176,7 @@ impl Mortar {
         search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
         let mut weights = Weights::default();
         self.weigh(pair, at, &search, &mut weights)?;
+        self.rest(pair, at, &mut weights)?;
         for (row, area) in self.area.iter_mut().enumerate() {
             if let Some(covered) = weights.row(row) {
                 *area = covered.d;
@@ -184,6 +196,25 @@ impl Mortar {
     #[must_use]
     pub fn nodes(&self) -> &[NodeId] {
         &self.nodes
+    }
+
+    /// Lets rows take over functions by what is covered at this configuration; says whether that changes anything.
+    fn rest(
+        &self,
+        pair: &SurfacePair,
+        at: &Placement,
+        weights: &mut Weights,
+    ) -> Result<bool, SurfaceError> {
+        let Some(facets) = &pair.secondary else {
+            return Ok(false);
+        };
+        let guests = self.host(facets, weights);
+        if guests == weights.guests {
+            return Ok(false);
+        }
+        weights.guests = guests;
+        self.add_up_all(facets, pair, at, weights)?;
+        Ok(true)
     }
 
     fn weights<'a>(&'a self, pairing: &'a Pairing) -> &'a Weights {
@@ -208,21 +239,84 @@ impl Mortar {
             .par_iter_mut()
             .enumerate()
             .with_min_len(TASK)
-            .try_for_each_init(Integrator::default, |integrator, (facet, to)| {
-                let facet = facet as u32;
-                integrator.find(facets, facet, pair, at, search);
-                integrator.integrate(facets, facet, pair, at, false)?;
-                integrator.store(to);
-                Ok(())
-            })?;
+            .try_for_each_init(
+                || Integrator::new(self.measure),
+                |integrator, (facet, to)| {
+                    let facet = facet as u32;
+                    integrator.find(facets, facet, pair, at, search);
+                    integrator.integrate(facets, facet, pair, at, false)?;
+                    integrator.store(to);
+                    Ok(())
+                },
+            )?;
+        self.add_up_all(facets, pair, at, out)
+    }
+
+    fn add_up_all(
+        &self,
+        facets: &Facets,
+        pair: &SurfacePair,
+        at: &Placement,
+        out: &mut Weights,
+    ) -> Result<(), SurfaceError> {
         let Weights {
-            rows, facets: of, ..
+            rows,
+            facets: of,
+            guests,
+            ..
         } = out;
         rows.resize_with(self.nodes.len(), OfRow::default);
         rows.par_iter_mut()
             .enumerate()
             .with_min_len(TASK)
-            .try_for_each(|(row, to)| self.add_up(row, facets, pair, at, of, to))
+            .try_for_each(|(row, to)| self.add_up(row, facets, pair, at, (of, guests), to))
+    }
+
+    /// Who takes over whose function, by what is covered.
+    fn host(&self, facets: &Facets, weights: &Weights) -> Guests {
+        let n = self.nodes.len();
+        let mut found = Guests {
+            left: vec![false; n],
+            taken: vec![Vec::new(); n],
+        };
+        let is_met = |facet: u32| {
+            let of = weights.facets.get(facet as usize);
+            of.filter(|of| !of.met.is_empty())
+        };
+        let is_weak = |row: usize| {
+            let met = self.around[row].iter().filter_map(|&(facet, place)| {
+                is_met(facet).map(|of| (of.d[place], of.full[place]))
+            });
+            let (d, full) = met.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
+            d < WEAK * full
+        };
+        let weak: Vec<bool> = (0..n).map(is_weak).collect();
+        // a row that nothing covers is no host
+        let is_host = |node: &NodeId| {
+            let row = self.row_of.get(node).copied();
+            row.filter(|&row| {
+                !weak[row] && self.around[row].iter().any(|&(f, _)| is_met(f).is_some())
+            })
+        };
+        for row in (0..n).filter(|&row| weak[row]) {
+            let near: Vec<usize> = self.near[row].iter().filter_map(is_host).collect();
+            if near.is_empty() {
+                continue;
+            }
+            found.left[row] = true;
+            for &(facet, place) in &self.around[row] {
+                if is_met(facet).is_none() {
+                    continue;
+                }
+                let beside: Vec<usize> = facets.nodes(facet).iter().filter_map(is_host).collect();
+                let hosts = if beside.is_empty() { &near } else { &beside };
+                let share = 1.0 / hosts.len() as f64;
+                for &host in hosts {
+                    found.taken[host].push((facet, place, share));
+                }
+            }
+        }
+        found
     }
 
     /// The sums of a row.
@@ -232,27 +326,35 @@ impl Mortar {
         facets: &Facets,
         pair: &SurfacePair,
         at: &Placement,
-        of: &[OfFacet],
+        (of, guests): (&[OfFacet], &Guests),
         to: &mut OfRow,
     ) -> Result<(), SurfaceError> {
         (to.d, to.full, to.normal) = (0.0, 0.0, Vec3::ZERO);
         to.nodes.clone_from(&self.near[row]);
+        for &(facet, ..) in guests.taken.get(row).into_iter().flatten() {
+            for node in facets.nodes(facet) {
+                if !to.nodes.contains(node) {
+                    to.nodes.push(*node);
+                }
+            }
+        }
         let nsecondary = to.nodes.len();
+        to.nsecondary = nsecondary;
         to.scalar.clear();
         to.scalar.resize(nsecondary, 0.0);
         to.vector.clear();
         to.vector.resize(nsecondary, Vec3::ZERO);
-        for &(facet, place) in &self.around[row] {
+        for (facet, place, share) in guests.of(row, &self.around[row]) {
             let covered = &of[facet as usize];
-            let d = covered.d[place];
-            to.full += covered.full[place];
+            let d = share * covered.d[place];
+            to.full += share * covered.full[place];
             if covered.met.is_empty() {
                 continue;
             }
             to.d += d;
             to.normal += match self.normals {
                 Normals::Facet => covered.normal * d,
-                Normals::Nodal => corner_normal(facets, facet, place, at)?.0,
+                Normals::Nodal => corner_normal(facets, facet, place, at)?.0 * share,
             };
             let t = &self.inverse(facet)[place];
             for (&node, t) in facets.nodes(facet).iter().zip(t) {
@@ -272,8 +374,8 @@ impl Mortar {
                         to.scalar.push(0.0);
                         to.vector.push(Vec3::ZERO);
                     }
-                    to.scalar[k] -= m;
-                    to.vector[k] -= covered.normal * m;
+                    to.scalar[k] -= share * m;
+                    to.vector[k] -= covered.normal * (share * m);
                 }
             }
         }
@@ -284,6 +386,21 @@ impl Mortar {
             }
         }
         Ok(())
+    }
+
+    /// Pairs of all rows that are covered.
+    fn choose(&self, at: &Placement, out: &mut Pairing) {
+        let weights = self.held.as_ref().unwrap_or(&out.weights);
+        let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
+        out.pairs.resize(self.nodes.len(), None);
+        for (row, (found, &node)) in out.pairs.iter_mut().zip(&self.nodes).enumerate() {
+            *found = weights.row(row).map(|of| Pair {
+                anchor: NOWHERE,
+                feature: Feature::Face,
+                gap: of.gap(x(node), &x) / of.d,
+                held: None,
+            });
+        }
     }
 
     fn inverse(&self, facet: u32) -> &Inverse {
@@ -362,24 +479,28 @@ impl Discretization for Mortar {
         pair: &SurfacePair,
         at: &Placement,
         near: &Search,
-        _: &Pairing,
+        last: &Pairing,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
         if self.held.is_none() {
+            out.weights.guests.clone_from(&last.weights.guests);
             self.weigh(pair, at, near, &mut out.weights)?;
         }
-        let weights = self.held.as_ref().unwrap_or(&out.weights);
-        let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
-        out.pairs.resize(self.nrow(), None);
-        for (row, (found, &node)) in out.pairs.iter_mut().zip(&self.nodes).enumerate() {
-            *found = weights.row(row).map(|of| Pair {
-                anchor: NOWHERE,
-                feature: Feature::Face,
-                gap: of.gap(x(node), &x) / of.d,
-                held: None,
-            });
-        }
+        self.choose(at, out);
         Ok(())
+    }
+
+    fn begin(
+        &self,
+        pair: &SurfacePair,
+        at: &Placement,
+        from: &mut Pairing,
+    ) -> Result<bool, SurfaceError> {
+        if self.held.is_some() || !self.rest(pair, at, &mut from.weights)? {
+            return Ok(false);
+        }
+        self.choose(at, from);
+        Ok(true)
     }
 
     fn row(
@@ -420,6 +541,7 @@ impl Discretization for Mortar {
             place.participants(&mut work.participants);
             out.start(work.participants.iter().map(|&n| Participant::Node(n)));
         }
+        out.nsecondary = now.nsecondary;
         let into = out.push(row, wanted);
         into.gap = place.gap();
         into.normal = normal;
@@ -449,12 +571,15 @@ impl Discretization for Mortar {
         })
     }
 
-    fn secondary(&self, _: &Rows, row: usize) -> Range<usize> {
-        0..self.near.get(row).map_or(0, Vec::len)
+    fn secondary(&self, rows: &Rows, _: usize) -> Range<usize> {
+        0..rows.nsecondary
     }
 
-    fn more_nodes(&self, row: usize) -> &[NodeId] {
-        self.near.get(row).map_or(&[], Vec::as_slice)
+    fn more_nodes<'a>(&'a self, row: usize, pairing: &'a Pairing) -> &'a [NodeId] {
+        match self.weights(pairing).rows.get(row) {
+            Some(of) => &of.nodes[..of.nsecondary],
+            None => self.near.get(row).map_or(&[], Vec::as_slice),
+        }
     }
 
     fn meets_many(&self) -> bool {
@@ -462,8 +587,9 @@ impl Discretization for Mortar {
     }
 
     fn more_facets(&self, row: usize, pairing: &Pairing, out: &mut Vec<u32>) {
-        let facets = &self.weights(pairing).facets;
-        for &(facet, _) in self.around.get(row).into_iter().flatten() {
+        let Weights { facets, guests, .. } = self.weights(pairing);
+        let around = self.around.get(row).map_or(&[][..], Vec::as_slice);
+        for (facet, ..) in guests.of(row, around) {
             let of = facets.get(facet as usize);
             out.extend(of.into_iter().flat_map(|f| &f.met));
         }

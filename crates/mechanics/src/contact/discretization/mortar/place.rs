@@ -67,7 +67,7 @@ impl Place<'_> {
     pub fn participants(&self, out: &mut Vec<NodeId>) {
         out.clear();
         out.extend_from_slice(&self.now.nodes);
-        let secondary = self.mortar.near[self.row].len();
+        let secondary = self.now.nsecondary;
         for node in self.past.iter().flat_map(|p| &p.nodes[secondary..]) {
             if !out[secondary..].contains(node) {
                 out.push(*node);
@@ -145,19 +145,25 @@ impl Place<'_> {
         let Some(facets) = &self.pair.secondary else {
             return Ok(());
         };
-        for &(facet, place) in &self.mortar.around[self.row] {
+        let around = &self.mortar.around[self.row];
+        for (facet, place, share) in self.weights.guests.of(self.row, around) {
             let of = match self.weights.facets.get(facet as usize) {
                 Some(of) if !of.met.is_empty() => of,
                 _ => continue,
             };
-            let covered = work.kept.of(self.weights.stamp, facet, |integrator| {
-                integrator.near.clone_from(&of.met);
-                integrator.integrate(facets, facet, self.pair, self.at, true)
-            })?;
+            let covered = work.kept.of(
+                self.weights.stamp,
+                facet,
+                self.mortar.measure,
+                |integrator| {
+                    integrator.near.clone_from(&of.met);
+                    integrator.integrate(facets, facet, self.pair, self.at, true)
+                },
+            )?;
             let nodes = facets.nodes(facet);
             work.columns.clear();
             let known = |node: &NodeId, of: &[NodeId]| of.iter().position(|n| n == node);
-            let (secondary, primary) = self.now.nodes.split_at(self.mortar.near[self.row].len());
+            let (secondary, primary) = self.now.nodes.split_at(self.now.nsecondary);
             let own = nodes.iter().map(|n| known(n, secondary));
             let met = of.met.iter().flat_map(|&m| nodes_of(self.pair, m));
             let others = met.map(|n| known(n, primary).map(|k| secondary.len() + k));
@@ -172,7 +178,7 @@ impl Place<'_> {
                 way: &mut work.way,
                 row,
             };
-            self.add(sums, facets, (facet, place), covered)?;
+            self.add(sums, facets, (facet, place, share), covered)?;
         }
         let (sum, g) = (self.now.normal.norm(), self.gap());
         let nu = row.normal;
@@ -193,13 +199,14 @@ impl Place<'_> {
         &self,
         to: Sums<'_>,
         facets: &Facets,
-        (facet, place): (u32, usize),
+        (facet, place, share): (u32, usize, f64),
         covered: &Covered,
     ) -> Result<(), SurfaceError> {
         let (nodes, area) = (facets.nodes(facet), self.mortar.area[self.row]);
         let n = to.row.gradient.len();
         let nodal = self.mortar.normals == Normals::Nodal;
-        let (d, dd, nu) = (covered.d()[place], covered.dd(place), covered.normal());
+        let (dd, nu) = (covered.dd(place), covered.normal());
+        let d = share * covered.d()[place];
         let dnu = |i: usize| {
             Vec3::new(
                 covered.dnormal(0)[i],
@@ -208,7 +215,7 @@ impl Place<'_> {
             )
         };
         for (&column, dd) in to.columns.iter().zip(dd) {
-            to.d[column] += dd;
+            to.d[column] += share * dd;
         }
         let inverse = &self.mortar.inverse(facet)[place];
         let m = covered.m(place);
@@ -219,8 +226,8 @@ impl Place<'_> {
             let line = columns[0] / 3;
             let x = self.x(self.now.nodes[line]) - centre;
             let (c, factor, dc) = match k.checked_sub(own) {
-                None => (inverse[k] * d, inverse[k], dd),
-                Some(l) => (-m[l], -1.0, covered.dm(place, l)),
+                None => (inverse[k] * d, share * inverse[k], dd),
+                Some(l) => (-share * m[l], -share, covered.dm(place, l)),
             };
             if factor == 0.0 {
                 continue;
@@ -255,14 +262,14 @@ impl Place<'_> {
             }
         }
         if nodal {
-            return self.turn(to, facets, (facet, place));
+            return self.turn(to, facets, (facet, place, share));
         }
         for (i, &column) in to.columns[..3 * own].iter().enumerate() {
             to.row.gradient[column] += dnu(i).dot(way);
             to.normal[column] += dnu(i) * d;
         }
         for (&column, dd) in to.columns.iter().zip(dd) {
-            to.normal[column] += nu * *dd;
+            to.normal[column] += nu * (share * dd);
         }
         Ok(())
     }
@@ -272,7 +279,7 @@ impl Place<'_> {
         &self,
         to: Sums<'_>,
         facets: &Facets,
-        (facet, place): (u32, usize),
+        (facet, place, share): (u32, usize, f64),
     ) -> Result<(), SurfaceError> {
         let (normal, jet) = corner_normal(facets, facet, place, self.at)?;
         let t2 = match facets.ntan() {
@@ -286,7 +293,7 @@ impl Place<'_> {
             if facets.ntan() == 2 {
                 change += jet.tangent[0].cross(unit) * d[1];
             }
-            to.normal[column] -= (change - normal * normal.dot(change)) / size;
+            to.normal[column] -= (change - normal * normal.dot(change)) * (share / size);
         }
         Ok(())
     }
@@ -318,7 +325,7 @@ impl Place<'_> {
             *de = (*way + raw * *dd) * (-1.0 / d);
         }
         if let Some(past) = self.past {
-            let secondary = self.mortar.near[self.row].len();
+            let secondary = self.now.nsecondary;
             for (k, (node, c)) in past.nodes.iter().zip(&past.scalar).enumerate() {
                 let later = &work.participants[secondary..];
                 let place = match later.iter().position(|n| n == node) {
