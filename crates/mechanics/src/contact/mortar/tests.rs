@@ -411,7 +411,7 @@ fn whole_grids_have_the_integrals_of_the_reference() {
     assert!(worst < 1e-12, "{worst:e}");
 }
 
-/// The mid nodes of a grid of squares, as quad8 or quad9, the corners first; all turned up or down.
+/// The same grid of quad8 or quad9: mid nodes follow the corners.
 fn quadratic_grid(
     element: Element,
     x: &[f64],
