@@ -207,15 +207,17 @@ pub trait Discretization: Send + Sync {
         &[]
     }
 
-    /// An increment begins at these choices: makes those that hold for all of it, and says whether rows now see others.
+    /// Makes the choices that hold while an iteration goes on, from those of the present iterate, and in what was before
+    /// likewise; says whether rows now see others.
     ///
     /// # Errors
     /// A facet that has no normal.
-    fn begin(
+    fn settle(
         &self,
         _pair: &SurfacePair,
         _at: &Placement,
-        _from: &mut Pairing,
+        _now: &mut Pairing,
+        _before: &mut Pairing,
     ) -> Result<bool, SurfaceError> {
         Ok(false)
     }

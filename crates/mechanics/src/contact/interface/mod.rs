@@ -18,12 +18,15 @@ use history::History;
 pub use pairing::closest_points;
 use pairing::{Coupled, Near};
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::{Carrier, ContactSurface, SurfaceError};
+use signorini_geometry::surface::{Carrier, ContactSurface, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
 /// Rows evaluated together.
 const CHUNK: usize = 64;
+
+/// Changes within one increment after which a choice is kept.
+const RESTLESS: u8 = 4;
 
 /// How many nodes a verdict names.
 const NAMED: usize = 4;
@@ -164,6 +167,8 @@ pub struct Interface {
     resumed: bool,
     /// Whether rows see others than the pattern knows.
     sees_others: bool,
+    /// How often choices that hold while an iteration goes on were made anew in this increment.
+    settled: u8,
     /// What the pattern couples each row with, and what the present iterate asks for.
     coupled: Coupled,
     wanted: Coupled,
@@ -212,6 +217,7 @@ impl Interface {
             started: false,
             resumed: false,
             sees_others: false,
+            settled: 0,
             coupled: Coupled::default(),
             wanted: Coupled::default(),
             step: StepContext::default(),
@@ -325,6 +331,17 @@ impl Interface {
         shift.constant + shift.fading * left
     }
 
+    /// Makes the choices that hold while an iteration goes on; says whether they are others.
+    fn settle(&mut self, at: &Placement) -> Result<bool, TermError> {
+        let parts = &self.parts;
+        let discretization = parts.discretization.as_ref();
+        let others = discretization.settle(&parts.pair, at, &mut self.now, &mut self.before);
+        let others = others.map_err(|e| self.failed(&e))?;
+        self.sees_others |= others;
+        self.settled += u8::from(others);
+        Ok(others)
+    }
+
     fn failed(&self, error: &SurfaceError) -> TermError {
         TermError::Surface {
             interface: self.parts.name.clone(),
@@ -371,25 +388,20 @@ impl Term for Interface {
         let at = from.placement();
         if !self.started {
             self.search(&at).map_err(|e| self.failed(&e))?;
+            self.settle(&at)?;
             self.accepted.clone_from(&self.now);
             self.started = true;
             self.judge(from)?;
             self.accepted_judged.clone_from(&self.judged);
         }
-        if std::mem::take(&mut self.resumed) {
+        if std::mem::take(&mut self.resumed) && self.parts.discretization.meets_many() {
             // weights are those of where the run stopped
             self.search(&at).map_err(|e| self.failed(&e))?;
-            self.accepted.weights.clone_from(&self.now.weights);
-        }
-        let parts = &self.parts;
-        let others = parts
-            .discretization
-            .begin(&parts.pair, &at, &mut self.accepted);
-        if others.map_err(|e| self.failed(&e))? {
-            self.now.clone_from(&self.accepted);
-            self.sees_others = true;
+            self.settle(&at)?;
+            self.accepted.clone_from(&self.now);
         }
         self.before.clone_from(&self.accepted);
+        self.settled = 0;
         self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.changes.fill(0);
         self.history.begin();
@@ -478,6 +490,13 @@ impl Term for Interface {
     }
 
     fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
+        if self.settled < RESTLESS && self.settle(&trial.placement())? {
+            return Ok(Verdict::Repeat {
+                changes: 1,
+                why: format!("contact \"{}\": other nodes are covered", self.parts.name),
+                nodes: Vec::new(),
+            });
+        }
         let limits = self.renew_limits(trial)?;
         if self.parts.law.multiplier() != Multiplier::Frozen {
             return Ok(limits);

@@ -1,6 +1,6 @@
 //! Search, pairing, where rows stick, and what is coupled with what.
 
-use super::{Carrier, ContactSurface, Interface, dofs_of};
+use super::{Carrier, ContactSurface, Interface, RESTLESS, dofs_of};
 use crate::contact::discretization::projected::{BEYOND, on_continuation};
 use crate::contact::discretization::{Discretization, NOWHERE, Pair, Pairing, SurfacePair};
 use crate::contact::law::Eval;
@@ -8,9 +8,6 @@ use crate::system::{Dof, NO_DOF, PatternSink, State};
 use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{Feature, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
-
-/// Changes of facet in one increment after which a row stays on the facet it is on.
-const RESTLESS: u8 = 4;
 
 /// The search for what is near, with its buffers.
 #[derive(Default)]

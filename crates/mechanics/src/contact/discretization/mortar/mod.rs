@@ -490,16 +490,25 @@ impl Discretization for Mortar {
         Ok(())
     }
 
-    fn begin(
+    fn settle(
         &self,
         pair: &SurfacePair,
         at: &Placement,
-        from: &mut Pairing,
+        now: &mut Pairing,
+        before: &mut Pairing,
     ) -> Result<bool, SurfaceError> {
-        if self.held.is_some() || !self.rest(pair, at, &mut from.weights)? {
+        if self.held.is_some() || !self.rest(pair, at, &mut now.weights)? {
             return Ok(false);
         }
-        self.choose(at, from);
+        self.choose(at, now);
+        if let Some(facets) = pair
+            .secondary
+            .as_ref()
+            .filter(|_| !before.weights.is_empty())
+        {
+            before.weights.guests.clone_from(&now.weights.guests);
+            self.add_up_all(facets, pair, at, &mut before.weights)?;
+        }
         Ok(true)
     }
 
