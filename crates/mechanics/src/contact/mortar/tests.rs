@@ -386,6 +386,138 @@ fn deformed_blocks_have_the_integrals_of_an_independent_program() {
 }
 
 #[test]
+fn whole_grids_have_the_integrals_of_the_reference() {
+    let Some(file) = reference("mortar_patch_2d.json") else {
+        return;
+    };
+    let data = &file["2d_upper_dual"];
+    let along = |key: &str| -> Vec<f64> {
+        let (places, nodes) = (rows(&data["X"]), numbers(&data[key]));
+        nodes.iter().map(|&n| places[n as usize][0]).collect()
+    };
+    let (above, below) = (along("slave_nodes"), along("master_nodes"));
+    let sides = [grid(&above, &[0.0], false), grid(&below, &[0.0], true)];
+    let (d, m) = surfaces(by_name("line2").unwrap(), [&sides[0], &sides[1]]);
+    let (expected_d, expected_m) = (rows(&data["D"]), rows(&data["M"]));
+    let mut worst = 0.0f64;
+    for j in 0..d.len() {
+        worst = worst.max((d[j] - expected_d[j][j]).abs());
+        for (m, expected) in m[j].iter().zip(&expected_m[j]) {
+            worst = worst.max((m - expected).abs());
+        }
+    }
+    println!("largest difference of D and M {worst:.1e}");
+    // the file has 13 digits
+    assert!(worst < 1e-12, "{worst:e}");
+}
+
+/// The same grid of quad8 or quad9: mid nodes follow the corners.
+fn quadratic_grid(
+    element: Element,
+    x: &[f64],
+    y: &[f64],
+    up: bool,
+) -> (Vec<Vec3>, Vec<Vec<usize>>) {
+    let (mut nodes, mut facets) = grid(x, y, up);
+    for facet in &mut facets {
+        let corners: Vec<Vec3> = facet.iter().map(|&k| nodes[k]).collect();
+        let quad = by_name("quad4").unwrap();
+        let mut shape = [0.0; 4];
+        for xi in &element.nodes()[4..] {
+            quad.shape(xi, &mut shape);
+            let at: Vec3 = corners.iter().zip(shape).map(|(x, n)| *x * n).sum();
+            let known = nodes.iter().position(|x| (*x - at).norm() < 1e-12);
+            facet.push(known.unwrap_or(nodes.len()));
+            if known.is_none() {
+                nodes.push(at);
+            }
+        }
+    }
+    (nodes, facets)
+}
+
+/// `∫ψ_j (x − x^m)` along the normal at the nodes of a surface, with the basis of this α.
+fn gaps(
+    element: Element,
+    alpha: f64,
+    [secondary, primary]: [&(Vec<Vec3>, Vec<Vec<usize>>); 2],
+) -> Vec<f64> {
+    let t = Transformation::with_alpha(element, alpha);
+    let n = element.nnode();
+    let mut gaps = vec![0.0; secondary.0.len()];
+    for nodes in &secondary.1 {
+        let x: Vec<Vec3> = nodes.iter().map(|&k| secondary.0[k]).collect();
+        let frame = Frame::of(&Facet { element, x: &x }).unwrap();
+        let nu = frame.normal();
+        // over all primary facets: ∫N, ∫N Nᵀ, and ∫N (x − x^m)·ν
+        let (mut d, mut g, mut apart) = ([0.0; 9], [[0.0; 9]; 9], [0.0; 9]);
+        for facet in &primary.1 {
+            let other: Vec<Vec3> = facet.iter().map(|&k| primary.0[k]).collect();
+            let mut pair = Pair::default();
+            let other = Facet { element, x: &other };
+            if !pair.integrate(&frame, &other, 0, false).unwrap() {
+                continue;
+            }
+            for j in 0..n {
+                d[j] += pair.n(j);
+                for k in 0..n {
+                    g[j][k] += pair.nn(j, k);
+                    apart[j] += pair.nn(j, k) * nu.dot(x[k]);
+                    apart[j] -= pair.nm(j, k) * nu.dot(other.x[k]);
+                }
+            }
+        }
+        let mut s = [[0.0; 9]; 9];
+        for (j, row) in s.iter_mut().enumerate().take(n) {
+            for (k, s) in row.iter_mut().enumerate().take(n) {
+                let over = |i: usize| (0..n).map(|m| t.get(k, m) * g[i][m]).sum::<f64>();
+                *s = (0..n).map(|i| t.get(j, i) * over(i)).sum();
+            }
+        }
+        let inverse = basis::inverse(&s, n).unwrap();
+        for j in 0..n {
+            let d: f64 = (0..n).map(|k| t.get(j, k) * d[k]).sum();
+            let over = |i: usize| (0..n).map(|k| t.get(i, k) * apart[k]).sum::<f64>();
+            let mean: f64 = (0..n).map(|i| inverse[j][i] * over(i)).sum();
+            gaps[nodes[j]] += d * mean;
+        }
+    }
+    gaps
+}
+
+#[test]
+fn surfaces_that_are_apart_touch_nowhere_but_with_weights_of_either_sign() {
+    let lower: [&[f64]; 2] = [&[0.0, 0.45, 1.0], &[0.0, 0.6, 1.0]];
+    let whole: [&[f64]; 2] = [&[0.0, 0.3, 0.7, 1.0], &[0.0, 0.4, 0.8, 1.0]];
+    let overhanging: [&[f64]; 2] = [&[-0.35, 0.3, 0.7, 1.2], &[-0.2, 0.35, 0.8, 1.15]];
+    // where weights are negative, a gap predicts contact
+    for (name, upper, alpha, expected) in [
+        ("quad8", whole, 0.0, 16),
+        ("quad8", whole, 0.2, 0),
+        ("quad8", whole, 0.375, 0),
+        ("quad8", overhanging, 0.0, 16),
+        ("quad8", overhanging, 0.2, 12),
+        ("quad8", overhanging, 0.375, 0),
+        ("quad9", whole, 0.0, 0),
+        ("quad9", overhanging, 0.0, 20),
+        ("quad9", overhanging, 0.25, 0),
+    ] {
+        let element = by_name(name).unwrap();
+        let below = quadratic_grid(element, lower[0], lower[1], true);
+        let mut above = quadratic_grid(element, upper[0], upper[1], false);
+        for x in &mut above.0 {
+            x.z += 0.01;
+        }
+        let gaps = gaps(element, alpha, [&above, &below]);
+        let touching = gaps.iter().filter(|g| **g < 0.0).count();
+        println!("{name}, alpha {alpha}: {touching} of {} nodes", gaps.len());
+        assert_eq!(touching, expected, "{name} {alpha}");
+        let total: f64 = gaps.iter().sum();
+        assert!((total - 0.01).abs() < 1e-13, "{total}");
+    }
+}
+
+#[test]
 fn rows_of_both_sides_have_the_same_sum() {
     let mut random = Random::new(1);
     for elements in pairings() {
