@@ -183,6 +183,10 @@ pub trait Discretization: Send + Sync {
         end.saturating_sub(self.point(row).nodes.len())..end
     }
 
+    /// Nodes of the secondary side without a row of their own that a row speaks for.
+    fn guests(&self, _row: usize, _pair: &SurfacePair, _pairing: &Pairing, _out: &mut Vec<NodeId>) {
+    }
+
     /// Whether rows meet several facets at once, and there is no closest point.
     fn meets_many(&self) -> bool {
         false

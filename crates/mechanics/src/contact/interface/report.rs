@@ -3,6 +3,7 @@
 use super::{
     Contact, Interface, Measure, Order, Participant, RowOrder, Rows, Scratch, State, TermError,
 };
+use crate::contact::row::Row;
 use crate::system::{ContactFrame, Frame, Resultant, Status};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
@@ -69,6 +70,7 @@ impl Interface {
         let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
         let mut centre = (Vec3::ZERO, 0.0);
         let mut gap_min: Option<f64> = None;
+        let mut guests = Vec::new();
         for row in 0..self.parts.discretization.nrow() {
             let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
             let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
@@ -89,7 +91,8 @@ impl Interface {
                 let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
                 pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
-                report.force_normal += filled.normal * (traction.pressure * measure);
+                let pushed = self.pushed(row, &scratch.rows, filled);
+                report.force_normal += pushed * (traction.pressure * self.measure(row));
                 report.force_shear -= traction.tangential * measure;
                 status = match traction.state {
                     _ if pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
@@ -114,6 +117,17 @@ impl Interface {
             report.pressure_max = report.pressure_max.max(pressure);
             report.slip_max = report.slip_max.max(slip.norm());
             let point = self.parts.discretization.point(row);
+            guests.clear();
+            let parts = &self.parts;
+            parts
+                .discretization
+                .guests(row, &parts.pair, &self.now, &mut guests);
+            for node in &guests {
+                if let (Ok(k), Some(of_row)) = (parts.pair.points.binary_search(node), &of_row) {
+                    means.add(k, area, of_row);
+                    report.status[k] = status;
+                }
+            }
             let weight = pressure * area;
             centre.0 += point.position(&state.placement()) * weight;
             centre.1 += weight;
@@ -175,6 +189,22 @@ impl Interface {
             }
         }
         Ok(())
+    }
+
+    /// What a unit of pressure does to the secondary side.
+    fn pushed(&self, row: usize, rows: &Rows, filled: &Row) -> Vec3 {
+        let secondary = self.parts.discretization.secondary(rows, row);
+        let mut sum = Vec3::ZERO;
+        let mut column = 0;
+        for (place, participant) in rows.participants().iter().enumerate() {
+            if let Some(&[x, y, z]) = filled.weights.get(column..column + 3)
+                && secondary.contains(&place)
+            {
+                sum += Vec3::new(x, y, z);
+            }
+            column += participant.ncolumn();
+        }
+        sum
     }
 
     /// Adds a row to the means at the nodes of the facet that it acts on.

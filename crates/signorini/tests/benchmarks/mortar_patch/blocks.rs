@@ -274,9 +274,9 @@ impl Blocks {
         }
         let mut held = String::new();
         for (block, group) in GROUPS.iter().enumerate() {
-            for axis in 0..up {
-                let (name, at) = (format!("{group}_{axis}"), self.end(block, false)[axis]);
-                let axis = axes[axis];
+            for (number, axis) in axes.iter().enumerate().take(up) {
+                let name = format!("{group}_{number}");
+                let at = self.end(block, false)[number];
                 scene.place(
                     &name,
                     &format!("plane = {axis:?}, at = {at:?}, of = {group:?}"),

@@ -66,6 +66,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The part of a node's function, over the facets around it that meet anything, below which others take it over.
 const WEAK: f64 = 0.5;
 
+/// How much better others must be covered to take it over where none is covered well.
+const BETTER: f64 = 4.0;
+
 /// Facets integrated by one task.
 const TASK: usize = 16;
 
@@ -272,48 +275,50 @@ impl Mortar {
             .try_for_each(|(row, to)| self.add_up(row, facets, pair, at, (of, guests), to))
     }
 
-    /// Who takes over whose function, by what is covered.
+    /// Who takes over whose function, by what is covered: of the facets around a node that meet anything, which part.
+    /// A node of which little is covered leaves it to those beside it that are covered well, or much better than itself.
     fn host(&self, facets: &Facets, weights: &Weights) -> Guests {
         let n = self.nodes.len();
+        let met = |facet: u32| {
+            let of = weights.facets.get(facet as usize);
+            of.filter(|of| !of.met.is_empty())
+        };
+        let part = |row: usize| {
+            let of =
+                |&(facet, place): &(u32, usize)| met(facet).map(|of| (of.d[place], of.full[place]));
+            let all = self.around[row].iter().filter_map(of);
+            let (d, full) = all.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
+            if full > 0.0 { d / full } else { 0.0 }
+        };
+        let parts: Vec<f64> = (0..n).map(part).collect();
         let mut found = Guests {
             left: vec![false; n],
             taken: vec![Vec::new(); n],
         };
-        let is_met = |facet: u32| {
-            let of = weights.facets.get(facet as usize);
-            of.filter(|of| !of.met.is_empty())
-        };
-        let is_weak = |row: usize| {
-            let met = self.around[row].iter().filter_map(|&(facet, place)| {
-                is_met(facet).map(|of| (of.d[place], of.full[place]))
-            });
-            let (d, full) = met.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
-            d < WEAK * full
-        };
-        let weak: Vec<bool> = (0..n).map(is_weak).collect();
-        // a row that nothing covers is no host
-        let is_host = |node: &NodeId| {
-            let row = self.row_of.get(node).copied();
-            row.filter(|&row| {
-                !weak[row] && self.around[row].iter().any(|&(f, _)| is_met(f).is_some())
-            })
-        };
-        for row in (0..n).filter(|&row| weak[row]) {
+        let mut weak: Vec<usize> = (0..n)
+            .filter(|&r| parts[r] > 0.0 && parts[r] < WEAK)
+            .collect();
+        weak.sort_by(|&a, &b| parts[b].total_cmp(&parts[a]).then(a.cmp(&b)));
+        for row in weak {
+            let is_host = |node: &NodeId| {
+                let other = self.row_of.get(node).copied();
+                let much = WEAK.min(BETTER * parts[row]);
+                other.filter(|&other| other != row && !found.left[other] && parts[other] >= much)
+            };
             let near: Vec<usize> = self.near[row].iter().filter_map(is_host).collect();
             if near.is_empty() {
                 continue;
             }
-            found.left[row] = true;
-            for &(facet, place) in &self.around[row] {
-                if is_met(facet).is_none() {
-                    continue;
-                }
+            let mut taken = Vec::new();
+            for &(facet, place) in self.around[row].iter().filter(|(f, _)| met(*f).is_some()) {
                 let beside: Vec<usize> = facets.nodes(facet).iter().filter_map(is_host).collect();
                 let hosts = if beside.is_empty() { &near } else { &beside };
                 let share = 1.0 / hosts.len() as f64;
-                for &host in hosts {
-                    found.taken[host].push((facet, place, share));
-                }
+                taken.extend(hosts.iter().map(|&host| (host, (facet, place, share))));
+            }
+            found.left[row] = true;
+            for (host, function) in taken {
+                found.taken[host].push(function);
             }
         }
         found
@@ -588,6 +593,23 @@ impl Discretization for Mortar {
         match self.weights(pairing).rows.get(row) {
             Some(of) => &of.nodes[..of.nsecondary],
             None => self.near.get(row).map_or(&[], Vec::as_slice),
+        }
+    }
+
+    fn guests(&self, row: usize, pair: &SurfacePair, pairing: &Pairing, out: &mut Vec<NodeId>) {
+        let Some(facets) = &pair.secondary else {
+            return;
+        };
+        for &(facet, place, _) in self
+            .weights(pairing)
+            .guests
+            .taken
+            .get(row)
+            .into_iter()
+            .flatten()
+        {
+            let node = facets.nodes(facet).get(place);
+            out.extend(node.filter(|n| !out.contains(n)).copied());
         }
     }
 
