@@ -63,7 +63,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The part of a node's function, over the facets around it that meet anything, below which others take it over.
+/// The part of a node's function, on the facet where most of it is covered, below which others take it over.
 const WEAK: f64 = 0.5;
 
 /// How much better others must be covered to take it over where none is covered well.
@@ -275,7 +275,7 @@ impl Mortar {
             .try_for_each(|(row, to)| self.add_up(row, facets, pair, at, (of, guests), to))
     }
 
-    /// Who takes over whose function, by what is covered: of the facets around a node that meet anything, which part.
+    /// Who takes over whose function, by what is covered: on the facet around a node of which most is, which part of it.
     /// A node of which little is covered leaves it to those beside it that are covered well, or much better than itself.
     fn host(&self, facets: &Facets, weights: &Weights) -> Guests {
         let n = self.nodes.len();
@@ -285,10 +285,9 @@ impl Mortar {
         };
         let part = |row: usize| {
             let of =
-                |&(facet, place): &(u32, usize)| met(facet).map(|of| (of.d[place], of.full[place]));
+                |&(facet, place): &(u32, usize)| met(facet).map(|of| of.d[place] / of.full[place]);
             let all = self.around[row].iter().filter_map(of);
-            let (d, full) = all.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
-            if full > 0.0 { d / full } else { 0.0 }
+            all.fold(0.0, f64::max)
         };
         let parts: Vec<f64> = (0..n).map(part).collect();
         let mut found = Guests {
