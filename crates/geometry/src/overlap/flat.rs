@@ -22,7 +22,9 @@ pub struct Flat<T> {
     /// Nodes on the boundary, counter-clockwise on the plane; on a line, the ends from left to right.
     boundary: [u8; MAX_FACET_NODES],
     nboundary: usize,
-    convex: bool,
+    outline: Outline,
+    /// Of what its boundary encloses; of a line its length.
+    area: f64,
     /// Least and largest coordinates.
     bounds: [Pair<f64>; 2],
     bend: f64,
@@ -33,6 +35,26 @@ pub struct Flat<T> {
     middle: Pair<f64>,
     tangents: [Pair<f64>; 2],
 }
+
+/// What the polygon through all nodes of the boundary is like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outline {
+    /// It is convex.
+    Convex,
+    /// It would be, without the nodes inside of these edges: a flag for each place in the boundary.
+    Dented(u8),
+    /// It is not convex at a corner.
+    Star,
+}
+
+/// A convex part of a facet, counter-clockwise, and what it counts: less than nothing where an outline is dented.
+pub(super) struct Piece<T> {
+    pub polygon: Polygon<T>,
+    pub sign: f64,
+}
+
+/// The largest δ with which points in dents, outside of a facet, have parameters for sure.
+const EXTENSIBLE: f64 = 0.3;
 
 /// The Jacobian of the map at the parameters of a node must be this large compared with that at the centre.
 const FOLDED: f64 = 1e-6;
@@ -62,7 +84,8 @@ impl<T: Real> Flat<T> {
             values,
             boundary,
             nboundary,
-            convex: true,
+            outline: Outline::Convex,
+            area: 0.0,
             bounds,
             bend: bend(element, &values, facing)?,
             sagitta: sagitta(element, &values),
@@ -70,9 +93,14 @@ impl<T: Real> Flat<T> {
             middle: place(element, &values, &centre),
             tangents: jacobian(element, &values, &centre),
         };
-        let outline = flat.outline();
-        flat.convex = element.dim() == 1 || outline.is_convex(TOUCH * flat.size());
-        let whole = flat.convex || (0..flat.nboundary).all(|k| flat.piece(k).area() > 0.0);
+        if element.dim() == 1 {
+            flat.area = flat.size();
+        } else {
+            flat.area = flat.polygon(0).area();
+            flat.outline = flat.look();
+        }
+        let star = flat.outline == Outline::Star;
+        let whole = !star || (0..flat.nboundary).all(|k| flat.triangle(k).area() > 0.0);
         whole.then_some(flat)
     }
 
@@ -108,13 +136,13 @@ impl<T: Real> Flat<T> {
     }
 
     /// δ of the part of it that has these corners: how far the map is from an affine one.
-    pub(super) fn bend_within(&self, corners: &[Pair<T>]) -> f64 {
+    pub(super) fn bend_within(&self, corners: &[Pair<f64>]) -> f64 {
         if self.bend == 0.0 {
             return 0.0;
         }
         let mut extent = [[f64::MAX, f64::MIN]; 2];
         for p in corners {
-            let xi = solve(self.element, self.tangents, p.map(|c| c.value()));
+            let xi = solve(self.element, self.tangents, *p);
             for ([least, most], xi) in extent.iter_mut().zip(xi) {
                 *least = least.min(xi);
                 *most = most.max(xi);
@@ -178,34 +206,60 @@ impl<T: Real> Flat<T> {
         [0, 1].map(|k| self.x[usize::from(self.boundary[k])][0])
     }
 
-    /// Of how many convex parts it consists.
-    pub(super) fn npiece(&self) -> usize {
-        if self.convex { 1 } else { self.nboundary }
+    /// What its boundary encloses; of a line its length.
+    pub(super) fn area(&self) -> f64 {
+        self.area
     }
 
-    /// One of its convex parts: itself, or a triangle around its centre.
-    pub(super) fn piece(&self, k: usize) -> Polygon<T> {
-        if self.convex {
-            return self.outline();
-        }
-        let node = |k: usize| self.x[usize::from(self.boundary[k % self.nboundary])];
-        let mut triangle = Polygon::new();
-        for corner in [
-            place(self.element, self.x(), &self.element.centre()),
-            node(k),
-            node(k + 1),
-        ] {
-            triangle.push(corner);
-        }
-        triangle
+    /// Its convex parts: itself, or what is convex around it and, to be taken away, dents; or triangles around its centre.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = Piece<T>> {
+        let (dents, triangles) = match self.outline {
+            Outline::Convex => (0, 0),
+            Outline::Dented(dents) => (dents, 0),
+            Outline::Star => (0, self.nboundary),
+        };
+        let piece = |polygon, sign| Piece { polygon, sign };
+        let whole = (triangles == 0).then(|| piece(self.polygon(dents), 1.0));
+        let dents = (0..self.nboundary).filter(move |k| dents >> k & 1 == 1);
+        let dents = dents.map(move |k| piece(self.dent(k), -1.0));
+        let around = (0..triangles).map(move |k| piece(self.triangle(k), 1.0));
+        whole.into_iter().chain(dents).chain(around)
     }
 
-    fn outline(&self) -> Polygon<T> {
-        let mut polygon = Polygon::new();
-        for &k in &self.boundary[..self.nboundary] {
-            polygon.push(self.x[usize::from(k)]);
+    /// What its outline is like.
+    fn look(&self) -> Outline {
+        let tolerance = TOUCH * self.size();
+        let whole = self.polygon(0);
+        let on_edge = |k: &usize| usize::from(self.boundary[*k]) >= self.element.ncorner();
+        let inward = |k: &usize| on_edge(k) && whole.is_dented(*k, tolerance);
+        let dents = (0..self.nboundary).filter(inward);
+        let dents = dents.fold(0, |flags, k| flags | 1 << k);
+        match self.polygon(dents).is_convex(tolerance) {
+            true if dents == 0 => Outline::Convex,
+            true if self.bend <= EXTENSIBLE => Outline::Dented(dents),
+            _ => Outline::Star,
         }
-        polygon
+    }
+
+    fn node(&self, k: usize) -> Pair<T> {
+        self.x[usize::from(self.boundary[k % self.nboundary])]
+    }
+
+    /// The polygon through its boundary without the places that have a flag.
+    fn polygon(&self, without: u8) -> Polygon<T> {
+        let kept = (0..self.nboundary).filter(|k| without >> k & 1 == 0);
+        Polygon::of(kept.map(|k| self.node(k)))
+    }
+
+    /// The triangle that is missing at a place where the boundary turns inward.
+    fn dent(&self, k: usize) -> Polygon<T> {
+        Polygon::of([k + 1, k, k + self.nboundary - 1].map(|k| self.node(k)))
+    }
+
+    /// A triangle from the centre to a side of the boundary.
+    fn triangle(&self, k: usize) -> Polygon<T> {
+        let centre = place(self.element, self.x(), &self.element.centre());
+        Polygon::of([centre, self.node(k), self.node(k + 1)])
     }
 }
 

@@ -40,8 +40,9 @@
 //! *Quadratic facets* have polygons through all nodes of their boundary. Where edges are straight nothing is lost, and
 //! patch tests stay exact. A bent edge deviates from its polygon by a fourth of its sagitta at most; facets that share it
 //! share the polygon, so that nothing is covered twice or never, and what lies between is of second order in the size of
-//! the facet, relative to it. A polygon that is not convex is cut into triangles around its centre. Areas are those of the
-//! plane: on a curved facet they are the component of its vector area along n0, which is what a constant pressure needs.
+//! the facet, relative to it. A polygon with dents is a convex one from which triangles are taken away; where the facet is
+//! much bent, δ > 0.3, so that the places in dents need not have parameters, or the polygon is not convex at a corner, it is
+//! cut into triangles around its centre instead. Areas are those of the plane: on a curved facet they are the component of its vector area along n0, which is what a constant pressure needs.
 //!
 //! *Degree.* Of a facet with shape functions of degree q the inverse map is a series in
 //! `δ = max |X_,0⁻¹ X_,ab|`, half the facet being 1, and adds q − 1 degrees with each power of it: the term of `δ^k` in
@@ -58,9 +59,10 @@
 //! least, up to [`MAX_DEGREE`], for which
 //!
 //! - products of two shape functions of facets with affine maps are exact: `d ≥ q + max(q, q^m)`, and
-//! - (E3) is 1e-12 on either facet; where its edges are bent and the polygon is not exact, a hundredth of their sagitta,
-//!   at most 1e-8: a patch test needs integrals of single shape functions. Of products it needs that
-//!   they are taken at the same points; their errors are (E3) with 2q for the q beside d, some 1e-11.
+//! - (E3) is 1e-12 on either facet, relative to its area, of which a triangle of a cell is a part; where its edges are
+//!   bent and the polygon is not exact, a hundredth of their sagitta, at most 1e-8: a patch test needs integrals of single
+//!   shape functions. Of products it needs that they are taken at the same points; their errors are (E3) with 2q for the
+//!   q beside d, some 1e-11.
 //!
 //! Patch tests stay exact to 1e-12 on distorted facets up to `δ = 0.32`, of lines 0.3, and beyond it if cells are smaller
 //! than facets. Points of a triangle of a cell that is a whole facet, paired with its like, and in brackets of one half as
@@ -116,7 +118,7 @@ const BENT: f64 = 1e-8;
 /// A point of a cell.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// w.
+    /// w, negative in a cell that is taken away.
     pub weight: f64,
     /// p.
     pub at: Pair<f64>,
@@ -178,22 +180,23 @@ pub fn integrate<T: Real>(
         return over.interval(&mut each);
     }
     let tolerance = over.tolerance();
-    for i in 0..secondary.npiece() {
-        let subject = secondary.piece(i);
-        for k in 0..primary.npiece() {
-            let other = primary.piece(k);
-            if subject.near(&other) {
-                over.polygon(&subject.intersection(&other, tolerance), &mut each)?;
+    for a in secondary.pieces() {
+        for b in primary.pieces() {
+            if a.polygon.near(&b.polygon) {
+                let shared = a.polygon.intersection(&b.polygon, tolerance);
+                over.polygon(&shared, a.sign * b.sign, &mut each)?;
             }
         }
     }
     Ok(())
 }
 
-/// A convex part of what two facets have in common: a polygon, counter-clockwise, or an interval.
+/// A convex part of what two facets have in common: a polygon, counter-clockwise, or an interval. Where the outline of a
+/// facet is dented, there are cells that are taken away: their points have negative weights.
 pub struct Cell<'a, T> {
     facets: Both<'a, T>,
     corners: &'a [Pair<T>],
+    sign: f64,
 }
 
 /// Two facets of the same plane.
@@ -209,12 +212,14 @@ impl<T: Real> Both<'_, T> {
         TOUCH * a.size().min(b.size()) + ROUNDING * a.reach().max(b.reach())
     }
 
-    /// The degree that the rule needs over a cell with these corners.
-    fn degree(&self, corners: &[Pair<T>]) -> usize {
+    /// The degree that the rule needs over a part with these corners and this area: errors count by the area of facets.
+    fn degree(&self, corners: &[Pair<f64>], area: f64) -> usize {
         let (a, b) = (self.secondary, self.primary);
         let product = a.degree() + a.degree().max(b.degree());
-        let needed =
-            [a, b].map(|f| degree_for(f.dim(), f.degree(), f.bend_within(corners), f.accuracy()));
+        let needed = [a, b].map(|f| {
+            let accuracy = f.accuracy() * (f.area() / area).max(1.0);
+            degree_for(f.dim(), f.degree(), f.bend_within(corners), accuracy)
+        });
         product.max(needed[0]).max(needed[1]).min(MAX_DEGREE)
     }
 
@@ -232,12 +237,14 @@ impl<T: Real> Both<'_, T> {
         each(&Cell {
             facets: *self,
             corners,
+            sign: 1.0,
         })
     }
 
     fn polygon(
         &self,
         polygon: &Polygon<T>,
+        sign: f64,
         each: &mut impl FnMut(&Cell<T>) -> Result<(), OverlapError>,
     ) -> Result<(), OverlapError> {
         let corners = polygon.corners();
@@ -247,6 +254,7 @@ impl<T: Real> Both<'_, T> {
         each(&Cell {
             facets: *self,
             corners,
+            sign,
         })
     }
 }
@@ -263,25 +271,26 @@ impl<T: Real> Cell<'_, T> {
     /// # Errors
     /// A map has no inverse at a point. Then some points have been given already.
     pub fn points(&self, factor: usize, mut each: impl FnMut(&Point)) -> Result<(), OverlapError> {
-        let degree = self.facets.degree(self.corners) + factor;
         let place = |k: usize| self.corners[k].map(|c| c.value());
         if self.facets.secondary.dim() == 1 {
             let (start, end) = (place(0)[0], place(1)[0]);
+            let length = end - start;
+            let degree = self.facets.degree(&[place(0), place(1)], length) + factor;
             for &(s, w) in of_degree(1, degree) {
                 let share = 0.5 * (1.0 + s.x);
-                let at = [start + share * (end - start), 0.0];
+                let at = [start + share * length, 0.0];
                 let half = 0.5 * w;
                 let follows = [
                     follow(0, 1.0 - share, [-half, 0.0]),
                     follow(1, share, [half, 0.0]),
                     follow(1, 0.0, [0.0; 2]),
                 ];
-                each(&self.point(at, half * (end - start), follows)?);
+                each(&self.point(at, half * length, follows)?);
             }
             return Ok(());
         }
         // triangles from the first corner
-        let (rule, first) = (of_degree(2, degree), place(0));
+        let first = place(0);
         let sides = |k: usize| [minus(place(k), first), minus(place(k + 1), first)];
         let twice = |k: usize| {
             let [u, v] = sides(k);
@@ -293,7 +302,10 @@ impl<T: Real> Cell<'_, T> {
             let [u, v] = sides(k);
             let of_u = [v[1], -v[0]];
             let of_v = [-u[1], u[0]];
-            for &(s, w) in rule {
+            let corners = [first, place(k), place(k + 1)];
+            let degree = self.facets.degree(&corners, 0.5 * twice(k)) + factor;
+            for &(s, w) in of_degree(2, degree) {
+                let w = w * self.sign;
                 let at = [0, 1].map(|c| first[c] + u[c] * s.x + v[c] * s.y);
                 let [b, c] = [of_u, of_v].map(|d| d.map(|d| w * d));
                 let follows = [

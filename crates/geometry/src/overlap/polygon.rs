@@ -18,15 +18,22 @@ pub(super) fn cross2<T: Real>(a: Pair<T>, b: Pair<T>) -> T {
 }
 
 impl<T: Real> Polygon<T> {
-    pub(super) fn new() -> Self {
+    fn new() -> Self {
         Self {
             corners: [[T::from(0.0); 2]; MAX_CORNERS],
             n: 0,
         }
     }
 
+    /// The one with these corners, as far as there is room.
+    pub(super) fn of(corners: impl IntoIterator<Item = Pair<T>>) -> Self {
+        let mut polygon = Self::new();
+        corners.into_iter().for_each(|corner| polygon.push(corner));
+        polygon
+    }
+
     /// One more corner, if there is room.
-    pub(super) fn push(&mut self, corner: Pair<T>) {
+    fn push(&mut self, corner: Pair<T>) {
         if let Some(c) = self.corners.get_mut(self.n) {
             *c = corner;
             self.n += 1;
@@ -60,13 +67,16 @@ impl<T: Real> Polygon<T> {
         all.fold(0.0, |most, c| most.max(c.abs()))
     }
 
-    /// Whether no corner lies inside the line between its neighbours by more than the tolerance.
+    /// Whether a corner lies inside the line between its neighbours by more than the tolerance.
+    pub(super) fn is_dented(&self, k: usize, tolerance: f64) -> bool {
+        let corner = |k: usize| values(&self.corners()[k % self.n]);
+        let line = Line::through(corner(k + self.n - 1), corner(k + 1));
+        line.is_some_and(|line| line.height(corner(k)) > tolerance)
+    }
+
+    /// Whether none does.
     pub(super) fn is_convex(&self, tolerance: f64) -> bool {
-        let next = |k: usize| &self.corners()[k % self.n];
-        (0..self.n).all(|k| {
-            let [a, b, c] = [next(k), next(k + 1), next(k + 2)].map(values);
-            Line::through(a, c).is_none_or(|line| line.height(b) <= tolerance)
-        })
+        (0..self.n).all(|k| !self.is_dented(k, tolerance))
     }
 
     /// Whether the boxes around two polygons meet.

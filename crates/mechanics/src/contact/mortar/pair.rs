@@ -11,6 +11,9 @@ use std::f64::consts::TAU;
 /// 60 degrees from facing: half of it could be bent by as many as the rest, so that it is only seen edge-on.
 const FACING: f64 = 0.5;
 
+/// What is left of an overlap that is none, relative to its cells.
+const NOTHING: f64 = 1e-13;
+
 /// Coordinates of a facet, of which there are at most this many.
 const COORDINATES: usize = 3 * MAX_FACET_NODES;
 
@@ -303,15 +306,15 @@ impl Pair {
         let nintegral = self.nsecondary * (1 + self.nsecondary + self.nprimary);
         zeros(&mut self.values, nintegral);
         zeros(&mut self.by_place, nintegral * self.nvariable);
-        let mut found = false;
+        let mut gross = 0.0;
         overlap::integrate(secondary, primary, |cell: &Cell<T>| {
-            found = true;
             self.ncorner = cell.corners().len();
             if derivatives {
                 zeros(&mut self.by_corner, nintegral * 2 * self.ncorner);
             }
             cell.points(factor.degree(), |point| {
                 let factor = Weighted::new(point, factor);
+                gross += factor.weight.abs();
                 self.add(point, &factor);
                 if derivatives {
                     self.differentiate(point, &factor);
@@ -323,7 +326,8 @@ impl Pair {
             Ok(())
         })?;
         self.sum_up();
-        Ok(found)
+        // cells that are taken away may leave nothing but rounding
+        Ok(self.values[..self.nsecondary].iter().sum::<f64>() > NOTHING * gross)
     }
 
     /// Adds what a point contributes to the products.

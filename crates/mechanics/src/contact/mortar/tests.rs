@@ -1041,7 +1041,9 @@ fn speed() {
         ("quad4", 0.0),
         ("quad4", 0.08),
         ("quad8", 0.0),
+        ("quad8", 0.001),
         ("quad8", 0.03),
+        ("tri6", 0.03),
         ("quad9", 0.0),
     ];
     for (name, noise) in own_kinds {
