@@ -107,7 +107,7 @@ impl Blocks {
             young: [1000.0, 2000.0],
             thickness: 1.0,
             enforcement: "\"auto\"".into(),
-            contact: "",
+            contact: "method = \"node-to-segment\"",
             secondary: String::new(),
             flat: Vec::new(),
             geometry: "nonlinear",

@@ -62,7 +62,9 @@ pub struct ContactSummary {
     pub name: String,
     /// The method in use.
     pub method: Method,
-    /// The penalty in use.
+    /// How penetration is prevented, without what was left open.
+    pub enforcement: Enforcement,
+    /// The penalty in use; of multipliers, what their conditions are scaled by.
     pub penalty: f64,
     /// What it refers to.
     pub measure: Measure,
@@ -152,6 +154,7 @@ impl Model {
             mesh,
             reference: &mesh.points,
             space,
+            elimination: &elimination,
         };
         let reference: Arc<[Vec3]> = contact::closed(&source, &contacts, &poses)?.into();
         let source = Source {

@@ -66,6 +66,11 @@ impl Equations {
         &self.dofs
     }
 
+    /// Lets the solver forget what it has learned.
+    pub fn forget(&mut self) {
+        self.solver.forget();
+    }
+
     /// Numbers the unknowns and does the symbolic work.
     pub fn analyze(
         &mut self,

@@ -293,6 +293,7 @@ impl Newton {
         for term in &mut system.terms {
             term.begin_increment(base)?;
         }
+        self.equations.forget();
         let mut motion = self.start(system, base, goal);
         let mut correction = 0.0;
         // since what terms keep frozen changed last

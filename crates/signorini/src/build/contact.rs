@@ -4,6 +4,7 @@ use super::constraints::unpaired;
 use super::names::Names;
 use super::quoted;
 use super::surfaces::Surfaces;
+use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{
@@ -14,8 +15,8 @@ use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::contact::discretization::mortar;
 use signorini_mechanics::model::{
-    self, ContactChange, ContactPart, FrictionPart, LimitPart, Method, PrimaryPart, SidePart,
-    StartPart, StickPart, TiePart,
+    self, ContactChange, ContactPart, ContactSummary, FrictionPart, LimitPart, Method, PrimaryPart,
+    SidePart, StartPart, StickPart, TiePart,
 };
 
 /// The contacts that act in some step. Their places in this list are their numbers.
@@ -218,6 +219,26 @@ pub(super) fn word(method: &Method) -> &'static str {
         Method::GaussPoint(_) => "gauss-point",
         Method::Mortar { .. } => "mortar",
         Method::Auto | Method::NodeToSegment => "node-to-segment",
+    }
+}
+
+/// How a contact prevents penetration.
+pub(super) fn words(summary: &ContactSummary) -> String {
+    let scale = short(summary.penalty);
+    let per = match summary.measure {
+        Measure::Area => "area",
+        Measure::Node => "node",
+    };
+    match summary.enforcement {
+        model::Enforcement::Auto | model::Enforcement::Penalty(_) => {
+            format!("penalty {scale} per {per}")
+        }
+        model::Enforcement::Table(_) => "pressures of a table".to_owned(),
+        model::Enforcement::Exponential { .. } => "exponential pressures".to_owned(),
+        model::Enforcement::Lagrange => "multipliers".to_owned(),
+        model::Enforcement::Uzawa(_) | model::Enforcement::AugmentedNewton(_) => {
+            format!("augmented Lagrangian with {scale} per {per}")
+        }
     }
 }
 

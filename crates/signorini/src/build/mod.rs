@@ -27,7 +27,7 @@ use signorini_geometry::surface::RigidId;
 use signorini_io::case::{self, Case, Enforcement, HistorySource, Method, Per, Space, Stabilize};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::contact::Measure;
-use signorini_mechanics::model::{ContactSummary, LockingSummary, Parts};
+use signorini_mechanics::model::{self, ContactSummary, LockingSummary, Parts};
 use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{LineSearch, NewtonSettings, Step, StepperSettings};
 use signorini_mechanics::system::linear::{LinearKind, SOLVERS};
@@ -69,6 +69,8 @@ pub struct ContactInfo {
     pub name: String,
     /// The method in use.
     pub method: &'static str,
+    /// How penetration is prevented, in words.
+    pub enforcement: String,
     /// The penalty in use.
     pub penalty: f64,
     /// What it refers to: `"node"` or `"area"`.
@@ -176,6 +178,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
         .map(|c| ContactInfo {
             name: c.name.clone(),
             method: contact::word(&c.method),
+            enforcement: contact::words(c),
             penalty: c.penalty,
             per: match c.measure {
                 Measure::Area => "area",
@@ -278,7 +281,10 @@ fn choose(
         match &mut part.enforcement {
             Enforcement::Augmented { penalty, .. } => *penalty = chosen,
             law @ (Enforcement::Auto | Enforcement::Penalty(_)) => {
-                *law = Enforcement::Penalty(chosen);
+                *law = match summary.enforcement {
+                    model::Enforcement::Lagrange => Enforcement::Lagrange,
+                    _ => Enforcement::Penalty(chosen),
+                };
             }
             _ => {}
         }

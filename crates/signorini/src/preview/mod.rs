@@ -64,11 +64,10 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
     }
     for info in &model.contacts {
         lines.push(format!(
-            "contact {}: {}, penalty {} per {}, {} against {} of size {}",
+            "contact {}: {}, {}, {} against {} of size {}",
             info.name,
             info.method,
-            short(info.penalty),
-            info.per,
+            info.enforcement,
             plural(info.npoint, "point"),
             plural(info.nfacet, "facet"),
             short(info.facet_size)

@@ -403,9 +403,10 @@ impl Term for Interface {
             self.accepted_judged.clone_from(&self.judged);
         }
         if std::mem::take(&mut self.resumed) && self.parts.discretization.meets_many() {
-            // weights are those of where the run stopped
+            // weights are those of where the run stopped, and what they couple is known
             self.search(&at).map_err(|e| self.failed(&e))?;
             self.settle(&at)?;
+            self.sees_others = false;
             self.accepted.clone_from(&self.now);
         }
         self.before.clone_from(&self.accepted);

@@ -177,6 +177,11 @@ impl Context<'_> {
         };
         let summary = ContactSummary {
             name: part.name.clone(),
+            enforcement: match &part.enforcement {
+                Enforcement::Auto if sides.method.takes_multipliers() => Enforcement::Lagrange,
+                Enforcement::Auto => Enforcement::Penalty(Some(penalty)),
+                given => given.clone(),
+            },
             method: sides.method,
             penalty,
             measure,

@@ -7,13 +7,12 @@ use crate::contact::discretization::{
 use crate::contact::law::{
     AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table, Uzawa,
 };
-use crate::contact::mortar::Measure;
-use crate::contact::{Areas, closest_points};
+use crate::contact::{Areas, Measure, closest_points, discretization, mortar};
 use crate::model::{
     ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind, PointRule,
     PrimaryPart, SidePart, label,
 };
-use crate::system::Idealisation;
+use crate::system::{Elimination, Idealisation};
 use signorini_geometry::element::{Element, quadrature};
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
@@ -48,6 +47,8 @@ pub(in crate::model) struct Source<'a> {
     /// Positions at the start.
     pub reference: &'a [Vec3],
     pub space: Idealisation,
+    /// What follows rigid bodies.
+    pub elimination: &'a Elimination,
 }
 
 impl Source<'_> {
@@ -109,9 +110,10 @@ impl Source<'_> {
             PrimaryPart::Itself => secondary.clone(),
             PrimaryPart::Nodes(_) | PrimaryPart::Surface(_) => None,
         };
-        let law = law(part)?;
-        let exact = law.multiplier() != Multiplier::None;
         let same = matches!(part.primary, PrimaryPart::Itself);
+        let method = self.method(part, secondary.as_ref());
+        let law = law(part, &method)?;
+        let exact = law.multiplier() != Multiplier::None;
         if same && exact {
             return Err(ModelError::Unsuited {
                 contact: part.name.clone(),
@@ -139,7 +141,6 @@ impl Source<'_> {
         };
         let space = self.space;
         let mut areas: Option<Areas> = None;
-        let method = self.method(part, exact);
         let (discretization, area): (Box<dyn Discretization>, Vec<f64>) = match method {
             Method::NodeToNode { normals, pairs } => {
                 let pairs = self.node_pairs(part, primary.as_ref(), pairs)?;
@@ -246,14 +247,29 @@ impl Source<'_> {
         })
     }
 
-    /// The method in use. Points inside facets are more than their nodes, and no motion of these meets the conditions of
-    /// as many multipliers.
-    fn method(&self, part: &ContactPart, exact: bool) -> Method {
+    /// The method in use.
+    ///
+    /// Mortar passes on any even pressure and needs no number, but compares two surfaces of deformable solids, with
+    /// multipliers at nodes that can follow them. With a penalty, points are cheaper and no worse; nodes alone cannot carry
+    /// an even pressure on some facets. Multipliers at points inside facets are more than there are nodes to follow them.
+    fn method(&self, part: &ContactPart, secondary: Option<&Facets>) -> Method {
+        let exact = !matches!(
+            part.enforcement,
+            Enforcement::Auto
+                | Enforcement::Penalty(_)
+                | Enforcement::Table(_)
+                | Enforcement::Exponential { .. }
+        );
         match (&part.method, &part.primary) {
             (Method::Auto, PrimaryPart::Nodes(_)) => Method::NodeToNode {
                 normals: Normals::default(),
                 pairs: PairOrder::default(),
             },
+            (Method::Auto, PrimaryPart::Faces(_)) if self.suits_mortar(part, exact, secondary) => {
+                Method::Mortar {
+                    normals: discretization::mortar::Normals::default(),
+                }
+            }
             (Method::Auto, _) if self.is_quadratic(part) && !exact => {
                 Method::GaussPoint(PointRule {
                     kind: PointKind::Gauss,
@@ -263,6 +279,15 @@ impl Source<'_> {
             (Method::Auto, _) => Method::NodeToSegment,
             (method, _) => method.clone(),
         }
+    }
+
+    /// Whether multipliers of mortar contact can be had for what a contact asks for.
+    fn suits_mortar(&self, part: &ContactPart, exact: bool, secondary: Option<&Facets>) -> bool {
+        let open = exact || matches!(part.enforcement, Enforcement::Auto);
+        let plain = !part.two_pass && !part.present_area && part.measure != Some(Measure::Node);
+        let rigid = |n: &NodeId| self.elimination.body_of(*n).is_some();
+        let follows = |facets: &Facets| !facets.all_nodes().iter().any(rigid);
+        open && plain && secondary.is_some_and(follows)
     }
 
     /// Whether the nodal forces of an even pressure on the secondary side are not all positive: nodes alone cannot carry
@@ -351,17 +376,17 @@ fn mortar_areas(mortar: &Mortar, x: &[Vec3], space: Idealisation) -> Vec<f64> {
     let at = nodes.map(|&n| x.get(n as usize).copied().unwrap_or_default());
     let areas = at.zip(mortar.areas());
     let thickness = |x| match measure(space) {
-        Measure::Flat => space.extent(x),
-        Measure::Revolved => 1.0,
+        mortar::Measure::Flat => space.extent(x),
+        mortar::Measure::Revolved => 1.0,
     };
     areas.map(|(x, area)| area * thickness(x)).collect()
 }
 
 /// What mortar integrals are taken over.
-fn measure(space: Idealisation) -> Measure {
+fn measure(space: Idealisation) -> mortar::Measure {
     match space {
-        Idealisation::Axisymmetric => Measure::Revolved,
-        _ => Measure::Flat,
+        Idealisation::Axisymmetric => mortar::Measure::Revolved,
+        _ => mortar::Measure::Flat,
     }
 }
 
@@ -416,9 +441,9 @@ fn on_facet(rule: PointRule, element: Element) -> Vec<(Vec3, f64)> {
     quadrature::on_facet(element, &line)
 }
 
-fn law(part: &ContactPart) -> Result<Box<dyn ContactLaw>, ModelError> {
+fn law(part: &ContactPart, method: &Method) -> Result<Box<dyn ContactLaw>, ModelError> {
     let law: Box<dyn ContactLaw> = match &part.enforcement {
-        Enforcement::Auto if matches!(part.method, Method::Mortar { .. }) => Box::new(Lagrange),
+        Enforcement::Auto if method.takes_multipliers() => Box::new(Lagrange),
         Enforcement::Auto | Enforcement::Penalty(_) => Box::new(Penalty),
         Enforcement::Table(rows) => {
             Box::new(

@@ -65,6 +65,14 @@ pub enum Method {
     },
 }
 
+impl Method {
+    /// Whether multipliers prevent penetration, unless something else is given.
+    #[must_use]
+    pub fn takes_multipliers(&self) -> bool {
+        matches!(self, Self::Mortar { .. })
+    }
+}
+
 /// Where node-to-node contact takes its normals from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Normals {

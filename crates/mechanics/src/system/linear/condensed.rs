@@ -6,8 +6,9 @@
 //!                                                        └──stays──▶  the whole problem
 //! ```
 //!
-//! Hosts are chosen by the pattern, and again by values where a choice does not serve; each choice is analyzed once. A
-//! contact that opens or closes changes numbers only.
+//! Hosts are chosen by the pattern, and again by values where a choice does not serve, which is forgotten when an increment
+//! begins: what is saved then is enough to go on alike. Each choice is analyzed once. A contact that opens or closes changes
+//! numbers only.
 
 use super::condensation::{Condensation, Numbers, Refusal};
 use super::hosts::Multipliers;
@@ -45,6 +46,10 @@ pub struct Condensed {
     hosts: Vec<u32>,
     /// Per raw dof, whether its multiplier stays an unknown.
     stays: Vec<bool>,
+    /// Whether the pattern at hand alone has chosen hosts.
+    by_pattern: bool,
+    /// Whether earlier choices are to count no more.
+    forgotten: bool,
     residual: Residual,
     r: Vec<f64>,
     x: Vec<f64>,
@@ -68,6 +73,8 @@ impl Condensed {
             is_whole: false,
             hosts: Vec::new(),
             stays: Vec::new(),
+            by_pattern: true,
+            forgotten: true,
             residual: Residual::new(0, 0),
             r: Vec::new(),
             x: Vec::new(),
@@ -105,6 +112,23 @@ impl Condensed {
         }
     }
 
+    /// Chooses hosts by the pattern and analyzes what is left.
+    fn begin(&mut self) -> Result<(), LinearError> {
+        self.by_pattern = self.forgotten;
+        if std::mem::take(&mut self.forgotten) {
+            self.hosts.fill(NONE);
+            self.stays.fill(false);
+        }
+        self.seen.clear();
+        self.choose(None);
+        self.is_whole = self.condensation.is_none();
+        if self.is_whole {
+            self.analyze_whole()
+        } else {
+            self.analyze_inner()
+        }
+    }
+
     fn analyze_inner(&mut self) -> Result<(), LinearError> {
         match (&self.condensation, &self.kept) {
             (Some(condensation), Some(kept)) => self.inner.analyze(&condensation.problem(kept)),
@@ -127,6 +151,7 @@ impl Condensed {
                 return Ok(false);
             };
             let numbers = &mut self.numbers;
+            self.by_pattern &= !changed;
             let outcome = condensation
                 .eliminate(kept, &self.multipliers, values, numbers)
                 .and_then(|()| condensation.fill(kept, values, numbers));
@@ -288,26 +313,24 @@ impl LinearSolver for Condensed {
         if self.hosts.len() != ndof {
             self.hosts = vec![NONE; ndof];
             self.stays = vec![false; ndof];
+            self.forgotten = true;
         }
         (self.inner, self.whole) = (build(), build());
         self.residual = Residual::new(ndof, problem.nequation);
         self.r = vec![0.0; ndof];
         self.x = vec![0.0; ndof];
-        self.seen.clear();
         let kept = Kept::new(problem);
         self.multipliers = Multipliers::new(&kept);
         self.kept = Some(kept);
-        self.choose(None);
-        self.is_whole = self.condensation.is_none();
-        let outcome = if self.is_whole {
-            self.analyze_whole()
-        } else {
-            self.analyze_inner()
-        };
+        let outcome = self.begin();
         if outcome.is_err() {
             self.kept = None;
         }
         outcome
+    }
+
+    fn forget(&mut self) {
+        self.forgotten = true;
     }
 
     fn factorize(&mut self, values: &Values) -> Result<(), LinearError> {
@@ -315,6 +338,10 @@ impl LinearSolver for Condensed {
             return Err(LinearError::Order { before: "analyze" });
         };
         kept.check(values)?;
+        if self.forgotten && !self.by_pattern {
+            self.begin()?;
+        }
+        self.forgotten = false;
         if !self.eliminate(values)? {
             return self.factorize_whole(values);
         }

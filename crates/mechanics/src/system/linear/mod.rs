@@ -226,6 +226,10 @@ pub trait LinearSolver: Send {
     /// `Singular`, `NotFinite`, `TooLarge`, `Shape`, and `Order` before `analyze`.
     fn factorize(&mut self, values: &Values) -> Result<(), LinearError>;
 
+    /// Forgets what it has learned from other patterns and values, but for a factor: from now on it does what it would do
+    /// had it just been told of the pattern. A run that is resumed here repeats every bit.
+    fn forget(&mut self) {}
+
     /// Solves `A x = rhs` until the true relative residual is at most `rtol`, or at the round-off of the operator.
     ///
     /// The values may be newer than those of the factor, which then serves as a preconditioner for a few refinements.
