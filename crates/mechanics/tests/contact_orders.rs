@@ -14,7 +14,7 @@
 
 mod common;
 
-use common::{Grid, Part, Point, sample, shape};
+use common::{Grid, Part, Point, Shape, degree, sample, shape};
 use signorini_geometry::element::quadrature;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId, boundary};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -34,84 +34,142 @@ use std::f64::consts::PI;
 
 const MODULUS: f64 = 1.0;
 const POISSON: f64 = 0.3;
-/// Length of the layers; their height is 1.
-const LENGTH: f64 = 4.0;
-/// Half of the loaded length.
+/// Length of the layers, their height, and their thickness in space.
+const SIZE: Vec3 = Vec3::new(4.0, 1.0, 0.25);
+/// Where the load and the contact end.
 const LOADED: f64 = 1.0;
-/// Lower and upper layer: cells in a height of 2, and where the bottom is.
-const LAYERS: [(usize, f64); 2] = [(3, -1.0), (2, 0.0)];
+const EDGE: f64 = 1.329;
+/// The largest pressure of the load.
+const LOAD: f64 = 1e-3;
 
-/// What is solved.
-#[derive(Clone, Copy)]
-struct Case {
-    /// Finite-sliding contact, or small sliding.
-    finite: bool,
-    /// The largest pressure of the load.
-    load: f64,
-    /// Whether the upper layer is the secondary side.
-    upper: bool,
+/// How the two layers are compared: the upper one is the secondary side, unless they are swapped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    Small,
+    Swapped,
+    Finite,
 }
 
-const CASE: Case = Case {
-    finite: false,
-    load: 1e-3,
-    upper: true,
-};
+impl Way {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Small => "small sliding",
+            Self::Swapped => "small sliding, swapped",
+            Self::Finite => "finite sliding",
+        }
+    }
+}
 
 /// Two layers that have been pressed together.
 struct Solution {
-    element: &'static str,
+    shape: Shape,
     space: Idealisation,
     mesh: Mesh,
-    /// Boxes along each axis, and the layer.
-    layers: Vec<([usize; 3], Part)>,
+    layers: Vec<Layer>,
     u: Vec<f64>,
+}
+
+struct Layer {
+    /// Lines of the mesh.
+    x: Vec<f64>,
+    y: Vec<f64>,
+    part: Part,
+}
+
+fn even(from: f64, length: f64, count: usize) -> Vec<f64> {
+    let at = |k| from + length * k as f64 / count as f64;
+    (0..=count).map(at).collect()
+}
+
+/// Lines from 0 to a length, the first at a sixteenth of `h`, the others at distances that grow by a fifth up to `h`.
+fn graded(length: f64, h: f64) -> Vec<f64> {
+    let mut lines = vec![0.0];
+    let (mut at, mut step) = (0.0, h / 16.0);
+    while at < length {
+        at += step;
+        lines.push(at);
+        step = f64::min(1.2 * step, h);
+    }
+    lines.iter().map(|x| x * length / at).collect()
+}
+
+/// The line at a place from 0 to 1, halfway between two where it has to be.
+fn line(lines: &[f64], place: f64) -> f64 {
+    let place = place * (lines.len() - 1) as f64;
+    let k = (place as usize).min(lines.len() - 2);
+    lines[k] + (lines[k + 1] - lines[k]) * (place - k as f64)
+}
+
+/// The interval between lines that a point lies in, and where in it, from -1 to 1.
+fn interval(lines: &[f64], x: f64) -> (usize, f64) {
+    let k = lines.partition_point(|line| *line <= x);
+    let k = k.clamp(1, lines.len() - 1) - 1;
+    (k, 2.0 * (x - lines[k]) / (lines[k + 1] - lines[k]) - 1.0)
 }
 
 fn load(x: Vec3) -> f64 {
     if x.x < LOADED {
-        (0.5 * PI * x.x / LOADED).cos().powi(2)
+        LOAD * (0.5 * PI * x.x / LOADED).cos().powi(2)
     } else {
         0.0
     }
 }
 
 impl Solution {
-    fn new(case: Case, element: &'static str, n: usize) -> Self {
-        let space = match shape(element).linear().dim() {
+    /// With `n` even rows of cells in the upper layer and half as many more in the lower one.
+    fn new(element: &str, n: usize, way: Way) -> Self {
+        let lines = |n: usize, bottom| {
+            let x = even(0.0, SIZE.x, 4 * n);
+            (x, even(bottom, SIZE.y, n))
+        };
+        let lower = lines(3 * n / 2, -SIZE.y);
+        Self::on(element, vec![lower, lines(n, 0.0)], way)
+    }
+
+    /// With quad9 of the size `1/n`, and much smaller ones where the contact ends: what errors are measured against.
+    fn reference(n: usize, way: Way) -> Self {
+        let h = 1.0 / n as f64;
+        let left = graded(EDGE, h).into_iter().rev().map(|x| EDGE - x);
+        let right = graded(SIZE.x - EDGE, h).into_iter().skip(1);
+        let x: Vec<f64> = left.chain(right.map(|x| EDGE + x)).collect();
+        let up = graded(SIZE.y, h);
+        let down = up.iter().rev().map(|y| -y).collect();
+        Self::on("quad9", vec![(x.clone(), down), (x, up)], way)
+    }
+
+    fn on(element: &str, lines: Vec<(Vec<f64>, Vec<f64>)>, way: Way) -> Self {
+        let shape = shape(element);
+        let space = match shape.linear().dim() {
             2 => Idealisation::PlaneStrain { thickness: 1.0 },
             _ => Idealisation::Space,
         };
         let mut mesh = Mesh::default();
         let mut layers = Vec::new();
-        for (layer, (cells, bottom)) in LAYERS.into_iter().enumerate() {
-            let high = cells * n / 2;
-            let count = [4 * high, high, high / 2];
-            let size = Vec3::new(LENGTH, 1.0, 0.5);
-            let grid = Grid::of(element, count, |x| {
-                Vec3::new(size.x * x.x, bottom + size.y * x.y, size.z * x.z)
+        for ((x, y), facing) in lines.into_iter().zip([1.0, 0.0]) {
+            let rows = y.len() - 1;
+            let grid = Grid::of(element, [x.len() - 1, rows, (rows / 4).max(1)], |at| {
+                Vec3::new(line(&x, at.x), line(&y, at.y), SIZE.z * at.z)
             });
-            let facing = [1.0, 0.0][layer];
-            let part = grid.join(&mut mesh, |x| (x.y - facing).abs() < 1e-9);
-            layers.push((count, part));
+            let part = grid.join(&mut mesh, |at| (at.y - facing).abs() < 1e-9);
+            layers.push(Layer { x, y, part });
         }
         let mut solution = Self {
-            element,
+            shape,
             space,
             mesh,
             layers,
             u: Vec::new(),
         };
-        solution.u = solution.solve(case);
+        solution.u = solution.solve(way);
         solution
     }
 
     fn layer(&self, layer: usize) -> &Part {
-        &self.layers[layer].1
+        &self.layers[layer].part
     }
 
     /// The forces on nodes that are consistent with the pressure on top.
-    fn forces(&self, size: f64) -> Vec<(NodeId, Vec3)> {
+    fn forces(&self) -> Vec<(NodeId, Vec3)> {
         let mut forces: BTreeMap<NodeId, Vec3> = BTreeMap::new();
         let line = quadrature::gauss(5);
         let cells = self.layer(1).cells.iter().copied();
@@ -138,7 +196,7 @@ impl Solution {
                 let area = along(0).cross(across).norm();
                 let x: Vec3 = at.iter().zip(&weights).map(|(x, n)| *x * *n).sum();
                 for (node, n) in nodes.iter().zip(&weights) {
-                    forces.entry(*node).or_default().y -= size * load(x) * w * area * n;
+                    forces.entry(*node).or_default().y -= load(x) * w * area * n;
                 }
             }
         }
@@ -146,14 +204,14 @@ impl Solution {
     }
 
     /// The displacements of the nodes.
-    fn solve(&self, case: Case) -> Vec<f64> {
+    fn solve(&self, way: Way) -> Vec<f64> {
         let mut changes = Vec::new();
         let mut hold = |nodes, axis| {
             let motion = vec![(axis, Motion::Hold)];
             changes.push(Change::Prescribe(Target::Nodes(nodes), motion));
         };
         hold(self.layer(0).nodes(|x| x.y < 1e-9), 1);
-        for (_, part) in &self.layers {
+        for Layer { part, .. } in &self.layers {
             hold(part.nodes(|x| x.x < 1e-9), 0);
             if self.space == Idealisation::Space {
                 hold(part.nodes(|x| x.z < 1e-9 || x.z > 1.0 - 1e-9), 2);
@@ -169,7 +227,7 @@ impl Solution {
                 locking: Locking::None,
             },
         };
-        let (secondary, primary) = if case.upper { (1, 0) } else { (0, 1) };
+        let (secondary, primary) = if way == Way::Swapped { (0, 1) } else { (1, 0) };
         let mut contact = ContactPart::new(
             "between",
             SidePart::Faces(self.layer(secondary).faces.clone()),
@@ -178,7 +236,7 @@ impl Solution {
         contact.method = Method::Mortar {
             normals: Default::default(),
         };
-        contact.small_sliding = !case.finite;
+        contact.small_sliding = way != Way::Finite;
         let parts = Parts {
             bodies: vec![body("lower", self.layer(0)), body("upper", self.layer(1))],
             contacts: vec![contact],
@@ -190,7 +248,7 @@ impl Solution {
                 changes,
                 loads: vec![LoadPart {
                     name: "pressure".into(),
-                    load: Load::Nodes(self.forces(case.load)),
+                    load: Load::Nodes(self.forces()),
                     course: Course::Ramp,
                 }],
                 contacts: Vec::new(),
@@ -200,27 +258,8 @@ impl Solution {
         };
         let mut model = Model::assemble(parts).unwrap();
         let mut stepper = Stepper::new(&model.system, StepperSettings::default());
-        let mut watch = |event: &Event<'_>| {
-            if let Event::Increment { record, frame } = event {
-                let contact = &frame.contacts[0];
-                let mut row: Vec<_> = contact
-                    .points
-                    .iter()
-                    .zip(&contact.pressure)
-                    .filter(|(_, p)| **p > 0.0)
-                    .map(|(x, p)| (x.x, *p))
-                    .collect();
-                row.sort_by(|a, b| a.0.total_cmp(&b.0));
-                println!(
-                    "{} iterations, edge {:?}, force {}",
-                    record.iterations,
-                    row.last(),
-                    contact.secondary.force.y
-                );
-            }
-            Flow::Continue
-        };
-        let outcome = stepper.run(&mut model.system, &model.steps, &mut watch);
+        let mut quiet = |_: &Event<'_>| Flow::Continue;
+        let outcome = stepper.run(&mut model.system, &model.steps, &mut quiet);
         assert_eq!(outcome.unwrap(), Outcome::Finished);
         stepper.state().u.clone()
     }
@@ -237,29 +276,24 @@ impl Solution {
         Sym3::symmetric_part(gradient)
     }
 
-    /// The strain at a point of a layer, if this is a plane solution of quadrilaterals.
-    fn strain_at(&self, layer: usize, x: Vec3) -> Sym3 {
-        let ([nx, ny, _], part) = &self.layers[layer];
-        let place = |s: f64, n: usize| {
-            let place = (s * n as f64).clamp(0.0, n as f64 - 1e-9);
-            (place as usize, 2.0 * place.fract() - 1.0)
-        };
-        let (column, xi) = place(x.x / LENGTH, *nx);
-        let (row, eta) = place(x.y - LAYERS[layer].1, *ny);
-        let cell = part.cells[row * nx + column];
+    /// The strain at a point of a layer, if this is a reference.
+    fn strain_at(&self, layer: usize, at: Vec3) -> Sym3 {
+        let Layer { x, y, part } = &self.layers[layer];
+        let ((column, xi), (row, eta)) = (interval(x, at.x), interval(y, at.y));
+        let cell = part.cells[row * (x.len() - 1) + column];
         let xi = Vec3::new(xi, eta, 0.0);
         self.strain(cell, &sample(&self.mesh, self.space, cell, &xi, 1.0))
     }
 
-    /// The difference in the energy norm to a plane solution of quadrilaterals, relative to its norm.
-    fn error(&self, exact: &Self) -> f64 {
-        let rule = shape(self.element).rule();
+    /// The difference to a reference in the energy norm, relative to that of the reference.
+    fn error(&self, reference: &Self) -> f64 {
+        let rule = self.shape.rule();
         let (mut difference, mut whole) = (0.0, 0.0);
-        for (layer, (_, part)) in self.layers.iter().enumerate() {
+        for (layer, Layer { part, .. }) in self.layers.iter().enumerate() {
             for &cell in &part.cells {
                 for (xi, w) in &rule {
                     let point = sample(&self.mesh, self.space, cell, xi, *w);
-                    let expected = exact.strain_at(layer, point.x);
+                    let expected = reference.strain_at(layer, point.x);
                     let found = self.strain(cell, &point);
                     whole += point.volume * energy(expected);
                     difference += point.volume * energy(found - expected);
@@ -277,31 +311,82 @@ fn energy(strain: Sym3) -> f64 {
     2.0 * mu * strain.double_dot(strain) + lambda * strain.trace().powi(2)
 }
 
+/// The order between meshes, from the errors of them all: the slope that fits best, each mesh twice as fine as the last.
+fn order(errors: &[f64]) -> f64 {
+    let middle = 0.5 * (errors.len() - 1) as f64;
+    let each = errors.iter().enumerate();
+    let (slopes, squares) = each.fold((0.0, 0.0), |(slopes, squares), (k, error)| {
+        let at = k as f64 - middle;
+        (slopes - at * error.log2(), squares + at * at)
+    });
+    slopes / squares
+}
+
+/// Cells along the height of the upper layer, from mesh to mesh.
+const MESHES: [usize; 5] = [2, 4, 8, 16, 32];
+
+/// Prints the errors, asserts the order on the last three meshes and answers with the smallest error.
+fn optimal(element: &str, meshes: &[usize], reference: &Solution, way: Way) -> f64 {
+    let error = |&n: &usize| Solution::new(element, n, way).error(reference);
+    let errors: Vec<f64> = meshes.iter().map(error).collect();
+    let found = order(&errors[errors.len() - 3..]);
+    let mut line = format!("| {element} | {} |", way.name());
+    for n in MESHES {
+        line += &match meshes.iter().position(|m| *m == n) {
+            None => " |".to_string(),
+            Some(0) => format!(" {:.2e} |", errors[0]),
+            Some(k) => format!(" {:.2e} ({:.2}) |", errors[k], order(&errors[k - 1..=k])),
+        };
+    }
+    println!("{line} {found:.2} |");
+    let expected = if degree(element) < 2.0 { 0.95 } else { 1.4 };
+    assert!(found > expected, "{element} {way:?}: {found}");
+    errors[errors.len() - 1]
+}
+
 #[test]
-fn explore() {
-    let list = |name: &str, default: &str| std::env::var(name).unwrap_or(default.into());
-    let case = Case {
-        finite: list("FINITE", "0") == "1",
-        upper: list("UPPER", "1") == "1",
-        ..CASE
-    };
-    let clock = std::time::Instant::now();
-    let n: usize = list("REF", "32").parse().unwrap();
-    let exact = Solution::new(case, "quad9", n);
-    println!("reference {n}: {:?}", clock.elapsed());
-    for element in list("ELEMENTS", "tri3 quad4 tri6 quad8 quad9").split(' ') {
-        let element: &'static str = Box::leak(element.to_string().into_boxed_str());
-        let mut last = f64::NAN;
-        for n in list("MESHES", "2 4 8").split(' ') {
-            let n: usize = n.parse().unwrap();
-            let solution = Solution::new(case, element, n);
-            let error = solution.error(&exact);
-            println!(
-                "{element} {n} {error:.4e} {:.3} {:?}",
-                (last / error).log2(),
-                clock.elapsed()
-            );
-            last = error;
+fn a_few_elements_converge_at_their_order_on_coarse_meshes() {
+    let reference = Solution::reference(16, Way::Small);
+    for way in [Way::Small, Way::Swapped] {
+        optimal("quad4", &MESHES[1..4], &reference, way);
+        for element in ["tri6", "quad9"] {
+            optimal(element, &MESHES[..3], &reference, way);
         }
+    }
+}
+
+#[test]
+#[ignore = "takes a minute: run by .ci/run"]
+fn plane_elements_converge_at_their_order() {
+    let reference = Solution::reference(64, Way::Small);
+    let mut smallest = f64::INFINITY;
+    for element in ["tri3", "quad4", "tri6", "quad8", "quad9"] {
+        let error = optimal(element, &MESHES, &reference, Way::Small);
+        smallest = smallest.min(error);
+    }
+    for element in ["quad4", "tri6", "quad8", "quad9"] {
+        optimal(element, &MESHES[1..4], &reference, Way::Swapped);
+    }
+    let coarser = Solution::reference(32, Way::Small).error(&reference);
+    println!("a reference of twice the size is off by {coarser:.2e}");
+    assert!(coarser < 0.5 * smallest, "{coarser}, {smallest}");
+}
+
+#[test]
+#[ignore = "takes half a minute: run by .ci/run"]
+fn finite_sliding_converges_at_the_same_order() {
+    let reference = Solution::reference(24, Way::Finite);
+    for element in ["quad4", "tri6", "quad8", "quad9"] {
+        optimal(element, &MESHES[1..4], &reference, Way::Finite);
+    }
+}
+
+#[test]
+#[ignore = "takes a minute: run by .ci/run"]
+fn elements_in_space_converge_at_their_order() {
+    let reference = Solution::reference(24, Way::Small);
+    optimal("hex8", &MESHES[1..4], &reference, Way::Small);
+    for element in ["tet10", "hex20", "hex27"] {
+        optimal(element, &MESHES[..3], &reference, Way::Small);
     }
 }
