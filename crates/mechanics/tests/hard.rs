@@ -12,7 +12,7 @@
 
 mod common;
 
-use common::Grid;
+use common::{Grid, Part};
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::load::Course;
@@ -97,45 +97,6 @@ struct Blocks {
     high: Part,
 }
 
-struct Part {
-    cells: Vec<CellId>,
-    places: Vec<Vec3>,
-    first: NodeId,
-    faces: Vec<Face>,
-}
-
-impl Part {
-    fn nodes(&self, wanted: impl Fn(Vec3) -> bool) -> Vec<NodeId> {
-        let places = self.places.iter().enumerate();
-        let found = places.filter(|(_, x)| wanted(**x));
-        found.map(|(n, _)| self.first + n as NodeId).collect()
-    }
-}
-
-fn add(mesh: &mut Mesh, grid: &Grid, z: f64) -> Part {
-    let first = mesh.points.len() as NodeId;
-    mesh.points.extend_from_slice(&grid.mesh.points);
-    mesh.node_labels = (1..=mesh.points.len() as u64).collect();
-    let face = grid.faces(|x| (x.z - z).abs() < 1e-9);
-    let mut cells = Vec::new();
-    for &cell in &grid.cells {
-        let nodes: Vec<NodeId> = grid.mesh.cell(cell).iter().map(|n| n + first).collect();
-        let element = grid.mesh.element(cell).unwrap();
-        cells.push(mesh.push_cell(element, &nodes, mesh.ncell() as u64 + 1));
-    }
-    let place = |cell: CellId| grid.cells.iter().position(|&c| c == cell).unwrap();
-    let faces = face.iter().map(|f| Face {
-        cell: cells[place(f.cell)],
-        side: f.side,
-    });
-    Part {
-        faces: faces.collect(),
-        cells,
-        places: grid.places.clone(),
-        first,
-    }
-}
-
 fn blocks(s: &Situation, refine: usize) -> Blocks {
     let unit = s.unit;
     let low = Grid::new(s.element, s.lower * refine, 2 * refine, |x| {
@@ -154,8 +115,8 @@ fn blocks(s: &Situation, refine: usize) -> Blocks {
         (turned + Vec3::new(0.4, 0.5, s.gap)) * unit
     });
     let mut mesh = Mesh::default();
-    let low = add(&mut mesh, &low, 1.0);
-    let high = add(&mut mesh, &high, 0.0);
+    let low = low.join(&mut mesh, |x| x.z > 1.0 - 1e-9);
+    let high = high.join(&mut mesh, |x| x.z < 1e-9);
     Blocks { mesh, low, high }
 }
 

@@ -12,7 +12,7 @@
 
 mod common;
 
-use common::{Grid, degree, shape};
+use common::{Grid, degree, sample, shape};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Mat3, Vec3};
 use signorini_mechanics::load::Course;
@@ -132,40 +132,6 @@ impl Field {
 struct Choice {
     integration: Integration,
     locking: Locking,
-}
-
-/// What is known of a point of a cell.
-struct Point {
-    weights: Vec<f64>,
-    gradients: Vec<Vec3>,
-    x: Vec3,
-    volume: f64,
-}
-
-fn sample(mesh: &Mesh, space: Idealisation, cell: CellId, xi: &Vec3, w: f64) -> Point {
-    let element = mesh.element(cell).unwrap();
-    let n = element.nnode();
-    let (mut weights, mut slopes) = (vec![0.0; n], vec![Vec3::ZERO; n]);
-    element.shape(xi, &mut weights);
-    element.dshape(xi, &mut slopes);
-    let (mut x, mut jacobian) = (Vec3::ZERO, Mat3::ZERO);
-    for ((&node, n), d) in mesh.cell(cell).iter().zip(&weights).zip(&slopes) {
-        let at = mesh.points[node as usize];
-        x += at * *n;
-        for a in 0..element.dim() {
-            jacobian.rows[a] += at * d[a];
-        }
-    }
-    if element.dim() == 2 {
-        jacobian.rows[2] = Vec3::unit(2);
-    }
-    let (inverse, det) = jacobian.inverse().unwrap();
-    Point {
-        weights,
-        gradients: slopes.iter().map(|d| inverse * *d).collect(),
-        x,
-        volume: w * det * space.extent(x),
-    }
 }
 
 /// The displacements of the nodes where the body force acts and the boundary moves as in the field.

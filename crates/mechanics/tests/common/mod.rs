@@ -4,7 +4,8 @@
 
 use signorini_geometry::element::{Element, by_name};
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId, boundary};
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_mechanics::system::Idealisation;
 use std::collections::HashMap;
 
 /// Gauss–Legendre with five points on [-1, 1].
@@ -132,10 +133,16 @@ impl Grid {
     /// `n` cells along x and y, `layers` along z (in space), of this element; the unit square or cube is deformed by
     /// `map`.
     pub fn new(name: &str, n: usize, layers: usize, map: impl Fn(Vec3) -> Vec3) -> Self {
+        Self::of(name, [n, n, layers], map)
+    }
+
+    /// As many boxes along each axis (in the plane: the first two), each cut into cells of this element, row by row.
+    pub fn of(name: &str, count: [usize; 3], map: impl Fn(Vec3) -> Vec3) -> Self {
         let (element, shape) = (by_name(name).unwrap(), shape(name));
         let linear = shape.linear();
-        let layers = if element.dim() == 3 { layers } else { 1 };
-        let size = [n, n, layers].map(|n| n as f64);
+        let [nx, ny, nz] = count;
+        let nz = if element.dim() == 3 { nz } else { 1 };
+        let size = [nx, ny, nz].map(|n| n as f64);
         let mut grid = Self {
             mesh: Mesh::default(),
             cells: Vec::new(),
@@ -143,8 +150,8 @@ impl Grid {
         };
         let mut known: HashMap<[i64; 3], NodeId> = HashMap::new();
         let mut weights = vec![0.0; linear.nnode()];
-        for place in 0..layers * n * n {
-            let at = [place % n, place / n % n, place / (n * n)].map(|c| c as f64);
+        for place in 0..nx * ny * nz {
+            let at = [place % nx, place / nx % ny, place / (nx * ny)].map(|c| c as f64);
             for corners in shape.cells() {
                 let mut nodes = Vec::new();
                 for xi in element.nodes() {
@@ -188,5 +195,81 @@ impl Grid {
         };
         let faces = boundary(&self.mesh, self.cells.iter().copied());
         faces.into_iter().filter(inside).collect()
+    }
+
+    /// Puts it into a mesh with others; the part has the faces all of whose nodes satisfy a condition.
+    pub fn join(self, mesh: &mut Mesh, wanted: impl Fn(Vec3) -> bool) -> Part {
+        let first = mesh.points.len() as NodeId;
+        mesh.points.extend_from_slice(&self.mesh.points);
+        mesh.node_labels = (1..=mesh.points.len() as u64).collect();
+        let faces = self.faces(wanted);
+        let mut cells = Vec::new();
+        for &cell in &self.cells {
+            let nodes: Vec<NodeId> = self.mesh.cell(cell).iter().map(|n| n + first).collect();
+            let element = self.mesh.element(cell).unwrap();
+            cells.push(mesh.push_cell(element, &nodes, mesh.ncell() as u64 + 1));
+        }
+        let place = |cell: CellId| self.cells.iter().position(|&c| c == cell).unwrap();
+        let faces = faces.iter().map(|f| Face {
+            cell: cells[place(f.cell)],
+            side: f.side,
+        });
+        Part {
+            faces: faces.collect(),
+            cells,
+            places: self.places,
+            first,
+        }
+    }
+}
+
+/// A grid in a mesh with others.
+pub struct Part {
+    pub cells: Vec<CellId>,
+    pub places: Vec<Vec3>,
+    pub first: NodeId,
+    pub faces: Vec<Face>,
+}
+
+impl Part {
+    /// The nodes whose places satisfy a condition.
+    pub fn nodes(&self, wanted: impl Fn(Vec3) -> bool) -> Vec<NodeId> {
+        let places = self.places.iter().enumerate();
+        let found = places.filter(|(_, x)| wanted(**x));
+        found.map(|(n, _)| self.first + n as NodeId).collect()
+    }
+}
+
+/// What is known of a point of a cell.
+pub struct Point {
+    pub weights: Vec<f64>,
+    pub gradients: Vec<Vec3>,
+    pub x: Vec3,
+    pub volume: f64,
+}
+
+pub fn sample(mesh: &Mesh, space: Idealisation, cell: CellId, xi: &Vec3, w: f64) -> Point {
+    let element = mesh.element(cell).unwrap();
+    let n = element.nnode();
+    let (mut weights, mut slopes) = (vec![0.0; n], vec![Vec3::ZERO; n]);
+    element.shape(xi, &mut weights);
+    element.dshape(xi, &mut slopes);
+    let (mut x, mut jacobian) = (Vec3::ZERO, Mat3::ZERO);
+    for ((&node, n), d) in mesh.cell(cell).iter().zip(&weights).zip(&slopes) {
+        let at = mesh.points[node as usize];
+        x += at * *n;
+        for a in 0..element.dim() {
+            jacobian.rows[a] += at * d[a];
+        }
+    }
+    if element.dim() == 2 {
+        jacobian.rows[2] = Vec3::unit(2);
+    }
+    let (inverse, det) = jacobian.inverse().unwrap();
+    Point {
+        weights,
+        gradients: slopes.iter().map(|d| inverse * *d).collect(),
+        x,
+        volume: w * det * space.extent(x),
     }
 }

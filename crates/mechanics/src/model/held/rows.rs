@@ -97,9 +97,10 @@ impl Held<'_> {
                 let units: BTreeSet<usize> =
                     of_secondary.iter().filter_map(|&n| self.unit(n)).collect();
                 for &face in faces {
-                    let Some((_, nodes)) = self.mesh.face(face) else {
+                    let Some((element, mut nodes)) = self.mesh.face(face) else {
                         continue;
                     };
+                    nodes.truncate(element.ncorner());
                     let corners: Vec<Vec3> = nodes.iter().map(|&n| self.point(n)).collect();
                     let Some(normal) = normal(&corners) else {
                         continue;
