@@ -57,6 +57,9 @@ struct Situation {
     /// All lengths.
     unit: f64,
     increments: usize,
+    /// Of the slide.
+    slid_in: usize,
+    force_tol: f64,
 }
 
 const PRESSED: Situation = Situation {
@@ -77,6 +80,8 @@ const PRESSED: Situation = Situation {
     penalty: 1.0,
     unit: 1.0,
     increments: 4,
+    slid_in: 10,
+    force_tol: 1e-6,
 };
 
 /// What came of it.
@@ -180,7 +185,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
     if s.slide != 0.0 {
         let along = vec![(0, Motion::Ramp(s.slide * unit))];
         let slide = Change::Prescribe(Target::Nodes(head), along);
-        steps.push(step("slide", vec![slide], Vec::new(), 10));
+        steps.push(step("slide", vec![slide], Vec::new(), s.slid_in));
     }
     let solid = |name: &str, cells: &[CellId], modulus| BodyPart {
         name: name.into(),
@@ -240,10 +245,13 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
         ],
         contacts: vec![contact],
         steps,
+        traction_tol: 0.1 * s.force_tol,
         ..Parts::new(&mesh, Idealisation::Space)
     };
     let mut model = Model::assemble(parts).map_err(|e| e.to_string())?;
-    let mut stepper = Stepper::new(&model.system, StepperSettings::default());
+    let mut settings = StepperSettings::default();
+    settings.newton.force_tol = s.force_tol;
+    let mut stepper = Stepper::new(&model.system, settings);
     let mut result = Result {
         force: Vec3::ZERO,
         rubs: 0.0,
@@ -389,5 +397,35 @@ fn every_method_gets_through_every_situation() {
             };
             assert!(off.abs() < tolerance, "{} {way:?}: {off:+.4} {r:?}", s.name);
         }
+    }
+}
+
+/// Published are iterations of another program's mortar method on situations like these, in four increments at its
+/// tolerance of 5e-3. Ours are fewer, but for a block that rolls from its edge onto its face: two of the 13 only show that
+/// nothing moves by more than a hundredth any more.
+#[test]
+fn mortar_needs_few_iterations() {
+    for (name, published, bound) in [
+        ("pressed", 8, 8),
+        ("slid, mu 0.3", 23, 23),
+        ("slid, mu 1.0", 25, 25),
+        ("tilted", 11, 13),
+        ("stick ten times stiffer", 22, 22),
+        ("half off the edge", 24, 24),
+        ("overlap, 4 increments", 8, 8),
+    ] {
+        let mut s = situations().into_iter().find(|s| s.name == name).unwrap();
+        (s.force_tol, s.slid_in) = (5e-3, 4);
+        let r = run(&s, Way::Mortar, 1).unwrap();
+        println!(
+            "{name}: {} iterations (published {published}) in {} increments, {} cut-backs",
+            r.iterations, r.increments, r.cutbacks
+        );
+        assert!(r.iterations <= bound, "{name}: {}", r.iterations);
+        assert!(
+            (r.rubs - s.mu).abs() < 5e-3 || s.slide == 0.0,
+            "{name}: {}",
+            r.rubs
+        );
     }
 }

@@ -136,6 +136,7 @@ impl Model {
             steps,
             stabilize,
             gap_tol,
+            traction_tol,
         } = parts;
         let owner = owners(mesh, &bodies)?;
         let followers = Followers {
@@ -164,6 +165,7 @@ impl Model {
         let joint = contact::Steps {
             changes: steps.iter().map(|s| s.contacts.clone()).collect(),
             gap_tol,
+            traction_tol,
             parts: &contacts,
         };
         let mut sides = Vec::new();

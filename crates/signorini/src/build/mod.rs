@@ -232,7 +232,9 @@ fn parts<'a>(
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, found);
-    parts.gap_tol = case.solver.newton.gap_tol;
+    let newton = &case.solver.newton;
+    parts.gap_tol = newton.gap_tol;
+    parts.traction_tol = parts.traction_tol.max(0.1 * newton.force_tol);
     parts.stabilize = case.solver.stabilize == Stabilize::Auto;
     let surfaces = Surfaces::new(case, mesh, carriers, found);
     parts.contacts = contact::acting(case)

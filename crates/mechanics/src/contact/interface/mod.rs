@@ -90,6 +90,8 @@ pub struct InterfaceParts {
     pub first_multiplier: usize,
     /// The gap up to which a multiplier method may leave a contact open or penetrated, as a length.
     pub gap_tolerance: f64,
+    /// What multipliers that friction limits may be off by, over themselves.
+    pub traction_tolerance: f64,
     /// Whether it is the second pass of a contact, whose results belong to the first with the sides swapped.
     pub swapped: bool,
 }
@@ -120,6 +122,7 @@ impl InterfaceParts {
             shifts: Vec::new(),
             first_multiplier: 0,
             gap_tolerance: 1e-6,
+            traction_tolerance: 1e-7,
             swapped: false,
         }
     }

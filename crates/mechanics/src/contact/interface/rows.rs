@@ -13,9 +13,6 @@ use signorini_geometry::surface::Feature;
 /// Rounding error of a gap over the coordinates it comes from.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// What a traction that is limited by friction may be off by, over itself.
-const TRACTION: f64 = 1e-7;
-
 impl Interface {
     pub(super) fn chunk(&self, chunk: usize) -> std::ops::Range<usize> {
         let n = self.parts.discretization.nrow();
@@ -233,7 +230,7 @@ impl Interface {
         }
         let point = self.parts.discretization.point(row);
         let place = point.position(&trial.placement()).max_abs();
-        let part = TRACTION * lambda.vector.norm() / self.parts.scale.penalty;
+        let part = self.parts.traction_tolerance * lambda.vector.norm() / self.parts.scale.penalty;
         self.parts.gap_tolerance.min(part + ROUNDING * place)
     }
 

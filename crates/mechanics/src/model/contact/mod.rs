@@ -31,6 +31,8 @@ pub(super) struct Steps<'a> {
     pub changes: Vec<Vec<ContactChange>>,
     /// Gap over the size of the facets that methods with multipliers may leave.
     pub gap_tol: f64,
+    /// What multipliers that friction limits may be off by, over themselves.
+    pub traction_tol: f64,
     pub parts: &'a [ContactPart],
 }
 
@@ -205,6 +207,7 @@ impl Context<'_> {
             scale: Scale { penalty, length },
             first_multiplier,
             gap_tolerance: steps.gap_tol * length,
+            traction_tolerance: steps.traction_tol,
             swapped: sides.swapped,
         };
         Ok((parts, summary))

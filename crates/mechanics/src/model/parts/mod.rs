@@ -37,6 +37,8 @@ pub struct Parts<'a> {
     pub stabilize: bool,
     /// Gap over the size of the facets that contact methods with multipliers may leave.
     pub gap_tol: f64,
+    /// What multipliers that friction limits may be off by, over themselves.
+    pub traction_tol: f64,
 }
 
 impl<'a> Parts<'a> {
@@ -55,6 +57,7 @@ impl<'a> Parts<'a> {
             steps: Vec::new(),
             stabilize: true,
             gap_tol: 1e-6,
+            traction_tol: 1e-7,
         }
     }
 }
