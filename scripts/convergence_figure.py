@@ -5,7 +5,8 @@
 
 Rows of the table are an element, the kind of contact, the errors in the energy norm (each but the first with its order
 in brackets) under their size of the mesh, and the order of the last three. Every order is found anew from the errors and
-has to be within 0.02 of the one in the table; it has to be 0.95 for linear and 1.4 for quadratic elements.
+has to be within 0.02 of the one in the table; it has to be 0.95 for linear and 1.4 for quadratic elements. Rows of
+pressures are passed over.
 
 Needs: matplotlib. Exit code: 0 drawn, 1 an order is not what it has to be, 2 wrong command line or unreadable page.
 """

@@ -431,7 +431,7 @@ fn a_few_elements_converge_at_their_order_on_coarse_meshes() {
 }
 
 #[test]
-#[ignore = "takes two minutes: run by .ci/run"]
+#[ignore = "takes more than a minute: run by .ci/run"]
 fn plane_elements_converge_at_their_order() {
     let reference = Solution::reference(64, Way::Small);
     let mut smallest = f64::INFINITY;
@@ -441,7 +441,13 @@ fn plane_elements_converge_at_their_order() {
         let errors = solutions.iter().map(|s| s.pressure_error(&reference));
         let errors: Vec<f64> = errors.collect();
         let found = order(&errors);
-        print(&format!("{element}, pressure"), Way::Small, &MESHES, &errors, found);
+        print(
+            &format!("{element}, pressure"),
+            Way::Small,
+            &MESHES,
+            &errors,
+            found,
+        );
         assert!(found > 0.8, "pressures of {element}: {found}");
     }
     for element in ["quad4", "tri6", "quad8", "quad9"] {
