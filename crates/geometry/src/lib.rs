@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! tensor ◀── element ◀── mesh ◀── surface        proximity ──▶ tensor
+//! scalar ◀── overlap ──▶ element
 //! ```
 //!
 //! Rooms import only leftwards. Everything here can be used alone: a mesh, a surface made of some of its faces,
@@ -9,8 +10,10 @@
 
 pub mod element;
 pub mod mesh;
+pub mod overlap;
 pub mod proximity;
 #[cfg(test)]
 mod random;
+pub mod scalar;
 pub mod surface;
 pub mod tensor;

@@ -133,6 +133,17 @@ impl Blocks {
         self.nodes.iter().find(|n| n.0 == label).unwrap().1
     }
 
+    /// The foot as a set of faces.
+    fn faces_of_foot(&self) -> String {
+        let up = self.ndim - 1;
+        let side = if up == 1 { "-y" } else { "-z" };
+        let touches =
+            |c: &&Cell| c.group == "upper" && c.nodes.iter().any(|n| self.foot.contains(n));
+        let cells = self.elements.iter().filter(touches);
+        let faces: Vec<String> = cells.map(|c| format!("[{}, {side:?}]", c.label)).collect();
+        format!("faces = [{}]", faces.join(", "))
+    }
+
     /// In space: pressed, then moved aside across edges.
     fn space() -> Self {
         let (low, high) = (Vec3::new(3.0, 3.0, 1.5), Vec3::new(1.3, 1.1, 0.8));
@@ -402,6 +413,52 @@ fn units_change_nothing_with_any_law_and_friction() {
     }
 }
 
+/// With facets as the secondary side, mortar contact and friction.
+fn with_mortar(mut blocks: Blocks) -> Blocks {
+    blocks.secondary = blocks.faces_of_foot();
+    blocks.contact = "friction = 0.3\nmethod = \"mortar\"";
+    blocks
+}
+
+#[test]
+fn units_change_nothing_with_mortar_and_friction() {
+    for blocks in [Blocks::plane(), Blocks::space()].map(with_mortar) {
+        let base = blocks.solve();
+        for (length, stress, tolerance) in [
+            // powers of two lose nothing but what logarithms do
+            (1024.0, 1.0, 1e-12),
+            (1.0, 2f64.powi(-20), 1e-12),
+            (1e3, 1.0, 1e-9),
+            (1e-3, 1e6, 1e-9),
+        ] {
+            let mut other = blocks.mapped(scale(length), Vec3::ZERO);
+            other.young = blocks.young.map(|e| e * stress);
+            other.thickness = length;
+            let outcome = other.solve();
+            let force = stress * length * length;
+            let (one, two) = ((&blocks, &base), (&other, &outcome));
+            assert_same(one, two, scale(length), force, tolerance);
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_bit_of_mortar_contact() {
+    for blocks in [Blocks::plane(), Blocks::space()].map(with_mortar) {
+        let outcomes = [1, 2].map(|n| {
+            let threads = rayon::ThreadPoolBuilder::new().num_threads(n);
+            threads.build().unwrap().install(|| blocks.solve())
+        });
+        let [one, two] = outcomes;
+        for (one, two) in one.run.frames.iter().zip(&two.run.frames) {
+            assert_eq!(one.displacement, two.displacement);
+            assert_eq!(one.contact_force, two.contact_force);
+            assert_eq!(one.contacts[0].pressure, two.contacts[0].pressure);
+        }
+        assert_eq!(one.iterations(), two.iterations());
+    }
+}
+
 #[test]
 fn place_and_orientation_do_not_matter() {
     let turns = [
@@ -564,15 +621,7 @@ fn forces_balance_and_reactions_are_the_contact_force() {
 
 #[test]
 fn a_side_given_as_nodes_or_as_faces_gives_the_same_force() {
-    for (blocks, side) in [(Blocks::plane(), "-y"), (Blocks::space(), "-z")] {
-        let up = blocks.ndim - 1;
-        let level = blocks.position(blocks.foot[0])[up];
-        let touches = |c: &&Cell| {
-            let at = |l: &u32| (blocks.position(*l)[up] - level).abs() < 1e-9;
-            c.group == "upper" && c.nodes.iter().any(at)
-        };
-        let cells = blocks.elements.iter().filter(touches);
-        let faces: Vec<String> = cells.map(|c| format!("[{}, {side:?}]", c.label)).collect();
+    for blocks in [Blocks::plane(), Blocks::space()] {
         for enforcement in [
             "\"auto\"",
             "{ penalty = \"auto\", per = \"node\" }",
@@ -582,7 +631,7 @@ fn a_side_given_as_nodes_or_as_faces_gives_the_same_force() {
             let mut as_nodes = blocks.clone();
             as_nodes.enforcement = enforcement.into();
             let mut as_faces = as_nodes.clone();
-            as_faces.secondary = format!("faces = [{}]", faces.join(", "));
+            as_faces.secondary = as_faces.faces_of_foot();
             let outcomes = (as_nodes.solve(), as_faces.solve());
             let (one, two) = ((&as_nodes, &outcomes.0), (&as_faces, &outcomes.1));
             assert_same(one, two, Mat3::IDENTITY, 1.0, 1e-12);

@@ -17,11 +17,35 @@ use common::{Run, example, model, numbers, oracle, relative, run, text};
 use serde_json::Value;
 use std::fmt::Write;
 
+/// Compares displacements and forces with a reference, to 1e-8.
 fn check(key: &str, run: &Run, steps: &[Value], nodes_of_top: &[usize], ndim: usize) {
+    let [displacement, force] = differences(key, run, steps, nodes_of_top, ndim);
+    assert!(
+        displacement < 1e-8,
+        "{key}: displacements differ by {displacement:e}"
+    );
+    assert!(force < 1e-8, "{key}: forces differ by {force:e}");
+    for frame in &run.frames[..steps.len()] {
+        let contact = &frame.contacts[0];
+        let balance = contact.secondary.force + contact.primary.force;
+        assert!(balance.norm() < 1e-12 * contact.primary.force.norm());
+        let moment = contact.secondary.moment + contact.primary.moment;
+        assert!(moment.norm() < 1e-12 * contact.primary.moment.norm());
+    }
+}
+
+/// How far displacements and forces are from a reference at most, over the largest.
+fn differences(
+    key: &str,
+    run: &Run,
+    steps: &[Value],
+    nodes_of_top: &[usize],
+    ndim: usize,
+) -> [f64; 2] {
+    let mut worst = [0.0f64; 2];
     assert!(run.error.is_none(), "{key}: {:?}", run.error);
     assert!(run.frames.len() >= steps.len(), "{key}");
     for (step, frame) in steps.iter().zip(&run.frames) {
-        let number = &step["step"];
         let expected: Vec<f64> = step["u"]
             .as_array()
             .unwrap()
@@ -33,25 +57,16 @@ fn check(key: &str, run: &Run, steps: &[Value], nodes_of_top: &[usize], ndim: us
             .iter()
             .flat_map(|u| u.to_array().into_iter().take(ndim))
             .collect();
-        let error = relative(&got, &expected);
-        assert!(
-            error < 1e-8,
-            "{key} {number}: displacements differ by {error:e}"
-        );
+        worst[0] = worst[0].max(relative(&got, &expected));
         let mut top = vec![0.0; ndim];
         for &node in nodes_of_top {
             for (axis, sum) in top.iter_mut().enumerate() {
                 *sum += frame.reaction_force[node][axis];
             }
         }
-        let error = relative(&top, &numbers(&step["R_top"]));
-        assert!(error < 1e-8, "{key} {number}: forces differ by {error:e}");
-        let contact = &frame.contacts[0];
-        let balance = contact.secondary.force + contact.primary.force;
-        assert!(balance.norm() < 1e-12 * contact.primary.force.norm());
-        let moment = contact.secondary.moment + contact.primary.moment;
-        assert!(moment.norm() < 1e-12 * contact.primary.moment.norm());
+        worst[1] = worst[1].max(relative(&top, &numbers(&step["R_top"])));
     }
+    worst
 }
 
 fn indices(value: &Value) -> Vec<usize> {
@@ -140,7 +155,7 @@ fn a_node_comes_to_rest_in_a_concave_corner() {
 }
 
 /// The case of the two blocks in space, written from the mesh in the data.
-fn blocks_in_space(data: &Value, penalty: &str) -> String {
+fn blocks_in_space(data: &Value, penalty: Option<&str>) -> String {
     let mesh = &data["mesh"];
     let list = |value: &Value| {
         let labels = indices(value).into_iter().map(|n| (n + 1).to_string());
@@ -164,16 +179,23 @@ fn blocks_in_space(data: &Value, penalty: &str) -> String {
         )
         .unwrap();
     }
+    let upper = (nlower + 1..=elements.len()).take(4);
+    let under = upper.map(|id| format!("[{id}, \"-z\"]"));
+    let under = under.collect::<Vec<_>>().join(", ");
     let facets =
         (1..=mesh["primary_facets"].as_array().unwrap().len()).map(|id| format!("[{id}, \"+z\"]"));
     let facets = facets.collect::<Vec<_>>().join(", ");
+    let contact = match penalty {
+        Some(penalty) => format!("enforcement = {{ penalty = {penalty}, per = \"node\" }}"),
+        None => "method = \"mortar\"".to_string(),
+    };
     write!(
         text,
         r#"]
 [sets]
 base = {{ nodes = [{}] }}
 head = {{ nodes = [{}] }}
-foot = {{ nodes = [{}] }}
+foot = {{ {} }}
 top  = {{ faces = [{facets}] }}
 [amplitude]
 press = {{ table = [[0, 0], [3, -0.06]], time = "total" }}
@@ -197,7 +219,7 @@ material = "stiff"
 name = "blocks"
 secondary = "foot"
 primary = "top"
-enforcement = {{ penalty = {penalty}, per = "node" }}
+{contact}
 [[step]]
 name = "path"
 duration = 8.0
@@ -215,7 +237,11 @@ newton = {{ force_tol = 1e-10 }}
 "#,
         list(&mesh["base"]),
         list(&mesh["top"]),
-        list(&mesh["secondary_nodes"]),
+        if penalty.is_some() {
+            format!("nodes = [{}]", list(&mesh["secondary_nodes"]))
+        } else {
+            format!("faces = [{under}]")
+        },
     )
     .unwrap();
     text
@@ -226,10 +252,113 @@ fn blocks_in_space_match_across_faces_edges_and_vertices() {
     let data = oracle("two_block_3d_nts.json");
     let top = indices(&data["mesh"]["top"]);
     for (key, penalty) in [("p1e+04", "1e4"), ("p1e+05", "1e5")] {
-        let result = run(&mut model("blocks", &blocks_in_space(&data, penalty), &[]));
+        let result = run(&mut model(
+            "blocks",
+            &blocks_in_space(&data, Some(penalty)),
+            &[],
+        ));
         let steps = data["runs"][key].as_array().unwrap();
         check(key, &result, steps, &top, 3);
         let got: Vec<usize> = result.increments.iter().map(|i| i.iterations).collect();
         println!("{key}: {got:?}");
+    }
+}
+
+/// The part of the moment of all contact forces that is left over, at most, over their moment.
+fn moment_left(run: &Run) -> f64 {
+    let left = |frame: &signorini_mechanics::system::Frame| {
+        let contact = &frame.contacts[0];
+        let left = contact.secondary.moment + contact.primary.moment;
+        left.norm() / contact.primary.moment.norm()
+    };
+    run.frames.iter().map(left).fold(0.0, f64::max)
+}
+
+/// Iterations of all increments.
+fn iterations(run: &Run) -> Vec<usize> {
+    run.increments.iter().map(|i| i.iterations).collect()
+}
+
+#[test]
+fn plane_blocks_match_by_mortar() {
+    let mesh = indices(&oracle("two_block_2d.json")["mesh"]["top_nodes"]);
+    let data = oracle("two_block_2d_mortar_friction.json");
+    let other = oracle("two_block_2d_mortar.json");
+    for (data, key, normals, friction, tolerance) in [
+        (&data, "facet_frictionless_facetnormal", "", "0", 1e-7),
+        (&data, "facet_coulomb0.3_facetnormal", "", "0.3", 1e-7),
+        (&data, "facet_frictionless", "nodal", "0", 1e-7),
+        (&data, "facet_coulomb0.3", "nodal", "0.3", 1e-7),
+        (&data, "facet_tresca15", "nodal", "{ tresca = 15 }", 1e-7),
+        // projections of another kind
+        (&data, "interp_frictionless", "nodal", "0", 1e-2),
+        (&data, "interp_frictionless_facetnormal", "", "0", 1e-2),
+        (&data, "interp_coulomb0.3", "nodal", "0.3", 1e-2),
+        (&data, "interp_tresca15", "nodal", "{ tresca = 15 }", 1e-2),
+        (&other, "nh_dual_slide0.03", "nodal", "0", 1e-2),
+    ] {
+        let of_run = &data["runs"][key];
+        let steps = of_run.get("steps").unwrap_or(of_run).as_array().unwrap();
+        let slide = match of_run.get("slide_per_step").or(data.get("slide_per_step")) {
+            Some(slide) => slide.as_f64().unwrap(),
+            None => 0.03,
+        };
+        let path = path_of(&serde_json::json!({ "slide_per_step": slide }), steps);
+        let text = text("two_blocks_2d");
+        let text = &text[..text.find("[[step]]").unwrap()];
+        let normals = match normals {
+            "" => String::new(),
+            word => format!("normals = \"{word}\"\n"),
+        };
+        let friction = format!("method = \"mortar\"\nfriction = {friction}\n{normals}");
+        let text = text.replace("method      = \"node-to-segment\"\n", &friction);
+        let text = text.replace("enforcement = {", "# enforcement = {");
+        let set = [
+            ("material.soft.model", "\"neo-hookean\""),
+            ("material.stiff.model", "\"neo-hookean\""),
+        ];
+        let result = run(&mut model("two_blocks_2d", &format!("{text}{path}"), &set));
+        let [displacement, force] = differences(key, &result, steps, &mesh, 2);
+        let moment = moment_left(&result);
+        println!(
+            "{key}: u {displacement:.1e} R {force:.1e} moment {moment:.1e} {:?}",
+            iterations(&result)
+        );
+        assert!(displacement < tolerance && force < tolerance, "{key}");
+        let exact = normals.is_empty() && friction.contains("friction = 0\n");
+        assert!(!exact || moment < 1e-12, "{key}: {moment:e}");
+    }
+}
+
+#[test]
+fn blocks_in_space_match_by_mortar() {
+    let data = oracle("two_block_3d_mortar.json");
+    let top = indices(&data["mesh"]["top"]);
+    for (key, normals, friction) in [
+        ("frictionless_facetnormal", "", "0"),
+        ("coulomb0.3_facetnormal", "", "0.3"),
+        ("frictionless", "nodal", "0"),
+        ("coulomb0.3", "nodal", "0.3"),
+    ] {
+        let Some(steps) = data["runs"].get(key) else {
+            println!("{key}: no such run");
+            continue;
+        };
+        let normals = match normals {
+            "" => String::new(),
+            word => format!("normals = \"{word}\"\n"),
+        };
+        let contact = format!("method = \"mortar\"\nfriction = {friction}\n{normals}");
+        let text = blocks_in_space(&data, None).replace("method = \"mortar\"\n", &contact);
+        let result = run(&mut model("blocks", &text, &[]));
+        let [displacement, force] = differences(key, &result, steps.as_array().unwrap(), &top, 3);
+        let moment = moment_left(&result);
+        println!(
+            "{key}: u {displacement:.1e} R {force:.1e} moment {moment:.1e} {:?}",
+            iterations(&result)
+        );
+        assert!(displacement < 1e-7 && force < 1e-7, "{key}");
+        let exact = normals.is_empty() && friction == "0";
+        assert!(!exact || moment < 1e-12, "{key}: {moment:e}");
     }
 }

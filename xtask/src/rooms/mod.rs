@@ -33,12 +33,17 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 29] = [
+const ROOMS: [Room; 32] = [
     room("geometry", &[]),
     room("geometry::tensor", &[]),
     room("geometry::element", &["geometry::tensor"]),
     room("geometry::mesh", &["geometry::tensor", "geometry::element"]),
     room("geometry::proximity", &["geometry::tensor"]),
+    room("geometry::scalar", &[]),
+    room(
+        "geometry::overlap",
+        &["geometry::tensor", "geometry::element", "geometry::scalar"],
+    ),
     room(
         "geometry::surface",
         &[
@@ -64,9 +69,14 @@ const ROOMS: [Room; 29] = [
         "mechanics::contact::row",
         &["mechanics::system", "geometry"],
     ),
+    room("mechanics::contact::mortar", &["geometry"]),
     room(
         "mechanics::contact::discretization",
-        &["mechanics::contact::row", "geometry"],
+        &[
+            "mechanics::contact::row",
+            "mechanics::contact::mortar",
+            "geometry",
+        ],
     ),
     room("mechanics::solve", &["mechanics::system"]),
     room("mechanics::model", &["mechanics", "geometry"]),

@@ -74,6 +74,13 @@ impl Search {
         &self.bvh
     }
 
+    /// The distance within which candidates were collected: no box of the tree has moved further than this exceeds the
+    /// reach asked for.
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        self.range
+    }
+
     /// Makes the candidates hold for these points and facets: collects them anew where something has moved by more
     /// than half the skin since that was last done (E3), and says whether it did.
     ///

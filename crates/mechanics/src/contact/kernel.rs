@@ -55,7 +55,10 @@ pub(super) struct Past {
 }
 
 impl Past {
-    fn limit_of(&self, friction: &dyn FrictionLaw, pressure: f64) -> Limit {
+    fn limit_of(&self, row: &Row, friction: &dyn FrictionLaw, pressure: f64) -> Limit {
+        if row.sliding.free {
+            return Limit::default();
+        }
         let held = self.limit.map(|value| Limit {
             value,
             dpressure: 0.0,
@@ -174,7 +177,7 @@ impl<'a> Laws<'a> {
         let scalar = self.scalar(row.normal, lambda);
         let pressure = self.law.trial(row.gap, scalar, self.scale);
         let past = Past { path, limit: None };
-        let limit = |f: &dyn FrictionLaw| past.limit_of(f, pressure.value).value;
+        let limit = |f: &dyn FrictionLaw| past.limit_of(row, f, pressure.value).value;
         if pressure == Eval::default() {
             return 0.0;
         }
@@ -219,7 +222,7 @@ impl<'a> Laws<'a> {
                 ..Traction::default()
             };
         };
-        let limit = past.limit_of(friction, pressure.value);
+        let limit = past.limit_of(row, friction, pressure.value);
         let (tangential, state) = self.returned(self.trial(row, lambda), &limit);
         let limit = limit.value;
         if self.law.multiplier() == Multiplier::Direct {
@@ -381,7 +384,7 @@ impl<'a> Laws<'a> {
             work.trial[n + c] = Vec3::unit(c) - nu * nu[c];
             work.actual_tangential[n + c] = work.trial[n + c];
         }
-        let limit = past.limit_of(friction, pressure.value);
+        let limit = past.limit_of(row, friction, pressure.value);
         let trial = self.trial(row, lambda);
         let mut tangential = Vec3::ZERO;
         if !open && limit != Limit::default() {
@@ -454,6 +457,12 @@ impl<'a> Laws<'a> {
             let db = &row.dweights[i * n..(i + 1) * n];
             for (k, db) in line.iter_mut().zip(db) {
                 *k -= measure * acting * db;
+            }
+            if let Some((c, dscale)) = sliding.scaled(i) {
+                let along = measure * acting_tangential[c];
+                for (k, d) in line.iter_mut().zip(dscale) {
+                    *k += along * d;
+                }
             }
             for turn in sliding.turns() {
                 let across = measure * turn.across[i].dot(acting_tangential);

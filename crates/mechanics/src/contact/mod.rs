@@ -80,6 +80,7 @@ pub mod friction;
 mod interface;
 mod kernel;
 pub mod law;
+pub mod mortar;
 mod row;
 #[cfg(test)]
 pub(crate) mod tests;

@@ -1,6 +1,6 @@
 //! The rows of one group: constraints that act on the same participants.
 
-use crate::system::{Dof, Layout};
+use crate::system::{Dof, Layout, Work};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
@@ -26,12 +26,16 @@ impl Participant {
 }
 
 /// Rows with common participants. Streamed: the same buffers serve one group after the other.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Rows {
     participants: Vec<Participant>,
     ncolumn: usize,
     rows: Vec<Row>,
     nrow: usize,
+    /// How many participants are of the secondary side, where these come first.
+    pub(super) nsecondary: usize,
+    /// What those who fill rows keep from one to the next.
+    pub(super) scratch: Work,
 }
 
 /// One constraint.
@@ -43,6 +47,8 @@ pub struct Row {
     pub gap: f64,
     /// Unit normal out of the primary side.
     pub normal: Vec3,
+    /// The part of its measure that it acts on.
+    pub coverage: f64,
     /// Derivative of the gap. One entry for each column.
     pub gradient: Vec<f64>,
     /// Weights with which a pressure acts on the columns.
@@ -64,6 +70,11 @@ pub struct Sliding {
     pub dnormal: Vec<Vec3>,
     /// B: the force at a column is `B·t`.
     pub operator: Vec<Vec3>,
+    /// Whether it slides without friction, for want of a place where it could stick.
+    pub free: bool,
+    /// Of operators that are a number times the identity for each participant, the derivatives of these numbers: a line of
+    /// one entry for each column; empty for others.
+    pub dscale: Vec<f64>,
     /// ∂B/∂d, as a sum of products; valid where the tangent was asked for.
     turns: Vec<Turn>,
     nturn: usize,
@@ -81,6 +92,7 @@ pub struct Turn {
 impl Sliding {
     fn reset(&mut self, ncolumn: usize) {
         self.slip = Vec3::ZERO;
+        self.dscale.clear();
         self.nturn = 0;
         for values in [&mut self.dslip, &mut self.dnormal, &mut self.operator] {
             values.clear();
@@ -103,7 +115,15 @@ impl Sliding {
         turn
     }
 
-    /// ∂B/∂d.
+    /// The component and the derivatives of the number at a column, of operators that are numbers.
+    #[must_use]
+    pub fn scaled(&self, column: usize) -> Option<(usize, &[f64])> {
+        let n = self.operator.len();
+        let line = self.dscale.get(column / 3 * n..)?.get(..n)?;
+        Some((column % 3, line))
+    }
+
+    /// ∂B/∂d, but for [`Sliding::dscale`].
     #[must_use]
     pub fn turns(&self) -> &[Turn] {
         &self.turns[..self.nturn]
@@ -162,6 +182,8 @@ impl Rows {
         row.number = number;
         row.gap = 0.0;
         row.normal = Vec3::ZERO;
+        row.coverage = 1.0;
+        row.sliding.free = false;
         if wanted.order == RowOrder::Gap {
             return row;
         }

@@ -12,6 +12,7 @@ use signorini_io::case::{
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
+use signorini_mechanics::contact::discretization::mortar;
 use signorini_mechanics::model::{
     self, ContactChange, ContactPart, FrictionPart, LimitPart, Method, PrimaryPart, SidePart,
     StartPart, StickPart, TiePart,
@@ -112,7 +113,7 @@ fn in_order(
     let faces = match part.normals {
         Normals::Primary => names.covering(&part.primary, &primary),
         Normals::Secondary => names.covering(&part.secondary, &secondary),
-        Normals::Given(_) => None,
+        Normals::Given(_) | Normals::Nodal => None,
     };
     let mut pairs: Vec<(NodeId, NodeId)> = secondary.into_iter().zip(primary).collect();
     match (part.normals, &faces) {
@@ -147,6 +148,11 @@ fn bare(part: &Contact) -> Diagnostics {
             "write  method = \"node-to-segment\", or name a surface",
         ),
         (
+            *part.method == case::Method::Mortar,
+            "method \"mortar\"",
+            "write  method = \"node-to-segment\", or name a surface",
+        ),
+        (
             part.two_pass,
             "`passes` = 2",
             "write  passes = 1, or name a surface",
@@ -178,9 +184,15 @@ fn method(part: &Contact) -> Method {
     match *part.method {
         case::Method::Auto => Method::Auto,
         case::Method::NodeToSegment => Method::NodeToSegment,
+        case::Method::Mortar => Method::Mortar {
+            normals: match part.normals {
+                Normals::Nodal => mortar::Normals::Nodal,
+                _ => mortar::Normals::Facet,
+            },
+        },
         case::Method::NodeToNode => Method::NodeToNode {
             normals: match part.normals {
-                Normals::Primary => model::Normals::Primary,
+                Normals::Primary | Normals::Nodal => model::Normals::Primary,
                 Normals::Secondary => model::Normals::Secondary,
                 Normals::Given(vector) => model::Normals::Given(Vec3::from(vector)),
             },
@@ -204,6 +216,7 @@ pub(super) fn word(method: &Method) -> &'static str {
     match method {
         Method::NodeToNode { .. } => "node-to-node",
         Method::GaussPoint(_) => "gauss-point",
+        Method::Mortar { .. } => "mortar",
         Method::Auto | Method::NodeToSegment => "node-to-segment",
     }
 }
@@ -213,6 +226,7 @@ pub(super) fn choose(part: &mut Contact, method: &Method) {
     part.method.value = match method {
         Method::NodeToNode { .. } => case::Method::NodeToNode,
         Method::GaussPoint(_) => case::Method::GaussPoint,
+        Method::Mortar { .. } => case::Method::Mortar,
         Method::Auto | Method::NodeToSegment => case::Method::NodeToSegment,
     };
 }

@@ -10,10 +10,11 @@
 use crate::scene::{Scene, equal};
 use std::f64::consts::PI;
 
-const WAYS: [&str; 3] = [
+const WAYS: [&str; 4] = [
     "method = \"node-to-segment\"\nenforcement = { lagrange = {} }",
     "method = \"node-to-segment\"",
     "method = \"gauss-point\"",
+    "method = \"mortar\"",
 ];
 
 #[test]

@@ -161,6 +161,66 @@ impl Scene {
         }
     }
 
+    /// Cells with straight edges over a grid of so many boxes, whose corners are where `corner` says; in the plane there
+    /// are none along the third axis. Tetrahedra are six to a box, wedges and triangles two.
+    pub fn straight(
+        &mut self,
+        group: &str,
+        element: &'static str,
+        size: [usize; 3],
+        corner: impl Fn([usize; 3]) -> Vec3,
+    ) {
+        let solid = by_name(element).unwrap();
+        let ndim = solid.dim();
+        let linear = ["tri3", "quad4", "tet4", "wedge6", "hex8"]
+            .map(|name| by_name(name).unwrap())
+            .into_iter()
+            .find(|e| e.dim() == ndim && e.ncorner() == solid.ncorner())
+            .unwrap();
+        let mut known = HashMap::new();
+        let mut weights = vec![0.0; linear.nnode()];
+        let layers = size[2].max(1);
+        for place in 0..size[0] * size[1] * layers {
+            let (row, layer) = (size[0], size[0] * size[1]);
+            let at = [place % row, place / row % size[1], place / layer];
+            for cell in cells_of_box(solid) {
+                let halves = |offset: &[usize; 3]| [0, 1, 2].map(|a| 2 * at[a] + offset[a]);
+                let corners: Vec<Vec3> = cell[..linear.nnode()]
+                    .iter()
+                    .map(|offset| corner(halves(offset).map(|h| h / 2)))
+                    .collect();
+                let mut nodes = Vec::new();
+                for (xi, offset) in solid.nodes().iter().zip(&cell) {
+                    linear.shape(xi, &mut weights);
+                    let x: Vec3 = corners.iter().zip(&weights).map(|(x, w)| *x * *w).sum();
+                    let new = || self.node(&x.to_array()[..ndim]);
+                    nodes.push(*known.entry(halves(offset)).or_insert_with(new));
+                }
+                self.cell(element, group, nodes);
+            }
+        }
+    }
+
+    /// The facets of a group on a plane across an axis: the cell and the number of its side, and their nodes.
+    pub fn facets(
+        &self,
+        group: &str,
+        axis: usize,
+        at: f64,
+    ) -> Vec<((usize, usize), Element, Vec<usize>)> {
+        let mut facets = Vec::new();
+        let cells = self.cells.iter().enumerate();
+        for (cell, (element, _, nodes)) in cells.filter(|(_, c)| c.1 == group) {
+            for (number, side) in by_name(element).unwrap().sides().iter().enumerate() {
+                let nodes: Vec<usize> = side.nodes.iter().map(|k| nodes[*k]).collect();
+                if nodes.iter().all(|n| (self.at(*n)[axis] - at).abs() < 1e-9) {
+                    facets.push(((cell + 1, number + 1), side.element, nodes));
+                }
+            }
+        }
+        facets
+    }
+
     /// Hex8 over the products of three lists of coordinates.
     pub fn bricks(&mut self, group: &str, axes: [&[f64]; 3]) {
         self.solid(group, "hex8", axes, |x| x);
@@ -225,20 +285,36 @@ impl Scene {
 /// The cells of an element that fill a box, as places of their nodes in halves of its edges.
 fn cells_of_box(element: Element) -> Vec<Vec<[usize; 3]>> {
     let halves = |x: Vec3| x.to_array().map(|x| (2.0 * x).round() as usize);
-    if element.ncorner() == 8 {
-        let ones = Vec3::new(1.0, 1.0, 1.0);
-        let place = |xi: &Vec3| halves((*xi + ones) * 0.5);
-        return vec![element.nodes().iter().map(place).collect()];
+    let ones = Vec3::new(1.0, 1.0, 1.0);
+    let places = |map: &dyn Fn(Vec3) -> Vec3| -> Vec<[usize; 3]> {
+        element.nodes().iter().map(|xi| halves(map(*xi))).collect()
+    };
+    match (element.dim(), element.ncorner()) {
+        (3, 8) => return vec![places(&|xi| (xi + ones) * 0.5)],
+        (2, 4) => {
+            let map = |xi: Vec3| Vec3::new(0.5 * (xi.x + 1.0), 0.5 * (xi.y + 1.0), 0.0);
+            return vec![places(&map)];
+        }
+        // a triangle and what is opposite to it
+        (2, 3) => {
+            let other = |xi: Vec3| Vec3::new(1.0 - xi.x, 1.0 - xi.y, 0.0);
+            return vec![places(&|xi| xi), places(&other)];
+        }
+        (3, 6) => {
+            let up = |xi: Vec3| 0.5 * (xi.z + 1.0);
+            let other = |xi: Vec3| Vec3::new(1.0 - xi.x, 1.0 - xi.y, up(xi));
+            let one = |xi: Vec3| Vec3::new(xi.x, xi.y, up(xi));
+            return vec![places(&one), places(&other)];
+        }
+        _ => {}
     }
     // from the origin along one axis, along another, to the opposite corner
     let paths = [(0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)];
     let cell = |(n, (first, second)): (usize, (usize, usize))| {
         let way = [Vec3::unit(first), Vec3::unit(first) + Vec3::unit(second)];
-        let end = Vec3::new(1.0, 1.0, 1.0);
         // the last three turn the other way round
         let [a, b] = if n < 3 { way } else { [way[1], way[0]] };
-        let place = |xi: &Vec3| halves(a * xi.x + b * xi.y + end * xi.z);
-        element.nodes().iter().map(place).collect()
+        places(&|xi| a * xi.x + b * xi.y + ones * xi.z)
     };
     paths.into_iter().enumerate().map(cell).collect()
 }

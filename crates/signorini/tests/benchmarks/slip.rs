@@ -33,6 +33,11 @@ fn partial_slip_of_cylinders_by_multipliers() {
     cattaneo("method = \"node-to-segment\"\nenforcement = { lagrange = {} }");
 }
 
+#[test]
+fn partial_slip_of_cylinders_by_mortar() {
+    cattaneo("method = \"mortar\"");
+}
+
 /// P, Q and mu.
 const PRESSED: f64 = 10.0;
 const SHEARED: f64 = 0.93616;
@@ -89,10 +94,12 @@ fn cattaneo(by: &str) {
     let contact = &run.frames.last().unwrap().contacts[0];
     // the contact moves with the shear, by half an element
     let center = contact.center.x;
-    let (mut error, mut size) = (0.0, 0.0);
+    let (mut error, mut size, mut mean, mut count) = (0.0, 0.0, 0.0, 0.0);
     for (i, x) in contact.points.iter().enumerate() {
         let x = x.x - center;
         let expected = -traction(x);
+        mean += (contact.traction[i].x - expected).abs() / (FRICTION * p0);
+        count += f64::from(u8::from(x.abs() < a));
         error += (contact.traction[i].x - expected).powi(2);
         size += expected * expected;
     }
@@ -100,10 +107,11 @@ fn cattaneo(by: &str) {
     let stick = contact.area_stick / 2.0;
     let error = (error / size).sqrt();
     println!(
-        "  stick radius {stick:.5} for {c:.5} ({:+.2} h), p0 {:+.2} %, shear {:.3} % off in L2, force {:?}",
+        "  stick radius {stick:.5} for {c:.5} ({:+.2} h), p0 {:+.2} %, shear {:.3} % off in L2, by {:.2} % of mu p0 on the average, force {:?}",
         (stick - c) / h,
         100.0 * (contact.pressure_max / p0 - 1.0),
         100.0 * error,
+        100.0 * mean / count,
         contact.secondary.force.to_array()
     );
     assert!((stick - c).abs() < h, "{by}: {stick} for {c}");

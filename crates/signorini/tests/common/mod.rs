@@ -101,6 +101,20 @@ pub fn oracle(name: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
+/// A file of reference values in a folder beside the repository, or further up.
+pub fn reference(name: &str) -> Option<Value> {
+    let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let path = folders.find_map(|f| {
+        let path = f.join("shared/reference").join(name);
+        path.is_file().then_some(path)
+    });
+    let Some(path) = path else {
+        eprintln!("SKIPPED: no {name} in shared/reference beside the repository");
+        return None;
+    };
+    Some(serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap())
+}
+
 /// The numbers of a JSON list.
 pub fn numbers(value: &Value) -> Vec<f64> {
     value

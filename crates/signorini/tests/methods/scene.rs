@@ -21,7 +21,7 @@ pub const SLIDE: f64 = 0.2;
 /// A way to compare two sides: its name, its keys.
 pub type Choice = (&'static str, &'static str);
 
-pub const METHODS: [Choice; 11] = [
+pub const METHODS: [Choice; 13] = [
     ("auto", "method = \"auto\""),
     ("node-to-node", "method = \"node-to-node\""),
     (
@@ -53,6 +53,11 @@ pub const METHODS: [Choice; 11] = [
     (
         "gauss-point, small sliding",
         "method = \"gauss-point\"\nsliding = \"small\"",
+    ),
+    ("mortar", "method = \"mortar\""),
+    (
+        "mortar, small sliding",
+        "method = \"mortar\"\nsliding = \"small\"",
     ),
 ];
 

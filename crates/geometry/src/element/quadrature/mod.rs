@@ -8,19 +8,23 @@
 //! | [`TRI_1`], [`TET_1`] | 1, the centroid | 1 |
 //! | [`TRI_3`], [`TET_4`] | 3, 4, inside | 2 |
 //! | [`TRI_6`] | 6, inside | 4 |
+//! | [`TRI_12`], [`TRI_16`], [`TRI_33`] | 12, 16, 33, inside | 6, 8, 12 |
 //! | [`TET_14`] | 14, inside | 5 |
 //! | [`WEDGE_6`] | [`TRI_3`] × [`LINE_2`] | 2 in the triangle, 3 along the axis |
 //! | [`WEDGE_9`] | [`TRI_3`] × [`LINE_3`] | 2 in the triangle, 5 along the axis |
 //!
-//! For facets there are rules with any number of points, too: [`gauss`], [`lobatto`], [`on_facet`].
+//! For facets there are rules with any number of points, too: [`gauss`], [`lobatto`], [`on_facet`], and those of a wanted
+//! degree: [`of_degree`].
 //!
 //! Weights sum to the measure of the reference domain. Products run through their first factor fastest. Sources:
 //! Zienkiewicz, Taylor, *The Finite Element Method*, vol. 1, tables 5.1 to 5.3; Hughes, *The Finite Element Method*,
-//! section 3.8; Dunavant, IJNME 21, 1985, table II ([`TRI_6`]);
+//! section 3.8; Dunavant, IJNME 21, 1985, table II ([`TRI_6`] and larger ones, refined to round-off);
 //! Walkington, *Quadrature on simplices of arbitrary dimension*, 2000 ([`TET_14`]).
 
+mod degree;
 mod points;
 
+pub use degree::{MAX_DEGREE, of_degree};
 pub use points::{gauss, lobatto, on_facet};
 
 use crate::tensor::Vec3;
@@ -116,6 +120,124 @@ pub static TRI_6: Rule = Rule {
         [NEAR, NEAR, NEAR, FAR, FAR, FAR]
     },
 };
+
+/// Twelve points inside the triangle.
+pub static TRI_12: Rule = {
+    const ORBITS: ([Vec3; 12], [f64; 12]) = orbits(
+        &[],
+        &[
+            (0.116_786_275_726_457_43, 0.249_286_745_170_864_13),
+            (0.050_844_906_370_220_606, 0.063_089_014_491_512),
+        ],
+        &[(
+            0.082_851_075_618_327_65,
+            0.053_145_049_844_784_03,
+            0.310_352_451_033_820_14,
+        )],
+    );
+    Rule {
+        points: &ORBITS.0,
+        weights: &ORBITS.1,
+    }
+};
+
+/// Sixteen points inside the triangle.
+pub static TRI_16: Rule = {
+    const ORBITS: ([Vec3; 16], [f64; 16]) = orbits(
+        &[0.144_315_607_677_720_3],
+        &[
+            (0.095_091_634_267_326_21, 0.459_292_588_292_681_5),
+            (0.103_217_370_534_737_6, 0.170_569_307_751_712_06),
+            (0.032_458_497_623_205_705, 0.050_547_228_317_034_565),
+        ],
+        &[(
+            0.027_230_314_174_411_85,
+            0.263_112_829_634_789_6,
+            0.008_394_777_409_881_229,
+        )],
+    );
+    Rule {
+        points: &ORBITS.0,
+        weights: &ORBITS.1,
+    }
+};
+
+/// Thirty-three points inside the triangle.
+pub static TRI_33: Rule = {
+    const ORBITS: ([Vec3; 33], [f64; 33]) = orbits(
+        &[],
+        &[
+            (0.025_731_066_425_726_312, 0.488_217_389_786_345_66),
+            (0.043_692_544_510_797_98, 0.439_724_392_315_404_33),
+            (0.062_858_224_252_622_34, 0.271_210_384_992_223_8),
+            (0.034_796_112_984_671_39, 0.127_576_145_639_277_16),
+            (0.006_166_261_042_275_458, 0.021_317_350_432_354_38),
+        ],
+        &[
+            (
+                0.040_371_557_735_177_8,
+                0.275_713_269_821_302_8,
+                0.115_343_494_496_680_8,
+            ),
+            (
+                0.022_356_773_205_377_91,
+                0.281_325_580_941_482_36,
+                0.022_838_332_225_173_02,
+            ),
+            (
+                0.017_316_231_118_064_213,
+                0.116_251_915_862_837_04,
+                0.025_734_050_563_945_04,
+            ),
+        ],
+    );
+    Rule {
+        points: &ORBITS.0,
+        weights: &ORBITS.1,
+    }
+};
+
+/// Points and weights of a triangle from their orbits: weights of the centroid, of three points and their area
+/// coordinate `a`, of six points and two of their area coordinates. Given weights sum to 1.
+const fn orbits<const N: usize>(
+    centre: &[f64],
+    threes: &[(f64, f64)],
+    sixes: &[(f64, f64, f64)],
+) -> ([Vec3; N], [f64; N]) {
+    let mut out = ([Vec3::ZERO; N], [0.0; N]);
+    let mut n = 0;
+    if let [w] = *centre {
+        out.0[0] = Vec3::new(1.0 / 3.0, 1.0 / 3.0, 0.0);
+        out.1[0] = 0.5 * w;
+        n = 1;
+    }
+    let mut k = 0;
+    while k < threes.len() {
+        let (w, a) = threes[k];
+        let around = around_triangle(a);
+        let mut i = 0;
+        while i < 3 {
+            out.0[n] = around[i];
+            out.1[n] = 0.5 * w;
+            (n, i) = (n + 1, i + 1);
+        }
+        k += 1;
+    }
+    k = 0;
+    while k < sixes.len() {
+        let (w, a, b) = sixes[k];
+        let c = 1.0 - a - b;
+        let pairs = [(a, b), (b, a), (b, c), (c, b), (c, a), (a, c)];
+        let mut i = 0;
+        while i < 6 {
+            out.0[n] = Vec3::new(pairs[i].0, pairs[i].1, 0.0);
+            out.1[n] = 0.5 * w;
+            (n, i) = (n + 1, i + 1);
+        }
+        k += 1;
+    }
+    out
+}
 
 /// The centroid of the tetrahedron.
 pub static TET_1: Rule = Rule {
@@ -291,6 +413,9 @@ mod tests {
             (&TRI_1, 2, 1),
             (&TRI_3, 2, 2),
             (&TRI_6, 2, 4),
+            (&TRI_12, 2, 6),
+            (&TRI_16, 2, 8),
+            (&TRI_33, 2, 12),
             (&TET_1, 3, 1),
             (&TET_4, 3, 2),
             (&TET_14, 3, 5),
@@ -306,7 +431,7 @@ mod tests {
                     }
                 }
             }
-            assert!(error([degree + 1, 0, 0]) > 1e-6);
+            assert!(error([degree + 1, 0, 0]) > 1e-9);
         }
     }
 

@@ -20,6 +20,7 @@ impl Builder {
                     "node-to-node" => Method::NodeToNode,
                     "node-to-segment" => Method::NodeToSegment,
                     "gauss-point" => Method::GaussPoint,
+                    "mortar" => Method::Mortar,
                     _ => Method::Auto,
                 },
                 method.place,
@@ -93,13 +94,22 @@ impl Builder {
             }
         };
         let method = *contact.method;
-        for key in ["normals", "pairs"] {
-            only(
-                key,
-                fields.has(key) && method != Method::NodeToNode,
-                "it belongs to  method = \"node-to-node\"",
-            );
-        }
+        let of_mortar = contact.normals == Normals::Nodal;
+        only(
+            "normals",
+            fields.has("normals")
+                && match method {
+                    Method::NodeToNode => of_mortar,
+                    Method::Mortar => !of_mortar,
+                    _ => true,
+                },
+            "\"nodal\" belongs to  method = \"mortar\", all others to \"node-to-node\"",
+        );
+        only(
+            "pairs",
+            fields.has("pairs") && method != Method::NodeToNode,
+            "it belongs to  method = \"node-to-node\"",
+        );
         only(
             "rule",
             fields.has("rule") && method != Method::GaussPoint,
@@ -107,7 +117,7 @@ impl Builder {
         );
         only(
             "passes",
-            contact.two_pass && method == Method::NodeToNode,
+            contact.two_pass && matches!(method, Method::NodeToNode | Method::Mortar),
             "two passes belong to \"node-to-segment\" and \"gauss-point\"",
         );
         only(
@@ -117,8 +127,13 @@ impl Builder {
         );
         only(
             "enforcement",
-            contact.per == Some(Per::Node) && method == Method::GaussPoint,
-            "points inside of facets stand for areas: write  per = \"area\"",
+            contact.per == Some(Per::Node) && matches!(method, Method::GaussPoint | Method::Mortar),
+            "it has pressures, and no forces of nodes: write  per = \"area\"",
+        );
+        only(
+            "area",
+            contact.area == Area::Current && method == Method::Mortar,
+            "its pressures are those of the present area: delete `area`",
         );
         if contact.is_with_itself() {
             let mut alone = |key: &str, wrong: bool, remark: &str| {
@@ -130,7 +145,7 @@ impl Builder {
             alone("passes", contact.two_pass, "both sides are the same");
             alone(
                 "method",
-                method == Method::NodeToNode,
+                matches!(method, Method::NodeToNode | Method::Mortar),
                 "write \"node-to-segment\" or \"gauss-point\"",
             );
             alone(
@@ -395,8 +410,10 @@ impl Builder {
     }
 
     fn normals(&mut self, fields: Fields<'_>) -> Normals {
-        if fields.text("normals").value == "secondary" {
-            return Normals::Secondary;
+        match fields.text("normals").value.as_str() {
+            "secondary" => return Normals::Secondary,
+            "nodal" => return Normals::Nodal,
+            _ => {}
         }
         match self.vector_within(fields, "normals") {
             Some(vector) => {

@@ -313,6 +313,8 @@ impl Builder {
             used.insert(surface.name.as_str());
             let needs = if *contact.method == Method::NodeToNode {
                 "\"node-to-node\" needs nodes on both sides"
+            } else if *contact.method == Method::Mortar {
+                "\"mortar\" needs faces on both sides"
             } else if contact.two_pass {
                 "two passes need points on both sides"
             } else {

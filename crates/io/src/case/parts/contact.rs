@@ -35,7 +35,7 @@ pub struct Contact {
     pub tied: Option<Tied>,
     /// What is done about gaps and overlaps at the start; by default for sides that are joined.
     pub start: Start,
-    /// The normals of [`Method::NodeToNode`].
+    /// The normals of [`Method::NodeToNode`] and [`Method::Mortar`].
     pub normals: Normals,
     /// The pairs of [`Method::NodeToNode`].
     pub pairs: Pairs,
@@ -66,6 +66,8 @@ pub enum Method {
     NodeToSegment,
     /// Points inside the facets of the secondary side against segments of the primary side.
     GaussPoint,
+    /// Means over the facets of the secondary side against all facets that they meet.
+    Mortar,
 }
 
 /// Points of a facet, along each of its directions.
@@ -226,12 +228,14 @@ pub enum Interference {
     StrainFree,
 }
 
-/// Where node-to-node contact takes its normals from.
+/// Where node-to-node contact and mortar contact take their normals from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Normals {
-    /// From the primary side.
+    /// From the primary side; of mortar contact, from the facets of the secondary side.
     #[default]
     Primary,
+    /// Of mortar contact: means at the nodes of the secondary side.
+    Nodal,
     /// From the secondary side.
     Secondary,
     /// Given, towards the secondary side; not zero, of any length.

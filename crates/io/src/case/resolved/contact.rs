@@ -10,6 +10,7 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         Method::NodeToNode => "node-to-node",
         Method::NodeToSegment => "node-to-segment",
         Method::GaussPoint => "gauss-point",
+        Method::Mortar => "mortar",
     };
     let area = match contact.area {
         Area::Reference => "reference",
@@ -40,7 +41,10 @@ pub(super) fn contact(contact: &Contact) -> Entries {
             ("normals", normals(&contact.normals)),
             ("pairs", pairs(contact.pairs)),
         ]),
-        Method::Auto | Method::NodeToSegment => {}
+        Method::Mortar if contact.normals == Normals::Nodal => {
+            entries.push(("normals", "nodal".into()));
+        }
+        Method::Auto | Method::NodeToSegment | Method::Mortar => {}
     }
     if contact.tied.is_none() {
         entries.push(("start", start(&contact.start)));
@@ -65,6 +69,7 @@ fn normals(normals: &Normals) -> Value {
     match normals {
         Normals::Primary => "primary".into(),
         Normals::Secondary => "secondary".into(),
+        Normals::Nodal => "nodal".into(),
         Normals::Given(vector) => vector.into(),
     }
 }

@@ -63,8 +63,11 @@ pub(super) static CONTACT: Table = Table {
         key("start", Shape::Table(&START), START.doc).hints(&["adjust", "initial"]),
         key(
             "normals",
-            Shape::Either(&[Shape::Choice(&[word("primary"), word("secondary")]), VECTOR]),
-            "of node-to-node: those of a side, or a vector towards the secondary side",
+            Shape::Either(&[
+                Shape::Choice(&[word("primary"), word("secondary"), word("nodal")]),
+                VECTOR,
+            ]),
+            "of node-to-node: those of a side, or a vector towards the secondary side; of mortar: \"nodal\", else those of facets",
         )
         .or(Default::Text("primary"))
         .hints(&["normal"]),
@@ -94,7 +97,7 @@ const METHODS: &[Choice] = &[
     word("node-to-node"),
     word("node-to-segment"),
     word("gauss-point"),
-    Choice::later("mortar", "gauss-point"),
+    word("mortar"),
 ];
 const ENFORCEMENTS: &[Shape] = &[AUTO, Shape::Table(&ENFORCEMENT)];
 const FRICTIONS: &[Shape] = &[NOT_NEGATIVE, Shape::Table(&FRICTION)];

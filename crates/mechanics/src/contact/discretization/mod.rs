@@ -4,25 +4,30 @@
 //! |---|---|---|
 //! | node to segment, point to segment | a node, or a point of a facet, against its closest point | [`points`], [`projected`] |
 //! | node to node | two nodes and a normal | [`nodes`] |
+//! | mortar | a node of the secondary side, with all facets around it against all that they meet | [`mortar`] |
 //!
 //! To add a discretization: one file that implements [`Discretization`], one line where models are built. It fills rows
 //! and never sees a law, a penalty or an unknown.
 
+pub mod mortar;
 pub mod nodes;
 pub mod points;
 pub mod projected;
 
+pub use mortar::Mortar;
 pub use nodes::{NodeNormals, NodeToNode};
 pub use points::PointToSegment;
 
+use super::mortar::Weights;
 use super::row::{Rows, Wanted};
 use projected::Point;
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::proximity::Candidates;
+use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{
     Anchor, ContactSurface, Facets, Feature, Placement, SurfaceError,
 };
 use signorini_geometry::tensor::Vec3;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The two sides of an interface.
@@ -56,7 +61,7 @@ impl SurfacePair {
 /// The discrete choices of one row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// The closest point of the primary side.
+    /// The closest point of the primary side; [`NOWHERE`] where the row meets several facets at once.
     pub anchor: Anchor,
     /// On what it lies.
     pub feature: Feature,
@@ -75,11 +80,44 @@ impl Pair {
     }
 }
 
+/// The point of a row that meets several facets at once: there is no single one.
+pub const NOWHERE: Anchor = Anchor {
+    facet: u32::MAX,
+    local: Vec3::ZERO,
+};
+
 /// The discrete choices of all rows: `None` where nothing is within reach.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Pairing {
     /// One entry for each row.
     pub pairs: Vec<Option<Pair>>,
+    /// What mortar rows see of both sides; empty for other rows.
+    pub weights: Weights,
+}
+
+impl Pairing {
+    /// Of rows that meet nothing.
+    #[must_use]
+    pub fn nothing(nrow: usize) -> Self {
+        Self {
+            pairs: vec![None; nrow],
+            weights: Weights::default(),
+        }
+    }
+}
+
+impl Clone for Pairing {
+    fn clone(&self) -> Self {
+        Self {
+            pairs: self.pairs.clone(),
+            weights: self.weights.clone(),
+        }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.pairs.clone_from(&other.pairs);
+        self.weights.clone_from(&other.weights);
+    }
 }
 
 /// Where a point sticks.
@@ -107,7 +145,7 @@ pub trait Discretization: Send + Sync {
         &self,
         pair: &SurfacePair,
         at: &Placement,
-        near: &Candidates,
+        near: &Search,
         last: &Pairing,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError>;
@@ -139,15 +177,53 @@ pub trait Discretization: Send + Sync {
         slip: Vec3,
     ) -> Result<Anchored, SurfaceError>;
 
-    /// The place of the point's first node among the participants of its row.
-    fn first_of_point(&self, rows: &Rows, row: usize) -> usize {
-        let of_point = self.point(row).nodes.len();
-        rows.participants().len().saturating_sub(of_point)
+    /// The places of the secondary side among the participants of a row.
+    fn secondary(&self, rows: &Rows, row: usize) -> Range<usize> {
+        let end = rows.participants().len();
+        end.saturating_sub(self.point(row).nodes.len())..end
+    }
+
+    /// Nodes of the secondary side without a row of their own that a row speaks for.
+    fn guests(&self, _row: usize, _pair: &SurfacePair, _pairing: &Pairing, _out: &mut Vec<NodeId>) {
+    }
+
+    /// Whether rows meet several facets at once, and there is no closest point.
+    fn meets_many(&self) -> bool {
+        false
+    }
+
+    /// The facets of the primary side that a row meets beyond the one its closest point lies on.
+    fn more_facets(&self, _row: usize, _pairing: &Pairing, _out: &mut Vec<u32>) {}
+
+    /// How fast a row closes, positive where its gap shrinks, where nodes move by `by`; `None` where that is told by its
+    /// closest point.
+    fn approach(
+        &self,
+        _row: usize,
+        _pairing: &Pairing,
+        _by: &dyn Fn(NodeId) -> Vec3,
+    ) -> Option<f64> {
+        None
     }
 
     /// Nodes that a row depends on beyond its point and the facets around its closest point.
-    fn more_nodes(&self, _row: usize) -> &[NodeId] {
+    fn more_nodes<'a>(&'a self, _row: usize, _pairing: &'a Pairing) -> &'a [NodeId] {
         &[]
+    }
+
+    /// Makes the choices that hold while an iteration goes on, from those of the present iterate, and in what was before
+    /// likewise; says whether rows now see others.
+    ///
+    /// # Errors
+    /// A facet that has no normal.
+    fn settle(
+        &self,
+        _pair: &SurfacePair,
+        _at: &Placement,
+        _now: &mut Pairing,
+        _before: &mut Pairing,
+    ) -> Result<bool, SurfaceError> {
+        Ok(false)
     }
 
     /// Whether a pressure acts with the weights with which the gap changes.
@@ -161,6 +237,8 @@ pub trait Discretization: Send + Sync {
 pub struct Links<'a> {
     /// The closest points.
     pub pairing: &'a Pairing,
+    /// Those at the start of the increment.
+    pub before: &'a Pairing,
     /// Where they stick; empty without friction.
     pub anchors: &'a [Option<Anchored>],
     /// Whether they are joined there.

@@ -22,12 +22,13 @@ use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
 use crate::contact::row::{Participant, Row, RowOrder, Rows, Wanted};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::proximity::{Aabb, Candidates};
+use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{
     Anchor, Carrier, ContactSurface, Facets, Feature, Outward, Placement, Projection, SurfaceError,
     SurfaceJet,
 };
 use signorini_geometry::tensor::Vec3;
+use std::ops::Range;
 
 /// Where normals come from.
 pub enum NodeNormals {
@@ -247,7 +248,7 @@ impl Discretization for NodeToNode {
         &self,
         _: &SurfacePair,
         at: &Placement,
-        _: &Candidates,
+        _: &Search,
         _: &Pairing,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
@@ -317,11 +318,11 @@ impl Discretization for NodeToNode {
         })
     }
 
-    fn first_of_point(&self, _: &Rows, _: usize) -> usize {
-        0
+    fn secondary(&self, _: &Rows, _: usize) -> Range<usize> {
+        0..1
     }
 
-    fn more_nodes(&self, row: usize) -> &[NodeId] {
+    fn more_nodes<'a>(&'a self, row: usize, _: &'a Pairing) -> &'a [NodeId] {
         self.nodes.get(row).map_or(&[], Vec::as_slice)
     }
 

@@ -7,7 +7,7 @@ use crate::contact::row::{Rows, Wanted};
 use rayon::prelude::*;
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::proximity::Candidates;
+use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{
     Anchor, ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
 };
@@ -138,7 +138,7 @@ impl Discretization for PointToSegment {
         &self,
         pair: &SurfacePair,
         at: &Placement,
-        near: &Candidates,
+        near: &Search,
         last: &Pairing,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
@@ -159,9 +159,9 @@ impl Discretization for PointToSegment {
             }
             let how = (before.map(|p| p.anchor), pair.reach, self.closest);
             *found = if self.own.is_empty() {
-                closest(surface, at, point, near.near(row), how)?
+                closest(surface, at, point, near.candidates().near(row), how)?
             } else {
-                let facing = self.facing(row, surface, at, near.near(row));
+                let facing = self.facing(row, surface, at, near.candidates().near(row));
                 closest(surface, at, point, &facing, how)?
             };
             if let Some(found) = found.as_mut().filter(|_| self.small_sliding) {

@@ -1,10 +1,11 @@
 //! What a contact remembers.
 
+use super::pairing::Coupled;
 use super::{
-    Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, NONE, Rows, State,
-    TermError, Verdict,
+    Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, State, TermError,
+    Verdict,
 };
-use crate::contact::discretization::{Anchored, Pair};
+use crate::contact::discretization::{Anchored, NOWHERE, Pair};
 use crate::contact::friction::Stick;
 use crate::contact::kernel::Past;
 use crate::contact::row::{Row, RowOrder};
@@ -267,7 +268,9 @@ impl Interface {
             memory.anchor = None;
             if self.laws().friction.is_some() {
                 memory.anchor = self.history.anchors[row];
-                if traction.state == Contact::Slip || exact {
+                // weights of a state hold until the next one only
+                let renewed = exact || found.anchor == NOWHERE;
+                if traction.state == Contact::Slip || renewed {
                     let discretization = self.parts.discretization.as_ref();
                     let anchor = discretization.anchor(row, &self.parts.pair, &at, found, elastic);
                     memory.anchor = Some(anchor.map_err(|e| self.failed(&e))?);
@@ -275,7 +278,7 @@ impl Interface {
                 if traction.state == Contact::Slip {
                     memory.slip += slipped;
                     memory.path += slipped.norm();
-                    work += self.measure(row) * traction.tangential.dot(slipped);
+                    work += self.measure(row) * filled.coverage * traction.tangential.dot(slipped);
                 }
             }
             next.push(memory);
@@ -294,9 +297,7 @@ impl Interface {
         out.put(name("memory"), &memories.collect::<Vec<f64>>());
         let judged = self.accepted_judged.iter().flat_map(judged_to_numbers);
         out.put(name("judged"), &judged.collect::<Vec<f64>>());
-        let facet = |&f: &u32| if f == NONE { -1.0 } else { f64::from(f) };
-        let coupled = self.coupled.iter().flatten().map(facet);
-        out.put(name("coupled"), &coupled.collect::<Vec<f64>>());
+        out.put(name("coupled"), &self.coupled.to_numbers());
         let first = self
             .first_step
             .map_or([-1.0, 0.0, 1.0], |s| [s.number as f64, s.start, s.duration]);
@@ -325,12 +326,14 @@ impl Interface {
         let judged = values.chunks_exact(JUDGED).map(judged_from_numbers);
         self.accepted_judged = judged.collect();
         self.judged.clone_from(&self.accepted_judged);
-        let mut coupled = vec![0.0; 2 * self.coupled.len()];
+        let mut coupled = vec![0.0; from.length(&name("coupled"))?];
         from.get(&name("coupled"), &mut coupled)?;
-        let facet = |f: &f64| if *f < 0.0 { NONE } else { *f as u32 };
-        for (to, facets) in self.coupled.iter_mut().zip(coupled.chunks_exact(2)) {
-            *to = [facet(&facets[0]), facet(&facets[1])];
-        }
+        let missing = || ArchiveError::Length {
+            name: name("coupled"),
+            found: coupled.len(),
+            expected: nrow,
+        };
+        self.coupled = Coupled::from_numbers(&coupled, nrow).ok_or_else(missing)?;
         let mut state = [0.0; 5];
         from.get(&name("state"), &mut state)?;
         self.history.work = state[0];
@@ -345,6 +348,7 @@ impl Interface {
         from.get(&name("area"), &mut area)?;
         self.parts.area = area;
         self.now.pairs.clone_from(&self.accepted.pairs);
+        self.resumed = self.started;
         self.history.begin();
         self.near.search.forget();
         Ok(())

@@ -15,15 +15,18 @@ use crate::system::{
     StepContext, Symmetry, Term, TermError, Verdict, Work,
 };
 use history::History;
-use pairing::Near;
 pub use pairing::closest_points;
+use pairing::{Coupled, Near};
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::{Carrier, ContactSurface, SurfaceError};
+use signorini_geometry::surface::{Carrier, ContactSurface, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
 /// Rows evaluated together.
 const CHUNK: usize = 64;
+
+/// Changes within one increment after which a choice is kept.
+const RESTLESS: u8 = 4;
 
 /// How many nodes a verdict names.
 const NAMED: usize = 4;
@@ -149,17 +152,26 @@ pub struct Interface {
     layout: Layout,
     elimination: Arc<Elimination>,
     near: Near,
-    /// The choices for the present iterate, those of the last accepted state, and those last judged.
+    /// The choices for the present iterate, those of the last accepted state, and those at the start of the increment:
+    /// these stay until the next begins, so that what is told of an accepted state is what acted in it.
     now: Pairing,
     accepted: Pairing,
+    before: Pairing,
     judged: Vec<Judged>,
     accepted_judged: Vec<Judged>,
     next: Pairing,
     history: History,
     /// Whether the accepted choices are those of a state, and not just of nothing.
     started: bool,
-    /// The facets that the pattern couples each row with, neighbours included: of its closest point and of its anchor.
-    coupled: Vec<[u32; 2]>,
+    /// Whether they were read from an archive, which holds no weights.
+    resumed: bool,
+    /// Whether rows see others than the pattern knows.
+    sees_others: bool,
+    /// How often choices that hold while an iteration goes on were made anew in this increment.
+    settled: u8,
+    /// What the pattern couples each row with, and what the present iterate asks for.
+    coupled: Coupled,
+    wanted: Coupled,
     step: StepContext,
     /// The step in which it acts first.
     first_step: Option<StepContext>,
@@ -173,8 +185,6 @@ struct Judged {
     state: Contact,
     facet: Option<(u32, u8)>,
 }
-
-const NONE: u32 = u32::MAX;
 
 #[derive(Default)]
 struct Scratch {
@@ -190,9 +200,7 @@ impl Interface {
     #[must_use]
     pub fn new(parts: InterfaceParts, layout: Layout, elimination: Arc<Elimination>) -> Self {
         let nrow = parts.discretization.nrow();
-        let nothing = Pairing {
-            pairs: vec![None; nrow],
-        };
+        let nothing = Pairing::nothing(nrow);
         let history = History::new(nrow, parts.bond.as_deref());
         Self {
             parts,
@@ -201,12 +209,17 @@ impl Interface {
             near: Near::default(),
             now: nothing.clone(),
             accepted: nothing.clone(),
+            before: nothing.clone(),
             judged: vec![Judged::default(); nrow],
             accepted_judged: vec![Judged::default(); nrow],
             next: nothing,
             history,
             started: false,
-            coupled: vec![[NONE; 2]; nrow],
+            resumed: false,
+            sees_others: false,
+            settled: 0,
+            coupled: Coupled::default(),
+            wanted: Coupled::default(),
             step: StepContext::default(),
             first_step: None,
             changes: vec![0; nrow],
@@ -318,6 +331,17 @@ impl Interface {
         shift.constant + shift.fading * left
     }
 
+    /// Makes the choices that hold while an iteration goes on; says whether they are others.
+    fn settle(&mut self, at: &Placement) -> Result<bool, TermError> {
+        let parts = &self.parts;
+        let discretization = parts.discretization.as_ref();
+        let others = discretization.settle(&parts.pair, at, &mut self.now, &mut self.before);
+        let others = others.map_err(|e| self.failed(&e))?;
+        self.sees_others |= others;
+        self.settled += u8::from(others);
+        Ok(others)
+    }
+
     fn failed(&self, error: &SurfaceError) -> TermError {
         TermError::Surface {
             interface: self.parts.name.clone(),
@@ -364,11 +388,20 @@ impl Term for Interface {
         let at = from.placement();
         if !self.started {
             self.search(&at).map_err(|e| self.failed(&e))?;
-            self.accepted.pairs.clone_from(&self.now.pairs);
+            self.settle(&at)?;
+            self.accepted.clone_from(&self.now);
             self.started = true;
             self.judge(from)?;
             self.accepted_judged.clone_from(&self.judged);
         }
+        if std::mem::take(&mut self.resumed) && self.parts.discretization.meets_many() {
+            // weights are those of where the run stopped
+            self.search(&at).map_err(|e| self.failed(&e))?;
+            self.settle(&at)?;
+            self.accepted.clone_from(&self.now);
+        }
+        self.before.clone_from(&self.accepted);
+        self.settled = 0;
         self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.changes.fill(0);
         self.history.begin();
@@ -457,6 +490,13 @@ impl Term for Interface {
     }
 
     fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
+        if self.settled < RESTLESS && self.settle(&trial.placement())? {
+            return Ok(Verdict::Repeat {
+                changes: 1,
+                why: format!("contact \"{}\": other nodes are covered", self.parts.name),
+                nodes: Vec::new(),
+            });
+        }
         let limits = self.renew_limits(trial)?;
         if self.parts.law.multiplier() != Multiplier::Frozen {
             return Ok(limits);
@@ -482,7 +522,7 @@ impl Term for Interface {
     }
 
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
-        self.accepted.pairs.clone_from(&self.now.pairs);
+        self.accepted.clone_from(&self.now);
         self.accepted_judged.clone_from(&self.judged);
         self.started = true;
         self.changes.fill(0);
@@ -490,7 +530,7 @@ impl Term for Interface {
     }
 
     fn reject(&mut self) {
-        self.now.pairs.clone_from(&self.accepted.pairs);
+        self.now.clone_from(&self.accepted);
         self.judged.clone_from(&self.accepted_judged);
         self.history.reject();
         self.changes.fill(0);

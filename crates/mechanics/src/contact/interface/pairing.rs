@@ -1,16 +1,13 @@
 //! Search, pairing, where rows stick, and what is coupled with what.
 
-use super::{Carrier, ContactSurface, Interface, NONE, dofs_of};
+use super::{Carrier, ContactSurface, Interface, RESTLESS, dofs_of};
 use crate::contact::discretization::projected::{BEYOND, on_continuation};
-use crate::contact::discretization::{Discretization, Pair, Pairing, SurfacePair};
+use crate::contact::discretization::{Discretization, NOWHERE, Pair, Pairing, SurfacePair};
 use crate::contact::law::Eval;
 use crate::system::{Dof, NO_DOF, PatternSink, State};
 use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{Feature, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
-
-/// Changes of facet in one increment after which a row stays on the facet it is on.
-const RESTLESS: u8 = 4;
 
 /// The search for what is near, with its buffers.
 #[derive(Default)]
@@ -55,11 +52,9 @@ pub fn closest_points(
 ) -> Result<Pairing, SurfaceError> {
     let mut near = Near::default();
     near.update(discretization, pair, at);
-    let nothing = Pairing {
-        pairs: vec![None; discretization.nrow()],
-    };
+    let nothing = Pairing::nothing(discretization.nrow());
     let mut out = nothing.clone();
-    discretization.pair_up(pair, at, near.search.candidates(), &nothing, &mut out)?;
+    discretization.pair_up(pair, at, &near.search, &nothing, &mut out)?;
     Ok(out)
 }
 
@@ -72,8 +67,7 @@ impl Interface {
         let pair = &self.parts.pair;
         let discretization = self.parts.discretization.as_ref();
         self.near.update(discretization, pair, at);
-        let candidates = self.near.search.candidates();
-        discretization.pair_up(pair, at, candidates, &self.now, &mut self.next)?;
+        discretization.pair_up(pair, at, &self.near.search, &self.now, &mut self.next)?;
         let (surface, points) = (pair.primary.as_ref(), &self.near.points);
         for (row, changes) in self.changes.iter().enumerate() {
             if *changes >= RESTLESS
@@ -128,12 +122,17 @@ impl Interface {
                 continue;
             };
             let point = self.near.points.get(row).copied().unwrap_or_default();
-            if surface.jet(at, &before.anchor, &mut jet).is_err() {
-                continue;
-            }
-            let away = point - jet.position;
-            let behind = -away.dot(jet.normal);
-            let distance = away.norm();
+            let discretization = self.parts.discretization.as_ref();
+            let place = |n: u32| at.x.get(n as usize).copied().unwrap_or_default();
+            let (behind, distance) =
+                if let Some(behind) = discretization.approach(row, &self.accepted, &place) {
+                    (behind, behind.abs())
+                } else if surface.jet(at, &before.anchor, &mut jet).is_ok() {
+                    let away = point - jet.position;
+                    (-away.dot(jet.normal), away.norm())
+                } else {
+                    continue;
+                };
             if distance > self.parts.pair.reach && behind > 0.5 * distance {
                 return Some(format!(
                     "a point went through the surface in one increment, {behind:.3} behind it and further than the \
@@ -164,10 +163,18 @@ impl Interface {
         let mut longest = 1.0f64;
         for (row, pair) in self.now.pairs.iter().enumerate() {
             let Some(pair) = pair else { continue };
+            let room = pair.gap.max(0.0) + 0.5 * self.parts.pair.reach;
+            let discretization = self.parts.discretization.as_ref();
+            if let Some(closes) = discretization.approach(row, &self.now, &moves) {
+                if closes > room {
+                    longest = longest.min(room / closes);
+                }
+                continue;
+            }
             if surface.jet(&at, &pair.anchor, &mut jet).is_err() {
                 continue;
             }
-            let point = self.parts.discretization.point(row);
+            let point = discretization.point(row);
             let of_point = point.nodes.iter().zip(point.weights);
             let mut approach: Vec3 = of_point.map(|(&n, w)| moves(n) * *w).sum();
             match surface.carrier(pair.anchor.facet) {
@@ -188,7 +195,6 @@ impl Interface {
                 Carrier::Fixed => {}
             }
             let closes = -approach.dot(jet.normal);
-            let room = pair.gap.max(0.0) + 0.5 * self.parts.pair.reach;
             if closes > room {
                 longest = longest.min(room / closes);
             }
@@ -196,95 +202,169 @@ impl Interface {
         longest
     }
 
-    /// Couples every row that touches, or may soon, with its facet and that of its anchor; says whether that adds to
-    /// what was coupled.
+    /// Couples every row that touches, or may soon, with the facets it meets and that of its anchor; says whether that
+    /// adds to what was coupled.
     pub(super) fn couple(&mut self, trial: &State) -> bool {
-        let soon = 0.25 * self.parts.pair.reach;
+        let mut wanted = std::mem::take(&mut self.wanted);
+        wanted.clear();
+        for row in 0..self.now.pairs.len() {
+            if self.is_near(row, trial) {
+                self.facets_of(row, &mut wanted.facets);
+            }
+            wanted.end_row();
+        }
+        let surface = self.parts.pair.primary.as_ref();
+        let many = self.parts.discretization.meets_many();
+        let covers = |coupled: &u32, facet: &u32| {
+            coupled == facet || !many && surface.neighbours(*coupled).contains(facet)
+        };
+        let covered = |row: usize| {
+            let coupled = self.coupled.row(row);
+            let mut facets = wanted.row(row).iter();
+            facets.all(|facet| coupled.iter().any(|c| covers(c, facet)))
+        };
+        let more = std::mem::take(&mut self.sees_others) || !(0..self.now.pairs.len()).all(covered);
+        if more {
+            std::mem::swap(&mut self.coupled, &mut wanted);
+        }
+        self.wanted = wanted;
+        more
+    }
+
+    /// Whether a row touches, or may soon.
+    fn is_near(&self, row: usize, trial: &State) -> bool {
+        let Some(pair) = &self.now.pairs[row] else {
+            return false;
+        };
         let laws = self.laws();
-        let acts = |row: usize, gap: f64| {
+        let gap = pair.gap + self.shift(row, trial.time);
+        let acts = || {
             let lambda = self.lambda(row, trial);
             let most = lambda.scalar.max(lambda.vector.norm());
             laws.law.pressure(gap, most, laws.scale) != Eval::default()
         };
-        let facet = |row: usize| match &self.now.pairs[row] {
-            Some(p) => {
-                let gap = p.gap + self.shift(row, trial.time);
-                let near = laws.bond || gap < soon || acts(row, gap);
-                if near { p.anchor.facet } else { NONE }
-            }
-            None => NONE,
-        };
-        let surface = self.parts.pair.primary.as_ref();
-        let anchors = self.history.anchors();
-        let wanted = |row: usize| -> [u32; 2] {
-            let near = facet(row);
-            let stuck = anchors[row].map_or(NONE, |a| a.anchor.facet);
-            [near, if near == NONE { NONE } else { stuck }]
-        };
-        let covers = |coupled: u32, facet: u32| {
-            facet == NONE
-                || facet == coupled
-                || (coupled != NONE && surface.neighbours(coupled).contains(&facet))
-        };
-        let covered = |row: usize, coupled: [u32; 2]| {
-            let [near, stuck] = wanted(row);
-            covers(coupled[0], near) && (covers(coupled[0], stuck) || covers(coupled[1], stuck))
-        };
-        let mut rows = self.coupled.iter().enumerate();
-        if rows.all(|(row, &coupled)| covered(row, coupled)) {
-            return false;
+        laws.bond || gap < 0.25 * self.parts.pair.reach || acts()
+    }
+
+    /// The facets that a row meets and that of its anchor, each once.
+    fn facets_of(&self, row: usize, out: &mut Vec<u32>) {
+        let first = out.len();
+        let anchors = [
+            self.now.pairs[row].map(|p| p.anchor),
+            self.history.anchors()[row].map(|a| a.anchor),
+        ];
+        let single = anchors.into_iter().flatten().filter(|a| *a != NOWHERE);
+        out.extend(single.map(|a| a.facet));
+        let discretization = self.parts.discretization.as_ref();
+        discretization.more_facets(row, &self.now, out);
+        if self.laws().slips() {
+            discretization.more_facets(row, &self.before, out);
         }
-        let all: Vec<[u32; 2]> = (0..self.coupled.len()).map(wanted).collect();
-        self.coupled = all;
-        true
+        out[first..].sort_unstable();
+        let mut kept = first;
+        for k in first..out.len() {
+            if k == first || out[k] != out[kept - 1] {
+                out[kept] = out[k];
+                kept += 1;
+            }
+        }
+        out.truncate(kept);
     }
 
     pub(super) fn cliques(&self, out: &mut dyn PatternSink) {
         let surface = self.parts.pair.primary.as_ref();
         let discretization = self.parts.discretization.as_ref();
-        let rubs = self.laws().slips();
+        let many = discretization.meets_many();
+        // without friction a row of one closest point sees one facet at a time
+        let at_once = many || self.laws().slips();
         let (mut dofs, mut of_row, mut facets) = (Vec::new(), Vec::new(), Vec::new());
-        for (row, &[near, stuck]) in self.coupled.iter().enumerate() {
+        for row in 0..self.now.pairs.len() {
+            let coupled = self.coupled.row(row);
             of_row.clear();
             self.multiplier_dofs(row, &mut of_row);
             of_row.retain(|&d| d != NO_DOF);
-            if near == NONE {
+            if coupled.is_empty() {
                 if !of_row.is_empty() {
                     out.interface(&of_row);
                 }
                 continue;
             }
             let nodes = discretization.point(row).nodes.iter();
-            for &node in nodes.chain(discretization.more_nodes(row)) {
+            for &node in nodes.chain(discretization.more_nodes(row, &self.now)) {
                 of_row.extend((0..3).map(|c| self.layout.node(node, c)));
             }
             facets.clear();
-            for centre in [near, stuck] {
-                if centre != NONE {
-                    facets.push(centre);
-                    facets.extend_from_slice(surface.neighbours(centre));
-                }
+            facets.extend_from_slice(coupled);
+            if !many {
+                let around = coupled.iter().flat_map(|&f| surface.neighbours(f));
+                facets.extend(around);
             }
             facets.sort_unstable();
             facets.dedup();
             dofs.clear();
             dofs.extend_from_slice(&of_row);
             for &facet in &facets {
-                if !rubs {
-                    // without friction a row sees one facet at a time
+                if !at_once {
                     dofs.truncate(of_row.len());
                 }
                 dofs_of(surface.carrier(facet), &self.layout, &mut dofs);
-                if !rubs {
+                if !at_once {
                     out.interface(&dofs);
                 }
             }
-            if rubs || facets.is_empty() {
+            if at_once {
                 dofs.sort_unstable();
                 dofs.dedup();
                 out.interface(&dofs);
             }
         }
+    }
+}
+
+/// The primary facets that the pattern couples each row with, row after row.
+#[derive(Debug, Default)]
+pub(super) struct Coupled {
+    end: Vec<usize>,
+    facets: Vec<u32>,
+}
+
+impl Coupled {
+    fn row(&self, row: usize) -> &[u32] {
+        let first = match row {
+            0 => Some(&0),
+            _ => self.end.get(row - 1),
+        };
+        match (first, self.end.get(row)) {
+            (Some(&a), Some(&b)) => &self.facets[a..b],
+            _ => &[],
+        }
+    }
+
+    fn clear(&mut self) {
+        self.end.clear();
+        self.facets.clear();
+    }
+
+    fn end_row(&mut self) {
+        self.end.push(self.facets.len());
+    }
+
+    /// The ends of rows, then the facets.
+    pub fn to_numbers(&self) -> Vec<f64> {
+        let ends = self.end.iter().map(|&e| e as f64);
+        ends.chain(self.facets.iter().map(|&f| f64::from(f)))
+            .collect()
+    }
+
+    /// Those of so many rows; `None` where they are not such numbers.
+    pub fn from_numbers(numbers: &[f64], nrow: usize) -> Option<Self> {
+        let (ends, facets) = numbers.split_at_checked(nrow.min(numbers.len()))?;
+        let found = Self {
+            end: ends.iter().map(|&e| e as usize).collect(),
+            facets: facets.iter().map(|&f| f as u32).collect(),
+        };
+        let whole = found.end.last().is_none_or(|&e| e == found.facets.len());
+        (found.end.is_sorted() && whole).then_some(found)
     }
 }
 

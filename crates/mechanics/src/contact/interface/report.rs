@@ -3,6 +3,7 @@
 use super::{
     Contact, Interface, Measure, Order, Participant, RowOrder, Rows, Scratch, State, TermError,
 };
+use crate::contact::row::Row;
 use crate::system::{ContactFrame, Frame, Resultant, Status};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
@@ -69,9 +70,11 @@ impl Interface {
         let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
         let mut centre = (Vec3::ZERO, 0.0);
         let mut gap_min: Option<f64> = None;
+        let mut guests = Vec::new();
         for row in 0..self.parts.discretization.nrow() {
-            let area = self.area(row);
             let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
+            let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
+            let area = self.area(row) * coverage;
             // a point of a rule may have no area at all
             let per_area = match self.parts.measure {
                 Measure::Area => 1.0,
@@ -85,10 +88,11 @@ impl Interface {
             }
             if let Some(filled) = found.filter(|_| acts) {
                 let traction = self.traction(filled, &self.lambda(row, state));
-                let measure = self.measure(row);
+                let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
                 pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
-                report.force_normal += filled.normal * (traction.pressure * measure);
+                let pushed = self.pushed(row, &scratch.rows, filled);
+                report.force_normal += pushed * (traction.pressure * self.measure(row));
                 report.force_shear -= traction.tangential * measure;
                 status = match traction.state {
                     _ if pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
@@ -113,6 +117,17 @@ impl Interface {
             report.pressure_max = report.pressure_max.max(pressure);
             report.slip_max = report.slip_max.max(slip.norm());
             let point = self.parts.discretization.point(row);
+            guests.clear();
+            let parts = &self.parts;
+            parts
+                .discretization
+                .guests(row, &parts.pair, &self.now, &mut guests);
+            for node in &guests {
+                if let (Ok(k), Some(of_row)) = (parts.pair.points.binary_search(node), &of_row) {
+                    means.add(k, area, of_row);
+                    report.status[k] = status;
+                }
+            }
             let weight = pressure * area;
             centre.0 += point.position(&state.placement()) * weight;
             centre.1 += weight;
@@ -174,6 +189,22 @@ impl Interface {
             }
         }
         Ok(())
+    }
+
+    /// What a unit of pressure does to the secondary side.
+    fn pushed(&self, row: usize, rows: &Rows, filled: &Row) -> Vec3 {
+        let secondary = self.parts.discretization.secondary(rows, row);
+        let mut sum = Vec3::ZERO;
+        let mut column = 0;
+        for (place, participant) in rows.participants().iter().enumerate() {
+            if let Some(&[x, y, z]) = filled.weights.get(column..column + 3)
+                && secondary.contains(&place)
+            {
+                sum += Vec3::new(x, y, z);
+            }
+            column += participant.ncolumn();
+        }
+        sum
     }
 
     /// Adds a row to the means at the nodes of the facet that it acts on.
@@ -277,16 +308,13 @@ impl Interface {
             let part = internal.get(at..at + 3);
             part.map_or(Vec3::ZERO, |f| -Vec3::new(f[0], f[1], f[2]))
         };
-        let of_point = self.parts.discretization.point(row).nodes;
-        let first_of_point = self.parts.discretization.first_of_point(rows, row);
+        let secondary = self.parts.discretization.secondary(rows, row);
         for (place, participant) in rows.participants().iter().enumerate() {
             let force = vector(column);
             match *participant {
                 Participant::Node(node) => {
                     let x = state.x.get(node as usize).copied().unwrap_or_default();
-                    let secondary =
-                        (first_of_point..first_of_point + of_point.len()).contains(&place);
-                    let side = if secondary {
+                    let side = if secondary.contains(&place) {
                         if let Ok(k) = self.parts.pair.points.binary_search(&node) {
                             report.force[k] += force;
                         }

@@ -37,6 +37,7 @@ impl Interface {
         };
         let links = Links {
             pairing: &self.now,
+            before: &self.before,
             anchors: self.history.anchors(),
             bond: laws.bond,
         };

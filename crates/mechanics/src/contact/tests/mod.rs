@@ -128,9 +128,8 @@ pub(crate) fn pair_up(
     let mut search = Search::default();
     search.update(&points, &boxes, range, 0.5 * range, &|_, _| true);
     let mut found = Pairing::default();
-    let (near, nothing) = (search.candidates(), Pairing::default());
     method
-        .pair_up(pair, at, near, &nothing, &mut found)
+        .pair_up(pair, at, &search, &Pairing::default(), &mut found)
         .unwrap();
     found
 }
@@ -145,6 +144,7 @@ pub(crate) fn first_rows(
     let mut rows = Rows::default();
     let links = Links {
         pairing,
+        before: pairing,
         anchors: &[],
         bond: false,
     };

@@ -13,7 +13,7 @@ use super::super::discretization::{
 };
 use super::super::row::{RowOrder, Rows, Wanted};
 use super::{Random, facets, first_rows, largest, pair_up};
-use signorini_geometry::proximity::Candidates;
+use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{Carrier, Feature, Placement, SurfaceError, SurfaceJet, pair};
 use signorini_geometry::tensor::Vec3;
 
@@ -37,7 +37,7 @@ impl Discretization for PrintedSigns {
         &self,
         pair: &SurfacePair,
         at: &Placement,
-        near: &Candidates,
+        near: &Search,
         last: &Pairing,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {

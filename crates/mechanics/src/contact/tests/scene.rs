@@ -3,7 +3,7 @@
 
 use super::super::discretization::projected::Closest;
 use super::super::discretization::{
-    Anchored, Discretization, NodeNormals, NodeToNode, PointToSegment, SurfacePair,
+    Anchored, Discretization, Mortar, NodeNormals, NodeToNode, PointToSegment, SurfacePair, mortar,
 };
 use super::super::friction::{FrictionLaw, Stick};
 use super::super::law::{ContactLaw, Scale};
@@ -16,7 +16,7 @@ use crate::system::{
 use signorini_geometry::element::quadrature::{gauss, lobatto, on_facet};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{
-    Analytical, ContactSurface, Facets, Mount, Side, Sphere, SurfaceJet, Torus,
+    Analytical, ContactSurface, Facets, Mount, Placement, Side, Sphere, SurfaceJet, Torus,
 };
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -57,9 +57,16 @@ pub(crate) enum Method {
     GivenNormals,
     PrimaryNormals,
     SecondaryNormals,
+    Mortar,
+    NodalMortar,
+    HeldMortar,
 }
 
 impl Method {
+    pub(crate) fn is_mortar(self) -> bool {
+        matches!(self, Self::Mortar | Self::NodalMortar | Self::HeldMortar)
+    }
+
     pub(crate) fn is_between_nodes(self) -> bool {
         matches!(
             self,
@@ -90,6 +97,7 @@ pub(crate) struct Scene {
     pub up: Vec<Vec3>,
     /// Which of them hardly move.
     pub still: Vec<bool>,
+    method: Method,
 }
 
 /// Corner nodes and facets of the primary side, up the last axis.
@@ -232,7 +240,29 @@ impl Scene {
         } else {
             Closest::Anywhere
         };
+        let pose = |body: &RigidBody| signorini_geometry::surface::Pose {
+            origin: body.reference,
+            rotation: signorini_geometry::tensor::Mat3::IDENTITY,
+        };
+        let poses: Vec<_> = bodies.iter().map(pose).collect();
+        let mut pair = SurfacePair::new(points.clone(), primary, 1.0);
+        pair.secondary = second;
+        let second = &pair.secondary;
         let discretization: Box<dyn Discretization> = match method {
+            Method::Mortar | Method::NodalMortar | Method::HeldMortar => {
+                let normals = match method {
+                    Method::NodalMortar => mortar::Normals::Nodal,
+                    _ => mortar::Normals::Facet,
+                };
+                let mut mortar =
+                    Mortar::new(second.as_ref().unwrap(), normals, Default::default(), &x).unwrap();
+                if choice.bond || method == Method::HeldMortar {
+                    let (x, poses) = (&x[..], &poses[..]);
+                    mortar = mortar.held_at(&pair, &Placement { x, poses }).unwrap();
+                }
+                area = mortar.areas().to_vec();
+                Box::new(mortar)
+            }
             Method::NodeToSegment | Method::SmallSliding => {
                 let mut at_nodes = PointToSegment::at_nodes(&points);
                 at_nodes.closest = closest;
@@ -277,8 +307,6 @@ impl Scene {
         };
         let elimination = Arc::new(Elimination::new(bodies, x.len()));
         let state = State::initial(&layout, &x, &elimination);
-        let mut pair = SurfacePair::new(points.clone(), primary, 1.0);
-        pair.secondary = second;
         let bond = choice.bond.then(|| {
             let at = state.placement();
             let found = closest_points(discretization.as_ref(), &pair, &at).unwrap();
@@ -323,6 +351,7 @@ impl Scene {
             state,
             points,
             up,
+            method,
         }
     }
 
@@ -353,9 +382,18 @@ impl Scene {
     pub(crate) fn further(&self, random: &mut Random) -> State {
         let ndim = self.layout.ndim;
         let mut du = vec![0.0; self.layout.ndof()];
+        let together = flat(random.vector(), ndim);
+        let still_at = self.points.iter().zip(&self.still).filter(|(_, s)| **s);
+        let border = still_at.map(|(&n, _)| self.reference[n as usize].x);
+        let border = border.fold(0.0, f64::max);
         let points = self.points.iter().zip(&self.up).zip(&self.still);
         for ((&node, &up), &still) in points {
             let mut way = flat(random.vector(), ndim) * if still { LITTLE } else { FAR };
+            if self.method.is_mortar() && !still {
+                // facets keep their shape, more or less
+                let x = self.reference[node as usize].x;
+                way = together * (0.2 * (x - border)) + way * (0.03 / FAR);
+            }
             way -= up * (0.95 * way.dot(up));
             for c in 0..ndim {
                 du[self.layout.node(node, c) as usize] = way[c];

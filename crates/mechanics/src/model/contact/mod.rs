@@ -158,6 +158,13 @@ impl Context<'_> {
                 contact: part.name.clone(),
                 source,
             })?;
+        if part.small_sliding || part.tie.is_some() {
+            let held = sides.hold(&at, self.space);
+            held.map_err(|source| ModelError::Surface {
+                contact: part.name.clone(),
+                source,
+            })?;
+        }
         let reach = sides.pair.reach;
         let bond = match part.tie {
             None => None,

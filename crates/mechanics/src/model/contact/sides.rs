@@ -2,11 +2,12 @@
 
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
-    Discretization, NodeNormals, NodeToNode, Pairing, PointToSegment, SurfacePair,
+    Discretization, Mortar, NodeNormals, NodeToNode, Pairing, PointToSegment, SurfacePair,
 };
 use crate::contact::law::{
     AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table, Uzawa,
 };
+use crate::contact::mortar::Measure;
 use crate::contact::{Areas, closest_points};
 use crate::model::{
     ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind, PointRule,
@@ -184,6 +185,24 @@ impl Source<'_> {
                 }
                 (Box::new(inside), area)
             }
+            Method::Mortar { normals } => {
+                let (Some(facets), Some(_)) = (&secondary, &primary) else {
+                    return Err(ModelError::Unsuited {
+                        contact: part.name.clone(),
+                        what: "mortar contact needs two sides made of faces",
+                    });
+                };
+                if part.present_area || same || part.two_pass {
+                    return Err(ModelError::Unsuited {
+                        contact: part.name.clone(),
+                        what: "mortar contact has one pass between two surfaces, and pressures per present area",
+                    });
+                }
+                let mortar = Mortar::new(facets, normals, measure(self.space), self.reference)
+                    .map_err(surface_error)?;
+                let area = mortar_areas(&mortar, self.reference, self.space);
+                (Box::new(mortar), area)
+            }
             Method::NodeToSegment | Method::Auto => {
                 let mut at_nodes = PointToSegment::at_nodes(&points);
                 at_nodes.closest = closest;
@@ -326,6 +345,26 @@ impl Source<'_> {
     }
 }
 
+/// Areas of mortar rows, with the thickness of the plane.
+fn mortar_areas(mortar: &Mortar, x: &[Vec3], space: Idealisation) -> Vec<f64> {
+    let nodes = mortar.nodes().iter();
+    let at = nodes.map(|&n| x.get(n as usize).copied().unwrap_or_default());
+    let areas = at.zip(mortar.areas());
+    let thickness = |x| match measure(space) {
+        Measure::Flat => space.extent(x),
+        Measure::Revolved => 1.0,
+    };
+    areas.map(|(x, area)| area * thickness(x)).collect()
+}
+
+/// What mortar integrals are taken over.
+fn measure(space: Idealisation) -> Measure {
+    match space {
+        Idealisation::Axisymmetric => Measure::Revolved,
+        _ => Measure::Flat,
+    }
+}
+
 /// Areas of the secondary nodes of pairs, from those of all nodes in their order.
 fn of_pairs(pairs: &[[NodeId; 2]], areas: &[(NodeId, f64)]) -> Vec<f64> {
     let of = |node: NodeId| {
@@ -379,6 +418,7 @@ fn on_facet(rule: PointRule, element: Element) -> Vec<(Vec3, f64)> {
 
 fn law(part: &ContactPart) -> Result<Box<dyn ContactLaw>, ModelError> {
     let law: Box<dyn ContactLaw> = match &part.enforcement {
+        Enforcement::Auto if matches!(part.method, Method::Mortar { .. }) => Box::new(Lagrange),
         Enforcement::Auto | Enforcement::Penalty(_) => Box::new(Penalty),
         Enforcement::Table(rows) => {
             Box::new(
@@ -440,6 +480,18 @@ impl Sides {
         }
         self.pair.reach = usual;
         Ok(found)
+    }
+
+    /// Keeps what mortar rows see of both sides at this configuration for good.
+    pub fn hold(&mut self, at: &Placement, space: Idealisation) -> Result<(), SurfaceError> {
+        let (&Method::Mortar { normals }, Some(facets)) = (&self.method, &self.pair.secondary)
+        else {
+            return Ok(());
+        };
+        let mortar = Mortar::new(facets, normals, measure(space), at.x)?.held_at(&self.pair, at)?;
+        self.area = mortar_areas(&mortar, at.x, space);
+        self.discretization = Box::new(mortar);
+        Ok(())
     }
 
     /// Closest points at a configuration, within the reach.

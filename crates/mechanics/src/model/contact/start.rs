@@ -71,8 +71,12 @@ pub(super) fn bonds(
         let anchor = sides
             .discretization
             .anchor(row, &sides.pair, at, &pair, Vec3::ZERO)?;
-        let between_nodes = matches!(sides.method, Method::NodeToNode { .. });
-        let offset = if sides.facets.is_some() && !between_nodes {
+        // these anchors know their own way
+        let whole = matches!(
+            sides.method,
+            Method::NodeToNode { .. } | Method::Mortar { .. }
+        );
+        let offset = if sides.facets.is_some() && !whole {
             sides.pair.primary.jet(at, &anchor.anchor, &mut jet)?;
             sides.discretization.point(row).position(at) - jet.position
         } else {

@@ -1,6 +1,7 @@
 //! Contacts, as plain data.
 
 use crate::contact::Measure;
+use crate::contact::discretization::mortar;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::ContactSurface;
 use signorini_geometry::tensor::Vec3;
@@ -57,6 +58,11 @@ pub enum Method {
     NodeToSegment,
     /// Points inside the secondary facets against segments of the primary side.
     GaussPoint(PointRule),
+    /// Means over secondary facets against all facets of the primary side that they meet.
+    Mortar {
+        /// Whose normals pressures act along.
+        normals: mortar::Normals,
+    },
 }
 
 /// Where node-to-node contact takes its normals from.

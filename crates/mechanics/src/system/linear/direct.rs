@@ -99,6 +99,17 @@ impl Direct {
             .is_some_and(|a| a.factors.active == Active::Lu)
     }
 
+    /// Whether the current factor is L Lᵀ.
+    #[cfg(test)]
+    pub(super) fn is_definite(&self) -> bool {
+        let factor = |a: &Analysis| {
+            a.factors
+                .active_cholesky()
+                .is_some_and(Cholesky::is_definite)
+        };
+        self.analysis.as_ref().is_some_and(factor)
+    }
+
     /// Where the gathered matrix lies: the same address means that an analysis was kept.
     #[cfg(test)]
     pub(super) fn address(&self) -> Option<*const u32> {
@@ -252,7 +263,7 @@ impl Analysis {
         x: &mut [f64],
         rtol: f64,
     ) -> Result<SolveReport, LinearError> {
-        self.gathered.check(values, rhs, x)?;
+        self.gathered.kept.check_solution(values, rhs, x)?;
         if rhs.is_empty() {
             return Ok(SolveReport::default());
         }

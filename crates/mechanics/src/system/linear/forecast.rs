@@ -1,8 +1,9 @@
 //! What a direct solution costs, told from the pattern alone.
 
+use super::condensation::Condensation;
 use super::matrix::Matrix;
 use super::ordering::{self, Ordering};
-use super::{LinearError, Problem, cholesky};
+use super::{Kept, LinearError, Problem, Symmetry, cholesky};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use std::time::Instant;
@@ -12,7 +13,7 @@ use std::time::Instant;
 pub struct Forecast {
     /// Equations.
     pub nequation: usize,
-    /// Numbers in the operator as it is assembled.
+    /// Numbers in the operator as it is assembled, and in the interface where multipliers are condensed.
     pub noperator: usize,
     /// Numbers in the matrix that is factorized: one triangle of it where it is symmetric.
     pub nmatrix: usize,
@@ -32,13 +33,24 @@ impl Forecast {
     /// `None` for a matrix that is not symmetric: the fill of its factor depends on its values.
     pub fn new(problem: &Problem) -> Result<Option<Self>, LinearError> {
         problem.check()?;
-        let matrix = Matrix::new(problem)?;
-        if !matrix.symmetric {
+        if problem.symmetry == Symmetry::Unsymmetric {
             return Ok(None);
         }
-        let noperator = problem.bulk.nvalue() + problem.interface.nentry();
+        let kept = Kept::new(problem);
+        let condensation = Condensation::by_pattern(&kept);
+        let mut noperator = problem.bulk.nvalue() + problem.interface.nentry();
+        let condensed;
+        let problem = match &condensation {
+            Some(condensation) => {
+                condensed = condensation.problem(&kept);
+                noperator += condensed.interface.nentry();
+                &condensed
+            }
+            None => problem,
+        };
+        let matrix = Matrix::new(problem)?;
         let mut forecast = Self {
-            nequation: problem.nequation,
+            nequation: kept.sign.len(),
             noperator,
             nmatrix: matrix.row.len(),
             ..Self::default()

@@ -8,8 +8,8 @@
 //! A factor comes as a function that solves with it, in place and in equilibrated unknowns.
 
 use super::matrix::Matrix;
-use super::{Kept, LinearError, Problem, SolveReport, Values, apply, apply_absolute, largest};
-use crate::system::sparsity::NONE;
+use super::residual::Residual;
+use super::{Kept, LinearError, Problem, SolveReport, Values, largest};
 
 /// Refinements of one solution.
 const REFINEMENTS: usize = 3;
@@ -17,8 +17,6 @@ const REFINEMENTS: usize = 3;
 const FREE: f64 = 4e-15;
 /// this times the root of the number of equations (measured: a third of it at 30,000).
 const FREE_PER_ROOT: f64 = 0.5 * f64::EPSILON;
-/// A residual of so many units of round-off of what is added up cannot be improved.
-const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 /// What is added to the diagonal to find the free motion of a matrix whose factor broke down.
 pub(super) const NAMING_SHIFT: f64 = 1e-10;
 
@@ -34,9 +32,7 @@ pub(super) struct Gathered {
 }
 
 struct Work {
-    raw_x: Vec<f64>,
-    raw_y: Vec<f64>,
-    residual: Vec<f64>,
+    residual: Residual,
     change: Vec<f64>,
     best: Vec<f64>,
 }
@@ -48,9 +44,7 @@ impl Gathered {
             kept: Kept::new(problem),
             matrix: Matrix::new(problem)?,
             work: Work {
-                raw_x: vec![0.0; problem.ndof],
-                raw_y: vec![0.0; problem.ndof],
-                residual: vec![0.0; n],
+                residual: Residual::new(problem.ndof, n),
                 change: vec![0.0; n],
                 best: vec![0.0; n],
             },
@@ -59,7 +53,7 @@ impl Gathered {
 
     /// Whether the problem is the one that this was made for.
     pub fn is(&self, problem: &Problem) -> bool {
-        self.work.raw_x.len() == problem.ndof && self.kept.is(problem)
+        self.work.residual.ndof() == problem.ndof && self.kept.is(problem)
     }
 
     /// Takes the values of a tangent into the matrix.
@@ -69,18 +63,6 @@ impl Gathered {
     pub fn gather(&mut self, values: &Values) -> Result<(), LinearError> {
         self.kept.check(values)?;
         self.matrix.gather(&self.kept, values)
-    }
-
-    /// Checks that the lists of a solution fit.
-    pub fn check(&self, values: &Values, rhs: &[f64], x: &[f64]) -> Result<(), LinearError> {
-        self.kept.check(values)?;
-        let wanted = self.matrix.nequation();
-        for (what, got) in [("right-hand sides", rhs.len()), ("unknowns", x.len())] {
-            if got != wanted {
-                return Err(LinearError::Shape { what, got, wanted });
-            }
-        }
-        Ok(())
     }
 
     /// The equation that moves most in a free motion, if there is one; found by inverse iteration from a scattered start.
@@ -155,13 +137,13 @@ impl Gathered {
             return Ok(report);
         }
         report.residual = 1.0;
-        self.work.residual.copy_from_slice(rhs);
+        self.work.residual.value.copy_from_slice(rhs);
         self.work.best.fill(0.0);
         for refinement in 0..=REFINEMENTS {
             let change = &mut self.work.change;
             for ((c, r), scale) in change
                 .iter_mut()
-                .zip(&self.work.residual)
+                .zip(&self.work.residual.value)
                 .zip(&self.matrix.row_scale)
             {
                 *c = r * scale;
@@ -172,8 +154,8 @@ impl Gathered {
             }
             report.iterations += 1;
             report.refinements = refinement;
-            self.measure(values, rhs, x);
-            let residual = largest(&self.work.residual) / wanted;
+            self.work.residual.measure(&self.kept, values, rhs, x);
+            let residual = largest(&self.work.residual.value) / wanted;
             if !residual.is_finite() {
                 return Err(LinearError::NotFinite);
             }
@@ -188,7 +170,8 @@ impl Gathered {
             }
         }
         x.copy_from_slice(&self.work.best);
-        if report.residual <= rtol || report.residual <= self.round_off(values, x) / wanted {
+        let round_off = |r: &mut Residual| r.round_off(&self.kept, values, x) / wanted;
+        if report.residual <= rtol || report.residual <= round_off(&mut self.work.residual) {
             Ok(report)
         } else {
             Err(LinearError::Inaccurate {
@@ -197,47 +180,28 @@ impl Gathered {
             })
         }
     }
-
-    /// The true residual, through the operator as it was assembled.
-    fn measure(&mut self, values: &Values, rhs: &[f64], x: &[f64]) {
-        let Work {
-            raw_x,
-            raw_y,
-            residual,
-            ..
-        } = &mut self.work;
-        spread(&self.kept.equation, x, raw_x);
-        apply(&self.kept.bulk, &self.kept.interface, values, raw_x, raw_y);
-        residual.copy_from_slice(rhs);
-        for (&e, y) in self
-            .kept
-            .equation
-            .iter()
-            .zip(raw_y)
-            .filter(|&(&e, _)| e != NONE)
-        {
-            residual[e as usize] -= *y;
-        }
-    }
-
-    /// How large a residual round-off alone may leave.
-    fn round_off(&mut self, values: &Values, x: &[f64]) -> f64 {
-        let Work { raw_x, raw_y, .. } = &mut self.work;
-        spread(&self.kept.equation, x, raw_x);
-        apply_absolute(&self.kept.bulk, &self.kept.interface, values, raw_x, raw_y);
-        let equations = self
-            .kept
-            .equation
-            .iter()
-            .zip(raw_y)
-            .filter(|&(&e, _)| e != NONE);
-        ROUND_OFF * equations.fold(0.0, |max: f64, (_, y)| max.max(*y))
-    }
 }
 
 impl Kept {
+    /// Checks that the lists of a solution fit.
+    pub(super) fn check_solution(
+        &self,
+        values: &Values,
+        rhs: &[f64],
+        x: &[f64],
+    ) -> Result<(), LinearError> {
+        self.check(values)?;
+        let wanted = self.sign.len();
+        for (what, got) in [("right-hand sides", rhs.len()), ("unknowns", x.len())] {
+            if got != wanted {
+                return Err(LinearError::Shape { what, got, wanted });
+            }
+        }
+        Ok(())
+    }
+
     /// Checks that values belong to the patterns.
-    fn check(&self, values: &Values) -> Result<(), LinearError> {
+    pub(super) fn check(&self, values: &Values) -> Result<(), LinearError> {
         for (what, got, wanted) in [
             ("bulk values", values.bulk.len(), self.bulk.nvalue()),
             (
@@ -251,12 +215,5 @@ impl Kept {
             }
         }
         Ok(())
-    }
-}
-
-/// Unknowns from equations to raw degrees of freedom, zero where there is no equation.
-fn spread(equation: &[u32], x: &[f64], raw: &mut [f64]) {
-    for (&e, raw) in equation.iter().zip(raw) {
-        *raw = x.get(e as usize).copied().unwrap_or(0.0);
     }
 }

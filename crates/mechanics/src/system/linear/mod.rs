@@ -10,12 +10,19 @@
 //! assembled, in both its parts, and refined or refused. A matrix that is singular to round-off (a body that nothing
 //! holds) is an error that names the equation which moves most in the free motion.
 //!
+//! Multipliers are condensed where they can be ([`Condensed`]): the factor is then one of displacements alone, and L Lᵀ
+//! where the whole system is symmetric. What is left is solved as a saddle-point problem, as all of it is by
+//! [`LinearKind::Saddle`].
+//!
 //! One more solver: a file with a struct that implements [`LinearSolver`], and a line in [`SOLVERS`].
 
 mod cholesky;
+mod condensation;
+mod condensed;
 mod direct;
 mod forecast;
 mod gathered;
+mod hosts;
 mod lu;
 mod matrix;
 mod metis;
@@ -23,9 +30,11 @@ mod metis;
 mod mumps;
 mod operator;
 mod ordering;
+mod residual;
 #[cfg(test)]
 mod tests;
 
+pub use condensed::Condensed;
 pub use direct::Direct;
 pub use forecast::Forecast;
 #[cfg(feature = "mumps")]
@@ -319,8 +328,10 @@ pub enum LinearKind {
     /// The one that suits the problem.
     #[default]
     Auto,
-    /// A sparse factorization.
+    /// A sparse factorization, with multipliers condensed where they can be.
     Direct,
+    /// A sparse factorization with all multipliers.
+    Saddle,
     /// That of the library MUMPS.
     #[cfg(feature = "mumps")]
     Mumps,
@@ -342,11 +353,16 @@ pub const SOLVERS: &[SolverEntry] = &[
     SolverEntry {
         kind: LinearKind::Auto,
         name: "auto",
-        build: || Box::new(Direct::reproducible()),
+        build: || Box::new(Condensed::new(Direct::reproducible)),
     },
     SolverEntry {
         kind: LinearKind::Direct,
         name: "direct",
+        build: || Box::new(Condensed::new(Direct::reproducible)),
+    },
+    SolverEntry {
+        kind: LinearKind::Saddle,
+        name: "saddle",
         build: || Box::new(Direct::reproducible()),
     },
     #[cfg(feature = "mumps")]
@@ -361,7 +377,7 @@ pub const SOLVERS: &[SolverEntry] = &[
 pub fn choose(kind: LinearKind) -> Box<dyn LinearSolver> {
     let entry = SOLVERS.iter().find(|entry| entry.kind == kind);
     entry.map_or_else(
-        || Box::new(Direct::reproducible()) as Box<dyn LinearSolver>,
+        || Box::new(Condensed::new(Direct::reproducible)) as Box<dyn LinearSolver>,
         |entry| (entry.build)(),
     )
 }

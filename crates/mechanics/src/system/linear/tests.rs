@@ -1,5 +1,7 @@
 //! Solvers against a dense oracle, on systems as terms assemble them.
 
+mod condensed;
+
 use super::ordering::Ordering;
 use super::*;
 use faer::linalg::solvers::Solve;

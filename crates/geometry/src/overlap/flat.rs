@@ -1,0 +1,319 @@
+use super::polygon::{Polygon, cross2};
+use super::{BENT, EXACT, Pair, TOUCH};
+use crate::element::{Element, MAX_FACET_NODES};
+use crate::scalar::{Real, combine, minus};
+use crate::tensor::{Sym3, Vec3};
+
+/// Which side of a facet is seen along the normal of the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Facing {
+    /// Its normal points to the viewer: that of a secondary facet.
+    Same,
+    /// Its normal points away: that of a primary facet.
+    Opposite,
+}
+
+/// A facet projected onto a plane, or a line; each point of it has one place there.
+#[derive(Clone, Copy, Debug)]
+pub struct Flat<T> {
+    element: Element,
+    x: [Pair<T>; MAX_FACET_NODES],
+    values: [Pair<f64>; MAX_FACET_NODES],
+    /// Nodes on the boundary, counter-clockwise on the plane; on a line, the ends from left to right.
+    boundary: [u8; MAX_FACET_NODES],
+    nboundary: usize,
+    convex: bool,
+    /// Least and largest coordinates.
+    bounds: [Pair<f64>; 2],
+    bend: f64,
+    /// The largest distance of a node from the line between the ends of its edge.
+    sagitta: f64,
+    /// The parameters of the centre, its place, and X_,1 and X_,2 there.
+    centre: Pair<f64>,
+    middle: Pair<f64>,
+    tangents: [Pair<f64>; 2],
+}
+
+/// The Jacobian of the map at the parameters of a node must be this large compared with that at the centre.
+const FOLDED: f64 = 1e-6;
+
+impl<T: Real> Flat<T> {
+    /// A facet with its nodes at `x`. `None` where it turns the wrong side to the viewer, or is folded: where the map
+    /// from its parameters turns round at a node or at the centre.
+    ///
+    /// # Limits
+    /// Facets only, with one place for each node.
+    #[must_use]
+    pub fn new(element: Element, places: &[Pair<T>], facing: Facing) -> Option<Self> {
+        let mut x = [[T::from(0.0); 2]; MAX_FACET_NODES];
+        let n = element.nnode();
+        x.get_mut(..n)?.copy_from_slice(places.get(..n)?);
+        let values = x.map(|p| p.map(|c| c.value()));
+        let mut bounds = [values[0]; 2];
+        for (p, a) in values[..n].iter().flat_map(|p| [(p, 0), (p, 1)]) {
+            bounds[0][a] = bounds[0][a].min(p[a]);
+            bounds[1][a] = bounds[1][a].max(p[a]);
+        }
+        let (boundary, nboundary) = boundary(element, facing);
+        let centre = element.centre();
+        let mut flat = Self {
+            element,
+            x,
+            values,
+            boundary,
+            nboundary,
+            convex: true,
+            bounds,
+            bend: bend(element, &values, facing)?,
+            sagitta: sagitta(element, &values),
+            centre: [centre.x, centre.y],
+            middle: place(element, &values, &centre),
+            tangents: jacobian(element, &values, &centre),
+        };
+        let outline = flat.outline();
+        flat.convex = element.dim() == 1 || outline.is_convex(TOUCH * flat.size());
+        let whole = flat.convex || (0..flat.nboundary).all(|k| flat.piece(k).area() > 0.0);
+        whole.then_some(flat)
+    }
+
+    /// Its element.
+    #[must_use]
+    pub fn element(&self) -> Element {
+        self.element
+    }
+
+    /// The places of its nodes.
+    #[must_use]
+    pub fn x(&self) -> &[Pair<T>] {
+        &self.x[..self.element.nnode()]
+    }
+
+    pub(super) fn values(&self) -> &[Pair<f64>; MAX_FACET_NODES] {
+        &self.values
+    }
+
+    /// The parameters of a place by the map at the centre, continued as an affine one.
+    pub(super) fn affine(&self, p: Pair<f64>) -> Pair<f64> {
+        let [a, b] = solve(self.element, self.tangents, minus(p, self.middle));
+        [self.centre[0] + a, self.centre[1] + b]
+    }
+
+    pub(super) fn dim(&self) -> usize {
+        self.element.dim()
+    }
+
+    /// δ.
+    pub(super) fn bend(&self) -> f64 {
+        self.bend
+    }
+
+    /// δ of the part of it that has these corners: how far the map is from an affine one.
+    pub(super) fn bend_within(&self, corners: &[Pair<T>]) -> f64 {
+        if self.bend == 0.0 {
+            return 0.0;
+        }
+        let mut extent = [[f64::MAX, f64::MIN]; 2];
+        for p in corners {
+            let xi = solve(self.element, self.tangents, p.map(|c| c.value()));
+            for ([least, most], xi) in extent.iter_mut().zip(xi) {
+                *least = least.min(xi);
+                *most = most.max(xi);
+            }
+        }
+        let widest = extent.iter().map(|e| e[1] - e[0]).fold(0.0, f64::max);
+        let part = (widest / self.width()).min(1.0);
+        let narrowest = 1.0 - self.bend * (1.0 - part);
+        if narrowest <= 0.0 {
+            return self.bend;
+        }
+        (self.bend * part / narrowest).min(self.bend)
+    }
+
+    /// The width of its reference domain.
+    fn width(&self) -> f64 {
+        if self.element.dim() == 2 && self.element.ncorner() == 3 {
+            1.0
+        } else {
+            2.0
+        }
+    }
+
+    /// What rules may miss of the integral of one of its shape functions.
+    pub(super) fn accuracy(&self) -> f64 {
+        (0.01 * self.sagitta / self.size()).clamp(EXACT, BENT)
+    }
+
+    /// The degree of its shape functions as polynomials of the parameters.
+    pub(super) fn degree(&self) -> usize {
+        let (n, corners) = (self.element.nnode(), self.element.ncorner());
+        let (linear, quadrilateral) = (n == corners, self.dim() == 2 && corners == 4);
+        match (quadrilateral, linear) {
+            (false, true) => 1,
+            (false, false) | (true, true) => 2,
+            (true, false) => n - 5, // 3 without, 4 with a node in the middle
+        }
+    }
+
+    /// The largest extent.
+    pub(super) fn size(&self) -> f64 {
+        let [least, largest] = self.bounds;
+        (largest[0] - least[0]).max(largest[1] - least[1])
+    }
+
+    /// The largest absolute coordinate.
+    pub(super) fn reach(&self) -> f64 {
+        let all = self.bounds.iter().flatten();
+        all.fold(0.0, |most, c| most.max(c.abs()))
+    }
+
+    /// Whether the boxes around two facets meet.
+    pub(super) fn near(&self, other: &Self) -> bool {
+        (0..self.dim()).all(|a| {
+            self.bounds[0][a] <= other.bounds[1][a] && other.bounds[0][a] <= self.bounds[1][a]
+        })
+    }
+
+    /// The ends of a line, from left to right.
+    pub(super) fn ends(&self) -> [T; 2] {
+        [0, 1].map(|k| self.x[usize::from(self.boundary[k])][0])
+    }
+
+    /// Of how many convex parts it consists.
+    pub(super) fn npiece(&self) -> usize {
+        if self.convex { 1 } else { self.nboundary }
+    }
+
+    /// One of its convex parts: itself, or a triangle around its centre.
+    pub(super) fn piece(&self, k: usize) -> Polygon<T> {
+        if self.convex {
+            return self.outline();
+        }
+        let node = |k: usize| self.x[usize::from(self.boundary[k % self.nboundary])];
+        let mut triangle = Polygon::new();
+        for corner in [
+            place(self.element, self.x(), &self.element.centre()),
+            node(k),
+            node(k + 1),
+        ] {
+            triangle.push(corner);
+        }
+        triangle
+    }
+
+    fn outline(&self) -> Polygon<T> {
+        let mut polygon = Polygon::new();
+        for &k in &self.boundary[..self.nboundary] {
+            polygon.push(self.x[usize::from(k)]);
+        }
+        polygon
+    }
+}
+
+/// The nodes on the boundary in their order on the plane.
+fn boundary(element: Element, facing: Facing) -> ([u8; MAX_FACET_NODES], usize) {
+    let (edges, corners) = (element.edges(), element.ncorner());
+    let mut nodes = [0; MAX_FACET_NODES];
+    if element.dim() == 1 {
+        nodes[1] = 1;
+        if facing == Facing::Opposite {
+            nodes.swap(0, 1);
+        }
+        return (nodes, 2);
+    }
+    let mids = element.nnode() >= corners + edges.len();
+    let mut n = 0;
+    for (k, &[start, _]) in edges.iter().enumerate() {
+        nodes[n] = start as u8;
+        n += 1;
+        if mids {
+            nodes[n] = (corners + k) as u8;
+            n += 1;
+        }
+    }
+    if facing == Facing::Opposite {
+        nodes[..n].reverse();
+    }
+    (nodes, n)
+}
+
+/// δ, or `None` for a folded facet.
+fn bend(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], facing: Facing) -> Option<f64> {
+    let n = element.nnode();
+    let sign = if facing == Facing::Same { 1.0 } else { -1.0 };
+    let centre = element.centre();
+    let at_centre = jacobian(element, x, &centre);
+    let least = determinant(element, at_centre) * sign * FOLDED;
+    let turned = |det: f64| det.is_nan() || det <= least;
+    if turned(least / FOLDED) || least <= 0.0 {
+        return None;
+    }
+    let mut ddn = [Sym3::ZERO; MAX_FACET_NODES];
+    let mut bend = 0.0f64;
+    for xi in element.nodes() {
+        if turned(determinant(element, jacobian(element, x, xi)) * sign) {
+            return None;
+        }
+        element.ddshape(xi, &mut ddn[..n]);
+        let mut here = 0.0;
+        for of in [Sym3::xx, Sym3::yy, Sym3::xy] {
+            let second = combine(ddn.iter().map(of), &x[..n]);
+            here += solve(element, at_centre, second)
+                .iter()
+                .map(|c| c.abs())
+                .sum::<f64>();
+        }
+        bend = bend.max(here);
+    }
+    // half the facet is 1 in the parameters of lines and quadrilaterals, and 1/2 in those of triangles
+    let triangle = element.dim() == 2 && element.ncorner() == 3;
+    Some(if triangle { 0.5 * bend } else { bend })
+}
+
+/// How far nodes of edges are from the lines between their ends; on a line there is no such distance.
+fn sagitta(element: Element, x: &[Pair<f64>; MAX_FACET_NODES]) -> f64 {
+    let corners = element.ncorner();
+    if element.dim() == 1 || element.nnode() == corners {
+        return 0.0;
+    }
+    let mids = element.edges().iter().zip(&x[corners..]);
+    let heights = mids.map(|(&[a, b], mid)| {
+        let along = minus(x[b], x[a]);
+        cross2(along, minus(*mid, x[a])).abs() / along[0].hypot(along[1])
+    });
+    heights.fold(0.0, f64::max)
+}
+
+/// The tangents `X_,1` and `X_,2`; the second is zero on a line.
+fn jacobian(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], xi: &Vec3) -> [Pair<f64>; 2] {
+    let mut dn = [Vec3::ZERO; MAX_FACET_NODES];
+    element.dshape(xi, &mut dn[..element.nnode()]);
+    let along = |a: usize| combine(dn.iter().map(|d| d[a]), x);
+    if element.dim() == 1 {
+        return [along(0), [0.0; 2]];
+    }
+    [along(0), along(1)]
+}
+
+/// The determinant of tangents; on a line the tangent itself.
+fn determinant(element: Element, [t1, t2]: [Pair<f64>; 2]) -> f64 {
+    if element.dim() == 1 {
+        return t1[0];
+    }
+    cross2(t1, t2)
+}
+
+/// The change of parameters that makes a change of place.
+fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pair<f64> {
+    let over = 1.0 / determinant(element, t);
+    if element.dim() == 1 {
+        return [place[0] * over, 0.0];
+    }
+    [cross2(place, t[1]) * over, cross2(t[0], place) * over]
+}
+
+/// The place of parameters.
+fn place<T: Real>(element: Element, x: &[Pair<T>], xi: &Vec3) -> Pair<T> {
+    let mut n = [0.0; MAX_FACET_NODES];
+    element.shape(xi, &mut n[..element.nnode()]);
+    combine(n, x)
+}

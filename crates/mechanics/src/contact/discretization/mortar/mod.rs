@@ -1,0 +1,636 @@
+//! Segment-based mortar contact: gaps and tractions are means over facets, weighted with the dual basis of their nodes.
+//!
+//! ```text
+//!        ψ_j                    row j: the secondary node j
+//!        ╱╲                     over the facets around it, against all primary facets that these meet
+//!   ●───●──●───●   secondary
+//!  ───●─────●────●─── primary
+//! ```
+//!
+//! | symbol | name in code | shape |
+//! |---|---|---|
+//! | j, k, l | node of the row, nodes of the secondary and of the primary side | |
+//! | e | facets around node j | |
+//! | c_k = D_jk, c_l = −M_jl | `scalar` | number for each node |
+//! | D_j | `d` | area, length in the plane |
+//! | A_j | `area`: D_j of the whole facets at the start | area, length in the plane |
+//! | n_k = Σ_e ν_e c_k^e | `vector` | vector for each node |
+//! | x_j | place of node j, from which others are measured | vector |
+//!
+//! ```text
+//! ν = N/|N|,  N = Σ_e ν_e D_j^e                                              (E1)
+//! g = Σ n_k·(x_k − x_j) / D_j,  b_k = n_k/A_j,  B_k = c_k/A_j I               (E2)
+//! G = Σ_e (ν_e·dw^e + dν_e·w^e)/D_j − g dD_j/D_j,  w^e = Σ c_k^e (x_k − x_j)   (E3)
+//! dw^e = Σ dc_k^e (x_k − x_j) + c_k^e dx_k,  ∂b_k = Σ_e (dν_e c_k^e + ν_e dc_k^e)/A_j
+//! e = P (Σ c_k^n (x_k − x_j) − w)/D_j − P o                                  (E4)
+//! de = P (Σ c_k^n dx_k − dw − e dD_j)/D_j − (ν·q) dν − ν (q·dν)
+//! ```
+//!
+//! with the weights c^n of the last accepted state, `q` what P is applied to, and `o` what an elastic law of friction
+//! keeps. The slip is objective: a pair that turns as a whole has none. What was not covered then has no past, and slides
+//! freely until the end of the increment.
+//!
+//! *The form.* With the normals of facets, `w` at a point is parallel to `ν_e`, so that pressures are without moment, open
+//! or closed, and linear and angular momentum are exact without friction. Instead, [`Normals::Nodal`] has
+//! `n_k = ν c_k` with the mean `ν` of the unit normals at the node, as most of the literature.
+//!
+//! *Held weights.* For small sliding and for what is joined, c and n are those of the start: all is linear, the tangent
+//! symmetric with `A_j = D_j`, and the slip is `e = P(w/D_j − o)` with the way `o` at the start of the increment.
+//!
+//! *Order of rows.* Along a curve that fills the box of the nodes, so that facets integrated for one row serve the next.
+//!
+//! Sources: Popp, Gitterle, Gee and Wall, IJNME 83, 2010; Gitterle, Popp, Gee and Wall, IJNME 84, 2010 (friction); Yang,
+//! Laursen and Meng, IJNME 62, 2005 (objective slip).
+
+mod integrals;
+mod place;
+
+use super::projected::Point;
+use super::{Anchored, Discretization, Links, NOWHERE, Pair, Pairing, SurfacePair};
+use crate::contact::mortar::{Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights};
+use crate::contact::row::{Participant, RowOrder, Rows, Wanted};
+use integrals::Integrator;
+use place::{Place, Workspace};
+use rayon::prelude::*;
+use signorini_geometry::element::{Element, MAX_FACET_NODES};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::proximity::{Aabb, Search};
+use signorini_geometry::surface::{
+    Anchor, Carrier, ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet,
+};
+use signorini_geometry::tensor::Vec3;
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The part of a node's function, on the facet where most of it is covered, below which others take it over.
+const WEAK: f64 = 0.5;
+
+/// How much better others must be covered to take it over where none is covered well.
+const BETTER: f64 = 4.0;
+
+/// Facets integrated by one task.
+const TASK: usize = 16;
+
+/// Which normals a pressure acts along.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normals {
+    /// Those of the facets: exact momentum.
+    #[default]
+    Facet,
+    /// Means at the nodes: for comparison with other programs.
+    Nodal,
+}
+
+/// Rows of the nodes of a surface made of facets.
+pub struct Mortar {
+    nodes: Vec<NodeId>,
+    row_of: HashMap<NodeId, usize>,
+    /// Facets around each node, and its place in them.
+    around: Vec<Vec<(u32, usize)>>,
+    /// Nodes of those facets, its own first.
+    near: Vec<Vec<NodeId>>,
+    /// `T⁻ᵀ` of every kind of facet, and the kind of each.
+    kinds: Vec<(Element, Inverse)>,
+    kind: Vec<usize>,
+    area: Vec<f64>,
+    normals: Normals,
+    measure: Measure,
+    held: Option<Weights>,
+}
+
+type Inverse = [[f64; MAX_FACET_NODES]; MAX_FACET_NODES];
+
+const ONE: [f64; 1] = [1.0];
+
+impl Mortar {
+    /// Rows of all nodes of these facets, with areas at `x`.
+    ///
+    /// # Errors
+    /// A facet without a normal.
+    pub fn new(
+        facets: &Facets,
+        normals: Normals,
+        measure: Measure,
+        x: &[Vec3],
+    ) -> Result<Self, SurfaceError> {
+        let nodes = along_a_curve(facets.all_nodes(), x);
+        let mut kinds: Vec<(Element, Inverse)> = Vec::new();
+        let mut kind = Vec::new();
+        let rows = nodes.iter().enumerate();
+        let row_of: HashMap<NodeId, usize> = rows.map(|(row, &node)| (node, row)).collect();
+        let mut around = vec![Vec::new(); nodes.len()];
+        let mut near: Vec<Vec<NodeId>> = nodes.iter().map(|&n| vec![n]).collect();
+        let mut area = vec![0.0; nodes.len()];
+        let mut integrator = Integrator::new(measure);
+        for facet in 0..facets.nfacet() as u32 {
+            let missing = SurfaceError::NoSuchFacet { facet };
+            let element = facets.element(facet).ok_or(missing)?;
+            let known = kinds.iter().position(|k| k.0.name() == element.name());
+            kind.push(known.unwrap_or(kinds.len()));
+            if known.is_none() {
+                kinds.push((element, inverse(element)));
+            }
+            integrator.place(facets, facet, x);
+            let own = Facet {
+                element,
+                x: &integrator.own,
+            };
+            let covered = &mut integrator.covered;
+            covered
+                .evaluate(&own, &[], false)
+                .map_err(|_| SurfaceError::Degenerate { facet })?;
+            let of_facet = facets.nodes(facet);
+            for (k, (node, full)) in of_facet.iter().zip(covered.full()).enumerate() {
+                let Some(&row) = row_of.get(node) else {
+                    continue;
+                };
+                around[row].push((facet, k));
+                area[row] += full;
+                for other in of_facet {
+                    if !near[row].contains(other) {
+                        near[row].push(*other);
+                    }
+                }
+            }
+        }
+        Ok(Self {
+            nodes,
+            row_of,
+            around,
+            near,
+            kinds,
+            kind,
+            area,
+            normals,
+            measure,
+            held: None,
+        })
+    }
+
+    /// With the weights of this configuration for good.
+    ///
+    /// # Errors
+    /// Facets that cannot be compared.
+    pub fn held_at(mut self, pair: &SurfacePair, at: &Placement) -> Result<Self, SurfaceError> {
+        let boxes = (0..pair.primary.nfacet() as u32).map(|f| pair.primary.aabb(at, f));
+        let mut search = Search::default();
+        let boxes: Vec<Aabb> = boxes.collect();
+        search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
+        let mut weights = Weights::default();
+        self.weigh(pair, at, &search, &mut weights)?;
+        self.rest(pair, at, &mut weights)?;
+        for (row, area) in self.area.iter_mut().enumerate() {
+            if let Some(covered) = weights.row(row) {
+                *area = covered.d;
+            }
+        }
+        self.held = Some(weights);
+        Ok(self)
+    }
+
+    /// A_j of all rows, in the plane without the extent across it.
+    #[must_use]
+    pub fn areas(&self) -> &[f64] {
+        &self.area
+    }
+
+    /// The node of each row.
+    #[must_use]
+    pub fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    /// Lets rows take over functions by what is covered at this configuration; says whether that changes anything.
+    fn rest(
+        &self,
+        pair: &SurfacePair,
+        at: &Placement,
+        weights: &mut Weights,
+    ) -> Result<bool, SurfaceError> {
+        let Some(facets) = &pair.secondary else {
+            return Ok(false);
+        };
+        let guests = self.host(facets, weights);
+        if guests == weights.guests {
+            return Ok(false);
+        }
+        weights.guests = guests;
+        self.add_up_all(facets, pair, at, weights)?;
+        Ok(true)
+    }
+
+    fn weights<'a>(&'a self, pairing: &'a Pairing) -> &'a Weights {
+        self.held.as_ref().unwrap_or(&pairing.weights)
+    }
+
+    /// D and M of all facets and rows at a configuration.
+    fn weigh(
+        &self,
+        pair: &SurfacePair,
+        at: &Placement,
+        search: &Search,
+        out: &mut Weights,
+    ) -> Result<(), SurfaceError> {
+        static STAMP: AtomicU64 = AtomicU64::new(1);
+        out.stamp = STAMP.fetch_add(1, Ordering::Relaxed);
+        let Some(facets) = &pair.secondary else {
+            return Ok(());
+        };
+        out.facets.resize_with(self.kind.len(), OfFacet::default);
+        out.facets
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(TASK)
+            .try_for_each_init(
+                || Integrator::new(self.measure),
+                |integrator, (facet, to)| {
+                    let facet = facet as u32;
+                    integrator.find(facets, facet, pair, at, search);
+                    integrator.integrate(facets, facet, pair, at, false)?;
+                    integrator.store(to);
+                    Ok(())
+                },
+            )?;
+        self.add_up_all(facets, pair, at, out)
+    }
+
+    fn add_up_all(
+        &self,
+        facets: &Facets,
+        pair: &SurfacePair,
+        at: &Placement,
+        out: &mut Weights,
+    ) -> Result<(), SurfaceError> {
+        let Weights {
+            rows,
+            facets: of,
+            guests,
+            ..
+        } = out;
+        rows.resize_with(self.nodes.len(), OfRow::default);
+        rows.par_iter_mut()
+            .enumerate()
+            .with_min_len(TASK)
+            .try_for_each(|(row, to)| self.add_up(row, facets, pair, at, (of, guests), to))
+    }
+
+    /// Who takes over whose function, by what is covered: on the facet around a node of which most is, which part of it.
+    /// A node of which little is covered leaves it to those beside it that are covered well, or much better than itself.
+    fn host(&self, facets: &Facets, weights: &Weights) -> Guests {
+        let n = self.nodes.len();
+        let met = |facet: u32| {
+            let of = weights.facets.get(facet as usize);
+            of.filter(|of| !of.met.is_empty())
+        };
+        let part = |row: usize| {
+            let of =
+                |&(facet, place): &(u32, usize)| met(facet).map(|of| of.d[place] / of.full[place]);
+            let all = self.around[row].iter().filter_map(of);
+            all.fold(0.0, f64::max)
+        };
+        let parts: Vec<f64> = (0..n).map(part).collect();
+        let mut found = Guests {
+            left: vec![false; n],
+            taken: vec![Vec::new(); n],
+        };
+        let mut weak: Vec<usize> = (0..n)
+            .filter(|&r| parts[r] > 0.0 && parts[r] < WEAK)
+            .collect();
+        weak.sort_by(|&a, &b| parts[b].total_cmp(&parts[a]).then(a.cmp(&b)));
+        for row in weak {
+            let is_host = |node: &NodeId| {
+                let other = self.row_of.get(node).copied();
+                let much = WEAK.min(BETTER * parts[row]);
+                other.filter(|&other| other != row && !found.left[other] && parts[other] >= much)
+            };
+            let near: Vec<usize> = self.near[row].iter().filter_map(is_host).collect();
+            if near.is_empty() {
+                continue;
+            }
+            let mut taken = Vec::new();
+            for &(facet, place) in self.around[row].iter().filter(|(f, _)| met(*f).is_some()) {
+                let beside: Vec<usize> = facets.nodes(facet).iter().filter_map(is_host).collect();
+                let hosts = if beside.is_empty() { &near } else { &beside };
+                let share = 1.0 / hosts.len() as f64;
+                taken.extend(hosts.iter().map(|&host| (host, (facet, place, share))));
+            }
+            found.left[row] = true;
+            for (host, function) in taken {
+                found.taken[host].push(function);
+            }
+        }
+        found
+    }
+
+    /// The sums of a row.
+    fn add_up(
+        &self,
+        row: usize,
+        facets: &Facets,
+        pair: &SurfacePair,
+        at: &Placement,
+        (of, guests): (&[OfFacet], &Guests),
+        to: &mut OfRow,
+    ) -> Result<(), SurfaceError> {
+        (to.d, to.full, to.normal) = (0.0, 0.0, Vec3::ZERO);
+        to.nodes.clone_from(&self.near[row]);
+        for &(facet, ..) in guests.taken.get(row).into_iter().flatten() {
+            for node in facets.nodes(facet) {
+                if !to.nodes.contains(node) {
+                    to.nodes.push(*node);
+                }
+            }
+        }
+        let nsecondary = to.nodes.len();
+        to.nsecondary = nsecondary;
+        to.scalar.clear();
+        to.scalar.resize(nsecondary, 0.0);
+        to.vector.clear();
+        to.vector.resize(nsecondary, Vec3::ZERO);
+        for (facet, place, share) in guests.of(row, &self.around[row]) {
+            let covered = &of[facet as usize];
+            let d = share * covered.d[place];
+            to.full += share * covered.full[place];
+            if covered.met.is_empty() {
+                continue;
+            }
+            to.d += d;
+            to.normal += match self.normals {
+                Normals::Facet => covered.normal * d,
+                Normals::Nodal => corner_normal(facets, facet, place, at)?.0 * share,
+            };
+            let t = &self.inverse(facet)[place];
+            for (&node, t) in facets.nodes(facet).iter().zip(t) {
+                if let Some(k) = to.nodes[..nsecondary].iter().position(|n| *n == node) {
+                    to.scalar[k] += t * d;
+                    to.vector[k] += covered.normal * (t * d);
+                }
+            }
+            let nprimary = covered.m.len() / facets.nodes(facet).len();
+            let mut m = covered.m[place * nprimary..][..nprimary].iter();
+            for &met in &covered.met {
+                for (&node, &m) in nodes_of(pair, met).iter().zip(&mut m) {
+                    let known = to.nodes[nsecondary..].iter().position(|n| *n == node);
+                    let k = known.map_or(to.nodes.len(), |k| nsecondary + k);
+                    if known.is_none() {
+                        to.nodes.push(node);
+                        to.scalar.push(0.0);
+                        to.vector.push(Vec3::ZERO);
+                    }
+                    to.scalar[k] -= share * m;
+                    to.vector[k] -= covered.normal * (share * m);
+                }
+            }
+        }
+        if self.normals == Normals::Nodal {
+            let normal = to.normal.normalized().unwrap_or_default();
+            for (vector, scalar) in to.vector.iter_mut().zip(&to.scalar) {
+                *vector = normal * *scalar;
+            }
+        }
+        Ok(())
+    }
+
+    /// Pairs of all rows that are covered.
+    fn choose(&self, at: &Placement, out: &mut Pairing) {
+        let weights = self.held.as_ref().unwrap_or(&out.weights);
+        let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
+        out.pairs.resize(self.nodes.len(), None);
+        for (row, (found, &node)) in out.pairs.iter_mut().zip(&self.nodes).enumerate() {
+            *found = weights.row(row).map(|of| Pair {
+                anchor: NOWHERE,
+                feature: Feature::Face,
+                gap: of.gap(x(node), &x) / of.d,
+                held: None,
+            });
+        }
+    }
+
+    fn inverse(&self, facet: u32) -> &Inverse {
+        &self.kinds[self.kind[facet as usize]].1
+    }
+}
+
+/// `T⁻ᵀ` of a kind of facet.
+fn inverse(element: Element) -> Inverse {
+    let t = Transformation::of(element);
+    let mut inverse = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
+    for k in 0..element.nnode().min(MAX_FACET_NODES) {
+        let mut column = [0.0; MAX_FACET_NODES];
+        column[k] = 1.0;
+        t.values(&mut column);
+        for (line, value) in inverse.iter_mut().zip(column) {
+            line[k] = value;
+        }
+    }
+    inverse
+}
+
+/// Nodes in the order of a curve through their box (Morton's).
+fn along_a_curve(nodes: Vec<NodeId>, x: &[Vec3]) -> Vec<NodeId> {
+    let place = |n: &NodeId| x.get(*n as usize).copied().unwrap_or_default();
+    let whole = Aabb::around(nodes.iter().map(place));
+    let cells = f64::from((1u32 << 16) - 1);
+    let size = whole.extent().max_abs();
+    let key = |node: &NodeId| {
+        let at = (place(node) - whole.min) * (cells / size);
+        let at = at.to_array().map(|c| c as u64);
+        let bits = (0..16).flat_map(|bit| at.map(|c| (c >> (15 - bit)) & 1));
+        (bits.fold(0u64, |key, bit| key << 1 | bit), *node)
+    };
+    let mut nodes = nodes;
+    nodes.sort_by_cached_key(key);
+    nodes
+}
+
+fn nodes_of(pair: &SurfacePair, facet: u32) -> &[NodeId] {
+    match pair.primary.carrier(facet) {
+        Carrier::Nodes(nodes) => nodes,
+        _ => &[],
+    }
+}
+
+/// ν at a node of a facet, and the jet there.
+fn corner_normal(
+    facets: &Facets,
+    facet: u32,
+    place: usize,
+    at: &Placement,
+) -> Result<(Vec3, SurfaceJet), SurfaceError> {
+    let missing = || SurfaceError::NoSuchFacet { facet };
+    let element = facets.element(facet).ok_or_else(missing)?;
+    let local = *element.nodes().get(place).ok_or_else(missing)?;
+    let mut jet = SurfaceJet::default();
+    facets.jet(at, &Anchor { facet, local }, &mut jet)?;
+    Ok((-jet.normal, jet))
+}
+
+impl Discretization for Mortar {
+    fn nrow(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn point(&self, row: usize) -> Point<'_> {
+        Point {
+            nodes: self.nodes.get(row).map_or(&[], std::slice::from_ref),
+            weights: &ONE,
+        }
+    }
+
+    fn pair_up(
+        &self,
+        pair: &SurfacePair,
+        at: &Placement,
+        near: &Search,
+        last: &Pairing,
+        out: &mut Pairing,
+    ) -> Result<(), SurfaceError> {
+        if self.held.is_none() {
+            out.weights.guests.clone_from(&last.weights.guests);
+            self.weigh(pair, at, near, &mut out.weights)?;
+        }
+        self.choose(at, out);
+        Ok(())
+    }
+
+    fn settle(
+        &self,
+        pair: &SurfacePair,
+        at: &Placement,
+        now: &mut Pairing,
+        before: &mut Pairing,
+    ) -> Result<bool, SurfaceError> {
+        if self.held.is_some() || !self.rest(pair, at, &mut now.weights)? {
+            return Ok(false);
+        }
+        self.choose(at, now);
+        if let Some(facets) = pair
+            .secondary
+            .as_ref()
+            .filter(|_| !before.weights.is_empty())
+        {
+            before.weights.guests.clone_from(&now.weights.guests);
+            self.add_up_all(facets, pair, at, &mut before.weights)?;
+        }
+        Ok(true)
+    }
+
+    fn row(
+        &self,
+        row: usize,
+        pair: &SurfacePair,
+        at: &Placement,
+        links: &Links<'_>,
+        wanted: Wanted,
+        out: &mut Rows,
+    ) -> Result<(), SurfaceError> {
+        let weights = self.weights(links.pairing);
+        let met = links.pairing.pairs.get(row).is_some_and(Option::is_some);
+        let Some(now) = weights.row(row).filter(|_| met) else {
+            out.start([]);
+            return Ok(());
+        };
+        let slides = wanted.slip && self.held.is_none();
+        let place = Place {
+            mortar: self,
+            row,
+            pair,
+            at,
+            weights,
+            now,
+            past: links.before.weights.row(row).filter(|_| slides),
+            anchor: links.anchors.get(row).and_then(Option::as_ref),
+            bond: links.bond,
+        };
+        let (facet, _) = self.around[row].first().copied().unwrap_or_default();
+        let normal = now.normal.normalized();
+        let normal = normal.ok_or(SurfaceError::Degenerate { facet })?;
+        let mut scratch = std::mem::take(&mut out.scratch);
+        let work = scratch.of::<Workspace>();
+        if wanted.order == RowOrder::Gap {
+            out.start([]);
+        } else {
+            place.participants(&mut work.participants);
+            out.start(work.participants.iter().map(|&n| Participant::Node(n)));
+        }
+        out.nsecondary = now.nsecondary;
+        let into = out.push(row, wanted);
+        into.gap = place.gap();
+        into.normal = normal;
+        let done = match wanted.order {
+            RowOrder::Gap => Ok(()),
+            _ => place.fill(into, wanted, work),
+        };
+        out.scratch = scratch;
+        done
+    }
+
+    /// Where the row is now: what lies before this state is in the weights.
+    fn anchor(
+        &self,
+        row: usize,
+        _: &SurfacePair,
+        at: &Placement,
+        _: &Pair,
+        slip: Vec3,
+    ) -> Result<Anchored, SurfaceError> {
+        let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
+        let held = self.held.as_ref().and_then(|w| w.row(row));
+        let way = held.map_or(Vec3::ZERO, |of| of.way(x(self.nodes[row]), &x) / of.d);
+        Ok(Anchored {
+            anchor: NOWHERE,
+            offset: way - slip,
+        })
+    }
+
+    fn secondary(&self, rows: &Rows, _: usize) -> Range<usize> {
+        0..rows.nsecondary
+    }
+
+    fn more_nodes<'a>(&'a self, row: usize, pairing: &'a Pairing) -> &'a [NodeId] {
+        match self.weights(pairing).rows.get(row) {
+            Some(of) => &of.nodes[..of.nsecondary],
+            None => self.near.get(row).map_or(&[], Vec::as_slice),
+        }
+    }
+
+    fn guests(&self, row: usize, pair: &SurfacePair, pairing: &Pairing, out: &mut Vec<NodeId>) {
+        let Some(facets) = &pair.secondary else {
+            return;
+        };
+        for &(facet, place, _) in self
+            .weights(pairing)
+            .guests
+            .taken
+            .get(row)
+            .into_iter()
+            .flatten()
+        {
+            let node = facets.nodes(facet).get(place);
+            out.extend(node.filter(|n| !out.contains(n)).copied());
+        }
+    }
+
+    fn meets_many(&self) -> bool {
+        true
+    }
+
+    fn more_facets(&self, row: usize, pairing: &Pairing, out: &mut Vec<u32>) {
+        let Weights { facets, guests, .. } = self.weights(pairing);
+        let around = self.around.get(row).map_or(&[][..], Vec::as_slice);
+        for (facet, ..) in guests.of(row, around) {
+            let of = facets.get(facet as usize);
+            out.extend(of.into_iter().flat_map(|f| &f.met));
+        }
+    }
+
+    fn approach(&self, row: usize, pairing: &Pairing, by: &dyn Fn(NodeId) -> Vec3) -> Option<f64> {
+        let of = self.weights(pairing).row(row)?;
+        Some(-of.gap(by(self.nodes[row]), by) / of.d)
+    }
+
+    fn is_symmetric(&self) -> bool {
+        self.held.is_some()
+    }
+}

@@ -1,0 +1,372 @@
+use super::basis::{Small, inverse};
+use super::pair::zeros;
+use super::{Facet, Frame, Measure, MortarError, Pair, Transformation};
+use signorini_geometry::element::MAX_FACET_NODES;
+use signorini_geometry::tensor::Vec3;
+
+/// The part of `D⁰` that must be covered for a node to have a multiplier.
+pub const MIN_COVERAGE: f64 = 1e-8;
+
+/// D and M of a secondary facet over its covered part, with derivatives. One serves for any number of facets, one after
+/// the other, and keeps its memory.
+///
+/// # Units
+/// D, M and `full` are areas; lengths in the plane; areas of surfaces of revolution where so [measured](Measure).
+#[derive(Clone, Debug, Default)]
+pub struct Covered {
+    measure: Measure,
+    nnode: usize,
+    nprimary: usize,
+    ncolumn: usize,
+    lumped: bool,
+    normal: Vec3,
+    dnormal: [Vec<f64>; 3],
+    /// Pairs that were integrated, of which the first `met.len()` count.
+    pairs: Vec<Pair>,
+    met: Vec<usize>,
+    full: Vec<f64>,
+    d: Vec<f64>,
+    m: Vec<f64>,
+    dd: Vec<f64>,
+    dm: Vec<f64>,
+    /// dG and its product with B, dB.
+    dg: Vec<f64>,
+    product: Vec<f64>,
+    db: Vec<f64>,
+}
+
+/// `to += factor · from`.
+fn add(to: &mut [f64], factor: f64, from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to += factor * from;
+    }
+}
+
+impl Covered {
+    /// One for integrals of this measure; the default is that of [`Measure::Flat`].
+    #[must_use]
+    pub fn new(measure: Measure) -> Self {
+        Self {
+            measure,
+            ..Self::default()
+        }
+    }
+
+    /// What its integrals are taken over from now on.
+    pub fn measured(&mut self, measure: Measure) {
+        self.measure = measure;
+    }
+
+    /// Integrates over what a secondary facet shares with primary facets near it.
+    ///
+    /// # Errors
+    /// A facet is folded, or not as [`Facet`] says. Primary facets that turn away are passed over.
+    pub fn evaluate(
+        &mut self,
+        secondary: &Facet,
+        primaries: &[Facet],
+        derivatives: bool,
+    ) -> Result<(), MortarError> {
+        let frame = Frame::measured(secondary, self.measure)?;
+        self.nnode = secondary.x.len();
+        self.normal = frame.normal();
+        for (a, dnormal) in self.dnormal.iter_mut().enumerate() {
+            dnormal.clear();
+            dnormal.extend(frame.dnormal(a));
+        }
+        self.met.clear();
+        for (number, primary) in primaries.iter().enumerate() {
+            if self.pairs.len() == self.met.len() {
+                self.pairs.push(Pair::default());
+            }
+            let Some(pair) = self.pairs.get_mut(self.met.len()) else {
+                continue;
+            };
+            if pair.integrate(&frame, primary, number, derivatives)? {
+                self.met.push(number);
+            }
+        }
+        let nprimary = self.pairs[..self.met.len()].iter().map(|p| p.nnode()[1]);
+        self.nprimary = nprimary.sum();
+        self.ncolumn = 3 * (self.nnode + self.nprimary);
+        let t = Transformation::of(secondary.element);
+        self.measure_whole(&frame, secondary, &t);
+        self.combine(&t, derivatives);
+        Ok(())
+    }
+
+    /// The number of nodes of the secondary facet.
+    #[must_use]
+    pub fn nnode(&self) -> usize {
+        self.nnode
+    }
+
+    /// The number of nodes of all primary facets it meets; those of several facets count several times.
+    #[must_use]
+    pub fn nprimary(&self) -> usize {
+        self.nprimary
+    }
+
+    /// The number of columns: x, y, z of the nodes of the secondary facet, then of the primary ones.
+    #[must_use]
+    pub fn ncolumn(&self) -> usize {
+        self.ncolumn
+    }
+
+    /// The primary facets it meets, by their places in the list, in its order.
+    #[must_use]
+    pub fn met(&self) -> &[usize] {
+        &self.met
+    }
+
+    /// The integrals over what is shared with each of them.
+    #[must_use]
+    pub fn pairs(&self) -> &[Pair] {
+        &self.pairs[..self.met.len()]
+    }
+
+    /// Whether the basis is `ψ = Ñ` because the covered part is an island.
+    #[must_use]
+    pub fn lumped(&self) -> bool {
+        self.lumped
+    }
+
+    /// ν.
+    #[must_use]
+    pub fn normal(&self) -> Vec3 {
+        self.normal
+    }
+
+    /// `∂ν_a/∂v` for the columns of the secondary facet; it does not depend on others.
+    #[must_use]
+    pub fn dnormal(&self, a: usize) -> &[f64] {
+        &self.dnormal[a]
+    }
+
+    /// D⁰_j.
+    #[must_use]
+    pub fn full(&self) -> &[f64] {
+        &self.full
+    }
+
+    /// D_j.
+    #[must_use]
+    pub fn d(&self) -> &[f64] {
+        &self.d
+    }
+
+    /// M_jl, for all l.
+    #[must_use]
+    pub fn m(&self, j: usize) -> &[f64] {
+        &self.m[j * self.nprimary..][..self.nprimary]
+    }
+
+    /// `∂D_j/∂v`; empty without derivatives.
+    #[must_use]
+    pub fn dd(&self, j: usize) -> &[f64] {
+        self.dd
+            .get(j * self.ncolumn..)
+            .map_or(&[], |d| &d[..self.ncolumn.min(d.len())])
+    }
+
+    /// `∂M_jl/∂v`; empty without derivatives.
+    #[must_use]
+    pub fn dm(&self, j: usize, l: usize) -> &[f64] {
+        let first = (j * self.nprimary + l) * self.ncolumn;
+        self.dm
+            .get(first..)
+            .map_or(&[], |d| &d[..self.ncolumn.min(d.len())])
+    }
+
+    /// D⁰, with the rule of the whole facet and areas of the plane.
+    fn measure_whole(&mut self, frame: &Frame, facet: &Facet, t: &Transformation) {
+        let (element, n) = (facet.element, self.nnode);
+        let mut whole = [0.0; MAX_FACET_NODES];
+        let (mut shape, mut dshape) = ([0.0; MAX_FACET_NODES], [Vec3::ZERO; MAX_FACET_NODES]);
+        for (xi, w) in element.surface_rule().iter() {
+            element.shape(xi, &mut shape[..n]);
+            element.dshape(xi, &mut dshape[..n]);
+            let tangent = |a: usize| {
+                dshape
+                    .iter()
+                    .zip(facet.x)
+                    .map(|(d, &x)| x * d[a])
+                    .sum::<Vec3>()
+            };
+            let t2 = if element.dim() == 1 {
+                Vec3::unit(2)
+            } else {
+                tangent(1)
+            };
+            let place = shape.iter().zip(facet.x).map(|(&n, &x)| x * n).sum();
+            let factor = frame.factor().at(frame.along(place));
+            let area = -w * tangent(0).cross(t2).dot(self.normal) * factor;
+            add(&mut whole, area, &shape[..n]);
+        }
+        self.full.clear();
+        let transformed = (0..n).map(|j| (0..n).map(|k| t.get(j, k) * whole[k]).sum::<f64>());
+        self.full.extend(transformed);
+    }
+
+    /// (E1) to (E3), with `G = ∫N Nᵀ`, `B = A T` and `ψ = B N`:
+    /// `B = D W`, `W = S⁻¹ T`, `dB = dD W − B dG Tᵀ W`.
+    fn combine(&mut self, t: &Transformation, derivatives: bool) {
+        let n = self.nnode;
+        let pairs = &self.pairs[..self.met.len()];
+        let zero: Small = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
+        let (mut g, mut s, mut w, mut h, mut b) = (zero, zero, zero, zero, zero);
+        let mut whole = [0.0; MAX_FACET_NODES];
+        for (k, whole) in whole[..n].iter_mut().enumerate() {
+            *whole = pairs.iter().map(|p| p.n(k)).sum();
+        }
+        zeros(&mut self.d, n);
+        for j in 0..n {
+            for k in 0..n {
+                g[j][k] = pairs.iter().map(|p| p.nn(j, k)).sum();
+                self.d[j] += t.get(j, k) * whole[k];
+            }
+            self.d[j] = self.d[j].max(0.0);
+        }
+        each(n, &mut s, |j, k| {
+            let over = |i: usize| (0..n).map(|m| t.get(k, m) * g[i][m]).sum::<f64>();
+            (0..n).map(|i| t.get(j, i) * over(i)).sum()
+        });
+        let found = inverse(&s, n);
+        self.lumped = found.is_none() && !pairs.is_empty();
+        match found {
+            Some(inverse) => {
+                let d = &self.d;
+                each(n, &mut w, |j, k| {
+                    (0..n).map(|i| inverse[j][i] * t.get(i, k)).sum()
+                });
+                each(n, &mut h, |j, k| {
+                    (0..n).map(|i| t.get(i, j) * w[i][k]).sum()
+                });
+                each(n, &mut b, |j, k| d[j] * w[j][k]);
+            }
+            None => each(n, &mut b, |j, k| t.get(j, k)),
+        }
+        for (row, _) in b.iter_mut().zip(&self.d).filter(|(_, d)| **d <= 0.0) {
+            row.fill(0.0);
+        }
+        zeros(&mut self.m, n * self.nprimary);
+        let mut first = 0;
+        for pair in pairs {
+            let nm = pair.nnode()[1];
+            for j in 0..n {
+                for l in 0..nm {
+                    let m = (0..n).map(|k| b[j][k] * pair.nm(k, l)).sum();
+                    self.m[j * self.nprimary + first + l] = m;
+                }
+            }
+            first += nm;
+        }
+        self.balance(t);
+        self.dd.clear();
+        self.dm.clear();
+        if derivatives {
+            self.differentiate(t, &w, &h, &b);
+        }
+    }
+
+    /// What rounding leaves of `Σ_l M_jl = D_j`, as much of it as the condition of S lets through, goes to the primary
+    /// nodes as `Ñ_j` would distribute it.
+    fn balance(&mut self, t: &Transformation) {
+        let (n, np) = (self.nnode, self.nprimary);
+        let pairs = &self.pairs[..self.met.len()];
+        for (j, &d) in self.d.iter().enumerate().filter(|(_, d)| **d > 0.0) {
+            let row = &mut self.m[j * np..][..np];
+            let lumped = pairs.iter().flat_map(|pair| {
+                let of = move |l: usize| (0..n).map(|k| t.get(j, k) * pair.nm(k, l)).sum::<f64>();
+                (0..pair.nnode()[1]).map(of)
+            });
+            let rest = (d - row.iter().sum::<f64>()) / d;
+            row.iter_mut()
+                .zip(lumped)
+                .for_each(|(m, part)| *m += rest * part);
+        }
+    }
+
+    fn differentiate(&mut self, t: &Transformation, w: &Small, h: &Small, b: &Small) {
+        let (n, nc, own) = (self.nnode, self.ncolumn, 3 * self.nnode);
+        zeros(&mut self.dd, n * nc);
+        zeros(&mut self.dg, n * n * nc);
+        zeros(&mut self.product, n * n * nc);
+        zeros(&mut self.db, n * n * nc);
+        zeros(&mut self.dm, n * self.nprimary * nc);
+        let at = |j: usize, k: usize| (j * n + k) * nc..(j * n + k + 1) * nc;
+        let pairs = &self.pairs[..self.met.len()];
+        let mut first = own;
+        for pair in pairs {
+            // columns of the pair: those of the secondary facet, and its own
+            let scatter = |to: &mut [f64], factor: f64, from: &[f64]| {
+                let (secondary, primary) = from.split_at(own);
+                add(&mut to[..own], factor, secondary);
+                add(&mut to[first..first + primary.len()], factor, primary);
+            };
+            for j in 0..n {
+                for k in 0..n {
+                    scatter(&mut self.dd[j * nc..][..nc], t.get(j, k), pair.dn(k));
+                    scatter(&mut self.dg[at(j, k)], 1.0, pair.dnn(j, k));
+                }
+                let nm = pair.nnode()[1];
+                let l0 = (first - own) / 3;
+                for l in 0..nm {
+                    let row = (j * self.nprimary + l0 + l) * nc;
+                    for (k, &b) in b[j][..n].iter().enumerate() {
+                        scatter(&mut self.dm[row..row + nc], b, pair.dnm(k, l));
+                    }
+                }
+            }
+            first += pair.ncolumn() - own;
+        }
+        for j in (0..n).filter(|&j| self.d[j] <= 0.0) {
+            self.dd[j * nc..][..nc].fill(0.0);
+        }
+        if self.lumped {
+            return;
+        }
+        for j in 0..n {
+            for k in 0..n {
+                for i in 0..n {
+                    add(&mut self.product[at(j, k)], b[j][i], &self.dg[at(i, k)]);
+                }
+            }
+        }
+        for j in 0..n {
+            for k in 0..n {
+                let db = &mut self.db[at(j, k)];
+                add(db, w[j][k], &self.dd[j * nc..][..nc]);
+                for i in 0..n {
+                    add(db, -h[i][k], &self.product[at(j, i)]);
+                }
+            }
+        }
+        let mut first = 0;
+        for pair in pairs {
+            let nm = pair.nnode()[1];
+            for j in 0..n {
+                for l in 0..nm {
+                    let row = (j * self.nprimary + first + l) * nc;
+                    for k in 0..n {
+                        add(
+                            &mut self.dm[row..row + nc],
+                            pair.nm(k, l),
+                            &self.db[at(j, k)],
+                        );
+                    }
+                }
+            }
+            first += nm;
+        }
+    }
+}
+
+/// Sets the entries of a small matrix.
+fn each(n: usize, a: &mut Small, value: impl Fn(usize, usize) -> f64) {
+    for (j, row) in a[..n].iter_mut().enumerate() {
+        for (k, v) in row[..n].iter_mut().enumerate() {
+            *v = value(j, k);
+        }
+    }
+}
