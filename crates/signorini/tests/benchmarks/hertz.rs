@@ -215,6 +215,52 @@ fn two_cylinders_johnson_4_45() {
     }
 }
 
+/// Errors of the pressures at all nodes that touch, or should, over p0.
+fn errors(run: &Run, a: f64, p0: f64) -> Vec<f64> {
+    let contact = &run.frames.last().unwrap().contacts[0];
+    let nodes = contact.points.iter().zip(&contact.pressure);
+    let error = |(x, p): (&signorini_geometry::tensor::Vec3, &f64)| {
+        let expected = p0 * (1.0 - (x.x / a).powi(2)).max(0.0).sqrt();
+        (expected > 0.0 || *p > 0.0).then_some((p - expected) / p0)
+    };
+    nodes.filter_map(error).collect()
+}
+
+/// Pressures at nodes of meshes with about so many facets a radius: the edge of the contact lies anywhere in a facet.
+/// Published: a root mean square of 3.7 % of p0 by the mortar method of another program at four facets, 12.7 % by its
+/// penalty of 5E. Ours are 2.7 % at four and 2.1 % at ten, nearly all of it at the last node before the edge, where the
+/// pressure falls like a root; inside they are below 0.6 % at ten. By node to segment they are 4.5 and 3.5 %.
+#[test]
+fn coarse_cylinders_have_smooth_pressures() {
+    let modulus = 100.0 / (1.0 - 0.09);
+    let force = 3.45;
+    let a = (4.0 * force * 4.0 / (PI * modulus)).sqrt();
+    let p0 = 2.0 * force / (PI * a);
+    for (facets, bound, bound_of_p0) in [(4.0, 0.037, 0.01), (10.0, 0.0225, 0.005)] {
+        for by in [BETWEEN_FACETS[0], BETWEEN_FACETS[3]] {
+            let (mut all, mut largest) = (Vec::new(), 0.0f64);
+            for off in [-0.4, -0.2, 0.0, 0.2, 0.4] {
+                let case = two_discs("plane-strain", 8.0, 200.0, a / (facets + off), by);
+                let run = case.load("head", &rigid(0.5 * force)).run();
+                all.extend(errors(&run, a, p0));
+                let off = run.frames.last().unwrap().contacts[0].pressure_max / p0 - 1.0;
+                largest = largest.max(off.abs());
+            }
+            let mean = (all.iter().map(|e| e * e).sum::<f64>() / all.len() as f64).sqrt();
+            println!(
+                "{facets} facets a radius, {by}: pressures off by {:.2} % in the mean, p0 by {:.2} %",
+                100.0 * mean,
+                100.0 * largest
+            );
+            let held = by.contains("mortar");
+            assert!(
+                !held || mean < bound && largest < bound_of_p0,
+                "{facets} {by}"
+            );
+        }
+    }
+}
+
 #[test]
 fn two_spheres_ssnv104() {
     // approach 2 of R = 50, E = 2e4: p0 = 1978.72 of two half-spaces; at the force measured p0 = (6FE*²/(π³R²))^⅓

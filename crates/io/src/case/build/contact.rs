@@ -128,7 +128,7 @@ impl Builder {
         only(
             "enforcement",
             contact.per == Some(Per::Node) && matches!(method, Method::GaussPoint | Method::Mortar),
-            "it has pressures, and no forces of nodes: write  per = \"area\"",
+            "facets carry pressures, not forces of nodes: write  per = \"area\"",
         );
         only(
             "area",
