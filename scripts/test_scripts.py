@@ -169,6 +169,12 @@ class CheckResults(InFolder):
         self.change_grid("contact_0002.vtu", change)
         self.expect_failure("contact frame 2: sum of contact_force of tip")
 
+    def test_mortar_spreads_tractions_over_the_same_area(self):
+        with open(self.path("case.resolved.toml"), "a", encoding="utf-8") as file:
+            file.write('[[contact]]\nname = "tip"\nmethod = "mortar"\n')
+        self.change_grid("contact_0001.vtu", lambda g: np.multiply(g["contact_area"], 1.01, out=g["contact_area"]))
+        self.expect_failure("contact frame 1: sum of traction times area")
+
     def test_a_missing_array_is_found(self):
         self.change_grid("volume_0001.vtu", lambda g: g.point_data.remove("reaction_force"))
         self.expect_failure("volume frame 1: there is no point array 'reaction_force'")

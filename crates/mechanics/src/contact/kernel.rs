@@ -247,7 +247,8 @@ impl<'a> Laws<'a> {
         match self.stick_of() {
             Stick::Stiffness(stiffness) => {
                 let along = row.normal.dot(lambda.vector);
-                lambda.vector - row.normal * along + row.sliding.slip * stiffness
+                row.sliding
+                    .movable(lambda.vector - row.normal * along + row.sliding.slip * stiffness)
             }
             Stick::Slip(_) => row.sliding.slip,
         }
@@ -396,10 +397,12 @@ impl<'a> Laws<'a> {
                 let dlimit = limit.dpressure * work.pressure[j];
                 work.tangential[j] = match (self.stick_of(), state) {
                     (Stick::Stiffness(stiffness), Contact::Slip) => {
-                        let dz = work.trial[j] + dslip * stiffness;
+                        let dz = sliding.movable(work.trial[j] + dslip * stiffness);
                         slipping(trial, size, limit.value, dz, dlimit)
                     }
-                    (Stick::Stiffness(stiffness), _) => work.trial[j] + dslip * stiffness,
+                    (Stick::Stiffness(stiffness), _) => {
+                        sliding.movable(work.trial[j] + dslip * stiffness)
+                    }
                     (Stick::Slip(_), Contact::Slip) => {
                         slipping(trial, size, limit.value, dslip, dlimit)
                     }

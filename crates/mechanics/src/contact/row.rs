@@ -72,6 +72,8 @@ pub struct Sliding {
     pub operator: Vec<Vec3>,
     /// Whether it slides without friction, for want of a place where it could stick.
     pub free: bool,
+    /// Directions along which both sides are held, as by a plane of symmetry: nothing rubs there.
+    pub held: [bool; 3],
     /// Of operators that are a number times the identity for each participant, the derivatives of these numbers: a line of
     /// one entry for each column; empty for others.
     pub dscale: Vec<f64>,
@@ -113,6 +115,17 @@ impl Sliding {
         turn.along.clear();
         turn.along.resize(n, 0.0);
         turn
+    }
+
+    /// A vector without its parts along which the sides are held.
+    #[must_use]
+    pub fn movable(&self, mut v: Vec3) -> Vec3 {
+        for (axis, held) in self.held.iter().enumerate() {
+            if *held {
+                v[axis] = 0.0;
+            }
+        }
+        v
     }
 
     /// The component and the derivatives of the number at a column, of operators that are numbers.
@@ -184,6 +197,7 @@ impl Rows {
         row.normal = Vec3::ZERO;
         row.coverage = 1.0;
         row.sliding.free = false;
+        row.sliding.held = [false; 3];
         if wanted.order == RowOrder::Gap {
             return row;
         }

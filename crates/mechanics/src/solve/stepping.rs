@@ -279,6 +279,19 @@ impl Stepper {
                 *flag = true;
             }
         }
+        let mut held = vec![false; system.layout.ndof()];
+        for p in step
+            .prescriptions
+            .iter()
+            .filter(|p| p.motion == Motion::Hold)
+        {
+            if let Some(flag) = held.get_mut(p.dof as usize) {
+                *flag = true;
+            }
+        }
+        for term in &mut system.terms {
+            term.hold(&held);
+        }
         self.newton.analyzed = false;
         Ok(())
     }

@@ -71,7 +71,7 @@ pub struct ContactFrame {
     pub traction: Vec<Vec3>,
     /// Accumulated slip at each node.
     pub slip: Vec<Vec3>,
-    /// Tributary area of each node.
+    /// Tributary area of each node: by mortar, the part that is covered, and none of a node that leans on another one.
     pub area: Vec<f64>,
     /// What the primary side exerts on the secondary; moment about the origin.
     pub secondary: Resultant,

@@ -236,6 +236,9 @@ pub trait Term: Send + Sync {
         Ok(())
     }
 
+    /// These unknowns are held where they are during the step that begins: a flag for each.
+    fn hold(&mut self, _held: &[bool]) {}
+
     /// An increment begins at this accepted state.
     ///
     /// # Errors

@@ -261,6 +261,32 @@ fn coarse_cylinders_have_smooth_pressures() {
     }
 }
 
+/// The node on the axis touches first, and is held along the surface: its multiplier has nothing to rub against.
+#[test]
+fn friction_does_no_harm_at_a_plane_of_symmetry() {
+    for by in [BETWEEN_FACETS[0], "method = \"mortar\""] {
+        let of = |friction: &str| {
+            let case = two_discs(
+                "plane-strain",
+                8.0,
+                200.0,
+                0.1,
+                &format!("{by}\n{friction}"),
+            );
+            case.load("head", &rigid(5.0)).run()
+        };
+        let [smooth, rough] = ["", "friction = 0.3"].map(of);
+        let largest = |run: &Run| run.frames.last().unwrap().contacts[0].pressure_max;
+        let off = largest(&rough) / largest(&smooth) - 1.0;
+        let iterations: usize = rough.increments.iter().map(|i| i.iterations).sum();
+        println!(
+            "{by}: pressure {:+.3} %, {iterations} iterations",
+            100.0 * off
+        );
+        assert!(off.abs() < 0.01 && iterations < 40, "{by}: {off}");
+    }
+}
+
 #[test]
 fn two_spheres_ssnv104() {
     // approach 2 of R = 50, E = 2e4: p0 = 1978.72 of two half-spaces; at the force measured p0 = (6FE*²/(π³R²))^⅓

@@ -173,6 +173,8 @@ pub struct Interface {
     coupled: Coupled,
     wanted: Coupled,
     step: StepContext,
+    /// Unknowns that stay where they are in this step.
+    held: Vec<bool>,
     /// The step in which it acts first.
     first_step: Option<StepContext>,
     /// Rows that went to and fro between facets keep the one they are on, for the rest of the increment.
@@ -221,6 +223,7 @@ impl Interface {
             coupled: Coupled::default(),
             wanted: Coupled::default(),
             step: StepContext::default(),
+            held: Vec::new(),
             first_step: None,
             changes: vec![0; nrow],
         }
@@ -382,6 +385,11 @@ impl Term for Interface {
             self.first_step = Some(*step);
         }
         Ok(())
+    }
+
+    fn hold(&mut self, held: &[bool]) {
+        self.held.clear();
+        self.held.extend_from_slice(held);
     }
 
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {

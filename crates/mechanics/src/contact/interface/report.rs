@@ -70,7 +70,7 @@ impl Interface {
         let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
         let mut centre = (Vec3::ZERO, 0.0);
         let mut gap_min: Option<f64> = None;
-        let mut guests = Vec::new();
+        let (mut guests, mut hosted) = (Vec::new(), Vec::new());
         for row in 0..self.parts.discretization.nrow() {
             let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
             let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
@@ -126,8 +126,11 @@ impl Interface {
                 if let (Ok(k), Some(of_row)) = (parts.pair.points.binary_search(node), &of_row) {
                     means.add(k, area, of_row);
                     report.status[k] = status;
+                    hosted.push(k);
                 }
             }
+            // shares of a point's area: those of a lumped mass
+            let squares: f64 = point.weights.iter().map(|w| w * w).sum();
             let weight = pressure * area;
             centre.0 += point.position(&state.placement()) * weight;
             centre.1 += weight;
@@ -135,6 +138,7 @@ impl Interface {
                 let Ok(k) = self.parts.pair.points.binary_search(node) else {
                     continue;
                 };
+                report.area[k] += area * shape * shape / squares;
                 if let Some(of_row) = &of_row {
                     means.add(k, area * shape * shape, of_row);
                 }
@@ -159,6 +163,9 @@ impl Interface {
                 report.traction[k] = mean.traction;
                 report.slip[k] = mean.slip;
             }
+        }
+        for k in hosted {
+            report.area[k] = 0.0; // it is a part of its host's
         }
         if let Some(first) = first.and_then(|c| frame.contacts.get_mut(c)) {
             for k in 0..first.nodes.len() {
@@ -264,17 +271,6 @@ impl Interface {
                 .filter_map(|f| facet(facets, f))
                 .collect()
         });
-        let mut area = vec![0.0; n];
-        for row in 0..self.parts.discretization.nrow() {
-            let point = self.parts.discretization.point(row);
-            // shares of a point's area: those of a lumped mass
-            let squares: f64 = point.weights.iter().map(|w| w * w).sum();
-            for (node, shape) in point.nodes.iter().zip(point.weights) {
-                if let Ok(k) = pair.points.binary_search(node) {
-                    area[k] += self.area(row) * shape * shape / squares;
-                }
-            }
-        }
         ContactFrame {
             name: self.parts.name.clone(),
             nodes: pair.points.clone(),
@@ -287,7 +283,7 @@ impl Interface {
             force: vec![Vec3::ZERO; n],
             traction: vec![Vec3::ZERO; n],
             slip: vec![Vec3::ZERO; n],
-            area,
+            area: vec![0.0; n],
             facet_size: self.parts.scale.length,
             ..ContactFrame::default()
         }

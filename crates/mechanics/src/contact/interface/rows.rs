@@ -7,6 +7,7 @@ use super::{
 use crate::contact::discretization::Links;
 use crate::contact::kernel::{Target, Traction};
 use crate::contact::row::Row;
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::Feature;
 
 /// Rounding error of a gap over the coordinates it comes from.
@@ -46,10 +47,41 @@ impl Interface {
             .row(row, &parts.pair, &trial.placement(), &links, wanted, rows)
             .map_err(|e| self.failed(&e))?;
         let shift = self.shift(row, trial.time);
+        let held = if wanted.slip && self.nmultiplier() > 1 && !laws.bond {
+            self.held_directions(row, rows)
+        } else {
+            [false; 3]
+        };
         if let Some(row) = rows.rows_mut().first_mut() {
             row.gap += shift;
+            row.sliding.held = held;
         }
         Ok(())
+    }
+
+    /// Along which directions the point of a row is held, and something of the other side, too. A multiplier has nothing to
+    /// act on there, or, of half a model, only half of it.
+    fn held_directions(&self, row: usize, rows: &Rows) -> [bool; 3] {
+        let discretization = self.parts.discretization.as_ref();
+        let is_held = |node: NodeId, axis: usize| {
+            let dof = self.layout.node(node, axis) as usize;
+            self.held.get(dof).copied().unwrap_or(false)
+        };
+        let point = discretization.point(row).nodes;
+        let mut directions = [0, 1, 2].map(|axis| point.iter().all(|&n| is_held(n, axis)));
+        if directions == [false; 3] {
+            return directions;
+        }
+        let secondary = discretization.secondary(rows, row);
+        for (axis, held) in directions.iter_mut().enumerate().filter(|(_, h)| **h) {
+            let others = rows.participants().iter().enumerate();
+            let mut others = others.filter(|(place, _)| !secondary.contains(place));
+            *held = others.any(|(_, p)| match *p {
+                Participant::Node(node) => is_held(node, axis),
+                Participant::Rigid(_) => false,
+            });
+        }
+        directions
     }
 
     /// Fills a row where something acts on it; says whether there is one.
