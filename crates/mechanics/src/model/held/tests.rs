@@ -264,6 +264,57 @@ fn contact_is_told_from_supports() {
     );
 }
 
+/// Two squares of an element, one upon the other, held sideways by supports and upwards by contact alone.
+fn squares(name: &str) -> Result<Vec<Unheld>, ModelError> {
+    let square = element::by_name(name).unwrap();
+    let mut mesh = Mesh::default();
+    let mut bodies = Vec::new();
+    for number in 0..2_u32 {
+        let first = mesh.points.len() as u32;
+        for xi in square.nodes() {
+            let up = 2.0 * f64::from(number);
+            mesh.points.push(*xi + Vec3::unit(1) * up);
+            mesh.node_labels.push(mesh.points.len() as u64);
+        }
+        let nodes: Vec<u32> = (first..mesh.points.len() as u32).collect();
+        let cell = mesh.push_cell(square, &nodes, u64::from(number) + 1);
+        bodies.push(BodyPart {
+            name: format!("square{number}"),
+            cells: vec![cell],
+            kind: solid(),
+        });
+    }
+    let side = |index, side| Face {
+        cell: CellId { block: 0, index },
+        side,
+    };
+    let space = Idealisation::PlaneStrain { thickness: 1.0 };
+    let elimination = Elimination::default();
+    let mut held = Held::new(&mesh, space, &bodies, &[], &elimination);
+    held.contact(
+        &ContactPart::new(
+            "c",
+            SidePart::Faces(vec![side(1, 0)]),
+            PrimaryPart::Faces(vec![side(0, 2)]),
+        ),
+        false,
+        &[],
+    );
+    let upper = square.nnode() as u32;
+    fix(&mut held, &[0, 1], &[0, 1]);
+    fix(&mut held, &[upper, upper + 3], &[0]);
+    held.judge()
+}
+
+#[test]
+fn contact_of_linear_and_quadratic_lines_stops_the_same_motions() {
+    for name in ["quad4", "quad8", "quad9"] {
+        let found = squares(name).unwrap();
+        assert_eq!(found.len(), 1, "{name}");
+        assert!(found[0].motion.starts_with("slide along y"), "{name}");
+    }
+}
+
 #[test]
 fn a_loose_part_of_a_body_is_named_by_a_node() {
     let mut model = cubes(&[ORIGIN, Vec3::new(5.0, 0.0, 0.0)]);
