@@ -151,11 +151,13 @@ impl Model {
         let mut layout = followers.layout();
         let (elimination, ties) = followers.elimination(&layout)?;
         let poses = elimination.initial_poses();
+        let prescribed = steps::prescribed(mesh.nnode(), space.ndim(), &steps);
         let source = Source {
             mesh,
             reference: &mesh.points,
             space,
             elimination: &elimination,
+            prescribed: &prescribed,
         };
         let reference: Arc<[Vec3]> = contact::closed(&source, &contacts, &poses)?.into();
         let source = Source {

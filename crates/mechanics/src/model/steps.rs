@@ -10,6 +10,26 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// Component of a carrier along the axis of an axisymmetric model.
 const AXIAL: usize = 1;
 
+/// Of each node, whether some step prescribes its motion along all axes.
+pub(super) fn prescribed(nnode: usize, ndim: usize, steps: &[StepPart]) -> Vec<bool> {
+    let mut axes = vec![[false; 3]; nnode];
+    for change in steps.iter().flat_map(|step| &step.changes) {
+        let Change::Prescribe(Target::Nodes(nodes), motions) = change else {
+            continue;
+        };
+        for (axis, _) in motions {
+            for &node in nodes {
+                let of_node = axes.get_mut(node as usize);
+                if let Some(flag) = of_node.and_then(|of| of.get_mut(*axis)) {
+                    *flag = true;
+                }
+            }
+        }
+    }
+    let whole = |axes: &[bool; 3]| axes.iter().take(ndim).all(|a| *a);
+    axes.iter().map(whole).collect()
+}
+
 impl Context<'_> {
     pub(super) fn on_rigid(&self, node: NodeId) -> Result<(), ModelError> {
         let body = self.elimination.body_of(node);

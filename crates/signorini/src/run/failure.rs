@@ -52,6 +52,13 @@ pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
 
 /// A system that is singular before anything was solved: something is not held.
 fn free_body(dof: Option<Dof>, model: &Model) -> Diagnostic {
+    if let Some(contact) = dof.and_then(|dof| contact_of(dof, model)) {
+        let message = format!("the multipliers of contact \"{contact}\" are too many");
+        return Diagnostic::error(&codes::FREE_BODY, message)
+            .note("the nodes of its secondary side cannot follow as many conditions: their motion is prescribed, or follows others")
+            .note("nothing was solved")
+            .help("swap `secondary` and `primary`, or write  enforcement = { penalty = \"auto\" }");
+    }
     let motion = dof.and_then(|dof| motion(dof, model));
     let message = match &motion {
         Some((owner, _)) => format!("{owner} can move freely: nothing holds it"),
@@ -86,8 +93,8 @@ fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
     })
 }
 
-/// The constraint that a multiplier belongs to.
-fn constraint(multiplier: Dof, model: &Model) -> String {
+/// The term that a multiplier belongs to.
+fn term_of(multiplier: Dof, model: &Model) -> Option<&dyn Term> {
     struct Search(Dof, bool);
     impl PatternSink for Search {
         fn bulk(&mut self, _: &[NodeId]) {}
@@ -95,17 +102,29 @@ fn constraint(multiplier: Dof, model: &Model) -> String {
             self.1 |= dofs.contains(&self.0);
         }
     }
-    let has = |term: &dyn Term| {
+    let has = |term: &&dyn Term| {
         let mut search = Search(multiplier, false);
         term.pattern(&mut search);
         search.1
     };
-    let mut terms = model.system.terms.iter();
-    let term = terms.find(|term| has(term.as_ref()));
-    term.map_or_else(
+    model.system.terms.iter().map(AsRef::as_ref).find(has)
+}
+
+fn constraint(multiplier: Dof, model: &Model) -> String {
+    term_of(multiplier, model).map_or_else(
         || "a constraint".to_owned(),
         |term| format!("constraint {}", term.name()),
     )
+}
+
+/// The contact that a multiplier belongs to.
+fn contact_of(dof: Dof, model: &Model) -> Option<&str> {
+    let Some(DofName::Multiplier(_)) = model.system.layout.name(dof) else {
+        return None;
+    };
+    let name = term_of(dof, model)?.name();
+    let known = model.contacts.iter().any(|contact| contact.name == name);
+    known.then_some(name)
 }
 
 /// The body that a node belongs to.

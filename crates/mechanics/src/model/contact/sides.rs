@@ -49,6 +49,8 @@ pub(in crate::model) struct Source<'a> {
     pub space: Idealisation,
     /// What follows rigid bodies.
     pub elimination: &'a Elimination,
+    /// Of each node, whether the steps prescribe its motion along all axes.
+    pub prescribed: &'a [bool],
 }
 
 impl Source<'_> {
@@ -285,8 +287,13 @@ impl Source<'_> {
     fn suits_mortar(&self, part: &ContactPart, exact: bool, secondary: Option<&Facets>) -> bool {
         let open = exact || matches!(part.enforcement, Enforcement::Auto);
         let plain = !part.two_pass && !part.present_area && part.measure != Some(Measure::Node);
-        let rigid = |n: &NodeId| self.elimination.body_of(*n).is_some();
-        let follows = |facets: &Facets| !facets.all_nodes().iter().any(rigid);
+        let given = |n: &NodeId| {
+            let prescribed = self.prescribed.get(*n as usize);
+            prescribed == Some(&true) || self.elimination.body_of(*n).is_some()
+        };
+        let follows = |facets: &Facets| {
+            (0..facets.nfacet() as u32).all(|f| !facets.nodes(f).iter().all(given))
+        };
         open && plain && secondary.is_some_and(follows)
     }
 
