@@ -175,6 +175,15 @@ class CheckResults(InFolder):
         self.change_grid("contact_0001.vtu", lambda g: np.multiply(g["contact_area"], 1.01, out=g["contact_area"]))
         self.expect_failure("contact frame 1: sum of traction times area")
 
+    def test_facets_that_meet_at_an_angle_are_bent(self):
+        from check_results import bends
+
+        points = np.array([[0.0, 0, 0], [1, 0, 0], [1, 0, 0], [1, 1, 0], [0.5, 0, 0]])
+        grid = pyvista.UnstructuredGrid(np.array([3, 0, 1, 4, 2, 1, 3]), np.array([21, 3], dtype=np.uint8), points)
+        np.testing.assert_allclose(bends(grid), [0, 1, 0, 0, 0], atol=1e-15)
+        grid.point_data["displacement"] = np.array([[0.0, 0, 0], [0, 0, 0], [0, 0, 0], [1, -1, 0], [0, 0, 0]])
+        np.testing.assert_allclose(bends(grid), np.zeros(5), atol=1e-15)
+
     def test_a_missing_array_is_found(self):
         self.change_grid("volume_0001.vtu", lambda g: g.point_data.remove("reaction_force"))
         self.expect_failure("volume frame 1: there is no point array 'reaction_force'")
