@@ -4,7 +4,7 @@
 //!             `1/E* = 2 (1 − ν²)/E` for two bodies of one material.
 //! GOAL        the largest pressure is that of Hertz at the force that is measured; forces are in balance.
 //! MESH        examples/hertz_sphere_3d, examples/hertz_cylinder_2d (from Gmsh; 5 and 20 elements across the half width)
-//! CONDITIONS  small strain, approach prescribed, node-to-segment penalty
+//! CONDITIONS  small strain and sliding, approach prescribed; `auto`, which is mortar
 //! EXPECTED    p0 = (6 F E*²/(π³ R²))^⅓;  in the plane p0 = √(F E*/(π R))
 //! TOLERANCE   3 %: bodies of finite size and facets of finite size; balance 1e-10 of the force
 #![allow(clippy::unwrap_used)]

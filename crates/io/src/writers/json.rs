@@ -306,10 +306,10 @@ pub struct ContactSummary {
     /// Area that slips.
     #[serde(deserialize_with = "nan::of_number")]
     pub area_slip: f64,
-    /// What the forces of both sides do not balance, over the force: the worst of all increments.
+    /// What the forces of both sides do not balance, over the sum of the sizes of nodal forces: the worst of all increments.
     #[serde(default, deserialize_with = "nan::of_number")]
     pub imbalance_force: f64,
-    /// What their moments do not balance, over the force times the size of a facet: the worst of all increments.
+    /// What their moments do not balance, over that sum times the size of a facet: the worst of all increments.
     #[serde(default, deserialize_with = "nan::of_number")]
     pub imbalance_moment: f64,
 }

@@ -48,7 +48,9 @@ impl Builder<'_> {
             };
             let motions = part.changes.len() + part.temperatures.len();
             let changes = motions + part.loads.len() + step.contacts.len();
-            if changes == 0 && !goes_on && !found.has_errors() {
+            // overlaps at the start are resolved in the first step
+            let begins = number == 0 && !self.case.contacts.is_empty();
+            if changes == 0 && !begins && !goes_on && !found.has_errors() {
                 found.push(changes_nothing(step));
             }
             goes_on |= part.changes.iter().any(runs_on) || part.loads.iter().any(load_runs_on);

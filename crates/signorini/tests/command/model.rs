@@ -1,4 +1,4 @@
-use crate::support::{BRICK, change, run_text};
+use crate::support::{BRICK, change, folder_with, read, result, run, run_text};
 
 #[test]
 fn f41_a_body_without_supports_is_named_with_its_motion() {
@@ -69,4 +69,83 @@ fn f46_sides_that_share_nodes_are_glued() {
 fn f49_a_contact_that_never_closes_is_solved() {
     let text = change(BRICK, "uz = -0.02", "uz = 0.02");
     run_text(&text).says(0, &["✓ solved"]);
+}
+
+/// A coarse cell, and below it a strip of eight whose motion is prescribed as a whole.
+fn prescribed_strip(more: &str) -> String {
+    let mut nodes = String::from("[1, 0, 0], [2, 2, 0], [3, 2, 1], [4, 0, 1]");
+    let mut faces = Vec::new();
+    let mut elements =
+        String::from("{ id = 1, type = \"quad4\", group = \"high\", nodes = [1, 2, 3, 4] }");
+    for k in 0..=8 {
+        let x = 0.5 + 0.125 * f64::from(k);
+        let low = 10 + 2 * k;
+        nodes += &format!(", [{low}, {x}, -0.2], [{}, {x}, 0]", low + 1);
+        if k > 0 {
+            let (a, b) = (low - 2, low);
+            faces.push(format!("[{low}, \"S3\"]"));
+            elements += &format!(
+                ", {{ id = {low}, type = \"quad4\", group = \"strip\", nodes = [{a}, {b}, {}, {}] }}",
+                b + 1,
+                a + 1
+            );
+        }
+    }
+    let faces = faces.join(", ");
+    format!(
+        r#"format = 1
+title = "a strip"
+[mesh]
+nodes = [{nodes}]
+elements = [{elements}]
+[model]
+space = "plane-strain"
+[sets]
+head = {{ nodes = [3, 4] }}
+top = {{ faces = [[1, "S1"]] }}
+strip_top = {{ faces = [{faces}] }}
+[material.steel]
+model = "linear-elastic"
+E = 1000.0
+nu = 0.3
+[[body]]
+group = "high"
+material = "steel"
+[[body]]
+group = "strip"
+material = "steel"
+[[contact]]
+name = "touch"
+secondary = "strip_top"
+primary = "top"
+{more}
+[[step]]
+name = "press"
+geometry = "linear"
+increments = 1
+[[step.fix]]
+on = "head"
+u = "all"
+[[step.move]]
+on = "strip"
+ux = 0.0
+uy = 0.01
+"#
+    )
+}
+
+#[test]
+fn a_prescribed_secondary_side_has_no_multipliers_by_auto_and_is_told_of_by_mortar() {
+    let folder = folder_with(&prescribed_strip(""));
+    run(folder.path(), &["run", "case.toml"]).says(0, &["solved"]);
+    let resolved = read(&result(&folder, "case.resolved.toml"));
+    assert!(resolved.contains("\"node-to-segment\""), "{resolved}");
+    run_text(&prescribed_strip("method = \"mortar\"")).says(
+        4,
+        &[
+            "S0302",
+            "multipliers of contact \"touch\" are too many",
+            "swap",
+        ],
+    );
 }

@@ -226,6 +226,11 @@ pub trait Discretization: Send + Sync {
         Ok(false)
     }
 
+    /// Whether its weights are those of the start for good: moments of both sides balance there.
+    fn stays(&self) -> bool {
+        false
+    }
+
     /// Whether a pressure acts with the weights with which the gap changes.
     fn is_symmetric(&self) -> bool {
         true

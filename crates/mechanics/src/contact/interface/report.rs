@@ -251,14 +251,7 @@ impl Interface {
         let pair = &self.parts.pair;
         let n = pair.points.len();
         let of = |&node: &NodeId| state.x.get(node as usize).copied().unwrap_or_default();
-        let moved = |&node: &NodeId| {
-            let mut u = Vec3::ZERO;
-            for axis in 0..self.layout.ndim {
-                let dof = self.layout.node(node, axis) as usize;
-                u[axis] = state.u.get(dof).copied().unwrap_or_default();
-            }
-            u
-        };
+        let moved = |&node: &NodeId| self.displacement(node, state);
         let local = |nodes: &[NodeId]| -> Vec<u32> {
             let place = |node| pair.points.binary_search(node).ok().map(|k| k as u32);
             nodes.iter().filter_map(place).collect()
@@ -289,6 +282,15 @@ impl Interface {
         }
     }
 
+    fn displacement(&self, node: NodeId, state: &State) -> Vec3 {
+        let mut u = Vec3::ZERO;
+        for axis in 0..self.layout.ndim {
+            let dof = self.layout.node(node, axis) as usize;
+            u[axis] = state.u.get(dof).copied().unwrap_or_default();
+        }
+        u
+    }
+
     /// Adds the forces of a row to the nodes, the resultants of both sides, and the rigid bodies; and to the nodes of
     /// the first pass, where this is the second.
     fn distribute(
@@ -305,11 +307,16 @@ impl Interface {
             part.map_or(Vec3::ZERO, |f| -Vec3::new(f[0], f[1], f[2]))
         };
         let secondary = self.parts.discretization.secondary(rows, row);
+        // the places of a linear step
+        let at_start = !self.step.nonlinear && self.parts.discretization.stays();
         for (place, participant) in rows.participants().iter().enumerate() {
             let force = vector(column);
             match *participant {
                 Participant::Node(node) => {
-                    let x = state.x.get(node as usize).copied().unwrap_or_default();
+                    let mut x = state.x.get(node as usize).copied().unwrap_or_default();
+                    if at_start {
+                        x -= self.displacement(node, state);
+                    }
                     let side = if secondary.contains(&place) {
                         if let Ok(k) = self.parts.pair.points.binary_search(&node) {
                             report.force[k] += force;

@@ -229,7 +229,8 @@ fn state(contact: &ContactFrame) -> (String, ContactState) {
 /// A contact with the worst balance so far.
 fn summary(contact: &ContactFrame, before: Option<&ContactSummary>) -> ContactSummary {
     let (one, other) = (&contact.secondary, &contact.primary);
-    let force = one.force.norm();
+    // those of both halves of a ring cancel
+    let force: f64 = contact.force.iter().map(|f| f.norm()).sum();
     let over = |value: f64, size: f64| if force > 0.0 { value / size } else { 0.0 };
     let forces = over((one.force + other.force).norm(), force);
     let arm = force * contact.facet_size;

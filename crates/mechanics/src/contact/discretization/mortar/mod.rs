@@ -630,6 +630,10 @@ impl Discretization for Mortar {
         Some(-of.gap(by(self.nodes[row]), by) / of.d)
     }
 
+    fn stays(&self) -> bool {
+        self.held.is_some()
+    }
+
     fn is_symmetric(&self) -> bool {
         self.held.is_some()
     }
