@@ -56,7 +56,8 @@
 //!
 //! with the limit `L(p̂, s)`; it reads `w (g ν + e) = 0` where it sticks, and `−(w/ε) λ = 0` where it is open. The augmented
 //! Lagrangian has `p̂ = p` and acts by (E3); a [`Direct`](law::Multiplier::Direct) multiplier is the traction, `λ` in the
-//! place of `t − p ν`. Bonds are linear,
+//! place of `t − p ν`. Where both sides are held along an axis, as by a plane of symmetry, `z` and `dz` have no part along
+//! it: nothing rubs there. Bonds are linear,
 //!
 //! ```text
 //! f = w Bᵀ(λ + ε e),   f_λ = w e,   e the whole way from the anchor           (E6)

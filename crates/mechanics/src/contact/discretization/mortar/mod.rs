@@ -34,6 +34,10 @@
 //! or closed, and linear and angular momentum are exact without friction. Instead, [`Normals::Nodal`] has
 //! `n_k = ν c_k` with the mean `ν` of the unit normals at the node, as most of the literature.
 //!
+//! *Guests.* Where little of ψ_a is covered, what it would carry scatters. It leaves its function to others, ψ'_b = ψ_b +
+//! Σ_a s_ab ψ_a with shares s_ab of each facet that add up to 1: pressures are even there, nothing is dropped, and node a
+//! has no row. Who is whose guest is settled at convergence ([`Discretization::settle`]).
+//!
 //! *Held weights.* For small sliding and for what is joined, c and n are those of the start: all is linear, the tangent
 //! symmetric with `A_j = D_j`, and the slip is `e = P(w/D_j − o)` with the way `o` at the start of the increment.
 //!
