@@ -59,10 +59,10 @@
 //! least, up to [`MAX_DEGREE`], for which
 //!
 //! - products of two shape functions of facets with affine maps are exact: `d ≥ q + max(q, q^m)`, and
-//! - (E3) is 1e-12 on either facet, relative to its area, of which a triangle of a cell is a part; where its edges are
-//!   bent and the polygon is not exact, a hundredth of their sagitta, at most 1e-8: a patch test needs integrals of single
-//!   shape functions. Of products it needs that they are taken at the same points; their errors are (E3) with 2q for the
-//!   q beside d, some 1e-11.
+//! - (E3) is 1e-12 on either facet, for each triangle of a cell; where its edges are bent and the polygon is not exact, a
+//!   hundredth of their sagitta, at most 1e-9: stiff laws see it where a degree changes. A patch test needs integrals of
+//!   single shape functions. Of products it needs that they are taken at the same points; their errors are (E3) with 2q
+//!   for the q beside d, some 1e-11.
 //!
 //! Patch tests stay exact to 1e-12 on distorted facets up to `δ = 0.32`, of lines 0.3, and beyond it if cells are smaller
 //! than facets. Points of a triangle of a cell that is a whole facet, paired with its like, and in brackets of one half as
@@ -113,7 +113,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 const EXACT: f64 = 1e-12;
 
 /// The same where edges are bent: a hundredth of the sagitta, relative to the size of the facet, and no more than this.
-const BENT: f64 = 1e-8;
+const BENT: f64 = 1e-9;
 
 /// A point of a cell.
 #[derive(Clone, Copy, Debug)]
@@ -212,14 +212,12 @@ impl<T: Real> Both<'_, T> {
         TOUCH * a.size().min(b.size()) + ROUNDING * a.reach().max(b.reach())
     }
 
-    /// The degree that the rule needs over a part with these corners and this area: errors count by the area of facets.
-    fn degree(&self, corners: &[Pair<f64>], area: f64) -> usize {
+    /// The degree that the rule needs over a part with these corners.
+    fn degree(&self, corners: &[Pair<f64>]) -> usize {
         let (a, b) = (self.secondary, self.primary);
         let product = a.degree() + a.degree().max(b.degree());
-        let needed = [a, b].map(|f| {
-            let accuracy = f.accuracy() * (f.area() / area).max(1.0);
-            degree_for(f.dim(), f.degree(), f.bend_within(corners), accuracy)
-        });
+        let needed =
+            [a, b].map(|f| degree_for(f.dim(), f.degree(), f.bend_within(corners), f.accuracy()));
         product.max(needed[0]).max(needed[1]).min(MAX_DEGREE)
     }
 
@@ -275,7 +273,7 @@ impl<T: Real> Cell<'_, T> {
         if self.facets.secondary.dim() == 1 {
             let (start, end) = (place(0)[0], place(1)[0]);
             let length = end - start;
-            let degree = self.facets.degree(&[place(0), place(1)], length) + factor;
+            let degree = self.facets.degree(&[place(0), place(1)]) + factor;
             for &(s, w) in of_degree(1, degree) {
                 let share = 0.5 * (1.0 + s.x);
                 let at = [start + share * length, 0.0];
@@ -303,7 +301,7 @@ impl<T: Real> Cell<'_, T> {
             let of_u = [v[1], -v[0]];
             let of_v = [-u[1], u[0]];
             let corners = [first, place(k), place(k + 1)];
-            let degree = self.facets.degree(&corners, 0.5 * twice(k)) + factor;
+            let degree = self.facets.degree(&corners) + factor;
             for &(s, w) in of_degree(2, degree) {
                 let w = w * self.sign;
                 let at = [0, 1].map(|c| first[c] + u[c] * s.x + v[c] * s.y);
