@@ -23,8 +23,6 @@ pub struct Flat<T> {
     boundary: [u8; MAX_FACET_NODES],
     nboundary: usize,
     outline: Outline,
-    /// Of what its boundary encloses; of a line its length.
-    area: f64,
     /// Least and largest coordinates.
     bounds: [Pair<f64>; 2],
     bend: f64,
@@ -85,7 +83,6 @@ impl<T: Real> Flat<T> {
             boundary,
             nboundary,
             outline: Outline::Convex,
-            area: 0.0,
             bounds,
             bend: bend(element, &values, facing)?,
             sagitta: sagitta(element, &values),
@@ -93,10 +90,7 @@ impl<T: Real> Flat<T> {
             middle: place(element, &values, &centre),
             tangents: jacobian(element, &values, &centre),
         };
-        if element.dim() == 1 {
-            flat.area = flat.size();
-        } else {
-            flat.area = flat.polygon(0).area();
+        if element.dim() == 2 {
             flat.outline = flat.look();
         }
         let star = flat.outline == Outline::Star;
@@ -204,11 +198,6 @@ impl<T: Real> Flat<T> {
     /// The ends of a line, from left to right.
     pub(super) fn ends(&self) -> [T; 2] {
         [0, 1].map(|k| self.x[usize::from(self.boundary[k])][0])
-    }
-
-    /// What its boundary encloses; of a line its length.
-    pub(super) fn area(&self) -> f64 {
-        self.area
     }
 
     /// Its convex parts: itself, or what is convex around it and, to be taken away, dents; or triangles around its centre.

@@ -502,7 +502,13 @@ fn bent_edges_cover_what_their_polygons_enclose() {
                     .collect();
                 sum += measure(&between([element, large], [&x, &around]));
             }
-            let error = (sum - found.area()).abs() / found.area();
+            let boundary: Vec<Pair<f64>> = (0..element.ncorner())
+                .flat_map(|k| [places[k], places[element.ncorner() + k]])
+                .collect();
+            let n = boundary.len();
+            let twice = |k: usize| cross2(boundary[k], boundary[(k + 1) % n]);
+            let area = 0.5 * (0..n).map(twice).sum::<f64>();
+            let error = (sum - area).abs() / area;
             assert!(error < 1e-14, "{element:?} {noise:e}: {error:e}");
         }
     }
