@@ -31,6 +31,14 @@ def last_frame(folder, collection):
     return pyvista.read(folder / list(entries)[-1].get("file"))
 
 
+def hertz(force, spatial):
+    """The largest pressure and the radius of a ball (spatial), or of a cylinder of unit length, pressed by a force."""
+    if spatial:
+        p0 = (6 * force * MODULUS**2 / (np.pi**3 * RADIUS**2)) ** (1 / 3)
+        return p0, (3 * force * RADIUS / (4 * MODULUS)) ** (1 / 3)
+    return np.sqrt(force * MODULUS / (np.pi * RADIUS)), np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
+
+
 class Case:
     """One example: its pressure, Hertz's, and a section through the stress."""
 
@@ -39,12 +47,7 @@ class Case:
         self.spatial = spatial
         self.axis = 2 if spatial else 1
         force = abs(contact["contact_force"][:, self.axis].sum()) * (4 if spatial else 2)
-        if spatial:
-            self.p0 = (6 * force * MODULUS**2 / (np.pi**3 * RADIUS**2)) ** (1 / 3)
-            self.a = (3 * force * RADIUS / (4 * MODULUS)) ** (1 / 3)
-        else:
-            self.p0 = np.sqrt(force * MODULUS / (np.pi * RADIUS))
-            self.a = np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
+        self.p0, self.a = hertz(force, spatial)
         at = contact.points  # a linear step knows no other places
         self.r = np.hypot(at[:, 0], at[:, 1]) if spatial else at[:, 0]
         self.pressure = contact["contact_pressure"]

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hertz_figure import MODULUS, RADIUS, last_frame
+from hertz_figure import hertz, last_frame
 
 TOLERANCE = 0.02
 
@@ -30,9 +30,9 @@ class Line:
     def __init__(self, folder):
         contact = last_frame(folder, "contact.pvd")
         force = 2 * abs(contact["contact_force"][:, 1].sum())
-        p0 = np.sqrt(force * MODULUS / (np.pi * RADIUS))
+        p0, a = hertz(force, spatial=False)
         order = np.argsort(contact.points[:, 0])
-        self.r = contact.points[order, 0] / np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
+        self.r = contact.points[order, 0] / a
         self.pressure = contact["contact_pressure"][order] / p0
         error = self.pressure - np.sqrt(np.maximum(1 - self.r**2, 0))
         self.middle = error[0]

@@ -31,6 +31,8 @@ const MODULUS: f64 = 1000.0;
 const POISSON: f64 = 0.3;
 /// Radius of the paraboloid, and of the contact.
 const R: f64 = 10.0;
+/// Combined modulus of the two bodies.
+const COMBINED: f64 = MODULUS / (1.0 - POISSON * POISSON) / 2.0;
 const A: f64 = 0.3;
 /// Extent of a quarter.
 const SIZE: f64 = 8.0 * A;
@@ -40,18 +42,18 @@ const GROWTH: f64 = 1.4;
 const EVEN: f64 = 1.5 * A;
 
 /// Lines from 0 to the end of a block: even ones first, then at distances that grow.
-fn lines(h: f64, growth: f64) -> Vec<f64> {
+fn lines(h: f64) -> Vec<f64> {
     let even = (EVEN / h).ceil() as usize;
     let mut lines: Vec<f64> = (0..=even).map(|k| h * k as f64).collect();
-    grow(&mut lines, h, growth);
+    grow(&mut lines, h);
     lines
 }
 
-fn grow(lines: &mut Vec<f64>, mut h: f64, growth: f64) {
+fn grow(lines: &mut Vec<f64>, mut h: f64) {
     let from = lines.len() - 1;
     let start = lines[from];
     while lines[lines.len() - 1] < SIZE {
-        h *= growth;
+        h *= GROWTH;
         lines.push(lines[lines.len() - 1] + h);
     }
     let factor = (SIZE - start) / (lines[lines.len() - 1] - start);
@@ -73,17 +75,16 @@ fn block(across: &[f64], up: &[f64], face: impl Fn(Vec3) -> f64) -> Grid {
 
 /// The contact of bodies with so many even facets in the radius.
 fn pressed(facets: f64) -> ContactFrame {
-    let modulus = MODULUS / (1.0 - POISSON * POISSON) / 2.0;
-    let force = 4.0 * modulus * A.powi(3) / (3.0 * R);
+    let force = 4.0 * COMBINED * A.powi(3) / (3.0 * R);
     let up = |h: f64| {
         let mut up = vec![0.0];
-        grow(&mut up, h / GROWTH, GROWTH);
+        grow(&mut up, h / GROWTH);
         up
     };
     let (fine, coarse) = (A / facets, 1.2 * A / facets);
-    let upper = block(&lines(fine, GROWTH), &up(fine), |x| x.dot(x) / (2.0 * R));
+    let upper = block(&lines(fine), &up(fine), |x| x.dot(x) / (2.0 * R));
     let down: Vec<f64> = up(coarse).iter().rev().map(|z| -z).collect();
-    let lower = block(&lines(coarse, GROWTH), &down, |_| 0.0);
+    let lower = block(&lines(coarse), &down, |_| 0.0);
     let mut mesh = Mesh::default();
     let lower = lower.join(&mut mesh, |s| s.z > 1.0 - 1e-9);
     let upper = upper.join(&mut mesh, |s| s.z < 1e-9);
@@ -169,8 +170,7 @@ fn pressed(facets: f64) -> ContactFrame {
 
 /// What pressures at nodes are off by, over p0: of the largest, and of each node in the circle or with a pressure.
 fn errors(contact: &ContactFrame) -> (f64, Vec<f64>) {
-    let modulus = MODULUS / (1.0 - POISSON * POISSON) / 2.0;
-    let p0 = 2.0 * modulus * A / (PI * R);
+    let p0 = 2.0 * COMBINED * A / (PI * R);
     let nodes = contact.points.iter().zip(&contact.pressure);
     let error = |(x, p): (&Vec3, &f64)| {
         let r = x.x.hypot(x.y) / A;

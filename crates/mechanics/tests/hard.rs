@@ -401,18 +401,17 @@ fn every_method_gets_through_every_situation() {
 }
 
 /// Published are iterations of another program's mortar method on situations like these, in four increments at its
-/// tolerance of 5e-3. Ours are fewer, but for a block that rolls from its edge onto its face: two of the 13 only show that
-/// nothing moves by more than a hundredth any more.
+/// tolerance of 5e-3.
 #[test]
 fn mortar_needs_few_iterations() {
-    for (name, published, bound) in [
-        ("pressed", 8, 8),
-        ("slid, mu 0.3", 23, 23),
-        ("slid, mu 1.0", 25, 25),
-        ("tilted", 11, 13),
-        ("stick ten times stiffer", 22, 22),
-        ("half off the edge", 24, 24),
-        ("overlap, 4 increments", 8, 8),
+    for (name, published) in [
+        ("pressed", 8),
+        ("slid, mu 0.3", 23),
+        ("slid, mu 1.0", 25),
+        ("tilted", 11),
+        ("stick ten times stiffer", 22),
+        ("half off the edge", 24),
+        ("overlap, 4 increments", 8),
     ] {
         let mut s = situations().into_iter().find(|s| s.name == name).unwrap();
         (s.force_tol, s.slid_in) = (5e-3, 4);
@@ -421,7 +420,7 @@ fn mortar_needs_few_iterations() {
             "{name}: {} iterations (published {published}) in {} increments, {} cut-backs",
             r.iterations, r.increments, r.cutbacks
         );
-        assert!(r.iterations <= bound, "{name}: {}", r.iterations);
+        assert!(r.iterations <= published, "{name}: {}", r.iterations);
         assert!(
             (r.rubs - s.mu).abs() < 5e-3 || s.slide == 0.0,
             "{name}: {}",

@@ -40,9 +40,10 @@
 //! *Quadratic facets* have polygons through all nodes of their boundary. Where edges are straight nothing is lost, and
 //! patch tests stay exact. A bent edge deviates from its polygon by a fourth of its sagitta at most; facets that share it
 //! share the polygon, so that nothing is covered twice or never, and what lies between is of second order in the size of
-//! the facet, relative to it. A polygon with dents is a convex one from which triangles are taken away; where the facet is
-//! much bent, δ > 0.3, so that the places in dents need not have parameters, or the polygon is not convex at a corner, it is
-//! cut into triangles around its centre instead. Areas are those of the plane: on a curved facet they are the component of its vector area along n0, which is what a constant pressure needs.
+//! the facet, relative to it. A polygon with dents is a convex one from which triangles are taken away; where the facet
+//! is much bent, δ > 0.3, so that the places in dents need not have parameters, or the polygon is not convex at a corner,
+//! it is cut into triangles around its centre instead. Areas are those of the plane: on a curved facet they are the
+//! component of its vector area along n0, which is what a constant pressure needs.
 //!
 //! *Degree.* Of a facet with shape functions of degree q the inverse map is a series in
 //! `δ = max |X_,0⁻¹ X_,ab|`, half the facet being 1, and adds q − 1 degrees with each power of it: the term of `δ^k` in

@@ -195,6 +195,7 @@ impl Term for Damper {
         *acts = false;
         Ok(Verdict::Repeat {
             changes: 1,
+            closing: false,
             why: String::from("bodies that only contact holds were let go"),
             nodes: Vec::new(),
         })

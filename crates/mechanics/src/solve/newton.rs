@@ -317,7 +317,7 @@ impl Newton {
             };
             self.assemble(system, first)?;
             let judgement = self.judge(system);
-            let (flips, repeat) = verdicts(system, &self.trial);
+            let Verdicts { flips, repeat, .. } = verdicts(system, &self.trial);
             report(&IterationRecord {
                 step: place.step,
                 increment: place.increment,
@@ -406,29 +406,33 @@ impl Newton {
     /// Sets up the trial state, extrapolated where that is of use; says whether nodes have to be moved in the first
     /// solve.
     ///
-    /// An extrapolation that cannot be evaluated is of no use. One that makes a term change its mind (contact opens
-    /// that was closed) is of use only where the plain start leaves a larger residual.
+    /// An extrapolation that cannot be evaluated is of no use. One that makes a term change its mind is of use where
+    /// nodes have to be moved and all it does is to close contact by multipliers, which would act a solve later; one
+    /// that opens contact, or takes it to other facets, may lead to another equilibrium. Where no nodes have to be
+    /// moved, it is of use only where the plain start leaves a larger residual.
     fn start(&mut self, system: &mut System, base: &State, goal: &Goal<'_>) -> bool {
         let Some(guess) = goal.guess else {
             return self.begin(system, base, goal);
         };
         self.extrapolate(system, base, goal, guess);
         let extrapolated = self.largest_residual(system);
-        let (_, repeat) = verdicts(system, &self.trial);
-        if extrapolated.is_some() && repeat.is_none() {
+        let verdicts = verdicts(system, &self.trial);
+        if extrapolated.is_some() && verdicts.repeat.is_none() {
             return false;
         }
         self.forget(system);
         let motion = self.begin(system, base, goal);
-        if motion {
-            return true;
-        }
-        let plain = self.largest_residual(system);
-        self.forget(system);
-        if extrapolated.zip(plain).is_some_and(|(e, p)| e < p) {
+        let better = if motion {
+            extrapolated.is_some() && verdicts.closing
+        } else {
+            let plain = self.largest_residual(system);
+            self.forget(system);
+            extrapolated.zip(plain).is_some_and(|(e, p)| e < p)
+        };
+        if better {
             self.extrapolate(system, base, goal, guess);
         }
-        false
+        motion && !better
     }
 
     /// Takes all terms back to their accepted history.
@@ -660,22 +664,36 @@ impl Newton {
     }
 }
 
-/// How many discrete choices changed, and what the first term that is not settled says.
-fn verdicts(system: &mut System, trial: &State) -> (usize, Option<(String, Vec<NodeId>)>) {
-    let mut flips = 0;
-    let mut first = None;
+/// What all terms say of an iterate.
+struct Verdicts {
+    /// How many discrete choices changed.
+    flips: usize,
+    /// What the first term that is not settled says.
+    repeat: Option<(String, Vec<NodeId>)>,
+    /// Whether all that changed is contact by multipliers that closed.
+    closing: bool,
+}
+
+fn verdicts(system: &mut System, trial: &State) -> Verdicts {
+    let mut all = Verdicts {
+        flips: 0,
+        repeat: None,
+        closing: true,
+    };
     for term in &mut system.terms {
         if let Verdict::Repeat {
             changes,
+            closing,
             why,
             nodes,
         } = term.verdict(trial)
         {
-            flips += changes;
-            first.get_or_insert((why, nodes));
+            all.flips += changes;
+            all.closing &= closing;
+            all.repeat.get_or_insert((why, nodes));
         }
     }
-    (flips, first)
+    all
 }
 
 fn largest(values: &[f64]) -> f64 {

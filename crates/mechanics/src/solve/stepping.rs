@@ -274,19 +274,12 @@ impl Stepper {
         let prescribed = &mut self.newton.prescribed;
         prescribed.clear();
         prescribed.resize(system.layout.ndof(), false);
+        let mut held = prescribed.clone();
         for p in &step.prescriptions {
-            if let Some(flag) = prescribed.get_mut(p.dof as usize) {
-                *flag = true;
-            }
-        }
-        let mut held = vec![false; system.layout.ndof()];
-        for p in step
-            .prescriptions
-            .iter()
-            .filter(|p| p.motion == Motion::Hold)
-        {
-            if let Some(flag) = held.get_mut(p.dof as usize) {
-                *flag = true;
+            let dof = p.dof as usize;
+            if let (Some(prescribed), Some(held)) = (prescribed.get_mut(dof), held.get_mut(dof)) {
+                *prescribed = true;
+                *held |= p.motion == Motion::Hold;
             }
         }
         for term in &mut system.terms {

@@ -31,6 +31,8 @@ pub enum Verdict {
     Repeat {
         /// How many rows changed.
         changes: usize,
+        /// Whether all they did was to close, by multipliers: these act a solve later.
+        closing: bool,
         /// In the user's words: who, and how.
         why: String,
         /// The nodes concerned, at most a handful.

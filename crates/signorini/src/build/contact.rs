@@ -222,13 +222,18 @@ pub(super) fn word(method: &Method) -> &'static str {
     }
 }
 
+/// What a penalty refers to.
+pub(super) const fn per(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Area => "area",
+        Measure::Node => "node",
+    }
+}
+
 /// How a contact prevents penetration.
 pub(super) fn words(summary: &ContactSummary) -> String {
     let scale = short(summary.penalty);
-    let per = match summary.measure {
-        Measure::Area => "area",
-        Measure::Node => "node",
-    };
+    let per = per(summary.measure);
     match summary.enforcement {
         model::Enforcement::Auto | model::Enforcement::Penalty(_) => {
             format!("penalty {scale} per {per}")

@@ -180,10 +180,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
             method: contact::word(&c.method),
             enforcement: contact::words(c),
             penalty: c.penalty,
-            per: match c.measure {
-                Measure::Area => "area",
-                Measure::Node => "node",
-            },
+            per: contact::per(c.measure),
             npoint: c.npoint,
             nfacet: c.nfacet,
             facet_size: c.facet_size,

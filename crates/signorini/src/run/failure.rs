@@ -55,7 +55,7 @@ fn free_body(dof: Option<Dof>, model: &Model) -> Diagnostic {
     if let Some(contact) = dof.and_then(|dof| contact_of(dof, model)) {
         let message = format!("the multipliers of contact \"{contact}\" are too many");
         return Diagnostic::error(&codes::FREE_BODY, message)
-            .note("the nodes of its secondary side cannot follow as many conditions: their motion is prescribed, or follows others")
+            .note("the nodes of its secondary side cannot follow: their motion is prescribed, or follows others")
             .note("nothing was solved")
             .help("swap `secondary` and `primary`, or write  enforcement = { penalty = \"auto\" }");
     }

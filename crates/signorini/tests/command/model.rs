@@ -149,3 +149,68 @@ fn a_prescribed_secondary_side_has_no_multipliers_by_auto_and_is_told_of_by_mort
         ],
     );
 }
+
+/// A block on another, with these faces of it as the secondary side.
+fn resting(faces: &str) -> String {
+    format!(
+        r#"format = 1
+title = "a block on another"
+[mesh]
+nodes = [
+    [1, 0.0, 0.0], [2, 2.0, 0.0], [3, 2.0, 1.0], [4, 0.0, 1.0],
+    [5, 0.5, 1.0], [6, 1.5, 1.0], [7, 1.5, 2.0], [8, 0.5, 2.0],
+]
+elements = [
+    {{ id = 1, type = "quad4", group = "low", nodes = [1, 2, 3, 4] }},
+    {{ id = 2, type = "quad4", group = "high", nodes = [5, 6, 7, 8] }},
+]
+[model]
+space = "plane-strain"
+[sets]
+base = {{ nodes = [1, 2] }}
+head = {{ nodes = [7, 8] }}
+top = {{ faces = [[1, "S3"]] }}
+foot = {{ faces = [{faces}] }}
+[material.steel]
+model = "linear-elastic"
+E = 1000.0
+nu = 0.3
+[[body]]
+group = "low"
+material = "steel"
+[[body]]
+group = "high"
+material = "steel"
+[[contact]]
+name = "touch"
+secondary = "foot"
+primary = "top"
+[[step]]
+name = "press"
+geometry = "linear"
+increments = 1
+[[step.fix]]
+on = "base"
+u = "all"
+[[step.fix]]
+on = "head"
+u = ["x"]
+[[step.move]]
+on = "head"
+uy = -0.01
+"#
+    )
+}
+
+#[test]
+fn auto_takes_mortar_unless_the_secondary_side_has_edges() {
+    for (faces, method) in [
+        ("[2, \"S1\"]", "\"mortar\""),
+        ("[2, \"S1\"], [2, \"S2\"]", "\"node-to-segment\""),
+    ] {
+        let folder = folder_with(&resting(faces));
+        run(folder.path(), &["run", "case.toml"]).says(0, &["solved"]);
+        let resolved = read(&result(&folder, "case.resolved.toml"));
+        assert!(resolved.contains(method), "{resolved}");
+    }
+}

@@ -208,6 +208,7 @@ impl Interface {
         let nodes = self.parts.discretization.point(row).nodes;
         Verdict::Repeat {
             changes: 1,
+            closing: false,
             why: format!("contact \"{}\": its {change}", self.parts.name),
             nodes: nodes.first().copied().into_iter().collect(),
         }

@@ -498,13 +498,14 @@ impl Term for Interface {
                 nodes.extend(self.parts.discretization.point(row).nodes.first());
             }
         }
-        counts.verdict(&self.parts.name, nodes)
+        counts.verdict(&self.parts.name, nodes, self.has_saddle())
     }
 
     fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
         if self.settled < RESTLESS && self.settle(&trial.placement())? {
             return Ok(Verdict::Repeat {
                 changes: 1,
+                closing: false,
                 why: format!("contact \"{}\": other nodes are covered", self.parts.name),
                 nodes: Vec::new(),
             });
@@ -586,7 +587,7 @@ impl Changes {
         true
     }
 
-    fn verdict(&self, name: &str, nodes: Vec<NodeId>) -> Verdict {
+    fn verdict(&self, name: &str, nodes: Vec<NodeId>, by_multipliers: bool) -> Verdict {
         let parts = [
             (self.closed, "closed"),
             (self.opened, "opened"),
@@ -602,6 +603,7 @@ impl Changes {
         let said: Vec<String> = said.map(|(n, what)| format!("{n} {what}")).collect();
         Verdict::Repeat {
             changes,
+            closing: by_multipliers && changes == self.closed,
             why: format!("contact \"{name}\": {}", said.join(", ")),
             nodes,
         }

@@ -392,13 +392,14 @@ fn a_verdict_repeats_until_the_choices_stay() {
     let state = scene.state.clone();
     let Verdict::Repeat {
         changes,
+        closing,
         why,
         nodes,
     } = scene.interface.verdict(&state)
     else {
         panic!("nodes touch that did not before");
     };
-    assert_eq!(changes, inside);
+    assert_eq!((changes, closing), (inside, false));
     assert!(why.contains("\"touch\"") && why.contains(&format!("{inside} closed")));
     assert!(
         !nodes.is_empty()
@@ -422,13 +423,14 @@ fn a_verdict_repeats_until_the_choices_stay() {
     scene.interface.prepare(&gone).unwrap();
     let Verdict::Repeat {
         changes,
+        closing,
         why,
         nodes,
     } = scene.interface.verdict(&gone)
     else {
         panic!("a node has left");
     };
-    assert_eq!((changes, nodes), (1, vec![node]));
+    assert_eq!((changes, closing, nodes), (1, false, vec![node]));
     assert!(why.contains("1 opened"), "{why}");
 
     // an open node that stays open is no news, wherever it goes

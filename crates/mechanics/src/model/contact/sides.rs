@@ -260,19 +260,17 @@ impl Source<'_> {
     /// multipliers at nodes that can follow them. With a penalty, points are cheaper and no worse; nodes alone cannot carry
     /// an even pressure on some facets. Multipliers at points inside facets are more than there are nodes to follow them.
     fn method(&self, part: &ContactPart, secondary: Option<&Facets>) -> Method {
-        let exact = !matches!(
+        let open = !matches!(
             part.enforcement,
-            Enforcement::Auto
-                | Enforcement::Penalty(_)
-                | Enforcement::Table(_)
-                | Enforcement::Exponential { .. }
+            Enforcement::Penalty(_) | Enforcement::Table(_) | Enforcement::Exponential { .. }
         );
+        let exact = open && !matches!(part.enforcement, Enforcement::Auto);
         match (&part.method, &part.primary) {
             (Method::Auto, PrimaryPart::Nodes(_)) => Method::NodeToNode {
                 normals: Normals::default(),
                 pairs: PairOrder::default(),
             },
-            (Method::Auto, PrimaryPart::Faces(_)) if self.suits_mortar(part, exact, secondary) => {
+            (Method::Auto, PrimaryPart::Faces(_)) if open && self.suits_mortar(part, secondary) => {
                 Method::Mortar {
                     normals: discretization::mortar::Normals::default(),
                 }
@@ -289,8 +287,7 @@ impl Source<'_> {
     }
 
     /// Whether multipliers of mortar contact can be had for what a contact asks for.
-    fn suits_mortar(&self, part: &ContactPart, exact: bool, secondary: Option<&Facets>) -> bool {
-        let open = exact || matches!(part.enforcement, Enforcement::Auto);
+    fn suits_mortar(&self, part: &ContactPart, secondary: Option<&Facets>) -> bool {
         let plain = !part.two_pass && !part.present_area && part.measure != Some(Measure::Node);
         let given = |n: &NodeId| {
             let prescribed = self.prescribed.get(*n as usize);
@@ -299,7 +296,7 @@ impl Source<'_> {
         let follows = |facets: &Facets| {
             (0..facets.nfacet() as u32).all(|f| !facets.nodes(f).iter().all(given))
         };
-        open && plain && secondary.is_some_and(|facets| follows(facets) && self.is_smooth(facets))
+        plain && secondary.is_some_and(|facets| follows(facets) && self.is_smooth(facets))
     }
 
     /// Whether a surface has no edges: a mean over both of its sides would say little about either.

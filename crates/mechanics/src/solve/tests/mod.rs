@@ -213,6 +213,7 @@ impl Term for Fault {
         if (self.unsettled)(self.start(), trial, self.asked) {
             return Verdict::Repeat {
                 changes: 3,
+                closing: false,
                 why: "the fault wavers".into(),
                 nodes: vec![1],
             };
