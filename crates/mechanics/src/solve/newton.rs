@@ -407,9 +407,9 @@ impl Newton {
     /// solve.
     ///
     /// An extrapolation that cannot be evaluated is of no use. One that makes a term change its mind is of use where
-    /// nodes have to be moved and all it does is to close contact by multipliers, which would act a solve later; one
-    /// that opens contact, or takes it to other facets, may lead to another equilibrium. Where no nodes have to be
-    /// moved, it is of use only where the plain start leaves a larger residual.
+    /// nodes have to be moved and all it does is to close contact without friction; one that opens contact, takes it to
+    /// other facets, or leaves traces of friction may lead to another equilibrium. Where no nodes have to be moved, it
+    /// is of use only where the plain start leaves a larger residual.
     fn start(&mut self, system: &mut System, base: &State, goal: &Goal<'_>) -> bool {
         let Some(guess) = goal.guess else {
             return self.begin(system, base, goal);
@@ -670,7 +670,7 @@ struct Verdicts {
     flips: usize,
     /// What the first term that is not settled says.
     repeat: Option<(String, Vec<NodeId>)>,
-    /// Whether all that changed is contact by multipliers that closed.
+    /// Whether all that changed is contact without friction that closed.
     closing: bool,
 }
 

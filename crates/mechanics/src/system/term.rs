@@ -31,7 +31,7 @@ pub enum Verdict {
     Repeat {
         /// How many rows changed.
         changes: usize,
-        /// Whether all they did was to close, by multipliers: these act a solve later.
+        /// Whether all they did was to close, and the way there leaves no trace: there is no friction.
         closing: bool,
         /// In the user's words: who, and how.
         why: String,

@@ -498,7 +498,7 @@ impl Term for Interface {
                 nodes.extend(self.parts.discretization.point(row).nodes.first());
             }
         }
-        counts.verdict(&self.parts.name, nodes, self.has_saddle())
+        counts.verdict(&self.parts.name, nodes, !self.parts.has_vectors())
     }
 
     fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
@@ -587,7 +587,7 @@ impl Changes {
         true
     }
 
-    fn verdict(&self, name: &str, nodes: Vec<NodeId>, by_multipliers: bool) -> Verdict {
+    fn verdict(&self, name: &str, nodes: Vec<NodeId>, forgets: bool) -> Verdict {
         let parts = [
             (self.closed, "closed"),
             (self.opened, "opened"),
@@ -603,7 +603,7 @@ impl Changes {
         let said: Vec<String> = said.map(|(n, what)| format!("{n} {what}")).collect();
         Verdict::Repeat {
             changes,
-            closing: by_multipliers && changes == self.closed,
+            closing: forgets && changes == self.closed,
             why: format!("contact \"{name}\": {}", said.join(", ")),
             nodes,
         }

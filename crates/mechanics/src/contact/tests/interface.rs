@@ -399,7 +399,7 @@ fn a_verdict_repeats_until_the_choices_stay() {
     else {
         panic!("nodes touch that did not before");
     };
-    assert_eq!((changes, closing), (inside, false));
+    assert_eq!((changes, closing), (inside, true));
     assert!(why.contains("\"touch\"") && why.contains(&format!("{inside} closed")));
     assert!(
         !nodes.is_empty()
