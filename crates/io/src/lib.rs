@@ -1,7 +1,7 @@
 //! Everything that crosses the door: cases, meshes, results, checkpoints, and the messages about them.
 //!
 //! ```text
-//! case.toml ──case──▶ Case       part.msh ──readers──▶ Mesh
+//! case.toml ──case──▶ Case       part.msh ──readers──▶ Mesh       job.inp ──deck──▶ Case and Mesh
 //! Frame ──writers──▶ frames/*.vtu, history.csv, …      all files through fs
 //! ```
 //!
@@ -9,6 +9,7 @@
 
 pub mod case;
 pub mod checkpoint;
+pub mod deck;
 pub mod diagnostic;
 pub mod fs;
 pub mod readers;

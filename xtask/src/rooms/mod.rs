@@ -33,7 +33,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 32] = [
+const ROOMS: [Room; 33] = [
     room("geometry", &[]),
     room("geometry::tensor", &[]),
     room("geometry::element", &["geometry::tensor"]),
@@ -91,6 +91,17 @@ const ROOMS: [Room; 32] = [
             "io::diagnostic",
             "io::fs",
             "io::vtk",
+            "mechanics",
+            "geometry",
+        ],
+    ),
+    room(
+        "io::deck",
+        &[
+            "io::case",
+            "io::diagnostic",
+            "io::fs",
+            "io::readers",
             "mechanics",
             "geometry",
         ],

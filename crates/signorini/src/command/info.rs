@@ -3,7 +3,7 @@
 use super::console::Console;
 use clap::Args;
 use signorini::text::{count, plural, short};
-use signorini::{Diagnostics, load};
+use signorini::{Diagnostics, Reading, load};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::diagnostic::{Diagnostic, codes};
 use signorini_io::fs::{Fs, RealFs};
@@ -27,7 +27,7 @@ impl Info {
         } else {
             let extension = self.path.extension().map(|e| e.to_ascii_lowercase());
             match extension.as_deref().and_then(|e| e.to_str()) {
-                Some("toml") => load(&self.path, &[]).map(|loaded| mesh(&loaded.mesh)),
+                Some("toml") => load(&self.path, &Reading::default()).map(|loaded| mesh(&loaded.mesh)),
                 Some("vtu") => grid_file(&self.path).map_err(Diagnostics::from),
                 _ => mesh_file(&self.path).map_err(Diagnostics::from),
             }

@@ -18,8 +18,9 @@ mod templates;
 mod terminal;
 mod threads;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use console::Console;
+use signorini::{Compat, Reading};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -68,6 +69,31 @@ struct CaseOptions {
     /// Change a value of the case: --set material.steel.E=2000
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = assignment)]
     set: Vec<(String, String)>,
+    /// The laws of contact of a deck: the best there are, or those that CalculiX has
+    #[arg(long, value_name = "PROGRAM", default_value = "none")]
+    compat: CompatWord,
+}
+
+/// A word for [`Compat`].
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum CompatWord {
+    /// The best way to hold surfaces apart
+    #[default]
+    None,
+    /// Penalties and types as the deck says
+    Ccx,
+}
+
+impl CaseOptions {
+    fn reading(&self) -> Reading {
+        Reading {
+            set: self.set.clone(),
+            compat: match self.compat {
+                CompatWord::None => Compat::None,
+                CompatWord::Ccx => Compat::Ccx,
+            },
+        }
+    }
 }
 
 /// Options of all commands that solve.

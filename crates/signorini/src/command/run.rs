@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 /// Solve a case.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// The case, a .toml file
+    /// The case, a .toml file; or a deck, .inp
     case: PathBuf,
     #[command(flatten)]
     folder: FolderOption,
@@ -37,7 +37,7 @@ pub struct Run {
 impl Run {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
-        let (mut case, warnings, mut source) = match load_case(&self.case, &self.changes.set) {
+        let (mut case, warnings, mut source) = match load_case(&self.case, &self.changes.reading()) {
             Ok(read) => read,
             Err(found) => return refused(&found, &self.solve),
         };

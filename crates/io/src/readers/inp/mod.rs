@@ -64,6 +64,12 @@ pub fn read_from(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<Str
     Ok((whole.mesh, whole.notes))
 }
 
+/// A real number as Fortran writes it; finite.
+#[must_use]
+pub fn number(text: &str) -> Option<f64> {
+    card::real(text.trim().as_bytes()).filter(|value| value.is_finite())
+}
+
 /// A deck: its mesh, and the cards that say what to do with it.
 #[derive(Clone, Debug)]
 pub struct Deck {
