@@ -1,3 +1,4 @@
+use super::Samples;
 use signorini_geometry::element::Element;
 use signorini_geometry::tensor::{Sym3, Vec3};
 
@@ -143,6 +144,9 @@ pub struct Frame {
     pub displacement: Vec<Vec3>,
     /// Force that supports exert on each node.
     pub reaction_force: Vec<Vec3>,
+    /// Force of bodies, springs and contacts at each node, which is what loads, supports and couplings exert on it;
+    /// empty where not wanted.
+    pub internal_force: Vec<Vec3>,
     /// Cauchy stress at each node, the mean over the cells around it.
     pub stress: Vec<Sym3>,
     /// Strain at each node, averaged likewise: linearized at small strain, logarithmic `½ ln(F Fᵀ)` at finite strain.
@@ -157,6 +161,8 @@ pub struct Frame {
     pub cell_strain: Vec<Vec<Sym3>>,
     /// Equivalent plastic strain of each cell, likewise; empty where no material has one.
     pub cell_plastic_strain: Vec<Vec<f64>>,
+    /// Values at the integration points of the cells that are wanted.
+    pub samples: Samples,
     /// Temperature of each node; empty where there are none.
     pub temperature: Vec<f64>,
     /// Contact force on each node, of both sides.

@@ -259,6 +259,13 @@ impl<'a> Names<'a> {
         cells
     }
 
+    /// The elements of a set as they are listed, each once.
+    pub fn cells_of(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<CellId>> {
+        let mut seen = BTreeSet::new();
+        let listed = self.get(name, found)?.cells.iter().copied();
+        Some(listed.filter(|cell| seen.insert(*cell)).collect())
+    }
+
     /// The nodes of a set.
     pub fn nodes(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<NodeId>> {
         let nodes = self.mesh.nodes_of(self.get(name, found)?);

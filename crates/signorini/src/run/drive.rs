@@ -8,6 +8,7 @@ use super::limits::Stop;
 use super::news::{Detail, Listener, News, Totals, tell};
 use super::recorder::{Opened, Recorder, Setting};
 use super::start::{Start, begin, facts};
+use super::tables::Tables;
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
 use super::{Finished, RunOptions, event_of, failure};
@@ -124,6 +125,11 @@ fn setting(
         steps: model.steps.clone(),
         volume: Volume::new(&model.mesh, fields),
         history,
+        tables: Tables::new(
+            model.prints.clone(),
+            Arc::clone(&model.mesh),
+            *model.case.model.space,
+        ),
         every: model.case.output.every,
         checkpoint_increments: checkpoint.increments,
         checkpoint_wall: checkpoint.wall.map(Duration::from_secs_f64),

@@ -29,6 +29,7 @@ mod news;
 mod probe;
 mod recorder;
 mod start;
+mod tables;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! hertz.out/
-//!   results.pvd  contact.pvd  frames/  history.csv  convergence.csv  hertz.sta
+//!   results.pvd  contact.pvd  frames/  history.csv  convergence.csv  hertz.sta  hertz.dat
 //!   run.log  events.jsonl  summary.json  case.resolved.toml
 //!   checkpoint/   a.sgc b.sgc   the state, in turns
 //!                 case.toml     the case as it was read

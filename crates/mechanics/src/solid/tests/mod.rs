@@ -18,6 +18,7 @@ mod derivatives;
 mod history;
 mod locking;
 mod patch;
+mod samples;
 mod speed;
 mod truss;
 

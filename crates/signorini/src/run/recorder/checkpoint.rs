@@ -66,6 +66,9 @@ impl Recorder<'_> {
         files.convergence.sync()?;
         files.sta.sync()?;
         files.events.sync()?;
+        if let Some(tables) = &mut files.tables {
+            tables.sync()?;
+        }
         let mut archive = Archive::new();
         for (name, values) in &solution.arrays {
             archive.put_f64(&format!("solve/{name}"), values)?;
@@ -77,6 +80,9 @@ impl Recorder<'_> {
             files.events.nrow(),
         ];
         archive.put_u64("run/rows", &rows)?;
+        if let Some(tables) = &files.tables {
+            archive.put_u64("run/tables", &[tables.nrow()])?;
+        }
         let of_step = |s: &StepSummary| [s.increments, s.iterations, s.cutbacks];
         let mut counts = vec![self.counts.increments];
         counts.extend(self.counts.steps.iter().flat_map(of_step));

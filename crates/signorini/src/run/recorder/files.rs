@@ -8,6 +8,7 @@ use crate::run::news::Listener;
 use signorini_io::checkpoint::{Archive, Checkpoints};
 use signorini_io::fs::Log;
 use signorini_io::writers::csv::{CONVERGENCE_COLUMNS, Table};
+use signorini_io::writers::dat;
 use signorini_io::writers::json::{EventLog, StepSummary};
 use signorini_io::writers::pvd::{Entry, Pvd};
 use signorini_io::writers::sta::StatusTable;
@@ -20,6 +21,8 @@ pub(super) struct Files {
     pub(super) convergence: Table,
     pub(super) sta: StatusTable,
     pub(super) events: EventLog,
+    /// Where some step prints tables.
+    pub(super) tables: Option<dat::Tables>,
     pub(super) log: Box<dyn Log>,
 }
 
@@ -55,6 +58,10 @@ impl Opened {
             sta: StatusTable::create(fs, &path(&sta(&setting.name)), &setting.name)?,
             events: EventLog::create(fs, &path("events.jsonl"))?,
             log: fs.open_log(&path("run.log"), 0)?,
+            tables: match setting.tables.is_empty() {
+                true => None,
+                false => Some(dat::Tables::create(fs, &path(&tables(&setting.name)))?),
+            },
         };
         let lists = [
             Pvd::new(&path("results.pvd")),
@@ -127,6 +134,15 @@ impl Opened {
             sta: StatusTable::resume(fs, &path(&sta(&setting.name)), &setting.name, attempts)?,
             events: EventLog::resume(fs, &path("events.jsonl"), events)?,
             log: fs.open_log(&log, length)?,
+            tables: match setting.tables.is_empty() {
+                true => None,
+                false => {
+                    let mut lines = [0];
+                    from.copy_u64("run/tables", &mut lines)?;
+                    let path = path(&tables(&setting.name));
+                    Some(dat::Tables::resume(fs, &path, lines[0])?)
+                }
+            },
         };
         let list = |name: &str, kind: &str| -> Result<Pvd, OutputError> {
             let entry = |(number, &time): (usize, &f64)| Entry {
@@ -208,6 +224,10 @@ impl Opened {
             step_time: self.step_time,
         }
     }
+}
+
+fn tables(name: &str) -> String {
+    format!("{name}.dat")
 }
 
 fn sta(name: &str) -> String {

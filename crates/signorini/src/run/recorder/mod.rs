@@ -19,6 +19,7 @@ use crate::run::history::History;
 use crate::run::limits::{Limits, Stop};
 use crate::run::narration::{Level, Narrator};
 use crate::run::news::{Detail, Facts, Listener, News};
+use crate::run::tables::Tables;
 use crate::run::tree::Tree;
 use crate::run::volume::Volume;
 use signorini_geometry::mesh::Mesh;
@@ -47,6 +48,7 @@ pub struct Setting {
     pub steps: Vec<Step>,
     pub history: History,
     pub volume: Volume,
+    pub tables: Tables,
     pub every: Every,
     pub checkpoint_increments: Option<u64>,
     pub checkpoint_wall: Option<Duration>,

@@ -1,0 +1,237 @@
+//! `NAME.dat`: what the steps ask to be printed, increment by increment.
+
+use crate::build::{ElementQuantity, NodeQuantity, Printed, PrintedOf};
+use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_io::case::{Space, Totals};
+use signorini_io::writers::dat::{Kind, Of, Page, Points, WEDGE, tensor};
+use signorini_mechanics::solve::IncrementRecord;
+use signorini_mechanics::system::{Frame, PointSample};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The tables of a run.
+#[derive(Debug)]
+pub struct Tables {
+    steps: Vec<Vec<Printed>>,
+    mesh: Arc<Mesh>,
+    revolved: bool,
+}
+
+impl Tables {
+    /// The tables of every step.
+    pub fn new(steps: Vec<Vec<Printed>>, mesh: Arc<Mesh>, space: Space) -> Self {
+        Self {
+            steps,
+            mesh,
+            revolved: space == Space::Axisymmetric,
+        }
+    }
+
+    /// Whether no step asks for any.
+    pub fn is_empty(&self) -> bool {
+        self.steps.iter().all(Vec::is_empty)
+    }
+
+    /// What is printed after an increment; `None` where nothing is.
+    pub fn page(&self, record: &IncrementRecord, frame: &Frame) -> Option<Page> {
+        let (time, duration) = record.step_time;
+        let is_due = |one: &&Printed| {
+            time >= duration || (record.increment as u64).is_multiple_of(one.every)
+        };
+        let tables = self.steps.get(record.step)?;
+        let mut due = tables.iter().filter(is_due).peekable();
+        due.peek()?;
+        let page = Page::new(record.step + 1, record.increment, record.time);
+        let mut writer = Writer {
+            tables: self,
+            frame,
+            page,
+            points: HashMap::new(),
+        };
+        for one in due {
+            match &one.what {
+                PrintedOf::Nodes(nodes, quantities) => {
+                    quantities.iter().for_each(|q| writer.nodes(one, nodes, *q));
+                }
+                PrintedOf::Elements(cells, quantities) => {
+                    let quantities = quantities.iter();
+                    quantities.for_each(|q| writer.elements(one, cells, *q));
+                }
+            }
+        }
+        Some(writer.page)
+    }
+
+    /// What is printed of forces, energies and volumes.
+    fn share(&self) -> f64 {
+        if self.revolved { WEDGE } else { 1.0 }
+    }
+}
+
+/// Fills a page.
+struct Writer<'a> {
+    tables: &'a Tables,
+    frame: &'a Frame,
+    page: Page,
+    // by element and number of points
+    points: HashMap<(&'static str, usize), Points>,
+}
+
+impl Writer<'_> {
+    fn nodes(&mut self, one: &Printed, nodes: &[NodeId], quantity: NodeQuantity) {
+        let at = |values: &[Vec3], node: NodeId| values.get(node as usize).copied();
+        let share = self.tables.share();
+        match quantity {
+            NodeQuantity::Displacement => {
+                self.page.table(Kind::Displacements, &one.set);
+                for &node in nodes {
+                    let u = at(&self.frame.displacement, node).unwrap_or_default();
+                    self.page.row(self.node(node), &u.to_array());
+                }
+            }
+            NodeQuantity::Temperature => {
+                self.page.table(Kind::Temperatures, &one.set);
+                for &node in nodes {
+                    let t = self.frame.temperature.get(node as usize).copied();
+                    self.page.row(self.node(node), &[t.unwrap_or_default()]);
+                }
+            }
+            NodeQuantity::Reaction => {
+                let force = |node| at(&self.frame.internal_force, node).unwrap_or_default() * share;
+                if one.totals != Totals::Only {
+                    self.page.table(Kind::Forces, &one.set);
+                    for &node in nodes {
+                        self.page.row(self.node(node), &force(node).to_array());
+                    }
+                }
+                if one.totals != Totals::No {
+                    let total: Vec3 = nodes.iter().map(|node| force(*node)).sum();
+                    self.page.table(Kind::TotalForce, &one.set);
+                    self.page.row(Of::All, &total.to_array());
+                }
+            }
+        }
+    }
+
+    fn elements(&mut self, one: &Printed, cells: &[CellId], quantity: ElementQuantity) {
+        match quantity {
+            ElementQuantity::Stress => {
+                self.tensors(Kind::Stresses, &one.set, cells, |s| s.stress);
+            }
+            ElementQuantity::Strain => {
+                self.tensors(Kind::Strains, &one.set, cells, |s| s.strain);
+            }
+            ElementQuantity::MechanicalStrain => {
+                let kind = Kind::MechanicalStrains;
+                self.tensors(kind, &one.set, cells, |s| s.mechanical_strain);
+            }
+            ElementQuantity::PlasticStrain => {
+                // never negative, carried to other points or not
+                let value = |at: f64| at.max(0.0);
+                let of = |s: &PointSample| s.plastic_strain;
+                self.scalars(Kind::PlasticStrains, &one.set, cells, of, value);
+            }
+            ElementQuantity::EnergyDensity => {
+                let of = |s: &PointSample| s.energy;
+                self.scalars(Kind::EnergyDensities, &one.set, cells, of, |at| at);
+            }
+            ElementQuantity::Energy => {
+                let kinds = [Kind::Energies, Kind::TotalEnergy];
+                self.sums(kinds, one, cells, |s| s.energy * s.volume);
+            }
+            ElementQuantity::Volume => {
+                let kinds = [Kind::Volumes, Kind::TotalVolume];
+                self.sums(kinds, one, cells, |s| s.volume);
+            }
+        }
+    }
+
+    fn tensors(&mut self, kind: Kind, set: &str, cells: &[CellId], of: fn(&PointSample) -> Sym3) {
+        self.page.table(kind, set);
+        self.at_points(cells, |page, of_point, points, place, samples| {
+            let value = points.tensor(place, |p| samples.get(p).map_or(Sym3::ZERO, of));
+            page.row(of_point, &tensor(&value));
+        });
+    }
+
+    fn scalars(
+        &mut self,
+        kind: Kind,
+        set: &str,
+        cells: &[CellId],
+        of: fn(&PointSample) -> f64,
+        take: fn(f64) -> f64,
+    ) {
+        self.page.table(kind, set);
+        self.at_points(cells, |page, of_point, points, place, samples| {
+            let value = points.scalar(place, |p| samples.get(p).map_or(0.0, of));
+            page.row(of_point, &[take(value)]);
+        });
+    }
+
+    /// Hands over every printed point of these cells.
+    fn at_points(
+        &mut self,
+        cells: &[CellId],
+        mut put: impl FnMut(&mut Page, Of, &Points, usize, &[PointSample]),
+    ) {
+        for &cell in cells {
+            let Some((rule, samples)) = self.frame.samples.of(cell) else {
+                continue;
+            };
+            let label = self.label(cell);
+            let Self {
+                page,
+                points,
+                tables,
+                ..
+            } = self;
+            let Some(element) = tables.mesh.element(cell) else {
+                continue;
+            };
+            let new = || Points::new(element.name(), rule, tables.revolved);
+            let key = (element.name(), rule.npoint());
+            let points = points.entry(key).or_insert_with(new);
+            for place in 0..points.len() {
+                put(page, Of::Point(label, place + 1), points, place, samples);
+            }
+        }
+    }
+
+    /// A table of integrals over each cell, and their sum.
+    fn sums(
+        &mut self,
+        [each, all]: [Kind; 2],
+        one: &Printed,
+        cells: &[CellId],
+        of: fn(&PointSample) -> f64,
+    ) {
+        let share = self.tables.share();
+        let integral =
+            |(_, samples): (&Rule, &[PointSample])| samples.iter().map(of).sum::<f64>() * share;
+        let sampled = |cell: &CellId| Some((*cell, self.frame.samples.of(*cell).map(integral)?));
+        let values: Vec<(CellId, f64)> = cells.iter().filter_map(sampled).collect();
+        if one.totals != Totals::Only {
+            self.page.table(each, &one.set);
+            for (cell, value) in &values {
+                self.page.row(Of::One(self.label(*cell)), &[*value]);
+            }
+        }
+        if one.totals != Totals::No {
+            self.page.table(all, &one.set);
+            let total = values.iter().map(|(_, value)| value).sum();
+            self.page.row(Of::All, &[total]);
+        }
+    }
+
+    fn node(&self, node: NodeId) -> Of {
+        let label = self.tables.mesh.node_labels.get(node as usize);
+        Of::One(label.copied().unwrap_or_default())
+    }
+
+    fn label(&self, cell: CellId) -> u64 {
+        self.tables.mesh.cell_label(cell).unwrap_or_default()
+    }
+}
