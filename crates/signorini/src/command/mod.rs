@@ -4,6 +4,7 @@ mod check;
 mod completions;
 mod console;
 mod demo;
+mod diff;
 mod doctor;
 mod explain;
 mod guard;
@@ -31,7 +32,7 @@ const WRONG_COMMAND: u8 = 2;
 #[derive(Debug, Parser)]
 #[command(name = "signorini", version, about, arg_required_else_help = true)]
 #[command(
-    after_help = "Exit codes: 0 solved, 1 an expectation failed, 2 command line, 3 input, 4 ill-posed model, \
+    after_help = "Exit codes: 0 solved, 1 an expectation failed or results differ, 2 command line, 3 input, 4 ill-posed model, \
     5 not converged,\n6 not written, 7 cannot resume, 8 limit reached, 70 internal error, 130/143 interrupted"
 )]
 struct Cli {
@@ -53,6 +54,8 @@ enum Verb {
     Demo(demo::Demo),
     /// Tell what is in a mesh, a case, or a folder of results.
     Info(info::Info),
+    /// Compare results with a reference, block by block.
+    Diff(diff::Diff),
     /// Print the JSON schema of cases, for editors.
     Schema,
     /// Explain the code of a message.
@@ -144,6 +147,7 @@ pub fn main() -> ExitCode {
             Verb::Init(init) => init.execute(),
             Verb::Demo(demo) => demo.execute(),
             Verb::Info(info) => info.execute(),
+            Verb::Diff(diff) => diff.execute(),
             Verb::Schema => schema::execute(),
             Verb::Explain(explain) => explain.execute(),
             Verb::Doctor => doctor::execute(),

@@ -22,6 +22,7 @@ mod error;
 mod expectations;
 mod failure;
 mod fields;
+mod frd;
 mod history;
 mod limits;
 pub mod narration;

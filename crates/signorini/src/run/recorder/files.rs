@@ -9,6 +9,7 @@ use signorini_io::checkpoint::{Archive, Checkpoints};
 use signorini_io::fs::Log;
 use signorini_io::writers::csv::{CONVERGENCE_COLUMNS, Table};
 use signorini_io::writers::dat;
+use signorini_io::writers::frd::{FrdFile, Mark};
 use signorini_io::writers::json::{EventLog, StepSummary};
 use signorini_io::writers::pvd::{Entry, Pvd};
 use signorini_io::writers::sta::StatusTable;
@@ -24,6 +25,7 @@ pub(super) struct Files {
     /// Where some step prints tables.
     pub(super) tables: Option<dat::Tables>,
     pub(super) log: Box<dyn Log>,
+    pub(super) frd: Option<FrdFile>,
 }
 
 /// The open files of a run, and where they stand.
@@ -61,6 +63,12 @@ impl Opened {
             tables: match setting.tables.is_empty() {
                 true => None,
                 false => Some(dat::Tables::create(fs, &path(&tables(&setting.name)))?),
+            },
+            frd: match &setting.frd {
+                None => None,
+                Some((name, title)) => {
+                    Some(FrdFile::create(fs, &path(name), title, &setting.mesh)?)
+                }
             },
         };
         let lists = [
@@ -143,8 +151,20 @@ impl Opened {
                     Some(dat::Tables::resume(fs, &path, lines[0])?)
                 }
             },
+            frd: match &setting.frd {
+                None => None,
+                Some((name, _)) => Some(FrdFile::resume(
+                    fs,
+                    &path(name),
+                    &setting.mesh,
+                    mark(from)?,
+                )?),
+            },
         };
-        let list = |name: &str, kind: &str| -> Result<Pvd, OutputError> {
+        let list = |name: &str, kind: &str, is_written: bool| -> Result<Pvd, OutputError> {
+            if !is_written {
+                return Ok(Pvd::new(&path(name)));
+            }
             let entry = |(number, &time): (usize, &f64)| Entry {
                 time,
                 part: 0,
@@ -153,12 +173,9 @@ impl Opened {
             let entries = counts.frames.iter().enumerate().map(entry).collect();
             Ok(Pvd::with_entries(fs, &path(name), entries)?)
         };
-        let results = list("results.pvd", "volume")?;
-        let contact = if setting.has_contact {
-            list("contact.pvd", "contact")?
-        } else {
-            Pvd::new(&path("contact.pvd"))
-        };
+        let results = list("results.pvd", "volume", setting.has_vtu)?;
+        let has_contact = setting.has_vtu && setting.has_contact;
+        let contact = list("contact.pvd", "contact", has_contact)?;
         let [step, time, step_time] = clock;
         Ok(Self {
             step: (step >= 0.0).then_some(step as usize),
@@ -228,6 +245,18 @@ impl Opened {
 
 fn tables(name: &str) -> String {
     format!("{name}.dat")
+}
+
+/// How far the file of all frames had got.
+fn mark(from: &Archive) -> Result<Mark, OutputError> {
+    let mut numbers = [0; 3];
+    from.copy_u64("run/frd", &mut numbers)?;
+    let [length, nframe, ndataset] = numbers;
+    Ok(Mark {
+        length,
+        nframe,
+        ndataset,
+    })
 }
 
 fn sta(name: &str) -> String {
