@@ -137,8 +137,6 @@ struct Parser {
     label: usize,
     /// Step and increment of the next data set.
     place: [u64; 2],
-    /// Components of the data set with those that viewers compute.
-    ndeclared: usize,
     /// Entries that the present element or row still lacks.
     missing: usize,
 }
@@ -203,7 +201,6 @@ impl Parser {
         let time = real(field(text, 12..24)).ok_or("a data set has no time")?;
         self.begin(Block::Values, text, 73..75)?;
         let [step, increment] = self.place;
-        self.ndeclared = 0;
         self.frd.datasets.push(Dataset {
             step,
             increment,
@@ -215,20 +212,10 @@ impl Parser {
 
     fn name(&mut self, text: &[u8]) -> Result<(), &'static str> {
         let one = self.values()?;
-        if one.name.is_empty() && one.nodes.is_empty() {
-            one.name = word(text)?;
-            return Ok(());
+        if !one.name.is_empty() {
+            return Err("a second name for a data set");
         }
-        // a second quantity at the same time, without a head of its own
-        let next = Dataset {
-            step: one.step,
-            increment: one.increment,
-            time: one.time,
-            name: word(text)?,
-            ..Dataset::default()
-        };
-        self.frd.datasets.push(next);
-        self.ndeclared = 0;
+        one.name = word(text)?;
         Ok(())
     }
 
