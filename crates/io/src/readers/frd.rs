@@ -162,21 +162,16 @@ impl Parser {
                 Ok(())
             }
             [b' ', b' ', b' ', b' ', b'1', _] => Ok(()),
-            b"    2C" => self.begin(Block::Nodes, text, 73..75),
-            b"    3C" => self.begin(Block::Elements, text, 73..75),
+            b"    2C" => self.begin(Block::Nodes, text),
+            b"    3C" => self.begin(Block::Elements, text),
             b"  100C" => self.dataset(text),
             _ => Err("this is no line of a .frd file"),
         }
     }
 
-    /// Starts a block; `format` are the columns that tell how its numbers are written.
-    fn begin(
-        &mut self,
-        block: Block,
-        text: &[u8],
-        format: Range<usize>,
-    ) -> Result<(), &'static str> {
-        self.label = match field(text, format) {
+    /// Starts a block; the last columns of its first line tell how its numbers are written.
+    fn begin(&mut self, block: Block, text: &[u8]) -> Result<(), &'static str> {
+        self.label = match field(text, 73..75) {
             b"" | b"1" => 10,
             b"0" => 5,
             _ => return Err("numbers in binary are not read; write them as text"),
@@ -199,7 +194,7 @@ impl Parser {
 
     fn dataset(&mut self, text: &[u8]) -> Result<(), &'static str> {
         let time = real(field(text, 12..24)).ok_or("a data set has no time")?;
-        self.begin(Block::Values, text, 73..75)?;
+        self.begin(Block::Values, text)?;
         let [step, increment] = self.place;
         self.frd.datasets.push(Dataset {
             step,
