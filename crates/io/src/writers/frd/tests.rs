@@ -281,7 +281,7 @@ fn a_frame_of_a_million_nodes_is_written_in_a_second_or_two() {
         .or_else(|_| tempfile::tempdir())
         .unwrap();
     let path = dir.path().join("t.frd");
-    let n = 1_000_000;
+    let n = 1_000_000_u32;
     let mut mesh = Mesh {
         points: (0..n)
             .map(|k| Vec3::new(f64::from(k).sin(), f64::from(k).sqrt(), 0.1))
