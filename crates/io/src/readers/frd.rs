@@ -137,8 +137,6 @@ struct Parser {
     label: usize,
     /// Step and increment of the next data set.
     place: [u64; 2],
-    /// Components of the data set with those that viewers compute.
-    ndeclared: usize,
     /// Entries that the present element or row still lacks.
     missing: usize,
 }
@@ -164,21 +162,16 @@ impl Parser {
                 Ok(())
             }
             [b' ', b' ', b' ', b' ', b'1', _] => Ok(()),
-            b"    2C" => self.begin(Block::Nodes, text, 73..75),
-            b"    3C" => self.begin(Block::Elements, text, 73..75),
+            b"    2C" => self.begin(Block::Nodes, text),
+            b"    3C" => self.begin(Block::Elements, text),
             b"  100C" => self.dataset(text),
             _ => Err("this is no line of a .frd file"),
         }
     }
 
-    /// Starts a block; `format` are the columns that tell how its numbers are written.
-    fn begin(
-        &mut self,
-        block: Block,
-        text: &[u8],
-        format: Range<usize>,
-    ) -> Result<(), &'static str> {
-        self.label = match field(text, format) {
+    /// Starts a block; the last columns of its first line tell how its numbers are written.
+    fn begin(&mut self, block: Block, text: &[u8]) -> Result<(), &'static str> {
+        self.label = match field(text, 73..75) {
             b"" | b"1" => 10,
             b"0" => 5,
             _ => return Err("numbers in binary are not read; write them as text"),
@@ -201,9 +194,8 @@ impl Parser {
 
     fn dataset(&mut self, text: &[u8]) -> Result<(), &'static str> {
         let time = real(field(text, 12..24)).ok_or("a data set has no time")?;
-        self.begin(Block::Values, text, 73..75)?;
+        self.begin(Block::Values, text)?;
         let [step, increment] = self.place;
-        self.ndeclared = 0;
         self.frd.datasets.push(Dataset {
             step,
             increment,
@@ -215,20 +207,10 @@ impl Parser {
 
     fn name(&mut self, text: &[u8]) -> Result<(), &'static str> {
         let one = self.values()?;
-        if one.name.is_empty() && one.nodes.is_empty() {
-            one.name = word(text)?;
-            return Ok(());
+        if !one.name.is_empty() {
+            return Err("a second name for a data set");
         }
-        // a second quantity at the same time, without a head of its own
-        let next = Dataset {
-            step: one.step,
-            increment: one.increment,
-            time: one.time,
-            name: word(text)?,
-            ..Dataset::default()
-        };
-        self.frd.datasets.push(next);
-        self.ndeclared = 0;
+        one.name = word(text)?;
         Ok(())
     }
 

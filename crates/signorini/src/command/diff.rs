@@ -148,8 +148,31 @@ impl Diff {
                 file.clone_into(&mut count.file);
                 Console::stdout().line(file);
             }
-            Console::stdout().line(&in_words(finding, agrees));
+            Console::stdout().line(&self.in_words(finding, agrees));
         }
+    }
+
+    /// A block as a line.
+    fn in_words(&self, finding: &Finding, agrees: bool) -> String {
+        let time = finding
+            .time
+            .map_or_else(String::new, |time| format!(", time {time}"));
+        let name = match finding.name.as_str() {
+            "" => "the file".to_owned(),
+            name => format!("{name}{time}"),
+        };
+        let is_single = !matches!(finding.outcome, Outcome::Both(_));
+        let sign = match agrees {
+            true => '✓',
+            false if self.common && is_single => '·',
+            false => '✗',
+        };
+        let what = match &finding.outcome {
+            Outcome::Extra => "not in the reference".to_owned(),
+            Outcome::Missing => "only in the reference".to_owned(),
+            Outcome::Both(one) => difference(one),
+        };
+        format!("  {sign} {name}: {what}")
     }
 
     const fn tolerance(&self) -> Tolerance {
@@ -214,29 +237,12 @@ impl Count {
     }
 }
 
-/// A block as a line.
-fn in_words(finding: &Finding, agrees: bool) -> String {
-    let time = finding
-        .time
-        .map_or_else(String::new, |time| format!(", time {time}"));
-    let name = match finding.name.as_str() {
-        "" => "the file".to_owned(),
-        name => format!("{name}{time}"),
-    };
-    let sign = if agrees { '✓' } else { '✗' };
-    let what = match &finding.outcome {
-        Outcome::Extra => "not in the reference".to_owned(),
-        Outcome::Missing => "only in the reference".to_owned(),
-        Outcome::Both(one) => difference(one),
-    };
-    format!("  {sign} {name}: {what}")
-}
-
 fn difference(one: &Comparison) -> String {
     let mut parts: Vec<String> = one.mismatch.iter().cloned().collect();
     parts.push(match &one.worst {
+        None if one.norm == 0.0 => format!("the same in {}", plural(one.nrow, "row")),
         None => format!(
-            "no difference in {}, largest {}",
+            "the same in {}, largest value {}",
             plural(one.nrow, "row"),
             short(one.norm)
         ),

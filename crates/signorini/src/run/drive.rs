@@ -105,7 +105,9 @@ fn refused(found: Diagnostics) -> Finished {
 /// The message for growing files that could not be opened.
 fn not_opened(error: &OutputError, resumed: bool) -> Diagnostic {
     match error {
-        OutputError::Frd(FrdError::Fs(FsError::TooShort { .. })) if resumed => cannot_resume(error),
+        OutputError::Frd(FrdError::Fs(short @ FsError::TooShort { .. })) if resumed => {
+            cannot_resume(short).help(short.help())
+        }
         OutputError::Rows(RowsError::Fs(_)) | OutputError::Fs(_) | OutputError::Frd(_) => {
             error.diagnostic()
         }

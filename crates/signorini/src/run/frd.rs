@@ -131,8 +131,8 @@ fn tangents(normal: Vec3) -> Option<[Vec3; 2]> {
     } else {
         Vec3::unit(2)
     };
-    let t1 = (axis - n * axis.dot(n)).normalized()?;
-    Some([t1, n.cross(t1)])
+    let t2 = n.cross(axis).normalized()?;
+    Some([t2.cross(n), t2])
 }
 
 #[cfg(test)]

@@ -97,7 +97,10 @@ fn faults_are_told_with_their_line() {
         "line 15: numbers in binary are not read; write them as text"
     );
     assert_eq!(
-        change(" 1.00000E+00 0.00000E+00\n -3", " 1.00000E+00\n -3"),
+        change(
+            " 0.00000E+00 1.00000E+00\n -3\n    3C",
+            " 1.00000E+00\n -3\n    3C"
+        ),
         "line 8: a coordinate is no number"
     );
     assert_eq!(
@@ -110,7 +113,7 @@ fn faults_are_told_with_their_line() {
     );
     assert_eq!(
         change(" -2           7.00000E+00\n", ""),
-        "line 36: the entry before is not complete"
+        "line 35: the entry before is not complete"
     );
     assert_eq!(
         change(" -3\n    3C", "    3C"),
@@ -122,7 +125,7 @@ fn faults_are_told_with_their_line() {
     );
     assert_eq!(
         change(" -3\n 9999\n", ""),
-        "line 37: the file ends within a block"
+        "line 36: the file ends within a block"
     );
     let mesh =
         |from: &str, to: &str| read("a.frd", SMALL.replacen(from, to, 1).as_bytes()).unwrap_err();

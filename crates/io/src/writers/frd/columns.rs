@@ -9,9 +9,9 @@ const LARGEST: i32 = 99;
 /// place of a number below 10⁶.
 const CERTAIN: f64 = 1e-8;
 
-/// Appends a whole number, right-justified in `width` columns; one that needs more takes more.
+/// Appends a whole number, right-justified in `width` columns, of which there may be 32; one that needs more takes more.
 pub(super) fn push_whole(out: &mut Vec<u8>, value: u64, width: usize) {
-    let mut digits = [b' '; 20];
+    let mut digits = [b' '; 32];
     let (mut rest, mut ndigit) = (value, 0);
     for place in digits.iter_mut().rev() {
         *place = b'0' + (rest % 10) as u8;
@@ -191,7 +191,7 @@ mod tests {
         assert_eq!(whole(12_345, 5), "12345");
         assert_eq!(whole(123_456, 5), "123456");
         assert_eq!(whole(u64::MAX, 10), u64::MAX.to_string());
-        assert_eq!(whole(7, 20), format!("{:>20}", 7));
+        assert_eq!(whole(7, 26), format!("{:>26}", 7));
     }
 
     #[test]

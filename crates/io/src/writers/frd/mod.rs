@@ -146,7 +146,7 @@ impl Dataset<'_> {
         }
     }
 
-    /// Nodes with values, of so many.
+    /// Nodes with values.
     fn len(&self) -> usize {
         match self {
             Self::Displacement(values) | Self::Force(values) => values.len(),
