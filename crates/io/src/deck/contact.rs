@@ -20,6 +20,7 @@ use crate::case::{
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Kind, Statement};
+use signorini_geometry::mesh::boundary;
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
 
@@ -216,9 +217,42 @@ impl Translation<'_> {
         let secondary = self.set(card, secondary.text, &secondary.place(), Kind::Surface);
         let primary = self.set(card, primary.text, &primary.place(), Kind::Surface);
         Some(Sides {
-            secondary: secondary?,
+            secondary: self.faced(secondary?),
             primary: primary?,
         })
+    }
+
+    /// A surface of nodes as the outer faces between them, where every node has one: they know the area that each node
+    /// stands for.
+    pub fn faced(&mut self, surface: Name) -> Name {
+        let mesh = &self.deck.mesh;
+        let nodes = match mesh.sets.get(&surface.value) {
+            Some(set) if set.faces.is_empty() && !set.nodes.is_empty() => &set.nodes,
+            _ => return surface,
+        };
+        let outer = self.outer.get_or_insert_with(|| boundary(mesh, mesh.cells(mesh.dim())));
+        let mut sides = Vec::new();
+        let mut met = vec![false; nodes.len()];
+        for face in outer.iter() {
+            let of_face = mesh.face(*face).map(|(_, nodes)| nodes).unwrap_or_default();
+            let at: Option<Vec<usize>> =
+                of_face.iter().map(|node| nodes.binary_search(node).ok()).collect();
+            if let (Some(at), Some(label)) = (at, mesh.cell_label(face.cell)) {
+                sides.push((label, face.side + 1));
+                for place in at {
+                    met[place] = true;
+                }
+            }
+        }
+        if !met.iter().all(|met| *met) {
+            return surface;
+        }
+        if let Some(known) = self.faced.get(&surface.value) {
+            return Spanned::new(known.clone(), surface.place);
+        }
+        let name = self.sides_named(sides, &surface.place);
+        self.faced.insert(surface.value, name.value.clone());
+        name
     }
 
     /// A contact with nothing but defaults.
@@ -295,6 +329,7 @@ impl Translation<'_> {
                 continue;
             };
             let secondary = self.set(card, slave, &card.place, Kind::Surface);
+            let secondary = secondary.map(|side| self.faced(side));
             let primary = self.set(card, master, &card.place, Kind::Surface);
             let value = card.get("VALUE").and_then(crate::readers::inp::number);
             let Some(value) = value else {

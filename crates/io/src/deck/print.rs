@@ -43,6 +43,7 @@ impl Translation<'_> {
             let sides = card.get("SLAVE").zip(card.get("MASTER"));
             sides.and_then(|(slave, master)| {
                 let slave = self.set(card, slave, &card.place, kind)?;
+                let slave = self.faced(slave);
                 let master = self.set(card, master, &card.place, kind)?;
                 self.contact_of(&slave, &master)
             })
@@ -84,13 +85,20 @@ impl Translation<'_> {
                 1
             }
         });
-        step.prints.get_or_insert_default().push(Print {
+        let prints = step.prints.get_or_insert_default();
+        let last = prints.last().map_or(1, |print| print.every);
+        let every = every.unwrap_or(last).max(1);
+        prints.push(Print {
             on,
             of,
             quantities: wanted,
             totals,
-            every: every.unwrap_or(1).max(1),
+            every,
             place: card.place.clone(),
         });
+        // the frequency that was given last holds for all
+        for print in prints {
+            print.every = every;
+        }
     }
 }

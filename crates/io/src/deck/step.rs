@@ -441,8 +441,11 @@ impl Translation<'_> {
                 continue;
             };
             let Course::To(value, amplitude) = course else {
-                let text = "*BOUNDARY, FIXED along local axes is not supported";
-                self.error(&codes::NOT_BUILT, text, &place, "");
+                // what an equation holds stays where it is
+                if !standing.local.contains(&(label, axis)) {
+                    let text = "*BOUNDARY, FIXED along local axes that nothing held is not supported";
+                    self.error(&codes::NOT_BUILT, text, &place, "");
+                }
                 continue;
             };
             let mut terms = along(on.clone(), axes, 1.0, ndim);

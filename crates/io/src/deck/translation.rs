@@ -6,7 +6,7 @@ use crate::case::{Case, MeshSource, Name, Set, SetContent, Side, Space};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
 use crate::readers::inp::{Deck, Field, Kind, Statement};
-use signorini_geometry::mesh::{CellId, NodeId};
+use signorini_geometry::mesh::{CellId, Face, NodeId};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -33,6 +33,10 @@ pub(super) struct Translation<'d> {
     taken: BTreeSet<String>,
     /// Sets of nodes of the case, by the numbers in them.
     sets: BTreeMap<Vec<u64>, String>,
+    /// The outer faces of the mesh, once somebody asks.
+    pub outer: Option<Vec<Face>>,
+    /// Sets of faces that stand for surfaces of nodes.
+    pub faced: BTreeMap<String, String>,
 }
 
 impl<'d> Translation<'d> {
@@ -59,6 +63,8 @@ impl<'d> Translation<'d> {
                 .collect(),
             taken: mesh.sets.keys().cloned().collect(),
             sets: BTreeMap::new(),
+            outer: None,
+            faced: BTreeMap::new(),
         }
     }
 
