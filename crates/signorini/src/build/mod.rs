@@ -20,7 +20,9 @@ mod temperature;
 mod tests;
 
 pub use mesh::{read_mesh_of, read_surfaces_of};
-pub use prints::{ElementQuantity, NodeQuantity, Printed, PrintedOf};
+pub use prints::{
+    ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
+};
 
 use carriers::Carriers;
 use names::Names;

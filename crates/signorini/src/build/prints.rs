@@ -27,6 +27,19 @@ pub enum PrintedOf {
     Nodes(Vec<NodeId>, Vec<NodeQuantity>),
     /// Of elements, likewise.
     Elements(Vec<CellId>, Vec<ElementQuantity>),
+    /// Of contacts.
+    Contacts(Vec<PrintedContact>, Vec<ContactQuantity>),
+}
+
+/// A contact that is printed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PrintedContact {
+    /// Its name.
+    pub name: String,
+    /// Name of its secondary side.
+    pub secondary: String,
+    /// Name of its primary side.
+    pub primary: String,
 }
 
 /// A quantity of nodes.
@@ -59,6 +72,25 @@ pub enum ElementQuantity {
     Volume,
 }
 
+/// A quantity of contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactQuantity {
+    /// Gap and slip of closed nodes.
+    Gap,
+    /// Pressure and tangential traction at closed nodes.
+    Traction,
+    /// Energy at closed nodes.
+    Energy,
+    /// How many are closed.
+    Count,
+    /// The whole force on the secondary side.
+    Force,
+    /// What pressures do of it.
+    NormalForce,
+    /// What friction does of it.
+    ShearForce,
+}
+
 const OF_NODES: [(&str, NodeQuantity); 3] = [
     ("displacement", NodeQuantity::Displacement),
     ("reaction", NodeQuantity::Reaction),
@@ -75,12 +107,24 @@ const OF_ELEMENTS: [(&str, ElementQuantity); 7] = [
     ("volume", ElementQuantity::Volume),
 ];
 
+const OF_CONTACTS: [(&str, ContactQuantity); 7] = [
+    ("gap", ContactQuantity::Gap),
+    ("traction", ContactQuantity::Traction),
+    ("energy", ContactQuantity::Energy),
+    ("count", ContactQuantity::Count),
+    ("force", ContactQuantity::Force),
+    ("normal-force", ContactQuantity::NormalForce),
+    ("shear-force", ContactQuantity::ShearForce),
+];
+
 /// The tables of every step; a step without a word goes on with those before it.
 pub(super) fn prints(case: &Case, names: &Names<'_>, found: &mut Diagnostics) -> Vec<Vec<Printed>> {
     let mut now = Vec::new();
     let of_step = |step: &case::Step| {
         if let Some(prints) = &step.prints {
-            let tables = prints.iter().filter_map(|one| printed(one, names, found));
+            let tables = prints
+                .iter()
+                .filter_map(|one| printed(one, case, names, found));
             now = tables.collect();
         }
         now.clone()
@@ -97,6 +141,7 @@ pub(super) fn wanted(prints: &[Vec<Printed>]) -> Wanted {
             PrintedOf::Nodes(_, quantities) => {
                 wanted.forces |= quantities.contains(&NodeQuantity::Reaction);
             }
+            PrintedOf::Contacts(..) => {}
         }
     }
     wanted.cells.sort_unstable();
@@ -104,7 +149,12 @@ pub(super) fn wanted(prints: &[Vec<Printed>]) -> Wanted {
     wanted
 }
 
-fn printed(one: &case::Print, names: &Names<'_>, found: &mut Diagnostics) -> Option<Printed> {
+fn printed(
+    one: &case::Print,
+    case: &Case,
+    names: &Names<'_>,
+    found: &mut Diagnostics,
+) -> Option<Printed> {
     let on = one.on.as_ref();
     let what = match one.of {
         PrintOf::Nodes => {
@@ -116,15 +166,8 @@ fn printed(one: &case::Print, names: &Names<'_>, found: &mut Diagnostics) -> Opt
             PrintedOf::Elements(cells(on?, names, found)?, quantities)
         }
         PrintOf::Contact => {
-            found.push(
-                Diagnostic::error(
-                    &codes::NOT_BUILT,
-                    "tables of contacts are not supported yet",
-                )
-                .at(&one.place, "known, but not in this version")
-                .help("write  [[output.history]]  or  fields = [\"contact\"]"),
-            );
-            return None;
+            let quantities = quantities(&one.quantities, &OF_CONTACTS, found);
+            PrintedOf::Contacts(contacts(on, case, found)?, quantities)
         }
     };
     Some(Printed {
@@ -152,6 +195,35 @@ fn cells(name: &Name, names: &Names<'_>, found: &mut Diagnostics) -> Option<Vec<
         return None;
     }
     Some(cells)
+}
+
+/// The contact of this name; every one where none is named.
+fn contacts(
+    on: Option<&Name>,
+    case: &Case,
+    found: &mut Diagnostics,
+) -> Option<Vec<PrintedContact>> {
+    let is_meant = |contact: &&case::Contact| on.is_none_or(|on| on.value == contact.name.value);
+    let contact = |contact: &case::Contact| PrintedContact {
+        name: contact.name.value.clone(),
+        secondary: contact.secondary.value.clone(),
+        primary: contact.primary.value.clone(),
+    };
+    let meant: Vec<_> = case.contacts.iter().filter(is_meant).map(contact).collect();
+    if let (true, Some(on)) = (meant.is_empty(), on) {
+        let names = || case.contacts.iter().map(|one| one.name.as_str());
+        let mut message = Diagnostic::error(
+            &codes::UNDEFINED,
+            format!("there is no contact called {}", quoted(on)),
+        )
+        .at(&on.place, "not defined");
+        if let Some(near) = closest(on, names()) {
+            message = message.help(format!("did you mean \"{near}\"?"));
+        }
+        found.push(message);
+        return None;
+    }
+    Some(meant)
 }
 
 /// Words become quantities.

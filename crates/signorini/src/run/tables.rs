@@ -1,13 +1,17 @@
 //! `NAME.dat`: what the steps ask to be printed, increment by increment.
 
-use crate::build::{ElementQuantity, NodeQuantity, Printed, PrintedOf};
+use crate::build::{
+    ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
+};
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::{Space, Totals};
-use signorini_io::writers::dat::{Kind, Of, Page, Points, WEDGE, tensor};
+use signorini_io::writers::dat::{
+    ContactKind, Kind, Of, Page, Points, Statistics, WEDGE, tangents, tensor,
+};
 use signorini_mechanics::solve::IncrementRecord;
-use signorini_mechanics::system::{Frame, PointSample};
+use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Resultant};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -58,6 +62,10 @@ impl Tables {
                 PrintedOf::Elements(cells, quantities) => {
                     let quantities = quantities.iter();
                     quantities.for_each(|q| writer.elements(one, cells, *q));
+                }
+                PrintedOf::Contacts(contacts, quantities) => {
+                    let quantities = quantities.iter();
+                    quantities.for_each(|q| writer.contacts(one, contacts, *q));
                 }
             }
         }
@@ -223,6 +231,97 @@ impl Writer<'_> {
             self.page.table(all, &one.set);
             let total = values.iter().map(|(_, value)| value).sum();
             self.page.row(Of::All, &[total]);
+        }
+    }
+
+    fn contacts(&mut self, one: &Printed, contacts: &[PrintedContact], quantity: ContactQuantity) {
+        let share = self.tables.share();
+        let frames = &self.frame.contacts;
+        let frame = |part: &&PrintedContact| frames.iter().find(|c| c.name == part.name);
+        let acting: Vec<&ContactFrame> = contacts.iter().filter_map(|c| frame(&c)).collect();
+        match quantity {
+            ContactQuantity::Gap => self.closed(ContactKind::Gaps, &acting, |c, k| {
+                let [first, second] = tangents(c.normal[k]);
+                vec![c.gap[k], c.slip[k].dot(first), c.slip[k].dot(second)]
+            }),
+            ContactQuantity::Traction => self.closed(ContactKind::Tractions, &acting, |c, k| {
+                let [first, second] = tangents(c.normal[k]);
+                let against = -c.traction[k];
+                vec![c.pressure[k], against.dot(first), against.dot(second)]
+            }),
+            ContactQuantity::Energy => {
+                if one.totals != Totals::Only {
+                    self.closed(ContactKind::Energies, &acting, |c, k| {
+                        vec![c.energy[k] * share]
+                    });
+                }
+                if one.totals != Totals::No {
+                    let total: f64 = acting.iter().flat_map(|c| &c.energy).sum();
+                    self.page.contact_table(ContactKind::TotalEnergy);
+                    self.page.row(Of::All, &[total * share]);
+                }
+            }
+            ContactQuantity::Count => {
+                self.page.contact_table(ContactKind::Count);
+                self.page.count(acting.iter().map(|c| c.nclosed()).sum());
+            }
+            ContactQuantity::Force => self.resultants(contacts, |c| c.secondary),
+            ContactQuantity::NormalForce => self.resultants(contacts, |c| Resultant {
+                force: c.force_normal,
+                moment: c.moment_normal,
+            }),
+            ContactQuantity::ShearForce => self.resultants(contacts, |c| Resultant {
+                force: c.force_shear,
+                moment: c.secondary.moment - c.moment_normal,
+            }),
+        }
+    }
+
+    /// A table of the closed nodes of contacts.
+    fn closed(
+        &mut self,
+        kind: ContactKind,
+        contacts: &[&ContactFrame],
+        numbers: impl Fn(&ContactFrame, usize) -> Vec<f64>,
+    ) {
+        self.page.contact_table(kind);
+        for contact in contacts {
+            let nodes = contact.nodes.iter().zip(&contact.status).enumerate();
+            for (k, (&node, _)) in nodes.filter(|(_, (_, status))| status.is_closed()) {
+                self.page.row(self.node(node), &numbers(contact, k));
+            }
+        }
+    }
+
+    /// What each contact feels.
+    fn resultants(&mut self, contacts: &[PrintedContact], of: fn(&ContactFrame) -> Resultant) {
+        let share = self.tables.share();
+        for part in contacts {
+            let Some(contact) = self.frame.contacts.iter().find(|c| c.name == part.name) else {
+                continue;
+            };
+            let Resultant { force, moment } = of(contact);
+            let mut statistics = Statistics {
+                force: force * share,
+                moment: moment * share,
+                ..Statistics::default()
+            };
+            let closed = contact.status.iter().map(|status| status.is_closed());
+            let areas = closed
+                .zip(&contact.area)
+                .map(|(is, area)| if is { *area } else { 0.0 });
+            for ((area, x), normal) in areas.zip(&contact.points).zip(&contact.normal) {
+                statistics.area += area;
+                statistics.center += *x * area;
+                statistics.normal -= *normal * area;
+            }
+            if statistics.area > 0.0 {
+                statistics.center = statistics.center / statistics.area;
+            }
+            statistics.normal = statistics.normal.normalized().unwrap_or_default();
+            statistics.area *= share;
+            let (page, secondary) = (&mut self.page, &part.secondary);
+            page.statistics(secondary, &part.primary, &statistics);
         }
     }
 
