@@ -52,6 +52,15 @@ u = "all"
 [[step.move]]
 on = "tool"
 uz = -0.02
+[[step.print]]
+on = "base"
+nodes = ["displacement", "reaction"]
+totals = "yes"
+[[step.print]]
+on = "brick"
+elements = ["stress", "energy"]
+[[step.print]]
+contact = ["gap", "force"]
 [checkpoint]
 every = { increments = 1 }
 [[expect]]
@@ -95,8 +104,10 @@ fn scratch() -> tempfile::TempDir {
         .unwrap()
 }
 
-fn history(folder: &Path) -> String {
-    std::fs::read_to_string(folder.join("history.csv")).unwrap()
+/// What grows row by row.
+fn rows(folder: &Path) -> String {
+    let read = |name| std::fs::read_to_string(folder.join(name)).unwrap();
+    read("history.csv") + &read("case.dat")
 }
 
 #[test]
@@ -133,7 +144,7 @@ fn f62_a_disk_that_fails_at_any_moment_harms_nothing_that_was_written() {
             );
             assert!(finished.diagnostics.plain().contains("disk full"), "{n}");
             let listed = check_frames(folder, n);
-            go_on(folder, n, listed, &history(whole.path()));
+            go_on(folder, n, listed, &rows(whole.path()));
         }
     }
 }
@@ -177,7 +188,7 @@ fn go_on(folder: &Path, n: u64, listed: usize, whole: &str) {
         "operation {n}: {}",
         finished.diagnostics
     );
-    assert_eq!(history(folder), whole, "operation {n}");
+    assert_eq!(rows(folder), whole, "operation {n}");
     assert_eq!(check_frames(folder, n), 4, "operation {n}");
 }
 

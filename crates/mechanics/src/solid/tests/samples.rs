@@ -1,7 +1,7 @@
 //! Values at integration points against what the displacements say there, written down afresh.
 
 use super::*;
-use crate::system::{PointSample, Samples};
+use crate::system::PointSample;
 use signorini_geometry::element::quadrature::Rule;
 
 /// The displacement gradient at a point of a cell, where the point is, and the volume that belongs to it.

@@ -1,5 +1,8 @@
 //! `NAME.dat`: what the steps ask to be printed, increment by increment.
 
+#[cfg(test)]
+mod tests;
+
 use crate::build::{
     ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
 };
@@ -242,18 +245,16 @@ impl Writer<'_> {
         match quantity {
             ContactQuantity::Gap => self.closed(ContactKind::Gaps, &acting, |c, k| {
                 let [first, second] = tangents(c.normal[k]);
-                vec![c.gap[k], c.slip[k].dot(first), c.slip[k].dot(second)]
+                [c.gap[k], c.slip[k].dot(first), c.slip[k].dot(second)]
             }),
             ContactQuantity::Traction => self.closed(ContactKind::Tractions, &acting, |c, k| {
                 let [first, second] = tangents(c.normal[k]);
                 let against = -c.traction[k];
-                vec![c.pressure[k], against.dot(first), against.dot(second)]
+                [c.pressure[k], against.dot(first), against.dot(second)]
             }),
             ContactQuantity::Energy => {
                 if one.totals != Totals::Only {
-                    self.closed(ContactKind::Energies, &acting, |c, k| {
-                        vec![c.energy[k] * share]
-                    });
+                    self.closed(ContactKind::Energies, &acting, |c, k| [c.energy[k] * share]);
                 }
                 if one.totals != Totals::No {
                     let total: f64 = acting.iter().flat_map(|c| &c.energy).sum();
@@ -278,11 +279,11 @@ impl Writer<'_> {
     }
 
     /// A table of the closed nodes of contacts.
-    fn closed(
+    fn closed<const N: usize>(
         &mut self,
         kind: ContactKind,
         contacts: &[&ContactFrame],
-        numbers: impl Fn(&ContactFrame, usize) -> Vec<f64>,
+        numbers: impl Fn(&ContactFrame, usize) -> [f64; N],
     ) {
         self.page.contact_table(kind);
         for contact in contacts {
