@@ -2,10 +2,11 @@
 
 use super::names::Names;
 use super::quoted;
-use signorini_geometry::mesh::{CellId, NodeId};
-use signorini_io::case::{self, Case, Name, PrintOf, Totals};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_io::case::{self, Case, Name, PrintOf, Space, Totals};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_mechanics::system::Wanted;
+use std::collections::BTreeSet;
 
 /// Tables of one set.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,17 +133,28 @@ pub(super) fn prints(case: &Case, names: &Names<'_>, found: &mut Diagnostics) ->
     case.steps.iter().map(of_step).collect()
 }
 
-/// What the tables of all steps want to be sampled.
-pub(super) fn wanted(prints: &[Vec<Printed>]) -> Wanted {
+/// What the tables of all steps want to be sampled. Forces of bodies of revolution are printed without what hoop stresses
+/// do, which is known at the points around the nodes.
+pub(super) fn wanted(prints: &[Vec<Printed>], mesh: &Mesh, space: Space) -> Wanted {
     let mut wanted = Wanted::default();
+    let mut revolved = BTreeSet::new();
     for one in prints.iter().flatten() {
         match &one.what {
             PrintedOf::Elements(cells, _) => wanted.cells.extend(cells),
-            PrintedOf::Nodes(_, quantities) => {
-                wanted.forces |= quantities.contains(&NodeQuantity::Reaction);
+            PrintedOf::Nodes(nodes, quantities) => {
+                if quantities.contains(&NodeQuantity::Reaction) {
+                    wanted.forces = true;
+                    if space == Space::Axisymmetric {
+                        revolved.extend(nodes.iter().copied());
+                    }
+                }
             }
             PrintedOf::Contacts(..) => {}
         }
+    }
+    if !revolved.is_empty() {
+        let is_near = |cell: &CellId| mesh.cell(*cell).iter().any(|node| revolved.contains(node));
+        wanted.cells.extend(mesh.cells(mesh.dim()).filter(is_near));
     }
     wanted.cells.sort_unstable();
     wanted.cells.dedup();

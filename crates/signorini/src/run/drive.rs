@@ -125,11 +125,7 @@ fn setting(
         steps: model.steps.clone(),
         volume: Volume::new(&model.mesh, fields),
         history,
-        tables: Tables::new(
-            model.prints.clone(),
-            Arc::clone(&model.mesh),
-            *model.case.model.space,
-        ),
+        tables: Tables::new(model),
         every: model.case.output.every,
         checkpoint_increments: checkpoint.increments,
         checkpoint_wall: checkpoint.wall.map(Duration::from_secs_f64),

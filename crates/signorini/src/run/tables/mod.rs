@@ -4,7 +4,7 @@
 mod tests;
 
 use crate::build::{
-    ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
+    ContactQuantity, ElementQuantity, Model, NodeQuantity, Printed, PrintedContact, PrintedOf,
 };
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -24,15 +24,27 @@ pub struct Tables {
     steps: Vec<Vec<Printed>>,
     mesh: Arc<Mesh>,
     revolved: bool,
+    // cells around nodes of bodies of revolution whose forces are printed, and steps of large strain
+    around: Vec<CellId>,
+    nonlinear: Vec<bool>,
 }
 
 impl Tables {
-    /// The tables of every step.
-    pub fn new(steps: Vec<Vec<Printed>>, mesh: Arc<Mesh>, space: Space) -> Self {
+    /// The tables of every step of a model.
+    pub fn new(model: &Model) -> Self {
+        let revolved = *model.case.model.space == Space::Axisymmetric;
+        let wanted = &model.system.wanted;
+        let forces = revolved && wanted.forces;
         Self {
-            steps,
-            mesh,
-            revolved: space == Space::Axisymmetric,
+            steps: model.prints.clone(),
+            mesh: Arc::clone(&model.mesh),
+            revolved,
+            around: if forces {
+                wanted.cells.clone()
+            } else {
+                Vec::new()
+            },
+            nonlinear: model.steps.iter().map(|step| step.nonlinear).collect(),
         }
     }
 
@@ -56,6 +68,7 @@ impl Tables {
             frame,
             page,
             points: HashMap::new(),
+            hoop: self.hoop(record.step, frame),
         };
         for one in due {
             match &one.what {
@@ -75,6 +88,39 @@ impl Tables {
         Some(writer.page)
     }
 
+    /// What hoop stresses do to the radial forces of bodies of revolution, `∫ σ_θθ N/r dv` at each node: CalculiX adds up
+    /// forces along x over its wedge, and that part, across x, is not among them.
+    fn hoop(&self, step: usize, frame: &Frame) -> HashMap<NodeId, f64> {
+        let mut hoop = HashMap::new();
+        let nonlinear = self.nonlinear.get(step).is_some_and(|is| *is);
+        let mut shape = Vec::new();
+        for &cell in &self.around {
+            let (Some(element), Some((rule, samples))) =
+                (self.mesh.element(cell), frame.samples.of(cell))
+            else {
+                continue;
+            };
+            let nodes = self.mesh.cell(cell);
+            shape.resize(element.nnode(), 0.0);
+            for (xi, sample) in rule.points.iter().zip(samples) {
+                element.shape(xi, &mut shape);
+                let x = |node: &NodeId| self.mesh.points.get(*node as usize).map_or(0.0, |x| x.x);
+                let radius: f64 = nodes.iter().zip(&shape).map(|(node, n)| n * x(node)).sum();
+                // dv/r = J dV/(F_θθ R)
+                let stretch = Sym3::IDENTITY + sample.strain * 2.0;
+                let growth = match nonlinear {
+                    true => (stretch.to_mat3().determinant() / stretch.zz()).sqrt(),
+                    false => 1.0,
+                };
+                let force = sample.stress.zz() * sample.volume * growth / radius;
+                for (&node, n) in nodes.iter().zip(&shape) {
+                    *hoop.entry(node).or_default() += n * force;
+                }
+            }
+        }
+        hoop
+    }
+
     /// What is printed of forces, energies and volumes.
     fn share(&self) -> f64 {
         if self.revolved { WEDGE } else { 1.0 }
@@ -88,6 +134,7 @@ struct Writer<'a> {
     page: Page,
     // by element and number of points
     points: HashMap<(&'static str, usize), Points>,
+    hoop: HashMap<NodeId, f64>,
 }
 
 impl Writer<'_> {
@@ -110,15 +157,20 @@ impl Writer<'_> {
                 }
             }
             NodeQuantity::Reaction => {
-                let force = |node| at(&self.frame.internal_force, node).unwrap_or_default() * share;
+                let force = |node: NodeId| {
+                    let mut force = at(&self.frame.internal_force, node).unwrap_or_default();
+                    force.x -= self.hoop.get(&node).copied().unwrap_or(0.0);
+                    force * share
+                };
+                let forces: Vec<Vec3> = nodes.iter().map(|node| force(*node)).collect();
                 if one.totals != Totals::Only {
                     self.page.table(Kind::Forces, &one.set);
-                    for &node in nodes {
-                        self.page.row(self.node(node), &force(node).to_array());
+                    for (&node, force) in nodes.iter().zip(&forces) {
+                        self.page.row(self.node(node), &force.to_array());
                     }
                 }
                 if one.totals != Totals::No {
-                    let total: Vec3 = nodes.iter().map(|node| force(*node)).sum();
+                    let total: Vec3 = forces.iter().copied().sum();
                     self.page.table(Kind::TotalForce, &one.set);
                     self.page.row(Of::All, &total.to_array());
                 }

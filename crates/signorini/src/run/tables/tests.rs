@@ -224,6 +224,65 @@ print = [
     }
 }
 
+/// A ring swollen by a hundredth, at small and at large strain: `σ_rr = σ_θθ = s` everywhere.
+#[test]
+fn forces_along_x_of_a_ring_are_those_of_radial_stresses_alone() {
+    let (mu, lambda) = (1000.0 / 2.6, 300.0 / (1.3 * 0.4));
+    let e = 0.01;
+    for (geometry, nominal) in [
+        ("linear", 2.0 * (lambda + mu) * e),
+        // first Piola-Kirchhoff, of the strain e + ½ e²
+        (
+            "nonlinear",
+            2.0 * (lambda + mu) * (e + 0.5 * e * e) * (1.0 + e),
+        ),
+    ] {
+        let text = dat(&format!(
+            r#"
+[mesh]
+nodes = [
+  [1, 1, 0], [2, 2, 0], [3, 2, 1], [4, 1, 1],
+  [5, 1.5, 0], [6, 2, 0.5], [7, 1.5, 1], [8, 1, 0.5],
+]
+elements = [{{ id = 1, type = "quad8", group = "ring", nodes = [1, 2, 3, 4, 5, 6, 7, 8] }}]
+[model]
+space = "axisymmetric"
+[sets]
+every = {{ nodes = [1, 2, 3, 4, 5, 6, 7, 8] }}
+inner = {{ nodes = [1, 8, 4] }}
+middle = {{ nodes = [5, 7] }}
+outer = {{ nodes = [2, 6, 3] }}
+[material.m]
+model = "linear-elastic"
+E = 1000.0
+nu = 0.3
+[[body]]
+group = "ring"
+material = "m"
+[[step]]
+name = "swell"
+geometry = "{geometry}"
+increments = 1
+fix = [{{ on = "every", u = ["y"] }}]
+move = [{{ on = "inner", ux = {e} }}, {{ on = "middle", ux = {} }}, {{ on = "outer", ux = {} }}]
+print = [
+  {{ on = "inner", nodes = ["reaction"], totals = "only" }},
+  {{ on = "middle", nodes = ["reaction"], totals = "only" }},
+  {{ on = "outer", nodes = ["reaction"], totals = "only" }},
+]
+"#,
+            1.5 * e,
+            2.0 * e
+        ));
+        // ∫ r N' dr of the three quadratic functions
+        let shares = [-7.0 / 6.0, -2.0 / 3.0, 11.0 / 6.0];
+        let size = nominal * 2.0 * std::f64::consts::PI / 180.0;
+        for (total, share) in tables(&text, "total force").iter().zip(shares) {
+            assert_close(&total[0][..1], &[share * size], size);
+        }
+    }
+}
+
 /// A cube pressed by 8 on a rigid plane, penalty 1000 per area.
 #[test]
 fn a_pressed_cube_prints_its_contact() {
