@@ -8,8 +8,9 @@ use crate::build::{
 };
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Sym3, Vec3};
-use signorini_io::case::{Space, Totals};
+use signorini_io::case::{Position, Reference, Space, Totals};
 use signorini_io::writers::dat::{
     ContactKind, Kind, Of, Page, Points, Statistics, WEDGE, tangents, tensor,
 };
@@ -27,6 +28,8 @@ pub struct Tables {
     // cells around nodes of bodies of revolution whose forces are printed, and steps of large strain
     around: Vec<CellId>,
     nonlinear: Vec<bool>,
+    // nodes of the mesh that are reference points
+    references: HashMap<NodeId, RigidId>,
 }
 
 impl Tables {
@@ -45,6 +48,7 @@ impl Tables {
                 Vec::new()
             },
             nonlinear: model.steps.iter().map(|step| step.nonlinear).collect(),
+            references: references(model),
         }
     }
 
@@ -127,6 +131,19 @@ impl Tables {
     }
 }
 
+/// The nodes of the mesh that are reference points, with what moves them.
+fn references(model: &Model) -> HashMap<NodeId, RigidId> {
+    let carrier = |reference: &Reference| {
+        let Position::Node(label) = reference.position else {
+            return None;
+        };
+        let mut known = model.references.iter();
+        let known = known.find(|one| one.name == reference.name.value)?;
+        Some((model.node(label)?, known.rigid))
+    };
+    model.case.references.iter().filter_map(carrier).collect()
+}
+
 /// Fills a page.
 struct Writer<'a> {
     tables: &'a Tables,
@@ -145,7 +162,12 @@ impl Writer<'_> {
             NodeQuantity::Displacement => {
                 self.page.table(Kind::Displacements, &one.set);
                 for &node in nodes {
-                    let u = at(&self.frame.displacement, node).unwrap_or_default();
+                    let carrier = self.tables.references.get(&node);
+                    let carrier = carrier.and_then(|c| self.frame.rigid.get(*c as usize));
+                    let u = match carrier {
+                        Some(rigid) => rigid.displacement,
+                        None => at(&self.frame.displacement, node).unwrap_or_default(),
+                    };
                     self.page.row(self.node(node), &u.to_array());
                 }
             }

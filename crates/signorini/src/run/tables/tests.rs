@@ -283,6 +283,34 @@ print = [
     }
 }
 
+#[test]
+fn a_node_that_is_a_reference_prints_its_motion() {
+    let head = PULLED.split("[[step]]").next().unwrap();
+    let text = dat(&format!(
+        r#"{}
+[[constraint]]
+kind = "kinematic"
+on = "top"
+reference = "pilot"
+dofs = ["x", "y", "z"]
+[[step]]
+name = "press"
+increments = 1
+fix = [{{ on = "base", u = "all" }}]
+move = [{{ on = "pilot", ux = 0, uy = 0, uz = -0.01, rx = 0, ry = 0, rz = 0 }}]
+print = [{{ on = "pilots", nodes = ["displacement"] }}]
+"#,
+        head.replace("[5, 0, 0, 1]", "[20, 0.5, 0.5, 2], [5, 0, 0, 1]")
+            .replace(
+                "[sets]",
+                "[reference]\npilot = { node = 20 }\n[sets]\npilots = { nodes = [20, 5] }"
+            )
+    ));
+    let rows = table(&text, "displacements");
+    assert_close(&rows[0], &[20.0, 0.0, 0.0, -0.01], 0.01);
+    assert_close(&rows[1], &[5.0, 0.0, 0.0, -0.01], 0.01);
+}
+
 /// A cube pressed by 8 on a rigid plane, penalty 1000 per area.
 #[test]
 fn a_pressed_cube_prints_its_contact() {
