@@ -20,7 +20,9 @@ mod temperature;
 mod tests;
 
 pub use mesh::{read_mesh_of, read_surfaces_of};
-pub use prints::{ElementQuantity, NodeQuantity, Printed, PrintedOf};
+pub use prints::{
+    ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
+};
 
 use carriers::Carriers;
 use names::Names;
@@ -150,7 +152,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
             return Err(found);
         }
     };
-    model.system.wanted = prints::wanted(&prints);
+    model.system.wanted = prints::wanted(&prints, &mesh, *case.model.space);
     let stabilized = case.solver.stabilize == Stabilize::Auto;
     for unheld in &model.held_by_contact {
         let what = format!("{unheld} is held only by contact");

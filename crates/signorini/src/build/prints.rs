@@ -2,10 +2,11 @@
 
 use super::names::Names;
 use super::quoted;
-use signorini_geometry::mesh::{CellId, NodeId};
-use signorini_io::case::{self, Case, Name, PrintOf, Totals};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_io::case::{self, Case, Name, PrintOf, Space, Totals};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_mechanics::system::Wanted;
+use std::collections::BTreeSet;
 
 /// Tables of one set.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,19 @@ pub enum PrintedOf {
     Nodes(Vec<NodeId>, Vec<NodeQuantity>),
     /// Of elements, likewise.
     Elements(Vec<CellId>, Vec<ElementQuantity>),
+    /// Of contacts.
+    Contacts(Vec<PrintedContact>, Vec<ContactQuantity>),
+}
+
+/// A contact that is printed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PrintedContact {
+    /// Its name.
+    pub name: String,
+    /// Name of its secondary side.
+    pub secondary: String,
+    /// Name of its primary side.
+    pub primary: String,
 }
 
 /// A quantity of nodes.
@@ -59,6 +73,25 @@ pub enum ElementQuantity {
     Volume,
 }
 
+/// A quantity of contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactQuantity {
+    /// Gap and slip of closed nodes.
+    Gap,
+    /// Pressure and tangential traction at closed nodes.
+    Traction,
+    /// Energy at closed nodes.
+    Energy,
+    /// How many are closed.
+    Count,
+    /// The whole force on the secondary side.
+    Force,
+    /// What pressures do of it.
+    NormalForce,
+    /// What friction does of it.
+    ShearForce,
+}
+
 const OF_NODES: [(&str, NodeQuantity); 3] = [
     ("displacement", NodeQuantity::Displacement),
     ("reaction", NodeQuantity::Reaction),
@@ -75,12 +108,24 @@ const OF_ELEMENTS: [(&str, ElementQuantity); 7] = [
     ("volume", ElementQuantity::Volume),
 ];
 
+const OF_CONTACTS: [(&str, ContactQuantity); 7] = [
+    ("gap", ContactQuantity::Gap),
+    ("traction", ContactQuantity::Traction),
+    ("energy", ContactQuantity::Energy),
+    ("count", ContactQuantity::Count),
+    ("force", ContactQuantity::Force),
+    ("normal-force", ContactQuantity::NormalForce),
+    ("shear-force", ContactQuantity::ShearForce),
+];
+
 /// The tables of every step; a step without a word goes on with those before it.
 pub(super) fn prints(case: &Case, names: &Names<'_>, found: &mut Diagnostics) -> Vec<Vec<Printed>> {
     let mut now = Vec::new();
     let of_step = |step: &case::Step| {
         if let Some(prints) = &step.prints {
-            let tables = prints.iter().filter_map(|one| printed(one, names, found));
+            let tables = prints
+                .iter()
+                .filter_map(|one| printed(one, case, names, found));
             now = tables.collect();
         }
         now.clone()
@@ -88,23 +133,40 @@ pub(super) fn prints(case: &Case, names: &Names<'_>, found: &mut Diagnostics) ->
     case.steps.iter().map(of_step).collect()
 }
 
-/// What the tables of all steps want to be sampled.
-pub(super) fn wanted(prints: &[Vec<Printed>]) -> Wanted {
+/// What the tables of all steps want to be sampled. Forces of bodies of revolution are printed without what hoop stresses
+/// do, which is known at the points around the nodes.
+pub(super) fn wanted(prints: &[Vec<Printed>], mesh: &Mesh, space: Space) -> Wanted {
     let mut wanted = Wanted::default();
+    let mut revolved = BTreeSet::new();
     for one in prints.iter().flatten() {
         match &one.what {
             PrintedOf::Elements(cells, _) => wanted.cells.extend(cells),
-            PrintedOf::Nodes(_, quantities) => {
-                wanted.forces |= quantities.contains(&NodeQuantity::Reaction);
+            PrintedOf::Nodes(nodes, quantities) => {
+                if quantities.contains(&NodeQuantity::Reaction) {
+                    wanted.forces = true;
+                    if space == Space::Axisymmetric {
+                        revolved.extend(nodes.iter().copied());
+                    }
+                }
             }
+            PrintedOf::Contacts(..) => {}
         }
+    }
+    if !revolved.is_empty() {
+        let is_near = |cell: &CellId| mesh.cell(*cell).iter().any(|node| revolved.contains(node));
+        wanted.cells.extend(mesh.cells(mesh.dim()).filter(is_near));
     }
     wanted.cells.sort_unstable();
     wanted.cells.dedup();
     wanted
 }
 
-fn printed(one: &case::Print, names: &Names<'_>, found: &mut Diagnostics) -> Option<Printed> {
+fn printed(
+    one: &case::Print,
+    case: &Case,
+    names: &Names<'_>,
+    found: &mut Diagnostics,
+) -> Option<Printed> {
     let on = one.on.as_ref();
     let what = match one.of {
         PrintOf::Nodes => {
@@ -116,15 +178,8 @@ fn printed(one: &case::Print, names: &Names<'_>, found: &mut Diagnostics) -> Opt
             PrintedOf::Elements(cells(on?, names, found)?, quantities)
         }
         PrintOf::Contact => {
-            found.push(
-                Diagnostic::error(
-                    &codes::NOT_BUILT,
-                    "tables of contacts are not supported yet",
-                )
-                .at(&one.place, "known, but not in this version")
-                .help("write  [[output.history]]  or  fields = [\"contact\"]"),
-            );
-            return None;
+            let quantities = quantities(&one.quantities, &OF_CONTACTS, found);
+            PrintedOf::Contacts(contacts(on, case, found)?, quantities)
         }
     };
     Some(Printed {
@@ -152,6 +207,35 @@ fn cells(name: &Name, names: &Names<'_>, found: &mut Diagnostics) -> Option<Vec<
         return None;
     }
     Some(cells)
+}
+
+/// The contact of this name; every one where none is named.
+fn contacts(
+    on: Option<&Name>,
+    case: &Case,
+    found: &mut Diagnostics,
+) -> Option<Vec<PrintedContact>> {
+    let is_meant = |contact: &&case::Contact| on.is_none_or(|on| on.value == contact.name.value);
+    let contact = |contact: &case::Contact| PrintedContact {
+        name: contact.name.value.clone(),
+        secondary: contact.secondary.value.clone(),
+        primary: contact.primary.value.clone(),
+    };
+    let meant: Vec<_> = case.contacts.iter().filter(is_meant).map(contact).collect();
+    if let (true, Some(on)) = (meant.is_empty(), on) {
+        let names = || case.contacts.iter().map(|one| one.name.as_str());
+        let mut message = Diagnostic::error(
+            &codes::UNDEFINED,
+            format!("there is no contact called {}", quoted(on)),
+        )
+        .at(&on.place, "not defined");
+        if let Some(near) = closest(on, names()) {
+            message = message.help(format!("did you mean \"{near}\"?"));
+        }
+        found.push(message);
+        return None;
+    }
+    Some(meant)
 }
 
 /// Words become quantities.

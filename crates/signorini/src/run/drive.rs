@@ -137,11 +137,7 @@ fn setting(
         has_vtu: formats.vtu,
         frd: formats.frd.then(frd),
         history,
-        tables: Tables::new(
-            model.prints.clone(),
-            Arc::clone(&model.mesh),
-            *model.case.model.space,
-        ),
+        tables: Tables::new(model),
         every: model.case.output.every,
         checkpoint_increments: checkpoint.increments,
         checkpoint_wall: checkpoint.wall.map(Duration::from_secs_f64),

@@ -52,6 +52,15 @@ u = "all"
 [[step.move]]
 on = "tool"
 uz = -0.02
+[[step.print]]
+on = "base"
+nodes = ["displacement", "reaction"]
+totals = "yes"
+[[step.print]]
+on = "brick"
+elements = ["stress", "energy"]
+[[step.print]]
+contact = ["gap", "force"]
 [checkpoint]
 every = { increments = 1 }
 [output]
@@ -98,8 +107,8 @@ fn scratch() -> tempfile::TempDir {
 }
 
 /// The tables and frames that grow.
-fn grown(folder: &Path) -> [String; 2] {
-    ["history.csv", "case.frd"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap())
+fn grown(folder: &Path) -> [String; 3] {
+    ["history.csv", "case.dat", "case.frd"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap())
 }
 
 #[test]
@@ -161,7 +170,7 @@ fn check_frames(folder: &Path, n: u64) -> usize {
 }
 
 /// Once there is room again the run goes on and ends like one that never failed.
-fn go_on(folder: &Path, n: u64, listed: usize, whole: &[String; 2]) {
+fn go_on(folder: &Path, n: u64, listed: usize, whole: &[String; 3]) {
     let source = Source {
         text: CASE.into(),
         ..Source::default()

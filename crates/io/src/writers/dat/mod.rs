@@ -16,13 +16,17 @@
 //! names are in capitals, as CalculiX has them. Tensors run xx, yy, zz, xy, xz, yz, shear strains being components of the
 //! tensor. What is printed where in an element, and in which order, is the matter of [`Points`].
 //!
+//! Contact is printed of nodes, in the way of node-to-face contact, whatever the method.
+//!
 //! Bodies of revolution are printed as CalculiX's wedge of two degrees: forces, energies and volumes are [`WEDGE`] times
 //! those of the circumference.
 
+mod contact;
 mod points;
 #[cfg(test)]
 mod tests;
 
+pub use contact::{ContactKind, Statistics, tangents};
 pub use points::{Points, WEDGE};
 
 use super::rows::{Newlines, RowFile, RowsError};
@@ -94,6 +98,8 @@ pub enum Of {
     Point(u64, usize),
     /// The whole set.
     All,
+    /// Both sides of a contact.
+    Both,
 }
 
 /// The tables of one time.
@@ -132,6 +138,7 @@ impl Page {
             Of::One(label) => write!(self.text, "{label:10}"),
             Of::Point(label, point) => write!(self.text, "{label:10} {point:3}"),
             Of::All => write!(self.text, "{:6}", ""),
+            Of::Both => write!(self.text, "{:2}", ""),
         };
         for number in numbers {
             self.text.push(' ');

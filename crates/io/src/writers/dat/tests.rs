@@ -244,3 +244,89 @@ fn tensors_of_revolution_turn_with_the_layer() {
         stress
     );
 }
+
+/// After tables of CalculiX; the force, moment and centre of the statistics are those of its test deck for them, and the
+/// moment about the centre follows from these rounded numbers.
+const CONTACT_BY_HAND: &str = "
+                        S T E P       1
+
+
+                                INCREMENT     1
+
+
+ relative contact displacement (slave node,normal,tang1,tang2) for all contact elements and time 0.1000000E+01
+
+         1 -1.029545E-05  9.287926E-05  9.287926E-05
+
+ contact stress (slave node,press,tang1,tang2) for all contact elements and time 0.1000000E+01
+
+         1  9.996286E+01  7.430341E-03  7.430341E-03
+
+ contact print energy (slave node,energy) forall contact elements and time 0.1000000E+01
+
+         1  1.290383E-04
+
+ total contact spring energy for time  0.1000000E+01
+
+        5.161534E-04
+
+ total number of contact elements for time  0.1000000E+01
+
+                4
+
+
+ statistics for slave set SSLAV, master set SMAST and time  0.1000000E+01
+
+   total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)
+
+    3.026943E-01  6.054093E-01  2.500000E+01  1.209191E+01 -1.229596E+01  1.513575E-01
+
+   center of gravity and mean normal
+
+    4.999820E-01  4.999640E-01  9.998468E-01  0.000000E+00  0.000000E+00 -1.000000E+00
+
+   moment about the center of gravity(mx,my,mz)
+
+    1.981266E-01 -9.905793E-02  3.726000E-10
+
+   area,  normal force (+ = tension) and shear force (size)
+
+    2.500000E-01 -2.500000E+01  6.768635E-01
+";
+
+#[test]
+fn a_page_of_contact_is_calculix_s_byte_for_byte() {
+    let mut page = Page::new(1, 1, 1.0);
+    page.contact_table(ContactKind::Gaps);
+    page.row(Of::One(1), &[-1.029_545e-5, 9.287_926e-5, 9.287_926e-5]);
+    page.contact_table(ContactKind::Tractions);
+    page.row(Of::One(1), &[99.962_86, 7.430_341e-3, 7.430_341e-3]);
+    page.contact_table(ContactKind::Energies);
+    page.row(Of::One(1), &[1.290_383e-4]);
+    page.contact_table(ContactKind::TotalEnergy);
+    page.row(Of::All, &[5.161_534e-4]);
+    page.contact_table(ContactKind::Count);
+    page.count(4);
+    let statistics = Statistics {
+        force: Vec3::new(0.302_694_3, 0.605_409_3, 25.0),
+        moment: Vec3::new(12.091_91, -12.295_96, 0.151_357_5),
+        center: Vec3::new(0.499_982, 0.499_964, 0.999_846_8),
+        normal: Vec3::new(0.0, 0.0, -1.0),
+        area: 0.25,
+    };
+    page.statistics("Sslav", "Smast", &statistics);
+    assert_eq!(page.text(), CONTACT_BY_HAND);
+}
+
+/// As CalculiX prints the same two blocks along three axes.
+#[test]
+fn tangents_follow_x_and_turn_right_about_the_normal() {
+    let [x, y, z] = [0, 1, 2].map(Vec3::unit);
+    assert_eq!(tangents(z), [x, y]);
+    assert_eq!(tangents(y), [x, -z]);
+    assert_eq!(tangents(x), [z, -y]);
+    let normal = Vec3::new(0.6, 0.0, 0.8);
+    let [first, second] = tangents(normal);
+    assert!((first - Vec3::new(0.8, 0.0, -0.6)).norm() < 1e-15);
+    assert!((second - y).norm() < 1e-15);
+}

@@ -1,7 +1,7 @@
 //! Values at integration points against what the displacements say there, written down afresh.
 
 use super::*;
-use crate::system::{PointSample, Samples};
+use crate::system::PointSample;
 use signorini_geometry::element::quadrature::Rule;
 
 /// The displacement gradient at a point of a cell, where the point is, and the volume that belongs to it.
@@ -29,11 +29,12 @@ fn gradient(
     };
     let mut jacobian = Mat3::ZERO;
     let (mut at, mut there) = (Vec3::ZERO, Vec3::ZERO);
-    for node in 0..n {
+    for (node, slope) in slopes.iter().enumerate() {
         at += body.reference[node] * shape[node];
         there += moved(node) * shape[node];
-        for axis in 0..ndim {
-            jacobian.rows[axis] += body.reference[node] * slopes[node][axis];
+        let rows = jacobian.rows.iter_mut().zip(slope.to_array());
+        for (row, slope) in rows.take(ndim) {
+            *row += body.reference[node] * slope;
         }
     }
     if ndim == 2 {
@@ -41,10 +42,10 @@ fn gradient(
     }
     let (inverse, det) = jacobian.inverse().unwrap();
     let mut h = Mat3::ZERO;
-    for node in 0..n {
-        let slope = inverse * slopes[node];
-        for axis in 0..3 {
-            h.rows[axis] += slope * moved(node)[axis];
+    for (node, slope) in slopes.iter().enumerate() {
+        let slope = inverse * *slope;
+        for (row, moved) in h.rows.iter_mut().zip(moved(node).to_array()) {
+            *row += slope * moved;
         }
     }
     if space == Idealisation::Axisymmetric {
