@@ -27,8 +27,8 @@ pub mod text;
 
 pub use build::{Model, build};
 pub use load::{Loaded, Reading, Source, load, load_case, load_mesh};
-pub use signorini_io::deck::Compat;
 pub use run::{Finished, Limits, Listener, News, RunOptions, run};
+pub use signorini_io::deck::Compat;
 pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};
 
 /// The version of the program.

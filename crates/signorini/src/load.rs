@@ -159,7 +159,8 @@ pub fn load_mesh(case: &mut Case, source: &mut Source) -> Result<(Mesh, Diagnost
 
 /// Whether a file is a deck, by its extension.
 fn is_deck(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("inp"))
+    path.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("inp"))
 }
 
 /// A deck as a case, and the text of that case.

@@ -231,3 +231,21 @@ fn damaged_files_are_compared_or_refused() {
         assert!(compared > 500, "{name}: {compared}");
     }
 }
+
+#[test]
+fn rows_of_zeros_that_the_reference_alone_has_say_nothing() {
+    let zeros = DAT.replacen(
+        " 0.000000E+00\n\n displacements",
+        " 0.000000E+00\n         7  0.000000E+00  0.000000E+00  0.000000E+00\n\n displacements",
+        1,
+    );
+    assert_ne!(zeros, DAT);
+    assert!(dat(DAT, &zeros).iter().all(|one| one.agrees(TIGHT)));
+    assert!(!dat(&zeros, DAT)[0].agrees(TIGHT));
+    let more = zeros.replace("7  0.000000E+00", "7  1.000000E-09");
+    assert!(!dat(DAT, &more)[0].agrees(TIGHT));
+    let heading =
+        " stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz) for set E and time  0.1000000E+01\n";
+    let headed = format!("{DAT}\n{heading}");
+    assert!(dat(DAT, &headed).iter().all(|one| one.agrees(TIGHT)));
+}

@@ -60,9 +60,7 @@ impl Translation<'_> {
             let [a, b, c, d, e, f] = self.reals(&row);
             for label in self.labels(&Target::Set(set.value)) {
                 let axes = match (kind.as_str(), self.point(label)) {
-                    ("C", Some(x)) => {
-                        Axes::around(Vec3::new(a, b, c), Vec3::new(d, e, f), x)
-                    }
+                    ("C", Some(x)) => Axes::around(Vec3::new(a, b, c), Vec3::new(d, e, f), x),
                     ("C", None) => None,
                     ("" | "R", _) => Axes::new([a, b, c], [d, e, f]),
                     _ => {
@@ -114,7 +112,10 @@ impl Translation<'_> {
         let label = label.or_else(|| {
             let spaces = directory.spaces(card.scope).iter();
             let mut sets = spaces.filter_map(|&space| directory.set(space, Kind::Nodes, text));
-            match self.labels(&Target::Set(sets.next()?.to_owned())).as_slice() {
+            match self
+                .labels(&Target::Set(sets.next()?.to_owned()))
+                .as_slice()
+            {
                 [one] => Some(*one),
                 _ => None,
             }
@@ -160,7 +161,9 @@ impl Translation<'_> {
 
     /// Elements that move as a whole have no material.
     fn rigid_body(&mut self, group: Name, reference: Name, place: &Place) {
-        self.case.bodies.retain(|body| body.groups != [group.clone()]);
+        self.case
+            .bodies
+            .retain(|body| body.groups != [group.clone()]);
         self.case.bodies.push(Body {
             groups: vec![group],
             material: None,
@@ -186,9 +189,11 @@ impl Translation<'_> {
                     }
                     let node = self.node_of(card, "REFNODE");
                     let surface = self.need(card, "SURFACE");
-                    let on = surface
-                        .and_then(|name| self.set(card, name, &card.place, Kind::Surface));
-                    open = node.zip(on).map(|(node, on)| (self.reference(node, &card.place), on));
+                    let on =
+                        surface.and_then(|name| self.set(card, name, &card.place, Kind::Surface));
+                    open = node
+                        .zip(on)
+                        .map(|(node, on)| (self.reference(node, &card.place), on));
                 }
                 "KINEMATIC" | "DISTRIBUTING" => {
                     let Some((reference, on)) = open.take() else {
@@ -222,7 +227,11 @@ impl Translation<'_> {
                 *one |= (first..=last).contains(&axis);
             }
         }
-        if axes.is_empty() { Directions::ALL } else { axes }
+        if axes.is_empty() {
+            Directions::ALL
+        } else {
+            axes
+        }
     }
 
     pub fn constrain(&mut self, kind: ConstraintKind, place: &Place) {
@@ -269,7 +278,9 @@ impl Translation<'_> {
         let targets = self.targets(card, term.first(), Kind::Nodes);
         let component = self.count(term.get(1), 0) as usize;
         let coefficient = self.real(term.get(2));
-        let place = term.first().map_or(card.place.clone(), |field| field.place());
+        let place = term
+            .first()
+            .map_or(card.place.clone(), |field| field.place());
         let axis = match component {
             1..=3 => component - 1,
             _ => {
@@ -291,9 +302,15 @@ impl Translation<'_> {
         if targets.is_empty() {
             return Vec::new();
         }
-        let labels: Vec<u64> = targets.iter().flat_map(|target| self.labels(target)).collect();
+        let labels: Vec<u64> = targets
+            .iter()
+            .flat_map(|target| self.labels(target))
+            .collect();
         let on = self.named(&targets, &place);
-        let turned = labels.iter().find_map(|label| self.axes.get(label)).copied();
+        let turned = labels
+            .iter()
+            .find_map(|label| self.axes.get(label))
+            .copied();
         let direction = turned.map_or_else(|| unit(axis), |axes| axes.0[axis]);
         if turned.is_some() && labels.len() > 1 {
             let text = "an equation of a set of nodes with local axes is not supported";

@@ -28,6 +28,9 @@ use std::collections::BTreeMap;
 const PENALTY: f64 = 50.0;
 /// The slope of sticking over the first modulus of the deck, likewise.
 const STICK: f64 = 0.5;
+/// Points of a facet along each direction: so many that their sums are the integrals over what touches, which CalculiX
+/// takes over the parts of facets that meet one another.
+const POINTS: u64 = 8;
 /// The stiffness of a gap element, likewise.
 const GAP: f64 = 1e12;
 /// How far nodes may be from the surface that they are tied to, in sizes of its elements.
@@ -118,7 +121,10 @@ impl Translation<'_> {
             .map(|row| self.reals(row))
             .collect();
         let [a, b] = rows.first().copied().unwrap_or_default();
-        let kind = card.get("PRESSURE-OVERCLOSURE").map(compared).unwrap_or_default();
+        let kind = card
+            .get("PRESSURE-OVERCLOSURE")
+            .map(compared)
+            .unwrap_or_default();
         match kind.as_str() {
             "" | "HARD" => Law::Hard,
             "LINEAR" => {
@@ -136,9 +142,11 @@ impl Translation<'_> {
                 Law::Exponential { c0: a, p0: b }
             }
             "TABULAR" => {
-                let rises = |pair: &[[f64; 2]]| matches!(pair, [a, b] if b[0] > a[0] && b[1] > a[1]);
+                let rises =
+                    |pair: &[[f64; 2]]| matches!(pair, [a, b] if b[0] > a[0] && b[1] > a[1]);
                 if rows.len() < 2 || !rows.windows(2).all(rises) {
-                    let text = "TABULAR needs two rows or more of pressures and overclosures that rise";
+                    let text =
+                        "TABULAR needs two rows or more of pressures and overclosures that rise";
                     self.error(&codes::NOT_INCREASING, text, &card.place, "");
                 }
                 Law::Table(rows)
@@ -156,7 +164,9 @@ impl Translation<'_> {
     fn first_modulus(&self) -> f64 {
         let first = self.case.materials.first();
         let known = first.and_then(|one| self.materials.get(&compared(&one.name)));
-        known.and_then(super::model::Properties::modulus).unwrap_or(1.0)
+        known
+            .and_then(super::model::Properties::modulus)
+            .unwrap_or(1.0)
     }
 
     fn pairs(&mut self, card: &Statement, interactions: &BTreeMap<String, Interaction>) {
@@ -204,16 +214,15 @@ impl Translation<'_> {
     }
 
     /// The secondary and the primary side that a line names.
-    fn sides(
-        &mut self,
-        card: &Statement,
-        row: &[crate::readers::inp::Field<'_>],
-    ) -> Option<Sides> {
-        let [secondary, primary] = row.get(..2).and_then(|two| <&[_; 2]>::try_from(two).ok()).or_else(|| {
-            let text = format!("a line of *{} needs two surfaces", card.keyword);
-            self.error(&codes::MISSING, text, &card.place, "");
-            None
-        })?;
+    fn sides(&mut self, card: &Statement, row: &[crate::readers::inp::Field<'_>]) -> Option<Sides> {
+        let [secondary, primary] = row
+            .get(..2)
+            .and_then(|two| <&[_; 2]>::try_from(two).ok())
+            .or_else(|| {
+                let text = format!("a line of *{} needs two surfaces", card.keyword);
+                self.error(&codes::MISSING, text, &card.place, "");
+                None
+            })?;
         let secondary = self.set(card, secondary.text, &secondary.place(), Kind::Surface);
         let primary = self.set(card, primary.text, &primary.place(), Kind::Surface);
         Some(Sides {
@@ -230,13 +239,17 @@ impl Translation<'_> {
             Some(set) if set.faces.is_empty() && !set.nodes.is_empty() => &set.nodes,
             _ => return surface,
         };
-        let outer = self.outer.get_or_insert_with(|| boundary(mesh, mesh.cells(mesh.dim())));
+        let outer = self
+            .outer
+            .get_or_insert_with(|| boundary(mesh, mesh.cells(mesh.dim())));
         let mut sides = Vec::new();
         let mut met = vec![false; nodes.len()];
         for face in outer.iter() {
             let of_face = mesh.face(*face).map(|(_, nodes)| nodes).unwrap_or_default();
-            let at: Option<Vec<usize>> =
-                of_face.iter().map(|node| nodes.binary_search(node).ok()).collect();
+            let at: Option<Vec<usize>> = of_face
+                .iter()
+                .map(|node| nodes.binary_search(node).ok())
+                .collect();
             if let (Some(at), Some(label)) = (at, mesh.cell_label(face.cell)) {
                 sides.push((label, face.side + 1));
                 for place in at {
@@ -304,6 +317,9 @@ impl Translation<'_> {
         };
         if exact {
             contact.method = method.into();
+            if method == Method::GaussPoint {
+                contact.rule.points = Some(POINTS);
+            }
             if !matches!(contact.enforcement, Enforcement::Auto) {
                 contact.per = Some(Per::Area);
             }
@@ -341,8 +357,7 @@ impl Translation<'_> {
                 continue;
             };
             let mut pairs = self.case.contacts.iter_mut();
-            let is_pair =
-                |c: &&mut Contact| c.secondary == secondary && c.primary == primary;
+            let is_pair = |c: &&mut Contact| c.secondary == secondary && c.primary == primary;
             match pairs.find(is_pair) {
                 Some(contact) => contact.start.clearance = Some(value),
                 None => {
@@ -382,9 +397,15 @@ impl Translation<'_> {
     /// The mean size of the elements of a surface: the edge of a cube as large as the box around each.
     fn size_of(&self, surface: &Name) -> f64 {
         let mesh = &self.deck.mesh;
-        let faces = mesh.sets.get(&surface.value).map_or(&[][..], |set| &set.faces);
+        let faces = mesh
+            .sets
+            .get(&surface.value)
+            .map_or(&[][..], |set| &set.faces);
         let size = |cell| -> Option<f64> {
-            let points = mesh.cell(cell).iter().map(|&node| mesh.points.get(node as usize));
+            let points = mesh
+                .cell(cell)
+                .iter()
+                .map(|&node| mesh.points.get(node as usize));
             let points: Option<Vec<&Vec3>> = points.collect();
             let points = points?;
             let extent = |axis: usize| {
@@ -410,7 +431,12 @@ impl Translation<'_> {
         let normal = [nx, ny, nz];
         if Vec3::from(normal).normalized().is_none() {
             let text = "*GAP has no direction";
-            self.error(&codes::OUT_OF_RANGE, text, &card.place, "clearance, nx, ny, nz");
+            self.error(
+                &codes::OUT_OF_RANGE,
+                text,
+                &card.place,
+                "clearance, nx, ny, nz",
+            );
             return;
         }
         let directory = &self.deck.directory;
@@ -454,7 +480,12 @@ impl Translation<'_> {
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
         if kind != "CONTACTPAIR" {
             let text = format!("*MODEL CHANGE, TYPE={kind} is not supported");
-            self.error(&codes::NOT_BUILT, text, &card.place, "of contact pairs it is");
+            self.error(
+                &codes::NOT_BUILT,
+                text,
+                &card.place,
+                "of contact pairs it is",
+            );
             return;
         }
         let active = !card.has("REMOVE");
@@ -463,8 +494,8 @@ impl Translation<'_> {
                 continue;
             };
             let pairs = self.case.contacts.iter();
-            let mut pairs = pairs
-                .filter(|c| c.secondary == sides.secondary && c.primary == sides.primary);
+            let mut pairs =
+                pairs.filter(|c| c.secondary == sides.secondary && c.primary == sides.primary);
             let Some(name) = pairs.next().map(|contact| contact.name.value.clone()) else {
                 let text = "*MODEL CHANGE of surfaces that are no contact pair";
                 self.error(&codes::UNDEFINED, text, &card.place, "");
@@ -494,13 +525,11 @@ impl Translation<'_> {
         }
     }
 
-    fn change<'s>(
-        &self,
-        step: &'s mut Step,
-        name: &str,
-        place: &Place,
-    ) -> &'s mut ContactChange {
-        let known = step.contacts.iter().position(|change| change.name.value == name);
+    fn change<'s>(&self, step: &'s mut Step, name: &str, place: &Place) -> &'s mut ContactChange {
+        let known = step
+            .contacts
+            .iter()
+            .position(|change| change.name.value == name);
         let at = known.unwrap_or_else(|| {
             step.contacts.push(ContactChange {
                 name: Spanned::new(name.to_owned(), place.clone()),

@@ -48,20 +48,35 @@ const fn refused(name: &'static str, remark: &'static str) -> Keyword {
 
 /// Every keyword that is known, in the order of the alphabet.
 pub const KEYWORDS: &[Keyword] = &[
-    read("AMPLITUDE", "NAME, TIME=TOTAL TIME; linear between its rows"),
+    read(
+        "AMPLITUDE",
+        "NAME, TIME=TOTAL TIME; linear between its rows",
+    ),
     read("ASSEMBLY", "with END ASSEMBLY"),
     refused("BEAM SECTION", "beams are not built"),
-    read("BOUNDARY", "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED"),
+    read(
+        "BOUNDARY",
+        "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED",
+    ),
     read("CHANGE FRICTION", "with FRICTION"),
-    refused("CHANGE SURFACE BEHAVIOR", "a law of contact holds for the whole run"),
+    refused(
+        "CHANGE SURFACE BEHAVIOR",
+        "a law of contact holds for the whole run",
+    ),
     read("CLEARANCE", "MASTER, SLAVE, VALUE"),
-    read("CLOAD", "forces at nodes, moments at rigid bodies; AMPLITUDE, OP"),
+    read(
+        "CLOAD",
+        "forces at nodes, moments at rigid bodies; AMPLITUDE, OP",
+    ),
     read("CONTACT PAIR", "TYPE, SMALL SLIDING, ADJUST by a tolerance"),
     ignored("CONTACT CONTROLS", "contact needs no controls here"),
     ignored("CONTACT FILE", "all fields of contact are written anyway"),
     ignored("CONTACT OUTPUT", "all fields of contact are written anyway"),
     read("CONTACT PRINT", "CDIS, CSTR, CELS, CNUM, CF, CFN, CFS"),
-    ignored("CONTROLS", "increments and iterations have controls of their own"),
+    ignored(
+        "CONTROLS",
+        "increments and iterations have controls of their own",
+    ),
     read("COUPLING", "with KINEMATIC or DISTRIBUTING, of surfaces"),
     refused("CREEP", "creep is not built"),
     refused("CYCLIC SYMMETRY MODEL", "cyclic symmetry is not built"),
@@ -71,8 +86,14 @@ pub const KEYWORDS: &[Keyword] = &[
     read("DSLOAD", "P; AMPLITUDE, OP"),
     refused("DYNAMIC", "only static steps are built"),
     ignored("EL FILE", "all fields are written anyway"),
-    read("EL PRINT", "S, E, ME, PEEQ, ENER, ELSE, EVOL; TOTALS, FREQUENCY"),
-    read("ELASTIC", "isotropic, ENGINEERING CONSTANTS, ORTHO; one temperature"),
+    read(
+        "EL PRINT",
+        "S, E, ME, PEEQ, ENER, ELSE, EVOL; TOTALS, FREQUENCY",
+    ),
+    read(
+        "ELASTIC",
+        "isotropic, ENGINEERING CONSTANTS, ORTHO; one temperature",
+    ),
     read("ELEMENT", "solids in space and in the plane"),
     ignored("ELEMENT OUTPUT", "all fields are written anyway"),
     read("ELSET", "GENERATE"),
@@ -81,7 +102,10 @@ pub const KEYWORDS: &[Keyword] = &[
     read("EQUATION", "of displacements"),
     read("EXPANSION", "isotropic, constant; ZERO"),
     refused("FREQUENCY", "only static steps are built"),
-    read("FRICTION", "a coefficient, and a stick slope with --compat ccx"),
+    read(
+        "FRICTION",
+        "a coefficient, and a stick slope with --compat ccx",
+    ),
     read("GAP", "of GAPUNI"),
     refused("HEAT TRANSFER", "temperatures are given, not solved for"),
     read("HEADING", "the title"),
@@ -93,7 +117,10 @@ pub const KEYWORDS: &[Keyword] = &[
     read("MATERIAL", ""),
     refused("MEMBRANE SECTION", "membranes are not built"),
     read("MODEL CHANGE", "TYPE=CONTACT PAIR, ADD and REMOVE"),
-    refused("MPC", "only equations, couplings and rigid bodies are built"),
+    refused(
+        "MPC",
+        "only equations, couplings and rigid bodies are built",
+    ),
     read("NODE", "SYSTEM"),
     ignored("NODE FILE", "all fields are written anyway"),
     ignored("NODE OUTPUT", "all fields are written anyway"),
@@ -102,19 +129,31 @@ pub const KEYWORDS: &[Keyword] = &[
     read("ORIENTATION", "rectangular"),
     ignored("OUTPUT", "all fields are written anyway"),
     read("PART", ""),
-    read("PLASTIC", "isotropic, KINEMATIC with one slope; one temperature"),
+    read(
+        "PLASTIC",
+        "isotropic, KINEMATIC with one slope; one temperature",
+    ),
     ignored("PREPRINT", "nothing is printed beforehand"),
     refused("PRE-TENSION SECTION", "pre-tension is not built"),
-    ignored("RESTART", "checkpoints are written anyway: signorini resume"),
+    ignored(
+        "RESTART",
+        "checkpoints are written anyway: signorini resume",
+    ),
     read("RIGID BODY", "NSET, REF NODE, ROT NODE"),
     refused("SECTION PRINT", "resultants of sections are not built"),
     refused("SHELL SECTION", "shells are not built"),
-    read("SOLID SECTION", "ELSET, MATERIAL, ORIENTATION, thickness in the plane"),
+    read(
+        "SOLID SECTION",
+        "ELSET, MATERIAL, ORIENTATION, thickness in the plane",
+    ),
     refused("SPRING", "springs of decks are not built"),
     read("STATIC", "DIRECT"),
     read("STEP", "NLGEOM, INC, AMPLITUDE"),
     read("SURFACE", "TYPE=ELEMENT, NODE"),
-    read("SURFACE BEHAVIOR", "HARD, LINEAR, EXPONENTIAL, TABULAR, TIED"),
+    read(
+        "SURFACE BEHAVIOR",
+        "HARD, LINEAR, EXPONENTIAL, TABULAR, TIED",
+    ),
     read("SURFACE INTERACTION", ""),
     read("TEMPERATURE", "of node sets"),
     read("TIE", "POSITION TOLERANCE, ADJUST"),
@@ -137,6 +176,9 @@ impl Keyword {
             let mut written = card.bytes();
             one.key().all(|b| written.next() == Some(b))
         };
-        KEYWORDS.iter().filter(fits).max_by_key(|one| one.key().count())
+        KEYWORDS
+            .iter()
+            .filter(fits)
+            .max_by_key(|one| one.key().count())
     }
 }

@@ -187,7 +187,12 @@ impl Translation<'_> {
                 all.push((Where::Reference(carrier.name.clone(), turns, axis), kind));
             } else if dof > 3 {
                 let text = format!("node {label} bears no moment");
-                self.error(&codes::WRONG_KIND, text, &place, "name the node of a rigid body");
+                self.error(
+                    &codes::WRONG_KIND,
+                    text,
+                    &place,
+                    "name the node of a rigid body",
+                );
                 break;
             } else {
                 let direction = match self.axes.get(&label) {
@@ -209,7 +214,10 @@ impl Translation<'_> {
         let [value, x, y, z, a, b, c] = self.reals(row.get(2..).unwrap_or_default());
         let mass = |target: &Target| Where::Mass(target.clone(), format!("{label} {x} {y} {z}"));
         let on_mass = |kind: LoadKind| -> Vec<(Where, LoadKind)> {
-            targets.iter().map(|target| (mass(target), kind.clone())).collect()
+            targets
+                .iter()
+                .map(|target| (mass(target), kind.clone()))
+                .collect()
         };
         match label.as_str() {
             "GRAV" => {
@@ -234,7 +242,9 @@ impl Translation<'_> {
                 })
             }
             pressure => {
-                let side = pressure.strip_prefix('P').and_then(|side| side.parse::<u8>().ok());
+                let side = pressure
+                    .strip_prefix('P')
+                    .and_then(|side| side.parse::<u8>().ok());
                 let Some(side) = side.filter(|side| *side > 0) else {
                     let text = format!("*DLOAD has no load `{label}` here");
                     let remark = "P1 to P6, GRAV and CENTRIF are read";
@@ -254,7 +264,10 @@ impl Translation<'_> {
         let mut left: BTreeMap<Where, What> = loads.acting.clone();
         let mut ended = Vec::new();
         loads.groups.retain(|group| {
-            let stays = group.members.iter().all(|at| left.get(at) == Some(&group.what));
+            let stays = group
+                .members
+                .iter()
+                .all(|at| left.get(at) == Some(&group.what));
             if stays {
                 for at in &group.members {
                     left.remove(at);

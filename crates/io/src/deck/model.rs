@@ -44,7 +44,11 @@ impl Translation<'_> {
             return;
         };
         let title = card.lines().next().unwrap_or_default();
-        self.case.title = title.chars().filter(|c| !c.is_control()).take(200).collect();
+        self.case.title = title
+            .chars()
+            .filter(|c| !c.is_control())
+            .take(200)
+            .collect();
     }
 
     /// Dimension of the model, by the types of its elements.
@@ -57,7 +61,13 @@ impl Translation<'_> {
             }
         }
         let dim = self.deck.mesh.dim();
-        let names = || names.iter().zip(&used).filter(|(_, used)| **used).map(|(name, _)| name);
+        let names = || {
+            names
+                .iter()
+                .zip(&used)
+                .filter(|(_, used)| **used)
+                .map(|(name, _)| name)
+        };
         let of = |letters: &str| names().any(|name| name.starts_with(letters));
         let space = match dim {
             3 => Space::ThreeD,
@@ -65,7 +75,11 @@ impl Translation<'_> {
             _ if of("CPS") => Space::PlaneStress,
             _ => Space::PlaneStrain,
         };
-        let mixed = ["CAX", "CPS", "CPE"].iter().filter(|letters| of(letters)).count() > 1;
+        let mixed = ["CAX", "CPS", "CPE"]
+            .iter()
+            .filter(|letters| of(letters))
+            .count()
+            > 1;
         if mixed && dim == 2 {
             self.error(
                 &codes::NOT_BUILT,
@@ -88,7 +102,11 @@ impl Translation<'_> {
             match card.keyword.as_str() {
                 "MATERIAL" => {
                     order.extend(open.take());
-                    let name = self.need(card, "NAME").unwrap_or_default().trim().to_owned();
+                    let name = self
+                        .need(card, "NAME")
+                        .unwrap_or_default()
+                        .trim()
+                        .to_owned();
                     open = Some(Properties {
                         name: Spanned::new(name, card.place.clone()),
                         place: card.place.clone(),
@@ -110,7 +128,8 @@ impl Translation<'_> {
         }
         order.extend(open);
         for material in order {
-            self.materials.insert(compared(&material.name), material.clone());
+            self.materials
+                .insert(compared(&material.name), material.clone());
             self.case.materials.extend(case_of(material));
         }
     }
@@ -154,7 +173,9 @@ impl Translation<'_> {
                     self.error(&codes::NOT_BUILT, text, &card.place, remark);
                     return;
                 };
-                let names = ["E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"];
+                let names = [
+                    "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23",
+                ];
                 match law {
                     Some(c) => {
                         material.law = Some(("orthotropic", names.into_iter().zip(c).collect()));
@@ -167,7 +188,8 @@ impl Translation<'_> {
             }
             "EXPANSION" => {
                 if !kind.is_empty() && !"ISOTROPIC".starts_with(&kind) || rows.len() > 1 {
-                    let text = "expansion that depends on direction or temperature is not supported";
+                    let text =
+                        "expansion that depends on direction or temperature is not supported";
                     self.error(&codes::NOT_BUILT, text, &card.place, "");
                 }
                 let zero = card.get("ZERO").map(|text| {
@@ -265,7 +287,10 @@ impl Translation<'_> {
                 continue;
             };
             for unknown in ["USER", "SHIFTX", "SHIFTY", "DEFINITION", "VALUE"] {
-                if card.get(unknown).is_some_and(|v| !["TABULAR", "RELATIVE"].contains(&v)) {
+                if card
+                    .get(unknown)
+                    .is_some_and(|v| !["TABULAR", "RELATIVE"].contains(&v))
+                {
                     let text = format!("*AMPLITUDE, {unknown} is not supported");
                     self.error(&codes::NOT_BUILT, text, &card.place, "");
                 }
@@ -275,15 +300,25 @@ impl Translation<'_> {
             for pair in fields.chunks(2) {
                 table.push(self.reals(pair));
             }
-            if table.windows(2).any(|pair| matches!(pair, [a, b] if b[0] <= a[0])) {
+            if table
+                .windows(2)
+                .any(|pair| matches!(pair, [a, b] if b[0] <= a[0]))
+            {
                 let text = "times of *AMPLITUDE do not increase";
                 self.error(&codes::NOT_INCREASING, text, &card.place, "");
             }
-            let total = card.get("TIME").map(compared).is_some_and(|t| t.starts_with("TOTAL"));
+            let total = card
+                .get("TIME")
+                .map(compared)
+                .is_some_and(|t| t.starts_with("TOTAL"));
             self.case.amplitudes.push(Amplitude {
                 name: Spanned::new(name.to_owned(), card.place.clone()),
                 table,
-                time: if total { TimeBase::Total } else { TimeBase::Step },
+                time: if total {
+                    TimeBase::Total
+                } else {
+                    TimeBase::Step
+                },
             });
         }
     }
@@ -292,7 +327,9 @@ impl Translation<'_> {
     pub fn amplitude(&mut self, card: &Statement) -> Option<Name> {
         let wanted = card.get("AMPLITUDE")?;
         let known = self.case.amplitudes.iter();
-        let known = known.map(|one| &one.name.value).find(|name| compared(name) == compared(wanted));
+        let known = known
+            .map(|one| &one.name.value)
+            .find(|name| compared(name) == compared(wanted));
         match known.cloned() {
             Some(name) => Some(Spanned::new(name, card.place.clone())),
             None => {
@@ -365,9 +402,13 @@ impl Translation<'_> {
             let kind = self.type_of(cell);
             let digits = kind.trim_start_matches(|c: char| c.is_ascii_uppercase());
             let reduced = kind.ends_with('R') || kind.ends_with("RH") || kind.ends_with("RT");
-            let linear = ["C3D8", "CPS4", "CPE4", "CAX4"].iter().any(|l| kind.starts_with(l));
+            let linear = ["C3D8", "CPS4", "CPE4", "CAX4"]
+                .iter()
+                .any(|l| kind.starts_with(l));
             let modes = linear && digits.contains('I');
-            ways.entry((reduced, modes, linear)).or_default().push(label);
+            ways.entry((reduced, modes, linear))
+                .or_default()
+                .push(label);
         }
         let several = ways.len() > 1;
         for ((reduced, modes, linear), elements) in ways {
@@ -401,7 +442,10 @@ impl Translation<'_> {
             let Some(name) = self.need(card, "NAME") else {
                 continue;
             };
-            let cylindrical = card.get("SYSTEM").map(compared).is_some_and(|s| s.starts_with('C'));
+            let cylindrical = card
+                .get("SYSTEM")
+                .map(compared)
+                .is_some_and(|s| s.starts_with('C'));
             let numbers: Vec<_> = card.rows().next().unwrap_or_default();
             let [a, b, c, d, e, f] = self.reals(&numbers);
             let orientation = if cylindrical {
@@ -438,7 +482,9 @@ const fn locking(reduced: bool, modes: bool, linear: bool) -> Locking {
 /// What names are compared by: in capitals, without blanks.
 pub(super) fn compared(name: &str) -> String {
     let name = name.trim_matches('"').chars();
-    name.filter(|c| !c.is_whitespace()).flat_map(char::to_uppercase).collect()
+    name.filter(|c| !c.is_whitespace())
+        .flat_map(char::to_uppercase)
+        .collect()
 }
 
 fn case_of(of: Properties) -> Option<Material> {

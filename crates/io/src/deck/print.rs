@@ -9,7 +9,11 @@ use crate::readers::inp::{Kind, Statement};
 /// What decks call the quantities of a card.
 fn quantities(of: PrintOf) -> &'static [(&'static str, &'static str)] {
     match of {
-        PrintOf::Nodes => &[("U", "displacement"), ("RF", "reaction"), ("NT", "temperature")],
+        PrintOf::Nodes => &[
+            ("U", "displacement"),
+            ("RF", "reaction"),
+            ("NT", "temperature"),
+        ],
         PrintOf::Elements => &[
             ("S", "stress"),
             ("E", "strain"),
@@ -60,7 +64,9 @@ impl Translation<'_> {
         let mut wanted: Vec<Spanned<String>> = Vec::new();
         for row in card.rows() {
             for field in row.iter().filter(|field| !field.text.is_empty()) {
-                match known.iter().find(|(name, _)| *name == field.key()) {
+                // four letters count: CDISP is CDIS
+                let letters: String = field.key().chars().take(4).collect();
+                match known.iter().find(|(name, _)| *name == letters) {
                     Some((_, word)) => wanted.push(Spanned::new((*word).to_owned(), field.place())),
                     None => self.note(
                         format!("`{}` of *{} is not printed", field.text, card.keyword),
@@ -77,14 +83,16 @@ impl Translation<'_> {
             Some("ONLY") => Totals::Only,
             _ => Totals::No,
         };
-        let every = card.get("FREQUENCY").map(|text| match compared(text).parse() {
-            Ok(every) => every,
-            Err(_) => {
-                let text = "FREQUENCY is no whole number";
-                self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
-                1
-            }
-        });
+        let every = card
+            .get("FREQUENCY")
+            .map(|text| match compared(text).parse() {
+                Ok(every) => every,
+                Err(_) => {
+                    let text = "FREQUENCY is no whole number";
+                    self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
+                    1
+                }
+            });
         let prints = step.prints.get_or_insert_default();
         let last = prints.last().map_or(1, |print| print.every);
         let every = every.unwrap_or(last).max(1);

@@ -70,7 +70,8 @@ impl Translation<'_> {
         if steps.is_empty() {
             let text = "the deck has no step: there is nothing to solve";
             let help = "write *STEP, *STATIC, *END STEP; or read its mesh in a case of your own";
-            self.found.push(Diagnostic::error(&codes::MISSING, text).help(help));
+            self.found
+                .push(Diagnostic::error(&codes::MISSING, text).help(help));
         }
         for (number, cards) in steps.into_iter().enumerate() {
             let step = self.step(number, &cards, &mut standing);
@@ -151,10 +152,16 @@ impl Translation<'_> {
 
     fn time(&mut self, cards: &[&Statement], step: &mut Step) {
         let procedures = ["STATIC"];
-        let Some(card) = cards.iter().find(|c| procedures.contains(&c.keyword.as_str())) else {
+        let Some(card) = cards
+            .iter()
+            .find(|c| procedures.contains(&c.keyword.as_str()))
+        else {
             let known = ["DYNAMIC", "FREQUENCY", "HEATTRANSFER", "VISCO"];
             // those are told of by their keyword
-            if !cards.iter().any(|c| known.iter().any(|k| c.keyword.starts_with(k))) {
+            if !cards
+                .iter()
+                .any(|c| known.iter().any(|k| c.keyword.starts_with(k)))
+            {
                 let text = "this step has no procedure";
                 self.error(&codes::MISSING, text, &step.place, "write *STATIC");
             }
@@ -190,7 +197,9 @@ impl Translation<'_> {
     /// The lines of a card, those together that differ in single nodes alone.
     fn boundary(&mut self, card: &Statement, lines: &mut Vec<Line>) {
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
-        if !["", "DISPLACEMENT"].contains(&kind.as_str()) || card.has("SUBMODEL") || card.has("USER")
+        if !["", "DISPLACEMENT"].contains(&kind.as_str())
+            || card.has("SUBMODEL")
+            || card.has("USER")
         {
             let text = "*BOUNDARY of this type is not supported";
             self.error(&codes::NOT_BUILT, text, &card.place, "displacements are");
@@ -220,7 +229,9 @@ impl Translation<'_> {
             } else {
                 Course::To(value, amplitude.clone().filter(|_| value != 0.0))
             };
-            let single = targets.iter().all(|target| matches!(target, Target::One(_)));
+            let single = targets
+                .iter()
+                .all(|target| matches!(target, Target::One(_)));
             match lines.last_mut() {
                 Some(last)
                     if single
@@ -291,10 +302,15 @@ impl Translation<'_> {
         let mut local: BTreeMap<u64, [Option<(Course, Place)>; 3]> = BTreeMap::new();
         for line in lines {
             let turned = |this: &Self, target: &Target| {
-                this.labels(target).iter().any(|label| this.axes.contains_key(label))
+                this.labels(target)
+                    .iter()
+                    .any(|label| this.axes.contains_key(label))
             };
-            let (turned, plain): (Vec<_>, Vec<_>) =
-                line.targets.iter().cloned().partition(|target| turned(self, target));
+            let (turned, plain): (Vec<_>, Vec<_>) = line
+                .targets
+                .iter()
+                .cloned()
+                .partition(|target| turned(self, target));
             let labels = turned.iter().flat_map(|target| self.labels(target));
             let (labels, others): (Vec<u64>, Vec<u64>) =
                 labels.partition(|label| self.axes.contains_key(label));
@@ -336,12 +352,17 @@ impl Translation<'_> {
         let (on, components) = self.carried(targets, &line.components, &line.place);
         let is_node = components == line.components;
         // nodes of a plane model have no third displacement, and nodes no rotations
-        let is_there = |c: &usize| *c < ndim || (*c >= 3 && !is_node) || (*c >= 3 && self.is_carrier(targets));
+        let is_there =
+            |c: &usize| *c < ndim || (*c >= 3 && !is_node) || (*c >= 3 && self.is_carrier(targets));
         let components: Vec<usize> = components.iter().copied().filter(is_there).collect();
         if components.is_empty() {
             return;
         }
-        let keys = || targets.iter().flat_map(|t| line.components.iter().map(|c| (t.clone(), *c)));
+        let keys = || {
+            targets
+                .iter()
+                .flat_map(|t| line.components.iter().map(|c| (t.clone(), *c)))
+        };
         let stays = match &line.course {
             Course::Stay => true,
             Course::To(value, _) => {
@@ -443,7 +464,8 @@ impl Translation<'_> {
             let Course::To(value, amplitude) = course else {
                 // what an equation holds stays where it is
                 if !standing.local.contains(&(label, axis)) {
-                    let text = "*BOUNDARY, FIXED along local axes that nothing held is not supported";
+                    let text =
+                        "*BOUNDARY, FIXED along local axes that nothing held is not supported";
                     self.error(&codes::NOT_BUILT, text, &place, "");
                 }
                 continue;
@@ -451,7 +473,9 @@ impl Translation<'_> {
             let mut terms = along(on.clone(), axes, 1.0, ndim);
             let again = !standing.local.insert((label, axis));
             if value != 0.0 || again {
-                self.local_motion(label, axis, value, amplitude, &mut terms, &place, sudden, step);
+                self.local_motion(
+                    label, axis, value, amplitude, &mut terms, &place, sudden, step,
+                );
             }
             if !again {
                 self.constrain(ConstraintKind::Equation { terms, rhs: 0.0 }, &place);
@@ -473,9 +497,17 @@ impl Translation<'_> {
         step: &mut Step,
     ) {
         let wanted = format!("motion-{label}-{}", axis + 1);
-        let known = self.case.references.iter().any(|one| one.name.value == wanted);
+        let known = self
+            .case
+            .references
+            .iter()
+            .any(|one| one.name.value == wanted);
         if known || step.place.text().is_none() && terms.is_empty() {
-            step.moves.push(along_x(&wanted, motion(value, amplitude.as_ref(), sudden, step.duration), place));
+            step.moves.push(along_x(
+                &wanted,
+                motion(value, amplitude.as_ref(), sudden, step.duration),
+                place,
+            ));
             return;
         }
         let name = self.fresh(&wanted);

@@ -169,7 +169,12 @@ impl<'d> Translation<'d> {
     }
 
     /// What a field names, in all spaces that the card speaks of.
-    pub fn targets(&mut self, card: &Statement, field: Option<&Field<'_>>, kind: Kind) -> Vec<Target> {
+    pub fn targets(
+        &mut self,
+        card: &Statement,
+        field: Option<&Field<'_>>,
+        kind: Kind,
+    ) -> Vec<Target> {
         let Some(field) = field.filter(|field| !field.text.is_empty()) else {
             let text = format!("a line of *{} names nothing", card.keyword);
             self.error(&codes::MISSING, text, &card.place, "");
@@ -210,7 +215,11 @@ impl<'d> Translation<'d> {
 
     fn unknown(&mut self, card: &Statement, field: &Field<'_>, kind: Kind) {
         if field.whole().is_some() {
-            let what = if kind == Kind::Nodes { "node" } else { "element" };
+            let what = if kind == Kind::Nodes {
+                "node"
+            } else {
+                "element"
+            };
             let text = format!("there is no {what} {} in the mesh", field.text);
             self.error(&codes::NOT_IN_MESH, text, &field.place(), "");
         } else {
@@ -226,12 +235,15 @@ impl<'d> Translation<'d> {
         };
         let directory = &self.deck.directory;
         let spaces = directory.spaces(card.scope).iter();
-        let known: Vec<&str> = spaces.flat_map(|&space| directory.known(space, kind)).collect();
+        let known: Vec<&str> = spaces
+            .flat_map(|&space| directory.known(space, kind))
+            .collect();
         let shown: String = name.chars().take(80).collect();
         let meant = closest(&shown, known.iter().copied());
         let remark = meant.map_or(String::new(), |meant| format!("did you mean {meant}?"));
-        let mut one = Diagnostic::error(&codes::NOT_IN_MESH, format!("there is no {what} `{shown}`"))
-            .at(place, remark);
+        let mut one =
+            Diagnostic::error(&codes::NOT_IN_MESH, format!("there is no {what} `{shown}`"))
+                .at(place, remark);
         if !known.is_empty() {
             one = one.note(format!("{what}s: {}", listed(known.into_iter().take(20))));
         }
@@ -246,7 +258,9 @@ impl<'d> Translation<'d> {
                 let mesh = &self.deck.mesh;
                 let nodes = mesh.sets.get(name).map(|set| mesh.nodes_of(set));
                 let nodes = nodes.unwrap_or_default().into_iter();
-                nodes.filter_map(|node| mesh.node_labels.get(node as usize).copied()).collect()
+                nodes
+                    .filter_map(|node| mesh.node_labels.get(node as usize).copied())
+                    .collect()
             }
         }
     }
@@ -258,7 +272,10 @@ impl<'d> Translation<'d> {
             Target::Set(name) => {
                 let mesh = &self.deck.mesh;
                 let cells = mesh.sets.get(name).map_or(&[][..], |set| &set.cells);
-                cells.iter().filter_map(|&cell| mesh.cell_label(cell)).collect()
+                cells
+                    .iter()
+                    .filter_map(|&cell| mesh.cell_label(cell))
+                    .collect()
             }
         }
     }
@@ -277,7 +294,9 @@ impl<'d> Translation<'d> {
     /// The type of a cell as the deck calls it.
     pub fn type_of(&self, cell: CellId) -> &'d str {
         let (names, types) = self.deck.directory.types();
-        let number = types.get(cell.block as usize).and_then(|t| t.get(cell.index as usize));
+        let number = types
+            .get(cell.block as usize)
+            .and_then(|t| t.get(cell.index as usize));
         let name = number.and_then(|&number| names.get(number as usize));
         name.map_or("", String::as_str)
     }
@@ -306,7 +325,10 @@ impl<'d> Translation<'d> {
         if let [Target::Set(name)] = targets {
             return Spanned::new(name.clone(), place.clone());
         }
-        let mut labels: Vec<u64> = targets.iter().flat_map(|target| self.labels(target)).collect();
+        let mut labels: Vec<u64> = targets
+            .iter()
+            .flat_map(|target| self.labels(target))
+            .collect();
         labels.sort_unstable();
         labels.dedup();
         self.nodes_named(labels, place)

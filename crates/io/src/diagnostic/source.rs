@@ -155,7 +155,10 @@ mod tests {
         let part = SourceFile::excerpt("a", "four\nfive", 3);
         assert_eq!(part.line_index(6), 4);
         assert_eq!(part.line_range(4), 5..9);
-        assert_eq!(Place::new(&part, 5..9).line().as_deref(), Some("line 5 of a"));
+        assert_eq!(
+            Place::new(&part, 5..9).line().as_deref(),
+            Some("line 5 of a")
+        );
     }
 
     #[test]

@@ -103,8 +103,7 @@ impl<'a> Names<'a> {
             SetContent::Elements(labels) => {
                 let known = labels.iter().filter_map(|label| cells.get(label));
                 set.cells = known.copied().collect();
-                let unknown: Vec<&u64> =
-                    labels.iter().filter(|l| !cells.contains_key(l)).collect();
+                let unknown: Vec<&u64> = labels.iter().filter(|l| !cells.contains_key(l)).collect();
                 self.missing(part, "element", &unknown, found);
             }
             SetContent::Faces(faces) => {

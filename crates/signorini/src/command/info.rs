@@ -27,7 +27,9 @@ impl Info {
         } else {
             let extension = self.path.extension().map(|e| e.to_ascii_lowercase());
             match extension.as_deref().and_then(|e| e.to_str()) {
-                Some("toml") => load(&self.path, &Reading::default()).map(|loaded| mesh(&loaded.mesh)),
+                Some("toml") => {
+                    load(&self.path, &Reading::default()).map(|loaded| mesh(&loaded.mesh))
+                }
                 Some("vtu") => grid_file(&self.path).map_err(Diagnostics::from),
                 Some("frd") => frd_file(&self.path).map_err(Diagnostics::from),
                 _ => mesh_file(&self.path).map_err(Diagnostics::from),

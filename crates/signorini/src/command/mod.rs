@@ -3,6 +3,7 @@
 mod check;
 mod completions;
 mod console;
+mod convert;
 mod demo;
 mod diff;
 mod doctor;
@@ -10,6 +11,7 @@ mod explain;
 mod guard;
 mod info;
 mod init;
+mod keywords;
 mod ndjson;
 mod resume;
 mod run;
@@ -56,8 +58,12 @@ enum Verb {
     Info(info::Info),
     /// Compare results with a reference, block by block.
     Diff(diff::Diff),
+    /// Write a deck as a case.
+    Convert(convert::Convert),
     /// Print the JSON schema of cases, for editors.
     Schema,
+    /// List the keywords of decks: read, left out, refused.
+    Keywords,
     /// Explain the code of a message.
     Explain(explain::Explain),
     /// Tell version, machine and threads, and solve something small: for reports of bugs.
@@ -148,7 +154,9 @@ pub fn main() -> ExitCode {
             Verb::Demo(demo) => demo.execute(),
             Verb::Info(info) => info.execute(),
             Verb::Diff(diff) => diff.execute(),
+            Verb::Convert(convert) => convert.execute(),
             Verb::Schema => schema::execute(),
+            Verb::Keywords => keywords::execute(),
             Verb::Explain(explain) => explain.execute(),
             Verb::Doctor => doctor::execute(),
             Verb::Completions(completions) => completions.execute(),

@@ -42,7 +42,9 @@ impl Run {
         let clock = Instant::now();
         let mut reading = self.changes.reading();
         if !self.format.is_empty() {
-            reading.set.push(("output.format".into(), format!("{:?}", self.format)));
+            reading
+                .set
+                .push(("output.format".into(), format!("{:?}", self.format)));
         }
         let (mut case, warnings, mut source) = match load_case(&self.case, &reading) {
             Ok(read) => read,

@@ -108,7 +108,8 @@ fn scratch() -> tempfile::TempDir {
 
 /// The tables and frames that grow.
 fn grown(folder: &Path) -> [String; 3] {
-    ["history.csv", "case.dat", "case.frd"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap())
+    ["history.csv", "case.dat", "case.frd"]
+        .map(|name| std::fs::read_to_string(folder.join(name)).unwrap())
 }
 
 #[test]

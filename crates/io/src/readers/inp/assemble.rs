@@ -1,8 +1,8 @@
 //! From what a deck says to a mesh: numbers become nodes and cells, names become sets.
 
 use super::card::key;
-use super::directory::{Directory, Names as Known, Special};
 use super::deck::{Deck, Definition, Family, Instance, Region, Scope, Side};
+use super::directory::{Directory, Names as Known, Special};
 use super::kind::Role;
 use super::lines::{Files, Spot};
 use crate::readers::MeshError;

@@ -84,7 +84,11 @@ impl Directory {
     pub fn set(&self, space: usize, kind: Kind, name: &str) -> Option<&str> {
         let name = name.trim_matches('"');
         let of = |space: usize, name: &str| {
-            let sets = self.spaces.get(space)?.sets.get(Family::from(kind) as usize)?;
+            let sets = self
+                .spaces
+                .get(space)?
+                .sets
+                .get(Family::from(kind) as usize)?;
             sets.get(&key(name)).map(String::as_str)
         };
         of(space, name).or_else(|| {
@@ -97,7 +101,9 @@ impl Directory {
     #[must_use]
     pub fn known(&self, space: usize, kind: Kind) -> Vec<&str> {
         let sets = (self.spaces.get(space)).and_then(|s| s.sets.get(Family::from(kind) as usize));
-        sets.map_or(Vec::new(), |sets| sets.values().map(String::as_str).collect())
+        sets.map_or(Vec::new(), |sets| {
+            sets.values().map(String::as_str).collect()
+        })
     }
 
     /// The number in the mesh of a node or an element that a space calls so: `12`, or `part-1.12`.
@@ -122,8 +128,13 @@ impl Directory {
 
     /// The elements that are no cells, of an element set.
     pub fn special(&self, space: usize, name: &str) -> impl Iterator<Item = &Special> {
-        let of = self.spaces.get(space).and_then(|s| s.special.get(&key(name)));
+        let of = self
+            .spaces
+            .get(space)
+            .and_then(|s| s.special.get(&key(name)));
         let labels = of.map_or(&[][..], Vec::as_slice);
-        self.special.iter().filter(move |one| labels.contains(&one.label))
+        self.special
+            .iter()
+            .filter(move |one| labels.contains(&one.label))
     }
 }

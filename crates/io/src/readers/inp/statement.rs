@@ -69,9 +69,9 @@ impl Statement {
             pieces.push((lines.spot, text(line)));
         }
         let mut rows = excerpts(pieces, lines).into_iter();
-        let place = rows.next().map_or_else(Place::nowhere, |row: Row| {
-            Place::new(&row.file, row.line)
-        });
+        let place = rows
+            .next()
+            .map_or_else(Place::nowhere, |row: Row| Place::new(&row.file, row.line));
         Self {
             keyword: card.keyword.clone(),
             place,
@@ -133,24 +133,24 @@ impl Row {
 
 /// Texts of lines that follow each other, one for each stretch without a gap.
 fn excerpts(pieces: Vec<(Spot, String)>, lines: &Lines<'_>) -> Vec<Row> {
-        let mut rows = Vec::with_capacity(pieces.len());
-        let mut pieces = pieces.into_iter().peekable();
-        while let Some((first, text)) = pieces.next() {
-            let mut whole = text;
-            let mut ranges = vec![0..whole.len()];
-            let mut last = first;
-            while let Some((spot, text)) = pieces.next_if(|(spot, _)| last.precedes(*spot)) {
-                whole.push('\n');
-                ranges.push(whole.len()..whole.len() + text.len());
-                whole.push_str(&text);
-                last = spot;
-            }
-            let (name, line) = lines.source(first);
-            let file = SourceFile::excerpt(name, whole, line.saturating_sub(1));
-            rows.extend(ranges.into_iter().map(|line| Row {
-                file: Arc::clone(&file),
-                line,
-            }));
+    let mut rows = Vec::with_capacity(pieces.len());
+    let mut pieces = pieces.into_iter().peekable();
+    while let Some((first, text)) = pieces.next() {
+        let mut whole = text;
+        let mut ranges = vec![0..whole.len()];
+        let mut last = first;
+        while let Some((spot, text)) = pieces.next_if(|(spot, _)| last.precedes(*spot)) {
+            whole.push('\n');
+            ranges.push(whole.len()..whole.len() + text.len());
+            whole.push_str(&text);
+            last = spot;
         }
-        rows
+        let (name, line) = lines.source(first);
+        let file = SourceFile::excerpt(name, whole, line.saturating_sub(1));
+        rows.extend(ranges.into_iter().map(|line| Row {
+            file: Arc::clone(&file),
+            line,
+        }));
+    }
+    rows
 }
