@@ -1,6 +1,6 @@
 //! Decks of Abaqus and CalculiX, run as they are.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 mod common;
 

@@ -135,15 +135,18 @@ impl Row {
 fn excerpts(pieces: Vec<(Spot, String)>, lines: &Lines<'_>) -> Vec<Row> {
     let mut rows = Vec::with_capacity(pieces.len());
     let mut pieces = pieces.into_iter().peekable();
-    while let Some((first, text)) = pieces.next() {
-        let mut whole = text;
-        let mut ranges = vec![0..whole.len()];
-        let mut last = first;
-        while let Some((spot, text)) = pieces.next_if(|(spot, _)| last.precedes(*spot)) {
-            whole.push('\n');
+    while let Some(&(first, _)) = pieces.peek() {
+        let mut whole = String::new();
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        let mut last: Option<Spot> = None;
+        let follows = |last: Option<Spot>, spot| last.is_none_or(|last| last.precedes(spot));
+        while let Some((spot, text)) = pieces.next_if(|(spot, _)| follows(last, *spot)) {
+            if last.is_some() {
+                whole.push('\n');
+            }
             ranges.push(whole.len()..whole.len() + text.len());
             whole.push_str(&text);
-            last = spot;
+            last = Some(spot);
         }
         let (name, line) = lines.source(first);
         let file = SourceFile::excerpt(name, whole, line.saturating_sub(1));
