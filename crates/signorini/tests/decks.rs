@@ -131,32 +131,31 @@ fn suite() -> Option<PathBuf> {
     found
 }
 
-/// Most of CalculiX's own decks run as they are, with its laws of contact, and print what it prints. docs/decks.md tells
-/// of each.
+/// Decks that docs/decks.md calls the same as their references still are; the page is written from what this prints.
 #[test]
-fn decks_of_the_suite_print_what_they_should() {
+fn decks_of_the_suite_print_what_the_page_says() {
     let Some(folder) = suite() else { return };
     let mut names: Vec<PathBuf> = (std::fs::read_dir(&folder).unwrap())
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.extension().is_some_and(|e| e == "inp"))
         .collect();
     names.sort();
-    let mut rows = Vec::new();
+    let page = std::fs::read_to_string(repository().join("docs/decks.md")).unwrap();
+    println!("| deck | iterations | tables | largest difference | |\n|---|---|---|---|---|");
+    let mut lost = Vec::new();
     for path in &names {
-        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-        rows.push(format!("| {name} | {} |", verdict(path)));
+        let start = format!("| {} | ", path.file_stem().unwrap().to_string_lossy());
+        let row = format!("{start}{} |", verdict(path));
+        println!("{row}");
+        let told = page.lines().find(|line| line.starts_with(&start));
+        let was_same = told
+            .unwrap_or_else(|| panic!("docs/decks.md lacks {start}"))
+            .ends_with("| same |");
+        if was_same && !row.ends_with("| same |") {
+            lost.push(row);
+        }
     }
-    let table = format!(
-        "| deck | iterations | tables | largest difference | |\n|---|---|---|---|---|\n{}\n",
-        rows.join("\n")
-    );
-    println!("{table}");
-    let same = rows.iter().filter(|row| row.ends_with("| same |")).count();
-    let refused = rows.iter().filter(|row| row.contains("refused")).count();
-    assert!(
-        same >= 20 && refused <= 2,
-        "{same} the same, {refused} refused"
-    );
+    assert!(lost.is_empty(), "{lost:#?}");
 }
 
 /// Runs a deck and compares what it prints.
