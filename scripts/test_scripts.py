@@ -258,6 +258,73 @@ class CheckResults(InFolder):
         self.assertIn("results.pvd does not exist", said)
 
 
+def frd_row(label, values):
+    return f" -1{label:10d}" + "".join(f"{v:12.5E}" for v in values) + "\n"
+
+
+def frd_block(rows):
+    return "".join(frd_row(k, row) for k, row in enumerate(rows, 1)) + " -3\n"
+
+
+def make_frd(folder):
+    """The frames of made-up results in one file."""
+    frames = [pyvista.read(os.path.join(folder, "frames", f"volume_{i:04}.vtu")) for i in range(NFRAME)]
+    points = frames[0].points
+    text = f"    1Cjob\n    2C{len(points):30d}{1:38d}\n" + frd_block(points) + f"    3C{2:30d}{1:38d}\n"
+    for label, (kind, nodes) in enumerate([(1, range(1, 9)), (3, range(9, 13))], 1):
+        text += f" -1{label:10d}{kind:5d}    0    1\n -2" + "".join(f"{n:10d}" for n in nodes) + "\n"
+    text += " -3\n"
+    fields = {
+        "DISP": ("displacement", ["D1", "D2", "D3"]),
+        "STRESS": ("stress", ["SXX", "SYY", "SZZ", "SXY", "SYZ", "SZX"]),
+        "FORC": ("reaction_force", ["F1", "F2", "F3"]),
+    }
+    for i, frame in enumerate(frames[1:], 1):
+        for name, (field, components) in fields.items():
+            text += f"    1PSTEP{i:26d}{i:12d}{1:12d}          \n"
+            text += f"  100CL{100 + i:5d}{i / (NFRAME - 1):12.5E}{len(points):12d}{0:22d}{i:5d}{1:12d}\n"
+            text += f" -4  {name:8}{len(components):5d}    1\n"
+            text += "".join(f" -5  {c:8}    1    1    0    0\n" for c in components)
+            text += frd_block(frame.point_data[field])
+    with open(os.path.join(folder, "job.frd"), "w", encoding="utf-8") as file:
+        file.write(text + " 9999\n")
+
+
+class CheckFrd(InFolder):
+    def setUp(self):
+        super().setUp()
+        # bare frames: nodes of the made-up contact have no numbers
+        os.remove(self.path("contact.pvd"))
+
+    def test_a_file_with_the_values_of_the_frames_passes(self):
+        make_frd(self.folder)
+        code, said = run("check_frd.py", self.folder)
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r"check_frd: \d+ passed, 0 failed")
+
+    def test_stress_in_another_order_is_found(self):
+        make_frd(self.folder)
+        self.change_text("job.frd", "SYZ", "S??")
+        self.change_text("job.frd", "SZX", "SYZ")
+        self.change_text("job.frd", "S??", "SZX")
+        code, said = run("check_frd.py", self.folder)
+        self.assertEqual(code, 1, said)
+        self.assertIn("volume_0003.vtu: stress", said)
+
+    def test_a_wrong_sixth_digit_is_found(self):
+        make_frd(self.folder)
+        self.change_text("job.frd", "-3.00000E-01", "-3.00001E-01")
+        code, said = run("check_frd.py", self.folder)
+        self.assertEqual(code, 1, said)
+        self.assertIn("volume_0003.vtu: displacement", said)
+        self.assertNotIn("volume_0002.vtu", said)
+
+    def test_results_without_such_a_file_are_an_error_of_their_own(self):
+        code, said = run("check_frd.py", self.folder)
+        self.assertEqual(code, 2, said)
+        self.assertIn("--format vtu,frd", said)
+
+
 class PaperFigure(InFolder):
     def draw(self, *arguments):
         output = self.path("figure.png")

@@ -8,9 +8,9 @@
 //!
 //! # Example
 //! ```no_run
-//! use signorini::{RunOptions, build, load, run};
+//! use signorini::{Reading, RunOptions, build, load, run};
 //!
-//! let loaded = load("hertz.toml".as_ref(), &[])?;
+//! let loaded = load("hertz.toml".as_ref(), &Reading::default())?;
 //! let mut model = build(loaded.case, loaded.mesh)?;
 //! let options = RunOptions::new(loaded.source);
 //! let finished = run(&mut model, &options, &mut ());
@@ -26,8 +26,9 @@ pub mod run;
 pub mod text;
 
 pub use build::{Model, build};
-pub use load::{Loaded, Source, load, load_case, load_mesh};
+pub use load::{Loaded, Reading, Source, load, load_case, load_mesh};
 pub use run::{Finished, Limits, Listener, News, RunOptions, run};
+pub use signorini_io::deck::Compat;
 pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};
 
 /// The version of the program.

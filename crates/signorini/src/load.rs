@@ -4,7 +4,9 @@ use crate::build::{read_mesh_of, read_surfaces_of};
 use sha2::{Digest, Sha256};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::{self, Case, MeshSource, Shape};
+use signorini_io::deck::{self, Compat};
 use signorini_io::diagnostic::Diagnostics;
+use signorini_io::fs::RealFs;
 use signorini_io::writers::json::Input;
 use std::path::{Path, PathBuf};
 
@@ -61,12 +63,21 @@ pub struct Loaded {
     pub source: Source,
 }
 
-/// Reads a case, changed by `overrides` (path, value), and its mesh.
+/// How a case is read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// What is changed in it: path and value.
+    pub set: Vec<(String, String)>,
+    /// Whose laws hold in a deck.
+    pub compat: Compat,
+}
+
+/// Reads a case or a deck, and its mesh.
 ///
 /// # Errors
 /// All faults of the case at once; else all faults of the mesh.
-pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Loaded, Diagnostics> {
-    let (mut case, mut warnings, mut source) = load_case(path, overrides)?;
+pub fn load(path: &Path, reading: &Reading) -> Result<Loaded, Diagnostics> {
+    let (mut case, mut warnings, mut source) = load_case(path, reading)?;
     let (mesh, more) = load_mesh(&mut case, &mut source)?;
     warnings.append(more);
     Ok(Loaded {
@@ -77,20 +88,27 @@ pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Loaded, Diagn
     })
 }
 
-/// Reads a case without its mesh.
+/// Reads a case without its mesh, or a deck: what it asks for, as a case would say it.
 ///
 /// # Errors
 /// All faults of the case at once.
 pub fn load_case(
     path: &Path,
-    overrides: &[(String, String)],
+    reading: &Reading,
 ) -> Result<(Case, Diagnostics, Source), Diagnostics> {
+    let overrides = &reading.set;
     let Ok(text) = std::fs::read(path) else {
         // says why, in the words for users
         let (case, warnings) = case::read_case_file(path, overrides)?;
         return Ok((case, warnings, Source::default()));
     };
-    let (case, warnings) = case::read_case(&path.display().to_string(), &text, overrides)?;
+    let name = path.display().to_string();
+    let (case, warnings, text) = if is_deck(path) {
+        read_deck(&name, &text, reading)?
+    } else {
+        let (case, warnings) = case::read_case(&name, &text, overrides)?;
+        (case, warnings, text)
+    };
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
     let source = Source {
         name: stem.unwrap_or_else(|| "case".into()),
@@ -137,6 +155,29 @@ pub fn load_mesh(case: &mut Case, source: &mut Source) -> Result<(Mesh, Diagnost
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     warnings.silence(&allowed);
     Ok((mesh, warnings))
+}
+
+/// Whether a file is a deck, by its extension.
+fn is_deck(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("inp"))
+}
+
+/// A deck as a case, and the text of that case.
+fn read_deck(
+    name: &str,
+    text: &[u8],
+    reading: &Reading,
+) -> Result<(Case, Diagnostics, Vec<u8>), Diagnostics> {
+    let read = deck::read(&RealFs, name, text, reading.compat)?;
+    let text = case::resolved(&read.case).into_bytes();
+    if reading.set.is_empty() {
+        return Ok((read.case, read.found, text));
+    }
+    let (case, more) = case::read_case(name, &text, &reading.set)?;
+    let mut found = read.found;
+    found.append(more);
+    Ok((case, found, text))
 }
 
 /// SHA-256 in hexadecimal.

@@ -33,7 +33,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 32] = [
+const ROOMS: [Room; 35] = [
     room("geometry", &[]),
     room("geometry::tensor", &[]),
     room("geometry::element", &["geometry::tensor"]),
@@ -90,16 +90,30 @@ const ROOMS: [Room; 32] = [
             "io::case",
             "io::diagnostic",
             "io::fs",
+            "io::frd",
             "io::vtk",
             "mechanics",
             "geometry",
         ],
     ),
+    room(
+        "io::deck",
+        &[
+            "io::case",
+            "io::diagnostic",
+            "io::fs",
+            "io::readers",
+            "mechanics",
+            "geometry",
+        ],
+    ),
+    room("io::frd", &["geometry::element"]),
     room("io::vtk", &["io::fs", "geometry::element"]),
     room(
         "io::writers",
-        &["io::fs", "io::vtk", "mechanics", "geometry"],
+        &["io::fs", "io::frd", "io::vtk", "mechanics", "geometry"],
     ),
+    room("io::compare", &["io::fs", "io::readers", "io::vtk"]),
     room("io::checkpoint", &["io::fs", "mechanics", "geometry"]),
     room("signorini", &["io", "mechanics", "geometry"]),
     room("python", &["signorini", "io", "mechanics", "geometry"]),

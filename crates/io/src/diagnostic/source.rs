@@ -8,15 +8,23 @@ use std::sync::{Arc, OnceLock};
 pub struct SourceFile {
     name: String,
     text: String,
+    /// Lines before the text, where it is a part of a file.
+    before: usize,
     line_starts: OnceLock<Vec<usize>>,
 }
 
 impl SourceFile {
     /// Keeps `text` under `name` for messages that point into it.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
+        Self::excerpt(name, text, 0)
+    }
+
+    /// Keeps a part of the text called `name`, which so many lines come before.
+    pub fn excerpt(name: impl Into<String>, text: impl Into<String>, before: usize) -> Arc<Self> {
         Arc::new(Self {
             name: name.into(),
             text: text.into(),
+            before,
             line_starts: OnceLock::new(),
         })
     }
@@ -33,14 +41,15 @@ impl SourceFile {
 
     /// The line, counted from zero, that holds the byte at `offset`.
     pub fn line_index(&self, offset: usize) -> usize {
-        self.line_starts()
-            .partition_point(|start| *start <= offset)
-            .saturating_sub(1)
+        let starts = self.line_starts();
+        let number = starts.partition_point(|start| *start <= offset);
+        self.before + number.saturating_sub(1)
     }
 
     /// The bytes of a line counted from zero, without its line end.
     pub fn line_range(&self, line: usize) -> Range<usize> {
         let starts = self.line_starts();
+        let line = line.saturating_sub(self.before);
         let length = self.text.len();
         let start = starts.get(line).copied().unwrap_or(length);
         let end = starts.get(line + 1).copied().unwrap_or(length);
@@ -140,6 +149,17 @@ impl From<&str> for Spanned<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_part_of_a_file_has_the_lines_of_the_file() {
+        let part = SourceFile::excerpt("a", "four\nfive", 3);
+        assert_eq!(part.line_index(6), 4);
+        assert_eq!(part.line_range(4), 5..9);
+        assert_eq!(
+            Place::new(&part, 5..9).line().as_deref(),
+            Some("line 5 of a")
+        );
+    }
 
     #[test]
     fn lines_are_found_whatever_ends_them() {

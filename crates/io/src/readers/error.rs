@@ -470,6 +470,14 @@ pub enum MeshError {
         /// Why.
         error: VtuReadError,
     },
+    /// A `.frd` file that cannot be read.
+    #[error("{place}: {what}")]
+    Frd {
+        /// Where.
+        place: Place,
+        /// What is wrong.
+        what: &'static str,
+    },
     /// Nodes alone.
     #[error(
         "{place}: the mesh has {nnode} nodes but no elements; mesh the model before saving it whole (in Gmsh: put what is to be saved into physical groups, or set Mesh.SaveAll = 1)"

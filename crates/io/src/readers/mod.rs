@@ -9,11 +9,15 @@
 //! [`MeshError`] with its place. What a mesh that could be read still gets wrong (volumes, coincident nodes) is the
 //! matter of [`validate`].
 //!
-//! Triangles of rigid surfaces are no meshes of bodies: [`stl`] reads them by themselves.
+//! Triangles of rigid surfaces are no meshes of bodies: [`stl`] reads them by themselves. Results are read back too: of
+//! `.frd` files with their mesh by [`frd::parse`], of `.dat` tables by [`dat::parse`].
 //!
 //! To add a format: one file here with a function of type [`Reader`], and one line in [`READERS`].
 
+pub mod dat;
 mod error;
+mod fortran;
+pub mod frd;
 pub mod gmsh;
 mod inline;
 pub mod inp;
@@ -24,6 +28,7 @@ mod validate;
 pub mod vtu;
 
 pub use error::{MeshError, Place};
+pub use fortran::LineError;
 pub use inline::{InlineElement, build};
 pub use side::{SideError, side_by_normal};
 pub use signorini_geometry::mesh::quality::parts;
@@ -35,8 +40,12 @@ use signorini_geometry::mesh::Mesh;
 pub type Reader = fn(&str, &[u8]) -> Result<(Mesh, Vec<String>), MeshError>;
 
 /// Readers by extension, in lower case.
-pub const READERS: [(&str, Reader); 3] =
-    [("msh", gmsh::read), ("inp", inp::read), ("vtu", vtu::read)];
+pub const READERS: [(&str, Reader); 4] = [
+    ("msh", gmsh::read),
+    ("inp", inp::read),
+    ("vtu", vtu::read),
+    ("frd", frd::read),
+];
 
 /// Reads a mesh in the format that the extension of `name` says.
 ///
@@ -63,7 +72,7 @@ mod tests {
         let error = read_mesh("part.stl", b"solid").unwrap_err();
         assert_eq!(
             error.to_string(),
-            "part.stl: no reader for this kind of file; meshes can be .msh, .inp, .vtu"
+            "part.stl: no reader for this kind of file; meshes can be .msh, .inp, .vtu, .frd"
         );
         assert!(read_mesh("part", b"").is_err());
     }

@@ -6,6 +6,8 @@
 //! history.csv              csv   one row per increment                         grows
 //! convergence.csv          csv   one row per Newton iteration                  grows
 //! hertz.sta                sta   one row per increment attempt                 grows
+//! hertz.dat                dat   printed tables at the times asked for         grows
+//! hertz.frd                frd   the mesh, then every frame                    grows
 //! events.jsonl             json  one line per event                            grows
 //! summary.json             json  how it ended                                  written once, atomically
 //! ```
@@ -17,6 +19,8 @@
 //! One more format: a file here that encodes into bytes, and a line in the table above.
 
 pub mod csv;
+pub mod dat;
+pub mod frd;
 pub mod json;
 pub mod pvd;
 mod rows;

@@ -125,6 +125,13 @@ impl RowFile {
         Ok(())
     }
 
+    /// Appends rows that are lines, all of them or none.
+    pub fn append_lines(&mut self, lines: &str) -> Result<(), RowsError> {
+        self.write(lines)?;
+        self.nrow += lines.bytes().filter(|byte| *byte == b'\n').count() as u64;
+        Ok(())
+    }
+
     fn write(&mut self, text: &str) -> Result<(), RowsError> {
         if self.torn {
             self.log.cut(self.length)?;

@@ -153,6 +153,10 @@ impl Term for Damper {
         Ok(std::mem::take(&mut self.changed))
     }
 
+    fn is_outside(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         self.dofs.len().div_ceil(CHUNK)
     }

@@ -347,6 +347,10 @@ impl Term for Distributing {
         Ok(())
     }
 
+    fn is_outside(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         self.arms.len().div_ceil(CHUNK)
     }

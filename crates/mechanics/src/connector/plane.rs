@@ -271,6 +271,10 @@ impl Term for Plane {
         Ok(())
     }
 
+    fn is_outside(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         self.nodes.len().div_ceil(CHUNK)
     }

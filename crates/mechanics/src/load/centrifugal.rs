@@ -133,6 +133,10 @@ impl Term for Centrifugal {
         Ok(())
     }
 
+    fn is_outside(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         self.chunks.len()
     }

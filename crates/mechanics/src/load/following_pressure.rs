@@ -130,6 +130,10 @@ impl Term for FollowingPressure {
         Ok(())
     }
 
+    fn is_outside(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         self.chunks.len()
     }

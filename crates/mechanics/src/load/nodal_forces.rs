@@ -92,6 +92,10 @@ impl Term for NodalForces {
         Ok(())
     }
 
+    fn is_outside(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         1
     }

@@ -27,6 +27,32 @@ impl Expanding {
             reference,
         }
     }
+
+    /// `x`.
+    fn growth(&self, strain: &Strain) -> f64 {
+        self.alpha * (strain.temperature - self.reference)
+    }
+
+    /// `θ`, and 1 at small strain.
+    fn stretch(&self, strain: &Strain) -> f64 {
+        match strain.kinematics {
+            Kinematics::Small => 1.0,
+            Kinematics::Finite => 1.0 + self.growth(strain),
+        }
+    }
+
+    /// `E_e`, or `ε − x I` at small strain.
+    fn elastic(&self, strain: &Strain) -> Strain {
+        let (x, stretch) = (self.growth(strain), self.stretch(strain));
+        let free = match strain.kinematics {
+            Kinematics::Small => x,
+            Kinematics::Finite => x * (1.0 + 0.5 * x),
+        };
+        Strain {
+            value: (strain.value - Sym3::IDENTITY * free) * (stretch * stretch).recip(),
+            ..*strain
+        }
+    }
 }
 
 impl Material for Expanding {
@@ -46,22 +72,11 @@ impl Material for Expanding {
         order: Order,
         out: &mut Response,
     ) -> Result<(), MaterialError> {
-        let x = self.alpha * (strain.temperature - self.reference);
-        let stretch = match strain.kinematics {
-            Kinematics::Small => 1.0,
-            Kinematics::Finite => 1.0 + x,
-        };
+        let stretch = self.stretch(strain);
         if stretch.is_nan() || stretch <= 0.0 {
             return Err(MaterialError::Inverted { ratio: stretch });
         }
-        let free = match strain.kinematics {
-            Kinematics::Small => x,
-            Kinematics::Finite => x * (1.0 + 0.5 * x),
-        };
-        let elastic = Strain {
-            value: (strain.value - Sym3::IDENTITY * free) * (stretch * stretch).recip(),
-            ..*strain
-        };
+        let elastic = self.elastic(strain);
         self.inner.respond(&elastic, old, new, order, out)?;
         out.stress = out.stress * stretch;
         out.energy *= stretch * stretch * stretch;
@@ -84,6 +99,10 @@ impl Material for Expanding {
     /// At one temperature.
     fn is_linear(&self) -> bool {
         self.inner.is_linear()
+    }
+
+    fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
+        self.inner.mechanical_strain(&self.elastic(strain))
     }
 
     fn plastic_strain(&self, history: &[f64]) -> Option<f64> {

@@ -168,6 +168,11 @@ pub trait Material: Send + Sync {
         false
     }
 
+    /// The part of a strain that the law answers with stress: all of it, but for thermal expansion.
+    fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
+        strain.value
+    }
+
     /// The equivalent plastic strain in a history, where the law has one.
     fn plastic_strain(&self, _history: &[f64]) -> Option<f64> {
         None

@@ -1,6 +1,6 @@
 use super::frame::Frame;
 use super::{ConstantsError, Material, MaterialError, Order, Response, Strain};
-use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
 /// A law whose axes are not the global ones.
 ///
@@ -70,6 +70,14 @@ impl Material for Oriented {
 
     fn is_symmetric(&self) -> bool {
         self.inner.is_symmetric()
+    }
+
+    fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
+        let inside = Strain {
+            value: self.frame.enter(strain.value),
+            ..*strain
+        };
+        self.frame.leave(self.inner.mechanical_strain(&inside))
     }
 
     fn plastic_strain(&self, history: &[f64]) -> Option<f64> {

@@ -318,6 +318,10 @@ impl Material for Reduced {
         self.inner.is_symmetric()
     }
 
+    fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
+        self.inner.mechanical_strain(strain)
+    }
+
     fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
         self.inner
             .plastic_strain(history.get(..self.inner.nhistory())?)

@@ -260,6 +260,7 @@ impl Model {
                 terms,
                 body: body_of_node,
                 ncell: mesh.blocks.iter().map(|b| b.ncell()).collect(),
+                wanted: crate::system::Wanted::default(),
             },
             steps,
             contacts: summaries,

@@ -2,10 +2,10 @@ use super::choice::{Situation, keeps_volume};
 use super::kernel::{Element, Failure, Kernel, Output, Points, Remedy, Sample, kernel};
 use super::report;
 use super::{Integration, Locking};
-use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced};
+use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Strain};
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink,
-    Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    PointSample, Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -647,6 +647,33 @@ impl Term for Solid {
             let block = &mut self.blocks[number];
             if block.nhistory > 0 {
                 from.get(&name, &mut block.history)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
+        let mut scratch = Scratch::default();
+        for block in &self.blocks {
+            scratch.size(block, self.layout.ndim, Wanted::Samples);
+            for (cell, id) in block.ids.iter().enumerate() {
+                if cells.binary_search(id).is_err() {
+                    continue;
+                }
+                self.cell(block, cell, state, Wanted::Samples, &mut scratch)?;
+                let of_point = |s: &Sample| PointSample {
+                    stress: s.stress,
+                    strain: s.seen,
+                    mechanical_strain: self.material.mechanical_strain(&Strain {
+                        kinematics: self.kinematics,
+                        value: s.seen,
+                        temperature: s.temperature,
+                    }),
+                    plastic_strain: s.plastic_strain.unwrap_or(0.0),
+                    energy: s.energy,
+                    volume: s.volume_at_start,
+                };
+                out.push(*id, block.points.rule, scratch.samples.iter().map(of_point));
             }
         }
         Ok(())

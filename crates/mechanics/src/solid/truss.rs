@@ -15,7 +15,7 @@ use super::report;
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink,
-    Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    PointSample, Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -79,6 +79,8 @@ struct Point {
     slope: [f64; 3],
     /// Length that belongs to it.
     weight: f64,
+    /// t.
+    unit: Vec3,
     /// t + h; t at small strain.
     along: Vec3,
     strain: f64,
@@ -197,6 +199,7 @@ impl Truss {
         Some(Point {
             slope,
             weight: bar.element.full_rule().weights[point] * length,
+            unit,
             along: if finite { unit + h } else { unit },
             strain: unit.dot(h) + if finite { 0.5 * h.norm_squared() } else { 0.0 },
         })
@@ -299,6 +302,44 @@ impl Truss {
         Ok(out)
     }
 
+    /// `σ t tᵀ`.
+    fn stress(&self, point: &Point, response: &Response) -> Sym3 {
+        let mut stress = response.stress.xx();
+        if self.kinematics == Kinematics::Finite {
+            // force over the cross-section that is left
+            stress *= point.along.norm() / (1.0 + 2.0 * response.across);
+        }
+        dyad(point.along) * stress
+    }
+
+    /// What is known at a point; strains with what the material found across.
+    fn point_sample(
+        &self,
+        point: &Point,
+        response: &Response,
+        history: &[f64],
+        temperature: f64,
+    ) -> PointSample {
+        let strain = Sym3::diagonal(point.strain, response.across, response.across);
+        let mechanical = self.material.mechanical_strain(&Strain {
+            kinematics: self.kinematics,
+            value: strain,
+            temperature,
+        });
+        let turned = |of: Sym3| {
+            let along = dyad(point.unit);
+            along * of.xx() + (Sym3::IDENTITY - along) * of.yy()
+        };
+        PointSample {
+            stress: self.stress(point, response),
+            strain: turned(strain),
+            mechanical_strain: turned(mechanical),
+            plastic_strain: self.material.plastic_strain(history).unwrap_or(0.0),
+            energy: response.energy,
+            volume: point.weight * self.area,
+        }
+    }
+
     fn chunk(&self, chunk: usize) -> &[Bar] {
         let end = (chunk + 1) * CHUNK;
         self.bars
@@ -309,6 +350,19 @@ impl Truss {
     fn archived(&self) -> String {
         format!("truss.{}.history", self.name)
     }
+}
+
+/// `t tᵀ` of the unit vector along `v`.
+fn dyad(v: Vec3) -> Sym3 {
+    let t = v.normalized().unwrap_or_default();
+    Sym3::new(
+        t.x * t.x,
+        t.y * t.y,
+        t.z * t.z,
+        t.x * t.y,
+        t.y * t.z,
+        t.x * t.z,
+    )
 }
 
 impl Term for Truss {
@@ -405,6 +459,21 @@ impl Term for Truss {
         from.get(&self.archived(), &mut self.history)
     }
 
+    fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
+        let (mut new, mut samples) = (Vec::new(), Vec::new());
+        let wanted = |bar: &&Bar| cells.binary_search(&bar.id).is_ok();
+        for bar in self.bars.iter().filter(wanted) {
+            let order = MaterialOrder::Stress;
+            self.points(bar, state, order, &mut new, |point, response, history| {
+                let number = samples.len();
+                let temperature = self.temperature(bar, number, state.time);
+                samples.push(self.point_sample(point, response, history, temperature));
+            })?;
+            out.push(bar.id, bar.element.full_rule(), samples.drain(..));
+        }
+        Ok(())
+    }
+
     /// The axial stress and strain as tensors `σ t tᵀ`, cell by cell; nodes have none, for bars meet at angles.
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let finite = self.kinematics == Kinematics::Finite;
@@ -413,24 +482,12 @@ impl Term for Truss {
             let mut mean = report::CellMeans::default();
             let order = MaterialOrder::Stress;
             self.points(bar, state, order, &mut new, |point, response, history| {
-                let stretch = point.along.norm();
-                let (mut stress, mut strain) = (response.stress.xx(), point.strain);
-                if finite {
-                    // force over the cross-section that is left
-                    stress *= stretch / (1.0 + 2.0 * response.across);
-                    strain = 0.5 * (2.0 * strain).ln_1p();
-                }
-                let t = point.along.normalized().unwrap_or_default();
-                let dyad = Sym3::new(
-                    t.x * t.x,
-                    t.y * t.y,
-                    t.z * t.z,
-                    t.x * t.y,
-                    t.y * t.z,
-                    t.x * t.z,
-                );
+                let strain = match finite {
+                    true => dyad(point.along) * (0.5 * (2.0 * point.strain).ln_1p()),
+                    false => dyad(point.along) * point.strain,
+                };
                 let plastic = self.material.plastic_strain(history);
-                mean.add(point.weight, dyad * stress, dyad * strain, plastic);
+                mean.add(point.weight, self.stress(point, response), strain, plastic);
             })?;
             mean.put(frame, bar.id);
         }

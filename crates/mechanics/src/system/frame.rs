@@ -1,3 +1,4 @@
+use super::Samples;
 use signorini_geometry::element::Element;
 use signorini_geometry::tensor::{Sym3, Vec3};
 
@@ -59,6 +60,8 @@ pub struct ContactFrame {
     pub displacement: Vec<Vec3>,
     /// Facets of the secondary side as indices into `points`; empty where it is bare nodes.
     pub facets: Vec<(Element, Vec<u32>)>,
+    /// Unit normal out of the primary side at each node; zero where nothing is within reach.
+    pub normal: Vec<Vec3>,
     /// Gap at each node: positive open, negative penetration. NaN where nothing is within reach.
     pub gap: Vec<f64>,
     /// Pressure at each node, ≥ 0; force where the secondary side has no area.
@@ -71,6 +74,8 @@ pub struct ContactFrame {
     pub traction: Vec<Vec3>,
     /// Accumulated slip at each node.
     pub slip: Vec<Vec3>,
+    /// Energy that springs of the contact law, and of sticking, hold at each node.
+    pub energy: Vec<f64>,
     /// Tributary area of each node: by mortar, the part that is covered, and none of a node that leans on another one.
     pub area: Vec<f64>,
     /// What the primary side exerts on the secondary; moment about the origin.
@@ -79,6 +84,8 @@ pub struct ContactFrame {
     pub primary: Resultant,
     /// The part of the force on the secondary side that pressures exert.
     pub force_normal: Vec3,
+    /// The moment of that part about the origin.
+    pub moment_normal: Vec3,
     /// The part that tangential tractions exert.
     pub force_shear: Vec3,
     /// The largest pressure.
@@ -113,6 +120,7 @@ impl ContactFrame {
             to.moment += from.moment;
         }
         self.force_normal -= pass.force_normal;
+        self.moment_normal -= pass.moment_normal;
         self.force_shear -= pass.force_shear;
         // the sides feel the pressures of both passes
         self.pressure_max = self.pressure.iter().copied().fold(0.0, f64::max);
@@ -143,6 +151,9 @@ pub struct Frame {
     pub displacement: Vec<Vec3>,
     /// Force that supports exert on each node.
     pub reaction_force: Vec<Vec3>,
+    /// Force of bodies, springs and contacts at each node, which is what loads, supports and couplings exert on it;
+    /// empty where not wanted.
+    pub internal_force: Vec<Vec3>,
     /// Cauchy stress at each node, the mean over the cells around it.
     pub stress: Vec<Sym3>,
     /// Strain at each node, averaged likewise: linearized at small strain, logarithmic `½ ln(F Fᵀ)` at finite strain.
@@ -157,6 +168,8 @@ pub struct Frame {
     pub cell_strain: Vec<Vec<Sym3>>,
     /// Equivalent plastic strain of each cell, likewise; empty where no material has one.
     pub cell_plastic_strain: Vec<Vec<f64>>,
+    /// Values at the integration points of the cells that are wanted.
+    pub samples: Samples,
     /// Temperature of each node; empty where there are none.
     pub temperature: Vec<f64>,
     /// Contact force on each node, of both sides.

@@ -39,6 +39,7 @@ mod frame;
 mod idealisation;
 mod layout;
 pub mod linear;
+mod samples;
 pub mod sparsity;
 mod state;
 mod term;
@@ -53,6 +54,7 @@ pub use frame::{ContactFrame, Frame, Resultant, RigidFrame, Status};
 pub use idealisation::Idealisation;
 pub use layout::{Dof, DofName, Layout, NO_DOF};
 pub use linear::Symmetry;
+pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;
 pub use state::State;
 pub use term::{

@@ -1,5 +1,5 @@
-use super::{Dof, Frame, State, Symmetry};
-use signorini_geometry::mesh::NodeId;
+use super::{Dof, Frame, Samples, State, Symmetry};
+use signorini_geometry::mesh::{CellId, NodeId};
 use std::any::Any;
 use std::collections::BTreeMap;
 use thiserror::Error;
@@ -344,6 +344,24 @@ pub trait Term: Send + Sync {
     /// # Errors
     /// The archive belongs to another model.
     fn load(&mut self, _from: &Archive) -> Result<(), ArchiveError> {
+        Ok(())
+    }
+
+    /// Whether its forces come from outside of bodies and what lies between them: loads, and what holds or guides.
+    fn is_outside(&self) -> bool {
+        false
+    }
+
+    /// Adds what the term knows at the integration points of these cells, which are sorted, at an accepted state.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`].
+    fn sample(
+        &self,
+        _state: &State,
+        _cells: &[CellId],
+        _out: &mut Samples,
+    ) -> Result<(), TermError> {
         Ok(())
     }
 

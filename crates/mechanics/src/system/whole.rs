@@ -1,4 +1,7 @@
-use super::{Assembly, Dof, DofName, Elimination, Frame, Layout, State, Term, TermError};
+use super::samples::internal_forces;
+use super::{
+    Assembly, Dof, DofName, Elimination, Frame, Layout, Samples, State, Term, TermError, Wanted,
+};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
@@ -18,6 +21,8 @@ pub struct System {
     pub body: Vec<u32>,
     /// Cells of each block of the mesh, for frames.
     pub ncell: Vec<usize>,
+    /// What frames have besides.
+    pub wanted: Wanted,
 }
 
 impl System {
@@ -69,6 +74,10 @@ impl System {
         }
         for term in &self.terms {
             term.report(state, &mut frame)?;
+        }
+        frame.samples = Samples::take(&self.terms, state, &self.wanted.cells)?;
+        if self.wanted.forces {
+            frame.internal_force = internal_forces(&self.terms, &self.layout, state)?;
         }
         Ok(frame)
     }

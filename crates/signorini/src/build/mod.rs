@@ -11,6 +11,7 @@ mod contact;
 mod loads;
 mod mesh;
 mod names;
+mod prints;
 mod refused;
 mod steps;
 mod surfaces;
@@ -19,6 +20,9 @@ mod temperature;
 mod tests;
 
 pub use mesh::{read_mesh_of, read_surfaces_of};
+pub use prints::{
+    ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
+};
 
 use carriers::Carriers;
 use names::Names;
@@ -54,6 +58,8 @@ pub struct Model {
     pub locking: Vec<LockingSummary>,
     /// References and rigid bodies with a point of their own, by the names they have in histories.
     pub references: Vec<ReferenceInfo>,
+    /// The printed tables of every step.
+    pub prints: Vec<Vec<Printed>>,
     /// The case, every automatic choice replaced by what was chosen.
     pub case: Case,
     /// What is unusual.
@@ -133,18 +139,20 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
     let names = Names::new(&case, &mesh, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
     let settings = settings(&case.solver, &mut found);
+    let prints = prints::prints(&case, &names, &mut found);
     let (parts, start) = match parts(&case, &mesh, &names, &carriers, &mut found) {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
     };
     case.initial_temperature = start.map(Spanned::from);
-    let model = match signorini_mechanics::model::Model::assemble(parts) {
+    let mut model = match signorini_mechanics::model::Model::assemble(parts) {
         Ok(model) => model,
         Err(error) => {
             found.push(refused::refused(&case, &error));
             return Err(found);
         }
     };
+    model.system.wanted = prints::wanted(&prints, &mesh, *case.model.space);
     let stabilized = case.solver.stabilize == Stabilize::Auto;
     for unheld in &model.held_by_contact {
         let what = format!("{unheld} is held only by contact");
@@ -204,6 +212,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
         contacts,
         locking: model.locking,
         references,
+        prints,
         case,
         warnings: found,
         sets,

@@ -100,6 +100,12 @@ impl<'a> Names<'a> {
                 let unknown: Vec<&u64> = unknown.collect();
                 self.missing(part, "node", &unknown, found);
             }
+            SetContent::Elements(labels) => {
+                let known = labels.iter().filter_map(|label| cells.get(label));
+                set.cells = known.copied().collect();
+                let unknown: Vec<&u64> = labels.iter().filter(|l| !cells.contains_key(l)).collect();
+                self.missing(part, "element", &unknown, found);
+            }
             SetContent::Faces(faces) => {
                 let mut unknown = Vec::new();
                 for (label, side) in faces {
@@ -250,6 +256,13 @@ impl<'a> Names<'a> {
             );
         }
         cells
+    }
+
+    /// The elements of a set as they are listed, each once.
+    pub fn cells_of(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<CellId>> {
+        let mut seen = BTreeSet::new();
+        let listed = self.get(name, found)?.cells.iter().copied();
+        Some(listed.filter(|cell| seen.insert(*cell)).collect())
     }
 
     /// The nodes of a set.
@@ -424,7 +437,7 @@ fn in_order(sets: &[signorini_io::case::Set]) -> Vec<&signorini_io::case::Set> {
         let names = match &set.content {
             SetContent::Union(names) => names.as_slice(),
             SetContent::Region { of, .. } => of.as_slice(),
-            SetContent::Nodes(_) | SetContent::Faces(_) => &[],
+            SetContent::Nodes(_) | SetContent::Elements(_) | SetContent::Faces(_) => &[],
         };
         let number = |name: &Name| numbers.get(name.as_str()).copied();
         names.iter().filter_map(number).collect()

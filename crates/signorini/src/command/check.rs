@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// Read everything, solve nothing.
 #[derive(Debug, Args)]
 pub struct Check {
-    /// The case, a .toml file
+    /// The case, a .toml file; or a deck, .inp
     case: PathBuf,
     #[command(flatten)]
     folder: FolderOption,
@@ -25,7 +25,7 @@ pub struct Check {
 
 impl Check {
     pub fn execute(self) -> u8 {
-        match load(&self.case, &self.changes.set) {
+        match load(&self.case, &self.changes.reading()) {
             Ok(loaded) => preview(
                 loaded.case,
                 loaded.mesh,

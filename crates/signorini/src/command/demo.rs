@@ -5,7 +5,7 @@ use super::run::{Job, refused};
 use super::templates::{self, TEMPLATES};
 use super::{SolveOptions, WRONG_COMMAND, init, threads};
 use clap::Args;
-use signorini::load;
+use signorini::{Reading, load};
 use signorini_io::fs::FsError;
 use std::time::Instant;
 
@@ -34,7 +34,7 @@ impl Demo {
             return FsError::EXIT_CODE;
         }
         console.line(&format!("{}: {}", template.name, template.about));
-        match load(&path, &[]) {
+        match load(&path, &Reading::default()) {
             Err(found) => refused(&found, &self.solve),
             Ok(loaded) => Job {
                 threads: threads::make(self.solve.threads, loaded.case.solver.threads),

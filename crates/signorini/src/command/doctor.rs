@@ -45,7 +45,7 @@ fn trial(folder: &std::path::Path) -> Result<f64, (u8, String)> {
     let path = folder.join("doctor.toml");
     let text = TEMPLATES.first().map_or("", |template| template.text);
     std::fs::write(&path, text).map_err(|e| (6, format!("{}: {e}\n", path.display())))?;
-    let loaded = signorini::load(&path, &[]).map_err(failed)?;
+    let loaded = signorini::load(&path, &signorini::Reading::default()).map_err(failed)?;
     let mut model = build(loaded.case, loaded.mesh).map_err(failed)?;
     model.name.clone_from(&loaded.source.name);
     let finished = signorini::run(&mut model, &RunOptions::new(loaded.source), &mut ());

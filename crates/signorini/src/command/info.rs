@@ -3,20 +3,20 @@
 use super::console::Console;
 use clap::Args;
 use signorini::text::{count, plural, short};
-use signorini::{Diagnostics, load};
+use signorini::{Diagnostics, Reading, load};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::diagnostic::{Diagnostic, codes};
 use signorini_io::fs::{Fs, RealFs};
 use signorini_io::readers::{self, Severity};
 use signorini_io::writers::json::Summary;
 use signorini_io::writers::pvd::Pvd;
-use signorini_io::writers::vtu::{self, Array, Vtu};
+use signorini_io::writers::vtu::{self, Vtu};
 use std::path::{Path, PathBuf};
 
 /// Tell what is in a mesh, a case, or a folder of results.
 #[derive(Debug, Args)]
 pub struct Info {
-    /// A mesh, a case (.toml), a .vtu file, or a folder of results
+    /// A mesh, a case (.toml), a .vtu or .frd file, or a folder of results
     path: PathBuf,
 }
 
@@ -27,8 +27,11 @@ impl Info {
         } else {
             let extension = self.path.extension().map(|e| e.to_ascii_lowercase());
             match extension.as_deref().and_then(|e| e.to_str()) {
-                Some("toml") => load(&self.path, &[]).map(|loaded| mesh(&loaded.mesh)),
+                Some("toml") => {
+                    load(&self.path, &Reading::default()).map(|loaded| mesh(&loaded.mesh))
+                }
                 Some("vtu") => grid_file(&self.path).map_err(Diagnostics::from),
+                Some("frd") => frd_file(&self.path).map_err(Diagnostics::from),
                 _ => mesh_file(&self.path).map_err(Diagnostics::from),
             }
         };
@@ -58,6 +61,33 @@ fn mesh_file(path: &Path) -> Result<Vec<String>, Diagnostic> {
         .map_err(|error| Diagnostic::error(&codes::BAD_MESH, error.to_string()))?;
     let mut lines = mesh(&found);
     lines.extend(notes.iter().map(|note| format!("note: {note}")));
+    Ok(lines)
+}
+
+/// The mesh of a file of all frames, and the data sets at its last time with their ranges.
+fn frd_file(path: &Path) -> Result<Vec<String>, Diagnostic> {
+    let mut lines = mesh_file(path)?;
+    let frd = readers::frd::parse(&read(path)?).map_err(|error| {
+        Diagnostic::error(&codes::UNREADABLE, format!("{}, {error}", path.display()))
+    })?;
+    let Some(last) = frd.datasets.last() else {
+        return Ok(lines);
+    };
+    lines.push(format!(
+        "results at time {}, step {}, increment {}:",
+        last.time, last.step, last.increment
+    ));
+    for one in frd.datasets.iter().filter(|one| one.time == last.time) {
+        let (low, high) = range(&one.values);
+        lines.push(format!(
+            "  {} ({}, {}): {} to {}",
+            one.name,
+            plural(one.nodes.len(), "node"),
+            one.components.join(" "),
+            short(low),
+            short(high)
+        ));
+    }
     Ok(lines)
 }
 
@@ -116,13 +146,15 @@ fn results(folder: &Path) -> Result<Vec<String>, Diagnostics> {
             format!("{} holds no results: {why}", folder.display()),
         )
     };
-    let list = Pvd::read(&RealFs, &folder.join("results.pvd"))
-        .map_err(|error| no_results(error.to_string()))?;
+    let list = Pvd::read(&RealFs, &folder.join("results.pvd"));
     let mut lines = Vec::new();
-    match Summary::read(&RealFs, &folder.join("summary.json")) {
-        Ok(summary) => lines.extend(ending(&summary)),
-        Err(_) => lines.push("not ended yet, or killed".to_owned()),
+    match (Summary::read(&RealFs, &folder.join("summary.json")), &list) {
+        (Ok(summary), _) => lines.extend(ending(&summary)),
+        (Err(_), Ok(_)) => lines.push("not ended yet, or killed".to_owned()),
+        (Err(_), Err(error)) => return Err(no_results(error.to_string()).into()),
     }
+    // a run that writes no frames for ParaView has no list of them
+    let Ok(list) = list else { return Ok(lines) };
     let entries = list.entries();
     if let (Some(first), Some(last)) = (entries.first(), entries.last()) {
         lines.push(format!(
@@ -200,7 +232,7 @@ fn arrays(grid: &Vtu) -> Vec<String> {
     let mut lines = Vec::new();
     for (place, arrays) in [("node", &grid.point_data), ("cell", &grid.cell_data)] {
         for array in arrays {
-            let (low, high) = range(array);
+            let (low, high) = range(&array.numbers.to_f64());
             let what = match array.ncomponent {
                 1 => String::new(),
                 n => format!(", {n} components"),
@@ -216,9 +248,8 @@ fn arrays(grid: &Vtu) -> Vec<String> {
     lines
 }
 
-/// Smallest and largest number of an array; numbers that are none are left out.
-fn range(array: &Array) -> (f64, f64) {
-    let values = array.numbers.to_f64();
+/// Smallest and largest number; numbers that are none are left out.
+fn range(values: &[f64]) -> (f64, f64) {
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     let wider = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
     values.iter().fold(start, wider)

@@ -3,12 +3,15 @@
 mod check;
 mod completions;
 mod console;
+mod convert;
 mod demo;
+mod diff;
 mod doctor;
 mod explain;
 mod guard;
 mod info;
 mod init;
+mod keywords;
 mod ndjson;
 mod resume;
 mod run;
@@ -18,8 +21,9 @@ mod templates;
 mod terminal;
 mod threads;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use console::Console;
+use signorini::{Compat, Reading};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -30,7 +34,7 @@ const WRONG_COMMAND: u8 = 2;
 #[derive(Debug, Parser)]
 #[command(name = "signorini", version, about, arg_required_else_help = true)]
 #[command(
-    after_help = "Exit codes: 0 solved, 1 an expectation failed, 2 command line, 3 input, 4 ill-posed model, \
+    after_help = "Exit codes: 0 solved, 1 an expectation failed or results differ, 2 command line, 3 input, 4 ill-posed model, \
     5 not converged,\n6 not written, 7 cannot resume, 8 limit reached, 70 internal error, 130/143 interrupted"
 )]
 struct Cli {
@@ -52,8 +56,14 @@ enum Verb {
     Demo(demo::Demo),
     /// Tell what is in a mesh, a case, or a folder of results.
     Info(info::Info),
+    /// Compare results with a reference, block by block.
+    Diff(diff::Diff),
+    /// Write a deck as a case.
+    Convert(convert::Convert),
     /// Print the JSON schema of cases, for editors.
     Schema,
+    /// List the keywords of decks: read, left out, refused.
+    Keywords,
     /// Explain the code of a message.
     Explain(explain::Explain),
     /// Tell version, machine and threads, and solve something small: for reports of bugs.
@@ -68,6 +78,31 @@ struct CaseOptions {
     /// Change a value of the case: --set material.steel.E=2000
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = assignment)]
     set: Vec<(String, String)>,
+    /// The laws of contact of a deck: the best there are, or those that CalculiX has
+    #[arg(long, value_name = "PROGRAM", default_value = "none")]
+    compat: CompatWord,
+}
+
+/// A word for [`Compat`].
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum CompatWord {
+    /// The best way to hold surfaces apart
+    #[default]
+    None,
+    /// Penalties and types as the deck says
+    Ccx,
+}
+
+impl CaseOptions {
+    fn reading(&self) -> Reading {
+        Reading {
+            set: self.set.clone(),
+            compat: match self.compat {
+                CompatWord::None => Compat::None,
+                CompatWord::Ccx => Compat::Ccx,
+            },
+        }
+    }
 }
 
 /// Options of all commands that solve.
@@ -118,7 +153,10 @@ pub fn main() -> ExitCode {
             Verb::Init(init) => init.execute(),
             Verb::Demo(demo) => demo.execute(),
             Verb::Info(info) => info.execute(),
+            Verb::Diff(diff) => diff.execute(),
+            Verb::Convert(convert) => convert.execute(),
             Verb::Schema => schema::execute(),
+            Verb::Keywords => keywords::execute(),
             Verb::Explain(explain) => explain.execute(),
             Verb::Doctor => doctor::execute(),
             Verb::Completions(completions) => completions.execute(),

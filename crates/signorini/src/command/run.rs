@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 /// Solve a case.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// The case, a .toml file
+    /// The case, a .toml file; or a deck, .inp
     case: PathBuf,
     #[command(flatten)]
     folder: FolderOption,
@@ -28,6 +28,9 @@ pub struct Run {
     /// Build everything and stop before the first increment; nothing is written
     #[arg(long)]
     dry_run: bool,
+    /// Formats of the frames, in place of those that the case names: vtu, frd, or both
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',', value_parser = ["vtu", "frd"])]
+    format: Vec<String>,
     #[command(flatten)]
     changes: CaseOptions,
     #[command(flatten)]
@@ -37,7 +40,13 @@ pub struct Run {
 impl Run {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
-        let (mut case, warnings, mut source) = match load_case(&self.case, &self.changes.set) {
+        let mut reading = self.changes.reading();
+        if !self.format.is_empty() {
+            reading
+                .set
+                .push(("output.format".into(), format!("{:?}", self.format)));
+        }
+        let (mut case, warnings, mut source) = match load_case(&self.case, &reading) {
             Ok(read) => read,
             Err(found) => return refused(&found, &self.solve),
         };

@@ -84,8 +84,8 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
     vtu::encode(&grid, &Options::default())
 }
 
-/// The tangential part of each traction: what the pressure does not explain.
-fn shear(contact: &ContactFrame) -> Vec<f64> {
+/// The size of the tangential part of each traction: what the pressure does not explain.
+pub fn shear(contact: &ContactFrame) -> Vec<f64> {
     let pairs = contact.traction.iter().zip(&contact.pressure);
     pairs
         .map(|(traction, pressure)| {

@@ -2,12 +2,13 @@
 
 use super::error::{OutputError, bad_checkpoint, cannot_resume};
 use super::expectations::Expectations;
-use super::fields::Fields;
+use super::fields::{Fields, Formats};
 use super::history::History;
 use super::limits::Stop;
 use super::news::{Detail, Listener, News, Totals, tell};
 use super::recorder::{Opened, Recorder, Setting};
 use super::start::{Start, begin, facts};
+use super::tables::Tables;
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
 use super::{Finished, RunOptions, event_of, failure};
@@ -15,7 +16,9 @@ use crate::build::Model;
 use signorini_io::case;
 use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_io::fs::FsError;
 use signorini_io::writers::RowsError;
+use signorini_io::writers::frd::FrdError;
 use signorini_io::writers::json::{DiagnosticSummary, Event, StepSummary, Summary};
 use signorini_mechanics::solve::{LinearSeconds, Outcome, RunError, Stepper};
 use signorini_mechanics::system::{Archive, ArchiveError};
@@ -102,7 +105,12 @@ fn refused(found: Diagnostics) -> Finished {
 /// The message for growing files that could not be opened.
 fn not_opened(error: &OutputError, resumed: bool) -> Diagnostic {
     match error {
-        OutputError::Rows(RowsError::Fs(_)) | OutputError::Fs(_) => error.diagnostic(),
+        OutputError::Frd(FrdError::Fs(short @ FsError::TooShort { .. })) if resumed => {
+            cannot_resume(short).help(short.help())
+        }
+        OutputError::Rows(RowsError::Fs(_)) | OutputError::Fs(_) | OutputError::Frd(_) => {
+            error.diagnostic()
+        }
         other if resumed => cannot_resume(other),
         other => other.diagnostic(),
     }
@@ -115,6 +123,8 @@ fn setting(
     (history, expectations, fields): (History, Expectations, Fields),
 ) -> (Setting, Expectations) {
     let checkpoint = &model.case.checkpoint;
+    let formats = Formats::new(&model.case.output);
+    let frd = || (format!("{}.frd", model.name), model.case.title.clone());
     let setting = Setting {
         fs: Arc::clone(&options.fs),
         tree,
@@ -123,7 +133,11 @@ fn setting(
         layout: model.system.layout,
         steps: model.steps.clone(),
         volume: Volume::new(&model.mesh, fields),
+        fields,
+        has_vtu: formats.vtu,
+        frd: formats.frd.then(frd),
         history,
+        tables: Tables::new(model),
         every: model.case.output.every,
         checkpoint_increments: checkpoint.increments,
         checkpoint_wall: checkpoint.wall.map(Duration::from_secs_f64),

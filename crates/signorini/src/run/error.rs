@@ -4,6 +4,7 @@ use signorini_io::checkpoint::{ArchiveError, CheckpointError};
 use signorini_io::diagnostic::{Diagnostic, codes};
 use signorini_io::fs::FsError;
 use signorini_io::writers::RowsError;
+use signorini_io::writers::frd::FrdError;
 use signorini_io::writers::pvd::PvdError;
 use signorini_io::writers::vtu::VtuError;
 
@@ -23,6 +24,9 @@ pub enum OutputError {
     /// A frame.
     #[error(transparent)]
     Vtu(#[from] VtuError),
+    /// A file of all frames.
+    #[error(transparent)]
+    Frd(#[from] FrdError),
     /// A checkpoint that cannot be put together.
     #[error(transparent)]
     Archive(#[from] ArchiveError),
@@ -34,6 +38,7 @@ impl OutputError {
             Self::Fs(error)
             | Self::Rows(RowsError::Fs(error))
             | Self::Pvd(PvdError::Fs(error))
+            | Self::Frd(FrdError::Fs(error))
             | Self::Vtu(VtuError::Fs(error)) => Some(error),
             _ => None,
         }

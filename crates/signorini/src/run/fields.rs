@@ -1,4 +1,4 @@
-//! Which fields are written: the words of `[output] fields`.
+//! Which fields are written, and into which files: the words of `[output]`.
 
 use signorini_io::case::Output;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, closest, codes};
@@ -22,6 +22,26 @@ pub struct Fields {
     pub temperature: bool,
     /// Pressures and forces of contact.
     pub contact: bool,
+}
+
+/// The files that frames go to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Formats {
+    /// `frames/*.vtu`, with the lists of them.
+    pub vtu: bool,
+    /// `NAME.frd`.
+    pub frd: bool,
+}
+
+impl Formats {
+    /// What a case asks for.
+    pub fn new(output: &Output) -> Self {
+        let has = |name: &str| output.format.iter().any(|word| word.as_str() == name);
+        Self {
+            vtu: has("vtu"),
+            frd: has("frd"),
+        }
+    }
 }
 
 /// A word of a case, and what it chooses.

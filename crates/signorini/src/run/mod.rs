@@ -22,6 +22,7 @@ mod error;
 mod expectations;
 mod failure;
 mod fields;
+mod frd;
 mod history;
 mod limits;
 pub mod narration;
@@ -29,6 +30,7 @@ mod news;
 mod probe;
 mod recorder;
 mod start;
+mod tables;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! hertz.out/
-//!   results.pvd  contact.pvd  frames/  history.csv  convergence.csv  hertz.sta
+//!   results.pvd  contact.pvd  frames/  hertz.frd  history.csv  convergence.csv  hertz.sta  hertz.dat
 //!   run.log  events.jsonl  summary.json  case.resolved.toml
 //!   checkpoint/   a.sgc b.sgc   the state, in turns
 //!                 case.toml     the case as it was read
@@ -138,7 +138,8 @@ impl Tree {
 
     fn prepare(&self, fs: &dyn Fs, source: &Source, owner: &Owner) -> Result<(), OutputError> {
         Checkpoints::new(&self.path("checkpoint"), source.hash()).clear(fs)?;
-        for name in TOP {
+        let frd = format!("{}.frd", owner.name);
+        for name in TOP.into_iter().chain([frd.as_str()]) {
             let path = self.path(name);
             if fs.exists(&path)? {
                 fs.remove(&path)?;

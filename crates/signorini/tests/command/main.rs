@@ -13,5 +13,6 @@ mod mesh;
 mod model;
 mod numerics;
 mod restart;
+mod results;
 mod support;
 mod text;

@@ -13,6 +13,7 @@ fn results(folder: &TempDir) -> Vec<(String, Vec<u8>)> {
         "case.sta",
         "results.pvd",
         "contact.pvd",
+        "case.frd",
     ]
     .map(String::from)
     .into();
@@ -32,7 +33,7 @@ fn case() -> String {
     let text = change(
         &brick_in(INCREMENTS),
         "every = { increments = 1 }",
-        "every = { increments = 7 }",
+        "every = { increments = 7 }\n[output]\nformat = [\"vtu\", \"frd\"]",
     );
     change(
         &text,
@@ -174,6 +175,15 @@ fn f65_tables_that_were_changed_are_refused() {
     let short: String = table.lines().take(3).map(|l| format!("{l}\n")).collect();
     std::fs::write(&path, short).unwrap();
     run(folder.path(), &["resume", "case.out"]).says(7, &["history.csv", "rows"]);
+}
+
+#[test]
+fn f65_a_file_of_frames_that_was_cut_is_refused() {
+    let folder = stopped();
+    let path = result(&folder, "case.frd");
+    let frames = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &frames[..1000]).unwrap();
+    run(folder.path(), &["resume", "case.out"]).says(7, &["case.frd", "--fresh"]);
 }
 
 #[test]

@@ -160,6 +160,8 @@ impl Builder {
         let of = fields.text_if("of");
         let content = if fields.has("nodes") {
             SetContent::Nodes(fields.counts("nodes"))
+        } else if fields.has("elements") {
+            SetContent::Elements(fields.counts("elements"))
         } else if fields.has("faces") {
             SetContent::Faces(self.faces(fields))
         } else if fields.has("union") {

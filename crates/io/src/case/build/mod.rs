@@ -15,7 +15,7 @@ use super::origin::Origins;
 use super::parts::*;
 use super::scalar::shortened;
 use super::vocabulary::CASE;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, closest, codes};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, SourceFile, closest, codes};
 pub(super) use bodies::COMPONENTS;
 use run::{expectation, output};
 
@@ -39,6 +39,12 @@ pub(super) fn build(document: &DeTable<'_>, origins: &Origins) -> (Case, Diagnos
     builder.pairs(&case);
     builder.contact_changes(&case);
     (case, builder.found)
+}
+
+/// The case of an empty document.
+pub(super) fn empty() -> Case {
+    let origins = Origins::new(SourceFile::new("", ""));
+    build(&DeTable::new(), &origins).0
 }
 
 struct Builder {

@@ -129,7 +129,7 @@ impl Builder {
                     .iter()
                     .filter_map(|name| Some((*index.get(name.as_str())?, name)))
                     .collect(),
-                SetContent::Nodes(_) | SetContent::Faces(_) => Vec::new(),
+                SetContent::Nodes(_) | SetContent::Elements(_) | SetContent::Faces(_) => Vec::new(),
             })
             .collect();
         // Sets whose members are all resolved are resolved; what never is leads into a cycle.

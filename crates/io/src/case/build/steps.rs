@@ -98,6 +98,10 @@ impl Builder {
                     place,
                 })
                 .collect(),
+            prints: fields.has("print").then(|| {
+                let tables = fields.tables("print").into_iter();
+                tables.map(|(one, place)| print(one, place)).collect()
+            }),
             place,
         }
     }
@@ -281,5 +285,23 @@ impl Builder {
             };
         }
         LoadKind::Pressure(fields.number("pressure"))
+    }
+}
+
+fn print(fields: Fields<'_>, place: Place) -> Print {
+    let kinds = [PrintOf::Nodes, PrintOf::Elements, PrintOf::Contact];
+    let given = kinds.into_iter().find(|of| fields.has(of.key()));
+    let of = given.unwrap_or(PrintOf::Nodes);
+    Print {
+        on: fields.text_if("on"),
+        of,
+        quantities: fields.texts(of.key()),
+        totals: match fields.text("totals").value.as_str() {
+            "yes" => Totals::Yes,
+            "only" => Totals::Only,
+            _ => Totals::No,
+        },
+        every: fields.count("every"),
+        place,
     }
 }

@@ -91,6 +91,8 @@ pub struct Set {
 pub enum SetContent {
     /// Nodes, by their numbers.
     Nodes(Vec<u64>),
+    /// Elements, by their numbers.
+    Elements(Vec<u64>),
     /// Faces, by the number of their element and a side of it.
     Faces(Vec<(u64, Side)>),
     /// Everything in other sets or groups.

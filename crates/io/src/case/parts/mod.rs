@@ -70,6 +70,12 @@ pub struct Case {
 }
 
 impl Case {
+    /// A case of nothing, with every key at its default.
+    #[must_use]
+    pub fn empty() -> Self {
+        super::build::empty()
+    }
+
     /// The names a case with its mesh in place knows of itself: groups of elements, sets, surfaces, references. A mesh
     /// file adds its own.
     pub fn names(&self) -> Vec<&str> {

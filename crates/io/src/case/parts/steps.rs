@@ -47,6 +47,8 @@ pub struct Step {
     pub contacts: Vec<ContactChange>,
     /// Temperatures.
     pub temperatures: Vec<Temperature>,
+    /// Printed tables; none: those of the step before.
+    pub prints: Option<Vec<Print>>,
     /// Where it was written.
     pub place: Place,
 }
@@ -254,4 +256,57 @@ pub struct Temperature {
     pub value: f64,
     /// Where it was written.
     pub place: Place,
+}
+
+/// Tables of results that are printed during a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Print {
+    /// A set or group of nodes or elements, or a contact; none: every contact.
+    pub on: Option<Name>,
+    /// What the quantities belong to.
+    pub of: PrintOf,
+    /// The quantities, a table each, by the words of the vocabulary.
+    pub quantities: Vec<Spanned<String>>,
+    /// Whether sums follow.
+    pub totals: Totals,
+    /// After how many increments; the end of the step is always printed.
+    pub every: u64,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// What printed quantities belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PrintOf {
+    /// Nodes: `displacement`, `reaction`, `temperature`.
+    Nodes,
+    /// Elements: `stress`, `strain`, `mechanical-strain`, `plastic-strain` and `energy-density` at integration points;
+    /// `energy` and `volume` of each.
+    Elements,
+    /// Contact: `gap`, `traction` and `energy` at the points of the secondary side, the `count` of closed ones;
+    /// `force`, `normal-force`, `shear-force` of a whole contact.
+    Contact,
+}
+
+impl PrintOf {
+    /// Its key in a case.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Nodes => "nodes",
+            Self::Elements => "elements",
+            Self::Contact => "contact",
+        }
+    }
+}
+
+/// Whether sums over a set are printed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Totals {
+    /// Only the table.
+    #[default]
+    No,
+    /// The table, then the sums.
+    Yes,
+    /// Only the sums.
+    Only,
 }

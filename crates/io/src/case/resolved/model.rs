@@ -55,6 +55,7 @@ pub(super) fn model(model: &Model) -> Entries {
 pub(super) fn set_content(content: &SetContent) -> Entries {
     vec![match content {
         SetContent::Nodes(nodes) => ("nodes", list(nodes.iter().copied())),
+        SetContent::Elements(elements) => ("elements", list(elements.iter().copied())),
         SetContent::Faces(faces) => {
             let row = |(element, side): &(u64, Side)| {
                 Value::List(vec![(*element).into(), Value::Text(side.to_string())])

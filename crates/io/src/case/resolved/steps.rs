@@ -2,7 +2,7 @@
 
 use super::super::parts::*;
 use super::contact::contact_change;
-use super::write::{Entries, Value, list, tables};
+use super::write::{Entries, Value, list, names, tables};
 
 pub(super) fn amplitude(one: &Amplitude) -> Entries {
     let time = match one.time {
@@ -18,7 +18,7 @@ pub(super) fn step(step: &Step) -> Entries {
         Geometry::Linear => "linear",
         Geometry::Nonlinear => "nonlinear",
     };
-    vec![
+    let mut entries = vec![
         ("name", (&step.name.value).into()),
         ("kind", "static".into()),
         ("geometry", geometry.into()),
@@ -36,7 +36,18 @@ pub(super) fn step(step: &Step) -> Entries {
         ("load", tables(&step.loads, load)),
         ("contact", tables(&step.contacts, contact_change)),
         ("temperature", tables(&step.temperatures, temperature)),
-    ]
+    ];
+    entries.extend(step.prints.as_ref().map(|prints| {
+        // an empty list says that earlier ones end
+        let none = || list(Vec::<Value>::new());
+        let written = if prints.is_empty() {
+            none()
+        } else {
+            tables(prints, print)
+        };
+        ("print", written)
+    }));
+    entries
 }
 
 fn increments(increments: &Increments) -> Value {
@@ -143,4 +154,20 @@ fn what(kind: &LoadKind) -> Value {
 
 fn temperature(one: &Temperature) -> Entries {
     vec![("on", (&one.on.value).into()), ("value", one.value.into())]
+}
+
+fn print(one: &Print) -> Entries {
+    let totals = match one.totals {
+        Totals::No => "no",
+        Totals::Yes => "yes",
+        Totals::Only => "only",
+    };
+    let mut entries: Entries = Vec::new();
+    entries.extend(one.on.as_ref().map(|on| ("on", (&on.value).into())));
+    entries.extend([
+        (one.of.key(), names(&one.quantities)),
+        ("totals", totals.into()),
+        ("every", one.every.into()),
+    ]);
+    entries
 }

@@ -77,9 +77,10 @@ const SPACES: &[Choice] = &[
 
 pub(super) static SET: Table = Table {
     heading: "[sets]",
-    doc: "named sets of nodes or faces",
+    doc: "named sets of nodes, elements or faces",
     keys: &[
         key("nodes", Shape::List(&ID, 1, MANY), "numbers of nodes").hints(&["node"]),
+        key("elements", Shape::List(&ID, 1, MANY), "numbers of elements").hints(&["element", "cells"]),
         key("faces", Shape::List(&Shape::Row("[element, side]", &[ID, Shape::Text]), 1, MANY),
             "rows [element, side]: side \"S1\", \"S2\", … as in Abaqus, or \"+z\", \"-x\", … by its normal").hints(&["face"]),
         key("union", Shape::List(&Shape::Text, 1, MANY), "names of sets or groups"),
@@ -92,7 +93,7 @@ pub(super) static SET: Table = Table {
         key("of", Shape::Text, "the body or group whose nodes are searched; absent: all"),
     ],
     rules: &[
-        Rule::ExactlyOne(&["nodes", "faces", "union", "plane", "box", "near", "sphere"]),
+        Rule::ExactlyOne(&["nodes", "elements", "faces", "union", "plane", "box", "near", "sphere"]),
         Rule::Needs("plane", "at"),
         Rule::Needs("at", "plane"),
         Rule::Needs("tol", "plane"),

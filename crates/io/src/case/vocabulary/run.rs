@@ -133,7 +133,7 @@ const WORDS_OF_FIELDS: &[Choice] = &{
 const FORMATS: &[Choice] = &[
     word("vtu"),
     Choice::later("vtkhdf", "vtu"),
-    Choice::later("frd", "vtu"),
+    word("frd"),
     Choice::later("xdmf", "vtu"),
 ];
 

@@ -56,6 +56,7 @@ pub(super) static STEP: Table = Table {
             CONTACT_CHANGE.doc,
         ),
         key("temperature", Shape::Tables(&TEMPERATURE), TEMPERATURE.doc),
+        key("print", Shape::Tables(&PRINT), PRINT.doc).hints(&["table", "dat"]),
     ],
     rules: &[],
 };
@@ -285,3 +286,71 @@ static TEMPERATURE: Table = Table {
     ],
     rules: &[],
 };
+
+static PRINT: Table = Table {
+    heading: "[[step.print]]",
+    doc: "tables in NAME.dat, in CalculiX's format; absent: those of the step before, [] ends them",
+    keys: &[
+        key(
+            "on",
+            Shape::Text,
+            "the set or group of nodes or elements, or the contact; absent: every contact",
+        )
+        .hints(&["set", "group", "name"]),
+        key(
+            "nodes",
+            Shape::List(&Shape::Choice(OF_NODES), 1, MANY),
+            "quantities of nodes",
+        )
+        .hints(&["node"]),
+        key(
+            "elements",
+            Shape::List(&Shape::Choice(OF_ELEMENTS), 1, MANY),
+            "quantities of elements, at their integration points where they vary",
+        )
+        .hints(&["element"]),
+        key(
+            "contact",
+            Shape::List(&Shape::Choice(OF_CONTACTS), 1, MANY),
+            "quantities of contact, at the points of its secondary side or in all",
+        ),
+        key(
+            "totals",
+            Shape::Choice(&[word("no"), word("yes"), word("only")]),
+            "whether sums over the set follow: of reactions, energies, volumes",
+        )
+        .or(Default::Text("no")),
+        key(
+            "every",
+            COUNT,
+            "after so many increments, and at the end of the step",
+        )
+        .or(Default::Integer(1))
+        .hints(&["frequency"]),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["nodes", "elements", "contact"]),
+        Rule::Needs("nodes", "on"),
+        Rule::Needs("elements", "on"),
+    ],
+};
+
+const OF_NODES: &[Choice] = &[word("displacement"), word("reaction"), word("temperature")];
+const OF_ELEMENTS: &[Choice] = &[
+    word("stress"),
+    word("strain"),
+    word("mechanical-strain"),
+    word("plastic-strain"),
+    word("energy-density"),
+    word("energy"),
+    word("volume"),
+];
+const OF_CONTACTS: &[Choice] = &[
+    word("gap"),
+    word("traction"),
+    word("energy"),
+    word("count"),
+    word("force"),
+    word("normal-force"),
+    word("shear-force"),
+];

@@ -2,6 +2,7 @@
 
 use super::card::key;
 use super::deck::{Deck, Definition, Family, Instance, Region, Scope, Side};
+use super::directory::{Directory, Names as Known, Special};
 use super::kind::Role;
 use super::lines::{Files, Spot};
 use crate::readers::MeshError;
@@ -37,6 +38,12 @@ struct Space {
     node_sets: Names,
     cell_sets: Names,
     surfaces: Names,
+    /// What numbers of nodes and elements are more than in the deck.
+    shift: [u64; 2],
+    /// Numbers in the mesh of elements that are no cells, by their places.
+    special: BTreeMap<u32, u64>,
+    /// The same, by the element sets that hold them.
+    special_sets: BTreeMap<String, Vec<u64>>,
 }
 
 impl Space {
@@ -58,8 +65,16 @@ impl Space {
     }
 }
 
-/// Makes the mesh; notes what is unusual.
-pub(super) fn assemble(files: &Files<'_>, deck: Deck) -> Result<(Mesh, Vec<String>)> {
+/// A deck as a mesh, and what its names are called there.
+pub(super) struct Assembled {
+    pub mesh: Mesh,
+    pub directory: Directory,
+    /// What is unusual.
+    pub notes: Vec<String>,
+}
+
+/// Makes the mesh.
+pub(super) fn assemble(files: &Files<'_>, deck: Deck) -> Result<Assembled> {
     let nbyte = files.nbyte() as u64;
     let mut assembly = Assembly {
         files,
@@ -72,6 +87,7 @@ pub(super) fn assemble(files: &Files<'_>, deck: Deck) -> Result<(Mesh, Vec<Strin
         left: ENTRIES + 2 * nbyte,
         missing: BTreeMap::new(),
         highest: [0; 2],
+        directory: Directory::default(),
         notes: Vec::new(),
         deck,
     };
@@ -89,7 +105,13 @@ pub(super) fn assemble(files: &Files<'_>, deck: Deck) -> Result<(Mesh, Vec<Strin
     }
     assembly.note_missing();
     assembly.name_sets();
-    Ok((assembly.mesh, assembly.notes))
+    assembly.directory.instances = assembly.instances;
+    assembly.directory.type_names = assembly.deck.kinds.into_iter().map(|k| k.name).collect();
+    Ok(Assembled {
+        mesh: assembly.mesh,
+        directory: assembly.directory,
+        notes: assembly.notes,
+    })
 }
 
 struct Assembly<'f> {
@@ -112,6 +134,7 @@ struct Assembly<'f> {
     missing: BTreeMap<(String, &'static str), (u64, u64)>,
     /// The highest numbers of nodes and elements so far.
     highest: [u64; 2],
+    directory: Directory,
     notes: Vec<String>,
 }
 
@@ -130,6 +153,10 @@ impl Assembly<'_> {
         let mut scopes: Vec<Scope> = take(&mut self.deck.scopes);
         let mut instances = take(&mut self.deck.instances);
         let mut spaces = Vec::new();
+        self.directory.scopes = vec![Vec::new(); scopes.len()];
+        if let Some(whole) = self.directory.scopes.first_mut() {
+            whole.push(0);
+        }
         for (number, instance) in instances.iter().enumerate() {
             let own = scopes.get_mut(instance.own).map(take).unwrap_or_default();
             let part = scopes.get(instance.part);
@@ -141,6 +168,11 @@ impl Assembly<'_> {
             let space = self.place(&scope, Some(&instance.name))?;
             spaces.push((space, scope.definitions));
             self.instances.insert(key(&instance.name), number + 1);
+            for scope in [instance.part, instance.own] {
+                if let Some(spaces) = self.directory.scopes.get_mut(scope) {
+                    spaces.push(number + 1);
+                }
+            }
         }
         let mut whole = scopes.first_mut().map(take).unwrap_or_default();
         let space = self.place(&whole, None)?;
@@ -188,6 +220,9 @@ impl Assembly<'_> {
             node_sets: Names::new(),
             cell_sets: Names::new(),
             surfaces: Names::new(),
+            shift: [node_shift, element_shift],
+            special: BTreeMap::new(),
+            special_sets: BTreeMap::new(),
         };
         self.place_elements(scope, &mut space, element_shift)?;
         let of = name.map_or("the assembly".to_owned(), |name| {
@@ -254,7 +289,16 @@ impl Assembly<'_> {
                 *count += 1;
             }
             let Some(element) = of_kind.element else {
+                let label = label.saturating_add(shift);
                 space.cells.push(None);
+                space.special.insert(place as u32, label);
+                self.directory.special.push(Special {
+                    kind: of_kind.name.clone(),
+                    label,
+                    nodes: (labels.iter())
+                        .map(|node| node.saturating_add(space.shift[0]))
+                        .collect(),
+                });
                 continue;
             };
             let ids = nodes.get_mut(..labels.len()).unwrap_or_default();
@@ -290,6 +334,11 @@ impl Assembly<'_> {
             };
             block.nodes.extend_from_slice(ids);
             block.labels.push(label.saturating_add(shift));
+            let types = &mut self.directory.types;
+            types.resize_with(types.len().max(number as usize + 1), Vec::new);
+            if let Some(types) = types.get_mut(number as usize) {
+                types.push(kind);
+            }
             space.cells.push(Some(CellId {
                 block: number,
                 index: (block.labels.len() - 1) as u32,
@@ -479,6 +528,7 @@ impl Assembly<'_> {
         let cells = self.spaces.get(number).map(|space| &space.cells);
         let cell = |place: &u32| cells?.get(*place as usize).copied().flatten();
         out.cells.extend(places.iter().filter_map(cell));
+        self.note_special(number, &places, definition);
         for name in &definition.names {
             let found = match self.find(number, Family::Cells, name) {
                 Some(set) => set.cells.clone(),
@@ -495,6 +545,18 @@ impl Assembly<'_> {
             out.cells.extend(found);
         }
         Ok(())
+    }
+
+    /// Remembers the elements of a set that are no cells.
+    fn note_special(&mut self, number: usize, places: &[u32], definition: &Definition) {
+        let Some(space) = self.spaces.get_mut(number) else {
+            return;
+        };
+        if !space.special.is_empty() {
+            let labels = places.iter().filter_map(|place| space.special.get(place));
+            let of_set = space.special_sets.entry(key(&definition.name)).or_default();
+            of_set.extend(labels);
+        }
     }
 
     fn nodes(&mut self, number: usize, definition: &Definition, out: &mut Set) -> Result<()> {
@@ -650,11 +712,19 @@ impl Assembly<'_> {
             .chain(self.deck.instances.iter().map(|i| format!("{}.", i.name)))
             .collect();
         for (mut space, prefix) in take(&mut self.spaces).into_iter().zip(&prefixes) {
+            let mut known = Known {
+                shift: space.shift,
+                special: take(&mut space.special_sets),
+                ..Known::default()
+            };
             for family in [Family::Cells, Family::Faces, Family::Nodes] {
-                for (_, named) in take(space.names(family)) {
-                    self.name_set(family, format!("{prefix}{}", named.name), named.set);
+                for (compared, named) in take(space.names(family)) {
+                    let name = format!("{prefix}{}", named.name);
+                    let name = self.name_set(family, name, named.set);
+                    known.sets[family as usize].insert(compared, name);
                 }
             }
+            self.directory.spaces.push(known);
             let all: Vec<CellId> = space.cells.into_iter().flatten().collect();
             let instance = prefix.trim_end_matches('.');
             if !instance.is_empty() && !self.is_taken(instance) {
@@ -672,7 +742,8 @@ impl Assembly<'_> {
         self.mesh.sets.contains_key(name)
     }
 
-    fn name_set(&mut self, family: Family, name: String, mut set: Set) {
+    /// Puts a set into the mesh, and answers what it is called there.
+    fn name_set(&mut self, family: Family, name: String, mut set: Set) -> String {
         set.nodes.sort_unstable();
         set.nodes.dedup();
         set.cells.sort_unstable();
@@ -684,11 +755,11 @@ impl Assembly<'_> {
                 .push(format!("{} `{name}` is empty", family.word()));
         }
         let Some(taken) = self.mesh.sets.get(&name) else {
-            self.mesh.sets.insert(name, set);
-            return;
+            self.mesh.sets.insert(name.clone(), set);
+            return name;
         };
         if self.mesh.nodes_of(taken) == self.mesh.nodes_of(&set) && family == Family::Nodes {
-            return;
+            return name;
         }
         let suffix = match family {
             Family::Nodes => "nodes",
@@ -700,7 +771,8 @@ impl Assembly<'_> {
             "{} `{name}` is called `{other}`: another set has its name",
             family.word()
         ));
-        self.mesh.sets.insert(other, set);
+        self.mesh.sets.insert(other.clone(), set);
+        other
     }
 }
 

@@ -8,9 +8,12 @@ use crate::readers::error::excerpt;
 pub(super) struct Card {
     /// In capitals, without star and blanks.
     pub keyword: String,
-    parameters: Vec<(String, String)>,
+    /// In capitals and without blanks, with their values as written.
+    pub parameters: Vec<(String, String)>,
     /// Its line.
     pub spot: Spot,
+    /// As it stands there.
+    pub written: String,
 }
 
 impl Card {
@@ -38,6 +41,7 @@ impl Card {
             keyword,
             parameters,
             spot,
+            written: text(line),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::card::{Card, Fields, key, not_a_number, real, text, whole};
 use super::kind::{Kind, supported};
 use super::lines::{Files, Lines, Spot};
+use super::statement::Statement;
 use crate::readers::MeshError;
 use crate::readers::error::excerpt;
 use signorini_geometry::tensor::Vec3;
@@ -148,19 +149,23 @@ pub(super) struct Deck {
     /// The first is the deck itself, or its assembly.
     pub scopes: Vec<Scope>,
     pub instances: Vec<Instance>,
+    /// Cards that are no part of the mesh; none unless they are asked for.
+    pub statements: Vec<Statement>,
     pub notes: Vec<String>,
 }
 
-/// Reads all cards.
-pub(super) fn read(files: &Files<'_>) -> Result<Deck> {
+/// Reads all cards, and keeps those that are no part of the mesh where `whole` says so.
+pub(super) fn read(files: &Files<'_>, whole: bool) -> Result<Deck> {
     let mut reader = Reader {
         lines: files.lines(),
         deck: Deck {
             kinds: Vec::new(),
             scopes: vec![Scope::default()],
             instances: Vec::new(),
+            statements: Vec::new(),
             notes: Vec::new(),
         },
+        whole,
         kinds: BTreeMap::new(),
         parts: BTreeMap::new(),
         instances: BTreeSet::new(),
@@ -178,6 +183,8 @@ struct Reader<'f> {
     kinds: BTreeMap<String, u32>,
     parts: BTreeMap<String, usize>,
     instances: BTreeSet<String>,
+    /// Whether statements are kept.
+    whole: bool,
     /// The scope that cards fill.
     here: usize,
     /// The part or instance that is open: its keyword and its line.
@@ -247,6 +254,10 @@ impl Reader<'_> {
                     return Err(self.refused(card, why));
                 }
             }
+        }
+        if self.whole && !["ENDPART", "ENDINSTANCE", "INCLUDE"].contains(&card.keyword.as_str()) {
+            let statement = Statement::read(card, self.here, &mut self.lines);
+            self.deck.statements.push(statement);
         }
         self.skip();
         Ok(())

@@ -22,6 +22,13 @@ pub(super) struct Spot {
     line: u32,
 }
 
+impl Spot {
+    /// Whether another line is the one after it.
+    pub const fn precedes(self, other: Self) -> bool {
+        self.file == other.file && self.line + 1 == other.line
+    }
+}
+
 /// Lines of one file that follow each other.
 struct Stretch {
     file: u32,
@@ -321,6 +328,12 @@ impl<'f> Lines<'f> {
     /// The place of the line that was given last.
     pub fn place(&self) -> Place {
         self.files.place(self.spot)
+    }
+
+    /// The file and the number of a line.
+    pub fn source(&self, spot: Spot) -> (&'f str, usize) {
+        let file = self.files.files.get(spot.file as usize);
+        (file.map_or("", |(name, _)| name), spot.line as usize)
     }
 
     /// The place of an earlier line.

@@ -28,10 +28,15 @@
 mod assemble;
 mod card;
 mod deck;
+mod directory;
 mod kind;
 mod lines;
+mod statement;
 #[cfg(test)]
 mod tests;
+
+pub use directory::{Directory, Kind, Special};
+pub use statement::{Field, Statement};
 
 use super::{MeshError, Place};
 use crate::fs::{Fs, RealFs};
@@ -55,6 +60,38 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> 
 /// # Errors
 /// Those of [`read`].
 pub fn read_from(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
+    let whole = read_all(fs, name, bytes, false)?;
+    Ok((whole.mesh, whole.notes))
+}
+
+/// A real number as Fortran writes it; finite.
+#[must_use]
+pub fn number(text: &str) -> Option<f64> {
+    card::real(text.trim().as_bytes()).filter(|value| value.is_finite())
+}
+
+/// A deck: its mesh, and the cards that say what to do with it.
+#[derive(Clone, Debug)]
+pub struct Deck {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// What is worth telling about it.
+    pub notes: Vec<String>,
+    /// Cards that are no part of the mesh, in their order.
+    pub statements: Vec<Statement>,
+    /// What names and numbers of the deck are called in the mesh.
+    pub directory: Directory,
+}
+
+/// Reads a deck with all its cards.
+///
+/// # Errors
+/// Those of [`read`]; what other cards say is not looked at.
+pub fn read_deck(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<Deck, MeshError> {
+    read_all(fs, name, bytes, true)
+}
+
+fn read_all(fs: &dyn Fs, name: &str, bytes: &[u8], whole: bool) -> Result<Deck, MeshError> {
     let is_blank = |b: &u8| b.is_ascii_whitespace();
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if text.iter().all(is_blank) {
@@ -63,6 +100,13 @@ pub fn read_from(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<Str
         });
     }
     let files = Files::open(fs, name, bytes)?;
-    let deck = deck::read(&files)?;
-    assemble::assemble(&files, deck)
+    let mut cards = deck::read(&files, whole)?;
+    let statements = std::mem::take(&mut cards.statements);
+    let assembled = assemble::assemble(&files, cards)?;
+    Ok(Deck {
+        mesh: assembled.mesh,
+        notes: assembled.notes,
+        statements,
+        directory: assembled.directory,
+    })
 }

@@ -3,6 +3,7 @@
 use super::{
     Contact, Interface, Measure, Order, Participant, RowOrder, Rows, Scratch, State, TermError,
 };
+use crate::contact::kernel::{Lambda, Traction};
 use crate::contact::row::Row;
 use crate::system::{ContactFrame, Frame, Resultant, Status};
 use signorini_geometry::element::Element;
@@ -13,6 +14,7 @@ use signorini_geometry::tensor::Vec3;
 /// Sums over the rows around each node, with their areas and the squares of their shape functions as weights.
 struct Means {
     weight: Vec<f64>,
+    normal: Vec<Vec3>,
     gap: Vec<f64>,
     pressure: Vec<f64>,
     traction: Vec<Vec3>,
@@ -21,6 +23,7 @@ struct Means {
 
 /// What a row adds to the means.
 struct OfRow {
+    normal: Vec3,
     gap: f64,
     pressure: f64,
     /// On the side whose means these are.
@@ -32,6 +35,7 @@ impl Means {
     fn new(n: usize) -> Self {
         Self {
             weight: vec![0.0; n],
+            normal: vec![Vec3::ZERO; n],
             gap: vec![0.0; n],
             pressure: vec![0.0; n],
             traction: vec![Vec3::ZERO; n],
@@ -41,6 +45,7 @@ impl Means {
 
     fn add(&mut self, k: usize, weight: f64, row: &OfRow) {
         self.weight[k] += weight;
+        self.normal[k] += row.normal * weight;
         self.gap[k] += weight * row.gap;
         self.pressure[k] += weight * row.pressure;
         self.traction[k] += row.traction * weight;
@@ -51,6 +56,7 @@ impl Means {
     fn of(&self, k: usize) -> Option<OfRow> {
         let weight = self.weight.get(k).copied().filter(|w| *w > 0.0)?;
         Some(OfRow {
+            normal: self.normal[k].normalized().unwrap_or_default(),
             gap: self.gap[k] / weight,
             pressure: self.pressure[k] / weight,
             traction: self.traction[k] / weight,
@@ -81,18 +87,23 @@ impl Interface {
                 Measure::Node => area.recip(),
             };
             let (mut pressure, mut pull, mut status) = (0.0, Vec3::ZERO, Status::Absent);
+            let mut energy = 0.0;
             let found = scratch.rows.rows().first();
             if let Some(filled) = found {
                 gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
                 status = Status::Open;
             }
             if let Some(filled) = found.filter(|_| acts) {
-                let traction = self.traction(filled, &self.lambda(row, state));
+                let lambda = self.lambda(row, state);
+                let traction = self.traction(filled, &lambda);
+                energy = self.measure(row) * self.stored(filled, &lambda, &traction);
                 let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
                 pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
-                let pushed = self.pushed(row, &scratch.rows, filled);
-                report.force_normal += pushed * (traction.pressure * self.measure(row));
+                let pushed = self.pushed(row, &scratch.rows, filled, state);
+                let push = traction.pressure * self.measure(row);
+                report.force_normal += pushed.force * push;
+                report.moment_normal += pushed.moment * push;
                 report.force_shear -= traction.tangential * measure;
                 status = match traction.state {
                     _ if pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
@@ -109,6 +120,7 @@ impl Interface {
             }
             let slip = self.history.slip(row);
             let of_row = found.map(|filled| OfRow {
+                normal: filled.normal,
                 gap: filled.gap,
                 pressure,
                 traction: pull,
@@ -139,6 +151,7 @@ impl Interface {
                     continue;
                 };
                 report.area[k] += area * shape * shape / squares;
+                report.energy[k] += energy * shape * shape / squares;
                 if let Some(of_row) = &of_row {
                     means.add(k, area * shape * shape, of_row);
                 }
@@ -158,6 +171,7 @@ impl Interface {
         }
         for k in 0..report.nodes.len() {
             if let Some(mean) = means.of(k) {
+                report.normal[k] = mean.normal;
                 report.gap[k] = mean.gap;
                 report.pressure[k] = mean.pressure;
                 report.traction[k] = mean.traction;
@@ -198,20 +212,50 @@ impl Interface {
         Ok(())
     }
 
-    /// What a unit of pressure does to the secondary side.
-    fn pushed(&self, row: usize, rows: &Rows, filled: &Row) -> Vec3 {
+    /// What a unit of pressure does to the secondary side; moment about the origin.
+    fn pushed(&self, row: usize, rows: &Rows, filled: &Row, state: &State) -> Resultant {
         let secondary = self.parts.discretization.secondary(rows, row);
-        let mut sum = Vec3::ZERO;
+        let mut sum = Resultant::default();
         let mut column = 0;
         for (place, participant) in rows.participants().iter().enumerate() {
             if let Some(&[x, y, z]) = filled.weights.get(column..column + 3)
+                && let Participant::Node(node) = *participant
                 && secondary.contains(&place)
             {
-                sum += Vec3::new(x, y, z);
+                let force = Vec3::new(x, y, z);
+                add(&mut sum, force, self.place(node, state).cross(force));
             }
             column += participant.ncolumn();
         }
         sum
+    }
+
+    /// Where forces on a node act: at the start, in linear steps whose pairs stay.
+    fn place(&self, node: NodeId, state: &State) -> Vec3 {
+        let x = state.x.get(node as usize).copied().unwrap_or_default();
+        if !self.step.nonlinear && self.parts.discretization.stays() {
+            x - self.displacement(node, state)
+        } else {
+            x
+        }
+    }
+
+    /// The energy in the springs of a row, over its measure.
+    fn stored(&self, filled: &Row, lambda: &Lambda, traction: &Traction) -> f64 {
+        let laws = self.laws();
+        if laws.bond {
+            return 0.5 * laws.scale.penalty * filled.sliding.slip.norm_squared();
+        }
+        let along = match laws.friction {
+            Some(_) => 0.5 * traction.tangential.dot(filled.sliding.slip),
+            None => 0.0,
+        };
+        let scalar = laws.scalar(filled.normal, lambda);
+        let across = match self.nmultiplier() {
+            0 => laws.law.energy(filled.gap, scalar, laws.scale),
+            _ => None,
+        };
+        along + across.unwrap_or(0.0)
     }
 
     /// Adds a row to the means at the nodes of the facet that it acts on.
@@ -270,12 +314,14 @@ impl Interface {
             points: pair.points.iter().map(of).collect(),
             displacement: pair.points.iter().map(moved).collect(),
             facets,
+            normal: vec![Vec3::ZERO; n],
             gap: vec![f64::NAN; n],
             pressure: vec![0.0; n],
             status: vec![Status::Absent; n],
             force: vec![Vec3::ZERO; n],
             traction: vec![Vec3::ZERO; n],
             slip: vec![Vec3::ZERO; n],
+            energy: vec![0.0; n],
             area: vec![0.0; n],
             facet_size: self.parts.scale.length,
             ..ContactFrame::default()
@@ -307,16 +353,11 @@ impl Interface {
             part.map_or(Vec3::ZERO, |f| -Vec3::new(f[0], f[1], f[2]))
         };
         let secondary = self.parts.discretization.secondary(rows, row);
-        // the places of a linear step
-        let at_start = !self.step.nonlinear && self.parts.discretization.stays();
         for (place, participant) in rows.participants().iter().enumerate() {
             let force = vector(column);
             match *participant {
                 Participant::Node(node) => {
-                    let mut x = state.x.get(node as usize).copied().unwrap_or_default();
-                    if at_start {
-                        x -= self.displacement(node, state);
-                    }
+                    let x = self.place(node, state);
                     let side = if secondary.contains(&place) {
                         if let Ok(k) = self.parts.pair.points.binary_search(&node) {
                             report.force[k] += force;

@@ -249,6 +249,30 @@ fn an_interface_balances_forces_and_moments() {
         assert!(sum.norm() < 1e-13 * size && turn.norm() < 1e-13 * arm * size);
         let closed = report.status.iter().filter(|s| **s == Status::Slip).count();
         assert_eq!(closed, inside.len());
+        let pressed = report.moment_normal - report.secondary.moment;
+        assert!(pressed.norm() < 1e-13 * arm * size, "nothing rubs");
+        let chunks = 0..scene.interface.nchunk();
+        let work = &mut Work::default();
+        let energy = chunks.map(|c| {
+            scene
+                .interface
+                .energy(c, &scene.state, work)
+                .unwrap()
+                .unwrap()
+        });
+        let (energy, stored) = (energy.sum::<f64>(), report.energy.iter().sum::<f64>());
+        assert!(
+            (energy - stored).abs() < 1e-13 * energy,
+            "{stored} of {energy}"
+        );
+        for (k, normal) in report.normal.iter().enumerate() {
+            let across = report.traction[k] - *normal * report.pressure[k];
+            assert!(report.pressure[k] == 0.0 || (normal.norm() - 1.0).abs() < 1e-14);
+            assert!(
+                across.norm() < 1e-13 * report.pressure_max,
+                "a point is a node"
+            );
+        }
     }
     assert!(on_edges > 10, "{on_edges}");
 }

@@ -223,7 +223,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
             } else {
                 (here.h + Mat3::IDENTITY * m, 1.0)
             };
-            *sample = element.sample(point, h, weight * ratio, out.new, &response);
+            *sample = element.sample(point, h, [weight, ratio], out.new, &response);
             continue;
         }
         let stress = response.stress * square;

@@ -64,6 +64,14 @@ pub(super) struct Sample {
     pub plastic_strain: Option<f64>,
     /// Present volume that belongs to the point.
     pub volume: f64,
+    /// The strain that the material sees: linearized, or of Green and Lagrange; with what it found across.
+    pub seen: Sym3,
+    /// What it was at.
+    pub temperature: f64,
+    /// Energy per volume at the start.
+    pub energy: f64,
+    /// That volume.
+    pub volume_at_start: f64,
 }
 
 /// Why an element has no response.
@@ -269,13 +277,13 @@ impl Element<'_> {
         self.material.respond(&strain, old, new, order, response)
     }
 
-    /// What is known at a point where the deformation gradient that the material sees is `f = I + h`, and `volume`
-    /// belongs to it.
+    /// What is known at a point where the deformation gradient that the material sees is `f = I + h`, and `weight`
+    /// belongs to it at the start, `ratio` times that at present.
     fn sample(
         &self,
         point: usize,
         h: Mat3,
-        volume: f64,
+        [weight, ratio]: [f64; 2],
         new: &[f64],
         response: &Response,
     ) -> Sample {
@@ -283,7 +291,7 @@ impl Element<'_> {
         let history = &new[point * nhistory..(point + 1) * nhistory];
         let sheet = matches!(self.space, Idealisation::PlaneStress { .. });
         let mut h = h;
-        let mut volume = volume;
+        let mut volume = weight * ratio;
         if sheet {
             // the thickness follows from what was found across
             let strain = response.across;
@@ -297,7 +305,9 @@ impl Element<'_> {
             }
         }
         let (mut stress, mut strain) = (response.stress, Sym3::symmetric_part(h));
+        let mut seen = strain;
         if self.is_finite() {
+            seen = strain + Sym3::gram(h) * 0.5;
             let f = Mat3::IDENTITY + h;
             stress = stress.congruence(f) * f.determinant().recip(); // (E4)
             strain = dense::half_logarithm(strain + Sym3::gram(h.transpose()) * 0.5);
@@ -307,6 +317,10 @@ impl Element<'_> {
             strain,
             plastic_strain: self.material.plastic_strain(history),
             volume,
+            seen,
+            temperature: self.temperature(point),
+            energy: response.energy,
+            volume_at_start: weight,
         }
     }
 }

@@ -197,7 +197,7 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
         element.respond(point, value, Order::Tangent, out.new, &mut response)?;
         out.energy += at.weight * response.energy;
         if let Some(sample) = out.samples.get_mut(point) {
-            *sample = element.sample(point, h, at.weight, out.new, &response);
+            *sample = element.sample(point, h, [at.weight, 1.0], out.new, &response);
         }
         let force = contract::<NT, ND, NG>(&gradient, &f, &response.stress);
         add_force(out.force, at.weight, &force);

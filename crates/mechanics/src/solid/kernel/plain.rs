@@ -23,7 +23,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
         element.respond(point, strain(h, finite), order, out.new, &mut response)?;
         out.energy += at.weight * response.energy;
         if let Some(sample) = out.samples.get_mut(point) {
-            *sample = element.sample(point, h, at.weight * ratio, out.new, &response);
+            *sample = element.sample(point, h, [at.weight, ratio], out.new, &response);
             continue;
         }
         let force = contract::<NN, ND, NG>(&at.gradient, &f, &response.stress);

@@ -7,10 +7,10 @@ use crate::material::{
 };
 use crate::system::{
     Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, Layout, NodalField, Order,
-    Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::element::{self, Element};
-use signorini_geometry::mesh::Mesh;
+use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
 
@@ -18,6 +18,7 @@ mod derivatives;
 mod history;
 mod locking;
 mod patch;
+mod samples;
 mod speed;
 mod truss;
 

@@ -138,4 +138,21 @@ fn a_turned_and_stretched_bar_reports_force_over_present_area_along_itself() {
     assert!((force - cauchy * 0.4 * b2).abs() < 1e-9 * force);
     assert!(stress.xx().abs() < 1e-12 && dense.force[3].abs() < 1e-12);
     assert!((frame.cell_strain[0][0].yy() - 1.1f64.ln()).abs() < 1e-14);
+    let mut samples = Samples::default();
+    let cell = CellId { block: 0, index: 0 };
+    truss.sample(&at, &[cell], &mut samples).unwrap();
+    let (rule, points) = samples.of(cell).unwrap();
+    assert_eq!(points.len(), rule.npoint());
+    let volume: f64 = points.iter().map(|p| p.volume).sum();
+    assert!((volume - 0.8).abs() < 1e-15);
+    for point in points {
+        // of Green and Lagrange, in the axes of the start
+        let across = 0.5 * (b2 - 1.0);
+        let wanted = Sym3::diagonal(0.105, across, across);
+        let off = (point.strain - wanted).to_pairs();
+        assert!(off.iter().all(|d| d.abs() < 1e-9), "{:?}", point.strain);
+        assert_eq!(point.mechanical_strain, point.strain);
+        let off = (point.stress - stress).to_pairs();
+        assert!(off.iter().all(|d| d.abs() < 1e-12 * cauchy));
+    }
 }

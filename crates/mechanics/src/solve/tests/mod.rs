@@ -248,6 +248,7 @@ fn system(nnode: usize, terms: Vec<Box<dyn Term>>) -> System {
         terms,
         body: vec![0; nnode],
         ncell: Vec::new(),
+        wanted: crate::system::Wanted::default(),
     }
 }
 

@@ -4,6 +4,7 @@ use super::Recorder;
 use crate::run::error::OutputError;
 use crate::run::news::Detail;
 use signorini_io::checkpoint::{Archive, Stamp};
+use signorini_io::writers::frd::Mark;
 use signorini_io::writers::json::{Event, StepSummary};
 use signorini_mechanics::solve::Stepper;
 use signorini_mechanics::system::System;
@@ -66,6 +67,12 @@ impl Recorder<'_> {
         files.convergence.sync()?;
         files.sta.sync()?;
         files.events.sync()?;
+        if let Some(tables) = &mut files.tables {
+            tables.sync()?;
+        }
+        if let Some(frd) = &mut files.frd {
+            frd.sync()?;
+        }
         let mut archive = Archive::new();
         for (name, values) in &solution.arrays {
             archive.put_f64(&format!("solve/{name}"), values)?;
@@ -77,6 +84,17 @@ impl Recorder<'_> {
             files.events.nrow(),
         ];
         archive.put_u64("run/rows", &rows)?;
+        if let Some(tables) = &files.tables {
+            archive.put_u64("run/tables", &[tables.nrow()])?;
+        }
+        if let Some(frd) = &files.frd {
+            let Mark {
+                length,
+                nframe,
+                ndataset,
+            } = frd.mark();
+            archive.put_u64("run/frd", &[length, nframe, ndataset])?;
+        }
         let of_step = |s: &StepSummary| [s.increments, s.iterations, s.cutbacks];
         let mut counts = vec![self.counts.increments];
         counts.extend(self.counts.steps.iter().flat_map(of_step));

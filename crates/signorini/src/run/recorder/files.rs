@@ -8,6 +8,8 @@ use crate::run::news::Listener;
 use signorini_io::checkpoint::{Archive, Checkpoints};
 use signorini_io::fs::Log;
 use signorini_io::writers::csv::{CONVERGENCE_COLUMNS, Table};
+use signorini_io::writers::dat;
+use signorini_io::writers::frd::{FrdFile, Mark};
 use signorini_io::writers::json::{EventLog, StepSummary};
 use signorini_io::writers::pvd::{Entry, Pvd};
 use signorini_io::writers::sta::StatusTable;
@@ -20,7 +22,10 @@ pub(super) struct Files {
     pub(super) convergence: Table,
     pub(super) sta: StatusTable,
     pub(super) events: EventLog,
+    /// Where some step prints tables.
+    pub(super) tables: Option<dat::Tables>,
     pub(super) log: Box<dyn Log>,
+    pub(super) frd: Option<FrdFile>,
 }
 
 /// The open files of a run, and where they stand.
@@ -55,6 +60,16 @@ impl Opened {
             sta: StatusTable::create(fs, &path(&sta(&setting.name)), &setting.name)?,
             events: EventLog::create(fs, &path("events.jsonl"))?,
             log: fs.open_log(&path("run.log"), 0)?,
+            tables: match setting.tables.is_empty() {
+                true => None,
+                false => Some(dat::Tables::create(fs, &path(&tables(&setting.name)))?),
+            },
+            frd: match &setting.frd {
+                None => None,
+                Some((name, title)) => {
+                    Some(FrdFile::create(fs, &path(name), title, &setting.mesh)?)
+                }
+            },
         };
         let lists = [
             Pvd::new(&path("results.pvd")),
@@ -127,8 +142,29 @@ impl Opened {
             sta: StatusTable::resume(fs, &path(&sta(&setting.name)), &setting.name, attempts)?,
             events: EventLog::resume(fs, &path("events.jsonl"), events)?,
             log: fs.open_log(&log, length)?,
+            tables: match setting.tables.is_empty() {
+                true => None,
+                false => {
+                    let mut lines = [0];
+                    from.copy_u64("run/tables", &mut lines)?;
+                    let path = path(&tables(&setting.name));
+                    Some(dat::Tables::resume(fs, &path, lines[0])?)
+                }
+            },
+            frd: match &setting.frd {
+                None => None,
+                Some((name, _)) => Some(FrdFile::resume(
+                    fs,
+                    &path(name),
+                    &setting.mesh,
+                    mark(from)?,
+                )?),
+            },
         };
-        let list = |name: &str, kind: &str| -> Result<Pvd, OutputError> {
+        let list = |name: &str, kind: &str, is_written: bool| -> Result<Pvd, OutputError> {
+            if !is_written {
+                return Ok(Pvd::new(&path(name)));
+            }
             let entry = |(number, &time): (usize, &f64)| Entry {
                 time,
                 part: 0,
@@ -137,12 +173,9 @@ impl Opened {
             let entries = counts.frames.iter().enumerate().map(entry).collect();
             Ok(Pvd::with_entries(fs, &path(name), entries)?)
         };
-        let results = list("results.pvd", "volume")?;
-        let contact = if setting.has_contact {
-            list("contact.pvd", "contact")?
-        } else {
-            Pvd::new(&path("contact.pvd"))
-        };
+        let results = list("results.pvd", "volume", setting.has_vtu)?;
+        let has_contact = setting.has_vtu && setting.has_contact;
+        let contact = list("contact.pvd", "contact", has_contact)?;
         let [step, time, step_time] = clock;
         Ok(Self {
             step: (step >= 0.0).then_some(step as usize),
@@ -208,6 +241,22 @@ impl Opened {
             step_time: self.step_time,
         }
     }
+}
+
+fn tables(name: &str) -> String {
+    format!("{name}.dat")
+}
+
+/// How far the file of all frames had got.
+fn mark(from: &Archive) -> Result<Mark, OutputError> {
+    let mut numbers = [0; 3];
+    from.copy_u64("run/frd", &mut numbers)?;
+    let [length, nframe, ndataset] = numbers;
+    Ok(Mark {
+        length,
+        nframe,
+        ndataset,
+    })
 }
 
 fn sta(name: &str) -> String {

@@ -15,10 +15,12 @@ use crate::run::contact_surface;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
 use crate::run::fields::Fields;
+use crate::run::frd;
 use crate::run::history::History;
 use crate::run::limits::{Limits, Stop};
 use crate::run::narration::{Level, Narrator};
 use crate::run::news::{Detail, Facts, Listener, News};
+use crate::run::tables::Tables;
 use crate::run::tree::Tree;
 use crate::run::volume::Volume;
 use signorini_geometry::mesh::Mesh;
@@ -47,6 +49,12 @@ pub struct Setting {
     pub steps: Vec<Step>,
     pub history: History,
     pub volume: Volume,
+    pub tables: Tables,
+    pub fields: Fields,
+    /// Whether frames go to files of their own.
+    pub has_vtu: bool,
+    /// The name of the file of all frames and its title, where there is one.
+    pub frd: Option<(String, String)>,
     pub every: Every,
     pub checkpoint_increments: Option<u64>,
     pub checkpoint_wall: Option<Duration>,
@@ -203,14 +211,29 @@ impl Recorder<'_> {
     }
 
     fn write_frame(&mut self, frame: &Frame) -> Result<Vec<String>, OutputError> {
+        let mut files = Vec::new();
+        if self.setting.has_vtu {
+            self.write_grids(frame, &mut files)?;
+        }
+        if let (Some(frd), Some((name, _))) = (&mut self.files.frd, &self.setting.frd)
+            && frame.increment > 0
+        {
+            frd::append(frd, frame, self.setting.fields)?;
+            files.push(name.clone());
+        }
+        Ok(files)
+    }
+
+    /// Writes the grids of a frame, and lists them.
+    fn write_grids(&mut self, frame: &Frame, files: &mut Vec<String>) -> Result<(), OutputError> {
         let fs = self.setting.fs.as_ref();
         let number = self.counts.frames.len();
         let volume = frame_file("volume", number);
-        let mut files = vec![volume.clone()];
         fs.write_atomic(
             &self.setting.tree.path(&volume),
             &self.setting.volume.encode(frame)?,
         )?;
+        files.push(volume.clone());
         if self.setting.has_contact {
             let surface = frame_file("contact", number);
             let bytes = contact_surface::encode(&self.setting.mesh, frame)?;
@@ -219,7 +242,7 @@ impl Recorder<'_> {
             files.push(surface);
         }
         self.results.add(fs, frame.time, &[&volume])?;
-        Ok(files)
+        Ok(())
     }
 
     /// Writes the last try of an increment that failed, where it can be drawn.

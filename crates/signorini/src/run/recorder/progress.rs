@@ -103,6 +103,7 @@ impl Recorder<'_> {
         }
         let name = self.step_name(record.step);
         let row = self.setting.history.row(frame, record.iterations);
+        let page = self.setting.tables.page(record, frame);
         let attempt = Attempt {
             step: record.step as u64 + 1,
             increment: record.increment as u64,
@@ -125,6 +126,9 @@ impl Recorder<'_> {
             let cells: Vec<Cell<'_>> = head.into_iter().chain(numbers).collect();
             files.history.row(&cells)?;
             files.sta.row(&attempt)?;
+            if let (Some(tables), Some(page)) = (&mut files.tables, &page) {
+                tables.append(page)?;
+            }
             Ok(())
         });
         self.expectations

@@ -1,0 +1,551 @@
+//! Contact pairs with their laws, ties, gaps.
+//!
+//! | deck | by default | with [`Compat::Ccx`] |
+//! |---|---|---|
+//! | HARD, LINEAR, none | the best way to hold surfaces apart | a penalty: K, or 50 E of the first material |
+//! | EXPONENTIAL, TABULAR | the same law | the same law |
+//! | TIED, \*TIE | sides that are joined | the same, node to segment by multipliers |
+//! | TYPE | the best method | node to segment, points inside facets, mortar |
+//! | friction | μ | μ and the slope of sticking, or E/2 |
+//! | GAPUNI | no penetration | a penalty: K, or 1e12 |
+//!
+//! Source: the laws of CalculiX are those of its User's Manual, sections on contact.
+
+use super::Compat;
+use super::model::compared;
+use super::translation::Translation;
+use crate::case::{
+    Area, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
+    Normals, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
+};
+use crate::diagnostic::{Place, Spanned, codes};
+use crate::readers::inp::{Kind, Statement};
+use signorini_geometry::mesh::boundary;
+use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeMap;
+
+/// A penalty over the first modulus of the deck, where CalculiX finds none.
+const PENALTY: f64 = 50.0;
+/// The slope of sticking over the first modulus of the deck, likewise.
+const STICK: f64 = 0.5;
+/// Points of a facet along each direction: so many that their sums are the integrals over what touches, which CalculiX
+/// takes over the parts of facets that meet one another.
+const POINTS: u64 = 8;
+/// The stiffness of a gap element, likewise.
+const GAP: f64 = 1e12;
+/// How far nodes may be from the surface that they are tied to, in sizes of its elements.
+const TIE: f64 = 0.025;
+
+/// What happens between two surfaces.
+#[derive(Clone, Debug, Default)]
+struct Interaction {
+    law: Law,
+    friction: Option<[f64; 2]>,
+}
+
+#[derive(Clone, Debug, Default)]
+enum Law {
+    #[default]
+    Hard,
+    Linear(f64),
+    Exponential {
+        c0: f64,
+        p0: f64,
+    },
+    /// Pressures and overclosures.
+    Table(Vec<[f64; 2]>),
+    Tied,
+}
+
+/// Where a pair is said to be.
+#[derive(Clone, Debug)]
+struct Sides {
+    secondary: Name,
+    primary: Name,
+}
+
+impl Translation<'_> {
+    pub fn contacts(&mut self) {
+        let interactions = self.interactions();
+        for card in self.cards("CONTACTPAIR") {
+            self.pairs(card, &interactions);
+        }
+        self.clearances();
+        for card in self.cards("TIE") {
+            self.tie(card);
+        }
+        for card in self.cards("GAP") {
+            self.gaps(card);
+        }
+    }
+
+    fn interactions(&mut self) -> BTreeMap<String, Interaction> {
+        let mut all: BTreeMap<String, Interaction> = BTreeMap::new();
+        let mut open: Option<String> = None;
+        let deck = self.deck;
+        for card in &deck.statements {
+            match card.keyword.as_str() {
+                "SURFACEINTERACTION" => {
+                    open = self.need(card, "NAME").map(compared);
+                    if let Some(name) = &open {
+                        all.entry(name.clone()).or_default();
+                    }
+                }
+                "SURFACEBEHAVIOR" | "FRICTION" => {
+                    let Some(one) = open.as_ref().and_then(|name| all.get_mut(name)) else {
+                        let text = format!("*{} stands in no *SURFACE INTERACTION", card.keyword);
+                        self.error(&codes::CONTRADICTION, text, &card.place, "");
+                        continue;
+                    };
+                    if card.keyword == "FRICTION" {
+                        one.friction = Some(self.friction(card));
+                    } else {
+                        one.law = self.law(card);
+                    }
+                }
+                "STEP" => break,
+                _ => {}
+            }
+        }
+        all
+    }
+
+    /// The coefficient, and the slope of sticking or zero.
+    fn friction(&mut self, card: &Statement) -> [f64; 2] {
+        let row = card.rows().next().unwrap_or_default();
+        self.reals(&row)
+    }
+
+    fn law(&mut self, card: &Statement) -> Law {
+        let rows: Vec<[f64; 2]> = (card.rows().collect::<Vec<_>>().iter())
+            .map(|row| self.reals(row))
+            .collect();
+        let [a, b] = rows.first().copied().unwrap_or_default();
+        let kind = card
+            .get("PRESSURE-OVERCLOSURE")
+            .map(compared)
+            .unwrap_or_default();
+        match kind.as_str() {
+            "" | "HARD" => Law::Hard,
+            "LINEAR" => {
+                if a <= 0.0 {
+                    let text = "the stiffness of LINEAR has to be positive";
+                    self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
+                }
+                Law::Linear(a)
+            }
+            "EXPONENTIAL" => {
+                if a <= 0.0 || b <= 0.0 {
+                    let text = "c0 and p0 of EXPONENTIAL have to be positive";
+                    self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
+                }
+                Law::Exponential { c0: a, p0: b }
+            }
+            "TABULAR" => {
+                let rises =
+                    |pair: &[[f64; 2]]| matches!(pair, [a, b] if b[0] > a[0] && b[1] > a[1]);
+                if rows.len() < 2 || !rows.windows(2).all(rises) {
+                    let text =
+                        "TABULAR needs two rows or more of pressures and overclosures that rise";
+                    self.error(&codes::NOT_INCREASING, text, &card.place, "");
+                }
+                Law::Table(rows)
+            }
+            "TIED" => Law::Tied,
+            _ => {
+                let text = format!("PRESSURE-OVERCLOSURE={kind} is not supported");
+                self.error(&codes::NOT_BUILT, text, &card.place, "");
+                Law::Hard
+            }
+        }
+    }
+
+    /// Young's modulus of the first material.
+    fn first_modulus(&self) -> f64 {
+        let first = self.case.materials.first();
+        let known = first.and_then(|one| self.materials.get(&compared(&one.name)));
+        known
+            .and_then(super::model::Properties::modulus)
+            .unwrap_or(1.0)
+    }
+
+    fn pairs(&mut self, card: &Statement, interactions: &BTreeMap<String, Interaction>) {
+        let interaction = match self.need(card, "INTERACTION").map(compared) {
+            None => Interaction::default(),
+            Some(name) => match interactions.get(&name) {
+                Some(found) => found.clone(),
+                None => {
+                    let text = format!("there is no surface interaction `{name}`");
+                    self.error(&codes::UNDEFINED, text, &card.place, "");
+                    return;
+                }
+            },
+        };
+        let kind = card.get("TYPE").map(compared).unwrap_or_default();
+        let method = match kind.as_str() {
+            "" | "NODETOSURFACE" => Method::NodeToSegment,
+            "SURFACETOSURFACE" => Method::GaussPoint,
+            "MORTAR" | "LINMORTAR" | "PGLINMORTAR" => Method::Mortar,
+            _ => {
+                let text = format!("*CONTACT PAIR, TYPE={kind} is not supported");
+                self.error(&codes::NOT_BUILT, text, &card.place, "");
+                return;
+            }
+        };
+        let within = card.get("ADJUST").map(|text| {
+            crate::readers::inp::number(text).unwrap_or_else(|| {
+                let text = "ADJUST by a node set is not supported";
+                self.error(&codes::NOT_BUILT, text, &card.place, "give a tolerance");
+                0.0
+            })
+        });
+        for row in card.rows() {
+            let Some(sides) = self.sides(card, &row) else {
+                continue;
+            };
+            let mut contact = self.contact(sides, &card.place);
+            self.obey(&mut contact, &interaction, method, card);
+            contact.start.close_gaps_below = within.unwrap_or(0.0);
+            if card.has("SMALLSLIDING") {
+                contact.sliding = Sliding::Small;
+            }
+            self.case.contacts.push(contact);
+        }
+    }
+
+    /// The secondary and the primary side that a line names.
+    fn sides(&mut self, card: &Statement, row: &[crate::readers::inp::Field<'_>]) -> Option<Sides> {
+        let [secondary, primary] = row
+            .get(..2)
+            .and_then(|two| <&[_; 2]>::try_from(two).ok())
+            .or_else(|| {
+                let text = format!("a line of *{} needs two surfaces", card.keyword);
+                self.error(&codes::MISSING, text, &card.place, "");
+                None
+            })?;
+        let secondary = self.set(card, secondary.text, &secondary.place(), Kind::Surface);
+        let primary = self.set(card, primary.text, &primary.place(), Kind::Surface);
+        Some(Sides {
+            secondary: self.faced(secondary?),
+            primary: primary?,
+        })
+    }
+
+    /// A surface of nodes as the outer faces between them, where every node has one: they know the area that each node
+    /// stands for.
+    pub fn faced(&mut self, surface: Name) -> Name {
+        let mesh = &self.deck.mesh;
+        let nodes = match mesh.sets.get(&surface.value) {
+            Some(set) if set.faces.is_empty() && !set.nodes.is_empty() => &set.nodes,
+            _ => return surface,
+        };
+        let outer = self
+            .outer
+            .get_or_insert_with(|| boundary(mesh, mesh.cells(mesh.dim())));
+        let mut sides = Vec::new();
+        let mut met = vec![false; nodes.len()];
+        for face in outer.iter() {
+            let of_face = mesh.face(*face).map(|(_, nodes)| nodes).unwrap_or_default();
+            let at: Option<Vec<usize>> = of_face
+                .iter()
+                .map(|node| nodes.binary_search(node).ok())
+                .collect();
+            if let (Some(at), Some(label)) = (at, mesh.cell_label(face.cell)) {
+                sides.push((label, face.side + 1));
+                for place in at {
+                    met[place] = true;
+                }
+            }
+        }
+        if !met.iter().all(|met| *met) {
+            return surface;
+        }
+        if let Some(known) = self.faced.get(&surface.value) {
+            return Spanned::new(known.clone(), surface.place);
+        }
+        let name = self.sides_named(sides, &surface.place);
+        self.faced.insert(surface.value, name.value.clone());
+        name
+    }
+
+    /// A contact with nothing but defaults.
+    fn contact(&mut self, sides: Sides, place: &Place) -> Contact {
+        let name = format!("{}-{}", sides.secondary.value, sides.primary.value);
+        Contact {
+            name: Spanned::new(self.fresh(&name), place.clone()),
+            secondary: sides.secondary,
+            primary: sides.primary,
+            method: Method::Auto.into(),
+            two_pass: false,
+            rule: PointRule::default(),
+            area: Area::Reference,
+            enforcement: Enforcement::Auto,
+            per: None,
+            friction: None,
+            sliding: Sliding::Finite,
+            tied: None,
+            start: Start {
+                interference: Interference::Step,
+                ..Start::default()
+            },
+            normals: Normals::Primary,
+            pairs: Pairs::Nearest,
+            reach: None,
+            active: true,
+            place: place.clone(),
+        }
+    }
+
+    /// The law of a contact.
+    fn obey(&self, contact: &mut Contact, by: &Interaction, method: Method, card: &Statement) {
+        let exact = self.compat == Compat::Ccx;
+        let penalty = |k: f64| Enforcement::Penalty(Some(Spanned::new(k, card.place.clone())));
+        let hard = PENALTY * self.first_modulus();
+        contact.enforcement = match &by.law {
+            Law::Hard if exact && method != Method::Mortar => penalty(hard),
+            Law::Linear(k) if exact => penalty(*k),
+            Law::Hard | Law::Linear(_) => Enforcement::Auto,
+            Law::Exponential { c0, p0 } => Enforcement::Exponential { p0: *p0, c0: *c0 },
+            Law::Table(rows) => {
+                let falling = rows.iter().rev().map(|[pressure, over]| [-over, *pressure]);
+                Enforcement::Table(falling.collect())
+            }
+            Law::Tied => {
+                contact.tied = Some(Tied::default());
+                Enforcement::Auto
+            }
+        };
+        if exact {
+            contact.method = method.into();
+            if method == Method::GaussPoint {
+                contact.rule.points = Some(POINTS);
+            }
+            if !matches!(contact.enforcement, Enforcement::Auto) {
+                contact.per = Some(Per::Area);
+            }
+        }
+        contact.friction = by.friction.and_then(|given| self.rubbing(given));
+    }
+
+    /// Friction; none where its coefficient is zero.
+    fn rubbing(&self, [mu, slope]: [f64; 2]) -> Option<Friction> {
+        let stick = match self.compat {
+            Compat::None => None,
+            Compat::Ccx if slope > 0.0 => Some(Stick::Stiffness(slope)),
+            Compat::Ccx => Some(Stick::Stiffness(STICK * self.first_modulus())),
+        };
+        let limit = Limit::Coulomb { mu, cap: None };
+        (mu > 0.0).then_some(Friction { limit, stick })
+    }
+
+    fn clearances(&mut self) {
+        for card in self.cards("CLEARANCE") {
+            let (slave, master) = (self.need(card, "SLAVE"), self.need(card, "MASTER"));
+            let (Some(slave), Some(master)) = (slave, master) else {
+                continue;
+            };
+            let secondary = self.set(card, slave, &card.place, Kind::Surface);
+            let secondary = secondary.map(|side| self.faced(side));
+            let primary = self.set(card, master, &card.place, Kind::Surface);
+            let value = card.get("VALUE").and_then(crate::readers::inp::number);
+            let Some(value) = value else {
+                let text = "*CLEARANCE without a number for VALUE is not supported";
+                self.error(&codes::NOT_BUILT, text, &card.place, "");
+                continue;
+            };
+            let (Some(secondary), Some(primary)) = (secondary, primary) else {
+                continue;
+            };
+            let mut pairs = self.case.contacts.iter_mut();
+            let is_pair = |c: &&mut Contact| c.secondary == secondary && c.primary == primary;
+            match pairs.find(is_pair) {
+                Some(contact) => contact.start.clearance = Some(value),
+                None => {
+                    let text = "*CLEARANCE of surfaces that are no contact pair";
+                    self.error(&codes::UNDEFINED, text, &card.place, "");
+                }
+            }
+        }
+    }
+
+    fn tie(&mut self, card: &Statement) {
+        let given = card.get("POSITIONTOLERANCE").map(|text| {
+            crate::readers::inp::number(text).unwrap_or_else(|| {
+                let text = "POSITION TOLERANCE is no number";
+                self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
+                0.0
+            })
+        });
+        for row in card.rows() {
+            let Some(sides) = self.sides(card, &row) else {
+                continue;
+            };
+            let near = TIE * self.size_of(&sides.primary);
+            let mut contact = self.contact(sides, &card.place);
+            contact.tied = Some(Tied {
+                close: card.get("ADJUST").map(compared).as_deref() != Some("NO"),
+                within: Some(given.unwrap_or(near)),
+            });
+            if self.compat == Compat::Ccx {
+                contact.method = Method::NodeToSegment.into();
+                contact.enforcement = Enforcement::Lagrange;
+            }
+            self.case.contacts.push(contact);
+        }
+    }
+
+    /// The mean size of the elements of a surface: the edge of a cube as large as the box around each.
+    fn size_of(&self, surface: &Name) -> f64 {
+        let mesh = &self.deck.mesh;
+        let faces = mesh
+            .sets
+            .get(&surface.value)
+            .map_or(&[][..], |set| &set.faces);
+        let size = |cell| -> Option<f64> {
+            let points = mesh
+                .cell(cell)
+                .iter()
+                .map(|&node| mesh.points.get(node as usize));
+            let points: Option<Vec<&Vec3>> = points.collect();
+            let points = points?;
+            let extent = |axis: usize| {
+                let along = points.iter().map(|x| x.to_array()[axis]);
+                let ends = along.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+                ends.1 - ends.0
+            };
+            let ndim = mesh.dim();
+            let product: f64 = (0..ndim).map(extent).product();
+            Some(product.powf(1.0 / ndim as f64))
+        };
+        let sizes: Vec<f64> = faces.iter().filter_map(|face| size(face.cell)).collect();
+        sizes.iter().sum::<f64>() / sizes.len().max(1) as f64
+    }
+
+    /// Gap elements: contact of two nodes along a given direction.
+    fn gaps(&mut self, card: &Statement) {
+        let Some(elset) = self.need(card, "ELSET") else {
+            return;
+        };
+        let row = card.rows().next().unwrap_or_default();
+        let [clearance, nx, ny, nz, _, stiffness, _] = self.reals(&row);
+        let normal = [nx, ny, nz];
+        if Vec3::from(normal).normalized().is_none() {
+            let text = "*GAP has no direction";
+            self.error(
+                &codes::OUT_OF_RANGE,
+                text,
+                &card.place,
+                "clearance, nx, ny, nz",
+            );
+            return;
+        }
+        let directory = &self.deck.directory;
+        let spaces = directory.spaces(card.scope).iter();
+        let gaps: Vec<_> = spaces
+            .flat_map(|&space| directory.special(space, elset))
+            .filter(|element| element.kind.starts_with("GAP"))
+            .collect();
+        if gaps.is_empty() {
+            let text = format!("element set `{elset}` has no gap elements");
+            self.error(&codes::WRONG_KIND, text, &card.place, "");
+        }
+        for gap in gaps {
+            let [first, second] = gap.nodes.as_slice() else {
+                continue;
+            };
+            let sides = Sides {
+                secondary: self.nodes_named(vec![*second], &card.place),
+                primary: self.nodes_named(vec![*first], &card.place),
+            };
+            let mut contact = self.contact(sides, &card.place);
+            contact.method = Method::NodeToNode.into();
+            contact.normals = Normals::Given(normal);
+            contact.pairs = Pairs::Order;
+            contact.start.clearance = Some(clearance);
+            contact.per = Some(Per::Node);
+            let stiffness = if stiffness > 0.0 { stiffness } else { GAP };
+            contact.enforcement = match self.compat {
+                Compat::None => Enforcement::Lagrange,
+                Compat::Ccx => Enforcement::Penalty(Some(stiffness.into())),
+            };
+            if self.compat == Compat::None {
+                contact.per = None;
+            }
+            self.case.contacts.push(contact);
+        }
+    }
+
+    /// *MODEL CHANGE within a step.
+    pub fn model_change(&mut self, card: &Statement, step: &mut Step) {
+        let kind = card.get("TYPE").map(compared).unwrap_or_default();
+        if kind != "CONTACTPAIR" {
+            let text = format!("*MODEL CHANGE, TYPE={kind} is not supported");
+            self.error(
+                &codes::NOT_BUILT,
+                text,
+                &card.place,
+                "of contact pairs it is",
+            );
+            return;
+        }
+        let active = !card.has("REMOVE");
+        for row in card.rows() {
+            let Some(sides) = self.sides(card, &row) else {
+                continue;
+            };
+            let pairs = self.case.contacts.iter();
+            let mut pairs =
+                pairs.filter(|c| c.secondary == sides.secondary && c.primary == sides.primary);
+            let Some(name) = pairs.next().map(|contact| contact.name.value.clone()) else {
+                let text = "*MODEL CHANGE of surfaces that are no contact pair";
+                self.error(&codes::UNDEFINED, text, &card.place, "");
+                continue;
+            };
+            self.change(step, &name, &card.place).active = Some(active);
+        }
+    }
+
+    /// *CHANGE FRICTION within a step: the friction that follows, for every pair of an interaction.
+    pub fn change_friction(&mut self, of: &Statement, to: &Statement, step: &mut Step) {
+        let Some(wanted) = self.need(of, "INTERACTION").map(compared) else {
+            return;
+        };
+        let given = self.friction(to);
+        let friction = self.rubbing(given);
+        let mut contacts = self.case.contacts.iter();
+        let mut names = Vec::new();
+        for card in self.cards("CONTACTPAIR") {
+            let npair = card.rows().count();
+            let of_card = contacts.by_ref().take(npair).map(|c| c.name.value.clone());
+            let is_meant = card.get("INTERACTION").map(compared).as_deref() == Some(&wanted);
+            names.extend(of_card.filter(|_| is_meant));
+        }
+        for name in names {
+            self.change(step, &name, &of.place).friction = Some(friction.clone());
+        }
+    }
+
+    fn change<'s>(&self, step: &'s mut Step, name: &str, place: &Place) -> &'s mut ContactChange {
+        let known = step
+            .contacts
+            .iter()
+            .position(|change| change.name.value == name);
+        let at = known.unwrap_or_else(|| {
+            step.contacts.push(ContactChange {
+                name: Spanned::new(name.to_owned(), place.clone()),
+                active: None,
+                friction: None,
+                place: place.clone(),
+            });
+            step.contacts.len() - 1
+        });
+        &mut step.contacts[at]
+    }
+
+    /// The contact of two surfaces, for printed tables.
+    pub fn contact_of(&self, secondary: &Name, primary: &Name) -> Option<Name> {
+        let mut contacts = self.case.contacts.iter();
+        let found = contacts.find(|c| c.secondary == *secondary && c.primary == *primary);
+        found.map(|contact| contact.name.clone())
+    }
+}

@@ -1,0 +1,184 @@
+//! What becomes of every keyword.
+
+/// What becomes of a keyword.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Support {
+    /// It is read.
+    Read,
+    /// It changes no result here: left out, with a note.
+    Ignored,
+    /// It would change results: an error.
+    Refused,
+}
+
+/// A keyword of a deck.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Keyword {
+    /// In capitals, with its blanks.
+    pub name: &'static str,
+    /// What becomes of it.
+    pub support: Support,
+    /// What of it is read, or why it is not.
+    pub remark: &'static str,
+}
+
+const fn read(name: &'static str, remark: &'static str) -> Keyword {
+    Keyword {
+        name,
+        support: Support::Read,
+        remark,
+    }
+}
+
+const fn ignored(name: &'static str, remark: &'static str) -> Keyword {
+    Keyword {
+        name,
+        support: Support::Ignored,
+        remark,
+    }
+}
+
+const fn refused(name: &'static str, remark: &'static str) -> Keyword {
+    Keyword {
+        name,
+        support: Support::Refused,
+        remark,
+    }
+}
+
+/// Every keyword that is known, in the order of the alphabet.
+pub const KEYWORDS: &[Keyword] = &[
+    read(
+        "AMPLITUDE",
+        "NAME, TIME=TOTAL TIME; linear between its rows",
+    ),
+    read("ASSEMBLY", "with END ASSEMBLY"),
+    refused("BEAM SECTION", "beams are not built"),
+    read(
+        "BOUNDARY",
+        "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED",
+    ),
+    read("CHANGE FRICTION", "with FRICTION"),
+    refused(
+        "CHANGE SURFACE BEHAVIOR",
+        "a law of contact holds for the whole run",
+    ),
+    read("CLEARANCE", "MASTER, SLAVE, VALUE"),
+    read(
+        "CLOAD",
+        "forces at nodes, moments at rigid bodies; AMPLITUDE, OP",
+    ),
+    read("CONTACT PAIR", "TYPE, SMALL SLIDING, ADJUST by a tolerance"),
+    ignored("CONTACT CONTROLS", "contact needs no controls here"),
+    ignored("CONTACT FILE", "all fields of contact are written anyway"),
+    ignored("CONTACT OUTPUT", "all fields of contact are written anyway"),
+    read("CONTACT PRINT", "CDIS, CSTR, CELS, CNUM, CF, CFN, CFS"),
+    ignored(
+        "CONTROLS",
+        "increments and iterations have controls of their own",
+    ),
+    read("COUPLING", "with KINEMATIC or DISTRIBUTING, of surfaces"),
+    refused("CREEP", "creep is not built"),
+    refused("CYCLIC SYMMETRY MODEL", "cyclic symmetry is not built"),
+    read("DENSITY", "constant"),
+    read("DISTRIBUTING", "with COUPLING"),
+    read("DLOAD", "P and P1 to P6, GRAV, CENTRIF; AMPLITUDE, OP"),
+    read("DSLOAD", "P; AMPLITUDE, OP"),
+    refused("DYNAMIC", "only static steps are built"),
+    ignored("EL FILE", "all fields are written anyway"),
+    read(
+        "EL PRINT",
+        "S, E, ME, PEEQ, ENER, ELSE, EVOL; TOTALS, FREQUENCY",
+    ),
+    read(
+        "ELASTIC",
+        "isotropic, ENGINEERING CONSTANTS, ORTHO; one temperature",
+    ),
+    read("ELEMENT", "solids in space and in the plane"),
+    ignored("ELEMENT OUTPUT", "all fields are written anyway"),
+    read("ELSET", "GENERATE"),
+    ignored("END ASSEMBLY", ""),
+    read("END STEP", ""),
+    read("EQUATION", "of displacements"),
+    read("EXPANSION", "isotropic, constant; ZERO"),
+    refused("FREQUENCY", "only static steps are built"),
+    read(
+        "FRICTION",
+        "a coefficient, and a stick slope with --compat ccx",
+    ),
+    read("GAP", "of GAPUNI"),
+    refused("HEAT TRANSFER", "temperatures are given, not solved for"),
+    read("HEADING", "the title"),
+    read("HYPERELASTIC", "NEO HOOKE"),
+    read("INCLUDE", "INPUT"),
+    read("INITIAL CONDITIONS", "TYPE=TEMPERATURE, one for all nodes"),
+    read("INSTANCE", "moved and turned"),
+    read("KINEMATIC", "with COUPLING"),
+    read("MATERIAL", ""),
+    refused("MEMBRANE SECTION", "membranes are not built"),
+    read("MODEL CHANGE", "TYPE=CONTACT PAIR, ADD and REMOVE"),
+    refused(
+        "MPC",
+        "only equations, couplings and rigid bodies are built",
+    ),
+    read("NODE", "SYSTEM"),
+    ignored("NODE FILE", "all fields are written anyway"),
+    ignored("NODE OUTPUT", "all fields are written anyway"),
+    read("NODE PRINT", "U, RF, NT; TOTALS, FREQUENCY"),
+    read("NSET", "GENERATE, ELSET"),
+    read("ORIENTATION", "rectangular"),
+    ignored("OUTPUT", "all fields are written anyway"),
+    read("PART", ""),
+    read(
+        "PLASTIC",
+        "isotropic, KINEMATIC with one slope; one temperature",
+    ),
+    ignored("PREPRINT", "nothing is printed beforehand"),
+    refused("PRE-TENSION SECTION", "pre-tension is not built"),
+    ignored(
+        "RESTART",
+        "checkpoints are written anyway: signorini resume",
+    ),
+    read("RIGID BODY", "NSET, REF NODE, ROT NODE"),
+    refused("SECTION PRINT", "resultants of sections are not built"),
+    refused("SHELL SECTION", "shells are not built"),
+    read(
+        "SOLID SECTION",
+        "ELSET, MATERIAL, ORIENTATION, thickness in the plane",
+    ),
+    refused("SPRING", "springs of decks are not built"),
+    read("STATIC", "DIRECT"),
+    read("STEP", "NLGEOM, INC, AMPLITUDE"),
+    read("SURFACE", "TYPE=ELEMENT, NODE"),
+    read(
+        "SURFACE BEHAVIOR",
+        "HARD, LINEAR, EXPONENTIAL, TABULAR, TIED",
+    ),
+    read("SURFACE INTERACTION", ""),
+    read("TEMPERATURE", "of node sets"),
+    read("TIE", "POSITION TOLERANCE, ADJUST"),
+    ignored("TIME POINTS", "results are written after every increment"),
+    read("TRANSFORM", "TYPE=R, C"),
+    refused("VISCO", "only static steps are built"),
+];
+
+impl Keyword {
+    /// Its name as cards are compared: without blanks.
+    fn key(&self) -> impl Iterator<Item = u8> {
+        self.name.bytes().filter(|b| *b != b' ')
+    }
+
+    /// The keyword that a card in capitals and without blanks begins with, the longest one: CalculiX reads
+    /// `*STATICxyz` as `*STATIC`.
+    #[must_use]
+    pub fn of(card: &str) -> Option<&'static Self> {
+        let fits = |one: &&'static Self| {
+            let mut written = card.bytes();
+            one.key().all(|b| written.next() == Some(b))
+        };
+        KEYWORDS
+            .iter()
+            .filter(fits)
+            .max_by_key(|one| one.key().count())
+    }
+}

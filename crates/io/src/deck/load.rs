@@ -1,0 +1,371 @@
+//! Loads.
+//!
+//! Within a step, loads on one node or face add up; a step that names it again replaces what earlier steps left there.
+//! Nodes and faces that bear the same are one load of the case; where some of them change, the load ends and others
+//! begin: a load that fades and one that grows are together the straight line from the old to the new.
+
+use super::constraint::unit;
+use super::step::global;
+use super::translation::{Target, Translation};
+use crate::case::{Course, Load, LoadKind, Name, Step};
+use crate::diagnostic::{Place, Spanned, codes};
+use crate::readers::inp::{Field, Kind, Statement};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Where something acts.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Where {
+    /// Along a degree of freedom of a node.
+    Node(u64, usize),
+    /// On a reference: a force, or a moment.
+    Reference(String, bool, usize),
+    /// On a side of an element.
+    Side(u64, u8),
+    /// On a surface.
+    Surface(String),
+    /// On all mass of an element set, by a line that no other one is like.
+    Mass(Target, String),
+}
+
+/// What acts there.
+#[derive(Clone, Debug, PartialEq)]
+struct What {
+    kind: LoadKind,
+    amplitude: Option<Name>,
+    place: Place,
+}
+
+/// A load of the case.
+#[derive(Clone, Debug)]
+struct Group {
+    name: Name,
+    on: Name,
+    members: BTreeSet<Where>,
+    what: What,
+}
+
+/// What acts at the present step, and the loads it has been made into.
+#[derive(Default)]
+pub(super) struct Loads {
+    acting: BTreeMap<Where, What>,
+    /// What the present step has named already.
+    named: BTreeSet<Where>,
+    groups: Vec<Group>,
+}
+
+impl Loads {
+    /// Adds to what the step has put there; takes the place of what earlier steps have.
+    fn put(&mut self, at: Where, what: What) {
+        let first = self.named.insert(at.clone());
+        match self.acting.get_mut(&at) {
+            Some(acting) if !first && acting.amplitude == what.amplitude => {
+                acting.kind = sum(&acting.kind, &what.kind);
+            }
+            _ => {
+                self.acting.insert(at, what);
+            }
+        }
+    }
+
+    /// Takes back all that cards of a kind have put there in earlier steps.
+    fn clear(&mut self, of: fn(&Where) -> bool) {
+        let named = &self.named;
+        self.acting.retain(|at, _| !of(at) || named.contains(at));
+    }
+}
+
+fn is_concentrated(at: &Where) -> bool {
+    matches!(at, Where::Node(..) | Where::Reference(..))
+}
+
+fn is_distributed(at: &Where) -> bool {
+    matches!(at, Where::Side(..) | Where::Mass(..))
+}
+
+fn is_on_surface(at: &Where) -> bool {
+    matches!(at, Where::Surface(_))
+}
+
+/// Two loads of one kind together.
+fn sum(a: &LoadKind, b: &LoadKind) -> LoadKind {
+    let add = |a: &[f64; 3], b: &[f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
+    match (a, b) {
+        (LoadKind::PerNode(a), LoadKind::PerNode(b)) => LoadKind::PerNode(add(a, b)),
+        (LoadKind::Force(a), LoadKind::Force(b)) => LoadKind::Force(add(a, b)),
+        (LoadKind::Moment(a), LoadKind::Moment(b)) => LoadKind::Moment(add(a, b)),
+        (LoadKind::Gravity(a), LoadKind::Gravity(b)) => LoadKind::Gravity(add(a, b)),
+        (LoadKind::Pressure(a), LoadKind::Pressure(b)) => LoadKind::Pressure(a + b),
+        _ => b.clone(),
+    }
+}
+
+/// The same kind of load, of nothing.
+fn nothing(of: &LoadKind) -> LoadKind {
+    match of {
+        LoadKind::PerNode(_) => LoadKind::PerNode([0.0; 3]),
+        LoadKind::Force(_) => LoadKind::Force([0.0; 3]),
+        LoadKind::Moment(_) => LoadKind::Moment([0.0; 3]),
+        LoadKind::Gravity(_) => LoadKind::Gravity([0.0; 3]),
+        LoadKind::Centrifugal { point, axis, .. } => LoadKind::Centrifugal {
+            speed: 0.0,
+            point: *point,
+            axis: *axis,
+        },
+        LoadKind::Pressure(_) => LoadKind::Pressure(0.0),
+        other => other.clone(),
+    }
+}
+
+impl Translation<'_> {
+    /// What a card adds to the loads.
+    pub fn load(&mut self, card: &Statement, renews: bool, loads: &mut Loads) {
+        let amplitude = self.amplitude(card);
+        if renews {
+            loads.clear(match card.keyword.as_str() {
+                "CLOAD" => is_concentrated,
+                "DSLOAD" => is_on_surface,
+                _ => is_distributed,
+            });
+        }
+        for row in card.rows() {
+            let place = row.first().map_or(card.place.clone(), Field::place);
+            let what = |kind| What {
+                kind,
+                amplitude: amplitude.clone(),
+                place: place.clone(),
+            };
+            match card.keyword.as_str() {
+                "CLOAD" => {
+                    for (at, kind) in self.concentrated(card, &row) {
+                        loads.put(at, what(kind));
+                    }
+                }
+                "DSLOAD" => {
+                    let Some(first) = row.first() else { continue };
+                    let Some(on) = self.set(card, first.text, &place, Kind::Surface) else {
+                        continue;
+                    };
+                    if row.get(1).is_some_and(|label| label.key() != "P") {
+                        let text = "*DSLOAD has only pressures P here";
+                        self.error(&codes::NOT_BUILT, text, &place, "");
+                        continue;
+                    }
+                    let pressure = self.real(row.get(2));
+                    loads.put(Where::Surface(on.value), what(LoadKind::Pressure(pressure)));
+                }
+                _ => {
+                    for (at, kind) in self.distributed(card, &row) {
+                        loads.put(at, what(kind));
+                    }
+                }
+            }
+        }
+    }
+
+    /// A line of *CLOAD.
+    fn concentrated(&mut self, card: &Statement, row: &[Field<'_>]) -> Vec<(Where, LoadKind)> {
+        let targets = self.targets(card, row.first(), Kind::Nodes);
+        let place = row.first().map_or(card.place.clone(), Field::place);
+        let dof = self.count(row.get(1), 0) as usize;
+        let value = self.real(row.get(2));
+        if !(1..=6).contains(&dof) {
+            let text = format!("there is no force along degree of freedom {dof}");
+            self.error(&codes::OUT_OF_RANGE, text, &place, "1 to 6");
+            return Vec::new();
+        }
+        let axis = (dof - 1) % 3;
+        let mut all = Vec::new();
+        for label in targets.iter().flat_map(|target| self.labels(target)) {
+            if let Some(carrier) = self.carriers.get(&label) {
+                let vector = (unit(axis) * value).to_array();
+                let turns = carrier.turns || dof > 3;
+                let kind = if turns {
+                    LoadKind::Moment(vector)
+                } else {
+                    LoadKind::Force(vector)
+                };
+                all.push((Where::Reference(carrier.name.clone(), turns, axis), kind));
+            } else if dof > 3 {
+                let text = format!("node {label} bears no moment");
+                self.error(
+                    &codes::WRONG_KIND,
+                    text,
+                    &place,
+                    "name the node of a rigid body",
+                );
+                break;
+            } else {
+                let direction = match self.axes.get(&label) {
+                    Some(axes) => global(axes, axis, value),
+                    None => unit(axis) * value,
+                };
+                let kind = LoadKind::PerNode(direction.to_array());
+                all.push((Where::Node(label, axis), kind));
+            }
+        }
+        all
+    }
+
+    /// A line of *DLOAD.
+    fn distributed(&mut self, card: &Statement, row: &[Field<'_>]) -> Vec<(Where, LoadKind)> {
+        let targets = self.targets(card, row.first(), Kind::Elements);
+        let place = row.first().map_or(card.place.clone(), Field::place);
+        let label = row.get(1).map(Field::key).unwrap_or_default();
+        let [value, x, y, z, a, b, c] = self.reals(row.get(2..).unwrap_or_default());
+        let mass = |target: &Target| Where::Mass(target.clone(), format!("{label} {x} {y} {z}"));
+        let on_mass = |kind: LoadKind| -> Vec<(Where, LoadKind)> {
+            targets
+                .iter()
+                .map(|target| (mass(target), kind.clone()))
+                .collect()
+        };
+        match label.as_str() {
+            "GRAV" => {
+                let direction = signorini_geometry::tensor::Vec3::new(x, y, z).normalized();
+                let Some(direction) = direction else {
+                    let text = "GRAV has no direction";
+                    self.error(&codes::OUT_OF_RANGE, text, &place, "GRAV, g, nx, ny, nz");
+                    return Vec::new();
+                };
+                on_mass(LoadKind::Gravity((direction * value).to_array()))
+            }
+            "CENTRIF" => {
+                if value < 0.0 {
+                    let text = "CENTRIF has the square of the speed, which is not negative";
+                    self.error(&codes::OUT_OF_RANGE, text, &place, "");
+                    return Vec::new();
+                }
+                on_mass(LoadKind::Centrifugal {
+                    speed: value.sqrt(),
+                    point: [x, y, z],
+                    axis: [a, b, c],
+                })
+            }
+            pressure => {
+                let side = pressure
+                    .strip_prefix('P')
+                    .and_then(|side| side.parse::<u8>().ok());
+                let Some(side) = side.filter(|side| *side > 0) else {
+                    let text = format!("*DLOAD has no load `{label}` here");
+                    let remark = "P1 to P6, GRAV and CENTRIF are read";
+                    self.error(&codes::NOT_BUILT, text, &place, remark);
+                    return Vec::new();
+                };
+                let elements = targets.iter().flat_map(|target| self.elements(target));
+                let at = |element| (Where::Side(element, side), LoadKind::Pressure(value));
+                elements.map(at).collect()
+            }
+        }
+    }
+
+    /// Writes what has changed since the step before into a step.
+    pub fn write_loads(&mut self, loads: &mut Loads, sudden: bool, step: &mut Step) {
+        loads.named.clear();
+        let mut left: BTreeMap<Where, What> = loads.acting.clone();
+        let mut ended = Vec::new();
+        loads.groups.retain(|group| {
+            let stays = group
+                .members
+                .iter()
+                .all(|at| left.get(at) == Some(&group.what));
+            if stays {
+                for at in &group.members {
+                    left.remove(at);
+                }
+            } else {
+                ended.push(group.clone());
+            }
+            stays
+        });
+        let mut fresh: Vec<(BTreeSet<Where>, What)> = Vec::new();
+        for (at, what) in left {
+            let alike = |(members, known): &&mut (BTreeSet<Where>, What)| {
+                *known == what && members.first().is_some_and(|one| goes_with(one, &at))
+            };
+            match fresh.iter_mut().rev().find(alike) {
+                Some((members, _)) => {
+                    members.insert(at);
+                }
+                None => fresh.push((BTreeSet::from([at]), what)),
+            }
+        }
+        for (members, what) in fresh {
+            let before = ended.iter().position(|group| group.members == members);
+            let group = match before.map(|at| ended.swap_remove(at)) {
+                Some(group) => Group { what, ..group },
+                None => {
+                    let name = self.fresh("load");
+                    Group {
+                        name: Spanned::new(name, what.place.clone()),
+                        on: self.members_named(&members, &what.place),
+                        members,
+                        what,
+                    }
+                }
+            };
+            step.loads.push(load_of(&group, sudden, step.duration));
+            loads.groups.push(group);
+        }
+        for mut group in ended {
+            group.what.kind = nothing(&group.what.kind);
+            group.what.amplitude = None;
+            step.loads.push(load_of(&group, sudden, step.duration));
+        }
+    }
+
+    fn members_named(&mut self, members: &BTreeSet<Where>, place: &Place) -> Name {
+        let named = |name: &str| Spanned::new(name.to_owned(), place.clone());
+        match members.first() {
+            Some(Where::Reference(name, ..) | Where::Surface(name)) => named(name),
+            Some(Where::Mass(Target::Set(name), _)) => named(name),
+            Some(Where::Mass(Target::One(element), _)) => {
+                self.elements_named(vec![*element], place)
+            }
+            Some(Where::Side(..)) => {
+                let sides = members.iter().filter_map(|at| match at {
+                    Where::Side(element, side) => Some((*element, *side)),
+                    _ => None,
+                });
+                self.sides_named(sides.collect(), place)
+            }
+            _ => {
+                let nodes = members.iter().filter_map(|at| match at {
+                    Where::Node(label, _) => Some(*label),
+                    _ => None,
+                });
+                self.nodes_named(nodes.collect(), place)
+            }
+        }
+    }
+}
+
+/// Whether two may be one load.
+fn goes_with(a: &Where, b: &Where) -> bool {
+    match (a, b) {
+        (Where::Node(_, a), Where::Node(_, b)) => a == b,
+        (Where::Side(..), Where::Side(..)) => true,
+        _ => false,
+    }
+}
+
+fn load_of(group: &Group, sudden: bool, duration: f64) -> Load {
+    let What {
+        kind,
+        amplitude,
+        place,
+    } = group.what.clone();
+    Load {
+        name: Some(group.name.clone()),
+        on: group.on.clone(),
+        kind,
+        what: place.clone(),
+        follows: None,
+        coupling: None,
+        course: match amplitude {
+            Some(name) => Course::Amplitude(name),
+            None if sudden => Course::Table(vec![[0.0, 1.0], [duration, 1.0]]),
+            None => Course::Ramp,
+        },
+        place,
+    }
+}

@@ -1,0 +1,89 @@
+//! Decks of Abaqus and CalculiX as cases: what their cards mean in our words.
+//!
+//! ```text
+//! bytes ──readers::inp──▶ Mesh, statements ──▶ Case
+//!                                  model       materials, sections, amplitudes
+//!                                  constraint  equations, local axes, rigid bodies, couplings
+//!                                  contact     interactions, pairs, ties, gaps
+//!                                  step        supports, loads, temperatures, changes, printed tables
+//! ```
+//!
+//! The model section is free in its order: every stage looks for its cards in the whole of it. A name means what it
+//! means in the mesh; a single node, or the nodes of several lines that say the same, become a set of the case. What
+//! a card says and the program does not know is an error with its line, never left out in silence; what does no harm is
+//! named once in a note. [`KEYWORDS`] tells which is which.
+//!
+//! Two programs, one deck: [`Compat`] says whose laws of contact hold.
+//!
+//! Source: CalculiX CrunchiX User's Manual, chapter 7; Abaqus Keywords Reference Guide.
+//!
+//! To add a card: one line in [`KEYWORDS`], and its translation in the stage where it belongs.
+
+mod constraint;
+mod contact;
+mod keywords;
+mod load;
+mod model;
+mod print;
+mod step;
+#[cfg(test)]
+mod tests;
+mod translation;
+
+pub use keywords::{KEYWORDS, Keyword, Support};
+
+use crate::case::Case;
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
+use crate::fs::Fs;
+use crate::readers::inp;
+use signorini_geometry::mesh::Mesh;
+use translation::Translation;
+
+/// Whose laws hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Compat {
+    /// Ours: contact by the best method there is; a penalty that stands for a hard contact is not taken.
+    #[default]
+    None,
+    /// Those of CalculiX, as the deck states them.
+    Ccx,
+}
+
+/// A deck that was read.
+#[derive(Clone, Debug)]
+pub struct Read {
+    /// What it asks for; its mesh is the deck itself.
+    pub case: Case,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// Warnings and notes.
+    pub found: Diagnostics,
+}
+
+/// Reads a deck. `name` is its path, to which files that it includes are relative.
+///
+/// # Errors
+/// The first fault of its mesh; else all faults of its other cards at once, each with its line.
+pub fn read(fs: &dyn Fs, name: &str, bytes: &[u8], compat: Compat) -> Result<Read, Diagnostics> {
+    let deck = inp::read_deck(fs, name, bytes)
+        .map_err(|error| Diagnostic::error(&codes::BAD_MESH, error.to_string()))?;
+    let mut translation = Translation::new(&deck, name, compat);
+    translation.model();
+    translation.constraints();
+    translation.contacts();
+    translation.steps();
+    translation.judge();
+    let (case, mut found) = (translation.case, translation.found);
+    if found.has_errors() {
+        found.sort_by_place();
+        return Err(found);
+    }
+    for note in deck.notes {
+        found.push(Diagnostic::new(Severity::Note, &codes::MESH_NOTE, note));
+    }
+    Ok(Read {
+        case,
+        mesh: deck.mesh,
+        found,
+    })
+}

@@ -1,0 +1,609 @@
+//! Steps: their time, supports and motions.
+//!
+//! What *BOUNDARY prescribes is the displacement at the end of the step, reached in a straight line from where the node
+//! is. Zero is a support where nothing was moved before, a motion to zero elsewhere. Along local axes, three components
+//! make a vector; fewer are equations, which hold for the whole run.
+
+use super::constraint::along;
+use super::load::Loads;
+use super::model::compared;
+use super::translation::{Target, Translation};
+use crate::case::{
+    ConstraintKind, Directions, Fix, Free, Geometry, Increments, Motion, Move, Name, Position,
+    Reference, Step, Summand,
+};
+use crate::diagnostic::{Diagnostic, Place, Severity, Spanned, codes};
+use crate::readers::inp::{Field, Kind, Statement};
+use signorini_geometry::tensor::Vec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The course of a component.
+#[derive(Clone, Debug, PartialEq)]
+enum Course {
+    /// Stays where it is.
+    Stay,
+    /// Reaches a value.
+    To(f64, Option<Name>),
+}
+
+/// A line of *BOUNDARY, or several that differ in their nodes alone.
+struct Line {
+    targets: Vec<Target>,
+    /// Components, from 0.
+    components: Vec<usize>,
+    course: Course,
+    place: Place,
+}
+
+/// What earlier steps leave behind.
+#[derive(Default)]
+pub(super) struct Standing {
+    /// Components that are prescribed, and whether they have ever been moved.
+    held: BTreeMap<(Target, usize), bool>,
+    /// Local components of nodes that equations hold.
+    local: BTreeSet<(u64, usize)>,
+    nonlinear: bool,
+    pub loads: Loads,
+}
+
+impl Translation<'_> {
+    pub fn steps(&mut self) {
+        let deck = self.deck;
+        let mut standing = Standing::default();
+        let mut inside: Option<Vec<&Statement>> = None;
+        let mut steps: Vec<Vec<&Statement>> = Vec::new();
+        for card in &deck.statements {
+            match card.keyword.as_str() {
+                "STEP" => {
+                    steps.extend(inside.take());
+                    inside = Some(vec![card]);
+                }
+                "ENDSTEP" => steps.extend(inside.take()),
+                _ => {
+                    if let Some(cards) = &mut inside {
+                        cards.push(card);
+                    }
+                }
+            }
+        }
+        steps.extend(inside);
+        if steps.is_empty() {
+            let text = "the deck has no step: there is nothing to solve";
+            let help = "write *STEP, *STATIC, *END STEP; or read its mesh in a case of your own";
+            self.found
+                .push(Diagnostic::error(&codes::MISSING, text).help(help));
+        }
+        for (number, cards) in steps.into_iter().enumerate() {
+            let step = self.step(number, &cards, &mut standing);
+            self.case.steps.push(step);
+        }
+    }
+
+    fn step(&mut self, number: usize, cards: &[&Statement], standing: &mut Standing) -> Step {
+        let head = cards.first().copied();
+        let place = head.map_or_else(Place::nowhere, |card| card.place.clone());
+        let name = self.fresh(&format!("step-{}", number + 1));
+        if let Some(nonlinear) = head.and_then(|card| card.get("NLGEOM")) {
+            standing.nonlinear = compared(nonlinear) != "NO";
+        }
+        if head.is_some_and(|card| card.has("PERTURBATION")) {
+            let text = "*STEP, PERTURBATION is not supported";
+            self.error(&codes::NOT_BUILT, text, &place, "");
+        }
+        let mut step = Step {
+            name: Spanned::new(name, place.clone()),
+            geometry: if standing.nonlinear {
+                Geometry::Nonlinear
+            } else {
+                Geometry::Linear
+            },
+            duration: 1.0,
+            increments: Increments::Count(1),
+            fixes: Vec::new(),
+            moves: Vec::new(),
+            frees: Vec::new(),
+            loads: Vec::new(),
+            contacts: Vec::new(),
+            temperatures: Vec::new(),
+            prints: None,
+            place,
+        };
+        self.time(cards, &mut step);
+        let mut lines = Vec::new();
+        if number == 0 {
+            for card in self.cards("BOUNDARY") {
+                self.boundary(card, &mut lines);
+            }
+        }
+        let sudden = head.and_then(|card| card.get("AMPLITUDE")).map(compared);
+        let sudden = sudden.as_deref() == Some("STEP");
+        let mut fresh = BTreeSet::new();
+        let mut change_of = None;
+        for card in cards {
+            // the first card of a kind may take back what earlier steps have prescribed
+            let first = fresh.insert(card.keyword.as_str());
+            let renews = first && card.get("OP").map(compared).as_deref() == Some("NEW");
+            match card.keyword.as_str() {
+                "BOUNDARY" => {
+                    if renews {
+                        self.release(standing, &mut step, &card.place);
+                    }
+                    self.boundary(card, &mut lines);
+                }
+                "CLOAD" | "DLOAD" | "DSLOAD" => {
+                    self.load(card, renews, &mut standing.loads);
+                }
+                "TEMPERATURE" => self.temperatures(card, &mut step),
+                "MODELCHANGE" => self.model_change(card, &mut step),
+                "CHANGEFRICTION" => change_of = Some(*card),
+                "FRICTION" => {
+                    if let Some(of) = change_of.take() {
+                        self.change_friction(of, card, &mut step);
+                    }
+                }
+                "NODEPRINT" | "ELPRINT" | "CONTACTPRINT" => self.print(card, &mut step),
+                _ => {}
+            }
+        }
+        self.write_loads(&mut standing.loads, sudden, &mut step);
+        self.prescribe(lines, number, sudden, standing, &mut step);
+        step
+    }
+
+    fn time(&mut self, cards: &[&Statement], step: &mut Step) {
+        let procedures = ["STATIC"];
+        let Some(card) = cards
+            .iter()
+            .find(|c| procedures.contains(&c.keyword.as_str()))
+        else {
+            let known = ["DYNAMIC", "FREQUENCY", "HEATTRANSFER", "VISCO"];
+            // those are told of by their keyword
+            if !cards
+                .iter()
+                .any(|c| known.iter().any(|k| c.keyword.starts_with(k)))
+            {
+                let text = "this step has no procedure";
+                self.error(&codes::MISSING, text, &step.place, "write *STATIC");
+            }
+            return;
+        };
+        let row = card.rows().next().unwrap_or_default();
+        let [initial, period, least, most]: [f64; 4] = self.reals(&row);
+        let or = |value: f64, default: f64| if value > 0.0 { value } else { default };
+        step.duration = or(period, 1.0);
+        let initial = or(initial, step.duration).min(step.duration);
+        let limit = cards.first().and_then(|head| head.get("INC")).map(compared);
+        let limit = limit.and_then(|text| text.parse().ok()).unwrap_or(100);
+        step.increments = if card.has("DIRECT") {
+            let count = (step.duration / initial).round().clamp(1.0, 1e6);
+            if (count * initial - step.duration).abs() > 1e-6 * step.duration {
+                self.warn(
+                    format!("{count} equal increments"),
+                    &card.place,
+                    "the increment is no whole part of the step",
+                );
+            }
+            Increments::Fixed(count as u64)
+        } else {
+            Increments::Adaptive {
+                initial,
+                min: or(least, (1e-6 * step.duration).min(initial)).min(initial),
+                max: or(most, step.duration).max(initial),
+                count_max: limit,
+            }
+        };
+    }
+
+    /// The lines of a card, those together that differ in single nodes alone.
+    fn boundary(&mut self, card: &Statement, lines: &mut Vec<Line>) {
+        let kind = card.get("TYPE").map(compared).unwrap_or_default();
+        if !["", "DISPLACEMENT"].contains(&kind.as_str())
+            || card.has("SUBMODEL")
+            || card.has("USER")
+        {
+            let text = "*BOUNDARY of this type is not supported";
+            self.error(&codes::NOT_BUILT, text, &card.place, "displacements are");
+            return;
+        }
+        let amplitude = self.amplitude(card);
+        for row in card.rows() {
+            let targets = self.targets(card, row.first(), Kind::Nodes);
+            let place = row.first().map_or(card.place.clone(), Field::place);
+            let (components, value) = match row.get(1).and_then(words) {
+                Some(components) => (components.to_vec(), 0.0),
+                None => {
+                    let first = self.count(row.get(1), 0);
+                    let last = self.count(row.get(2), first);
+                    let Some(components) = components(first, last) else {
+                        if !(first == 11 || first == 8) {
+                            let text = format!("there are no degrees of freedom {first} to {last}");
+                            self.error(&codes::OUT_OF_RANGE, text, &place, "1 to 6");
+                        }
+                        continue;
+                    };
+                    (components, self.real(row.get(3)))
+                }
+            };
+            let course = if card.has("FIXED") {
+                Course::Stay
+            } else {
+                Course::To(value, amplitude.clone().filter(|_| value != 0.0))
+            };
+            let single = targets
+                .iter()
+                .all(|target| matches!(target, Target::One(_)));
+            match lines.last_mut() {
+                Some(last)
+                    if single
+                        && last.components == components
+                        && last.course == course
+                        && last.targets.iter().all(|t| matches!(t, Target::One(_))) =>
+                {
+                    last.targets.extend(targets);
+                }
+                _ => lines.push(Line {
+                    targets,
+                    components,
+                    course,
+                    place,
+                }),
+            }
+        }
+    }
+
+    /// Sets everything free that earlier steps have prescribed.
+    fn release(&mut self, standing: &mut Standing, step: &mut Step, place: &Place) {
+        if !standing.local.is_empty() {
+            let text = "*BOUNDARY, OP=NEW where nodes are held along local axes is not supported";
+            self.error(&codes::NOT_BUILT, text, place, "");
+        }
+        let mut by_target: BTreeMap<Target, Vec<usize>> = BTreeMap::new();
+        for (target, component) in std::mem::take(&mut standing.held).into_keys() {
+            by_target.entry(target).or_default().push(component);
+        }
+        for (target, components) in by_target {
+            let (on, components) = self.carried(&[target], &components, place);
+            let (u, rot) = directions(&components);
+            step.frees.push(Free {
+                on,
+                u,
+                rot,
+                place: place.clone(),
+            });
+        }
+    }
+
+    /// What carries these targets, and the components that are meant of it.
+    fn carried(
+        &mut self,
+        targets: &[Target],
+        components: &[usize],
+        place: &Place,
+    ) -> (Name, Vec<usize>) {
+        if let [target] = targets
+            && let [label] = self.labels(target).as_slice()
+            && let Some(carrier) = self.carriers.get(label)
+        {
+            let shift = if carrier.turns { 3 } else { 0 };
+            let name = Spanned::new(carrier.name.clone(), place.clone());
+            return (name, components.iter().map(|c| c + shift).collect());
+        }
+        (self.named(targets, place), components.to_vec())
+    }
+
+    fn prescribe(
+        &mut self,
+        lines: Vec<Line>,
+        number: usize,
+        sudden: bool,
+        standing: &mut Standing,
+        step: &mut Step,
+    ) {
+        let mut local: BTreeMap<u64, [Option<(Course, Place)>; 3]> = BTreeMap::new();
+        for line in lines {
+            let turned = |this: &Self, target: &Target| {
+                this.labels(target)
+                    .iter()
+                    .any(|label| this.axes.contains_key(label))
+            };
+            let (turned, plain): (Vec<_>, Vec<_>) = line
+                .targets
+                .iter()
+                .cloned()
+                .partition(|target| turned(self, target));
+            let labels = turned.iter().flat_map(|target| self.labels(target));
+            let (labels, others): (Vec<u64>, Vec<u64>) =
+                labels.partition(|label| self.axes.contains_key(label));
+            for label in labels {
+                let of_node = local.entry(label).or_default();
+                for &component in line.components.iter().filter(|c| **c < 3) {
+                    of_node[component] = Some((line.course.clone(), line.place.clone()));
+                }
+            }
+            let mut targets = plain;
+            targets.extend(others.into_iter().map(Target::One));
+            // references are named one by one
+            let (carriers, nodes): (Vec<_>, Vec<_>) = targets.into_iter().partition(|target| {
+                matches!(self.labels(target).as_slice(), [one] if self.carriers.contains_key(one))
+            });
+            for carrier in carriers {
+                self.set_course(&[carrier], &line, number, sudden, standing, step);
+            }
+            if !nodes.is_empty() {
+                self.set_course(&nodes, &line, number, sudden, standing, step);
+            }
+        }
+        for (label, components) in local {
+            self.set_local(label, components, sudden, standing, step);
+        }
+    }
+
+    /// One support or motion of everything that a line names.
+    fn set_course(
+        &mut self,
+        targets: &[Target],
+        line: &Line,
+        number: usize,
+        sudden: bool,
+        standing: &mut Standing,
+        step: &mut Step,
+    ) {
+        let ndim = self.ndim();
+        let (on, components) = self.carried(targets, &line.components, &line.place);
+        let is_node = components == line.components;
+        // nodes of a plane model have no third displacement, and nodes no rotations
+        let is_there =
+            |c: &usize| *c < ndim || (*c >= 3 && !is_node) || (*c >= 3 && self.is_carrier(targets));
+        let components: Vec<usize> = components.iter().copied().filter(is_there).collect();
+        if components.is_empty() {
+            return;
+        }
+        let keys = || {
+            targets
+                .iter()
+                .flat_map(|t| line.components.iter().map(|c| (t.clone(), *c)))
+        };
+        let stays = match &line.course {
+            Course::Stay => true,
+            Course::To(value, _) => {
+                let untouched = |key: &(Target, usize)| standing.held.get(key) == Some(&false);
+                *value == 0.0 && (number == 0 || keys().all(|key| untouched(&key)))
+            }
+        };
+        for key in keys() {
+            let moved = standing.held.entry(key).or_default();
+            *moved |= !stays;
+        }
+        if stays {
+            let (u, rot) = directions(&components);
+            step.fixes.push(Fix {
+                on,
+                u,
+                rot,
+                place: line.place.clone(),
+            });
+        } else if let Course::To(value, amplitude) = &line.course {
+            let course = motion(*value, amplitude.as_ref(), sudden, step.duration);
+            let mut part = Move {
+                on,
+                u: Default::default(),
+                rot: Default::default(),
+                place: line.place.clone(),
+            };
+            for component in components {
+                let slots = part.u.iter_mut().chain(&mut part.rot);
+                if let Some(slot) = slots.into_iter().nth(component) {
+                    *slot = Some(course.clone());
+                }
+            }
+            step.moves.push(part);
+        }
+    }
+
+    fn is_carrier(&self, targets: &[Target]) -> bool {
+        matches!(targets, [one] if matches!(self.labels(one).as_slice(), [l] if self.carriers.contains_key(l)))
+    }
+
+    /// What is prescribed along the local axes of a node.
+    fn set_local(
+        &mut self,
+        label: u64,
+        components: [Option<(Course, Place)>; 3],
+        sudden: bool,
+        standing: &mut Standing,
+        step: &mut Step,
+    ) {
+        let Some(axes) = self.axes.get(&label).copied() else {
+            return;
+        };
+        let ndim = self.ndim();
+        let given = || components.iter().flatten();
+        let Some(place) = given().next().map(|(_, place)| place.clone()) else {
+            return;
+        };
+        let values: Vec<Option<f64>> = (components.iter())
+            .map(|one| match one {
+                Some((Course::To(value, None), _)) => Some(*value),
+                _ => None,
+            })
+            .collect();
+        let on = self.nodes_named(vec![label], &place);
+        if let [Some(a), Some(b), Some(c)] = values[..] {
+            let u = (axes.0[0] * a + axes.0[1] * b + axes.0[2] * c).to_array();
+            let key = |c| (Target::One(label), c);
+            let moved = u != [0.0; 3] || (0..3).any(|c| standing.held.get(&key(c)) == Some(&true));
+            for component in 0..3 {
+                standing.held.insert(key(component), moved);
+            }
+            if moved {
+                let course = |axis: usize| {
+                    (axis < ndim).then(|| motion(u[axis], None, sudden, step.duration))
+                };
+                step.moves.push(Move {
+                    on,
+                    u: [course(0), course(1), course(2)],
+                    rot: Default::default(),
+                    place,
+                });
+            } else {
+                step.fixes.push(Fix {
+                    on,
+                    u: Directions {
+                        xyz: [true, true, ndim == 3],
+                    },
+                    rot: Directions::default(),
+                    place,
+                });
+            }
+            return;
+        }
+        for (axis, (component, axes)) in components.into_iter().zip(axes.0).enumerate() {
+            let Some((course, place)) = component else {
+                continue;
+            };
+            let Course::To(value, amplitude) = course else {
+                // what an equation holds stays where it is
+                if !standing.local.contains(&(label, axis)) {
+                    let text =
+                        "*BOUNDARY, FIXED along local axes that nothing held is not supported";
+                    self.error(&codes::NOT_BUILT, text, &place, "");
+                }
+                continue;
+            };
+            let mut terms = along(on.clone(), axes, 1.0, ndim);
+            let again = !standing.local.insert((label, axis));
+            if value != 0.0 || again {
+                self.local_motion(
+                    label, axis, value, amplitude, &mut terms, &place, sudden, step,
+                );
+            }
+            if !again {
+                self.constrain(ConstraintKind::Equation { terms, rhs: 0.0 }, &place);
+            }
+        }
+    }
+
+    /// A motion along a local axis: that of a reference which the equation names.
+    #[expect(clippy::too_many_arguments, reason = "one place of use")]
+    fn local_motion(
+        &mut self,
+        label: u64,
+        axis: usize,
+        value: f64,
+        amplitude: Option<Name>,
+        terms: &mut Vec<Summand>,
+        place: &Place,
+        sudden: bool,
+        step: &mut Step,
+    ) {
+        let wanted = format!("motion-{label}-{}", axis + 1);
+        let known = self
+            .case
+            .references
+            .iter()
+            .any(|one| one.name.value == wanted);
+        if known || step.place.text().is_none() && terms.is_empty() {
+            step.moves.push(along_x(
+                &wanted,
+                motion(value, amplitude.as_ref(), sudden, step.duration),
+                place,
+            ));
+            return;
+        }
+        let name = self.fresh(&wanted);
+        let on = Spanned::new(name.clone(), place.clone());
+        self.case.references.push(Reference {
+            name: on.clone(),
+            position: Position::Node(label),
+            place: place.clone(),
+        });
+        terms.push(Summand {
+            on,
+            component: Spanned::new(0, place.clone()),
+            coefficient: -1.0,
+        });
+        let course = motion(value, amplitude.as_ref(), sudden, step.duration);
+        step.moves.push(along_x(&name, course, place));
+    }
+
+    fn temperatures(&mut self, card: &Statement, step: &mut Step) {
+        if card.has("AMPLITUDE") || card.has("FILE") {
+            let text = "*TEMPERATURE with AMPLITUDE or FILE is not supported";
+            self.error(&codes::NOT_BUILT, text, &card.place, "");
+            return;
+        }
+        for row in card.rows() {
+            let targets = self.targets(card, row.first(), Kind::Nodes);
+            let value = self.real(row.get(1));
+            if targets.is_empty() {
+                continue;
+            }
+            let on = self.named(&targets, &card.place);
+            step.temperatures.push(crate::case::Temperature {
+                on,
+                value,
+                place: card.place.clone(),
+            });
+        }
+    }
+
+    /// Tells once that something is left out.
+    pub fn note(&mut self, text: impl Into<String>, place: &Place) {
+        let note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text.into());
+        self.found.push(note.at(place, ""));
+    }
+}
+
+fn along_x(reference: &str, course: Motion, place: &Place) -> Move {
+    Move {
+        on: Spanned::new(reference.to_owned(), place.clone()),
+        u: [Some(course), None, None],
+        rot: Default::default(),
+        place: place.clone(),
+    }
+}
+
+fn motion(value: f64, amplitude: Option<&Name>, sudden: bool, duration: f64) -> Motion {
+    match amplitude {
+        Some(name) => Motion::Amplitude {
+            name: name.clone(),
+            value,
+        },
+        None if sudden => Motion::Table(vec![[0.0, value], [duration, value]]),
+        None => Motion::Ramp(value),
+    }
+}
+
+/// Displacements and rotations among components from 0 to 5.
+fn directions(components: &[usize]) -> (Directions, Directions) {
+    let of = |first: usize| Directions {
+        xyz: std::array::from_fn(|axis| components.contains(&(first + axis))),
+    };
+    (of(0), of(3))
+}
+
+/// Components from 0, of degrees of freedom from 1 to 6.
+fn components(first: u64, last: u64) -> Option<Vec<usize>> {
+    let meant = first >= 1 && last >= first && last <= 6;
+    meant.then(|| (first as usize - 1..last as usize).collect())
+}
+
+/// The words of Abaqus for supports.
+fn words(field: &Field<'_>) -> Option<&'static [usize]> {
+    Some(match field.key().as_str() {
+        "ENCASTRE" => &[0, 1, 2, 3, 4, 5],
+        "PINNED" => &[0, 1, 2],
+        "XSYMM" => &[0, 4, 5],
+        "YSYMM" => &[1, 3, 5],
+        "ZSYMM" => &[2, 3, 4],
+        "XASYMM" => &[1, 2, 3],
+        "YASYMM" => &[0, 2, 4],
+        "ZASYMM" => &[0, 1, 5],
+        _ => return None,
+    })
+}
+
+/// A vector of a local system in the global one.
+pub(super) fn global(axes: &super::constraint::Axes, axis: usize, value: f64) -> Vec3 {
+    axes.0.get(axis).map_or(Vec3::ZERO, |e| *e * value)
+}

@@ -1,0 +1,250 @@
+use super::*;
+use crate::case::{
+    Body, ConstraintKind, Enforcement, Integration, Interference, LoadKind, Locking, Method,
+    Motion, SetContent, Space,
+};
+use crate::fs::RealFs;
+
+/// A cube with an element of this type, and more cards.
+fn cube(kind: &str, cards: &str) -> String {
+    format!(
+        "*NODE, NSET=ALL\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n\
+         *ELEMENT, TYPE={kind}, ELSET=CUBE\n1,1,2,3,4,5,6,7,8\n*NSET, NSET=TOP\n5,6,7,8\n\
+         *NSET, NSET=BASE\n1,2,3,4\n*SURFACE, NAME=LID\nCUBE, S2\n*SURFACE, NAME=SOLE\nCUBE, S1\n\
+         *MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=CUBE, MATERIAL=M\n{cards}"
+    )
+}
+
+const STEP: &str = "*STEP\n*STATIC\n*CLOAD\nTOP, 3, 1.\n*END STEP\n";
+
+fn translated(text: &str, compat: Compat) -> Result<Read, Diagnostics> {
+    read(&RealFs, "job.inp", text.as_bytes(), compat)
+}
+
+fn case(text: &str) -> Case {
+    let read = translated(text, Compat::None);
+    read.unwrap_or_else(|found| panic!("{}", found.plain()))
+        .case
+}
+
+fn refused(text: &str) -> String {
+    translated(text, Compat::None).unwrap_err().plain()
+}
+
+#[test]
+fn keywords_are_known_once_and_by_their_beginning() {
+    let mut names: Vec<&str> = KEYWORDS.iter().map(|one| one.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), KEYWORDS.len());
+    assert_eq!(Keyword::of("STATICXYZ").map(|one| one.name), Some("STATIC"));
+    assert_eq!(
+        Keyword::of("NODEPRINT").map(|one| one.name),
+        Some("NODE PRINT")
+    );
+    assert_eq!(Keyword::of("NODE").map(|one| one.name), Some("NODE"));
+    assert_eq!(Keyword::of("NOSUCHCARD"), None);
+}
+
+#[test]
+fn types_of_elements_say_how_they_are_integrated() {
+    let body = |kind: &str| -> Body { case(&cube(kind, STEP)).bodies[0].clone() };
+    let of = |kind: &str| (body(kind).integration, body(kind).locking.value);
+    assert_eq!(of("C3D8"), (Integration::Full, Locking::None));
+    assert_eq!(of("C3D8I"), (Integration::Full, Locking::Incompatible));
+    assert_eq!(of("C3D8R"), (Integration::Full, Locking::Auto));
+    assert_eq!(case(&cube("C3D8", STEP)).model.space.value, Space::ThreeD);
+}
+
+#[test]
+fn supports_in_the_first_step_hold_and_motions_ramp() {
+    let cards = format!(
+        "*BOUNDARY\nBASE, 1, 3\n{}",
+        STEP.replace(
+            "*CLOAD\nTOP, 3, 1.",
+            "*BOUNDARY\n5,3,3,0.1\n6,3,3,0.1\n7,1,2"
+        )
+    );
+    let case = case(&cube("C3D8", &cards));
+    let step = &case.steps[0];
+    assert_eq!(step.fixes.len(), 2);
+    assert_eq!(step.fixes[0].on.value, "BASE");
+    assert_eq!(step.fixes[0].u.xyz, [true; 3]);
+    // lines of single nodes that say the same are one set
+    assert_eq!(step.moves.len(), 1);
+    assert_eq!(step.moves[0].u, [None, None, Some(Motion::Ramp(0.1))]);
+    let set = case
+        .sets
+        .iter()
+        .find(|set| set.name == step.moves[0].on)
+        .unwrap();
+    assert_eq!(set.content, SetContent::Nodes(vec![5, 6]));
+}
+
+#[test]
+fn what_is_released_is_free_and_what_is_held_again_goes_back() {
+    let steps = "*BOUNDARY\nBASE, 1, 3\n*STEP\n*STATIC\n*BOUNDARY\nTOP, 3, 3, 0.1\n*END STEP\n\
+                 *STEP\n*STATIC\n*BOUNDARY, OP=NEW\nBASE, 1, 3\n*CLOAD\n5, 3, 1.\n*END STEP\n\
+                 *STEP\n*STATIC\n*BOUNDARY\nTOP, 3, 3\n*END STEP\n";
+    let case = case(&cube("C3D8", steps));
+    let free: Vec<&str> = case.steps[1]
+        .frees
+        .iter()
+        .map(|f| f.on.value.as_str())
+        .collect();
+    assert_eq!(free, ["BASE", "TOP"]);
+    // BASE was set free and is taken back to zero
+    assert_eq!(case.steps[1].moves.len(), 1);
+    assert_eq!(case.steps[2].moves[0].u[2], Some(Motion::Ramp(0.0)));
+}
+
+#[test]
+fn loads_of_a_step_add_up_and_later_ones_replace_them() {
+    let steps = "*STEP\n*STATIC\n*CLOAD\nTOP, 3, 1.\n5, 3, 10.\n*DLOAD\nCUBE, P2, 1.\nCUBE, P2, 2.\n*END STEP\n\
+                 *STEP\n*STATIC\n*CLOAD\n5, 3, 2.\n*END STEP\n*STEP\n*STATIC\n*DLOAD, OP=NEW\n*END STEP\n";
+    let case = case(&cube("C3D8", steps));
+    let kinds = |step: usize| -> Vec<LoadKind> {
+        case.steps[step]
+            .loads
+            .iter()
+            .map(|load| load.kind.clone())
+            .collect()
+    };
+    let up = |f: f64| LoadKind::PerNode([0.0, 0.0, f]);
+    assert_eq!(kinds(0), [up(11.0), up(1.0), LoadKind::Pressure(3.0)]);
+    assert_eq!(kinds(1), [up(2.0)]);
+    assert_eq!(case.steps[1].loads[0].name, case.steps[0].loads[0].name);
+    assert_eq!(kinds(2), [LoadKind::Pressure(0.0)]);
+}
+
+#[test]
+fn local_axes_turn_loads_and_make_equations() {
+    let cards = "*TRANSFORM, NSET=TOP, TYPE=R\n0.,1.,0., -1.,0.,0.\n*STEP\n*STATIC\n\
+                 *BOUNDARY\n5, 1, 1\n*CLOAD\n6, 1, 2.\n*END STEP\n";
+    let case = case(&cube("C3D8", cards));
+    assert_eq!(
+        case.steps[0].loads[0].kind,
+        LoadKind::PerNode([0.0, 2.0, 0.0])
+    );
+    let ConstraintKind::Equation { terms, rhs } = &case.constraints[0].kind else {
+        panic!("{:?}", case.constraints);
+    };
+    assert_eq!((terms.len(), *rhs), (1, 0.0));
+    assert_eq!((terms[0].component.value, terms[0].coefficient), (1, 1.0));
+}
+
+#[test]
+fn laws_of_contact_are_ours_or_those_of_the_deck() {
+    let cards = format!(
+        "*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e6, 1.\n*FRICTION\n0.2, 500.\n\
+         *CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE, ADJUST=0.01\nLID, SOLE\n{STEP}"
+    );
+    let text = cube("C3D8", &cards);
+    let ours = case(&text).contacts.remove(0);
+    assert_eq!(
+        (ours.method.value, ours.enforcement),
+        (Method::Auto, Enforcement::Auto)
+    );
+    assert_eq!(ours.start.close_gaps_below, 0.01);
+    assert_eq!(ours.start.interference, Interference::Step);
+    assert_eq!(ours.friction.unwrap().stick, None);
+    let theirs = translated(&text, Compat::Ccx)
+        .unwrap()
+        .case
+        .contacts
+        .remove(0);
+    assert_eq!(theirs.method.value, Method::GaussPoint);
+    assert_eq!(theirs.enforcement, Enforcement::Penalty(Some(1e6.into())));
+    assert_eq!(
+        theirs.friction.unwrap().stick,
+        Some(crate::case::Stick::Stiffness(500.0))
+    );
+}
+
+#[test]
+fn stiffnesses_of_an_orthotropic_law_become_its_moduli() {
+    // isotropic, E = 1000 and nu = 0.25: lambda = mu = 400
+    let ortho = "*ELASTIC, TYPE=ORTHO\n1200.,400.,1200.,400.,400.,1200.,400.,400.\n400.\n";
+    let text = cube("C3D8", STEP).replace("*ELASTIC\n1000., 0.3\n", ortho);
+    let material = &case(&text).materials[0];
+    for (name, value) in [
+        ("E1", 1000.0),
+        ("E3", 1000.0),
+        ("nu13", 0.25),
+        ("G23", 400.0),
+    ] {
+        let found = material.number(name).unwrap();
+        assert!((found / value - 1.0).abs() < 1e-12, "{name}: {found}");
+    }
+}
+
+#[test]
+fn faults_are_told_with_their_lines() {
+    for (text, said) in [
+        (cube("C3D8", ""), "the deck has no step"),
+        (
+            cube("C3D8", &STEP.replace("TOP, 3", "TPO, 3")),
+            "did you mean TOP?",
+        ),
+        (
+            cube("C3D8", &STEP.replace("TOP, 3", "99, 3")),
+            "there is no node 99",
+        ),
+        (
+            cube("C3D8", &STEP.replace("3, 1.", "3, one")),
+            "`one` stands where a number should",
+        ),
+        (
+            cube("C3D8", &STEP.replace("*STATIC", "*STATTIC")),
+            "did you mean *STATIC?",
+        ),
+        (
+            cube("C3D8", &format!("*MPC\nPLANE,1,2,3\n{STEP}")),
+            "*MPC is not supported",
+        ),
+        (
+            cube("C3D8", &format!("*TIE, NAME=T\nLID, SOL\n{STEP}")),
+            "there is no surface `SOL`",
+        ),
+        (
+            cube("C3D8", STEP).replace("MATERIAL=M\n", "MATERIAL=N\n"),
+            "there is no material `N`",
+        ),
+        (
+            cube("C3D8", &STEP.replace("*STATIC\n", "")),
+            "this step has no procedure",
+        ),
+    ] {
+        let found = refused(&text);
+        assert!(found.contains(said), "{said}: {found}");
+        assert!(
+            said.contains("no step") || found.contains("job.inp:"),
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn all_faults_of_a_deck_are_told_at_once() {
+    let cards = STEP.replace("TOP, 3, 1.", "TPO, 3, 1.\n99, 1, 1.\nTOP, 9, 1.");
+    let found = translated(&cube("C3D8", &cards), Compat::None).unwrap_err();
+    assert_eq!(found.len(), 3, "{}", found.plain());
+}
+
+#[test]
+fn what_is_left_out_is_named_once() {
+    let text = cube(
+        "C3D8",
+        &STEP.replace(
+            "*END STEP",
+            "*NODE FILE\nU\n*EL FILE\nS\n*NODE FILE\nRF\n*END STEP",
+        ),
+    );
+    let found = translated(&text, Compat::None).unwrap().found.plain();
+    assert_eq!(
+        found.matches("*NODE FILE is left out").count(),
+        1,
+        "{found}"
+    );
+    assert_eq!(found.matches("*EL FILE is left out").count(), 1, "{found}");
+}

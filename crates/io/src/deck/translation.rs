@@ -1,0 +1,373 @@
+//! What all stages of the translation share: the deck, the case so far, names, messages.
+
+use super::keywords::{Keyword, Support};
+use super::{Compat, constraint, model};
+use crate::case::{Case, MeshSource, Name, Set, SetContent, Side, Space};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
+use crate::diagnostic::{closest, listed};
+use crate::readers::inp::{Deck, Field, Kind, Statement};
+use signorini_geometry::mesh::{CellId, Face, NodeId};
+use signorini_geometry::tensor::Vec3;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// What a line of a card is about: a set of the mesh, or a single node or element by its number in the mesh.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Target {
+    Set(String),
+    One(u64),
+}
+
+/// A translation under way.
+pub(super) struct Translation<'d> {
+    pub deck: &'d Deck,
+    pub compat: Compat,
+    pub case: Case,
+    pub found: Diagnostics,
+    /// Local axes of nodes, by their numbers.
+    pub axes: BTreeMap<u64, constraint::Axes>,
+    /// References that nodes stand for, by their numbers.
+    pub carriers: BTreeMap<u64, constraint::Carrier>,
+    pub materials: BTreeMap<String, model::Properties>,
+    nodes: HashMap<u64, NodeId>,
+    cells: HashMap<u64, CellId>,
+    taken: BTreeSet<String>,
+    /// Sets of nodes of the case, by the numbers in them.
+    sets: BTreeMap<Vec<u64>, String>,
+    /// The outer faces of the mesh, once somebody asks.
+    pub outer: Option<Vec<Face>>,
+    /// Sets of faces that stand for surfaces of nodes.
+    pub faced: BTreeMap<String, String>,
+}
+
+impl<'d> Translation<'d> {
+    pub fn new(deck: &'d Deck, name: &str, compat: Compat) -> Self {
+        let mesh = &deck.mesh;
+        let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+        let mut case = Case::empty();
+        case.mesh = MeshSource::File {
+            path: file.to_owned().into(),
+        };
+        let labels = mesh.node_labels.iter().zip(0..);
+        let cells = mesh.cells(mesh.dim());
+        Self {
+            deck,
+            compat,
+            case,
+            found: Diagnostics::new(),
+            axes: BTreeMap::new(),
+            carriers: BTreeMap::new(),
+            materials: BTreeMap::new(),
+            nodes: labels.map(|(&label, node)| (label, node)).collect(),
+            cells: cells
+                .filter_map(|cell| Some((mesh.cell_label(cell)?, cell)))
+                .collect(),
+            taken: mesh.sets.keys().cloned().collect(),
+            sets: BTreeMap::new(),
+            outer: None,
+            faced: BTreeMap::new(),
+        }
+    }
+
+    /// The cards of the model section with one of these keywords.
+    pub fn cards(&self, keyword: &'static str) -> impl Iterator<Item = &'d Statement> + use<'d> {
+        let mut inside = false;
+        self.deck.statements.iter().filter(move |card| {
+            inside |= card.keyword == "STEP";
+            let here = !inside && card.keyword == keyword;
+            inside &= card.keyword != "ENDSTEP";
+            here
+        })
+    }
+
+    /// Names cards that are left out, and refuses those that are not built or not known.
+    pub fn judge(&mut self) {
+        let mut told = BTreeSet::new();
+        for card in &self.deck.statements {
+            match Keyword::of(&card.keyword) {
+                Some(known) if known.support == Support::Read => {}
+                Some(known) if known.support == Support::Ignored => {
+                    if !known.remark.is_empty() && told.insert(known.name) {
+                        let text = format!("*{} is left out: {}", known.name, known.remark);
+                        let note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text);
+                        self.found.push(note.at(&card.place, ""));
+                    }
+                }
+                Some(known) => {
+                    let text = format!("*{} is not supported: {}", known.name, known.remark);
+                    self.error(&codes::NOT_BUILT, text, &card.place, "");
+                }
+                None => {
+                    if told.insert(&card.keyword) {
+                        let names = super::KEYWORDS.iter().map(|one| one.name);
+                        let meant = closest(&card.keyword, names);
+                        let remark = meant.map_or(String::new(), |m| format!("did you mean *{m}?"));
+                        let text = format!("there is no keyword *{}", card.keyword);
+                        self.error(&codes::UNKNOWN_KEY, text, &card.place, remark);
+                    }
+                }
+            }
+        }
+    }
+
+    pub fn error(
+        &mut self,
+        code: &'static Code,
+        message: impl Into<String>,
+        place: &Place,
+        remark: impl Into<String>,
+    ) {
+        let one = Diagnostic::error(code, message).at(place, remark);
+        self.found.push(one);
+    }
+
+    pub fn warn(&mut self, message: impl Into<String>, place: &Place, remark: impl Into<String>) {
+        let one = Diagnostic::warning(&codes::UNUSUAL, message).at(place, remark);
+        self.found.push(one);
+    }
+
+    /// The value of a parameter that must be there.
+    pub fn need<'s>(&mut self, card: &'s Statement, parameter: &str) -> Option<&'s str> {
+        let value = card.get(parameter).filter(|value| !value.is_empty());
+        if value.is_none() {
+            let text = format!("*{} has no {parameter}", card.keyword);
+            self.error(&codes::MISSING, text, &card.place, "");
+        }
+        value
+    }
+
+    /// A number in a field; zero where the field is empty.
+    pub fn real(&mut self, field: Option<&Field<'_>>) -> f64 {
+        let Some(field) = field.filter(|field| !field.text.is_empty()) else {
+            return 0.0;
+        };
+        field.real().unwrap_or_else(|| {
+            self.not_a_number(field, "a number");
+            0.0
+        })
+    }
+
+    /// A whole number in a field; `default` where the field is empty.
+    pub fn count(&mut self, field: Option<&Field<'_>>, default: u64) -> u64 {
+        let Some(field) = field.filter(|field| !field.text.is_empty()) else {
+            return default;
+        };
+        field.whole().unwrap_or_else(|| {
+            self.not_a_number(field, "a whole number");
+            default
+        })
+    }
+
+    fn not_a_number(&mut self, field: &Field<'_>, wanted: &str) {
+        let shown: String = field.text.chars().take(40).collect();
+        let text = format!("`{shown}` stands where {wanted} should");
+        self.error(&codes::NOT_A_NUMBER, text, &field.place(), "");
+    }
+
+    /// As many numbers as there are fields, `N` at most; zero for those that are not there.
+    pub fn reals<const N: usize>(&mut self, fields: &[Field<'_>]) -> [f64; N] {
+        std::array::from_fn(|i| self.real(fields.get(i)))
+    }
+
+    /// What a field names, in all spaces that the card speaks of.
+    pub fn targets(
+        &mut self,
+        card: &Statement,
+        field: Option<&Field<'_>>,
+        kind: Kind,
+    ) -> Vec<Target> {
+        let Some(field) = field.filter(|field| !field.text.is_empty()) else {
+            let text = format!("a line of *{} names nothing", card.keyword);
+            self.error(&codes::MISSING, text, &card.place, "");
+            return Vec::new();
+        };
+        let directory = &self.deck.directory;
+        let mut targets = Vec::new();
+        for &space in directory.spaces(card.scope) {
+            if let Some(label) = directory.label(space, kind, field.text) {
+                let known = match kind {
+                    Kind::Nodes => self.nodes.contains_key(&label),
+                    _ => self.cells.contains_key(&label),
+                };
+                if known {
+                    targets.push(Target::One(label));
+                }
+            } else if let Some(name) = directory.set(space, kind, field.text) {
+                targets.push(Target::Set(name.to_owned()));
+            }
+        }
+        if targets.is_empty() {
+            self.unknown(card, field, kind);
+        }
+        targets
+    }
+
+    /// The set that a parameter or field names, where it stands for one thing.
+    pub fn set(&mut self, card: &Statement, name: &str, place: &Place, kind: Kind) -> Option<Name> {
+        let directory = &self.deck.directory;
+        let found = (directory.spaces(card.scope).iter())
+            .find_map(|&space| directory.set(space, kind, name));
+        if let Some(name) = found {
+            return Some(Spanned::new(name.to_owned(), place.clone()));
+        }
+        self.undefined(card, name, place, kind);
+        None
+    }
+
+    fn unknown(&mut self, card: &Statement, field: &Field<'_>, kind: Kind) {
+        if field.whole().is_some() {
+            let what = if kind == Kind::Nodes {
+                "node"
+            } else {
+                "element"
+            };
+            let text = format!("there is no {what} {} in the mesh", field.text);
+            self.error(&codes::NOT_IN_MESH, text, &field.place(), "");
+        } else {
+            self.undefined(card, field.text, &field.place(), kind);
+        }
+    }
+
+    fn undefined(&mut self, card: &Statement, name: &str, place: &Place, kind: Kind) {
+        let what = match kind {
+            Kind::Nodes => "node set",
+            Kind::Elements => "element set",
+            Kind::Surface => "surface",
+        };
+        let directory = &self.deck.directory;
+        let spaces = directory.spaces(card.scope).iter();
+        let known: Vec<&str> = spaces
+            .flat_map(|&space| directory.known(space, kind))
+            .collect();
+        let shown: String = name.chars().take(80).collect();
+        let meant = closest(&shown, known.iter().copied());
+        let remark = meant.map_or(String::new(), |meant| format!("did you mean {meant}?"));
+        let mut one =
+            Diagnostic::error(&codes::NOT_IN_MESH, format!("there is no {what} `{shown}`"))
+                .at(place, remark);
+        if !known.is_empty() {
+            one = one.note(format!("{what}s: {}", listed(known.into_iter().take(20))));
+        }
+        self.found.push(one);
+    }
+
+    /// The numbers of the nodes of a target, in order.
+    pub fn labels(&self, target: &Target) -> Vec<u64> {
+        match target {
+            Target::One(label) => vec![*label],
+            Target::Set(name) => {
+                let mesh = &self.deck.mesh;
+                let nodes = mesh.sets.get(name).map(|set| mesh.nodes_of(set));
+                let nodes = nodes.unwrap_or_default().into_iter();
+                nodes
+                    .filter_map(|node| mesh.node_labels.get(node as usize).copied())
+                    .collect()
+            }
+        }
+    }
+
+    /// The numbers of the elements of a target, in order.
+    pub fn elements(&self, target: &Target) -> Vec<u64> {
+        match target {
+            Target::One(label) => vec![*label],
+            Target::Set(name) => {
+                let mesh = &self.deck.mesh;
+                let cells = mesh.sets.get(name).map_or(&[][..], |set| &set.cells);
+                cells
+                    .iter()
+                    .filter_map(|&cell| mesh.cell_label(cell))
+                    .collect()
+            }
+        }
+    }
+
+    /// Where a node is.
+    pub fn point(&self, label: u64) -> Option<Vec3> {
+        let node = *self.nodes.get(&label)?;
+        self.deck.mesh.points.get(node as usize).copied()
+    }
+
+    /// The element of this number.
+    pub fn cell(&self, label: u64) -> Option<CellId> {
+        self.cells.get(&label).copied()
+    }
+
+    /// The type of a cell as the deck calls it.
+    pub fn type_of(&self, cell: CellId) -> &'d str {
+        let (names, types) = self.deck.directory.types();
+        let number = types
+            .get(cell.block as usize)
+            .and_then(|t| t.get(cell.index as usize));
+        let name = number.and_then(|&number| names.get(number as usize));
+        name.map_or("", String::as_str)
+    }
+
+    pub fn ndim(&self) -> usize {
+        self.case.model.space.value.ndim()
+    }
+
+    pub fn is_plane(&self) -> bool {
+        self.case.model.space.value != Space::ThreeD
+    }
+
+    /// A name that nothing has: `wanted`, or with a number behind.
+    pub fn fresh(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        let mut number = 1;
+        while !self.taken.insert(name.clone()) {
+            number += 1;
+            name = format!("{wanted}-{number}");
+        }
+        name
+    }
+
+    /// The name of all these targets together.
+    pub fn named(&mut self, targets: &[Target], place: &Place) -> Name {
+        if let [Target::Set(name)] = targets {
+            return Spanned::new(name.clone(), place.clone());
+        }
+        let mut labels: Vec<u64> = targets
+            .iter()
+            .flat_map(|target| self.labels(target))
+            .collect();
+        labels.sort_unstable();
+        labels.dedup();
+        self.nodes_named(labels, place)
+    }
+
+    /// The name of a set of these nodes.
+    pub fn nodes_named(&mut self, labels: Vec<u64>, place: &Place) -> Name {
+        if let Some(name) = self.sets.get(&labels) {
+            return Spanned::new(name.clone(), place.clone());
+        }
+        let name = match labels.as_slice() {
+            [one] => self.fresh(&format!("node-{one}")),
+            _ => self.fresh("nodes"),
+        };
+        self.sets.insert(labels.clone(), name.clone());
+        self.add_set(name, SetContent::Nodes(labels), place)
+    }
+
+    /// The name of a set of sides of elements.
+    pub fn sides_named(&mut self, sides: Vec<(u64, u8)>, place: &Place) -> Name {
+        let name = self.fresh("sides");
+        let sides = sides.into_iter();
+        let content = sides.map(|(element, side)| (element, Side::Numbered(side)));
+        self.add_set(name, SetContent::Faces(content.collect()), place)
+    }
+
+    /// The name of a set of elements.
+    pub fn elements_named(&mut self, elements: Vec<u64>, place: &Place) -> Name {
+        let name = self.fresh("elements");
+        self.add_set(name, SetContent::Elements(elements), place)
+    }
+
+    fn add_set(&mut self, name: String, content: SetContent, place: &Place) -> Name {
+        let name = Spanned::new(name, place.clone());
+        self.case.sets.push(Set {
+            name: name.clone(),
+            content,
+            place: place.clone(),
+        });
+        name
+    }
+}

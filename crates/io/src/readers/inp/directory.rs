@@ -1,0 +1,140 @@
+//! What names and numbers of a deck are called in its mesh.
+
+use super::card::key;
+use super::deck::Family;
+use std::collections::BTreeMap;
+
+/// What a name in a deck is a name of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A set of nodes.
+    Nodes,
+    /// A set of elements.
+    Elements,
+    /// A surface.
+    Surface,
+}
+
+impl From<Kind> for Family {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Nodes => Self::Nodes,
+            Kind::Elements => Self::Cells,
+            Kind::Surface => Self::Faces,
+        }
+    }
+}
+
+/// Nodes, elements and sets whose numbers and names stand for themselves: the deck, or an instance.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Names {
+    /// What numbers of nodes and of elements are more than in the deck.
+    pub shift: [u64; 2],
+    /// Names of sets in the mesh, by what they are compared by.
+    pub sets: [BTreeMap<String, String>; 3],
+    /// Numbers of elements that are no cells, by the element sets that hold them.
+    pub special: BTreeMap<String, Vec<u64>>,
+}
+
+/// An element that is no cell of a mesh: a spring, a gap, a mass.
+#[derive(Clone, Debug)]
+pub struct Special {
+    /// Its type, in capitals.
+    pub kind: String,
+    /// Its number in the mesh.
+    pub label: u64,
+    /// The numbers of its nodes in the mesh.
+    pub nodes: Vec<u64>,
+}
+
+/// What names and numbers of a deck are called in its mesh.
+///
+/// A *space* is the deck itself, number 0, or one of its instances; a statement in a part speaks of all its instances.
+#[derive(Clone, Debug, Default)]
+pub struct Directory {
+    pub(super) spaces: Vec<Names>,
+    pub(super) instances: BTreeMap<String, usize>,
+    /// The spaces of each scope of the deck.
+    pub(super) scopes: Vec<Vec<usize>>,
+    /// The type of each cell, in capitals, by block and cell.
+    pub(super) types: Vec<Vec<u32>>,
+    pub(super) type_names: Vec<String>,
+    /// Elements that are no cells.
+    pub(super) special: Vec<Special>,
+}
+
+impl Directory {
+    /// The spaces that a scope of the deck stands for.
+    #[must_use]
+    pub fn spaces(&self, scope: usize) -> &[usize] {
+        self.scopes.get(scope).map_or(&[], Vec::as_slice)
+    }
+
+    /// The space and the rest of a name such as `part-1.top`, as the assembly writes it.
+    fn qualified<'n>(&self, space: usize, name: &'n str) -> Option<(usize, &'n str)> {
+        name.match_indices('.').find_map(|(dot, _)| {
+            let (instance, rest) = name.split_at_checked(dot)?;
+            let within = self.instances.get(&key(instance)).filter(|_| space == 0)?;
+            Some((*within, rest.strip_prefix('.')?))
+        })
+    }
+
+    /// The name in the mesh of a set that a space calls `name`.
+    #[must_use]
+    pub fn set(&self, space: usize, kind: Kind, name: &str) -> Option<&str> {
+        let name = name.trim_matches('"');
+        let of = |space: usize, name: &str| {
+            let sets = self
+                .spaces
+                .get(space)?
+                .sets
+                .get(Family::from(kind) as usize)?;
+            sets.get(&key(name)).map(String::as_str)
+        };
+        of(space, name).or_else(|| {
+            let (within, rest) = self.qualified(space, name)?;
+            of(within, rest)
+        })
+    }
+
+    /// The names in the mesh of all sets of a kind that a space knows, for messages.
+    #[must_use]
+    pub fn known(&self, space: usize, kind: Kind) -> Vec<&str> {
+        let sets = (self.spaces.get(space)).and_then(|s| s.sets.get(Family::from(kind) as usize));
+        sets.map_or(Vec::new(), |sets| {
+            sets.values().map(String::as_str).collect()
+        })
+    }
+
+    /// The number in the mesh of a node or an element that a space calls so: `12`, or `part-1.12`.
+    #[must_use]
+    pub fn label(&self, space: usize, kind: Kind, name: &str) -> Option<u64> {
+        let of = |space: usize, number: &str| {
+            let shift = self.spaces.get(space)?.shift;
+            let shift = shift[usize::from(kind != Kind::Nodes)];
+            super::card::whole(number.as_bytes())?.checked_add(shift)
+        };
+        of(space, name).or_else(|| {
+            let (within, rest) = self.qualified(space, name)?;
+            of(within, rest)
+        })
+    }
+
+    /// The types of elements, in capitals, and the type of each cell, by block and cell.
+    #[must_use]
+    pub fn types(&self) -> (&[String], &[Vec<u32>]) {
+        (&self.type_names, &self.types)
+    }
+
+    /// The elements that are no cells, of an element set.
+    pub fn special(&self, space: usize, name: &str) -> impl Iterator<Item = &Special> {
+        let of = self
+            .spaces
+            .get(space)
+            .and_then(|s| s.special.get(&key(name)));
+        let labels = of.map_or(&[][..], Vec::as_slice);
+        self.special
+            .iter()
+            .filter(move |one| labels.contains(&one.label))
+    }
+}

@@ -1,0 +1,159 @@
+//! Cards that say something else than the mesh: kept with their data, and with the places of both.
+
+use super::card::{Card, Fields, key, real, text, whole};
+use super::lines::{Lines, Spot};
+use crate::diagnostic::{Place, SourceFile};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A card with its data lines.
+#[derive(Clone, Debug)]
+pub struct Statement {
+    /// In capitals, without star and blanks.
+    pub keyword: String,
+    /// Where the card stands.
+    pub place: Place,
+    /// The spaces whose numbers and names it means: see [`super::Directory`].
+    pub scope: usize,
+    parameters: Vec<(String, String)>,
+    rows: Vec<Row>,
+}
+
+/// A data line.
+#[derive(Clone, Debug)]
+struct Row {
+    file: Arc<SourceFile>,
+    line: Range<usize>,
+}
+
+/// A field of a data line.
+#[derive(Clone, Debug)]
+pub struct Field<'a> {
+    /// Without white space at its ends.
+    pub text: &'a str,
+    file: &'a Arc<SourceFile>,
+    at: usize,
+}
+
+impl Field<'_> {
+    /// Where it was written.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        Place::new(self.file, self.at..self.at + self.text.len())
+    }
+
+    /// A whole number without sign.
+    #[must_use]
+    pub fn whole(&self) -> Option<u64> {
+        whole(self.text.as_bytes())
+    }
+
+    /// A real number as Fortran writes it; finite.
+    #[must_use]
+    pub fn real(&self) -> Option<f64> {
+        real(self.text.as_bytes()).filter(|value| value.is_finite())
+    }
+
+    /// What names are compared by.
+    #[must_use]
+    pub fn key(&self) -> String {
+        key(self.text.trim_matches('"'))
+    }
+}
+
+impl Statement {
+    /// Takes a card and its data from the lines.
+    pub(super) fn read(card: &Card, scope: usize, lines: &mut Lines<'_>) -> Self {
+        let mut pieces = vec![(card.spot, card.written.clone())];
+        while let Some(line) = lines.data() {
+            pieces.push((lines.spot, text(line)));
+        }
+        let mut rows = excerpts(pieces, lines).into_iter();
+        let place = rows
+            .next()
+            .map_or_else(Place::nowhere, |row: Row| Place::new(&row.file, row.line));
+        Self {
+            keyword: card.keyword.clone(),
+            place,
+            scope,
+            parameters: card.parameters.clone(),
+            rows: rows.collect(),
+        }
+    }
+
+    /// The value of a parameter as it was written; empty where it has none.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&str> {
+        let found = self.parameters.iter().find(|(known, _)| known == name);
+        found.map(|(_, value)| value.as_str())
+    }
+
+    /// Whether a parameter is there.
+    #[must_use]
+    pub fn has(&self, name: &str) -> bool {
+        self.get(name).is_some()
+    }
+
+    /// The names of its parameters, in capitals and without blanks.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.parameters.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// The fields of each data line; those at the end that are empty are left out.
+    pub fn rows(&self) -> impl Iterator<Item = Vec<Field<'_>>> {
+        self.rows.iter().map(|row| {
+            let line = row.text();
+            let fields = Fields::of(line.as_bytes()).map(|field| {
+                let within = (field.as_ptr() as usize).saturating_sub(line.as_ptr() as usize);
+                Field {
+                    text: line.get(within..within + field.len()).unwrap_or_default(),
+                    file: &row.file,
+                    at: row.line.start + within,
+                }
+            });
+            let mut fields: Vec<Field<'_>> = fields.collect();
+            while fields.last().is_some_and(|field| field.text.is_empty()) {
+                fields.pop();
+            }
+            fields
+        })
+    }
+
+    /// Its data lines as they stand there.
+    pub fn lines(&self) -> impl Iterator<Item = &str> {
+        self.rows.iter().map(Row::text)
+    }
+}
+
+impl Row {
+    fn text(&self) -> &str {
+        self.file.text().get(self.line.clone()).unwrap_or_default()
+    }
+}
+
+/// Texts of lines that follow each other, one for each stretch without a gap.
+fn excerpts(pieces: Vec<(Spot, String)>, lines: &Lines<'_>) -> Vec<Row> {
+    let mut rows = Vec::with_capacity(pieces.len());
+    let mut pieces = pieces.into_iter().peekable();
+    while let Some(&(first, _)) = pieces.peek() {
+        let mut whole = String::new();
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        let mut last: Option<Spot> = None;
+        let follows = |last: Option<Spot>, spot| last.is_none_or(|last| last.precedes(spot));
+        while let Some((spot, text)) = pieces.next_if(|(spot, _)| follows(last, *spot)) {
+            if last.is_some() {
+                whole.push('\n');
+            }
+            ranges.push(whole.len()..whole.len() + text.len());
+            whole.push_str(&text);
+            last = Some(spot);
+        }
+        let (name, line) = lines.source(first);
+        let file = SourceFile::excerpt(name, whole, line.saturating_sub(1));
+        rows.extend(ranges.into_iter().map(|line| Row {
+            file: Arc::clone(&file),
+            line,
+        }));
+    }
+    rows
+}

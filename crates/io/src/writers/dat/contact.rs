@@ -1,0 +1,117 @@
+//! Tables of contact.
+
+use super::{Of, Page};
+use signorini_geometry::tensor::Vec3;
+
+/// What a table of contact holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactKind {
+    /// Gap, negative in penetration, and slip along two tangents, of closed nodes.
+    Gaps,
+    /// Pressure, and the traction against which they slip along two tangents.
+    Tractions,
+    /// Energy of closed nodes.
+    Energies,
+    /// Its sum.
+    TotalEnergy,
+    /// The number of closed nodes.
+    Count,
+}
+
+impl ContactKind {
+    const fn caption(self) -> &'static str {
+        match self {
+            Self::Gaps => {
+                "relative contact displacement (slave node,normal,tang1,tang2) for all contact elements and time"
+            }
+            Self::Tractions => {
+                "contact stress (slave node,press,tang1,tang2) for all contact elements and time"
+            }
+            // no blank: so it is written
+            Self::Energies => {
+                "contact print energy (slave node,energy) forall contact elements and time"
+            }
+            Self::TotalEnergy => "total contact spring energy for time ",
+            Self::Count => "total number of contact elements for time ",
+        }
+    }
+}
+
+/// What one side of a contact feels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Force on the secondary side.
+    pub force: Vec3,
+    /// Its moment about the origin.
+    pub moment: Vec3,
+    /// Centre of the closed area.
+    pub center: Vec3,
+    /// Mean normal out of the secondary side.
+    pub normal: Vec3,
+    /// Closed area.
+    pub area: f64,
+}
+
+impl Page {
+    /// Begins a table of contact.
+    pub fn contact_table(&mut self, kind: ContactKind) {
+        let (caption, time) = (kind.caption(), std::mem::take(&mut self.time));
+        self.line(format_args!("\n {caption}{time}\n"));
+        self.time = time;
+    }
+
+    /// Adds the row of a table that counts.
+    pub fn count(&mut self, count: usize) {
+        self.line(format_args!("{count:17}"));
+    }
+
+    /// Adds the resultants of a contact between these two sides.
+    pub fn statistics(&mut self, secondary: &str, primary: &str, of: &Statistics) {
+        let time = std::mem::take(&mut self.time);
+        let [secondary, primary] = [secondary, primary].map(str::to_ascii_uppercase);
+        self.line(format_args!(
+            "\n\n statistics for slave set {secondary}, master set {primary} and time {time}"
+        ));
+        self.time = time;
+        let along = of.force.dot(of.normal);
+        let lines: [(&str, &[Vec3]); 4] = [
+            (
+                "total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)",
+                &[of.force, of.moment],
+            ),
+            ("center of gravity and mean normal", &[of.center, of.normal]),
+            (
+                "moment about the center of gravity(mx,my,mz)",
+                &[of.moment - of.center.cross(of.force)],
+            ),
+            (
+                "area,  normal force (+ = tension) and shear force (size)",
+                &[Vec3::new(
+                    of.area,
+                    along,
+                    (of.force - of.normal * along).norm(),
+                )],
+            ),
+        ];
+        for (caption, vectors) in lines {
+            self.line(format_args!("\n   {caption}\n"));
+            let numbers: Vec<f64> = vectors.iter().flat_map(|v| v.to_array()).collect();
+            self.row(Of::Both, &numbers);
+        }
+    }
+}
+
+/// The tangents of tables: the first along x as far as that lies in the plane, along z where the normal is x.
+#[must_use]
+pub fn tangents(normal: Vec3) -> [Vec3; 2] {
+    let within = |axis: usize| {
+        let unit = Vec3::unit(axis);
+        (unit - normal * unit.dot(normal)).normalized()
+    };
+    let is_x = 1.0 - normal.x * normal.x < ALONG;
+    let first = within(if is_x { 2 } else { 0 }).unwrap_or_default();
+    [first, normal.cross(first)]
+}
+
+/// The square of the sine up to which a normal counts as along x.
+const ALONG: f64 = 1e-10;

@@ -1,0 +1,117 @@
+use super::{Dof, DofName, Layout, Order, Sink, State, Term, TermError, Work};
+use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::mesh::CellId;
+use signorini_geometry::tensor::{Sym3, Vec3};
+
+/// What is wanted of every accepted state besides what all frames have: nothing, unless someone asks.
+#[derive(Clone, Debug, Default)]
+pub struct Wanted {
+    /// Cells whose integration points are sampled; sorted.
+    pub cells: Vec<CellId>,
+    /// Whether internal forces are.
+    pub forces: bool,
+}
+
+/// Values at the integration points of some cells.
+#[derive(Clone, Debug, Default)]
+pub struct Samples {
+    // a cell, its rule, and where its points begin
+    cells: Vec<(CellId, &'static Rule, usize)>,
+    points: Vec<PointSample>,
+}
+
+/// What is known at an integration point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointSample {
+    /// Cauchy stress.
+    pub stress: Sym3,
+    /// Strain as the material sees it: linearized at small strain, of Green and Lagrange at finite strain.
+    pub strain: Sym3,
+    /// The part of it that causes stress.
+    pub mechanical_strain: Sym3,
+    /// Equivalent plastic strain; 0 where the material has none.
+    pub plastic_strain: f64,
+    /// Energy per volume at the start; with plasticity stored and dissipated.
+    pub energy: f64,
+    /// Volume at the start that belongs to the point.
+    pub volume: f64,
+}
+
+impl Samples {
+    /// Adds a cell with the points of its rule.
+    pub fn push(
+        &mut self,
+        cell: CellId,
+        rule: &'static Rule,
+        points: impl Iterator<Item = PointSample>,
+    ) {
+        self.cells.push((cell, rule, self.points.len()));
+        self.points.extend(points);
+    }
+
+    /// The points of a cell and the values there; `None` of a cell that was not sampled.
+    #[must_use]
+    pub fn of(&self, cell: CellId) -> Option<(&'static Rule, &[PointSample])> {
+        let at = self
+            .cells
+            .binary_search_by_key(&cell, |(id, ..)| *id)
+            .ok()?;
+        let (_, rule, first) = self.cells.get(at)?;
+        Some((rule, self.points.get(*first..first + rule.npoint())?))
+    }
+
+    /// The samples of these cells, which are sorted, at an accepted state.
+    ///
+    /// # Errors
+    /// A term that cannot evaluate the state.
+    pub(super) fn take(
+        terms: &[Box<dyn Term>],
+        state: &State,
+        cells: &[CellId],
+    ) -> Result<Self, TermError> {
+        let mut samples = Self::default();
+        if !cells.is_empty() {
+            for term in terms {
+                term.sample(state, cells, &mut samples)?;
+            }
+            samples.cells.sort_unstable_by_key(|(cell, ..)| *cell);
+        }
+        Ok(samples)
+    }
+}
+
+/// The forces of all terms within at the nodes, whatever follows whatever.
+pub(super) fn internal_forces(
+    terms: &[Box<dyn Term>],
+    layout: &Layout,
+    state: &State,
+) -> Result<Vec<Vec3>, TermError> {
+    let mut at_nodes = AtNodes {
+        layout,
+        force: vec![Vec3::ZERO; layout.nnode],
+    };
+    let mut work = Work::default();
+    for term in terms.iter().filter(|term| !term.is_outside()) {
+        for chunk in 0..term.nchunk() {
+            term.evaluate(chunk, state, Order::Residual, &mut work, &mut at_nodes)?;
+        }
+    }
+    Ok(at_nodes.force)
+}
+
+struct AtNodes<'a> {
+    layout: &'a Layout,
+    force: Vec<Vec3>,
+}
+
+impl Sink for AtNodes<'_> {
+    fn add(&mut self, dofs: &[Dof], force: &[f64], _: &[f64]) {
+        for (&dof, f) in dofs.iter().zip(force) {
+            if let Some(DofName::Node(node, axis)) = self.layout.name(dof)
+                && let Some(to) = self.force.get_mut(node as usize)
+            {
+                to[axis] += f;
+            }
+        }
+    }
+}

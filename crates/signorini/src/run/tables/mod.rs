@@ -1,0 +1,411 @@
+//! `NAME.dat`: what the steps ask to be printed, increment by increment.
+
+#[cfg(test)]
+mod tests;
+
+use crate::build::{
+    ContactQuantity, ElementQuantity, Model, NodeQuantity, Printed, PrintedContact, PrintedOf,
+};
+use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_io::case::{Position, Reference, Space, Totals};
+use signorini_io::writers::dat::{
+    ContactKind, Kind, Of, Page, Points, Statistics, WEDGE, tangents, tensor,
+};
+use signorini_mechanics::solve::IncrementRecord;
+use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Resultant};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The tables of a run.
+#[derive(Debug)]
+pub struct Tables {
+    steps: Vec<Vec<Printed>>,
+    mesh: Arc<Mesh>,
+    revolved: bool,
+    // cells around nodes of bodies of revolution whose forces are printed, and steps of large strain
+    around: Vec<CellId>,
+    nonlinear: Vec<bool>,
+    // nodes of the mesh that are reference points
+    references: HashMap<NodeId, RigidId>,
+}
+
+impl Tables {
+    /// The tables of every step of a model.
+    pub fn new(model: &Model) -> Self {
+        let revolved = *model.case.model.space == Space::Axisymmetric;
+        let wanted = &model.system.wanted;
+        let forces = revolved && wanted.forces;
+        Self {
+            steps: model.prints.clone(),
+            mesh: Arc::clone(&model.mesh),
+            revolved,
+            around: if forces {
+                wanted.cells.clone()
+            } else {
+                Vec::new()
+            },
+            nonlinear: model.steps.iter().map(|step| step.nonlinear).collect(),
+            references: references(model),
+        }
+    }
+
+    /// Whether no step asks for any.
+    pub fn is_empty(&self) -> bool {
+        self.steps.iter().all(Vec::is_empty)
+    }
+
+    /// What is printed after an increment; `None` where nothing is.
+    pub fn page(&self, record: &IncrementRecord, frame: &Frame) -> Option<Page> {
+        let (time, duration) = record.step_time;
+        let is_due = |one: &&Printed| {
+            time >= duration || (record.increment as u64).is_multiple_of(one.every)
+        };
+        let tables = self.steps.get(record.step)?;
+        let mut due = tables.iter().filter(is_due).peekable();
+        due.peek()?;
+        let page = Page::new(record.step + 1, record.increment, record.time);
+        let mut writer = Writer {
+            tables: self,
+            frame,
+            page,
+            points: HashMap::new(),
+            hoop: self.hoop(record.step, frame),
+        };
+        for one in due {
+            match &one.what {
+                PrintedOf::Nodes(nodes, quantities) => {
+                    quantities.iter().for_each(|q| writer.nodes(one, nodes, *q));
+                }
+                PrintedOf::Elements(cells, quantities) => {
+                    let quantities = quantities.iter();
+                    quantities.for_each(|q| writer.elements(one, cells, *q));
+                }
+                PrintedOf::Contacts(contacts, quantities) => {
+                    let quantities = quantities.iter();
+                    quantities.for_each(|q| writer.contacts(one, contacts, *q));
+                }
+            }
+        }
+        Some(writer.page)
+    }
+
+    /// What hoop stresses do to the radial forces of bodies of revolution, `∫ σ_θθ N/r dv` at each node: CalculiX adds up
+    /// forces along x over its wedge, and that part, across x, is not among them.
+    fn hoop(&self, step: usize, frame: &Frame) -> HashMap<NodeId, f64> {
+        let mut hoop = HashMap::new();
+        let nonlinear = self.nonlinear.get(step).is_some_and(|is| *is);
+        let mut shape = Vec::new();
+        for &cell in &self.around {
+            let (Some(element), Some((rule, samples))) =
+                (self.mesh.element(cell), frame.samples.of(cell))
+            else {
+                continue;
+            };
+            let nodes = self.mesh.cell(cell);
+            shape.resize(element.nnode(), 0.0);
+            for (xi, sample) in rule.points.iter().zip(samples) {
+                element.shape(xi, &mut shape);
+                let x = |node: &NodeId| self.mesh.points.get(*node as usize).map_or(0.0, |x| x.x);
+                let radius: f64 = nodes.iter().zip(&shape).map(|(node, n)| n * x(node)).sum();
+                // dv/r = J dV/(F_θθ R)
+                let stretch = Sym3::IDENTITY + sample.strain * 2.0;
+                let growth = match nonlinear {
+                    true => (stretch.to_mat3().determinant() / stretch.zz()).sqrt(),
+                    false => 1.0,
+                };
+                let force = sample.stress.zz() * sample.volume * growth / radius;
+                for (&node, n) in nodes.iter().zip(&shape) {
+                    *hoop.entry(node).or_default() += n * force;
+                }
+            }
+        }
+        hoop
+    }
+
+    /// What is printed of forces, energies and volumes.
+    fn share(&self) -> f64 {
+        if self.revolved { WEDGE } else { 1.0 }
+    }
+}
+
+/// The nodes of the mesh that are reference points, with what moves them.
+fn references(model: &Model) -> HashMap<NodeId, RigidId> {
+    let carrier = |reference: &Reference| {
+        let Position::Node(label) = reference.position else {
+            return None;
+        };
+        let mut known = model.references.iter();
+        let known = known.find(|one| one.name == reference.name.value)?;
+        Some((model.node(label)?, known.rigid))
+    };
+    model.case.references.iter().filter_map(carrier).collect()
+}
+
+/// Fills a page.
+struct Writer<'a> {
+    tables: &'a Tables,
+    frame: &'a Frame,
+    page: Page,
+    // by element and number of points
+    points: HashMap<(&'static str, usize), Points>,
+    hoop: HashMap<NodeId, f64>,
+}
+
+impl Writer<'_> {
+    fn nodes(&mut self, one: &Printed, nodes: &[NodeId], quantity: NodeQuantity) {
+        let at = |values: &[Vec3], node: NodeId| values.get(node as usize).copied();
+        let share = self.tables.share();
+        match quantity {
+            NodeQuantity::Displacement => {
+                self.page.table(Kind::Displacements, &one.set);
+                for &node in nodes {
+                    let carrier = self.tables.references.get(&node);
+                    let carrier = carrier.and_then(|c| self.frame.rigid.get(*c as usize));
+                    let u = match carrier {
+                        Some(rigid) => rigid.displacement,
+                        None => at(&self.frame.displacement, node).unwrap_or_default(),
+                    };
+                    self.page.row(self.node(node), &u.to_array());
+                }
+            }
+            NodeQuantity::Temperature => {
+                self.page.table(Kind::Temperatures, &one.set);
+                for &node in nodes {
+                    let t = self.frame.temperature.get(node as usize).copied();
+                    self.page.row(self.node(node), &[t.unwrap_or_default()]);
+                }
+            }
+            NodeQuantity::Reaction => {
+                let force = |node: NodeId| {
+                    let mut force = at(&self.frame.internal_force, node).unwrap_or_default();
+                    force.x -= self.hoop.get(&node).copied().unwrap_or(0.0);
+                    force * share
+                };
+                let forces: Vec<Vec3> = nodes.iter().map(|node| force(*node)).collect();
+                if one.totals != Totals::Only {
+                    self.page.table(Kind::Forces, &one.set);
+                    for (&node, force) in nodes.iter().zip(&forces) {
+                        self.page.row(self.node(node), &force.to_array());
+                    }
+                }
+                if one.totals != Totals::No {
+                    let total: Vec3 = forces.iter().copied().sum();
+                    self.page.table(Kind::TotalForce, &one.set);
+                    self.page.row(Of::All, &total.to_array());
+                }
+            }
+        }
+    }
+
+    fn elements(&mut self, one: &Printed, cells: &[CellId], quantity: ElementQuantity) {
+        match quantity {
+            ElementQuantity::Stress => {
+                self.tensors(Kind::Stresses, &one.set, cells, |s| s.stress);
+            }
+            ElementQuantity::Strain => {
+                self.tensors(Kind::Strains, &one.set, cells, |s| s.strain);
+            }
+            ElementQuantity::MechanicalStrain => {
+                let kind = Kind::MechanicalStrains;
+                self.tensors(kind, &one.set, cells, |s| s.mechanical_strain);
+            }
+            ElementQuantity::PlasticStrain => {
+                // never negative, carried to other points or not
+                let value = |at: f64| at.max(0.0);
+                let of = |s: &PointSample| s.plastic_strain;
+                self.scalars(Kind::PlasticStrains, &one.set, cells, of, value);
+            }
+            ElementQuantity::EnergyDensity => {
+                let of = |s: &PointSample| s.energy;
+                self.scalars(Kind::EnergyDensities, &one.set, cells, of, |at| at);
+            }
+            ElementQuantity::Energy => {
+                let kinds = [Kind::Energies, Kind::TotalEnergy];
+                self.sums(kinds, one, cells, |s| s.energy * s.volume);
+            }
+            ElementQuantity::Volume => {
+                let kinds = [Kind::Volumes, Kind::TotalVolume];
+                self.sums(kinds, one, cells, |s| s.volume);
+            }
+        }
+    }
+
+    fn tensors(&mut self, kind: Kind, set: &str, cells: &[CellId], of: fn(&PointSample) -> Sym3) {
+        self.page.table(kind, set);
+        self.at_points(cells, |page, of_point, points, place, samples| {
+            let value = points.tensor(place, |p| samples.get(p).map_or(Sym3::ZERO, of));
+            page.row(of_point, &tensor(&value));
+        });
+    }
+
+    fn scalars(
+        &mut self,
+        kind: Kind,
+        set: &str,
+        cells: &[CellId],
+        of: fn(&PointSample) -> f64,
+        take: fn(f64) -> f64,
+    ) {
+        self.page.table(kind, set);
+        self.at_points(cells, |page, of_point, points, place, samples| {
+            let value = points.scalar(place, |p| samples.get(p).map_or(0.0, of));
+            page.row(of_point, &[take(value)]);
+        });
+    }
+
+    /// Hands over every printed point of these cells.
+    fn at_points(
+        &mut self,
+        cells: &[CellId],
+        mut put: impl FnMut(&mut Page, Of, &Points, usize, &[PointSample]),
+    ) {
+        for &cell in cells {
+            let Some((rule, samples)) = self.frame.samples.of(cell) else {
+                continue;
+            };
+            let label = self.label(cell);
+            let Self {
+                page,
+                points,
+                tables,
+                ..
+            } = self;
+            let Some(element) = tables.mesh.element(cell) else {
+                continue;
+            };
+            let new = || Points::new(element.name(), rule, tables.revolved);
+            let key = (element.name(), rule.npoint());
+            let points = points.entry(key).or_insert_with(new);
+            for place in 0..points.len() {
+                put(page, Of::Point(label, place + 1), points, place, samples);
+            }
+        }
+    }
+
+    /// A table of integrals over each cell, and their sum.
+    fn sums(
+        &mut self,
+        [each, all]: [Kind; 2],
+        one: &Printed,
+        cells: &[CellId],
+        of: fn(&PointSample) -> f64,
+    ) {
+        let share = self.tables.share();
+        let integral =
+            |(_, samples): (&Rule, &[PointSample])| samples.iter().map(of).sum::<f64>() * share;
+        let sampled = |cell: &CellId| Some((*cell, self.frame.samples.of(*cell).map(integral)?));
+        let values: Vec<(CellId, f64)> = cells.iter().filter_map(sampled).collect();
+        if one.totals != Totals::Only {
+            self.page.table(each, &one.set);
+            for (cell, value) in &values {
+                self.page.row(Of::One(self.label(*cell)), &[*value]);
+            }
+        }
+        if one.totals != Totals::No {
+            self.page.table(all, &one.set);
+            let total = values.iter().map(|(_, value)| value).sum();
+            self.page.row(Of::All, &[total]);
+        }
+    }
+
+    fn contacts(&mut self, one: &Printed, contacts: &[PrintedContact], quantity: ContactQuantity) {
+        let share = self.tables.share();
+        let frames = &self.frame.contacts;
+        let frame = |part: &&PrintedContact| frames.iter().find(|c| c.name == part.name);
+        let acting: Vec<&ContactFrame> = contacts.iter().filter_map(|c| frame(&c)).collect();
+        match quantity {
+            ContactQuantity::Gap => self.closed(ContactKind::Gaps, &acting, |c, k| {
+                let [first, second] = tangents(c.normal[k]);
+                [c.gap[k], c.slip[k].dot(first), c.slip[k].dot(second)]
+            }),
+            ContactQuantity::Traction => self.closed(ContactKind::Tractions, &acting, |c, k| {
+                let [first, second] = tangents(c.normal[k]);
+                let against = -c.traction[k];
+                [c.pressure[k], against.dot(first), against.dot(second)]
+            }),
+            ContactQuantity::Energy => {
+                if one.totals != Totals::Only {
+                    self.closed(ContactKind::Energies, &acting, |c, k| [c.energy[k] * share]);
+                }
+                if one.totals != Totals::No {
+                    let total: f64 = acting.iter().flat_map(|c| &c.energy).sum();
+                    self.page.contact_table(ContactKind::TotalEnergy);
+                    self.page.row(Of::All, &[total * share]);
+                }
+            }
+            ContactQuantity::Count => {
+                self.page.contact_table(ContactKind::Count);
+                self.page.count(acting.iter().map(|c| c.nclosed()).sum());
+            }
+            ContactQuantity::Force => self.resultants(contacts, |c| c.secondary),
+            ContactQuantity::NormalForce => self.resultants(contacts, |c| Resultant {
+                force: c.force_normal,
+                moment: c.moment_normal,
+            }),
+            ContactQuantity::ShearForce => self.resultants(contacts, |c| Resultant {
+                force: c.force_shear,
+                moment: c.secondary.moment - c.moment_normal,
+            }),
+        }
+    }
+
+    /// A table of the closed nodes of contacts.
+    fn closed<const N: usize>(
+        &mut self,
+        kind: ContactKind,
+        contacts: &[&ContactFrame],
+        numbers: impl Fn(&ContactFrame, usize) -> [f64; N],
+    ) {
+        self.page.contact_table(kind);
+        for contact in contacts {
+            let nodes = contact.nodes.iter().zip(&contact.status).enumerate();
+            for (k, (&node, _)) in nodes.filter(|(_, (_, status))| status.is_closed()) {
+                self.page.row(self.node(node), &numbers(contact, k));
+            }
+        }
+    }
+
+    /// What each contact feels.
+    fn resultants(&mut self, contacts: &[PrintedContact], of: fn(&ContactFrame) -> Resultant) {
+        let share = self.tables.share();
+        for part in contacts {
+            let Some(contact) = self.frame.contacts.iter().find(|c| c.name == part.name) else {
+                continue;
+            };
+            let Resultant { force, moment } = of(contact);
+            let mut statistics = Statistics {
+                force: force * share,
+                moment: moment * share,
+                ..Statistics::default()
+            };
+            let closed = contact.status.iter().map(|status| status.is_closed());
+            let areas = closed
+                .zip(&contact.area)
+                .map(|(is, area)| if is { *area } else { 0.0 });
+            for ((area, x), normal) in areas.zip(&contact.points).zip(&contact.normal) {
+                statistics.area += area;
+                statistics.center += *x * area;
+                statistics.normal -= *normal * area;
+            }
+            if statistics.area > 0.0 {
+                statistics.center = statistics.center / statistics.area;
+            }
+            statistics.normal = statistics.normal.normalized().unwrap_or_default();
+            statistics.area *= share;
+            let (page, secondary) = (&mut self.page, &part.secondary);
+            page.statistics(secondary, &part.primary, &statistics);
+        }
+    }
+
+    fn node(&self, node: NodeId) -> Of {
+        let label = self.tables.mesh.node_labels.get(node as usize);
+        Of::One(label.copied().unwrap_or_default())
+    }
+
+    fn label(&self, cell: CellId) -> u64 {
+        self.tables.mesh.cell_label(cell).unwrap_or_default()
+    }
+}
