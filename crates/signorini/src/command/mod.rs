@@ -1,5 +1,6 @@
 //! The commands, one file each; this one knows their names and options.
 
+mod ccx_compat;
 mod check;
 mod completions;
 mod console;
@@ -58,6 +59,8 @@ enum Verb {
     Info(info::Info),
     /// Compare results with a reference, block by block.
     Diff(diff::Diff),
+    /// Stand in for CalculiX.
+    CcxCompat(ccx_compat::CcxCompat),
     /// Write a deck as a case.
     Convert(convert::Convert),
     /// Print the JSON schema of cases, for editors.
@@ -154,6 +157,7 @@ pub fn main() -> ExitCode {
             Verb::Demo(demo) => demo.execute(),
             Verb::Info(info) => info.execute(),
             Verb::Diff(diff) => diff.execute(),
+            Verb::CcxCompat(compat) => compat.execute(),
             Verb::Convert(convert) => convert.execute(),
             Verb::Schema => schema::execute(),
             Verb::Keywords => keywords::execute(),

@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod check;
+mod decks;
 mod events;
 mod files;
 mod help;
