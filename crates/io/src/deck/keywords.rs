@@ -163,22 +163,10 @@ pub const KEYWORDS: &[Keyword] = &[
 ];
 
 impl Keyword {
-    /// Its name as cards are compared: without blanks.
-    fn key(&self) -> impl Iterator<Item = u8> {
-        self.name.bytes().filter(|b| *b != b' ')
-    }
-
-    /// The keyword that a card in capitals and without blanks begins with, the longest one: CalculiX reads
-    /// `*STATICxyz` as `*STATIC`.
+    /// The entry of a keyword in capitals and without blanks.
     #[must_use]
     pub fn of(card: &str) -> Option<&'static Self> {
-        let fits = |one: &&'static Self| {
-            let mut written = card.bytes();
-            one.key().all(|b| written.next() == Some(b))
-        };
-        KEYWORDS
-            .iter()
-            .filter(fits)
-            .max_by_key(|one| one.key().count())
+        let is = |one: &&'static Self| one.name.bytes().filter(|b| *b != b' ').eq(card.bytes());
+        KEYWORDS.iter().find(is)
     }
 }

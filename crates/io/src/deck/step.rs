@@ -470,60 +470,48 @@ impl Translation<'_> {
                 }
                 continue;
             };
+            let course = motion(value, amplitude.as_ref(), sudden, step.duration);
+            let reference = format!("motion-{label}-{}", axis + 1);
+            let moves = self
+                .case
+                .references
+                .iter()
+                .any(|one| one.name.value == reference);
+            if !standing.local.insert((label, axis)) {
+                if moves {
+                    step.moves.push(along_x(&reference, course, &place));
+                } else if value != 0.0 {
+                    let text =
+                        "a support along a local axis that moves in a later step is not supported";
+                    let remark = "the equation that holds it has no motion";
+                    self.error(&codes::NOT_BUILT, text, &place, remark);
+                }
+                continue;
+            }
             let mut terms = along(on.clone(), axes, 1.0, ndim);
-            let again = !standing.local.insert((label, axis));
-            if value != 0.0 || again {
-                self.local_motion(
-                    label, axis, value, amplitude, &mut terms, &place, sudden, step,
-                );
+            if value != 0.0 {
+                terms.push(self.moved(reference, label, &place));
+                if let Some(term) = terms.last() {
+                    step.moves.push(along_x(&term.on.value, course, &place));
+                }
             }
-            if !again {
-                self.constrain(ConstraintKind::Equation { terms, rhs: 0.0 }, &place);
-            }
+            self.constrain(ConstraintKind::Equation { terms, rhs: 0.0 }, &place);
         }
     }
 
-    /// A motion along a local axis: that of a reference which the equation names.
-    #[expect(clippy::too_many_arguments, reason = "one place of use")]
-    fn local_motion(
-        &mut self,
-        label: u64,
-        axis: usize,
-        value: f64,
-        amplitude: Option<Name>,
-        terms: &mut Vec<Summand>,
-        place: &Place,
-        sudden: bool,
-        step: &mut Step,
-    ) {
-        let wanted = format!("motion-{label}-{}", axis + 1);
-        let known = self
-            .case
-            .references
-            .iter()
-            .any(|one| one.name.value == wanted);
-        if known || step.place.text().is_none() && terms.is_empty() {
-            step.moves.push(along_x(
-                &wanted,
-                motion(value, amplitude.as_ref(), sudden, step.duration),
-                place,
-            ));
-            return;
-        }
-        let name = self.fresh(&wanted);
-        let on = Spanned::new(name.clone(), place.clone());
+    /// The summand of an equation that moves what it holds: less the displacement of a reference along x.
+    fn moved(&mut self, wanted: String, label: u64, place: &Place) -> Summand {
+        let on = Spanned::new(self.fresh(&wanted), place.clone());
         self.case.references.push(Reference {
             name: on.clone(),
             position: Position::Node(label),
             place: place.clone(),
         });
-        terms.push(Summand {
+        Summand {
             on,
             component: Spanned::new(0, place.clone()),
             coefficient: -1.0,
-        });
-        let course = motion(value, amplitude.as_ref(), sudden, step.duration);
-        step.moves.push(along_x(&name, course, place));
+        }
     }
 
     fn temperatures(&mut self, card: &Statement, step: &mut Step) {

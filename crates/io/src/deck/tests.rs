@@ -32,12 +32,11 @@ fn refused(text: &str) -> String {
 }
 
 #[test]
-fn keywords_are_known_once_and_by_their_beginning() {
+fn keywords_are_known_once_and_without_blanks() {
     let mut names: Vec<&str> = KEYWORDS.iter().map(|one| one.name).collect();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), KEYWORDS.len());
-    assert_eq!(Keyword::of("STATICXYZ").map(|one| one.name), Some("STATIC"));
     assert_eq!(
         Keyword::of("NODEPRINT").map(|one| one.name),
         Some("NODE PRINT")
@@ -247,4 +246,24 @@ fn what_is_left_out_is_named_once() {
         "{found}"
     );
     assert_eq!(found.matches("*EL FILE is left out").count(), 1, "{found}");
+}
+
+#[test]
+fn a_motion_along_a_local_axis_is_that_of_a_reference() {
+    let cards = "*TRANSFORM, NSET=TOP, TYPE=R\n0.,1.,0., -1.,0.,0.\n*STEP\n*STATIC\n*BOUNDARY\n5, 1, 1, 0.1\n*END STEP\n\
+                 *STEP\n*STATIC\n*BOUNDARY\n5, 1, 1, 0.2\n*END STEP\n";
+    let case = case(&cube("C3D8", cards));
+    let ConstraintKind::Equation { terms, .. } = &case.constraints[0].kind else {
+        panic!("{:?}", case.constraints);
+    };
+    // u_y − r_x = 0
+    let of_terms: Vec<(usize, f64)> = (terms.iter())
+        .map(|t| (t.component.value, t.coefficient))
+        .collect();
+    assert_eq!(of_terms, [(1, 1.0), (0, -1.0)]);
+    for (step, value) in case.steps.iter().zip([0.1, 0.2]) {
+        assert_eq!(step.moves[0].on, terms[1].on);
+        assert_eq!(step.moves[0].u[0], Some(Motion::Ramp(value)));
+    }
+    assert_eq!(case.constraints.len(), 1);
 }
