@@ -1,12 +1,11 @@
 //! Local axes, equations, rigid bodies, couplings.
 
-use super::model::compared;
 use super::translation::{Target, Translation};
 use crate::case::{
     Body, Constraint, ConstraintKind, Directions, Name, Position, Reference, Summand,
 };
 use crate::diagnostic::{Place, Spanned, codes};
-use crate::readers::inp::{Kind, Statement};
+use crate::readers::inp::{Field, Kind, Statement, compared};
 use signorini_geometry::tensor::Vec3;
 
 /// Three unit vectors at right angles.
@@ -76,6 +75,15 @@ impl Translation<'_> {
                 };
                 self.axes.insert(label, axes);
             }
+        }
+    }
+
+    /// What a single node stands for, where it carries a rigid body or a coupling.
+    pub fn carrier_of(&self, targets: &[Target]) -> Option<&Carrier> {
+        let [target] = targets else { return None };
+        match self.labels(target).as_slice() {
+            [label] => self.carriers.get(label),
+            _ => None,
         }
     }
 
@@ -270,11 +278,7 @@ impl Translation<'_> {
     }
 
     /// A term of an equation: one summand, or those of a local axis.
-    fn summands(
-        &mut self,
-        card: &Statement,
-        term: &[crate::readers::inp::Field<'_>],
-    ) -> Vec<Summand> {
+    fn summands(&mut self, card: &Statement, term: &[Field<'_>]) -> Vec<Summand> {
         let targets = self.targets(card, term.first(), Kind::Nodes);
         let component = self.count(term.get(1), 0) as usize;
         let coefficient = self.real(term.get(2));
@@ -289,9 +293,7 @@ impl Translation<'_> {
                 return Vec::new();
             }
         };
-        if let [Target::One(label)] = targets.as_slice()
-            && let Some(carrier) = self.carriers.get(label)
-        {
+        if let Some(carrier) = self.carrier_of(&targets) {
             let component = axis + if carrier.turns { 3 } else { 0 };
             return vec![Summand {
                 on: Spanned::new(carrier.name.clone(), place.clone()),

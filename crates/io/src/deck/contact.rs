@@ -12,14 +12,13 @@
 //! Source: the laws of CalculiX are those of its User's Manual, sections on contact.
 
 use super::Compat;
-use super::model::compared;
 use super::translation::Translation;
 use crate::case::{
     Area, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
     Normals, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
-use crate::readers::inp::{Kind, Statement};
+use crate::readers::inp::{Field, Kind, Statement, compared, number};
 use signorini_geometry::mesh::boundary;
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
@@ -193,7 +192,7 @@ impl Translation<'_> {
             }
         };
         let within = card.get("ADJUST").map(|text| {
-            crate::readers::inp::number(text).unwrap_or_else(|| {
+            number(text).unwrap_or_else(|| {
                 let text = "ADJUST by a node set is not supported";
                 self.error(&codes::NOT_BUILT, text, &card.place, "give a tolerance");
                 0.0
@@ -214,7 +213,7 @@ impl Translation<'_> {
     }
 
     /// The secondary and the primary side that a line names.
-    fn sides(&mut self, card: &Statement, row: &[crate::readers::inp::Field<'_>]) -> Option<Sides> {
+    fn sides(&mut self, card: &Statement, row: &[Field<'_>]) -> Option<Sides> {
         let [secondary, primary] = row
             .get(..2)
             .and_then(|two| <&[_; 2]>::try_from(two).ok())
@@ -347,7 +346,7 @@ impl Translation<'_> {
             let secondary = self.set(card, slave, &card.place, Kind::Surface);
             let secondary = secondary.map(|side| self.faced(side));
             let primary = self.set(card, master, &card.place, Kind::Surface);
-            let value = card.get("VALUE").and_then(crate::readers::inp::number);
+            let value = card.get("VALUE").and_then(number);
             let Some(value) = value else {
                 let text = "*CLEARANCE without a number for VALUE is not supported";
                 self.error(&codes::NOT_BUILT, text, &card.place, "");
@@ -370,7 +369,7 @@ impl Translation<'_> {
 
     fn tie(&mut self, card: &Statement) {
         let given = card.get("POSITIONTOLERANCE").map(|text| {
-            crate::readers::inp::number(text).unwrap_or_else(|| {
+            number(text).unwrap_or_else(|| {
                 let text = "POSITION TOLERANCE is no number";
                 self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
                 0.0

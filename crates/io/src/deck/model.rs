@@ -7,7 +7,7 @@ use crate::case::{
     Orientation, Plasticity, Space, TimeBase,
 };
 use crate::diagnostic::{Place, Spanned, codes};
-use crate::readers::inp::{Kind, Statement};
+use crate::readers::inp::{Kind, Statement, compared, number};
 use std::collections::BTreeMap;
 
 /// What is known of a material.
@@ -193,7 +193,7 @@ impl Translation<'_> {
                     self.error(&codes::NOT_BUILT, text, &card.place, "");
                 }
                 let zero = card.get("ZERO").map(|text| {
-                    crate::readers::inp::number(text).unwrap_or_else(|| {
+                    number(text).unwrap_or_else(|| {
                         let text = "ZERO is no number";
                         self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
                         0.0
@@ -477,14 +477,6 @@ const fn locking(reduced: bool, modes: bool, linear: bool) -> Locking {
         (_, true) => Locking::Auto,
         _ => Locking::None,
     }
-}
-
-/// What names are compared by: in capitals, without blanks.
-pub(super) fn compared(name: &str) -> String {
-    let name = name.trim_matches('"').chars();
-    name.filter(|c| !c.is_whitespace())
-        .flat_map(char::to_uppercase)
-        .collect()
 }
 
 fn case_of(of: Properties) -> Option<Material> {

@@ -1,10 +1,9 @@
 //! Printed tables.
 
-use super::model::compared;
 use super::translation::Translation;
 use crate::case::{Print, PrintOf, Step, Totals};
 use crate::diagnostic::{Spanned, codes};
-use crate::readers::inp::{Kind, Statement};
+use crate::readers::inp::{Kind, Statement, compared};
 
 /// What decks call the quantities of a card.
 fn quantities(of: PrintOf) -> &'static [(&'static str, &'static str)] {

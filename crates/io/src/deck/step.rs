@@ -6,14 +6,13 @@
 
 use super::constraint::along;
 use super::load::Loads;
-use super::model::compared;
 use super::translation::{Target, Translation};
 use crate::case::{
     ConstraintKind, Directions, Fix, Free, Geometry, Increments, Motion, Move, Name, Position,
     Reference, Step, Summand,
 };
-use crate::diagnostic::{Diagnostic, Place, Severity, Spanned, codes};
-use crate::readers::inp::{Field, Kind, Statement};
+use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
+use crate::readers::inp::{Field, Kind, Statement, compared};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -280,10 +279,7 @@ impl Translation<'_> {
         components: &[usize],
         place: &Place,
     ) -> (Name, Vec<usize>) {
-        if let [target] = targets
-            && let [label] = self.labels(target).as_slice()
-            && let Some(carrier) = self.carriers.get(label)
-        {
+        if let Some(carrier) = self.carrier_of(targets) {
             let shift = if carrier.turns { 3 } else { 0 };
             let name = Spanned::new(carrier.name.clone(), place.clone());
             return (name, components.iter().map(|c| c + shift).collect());
@@ -323,9 +319,8 @@ impl Translation<'_> {
             let mut targets = plain;
             targets.extend(others.into_iter().map(Target::One));
             // references are named one by one
-            let (carriers, nodes): (Vec<_>, Vec<_>) = targets.into_iter().partition(|target| {
-                matches!(self.labels(target).as_slice(), [one] if self.carriers.contains_key(one))
-            });
+            let is_carrier = |one: &Target| self.carrier_of(std::slice::from_ref(one)).is_some();
+            let (carriers, nodes): (Vec<_>, Vec<_>) = targets.into_iter().partition(is_carrier);
             for carrier in carriers {
                 self.set_course(&[carrier], &line, number, sudden, standing, step);
             }
@@ -350,10 +345,9 @@ impl Translation<'_> {
     ) {
         let ndim = self.ndim();
         let (on, components) = self.carried(targets, &line.components, &line.place);
-        let is_node = components == line.components;
         // nodes of a plane model have no third displacement, and nodes no rotations
-        let is_there =
-            |c: &usize| *c < ndim || (*c >= 3 && !is_node) || (*c >= 3 && self.is_carrier(targets));
+        let turns = self.carrier_of(targets).is_some();
+        let is_there = |c: &usize| *c < ndim || (*c >= 3 && turns);
         let components: Vec<usize> = components.iter().copied().filter(is_there).collect();
         if components.is_empty() {
             return;
@@ -398,10 +392,6 @@ impl Translation<'_> {
             }
             step.moves.push(part);
         }
-    }
-
-    fn is_carrier(&self, targets: &[Target]) -> bool {
-        matches!(targets, [one] if matches!(self.labels(one).as_slice(), [l] if self.carriers.contains_key(l)))
     }
 
     /// What is prescribed along the local axes of a node.
@@ -533,12 +523,6 @@ impl Translation<'_> {
                 place: card.place.clone(),
             });
         }
-    }
-
-    /// Tells once that something is left out.
-    pub fn note(&mut self, text: impl Into<String>, place: &Place) {
-        let note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text.into());
-        self.found.push(note.at(place, ""));
     }
 }
 

@@ -88,8 +88,7 @@ impl<'d> Translation<'d> {
                 Some(known) if known.support == Support::Ignored => {
                     if !known.remark.is_empty() && told.insert(known.name) {
                         let text = format!("*{} is left out: {}", known.name, known.remark);
-                        let note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text);
-                        self.found.push(note.at(&card.place, ""));
+                        self.note(text, &card.place);
                     }
                 }
                 Some(known) => {
@@ -123,6 +122,12 @@ impl<'d> Translation<'d> {
     pub fn warn(&mut self, message: impl Into<String>, place: &Place, remark: impl Into<String>) {
         let one = Diagnostic::warning(&codes::UNUSUAL, message).at(place, remark);
         self.found.push(one);
+    }
+
+    /// Tells that something is left out.
+    pub fn note(&mut self, text: impl Into<String>, place: &Place) {
+        let note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text.into());
+        self.found.push(note.at(place, ""));
     }
 
     /// The value of a parameter that must be there.

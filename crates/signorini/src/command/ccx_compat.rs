@@ -1,8 +1,8 @@
 //! `signorini ccx-compat -i JOB`
 
+use super::SolveOptions;
 use super::console::Console;
 use super::run::{Job, refused};
-use super::{SolveOptions, threads};
 use clap::Args;
 use signorini::{Compat, Reading, load};
 use signorini_io::fs::{Fs, RealFs};
@@ -67,17 +67,9 @@ fn solve(deck: &Path, options: &SolveOptions) -> u8 {
     };
     let folder = loaded.source.output_folder();
     let name = loaded.source.name.clone();
-    let nthread = threads::make(options.threads, loaded.case.solver.threads);
     let job = Job {
-        warnings: loaded.warnings,
-        case: loaded.case,
-        mesh: loaded.mesh,
-        source: loaded.source,
-        folder: None,
         fresh: true,
-        resume: false,
-        threads: nthread,
-        read_seconds: clock.elapsed().as_secs_f64(),
+        ..Job::new(loaded, clock, options)
     };
     let code = job.solve(options);
     for kind in LEFT {

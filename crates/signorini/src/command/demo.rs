@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::run::{Job, refused};
 use super::templates::{self, TEMPLATES};
-use super::{SolveOptions, WRONG_COMMAND, init, threads};
+use super::{SolveOptions, WRONG_COMMAND, init};
 use clap::Args;
 use signorini::{Reading, load};
 use signorini_io::fs::FsError;
@@ -36,18 +36,7 @@ impl Demo {
         console.line(&format!("{}: {}", template.name, template.about));
         match load(&path, &Reading::default()) {
             Err(found) => refused(&found, &self.solve),
-            Ok(loaded) => Job {
-                threads: threads::make(self.solve.threads, loaded.case.solver.threads),
-                case: loaded.case,
-                mesh: loaded.mesh,
-                warnings: loaded.warnings,
-                source: loaded.source,
-                folder: None,
-                fresh: false,
-                resume: false,
-                read_seconds: clock.elapsed().as_secs_f64(),
-            }
-            .solve(&self.solve),
+            Ok(loaded) => Job::new(loaded, clock, &self.solve).solve(&self.solve),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::run::{Job, refused};
-use super::{SolveOptions, threads};
+use super::SolveOptions;
 use clap::Args;
 use signorini::resume::{Stopped, stopped};
 use signorini_io::fs::RealFs;
@@ -32,15 +32,9 @@ impl Resume {
                 summary.exit_code
             }
             Ok(Stopped::Open(loaded)) => Job {
-                threads: threads::make(self.solve.threads, loaded.case.solver.threads),
-                case: loaded.case,
-                mesh: loaded.mesh,
-                warnings: loaded.warnings,
-                source: loaded.source,
                 folder: Some(self.folder),
-                fresh: false,
                 resume: true,
-                read_seconds: clock.elapsed().as_secs_f64(),
+                ..Job::new(*loaded, clock, &self.solve)
             }
             .solve(&self.solve),
         }

@@ -7,7 +7,8 @@ use super::{CaseOptions, FolderOption, SolveOptions, signals, threads};
 use clap::Args;
 use signorini::run::{Detail, Finished};
 use signorini::{
-    Diagnostics, Limits, Listener, Model, News, RunOptions, Source, build, load_case, load_mesh,
+    Diagnostics, Limits, Listener, Loaded, Model, News, RunOptions, Source, build, load_case,
+    load_mesh,
 };
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::Case;
@@ -87,6 +88,21 @@ pub struct Job {
 }
 
 impl Job {
+    /// What was loaded since `clock`, to be solved in its own folder.
+    pub fn new(loaded: Loaded, clock: Instant, options: &SolveOptions) -> Self {
+        Self {
+            threads: threads::make(options.threads, loaded.case.solver.threads),
+            case: loaded.case,
+            mesh: loaded.mesh,
+            warnings: loaded.warnings,
+            source: loaded.source,
+            folder: None,
+            fresh: false,
+            resume: false,
+            read_seconds: clock.elapsed().as_secs_f64(),
+        }
+    }
+
     /// Builds, solves, tells; returns the exit code.
     pub fn solve(self, options: &SolveOptions) -> u8 {
         let clock = Instant::now();

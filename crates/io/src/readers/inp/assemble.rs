@@ -2,7 +2,7 @@
 
 use super::card::key;
 use super::deck::{Deck, Definition, Family, Instance, Region, Scope, Side};
-use super::directory::{Directory, Names as Known, Special};
+use super::directory::{Directory, Names as Known, Special, of_instance};
 use super::kind::Role;
 use super::lines::{Files, Spot};
 use crate::readers::MeshError;
@@ -437,20 +437,11 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// The instance and the rest of a name such as `part-1.top`.
-    fn of_instance<'n>(&self, name: &'n str) -> Option<(usize, &'n str)> {
-        name.match_indices('.').find_map(|(dot, _)| {
-            let (instance, rest) = name.split_at_checked(dot)?;
-            let space = self.instances.get(&key(instance))?;
-            Some((*space, rest.strip_prefix('.')?))
-        })
-    }
-
     /// A set by its name, as seen from a space.
     fn find(&self, number: usize, family: Family, name: &str) -> Option<&Set> {
         let found = self.spaces.get(number)?.get(family, &key(name));
         found.or_else(|| {
-            let (space, rest) = self.of_instance(name).filter(|_| number == 0)?;
+            let (space, rest) = of_instance(&self.instances, name).filter(|_| number == 0)?;
             self.spaces.get(space)?.get(family, &key(rest))
         })
     }
@@ -598,7 +589,7 @@ impl Assembly<'_> {
         name: &str,
         lookup: impl Fn(&Space) -> &Lookup,
     ) -> Option<(usize, u32)> {
-        let (space, label) = self.of_instance(name).filter(|_| number == 0)?;
+        let (space, label) = of_instance(&self.instances, name).filter(|_| number == 0)?;
         let place = lookup(self.spaces.get(space)?).find(label.parse().ok()?)?;
         Some((space, place))
     }

@@ -63,6 +63,18 @@ pub struct Directory {
     pub(super) special: Vec<Special>,
 }
 
+/// The space of the instance and the rest of a name such as `part-1.top`.
+pub(super) fn of_instance<'n>(
+    instances: &BTreeMap<String, usize>,
+    name: &'n str,
+) -> Option<(usize, &'n str)> {
+    name.match_indices('.').find_map(|(dot, _)| {
+        let (instance, rest) = name.split_at_checked(dot)?;
+        let space = instances.get(&key(instance))?;
+        Some((*space, rest.strip_prefix('.')?))
+    })
+}
+
 impl Directory {
     /// The spaces that a scope of the deck stands for.
     #[must_use]
@@ -72,11 +84,7 @@ impl Directory {
 
     /// The space and the rest of a name such as `part-1.top`, as the assembly writes it.
     fn qualified<'n>(&self, space: usize, name: &'n str) -> Option<(usize, &'n str)> {
-        name.match_indices('.').find_map(|(dot, _)| {
-            let (instance, rest) = name.split_at_checked(dot)?;
-            let within = self.instances.get(&key(instance)).filter(|_| space == 0)?;
-            Some((*within, rest.strip_prefix('.')?))
-        })
+        of_instance(&self.instances, name).filter(|_| space == 0)
     }
 
     /// The name in the mesh of a set that a space calls `name`.

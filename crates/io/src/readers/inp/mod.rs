@@ -64,6 +64,12 @@ pub fn read_from(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<Str
     Ok((whole.mesh, whole.notes))
 }
 
+/// What names are compared by: in capitals, without blanks and quotes.
+#[must_use]
+pub fn compared(name: &str) -> String {
+    card::key(name.trim_matches('"'))
+}
+
 /// A real number as Fortran writes it; finite.
 #[must_use]
 pub fn number(text: &str) -> Option<f64> {

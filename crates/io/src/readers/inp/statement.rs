@@ -1,6 +1,7 @@
 //! Cards that say something else than the mesh: kept with their data, and with the places of both.
 
-use super::card::{Card, Fields, key, real, text, whole};
+use super::card::{Card, Fields, real, text, whole};
+use super::compared;
 use super::lines::{Lines, Spot};
 use crate::diagnostic::{Place, SourceFile};
 use std::ops::Range;
@@ -57,7 +58,7 @@ impl Field<'_> {
     /// What names are compared by.
     #[must_use]
     pub fn key(&self) -> String {
-        key(self.text.trim_matches('"'))
+        compared(self.text)
     }
 }
 
