@@ -1,8 +1,8 @@
 //! `signorini resume DIR`
 
+use super::SolveOptions;
 use super::console::Console;
 use super::run::{Job, refused};
-use super::SolveOptions;
 use clap::Args;
 use signorini::resume::{Stopped, stopped};
 use signorini_io::fs::RealFs;
