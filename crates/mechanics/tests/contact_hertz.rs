@@ -14,6 +14,7 @@ mod common;
 use common::Grid;
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId, boundary};
 use signorini_geometry::tensor::Vec3;
+use signorini_mechanics::contact::discretization::SlidingRange;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::material::SaintVenantKirchhoff;
 use signorini_mechanics::model::{
@@ -132,7 +133,7 @@ fn pressed(facets: f64) -> ContactFrame {
     contact.method = Method::Mortar {
         normals: Default::default(),
     };
-    contact.small_sliding = true;
+    contact.sliding = SlidingRange::Small;
     let step = StepPart {
         name: "press".into(),
         duration: 1.0,

@@ -20,6 +20,7 @@ use common::{Grid, Part, Point, Shape, degree, sample, shape};
 use signorini_geometry::element::{Element, quadrature};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId, boundary};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
+use signorini_mechanics::contact::discretization::SlidingRange;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::material::SaintVenantKirchhoff;
 use signorini_mechanics::model::{
@@ -259,7 +260,9 @@ impl Solution {
         contact.method = Method::Mortar {
             normals: Default::default(),
         };
-        contact.small_sliding = way != Way::Finite;
+        if way != Way::Finite {
+            contact.sliding = SlidingRange::Small;
+        }
         let parts = Parts {
             bodies: vec![body("lower", self.layer(0)), body("upper", self.layer(1))],
             contacts: vec![contact],

@@ -97,6 +97,12 @@ impl Set {
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty() && self.cells.is_empty() && self.faces.is_empty()
     }
+
+    /// Whether nodes are in it, and nothing else.
+    #[must_use]
+    pub fn is_bare(&self) -> bool {
+        !self.nodes.is_empty() && self.cells.is_empty() && self.faces.is_empty()
+    }
 }
 
 /// A mesh.

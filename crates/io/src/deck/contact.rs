@@ -2,12 +2,13 @@
 //!
 //! | deck | by default | with [`Compat::Ccx`] |
 //! |---|---|---|
-//! | HARD, LINEAR, none | the best way to hold surfaces apart | a penalty: K, or 50 E of the first material |
+//! | HARD, LINEAR, none | the best way to hold surfaces apart | a penalty: K, or 50 E of the first material; at nodes rounded by an arctangent, with a tension σ∞, or E/70000, within c0 |
 //! | EXPONENTIAL, TABULAR | the same law | the same law |
 //! | TIED, \*TIE | sides that are joined | the same, node to segment by multipliers |
 //! | TYPE | the best method | node to segment, points inside facets, mortar |
 //! | friction | μ | μ and the slope of sticking, or E/2 |
-//! | GAPUNI | no penetration | a penalty: K, or 1e12 |
+//! | GAPUNI | no penetration | as LINEAR at nodes: K, or 1e12, and σ∞, or 1e-3 |
+//! | a surface of nodes | the outer faces between them | the nodes, with their parts of all outer faces around |
 //!
 //! Source: the laws of CalculiX are those of its User's Manual, sections on contact.
 
@@ -19,7 +20,7 @@ use crate::case::{
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
-use signorini_geometry::mesh::boundary;
+use signorini_geometry::mesh::{Set, boundary};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
 
@@ -30,8 +31,12 @@ const STICK: f64 = 0.5;
 /// Points of a facet along each direction: so many that their sums are the integrals over what touches, which CalculiX
 /// takes over the parts of facets that meet one another.
 const POINTS: u64 = 8;
-/// The stiffness of a gap element, likewise.
-const GAP: f64 = 1e12;
+/// The first modulus of the deck over the tension that nodes feel at a distance, likewise.
+const TENSION: f64 = 70_000.0;
+/// How far they feel it, in sizes of the facets, likewise.
+const WITHIN: f64 = 1e-3;
+/// The stiffness and the tension of a gap element, likewise.
+const GAP: [f64; 2] = [1e12, 1e-3];
 /// How far nodes may be from the surface that they are tied to, in sizes of its elements.
 const TIE: f64 = 0.025;
 
@@ -46,7 +51,8 @@ struct Interaction {
 enum Law {
     #[default]
     Hard,
-    Linear(f64),
+    /// K, the tension at a distance, and the gap beyond which nothing acts; zero where they are not given.
+    Linear([f64; 3]),
     Exponential {
         c0: f64,
         p0: f64,
@@ -61,6 +67,11 @@ enum Law {
 struct Sides {
     secondary: Name,
     primary: Name,
+}
+
+/// A number, or what stands for it where it is not positive.
+fn given(number: f64, otherwise: f64) -> f64 {
+    if number > 0.0 { number } else { otherwise }
 }
 
 impl Translation<'_> {
@@ -116,9 +127,8 @@ impl Translation<'_> {
     }
 
     fn law(&mut self, card: &Statement) -> Law {
-        let rows: Vec<[f64; 2]> = (card.rows().collect::<Vec<_>>().iter())
-            .map(|row| self.reals(row))
-            .collect();
+        let given: Vec<_> = card.rows().collect();
+        let rows: Vec<[f64; 2]> = given.iter().map(|row| self.reals(row)).collect();
         let [a, b] = rows.first().copied().unwrap_or_default();
         let kind = card
             .get("PRESSURE-OVERCLOSURE")
@@ -131,7 +141,8 @@ impl Translation<'_> {
                     let text = "the stiffness of LINEAR has to be positive";
                     self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
                 }
-                Law::Linear(a)
+                let first = given.first().map(|row| self.reals(row));
+                Law::Linear(first.unwrap_or_default())
             }
             "EXPONENTIAL" => {
                 if a <= 0.0 || b <= 0.0 {
@@ -203,11 +214,14 @@ impl Translation<'_> {
                 continue;
             };
             let mut contact = self.contact(sides, &card.place);
+            if card.has("SMALLSLIDING") {
+                contact.sliding = match self.compat {
+                    Compat::None => Sliding::Small,
+                    Compat::Ccx => Sliding::Increment,
+                };
+            }
             self.obey(&mut contact, &interaction, method, card);
             contact.start.close_gaps_below = within.unwrap_or(0.0);
-            if card.has("SMALLSLIDING") {
-                contact.sliding = Sliding::Small;
-            }
             self.case.contacts.push(contact);
         }
     }
@@ -231,11 +245,14 @@ impl Translation<'_> {
     }
 
     /// A surface of nodes as the outer faces between them, where every node has one: they know the area that each node
-    /// stands for.
+    /// stands for. CalculiX takes nodes as they are.
     pub fn faced(&mut self, surface: Name) -> Name {
+        if self.compat == Compat::Ccx {
+            return surface;
+        }
         let mesh = &self.deck.mesh;
         let nodes = match mesh.sets.get(&surface.value) {
-            Some(set) if set.faces.is_empty() && !set.nodes.is_empty() => &set.nodes,
+            Some(set) if set.is_bare() => &set.nodes,
             _ => return surface,
         };
         let outer = self
@@ -298,11 +315,18 @@ impl Translation<'_> {
     /// The law of a contact.
     fn obey(&self, contact: &mut Contact, by: &Interaction, method: Method, card: &Statement) {
         let exact = self.compat == Compat::Ccx;
-        let penalty = |k: f64| Enforcement::Penalty(Some(Spanned::new(k, card.place.clone())));
+        let penalty = |[stiffness, tension, within]: [f64; 3]| match method {
+            Method::NodeToSegment => Enforcement::Arctangent {
+                stiffness,
+                tension: given(tension, self.first_modulus() / TENSION),
+                within: Some(given(within, WITHIN)),
+            },
+            _ => Enforcement::Penalty(Some(Spanned::new(stiffness, card.place.clone()))),
+        };
         let hard = PENALTY * self.first_modulus();
         contact.enforcement = match &by.law {
-            Law::Hard if exact && method != Method::Mortar => penalty(hard),
-            Law::Linear(k) if exact => penalty(*k),
+            Law::Hard if exact && method != Method::Mortar => penalty([hard, 0.0, 0.0]),
+            Law::Linear(numbers) if exact => penalty(*numbers),
             Law::Hard | Law::Linear(_) => Enforcement::Auto,
             Law::Exponential { c0, p0 } => Enforcement::Exponential { p0: *p0, c0: *c0 },
             Law::Table(rows) => {
@@ -318,6 +342,12 @@ impl Translation<'_> {
             contact.method = method.into();
             if method == Method::GaussPoint {
                 contact.rule.points = Some(POINTS);
+                contact.area = Area::Current;
+                contact.sliding = Sliding::Increment;
+            }
+            let secondary = self.deck.mesh.sets.get(&contact.secondary.value);
+            if secondary.is_some_and(Set::is_bare) {
+                contact.area = Area::Adjacent;
             }
             if !matches!(contact.enforcement, Enforcement::Auto) {
                 contact.per = Some(Per::Area);
@@ -426,7 +456,7 @@ impl Translation<'_> {
             return;
         };
         let row = card.rows().next().unwrap_or_default();
-        let [clearance, nx, ny, nz, _, stiffness, _] = self.reals(&row);
+        let [clearance, nx, ny, nz, _, stiffness, tension] = self.reals(&row);
         let normal = [nx, ny, nz];
         if Vec3::from(normal).normalized().is_none() {
             let text = "*GAP has no direction";
@@ -462,10 +492,13 @@ impl Translation<'_> {
             contact.pairs = Pairs::Order;
             contact.start.clearance = Some(clearance);
             contact.per = Some(Per::Node);
-            let stiffness = if stiffness > 0.0 { stiffness } else { GAP };
             contact.enforcement = match self.compat {
                 Compat::None => Enforcement::Lagrange,
-                Compat::Ccx => Enforcement::Penalty(Some(stiffness.into())),
+                Compat::Ccx => Enforcement::Arctangent {
+                    stiffness: given(stiffness, GAP[0]),
+                    tension: given(tension, GAP[1]),
+                    within: None,
+                },
             };
             if self.compat == Compat::None {
                 contact.per = None;

@@ -56,7 +56,8 @@ pub(super) struct Past {
 
 impl Past {
     fn limit_of(&self, row: &Row, friction: &dyn FrictionLaw, pressure: f64) -> Limit {
-        if row.sliding.free {
+        // where a law pulls, nothing rubs
+        if row.sliding.free || pressure < 0.0 {
             return Limit::default();
         }
         let held = self.limit.map(|value| Limit {

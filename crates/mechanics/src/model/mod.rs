@@ -33,10 +33,10 @@ pub use constraints::ConstraintError;
 pub use error::{LoadError, ModelError};
 pub use held::Unheld;
 pub use parts::{
-    BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart, ContactChange,
-    ContactPart, Enforcement, FrictionPart, Interference, LimitPart, Load, LoadPart, Method,
-    Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart, StartPart,
-    StepPart, StickPart, Target, TiePart, Unknown,
+    AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart,
+    ContactChange, ContactPart, Enforcement, FrictionPart, Interference, LimitPart, Load, LoadPart,
+    Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart,
+    StartPart, StepPart, StickPart, Target, TiePart, Unknown,
 };
 
 use crate::contact::{Interface, Measure};

@@ -74,6 +74,8 @@ pub struct ContactFrame {
     pub traction: Vec<Vec3>,
     /// Accumulated slip at each node.
     pub slip: Vec<Vec3>,
+    /// What sticking has yielded at each node, beside its slip.
+    pub elastic_slip: Vec<Vec3>,
     /// Energy that springs of the contact law, and of sticking, hold at each node.
     pub energy: Vec<f64>,
     /// Tributary area of each node: by mortar, the part that is covered, and none of a node that leans on another one.

@@ -13,10 +13,10 @@ use signorini_io::case::{
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
-use signorini_mechanics::contact::discretization::mortar;
+use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
 use signorini_mechanics::model::{
-    self, ContactChange, ContactPart, ContactSummary, FrictionPart, LimitPart, Method, PrimaryPart,
-    SidePart, StartPart, StickPart, TiePart,
+    self, AreaPart, ContactChange, ContactPart, ContactSummary, FrictionPart, LimitPart, Method,
+    PrimaryPart, SidePart, StartPart, StickPart, TiePart,
 };
 
 /// The contacts that act in some step. Their places in this list are their numbers.
@@ -48,14 +48,22 @@ pub(super) fn contact(
     Some(ContactPart {
         method: method(part),
         two_pass: part.two_pass,
-        present_area: part.area == Area::Current,
+        area: match part.area {
+            Area::Reference => AreaPart::Reference,
+            Area::Current => AreaPart::Present,
+            Area::Adjacent => AreaPart::Adjacent,
+        },
         enforcement: enforcement(&part.enforcement),
         measure: part.per.map(|per| match per {
             Per::Node => Measure::Node,
             Per::Area => Measure::Area,
         }),
         friction: part.friction.as_ref().map(friction),
-        small_sliding: part.sliding == Sliding::Small,
+        sliding: match part.sliding {
+            Sliding::Finite => SlidingRange::Finite,
+            Sliding::Increment => SlidingRange::Increment,
+            Sliding::Small => SlidingRange::Small,
+        },
         tie: part.tied.map(|tied| TiePart {
             close: tied.close,
             within: tied.within,
@@ -134,14 +142,14 @@ fn in_order(
 fn bare(part: &Contact) -> Diagnostics {
     let needs = [
         (
-            part.per == Some(Per::Area),
+            part.per == Some(Per::Area) && part.area != Area::Adjacent,
             "a penalty per area",
-            "write  per = \"node\"  in `enforcement`, or name a surface",
+            "write  per = \"node\"  in `enforcement`,  area = \"adjacent\", or name a surface",
         ),
         (
             part.area == Area::Current,
-            "`area`",
-            "delete `area`, or name a surface",
+            "area \"current\"",
+            "write  area = \"adjacent\", or name a surface",
         ),
         (
             *part.method == case::Method::GaussPoint,
@@ -240,6 +248,7 @@ pub(super) fn words(summary: &ContactSummary) -> String {
         }
         model::Enforcement::Table(_) => "pressures of a table".to_owned(),
         model::Enforcement::Exponential { .. } => "exponential pressures".to_owned(),
+        model::Enforcement::Arctangent { .. } => "pressures by an arctangent".to_owned(),
         model::Enforcement::Lagrange => "multipliers".to_owned(),
         model::Enforcement::Uzawa(_) | model::Enforcement::AugmentedNewton(_) => {
             format!("augmented Lagrangian with {scale} per {per}")
@@ -265,6 +274,15 @@ fn enforcement(part: &Enforcement) -> model::Enforcement {
         }
         Enforcement::Table(rows) => model::Enforcement::Table(rows.clone()),
         Enforcement::Exponential { p0, c0 } => model::Enforcement::Exponential { p0: *p0, c0: *c0 },
+        &Enforcement::Arctangent {
+            stiffness,
+            tension,
+            within,
+        } => model::Enforcement::Arctangent {
+            stiffness,
+            tension,
+            within: within.unwrap_or(f64::INFINITY),
+        },
         Enforcement::Lagrange => model::Enforcement::Lagrange,
         Enforcement::Augmented { by, penalty } => {
             let penalty = penalty.as_ref().map(|one| one.value);

@@ -5,6 +5,7 @@ use super::names::Names;
 use super::*;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{read_case, resolved};
+use signorini_mechanics::contact::discretization::SlidingRange;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{
     self, BodyKind, Change, ConstraintKind, ContactChange, ContactPart, FrictionPart, LimitPart,
@@ -570,7 +571,7 @@ fn contacts_become_what_they_say() {
                 kind: model::PointKind::Lobatto,
                 points: Some(4),
             });
-            part.present_area = true;
+            part.area = AreaPart::Present;
         },
     );
     changed("method = 'node-to-node'\nnormals = [0, 3, 0]", &|part| {
@@ -632,7 +633,7 @@ fn contacts_become_what_they_say() {
     }
     changed("friction = { mu = 0, stiffness = 9 }", &|_| {});
     changed("sliding = 'small'\nreach = 0.5", &|part| {
-        part.small_sliding = true;
+        part.sliding = SlidingRange::Small;
         part.reach = Some(0.5);
     });
     for (tied, close, within) in [

@@ -69,7 +69,8 @@ fn contact_rows(contacts: &[ContactFrame]) -> BTreeMap<u32, [f64; 6]> {
             }
             let vector = |of: &[Vec3]| of.get(k).copied().unwrap_or_default();
             let number = |of: &[f64]| of.get(k).copied().unwrap_or_default();
-            let (slip, traction) = (vector(&contact.slip), vector(&contact.traction));
+            let slip = vector(&contact.slip) + vector(&contact.elastic_slip);
+            let traction = vector(&contact.traction);
             let [slip1, slip2, shear1, shear2] = match tangents(vector(&normals)) {
                 Some([t1, t2]) => [
                     slip.dot(t1),
@@ -152,7 +153,8 @@ mod tests {
             pressure: vec![10.0; n],
             status: vec![Status::Slip; n],
             traction: vec![Vec3::new(-3.0, -1.0, 10.0); n],
-            slip: vec![Vec3::new(0.3, 0.1, 0.0); n],
+            slip: vec![Vec3::new(0.2, 0.0, 0.0); n],
+            elastic_slip: vec![Vec3::new(0.1, 0.1, 0.0); n],
             displacement: vec![Vec3::ZERO; n],
             points,
             ..ContactFrame::default()

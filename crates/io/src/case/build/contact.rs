@@ -27,10 +27,10 @@ impl Builder {
             ),
             two_pass: fields.count("passes") == 2,
             rule: self.rule(fields),
-            area: if fields.text("area").value == "current" {
-                Area::Current
-            } else {
-                Area::Reference
+            area: match fields.text("area").value.as_str() {
+                "current" => Area::Current,
+                "adjacent" => Area::Adjacent,
+                _ => Area::Reference,
             },
             enforcement: self.enforcement(fields),
             per: fields.table("enforcement").text_if("per").map(|word| {
@@ -41,10 +41,10 @@ impl Builder {
                 }
             }),
             friction: self.friction(fields),
-            sliding: if fields.text("sliding").value == "small" {
-                Sliding::Small
-            } else {
-                Sliding::Finite
+            sliding: match fields.text("sliding").value.as_str() {
+                "increment" => Sliding::Increment,
+                "small" => Sliding::Small,
+                _ => Sliding::Finite,
             },
             tied: tied(fields),
             start: start(fields.table("start")),
@@ -122,13 +122,23 @@ impl Builder {
         );
         only(
             "sliding",
-            contact.sliding == Sliding::Small && method == Method::NodeToNode,
+            contact.sliding != Sliding::Finite && method == Method::NodeToNode,
             "pairs of nodes stay what they are: delete `sliding`",
+        );
+        only(
+            "sliding",
+            contact.sliding == Sliding::Increment && method == Method::Mortar,
+            "its cells are those of the first look, or of the present: write \"small\" or delete `sliding`",
         );
         only(
             "enforcement",
             contact.per == Some(Per::Node) && matches!(method, Method::GaussPoint | Method::Mortar),
             "facets carry pressures, not forces of nodes: write  per = \"area\"",
+        );
+        only(
+            "area",
+            contact.area == Area::Adjacent && matches!(method, Method::GaussPoint | Method::Mortar),
+            "only nodes have adjacent faces: delete `area`",
         );
         only(
             "area",
@@ -199,10 +209,7 @@ impl Builder {
     }
 
     fn what_goes_with_a_tie(&mut self, contact: &Contact, fields: Fields<'_>) {
-        let one_sided = matches!(
-            contact.enforcement,
-            Enforcement::Table(_) | Enforcement::Exponential { .. }
-        );
+        let one_sided = contact.enforcement.is_curve();
         for (key, wrong, remark) in [
             (
                 "friction",
@@ -285,6 +292,14 @@ impl Builder {
             return Enforcement::Exponential {
                 p0: law.number("p0"),
                 c0: law.number("c0"),
+            };
+        }
+        if table.has("arctangent") {
+            let law = table.table("arctangent");
+            return Enforcement::Arctangent {
+                stiffness: law.number("stiffness"),
+                tension: law.number("tension"),
+                within: law.number_if("within").map(|within| within.value),
             };
         }
         if table.has("lagrange") {

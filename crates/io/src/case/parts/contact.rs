@@ -97,6 +97,8 @@ pub enum Area {
     Reference,
     /// Those of the deformed surface.
     Current,
+    /// Those of all outer faces of solids that meet a node, at the start.
+    Adjacent,
 }
 
 /// How penetration is prevented.
@@ -116,6 +118,15 @@ pub enum Enforcement {
         /// The gap at which it has fallen to 1 %.
         c0: f64,
     },
+    /// Proportional to the penetration far inside, rounded by an arctangent, with a tension at a distance.
+    Arctangent {
+        /// Force or pressure per penetration.
+        stiffness: f64,
+        /// The tension at a distance.
+        tension: f64,
+        /// The gap beyond which nothing acts, over the size of the facets; none: it acts at any distance.
+        within: Option<f64>,
+    },
     /// Multipliers.
     Lagrange,
     /// Multipliers beside a penalty.
@@ -125,6 +136,17 @@ pub enum Enforcement {
         /// The penalty; none: from the stiffness behind the surface.
         penalty: Option<Spanned<f64>>,
     },
+}
+
+impl Enforcement {
+    /// Whether it is a curve of gap and pressure that stands for itself, without a penalty.
+    #[must_use]
+    pub const fn is_curve(&self) -> bool {
+        matches!(
+            self,
+            Self::Table(_) | Self::Exponential { .. } | Self::Arctangent { .. }
+        )
+    }
 }
 
 /// How the multipliers of an augmented Lagrangian are found.
@@ -192,6 +214,8 @@ pub enum Sliding {
     /// As far as it goes.
     #[default]
     Finite,
+    /// Within an increment, in the tangent plane that each meets at its start.
+    Increment,
     /// Within the tangent plane that each meets first.
     Small,
 }

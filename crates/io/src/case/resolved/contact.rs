@@ -15,9 +15,11 @@ pub(super) fn contact(contact: &Contact) -> Entries {
     let area = match contact.area {
         Area::Reference => "reference",
         Area::Current => "current",
+        Area::Adjacent => "adjacent",
     };
     let sliding = match contact.sliding {
         Sliding::Finite => "finite",
+        Sliding::Increment => "increment",
         Sliding::Small => "small",
     };
     let passes: u64 = if contact.two_pass { 2 } else { 1 };
@@ -91,6 +93,15 @@ fn enforcement(contact: &Contact) -> Value {
         Enforcement::Exponential { p0, c0 } => {
             let law = vec![("p0", (*p0).into()), ("c0", (*c0).into())];
             vec![("exponential", Value::Table(law))]
+        }
+        &Enforcement::Arctangent {
+            stiffness,
+            tension,
+            within,
+        } => {
+            let mut law = vec![("stiffness", stiffness.into()), ("tension", tension.into())];
+            law.extend(within.map(|within| ("within", within.into())));
+            vec![("arctangent", Value::Table(law))]
         }
         Enforcement::Lagrange => vec![("lagrange", Value::Table(Vec::new()))],
         Enforcement::Augmented { by, penalty } => {

@@ -36,8 +36,8 @@ pub(super) static CONTACT: Table = Table {
         key("rule", Shape::Table(&RULE), RULE.doc).hints(&["integration", "quadrature"]),
         key(
             "area",
-            Shape::Choice(&[word("reference"), word("current")]),
-            "whether points stand for the area they have at the start, or now",
+            Shape::Choice(&[word("reference"), word("current"), word("adjacent")]),
+            "what points stand for: their area at the start, their present one, or that of all outer faces at a node",
         )
         .or(Default::Text("reference")),
         key(
@@ -49,8 +49,8 @@ pub(super) static CONTACT: Table = Table {
         FRICTION_KEY.or(Default::Number(0.0)),
         key(
             "sliding",
-            Shape::Choice(&[word("finite"), word("small")]),
-            "how far points slide; small: each keeps the tangent plane it meets first",
+            Shape::Choice(&[word("finite"), word("increment"), word("small")]),
+            "how far points slide; else each keeps the tangent plane it meets at the start of the increment, or first",
         )
         .or(Default::Text("finite")),
         key(
@@ -140,6 +140,7 @@ static ENFORCEMENT: Table = Table {
         .or(Default::Text("auto"))
         .hints(&["stiffness", "epsilon"]),
         key("exponential", Shape::Table(&EXPONENTIAL), EXPONENTIAL.doc),
+        key("arctangent", Shape::Table(&ARCTANGENT), ARCTANGENT.doc),
         key("lagrange", Shape::Table(&LAGRANGE), LAGRANGE.doc).hints(&["multipliers"]),
         key(
             "augmented",
@@ -165,8 +166,8 @@ static ENFORCEMENT: Table = Table {
         .or(Default::Text("auto")),
     ],
     rules: &[
-        Rule::AtMostOne(&["exponential", "lagrange", "augmented"]),
-        Rule::AtMostOne(&["penalty", "exponential"]),
+        Rule::AtMostOne(&["exponential", "arctangent", "lagrange", "augmented"]),
+        Rule::AtMostOne(&["penalty", "exponential", "arctangent"]),
         Rule::AtMostOne(&["penalty", "lagrange"]),
         Rule::AtMostOne(&["lagrange", "per"]),
         Rule::Needs("gap_tol", "augmented"),
@@ -184,6 +185,26 @@ static EXPONENTIAL: Table = Table {
     keys: &[
         key("p0", POSITIVE, "pressure at zero gap").required(),
         key("c0", POSITIVE, "the gap at which it has fallen to 1 %").required(),
+    ],
+    rules: &[],
+};
+
+static ARCTANGENT: Table = Table {
+    heading: "arctangent",
+    doc: "a penalty rounded by an arctangent, with a tension at a distance",
+    keys: &[
+        key(
+            "stiffness",
+            POSITIVE,
+            "force or pressure per penetration, far inside",
+        )
+        .required(),
+        key("tension", POSITIVE, "the tension at a distance").required(),
+        key(
+            "within",
+            NOT_NEGATIVE,
+            "the gap beyond which nothing acts, in sizes of the facets; absent: it acts at any distance",
+        ),
     ],
     rules: &[],
 };

@@ -16,7 +16,7 @@ pub mod projected;
 
 pub use mortar::Mortar;
 pub use nodes::{NodeNormals, NodeToNode};
-pub use points::PointToSegment;
+pub use points::{PointToSegment, SlidingRange};
 
 use super::mortar::Weights;
 use super::row::{Rows, Wanted};
@@ -185,6 +185,11 @@ pub trait Discretization: Send + Sync {
 
     /// Nodes of the secondary side without a row of their own that a row speaks for.
     fn guests(&self, _row: usize, _pair: &SurfacePair, _pairing: &Pairing, _out: &mut Vec<NodeId>) {
+    }
+
+    /// Whether tangent planes that are held are those at the start of the increment.
+    fn renews(&self) -> bool {
+        false
     }
 
     /// Whether rows meet several facets at once, and there is no closest point.

@@ -13,6 +13,18 @@ use signorini_geometry::surface::{
 };
 use signorini_geometry::tensor::Vec3;
 
+/// How far points slide, and so how long they keep the tangent plane that they meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SlidingRange {
+    /// As far as it goes: the closest point moves with them.
+    #[default]
+    Finite,
+    /// Little within an increment: they keep the tangent plane that they meet at its start.
+    Increment,
+    /// Little: they keep the tangent plane that they meet first.
+    Small,
+}
+
 /// Every point of the secondary side against the closest facet.
 #[derive(Clone, Debug, Default)]
 pub struct PointToSegment {
@@ -22,8 +34,8 @@ pub struct PointToSegment {
     weights: Vec<f64>,
     /// On what closest points may lie.
     pub closest: Closest,
-    /// Whether every point keeps the tangent plane that it meets first.
-    pub small_sliding: bool,
+    /// How long points keep the tangent plane that they meet.
+    pub sliding: SlidingRange,
     /// A facet that each point is on, where the surface may touch itself; empty elsewhere.
     own: Vec<u32>,
 }
@@ -134,6 +146,10 @@ impl Discretization for PointToSegment {
         }
     }
 
+    fn renews(&self) -> bool {
+        self.sliding == SlidingRange::Increment
+    }
+
     fn pair_up(
         &self,
         pair: &SurfacePair,
@@ -164,7 +180,10 @@ impl Discretization for PointToSegment {
                 let facing = self.facing(row, surface, at, near.candidates().near(row));
                 closest(surface, at, point, &facing, how)?
             };
-            if let Some(found) = found.as_mut().filter(|_| self.small_sliding) {
+            if let Some(found) = found
+                .as_mut()
+                .filter(|_| self.sliding != SlidingRange::Finite)
+            {
                 surface.jet(at, &found.anchor, &mut jet)?;
                 let away = point - jet.position;
                 let normal = match found.feature {

@@ -412,6 +412,10 @@ impl Term for Interface {
             self.sees_others = false;
             self.accepted.clone_from(&self.now);
         }
+        if self.parts.discretization.renews() {
+            self.let_go();
+            self.search(&at).map_err(|e| self.failed(&e))?;
+        }
         self.before.clone_from(&self.accepted);
         self.settled = 0;
         self.measure_again(&at).map_err(|e| self.failed(&e))?;

@@ -80,6 +80,13 @@ impl Interface {
         Ok(())
     }
 
+    /// No point holds a tangent plane any more.
+    pub(super) fn let_go(&mut self) {
+        for pair in self.now.pairs.iter_mut().flatten() {
+            pair.held = None;
+        }
+    }
+
     /// Bonds stay where they are, however far they stretch.
     fn hold(&mut self) {
         for (pair, anchor) in self.now.pairs.iter_mut().zip(self.history.anchors()) {

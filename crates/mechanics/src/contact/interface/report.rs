@@ -19,6 +19,7 @@ struct Means {
     pressure: Vec<f64>,
     traction: Vec<Vec3>,
     slip: Vec<Vec3>,
+    elastic_slip: Vec<Vec3>,
 }
 
 /// What a row adds to the means.
@@ -29,6 +30,7 @@ struct OfRow {
     /// On the side whose means these are.
     traction: Vec3,
     slip: Vec3,
+    elastic_slip: Vec3,
 }
 
 impl Means {
@@ -40,6 +42,7 @@ impl Means {
             pressure: vec![0.0; n],
             traction: vec![Vec3::ZERO; n],
             slip: vec![Vec3::ZERO; n],
+            elastic_slip: vec![Vec3::ZERO; n],
         }
     }
 
@@ -50,6 +53,7 @@ impl Means {
         self.pressure[k] += weight * row.pressure;
         self.traction[k] += row.traction * weight;
         self.slip[k] += row.slip * weight;
+        self.elastic_slip[k] += row.elastic_slip * weight;
     }
 
     /// The means themselves, where there are any.
@@ -61,6 +65,7 @@ impl Means {
             pressure: self.pressure[k] / weight,
             traction: self.traction[k] / weight,
             slip: self.slip[k] / weight,
+            elastic_slip: self.elastic_slip[k] / weight,
         })
     }
 }
@@ -87,7 +92,7 @@ impl Interface {
                 Measure::Node => area.recip(),
             };
             let (mut pressure, mut pull, mut status) = (0.0, Vec3::ZERO, Status::Absent);
-            let mut energy = 0.0;
+            let (mut energy, mut elastic_slip) = (0.0, Vec3::ZERO);
             let found = scratch.rows.rows().first();
             if let Some(filled) = found {
                 gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
@@ -97,6 +102,11 @@ impl Interface {
                 let lambda = self.lambda(row, state);
                 let traction = self.traction(filled, &lambda);
                 energy = self.measure(row) * self.stored(filled, &lambda, &traction);
+                elastic_slip = if self.parts.bond.is_none() && self.laws().slips() {
+                    self.laws().elastic(&traction)
+                } else {
+                    Vec3::ZERO
+                };
                 let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
                 pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
@@ -125,6 +135,7 @@ impl Interface {
                 pressure,
                 traction: pull,
                 slip,
+                elastic_slip,
             });
             report.pressure_max = report.pressure_max.max(pressure);
             report.slip_max = report.slip_max.max(slip.norm());
@@ -176,6 +187,7 @@ impl Interface {
                 report.pressure[k] = mean.pressure;
                 report.traction[k] = mean.traction;
                 report.slip[k] = mean.slip;
+                report.elastic_slip[k] = mean.elastic_slip;
             }
         }
         for k in hosted {
@@ -321,6 +333,7 @@ impl Interface {
             force: vec![Vec3::ZERO; n],
             traction: vec![Vec3::ZERO; n],
             slip: vec![Vec3::ZERO; n],
+            elastic_slip: vec![Vec3::ZERO; n],
             energy: vec![0.0; n],
             area: vec![0.0; n],
             facet_size: self.parts.scale.length,

@@ -1,5 +1,6 @@
 use super::{ContactLaw, Eval, Scale};
 use std::cmp::Ordering;
+use std::f64::consts::PI;
 use thiserror::Error;
 
 /// A pressure that falls exponentially with the gap: `p0` at `g = 0`, 1 % of it at `g = c0`; without end on both sides.
@@ -43,6 +44,62 @@ impl ContactLaw for Exponential {
         let at = self.pressure(bend, 0.0, scale);
         let further = gap - bend;
         Some(-at.value / rate - at.value * further - 0.5 * at.dgap * further * further)
+    }
+}
+
+/// A penalty whose corner is rounded by an arctangent, with a tension that remains at a distance.
+///
+/// `p = K d (1/2 + atan(d/ε)/π)` at the penetration `d = −g`, with `ε = π t/K`: far inside it is `K d − t`, far outside the
+/// tension `t`. Beyond `within` facets there is nothing; the pressure jumps there by less than `t`.
+///
+/// # Source
+/// CalculiX CrunchiX User's Manual, node-to-face penalty contact, linear pressure-overclosure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arctangent {
+    /// K: pressure per penetration, far inside.
+    pub stiffness: f64,
+    /// t: the tension at a distance, positive.
+    pub tension: f64,
+    /// The gap beyond which nothing acts, over the size of the facets; infinite where it acts at any distance.
+    pub within: f64,
+}
+
+impl Arctangent {
+    fn width(&self) -> f64 {
+        PI * self.tension / self.stiffness
+    }
+
+    /// The potential, zero at d = 0.
+    fn potential(&self, d: f64) -> f64 {
+        let width = self.width();
+        let rounded = (d * d + width * width) * (d / width).atan() - width * d;
+        self.stiffness * (0.25 * d * d + rounded / (2.0 * PI))
+    }
+}
+
+impl ContactLaw for Arctangent {
+    fn pressure(&self, gap: f64, _: f64, scale: &Scale) -> Eval {
+        if gap > self.within * scale.length {
+            return Eval::default();
+        }
+        let (d, width) = (-gap, self.width());
+        let share = 0.5 + (d / width).atan() / PI;
+        let bend = d * width / (PI * (d * d + width * width));
+        Eval {
+            value: self.stiffness * d * share,
+            dgap: -self.stiffness * (share + bend),
+            dlambda: 0.0,
+        }
+    }
+
+    fn energy(&self, gap: f64, _: f64, scale: &Scale) -> Option<f64> {
+        let end = self.within * scale.length;
+        let beyond = if end.is_finite() {
+            self.potential(-end)
+        } else {
+            0.0
+        };
+        Some(self.potential(-gap.min(end)) - beyond)
     }
 }
 

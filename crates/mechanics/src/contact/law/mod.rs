@@ -11,7 +11,7 @@
 //! | law | multiplier | p(g, λ) | c(g, λ) |
 //! |---|---|---|---|
 //! | [`Penalty`] | none | ε⟨−g⟩ | |
-//! | [`Table`], [`Exponential`] | none | a curve that falls with the gap | |
+//! | [`Table`], [`Exponential`], [`Arctangent`] | none | a curve that falls with the gap | |
 //! | [`Uzawa`] | frozen | ⟨λ − εg⟩ | then λ ← p |
 //! | [`AugmentedNewton`] | unknown | ⟨λ − εg⟩ | (p − λ)/ε |
 //! | [`Lagrange`] | unknown | λ where λ > cg, else 0 | (⟨λ − cg⟩ − λ)/c |
@@ -31,7 +31,7 @@ mod penalty;
 mod tests;
 
 pub use augmented::{AugmentedNewton, Uzawa};
-pub use curves::{Exponential, Table, TableError};
+pub use curves::{Arctangent, Exponential, Table, TableError};
 pub use lagrange::Lagrange;
 pub use penalty::Penalty;
 
@@ -83,7 +83,7 @@ pub trait ContactLaw: Send + Sync {
         Multiplier::None
     }
 
-    /// The pressure, ≥ 0 in compression; all zero where it is open.
+    /// The pressure, ≥ 0 in compression; all zero where it is open. A law may pull a little ([`Arctangent`]).
     fn pressure(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval;
 
     /// The function whose root is contact; zero for laws without an unknown multiplier.

@@ -13,6 +13,11 @@ fn all() -> Vec<Box<dyn ContactLaw>> {
         Box::new(Uzawa),
         Box::new(AugmentedNewton),
         Box::new(Exponential { p0: 2.0, c0: 0.1 }),
+        Box::new(Arctangent {
+            stiffness: 4.0,
+            tension: 0.05,
+            within: 0.5,
+        }),
         Box::new(Table::new(rows).unwrap()),
     ]
 }

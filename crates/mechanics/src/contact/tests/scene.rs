@@ -3,7 +3,8 @@
 
 use super::super::discretization::projected::Closest;
 use super::super::discretization::{
-    Anchored, Discretization, Mortar, NodeNormals, NodeToNode, PointToSegment, SurfacePair, mortar,
+    Anchored, Discretization, Mortar, NodeNormals, NodeToNode, PointToSegment, SlidingRange,
+    SurfacePair, mortar,
 };
 use super::super::friction::{FrictionLaw, Stick};
 use super::super::law::{ContactLaw, Scale};
@@ -266,7 +267,9 @@ impl Scene {
             Method::NodeToSegment | Method::SmallSliding => {
                 let mut at_nodes = PointToSegment::at_nodes(&points);
                 at_nodes.closest = closest;
-                at_nodes.small_sliding = method == Method::SmallSliding;
+                if method == Method::SmallSliding {
+                    at_nodes.sliding = SlidingRange::Small;
+                }
                 Box::new(at_nodes)
             }
             Method::Gauss | Method::Lobatto => {

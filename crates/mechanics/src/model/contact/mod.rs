@@ -10,6 +10,7 @@ use super::{
     ContactChange, ContactPart, ContactSummary, Context, Enforcement, FrictionPart, LimitPart,
     ModelError, StartSummary, StickPart,
 };
+use crate::contact::discretization::SlidingRange;
 use crate::contact::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
 use crate::contact::law::Scale;
 use crate::contact::{InterfaceParts, Measure, Phase};
@@ -160,7 +161,7 @@ impl Context<'_> {
                 contact: part.name.clone(),
                 source,
             })?;
-        if part.small_sliding || part.tie.is_some() {
+        if part.sliding == SlidingRange::Small || part.tie.is_some() {
             let held = sides.hold(&at, self.space);
             held.map_err(|source| ModelError::Surface {
                 contact: part.name.clone(),

@@ -5,16 +5,17 @@ use crate::contact::discretization::{
     Discretization, Mortar, NodeNormals, NodeToNode, Pairing, PointToSegment, SurfacePair,
 };
 use crate::contact::law::{
-    AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table, Uzawa,
+    Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
+    Uzawa,
 };
 use crate::contact::{Areas, Measure, closest_points, discretization, mortar};
 use crate::model::{
-    ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind, PointRule,
-    PrimaryPart, SidePart, label,
+    AreaPart, ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind,
+    PointRule, PrimaryPart, SidePart, label,
 };
 use crate::system::{Elimination, Idealisation};
 use signorini_geometry::element::{Element, quadrature};
-use signorini_geometry::mesh::{Face, Mesh, NodeId};
+use signorini_geometry::mesh::{Face, Mesh, NodeId, boundary};
 use signorini_geometry::surface::{
     Anchor, ContactSurface, Facets, Placement, SurfaceError, SurfaceJet,
 };
@@ -142,27 +143,27 @@ impl Source<'_> {
             Closest::Anywhere
         };
         let extent = |x| self.space.extent(x);
-        let nodal = |facets: &Facets| -> Result<Vec<(NodeId, f64)>, ModelError> {
-            let areas = facets.lumped_areas(self.reference, &extent);
-            areas.map_err(surface_error)
+        let around = match part.area {
+            AreaPart::Adjacent => Some(facets(&self.outer_faces_at(&points))?),
+            AreaPart::Reference | AreaPart::Present => secondary.clone(),
         };
+        let nodal = |points: &[NodeId]| -> Result<Vec<f64>, ModelError> {
+            let Some(facets) = &around else {
+                return Ok(Vec::new());
+            };
+            let areas = facets.lumped_areas(self.reference, &extent);
+            Ok(of_points(points, &areas.map_err(surface_error)?))
+        };
+        let present = secondary.clone().filter(|_| part.area == AreaPart::Present);
         let space = self.space;
         let mut areas: Option<Areas> = None;
         let (discretization, area): (Box<dyn Discretization>, Vec<f64>) = match method {
             Method::NodeToNode { normals, pairs } => {
                 let pairs = self.node_pairs(part, primary.as_ref(), pairs)?;
                 let normals = node_normals(part, normals, &primary, &secondary)?;
-                let area = match &secondary {
-                    Some(facets) => of_pairs(&pairs, &nodal(facets)?),
-                    None => Vec::new(),
-                };
-                if let Some(facets) = secondary.clone().filter(|_| part.present_area) {
-                    let pairs = pairs.clone();
-                    areas = Some(Box::new(move |x| {
-                        let areas = facets.lumped_areas(x, &|x| space.extent(x))?;
-                        Ok(of_pairs(&pairs, &areas))
-                    }));
-                }
+                let first: Vec<NodeId> = pairs.iter().map(|pair| pair[0]).collect();
+                let area = nodal(&first)?;
+                areas = present.map(|facets| present_areas(facets, first, space));
                 (Box::new(NodeToNode::new(pairs, normals)), area)
             }
             Method::GaussPoint(rule) => {
@@ -182,9 +183,8 @@ impl Source<'_> {
                 let (mut inside, area) =
                     PointToSegment::inside(facets, points, self.reference, &extent)
                         .map_err(surface_error)?;
-                inside.small_sliding = part.small_sliding;
-                if part.present_area {
-                    let facets = facets.clone();
+                inside.sliding = part.sliding;
+                if let Some(facets) = present {
                     areas = Some(Box::new(move |x| {
                         let points = |element: Element| on_facet(rule, element);
                         let extent = |x| space.extent(x);
@@ -200,7 +200,7 @@ impl Source<'_> {
                         what: "mortar contact needs two sides made of faces",
                     });
                 };
-                if part.present_area || same || part.two_pass {
+                if part.area != AreaPart::Reference || same || part.two_pass {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
                         what: "mortar contact has one pass between two surfaces, and pressures per present area",
@@ -214,17 +214,9 @@ impl Source<'_> {
             Method::NodeToSegment | Method::Auto => {
                 let mut at_nodes = PointToSegment::at_nodes(&points);
                 at_nodes.closest = closest;
-                at_nodes.small_sliding = part.small_sliding;
-                let area = match &secondary {
-                    Some(facets) => nodal(facets)?.into_iter().map(|a| a.1).collect(),
-                    None => Vec::new(),
-                };
-                if let Some(facets) = secondary.clone().filter(|_| part.present_area) {
-                    areas = Some(Box::new(move |x| {
-                        let areas = facets.lumped_areas(x, &|x| space.extent(x))?;
-                        Ok(areas.into_iter().map(|a| a.1).collect())
-                    }));
-                }
+                at_nodes.sliding = part.sliding;
+                let area = nodal(&points)?;
+                areas = present.map(|facets| present_areas(facets, points.clone(), space));
                 (Box::new(at_nodes), area)
             }
         };
@@ -254,16 +246,29 @@ impl Source<'_> {
         })
     }
 
+    /// The outer faces of solids that meet any of some sorted nodes.
+    fn outer_faces_at(&self, points: &[NodeId]) -> Vec<Face> {
+        let meets = |nodes: &[NodeId]| nodes.iter().any(|n| points.binary_search(n).is_ok());
+        let solids = self.mesh.cells(self.mesh.dim());
+        let mut outer = boundary(
+            self.mesh,
+            solids.filter(|cell| meets(self.mesh.cell(*cell))),
+        );
+        outer.retain(|face| {
+            let of_face = self.mesh.face(*face);
+            of_face.is_some_and(|(_, nodes)| meets(&nodes))
+        });
+        outer
+    }
+
     /// The method in use.
     ///
     /// Mortar passes on any even pressure and needs no number, but compares two surfaces of deformable solids, with
     /// multipliers at nodes that can follow them. With a penalty, points are cheaper and no worse; nodes alone cannot carry
     /// an even pressure on some facets. Multipliers at points inside facets are more than there are nodes to follow them.
     fn method(&self, part: &ContactPart, secondary: Option<&Facets>) -> Method {
-        let open = !matches!(
-            part.enforcement,
-            Enforcement::Penalty(_) | Enforcement::Table(_) | Enforcement::Exponential { .. }
-        );
+        let penalty = matches!(part.enforcement, Enforcement::Penalty(_));
+        let open = !penalty && !part.enforcement.is_curve();
         let exact = open && !matches!(part.enforcement, Enforcement::Auto);
         match (&part.method, &part.primary) {
             (Method::Auto, PrimaryPart::Nodes(_)) => Method::NodeToNode {
@@ -288,7 +293,9 @@ impl Source<'_> {
 
     /// Whether multipliers of mortar contact can be had for what a contact asks for.
     fn suits_mortar(&self, part: &ContactPart, secondary: Option<&Facets>) -> bool {
-        let plain = !part.two_pass && !part.present_area && part.measure != Some(Measure::Node);
+        let plain = !part.two_pass
+            && part.area == AreaPart::Reference
+            && part.measure != Some(Measure::Node);
         let given = |n: &NodeId| {
             let prescribed = self.prescribed.get(*n as usize);
             prescribed == Some(&true) || self.elimination.body_of(*n).is_some()
@@ -426,13 +433,21 @@ fn measure(space: Idealisation) -> mortar::Measure {
     }
 }
 
-/// Areas of the secondary nodes of pairs, from those of all nodes in their order.
-fn of_pairs(pairs: &[[NodeId; 2]], areas: &[(NodeId, f64)]) -> Vec<f64> {
-    let of = |node: NodeId| {
-        let found = areas.binary_search_by_key(&node, |a| a.0).ok();
+/// The areas of some nodes, from those of all nodes in their order.
+fn of_points(points: &[NodeId], areas: &[(NodeId, f64)]) -> Vec<f64> {
+    let of = |node: &NodeId| {
+        let found = areas.binary_search_by_key(node, |a| a.0).ok();
         found.and_then(|k| areas.get(k)).map_or(0.0, |a| a.1)
     };
-    pairs.iter().map(|p| of(p[0])).collect()
+    points.iter().map(of).collect()
+}
+
+/// The areas of some nodes of these facets, wherever they are.
+fn present_areas(facets: Facets, points: Vec<NodeId>, space: Idealisation) -> Areas {
+    Box::new(move |x| {
+        let areas = facets.lumped_areas(x, &|x| space.extent(x))?;
+        Ok(of_points(&points, &areas))
+    })
 }
 
 fn node_normals(
@@ -490,18 +505,23 @@ fn law(part: &ContactPart, method: &Method) -> Result<Box<dyn ContactLaw>, Model
             )
         }
         Enforcement::Exponential { p0, c0 } => Box::new(Exponential { p0: *p0, c0: *c0 }),
+        &Enforcement::Arctangent {
+            stiffness,
+            tension,
+            within,
+        } => Box::new(Arctangent {
+            stiffness,
+            tension,
+            within,
+        }),
         Enforcement::Lagrange => Box::new(Lagrange),
         Enforcement::Uzawa(_) => Box::new(Uzawa),
         Enforcement::AugmentedNewton(_) => Box::new(AugmentedNewton),
     };
-    let curve = matches!(
-        part.enforcement,
-        Enforcement::Table(_) | Enforcement::Exponential { .. }
-    );
-    if part.tie.is_some() && curve && law.multiplier() == Multiplier::None {
+    if part.tie.is_some() && part.enforcement.is_curve() && law.multiplier() == Multiplier::None {
         return Err(ModelError::Unsuited {
             contact: part.name.clone(),
-            what: "sides that are joined pull, too: a table or an exponential says nothing about that",
+            what: "sides that are joined pull, too: a curve of pressures says nothing about that",
         });
     }
     Ok(law)

@@ -1,7 +1,7 @@
 //! Contacts, as plain data.
 
 use crate::contact::Measure;
-use crate::contact::discretization::mortar;
+use crate::contact::discretization::{SlidingRange, mortar};
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::ContactSurface;
 use signorini_geometry::tensor::Vec3;
@@ -114,6 +114,18 @@ pub enum PointKind {
     Lobatto,
 }
 
+/// What the tributary areas of points are taken from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AreaPart {
+    /// The facets of the secondary side, at the start.
+    #[default]
+    Reference,
+    /// The facets of the secondary side, in the last accepted state.
+    Present,
+    /// All outer faces of solids that meet a node, at the start, whether they belong to the side or not.
+    Adjacent,
+}
+
 /// How penetration is prevented.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Enforcement {
@@ -130,6 +142,15 @@ pub enum Enforcement {
         p0: f64,
         /// The gap at which it has fallen to 1 %.
         c0: f64,
+    },
+    /// Proportional to the penetration far inside, rounded by an arctangent, with a tension that remains at a distance.
+    Arctangent {
+        /// Force or pressure per penetration.
+        stiffness: f64,
+        /// The tension at a distance.
+        tension: f64,
+        /// The gap beyond which nothing acts, over the size of the facets; infinite where it acts at any distance.
+        within: f64,
     },
     /// Multipliers, with a primal-dual active set.
     Lagrange,
@@ -236,16 +257,16 @@ pub struct ContactPart {
     pub method: Method,
     /// Whether also with the sides swapped.
     pub two_pass: bool,
-    /// Whether tributary areas are those of the last accepted state, and not of the start.
-    pub present_area: bool,
+    /// What tributary areas are taken from.
+    pub area: AreaPart,
     /// How penetration is prevented.
     pub enforcement: Enforcement,
     /// What the law's pressure refers to; `None`: area where the secondary side has one.
     pub measure: Option<Measure>,
     /// Friction; `None`: none.
     pub friction: Option<FrictionPart>,
-    /// Whether sliding is small: every point keeps the tangent plane that it meets first.
-    pub small_sliding: bool,
+    /// How far points slide, and so how long they keep the tangent plane that they meet.
+    pub sliding: SlidingRange,
     /// Whether the sides are joined.
     pub tie: Option<TiePart>,
     /// Gaps and overlaps at the start.
@@ -254,6 +275,17 @@ pub struct ContactPart {
     pub reach: Option<f64>,
     /// Whether it acts in the first step.
     pub active: bool,
+}
+
+impl Enforcement {
+    /// Whether it is a curve of gap and pressure that stands for itself, without a penalty.
+    #[must_use]
+    pub const fn is_curve(&self) -> bool {
+        matches!(
+            self,
+            Self::Table(_) | Self::Exponential { .. } | Self::Arctangent { .. }
+        )
+    }
 }
 
 impl ContactPart {
@@ -266,11 +298,11 @@ impl ContactPart {
             primary,
             method: Method::Auto,
             two_pass: false,
-            present_area: false,
+            area: AreaPart::default(),
             enforcement: Enforcement::Auto,
             measure: None,
             friction: None,
-            small_sliding: false,
+            sliding: SlidingRange::default(),
             tie: None,
             start: StartPart::default(),
             reach: None,

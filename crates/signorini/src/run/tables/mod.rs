@@ -319,7 +319,8 @@ impl Writer<'_> {
         match quantity {
             ContactQuantity::Gap => self.closed(ContactKind::Gaps, &acting, |c, k| {
                 let [first, second] = tangents(c.normal[k]);
-                [c.gap[k], c.slip[k].dot(first), c.slip[k].dot(second)]
+                let along = c.slip[k] + c.elastic_slip[k];
+                [c.gap[k], along.dot(first), along.dot(second)]
             }),
             ContactQuantity::Traction => self.closed(ContactKind::Tractions, &acting, |c, k| {
                 let [first, second] = tangents(c.normal[k]);
