@@ -2,32 +2,12 @@
 
 use super::translation::{Target, Translation};
 use crate::case::{
-    Body, Constraint, ConstraintKind, Directions, Name, Position, Reference, Summand,
+    AxesSystem, Body, Constraint, ConstraintKind, Directions, LocalAxes, Name, Position, Reference,
+    Summand,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use signorini_geometry::tensor::Vec3;
-
-/// Three unit vectors at right angles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Axes(pub [Vec3; 3]);
-
-impl Axes {
-    /// The first along `a`, the second in the plane of both; none where they are parallel.
-    pub fn new(a: [f64; 3], b: [f64; 3]) -> Option<Self> {
-        let first = Vec3::from(a).normalized()?;
-        let third = first.cross(Vec3::from(b)).normalized()?;
-        Some(Self([first, third.cross(first), third]))
-    }
-
-    /// Radial, circumferential and along an axis through two points, at a place off it.
-    fn around(a: Vec3, b: Vec3, x: Vec3) -> Option<Self> {
-        let along = (b - a).normalized()?;
-        let out = x - a;
-        let radial = (out - along * out.dot(along)).normalized()?;
-        Some(Self([radial, along.cross(radial), along]))
-    }
-}
 
 /// What a node stands for that moves a rigid body or follows a surface.
 #[derive(Clone, Debug)]
@@ -57,17 +37,28 @@ impl Translation<'_> {
             let kind = card.get("TYPE").map(compared).unwrap_or_default();
             let row = card.rows().next().unwrap_or_default();
             let [a, b, c, d, e, f] = self.reals(&row);
+            let system = match kind.as_str() {
+                "C" => AxesSystem::Cylindrical {
+                    from: [a, b, c],
+                    to: [d, e, f],
+                },
+                "" | "R" => AxesSystem::Rectangular {
+                    x: [a, b, c],
+                    xy: [d, e, f],
+                },
+                _ => {
+                    let text = format!("*TRANSFORM, TYPE={kind} is not supported");
+                    self.error(&codes::NOT_BUILT, text, &card.place, "");
+                    continue;
+                }
+            };
+            self.case.axes.push(LocalAxes {
+                set: set.clone(),
+                system,
+                place: card.place.clone(),
+            });
             for label in self.labels(&Target::Set(set.value)) {
-                let axes = match (kind.as_str(), self.point(label)) {
-                    ("C", Some(x)) => Axes::around(Vec3::new(a, b, c), Vec3::new(d, e, f), x),
-                    ("C", None) => None,
-                    ("" | "R", _) => Axes::new([a, b, c], [d, e, f]),
-                    _ => {
-                        let text = format!("*TRANSFORM, TYPE={kind} is not supported");
-                        self.error(&codes::NOT_BUILT, text, &card.place, "");
-                        break;
-                    }
-                };
+                let axes = system.at(self.point(label).unwrap_or_default());
                 let Some(axes) = axes else {
                     let text = format!("*TRANSFORM gives no axes at node {label}");
                     self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
@@ -313,7 +304,7 @@ impl Translation<'_> {
             .iter()
             .find_map(|label| self.axes.get(label))
             .copied();
-        let direction = turned.map_or_else(|| unit(axis), |axes| axes.0[axis]);
+        let direction = turned.map_or_else(|| unit(axis), |axes| axes[axis]);
         if turned.is_some() && labels.len() > 1 {
             let text = "an equation of a set of nodes with local axes is not supported";
             self.error(&codes::NOT_BUILT, text, &place, "name the nodes one by one");

@@ -62,6 +62,17 @@ enum Law {
     Tied,
 }
 
+/// A line of *CONTACT PAIR.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    /// The name of its interaction, as names are compared.
+    named: String,
+    interaction: Interaction,
+    method: Method,
+    /// The place in the case of the contact that acts for it.
+    contact: usize,
+}
+
 /// Where a pair is said to be.
 #[derive(Clone, Debug)]
 struct Sides {
@@ -180,16 +191,14 @@ impl Translation<'_> {
     }
 
     fn pairs(&mut self, card: &Statement, interactions: &BTreeMap<String, Interaction>) {
-        let interaction = match self.need(card, "INTERACTION").map(compared) {
-            None => Interaction::default(),
-            Some(name) => match interactions.get(&name) {
-                Some(found) => found.clone(),
-                None => {
-                    let text = format!("there is no surface interaction `{name}`");
-                    self.error(&codes::UNDEFINED, text, &card.place, "");
-                    return;
-                }
-            },
+        let named = self.need(card, "INTERACTION").map(compared);
+        let named = named.unwrap_or_default();
+        let Some(interaction) = interactions.get(&named) else {
+            if !named.is_empty() {
+                let text = format!("there is no surface interaction `{named}`");
+                self.error(&codes::UNDEFINED, text, &card.place, "");
+            }
+            return;
         };
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
         let method = match kind.as_str() {
@@ -202,13 +211,16 @@ impl Translation<'_> {
                 return;
             }
         };
-        let within = card.get("ADJUST").map(|text| {
-            number(text).unwrap_or_else(|| {
-                let text = "ADJUST by a node set is not supported";
-                self.error(&codes::NOT_BUILT, text, &card.place, "give a tolerance");
-                0.0
-            })
-        });
+        let mut start = Start {
+            interference: Interference::Step,
+            ..Start::default()
+        };
+        if let Some(text) = card.get("ADJUST") {
+            match number(text) {
+                Some(within) => start.close_gaps_below = within,
+                None => start.close_gaps_of = self.set(card, text, &card.place, Kind::Nodes),
+            }
+        }
         for row in card.rows() {
             let Some(sides) = self.sides(card, &row) else {
                 continue;
@@ -220,8 +232,14 @@ impl Translation<'_> {
                     Compat::Ccx => Sliding::Increment,
                 };
             }
-            self.obey(&mut contact, &interaction, method, card);
-            contact.start.close_gaps_below = within.unwrap_or(0.0);
+            self.obey(&mut contact, interaction, method);
+            contact.start = start.clone();
+            self.pairs.push(Pair {
+                named: named.clone(),
+                interaction: interaction.clone(),
+                method,
+                contact: self.case.contacts.len(),
+            });
             self.case.contacts.push(contact);
         }
     }
@@ -313,7 +331,7 @@ impl Translation<'_> {
     }
 
     /// The law of a contact.
-    fn obey(&self, contact: &mut Contact, by: &Interaction, method: Method, card: &Statement) {
+    fn obey(&self, contact: &mut Contact, by: &Interaction, method: Method) {
         let exact = self.compat == Compat::Ccx;
         let penalty = |[stiffness, tension, within]: [f64; 3]| match method {
             Method::NodeToSegment => Enforcement::Arctangent {
@@ -321,7 +339,7 @@ impl Translation<'_> {
                 tension: given(tension, self.first_modulus() / TENSION),
                 within: Some(given(within, WITHIN)),
             },
-            _ => Enforcement::Penalty(Some(Spanned::new(stiffness, card.place.clone()))),
+            _ => Enforcement::Penalty(Some(Spanned::new(stiffness, contact.place.clone()))),
         };
         let hard = PENALTY * self.first_modulus();
         contact.enforcement = match &by.law {
@@ -385,14 +403,11 @@ impl Translation<'_> {
             let (Some(secondary), Some(primary)) = (secondary, primary) else {
                 continue;
             };
-            let mut pairs = self.case.contacts.iter_mut();
-            let is_pair = |c: &&mut Contact| c.secondary == secondary && c.primary == primary;
-            match pairs.find(is_pair) {
-                Some(contact) => contact.start.clearance = Some(value),
-                None => {
-                    let text = "*CLEARANCE of surfaces that are no contact pair";
-                    self.error(&codes::UNDEFINED, text, &card.place, "");
-                }
+            let Some(at) = self.pair_of(card, &secondary, &primary) else {
+                continue;
+            };
+            if let Some(contact) = self.case.contacts.get_mut(at) {
+                contact.start.clearance = Some(value);
             }
         }
     }
@@ -525,59 +540,140 @@ impl Translation<'_> {
             let Some(sides) = self.sides(card, &row) else {
                 continue;
             };
-            let pairs = self.case.contacts.iter();
-            let mut pairs =
-                pairs.filter(|c| c.secondary == sides.secondary && c.primary == sides.primary);
-            let Some(name) = pairs.next().map(|contact| contact.name.value.clone()) else {
-                let text = "*MODEL CHANGE of surfaces that are no contact pair";
-                self.error(&codes::UNDEFINED, text, &card.place, "");
+            let Some(at) = self.pair_of(card, &sides.secondary, &sides.primary) else {
                 continue;
             };
-            self.change(step, &name, &card.place).active = Some(active);
+            if let Some(change) = self.change(step, at, &card.place) {
+                change.active = Some(active);
+            }
         }
+    }
+
+    /// The place of the contact that acts between two surfaces of a pair.
+    fn between(&self, secondary: &Name, primary: &Name) -> Option<usize> {
+        let mut places = self.pairs.iter().map(|pair| pair.contact);
+        places.find(|&at| {
+            let contact = self.case.contacts.get(at);
+            contact.is_some_and(|c| c.secondary == *secondary && c.primary == *primary)
+        })
+    }
+
+    /// The same, for a card that needs one.
+    fn pair_of(&mut self, card: &Statement, secondary: &Name, primary: &Name) -> Option<usize> {
+        let found = self.between(secondary, primary);
+        if found.is_none() {
+            let text = format!("*{} of surfaces that are no contact pair", card.keyword);
+            self.error(&codes::UNDEFINED, text, &card.place, "");
+        }
+        found
     }
 
     /// *CHANGE FRICTION within a step: the friction that follows, for every pair of an interaction.
     pub fn change_friction(&mut self, of: &Statement, to: &Statement, step: &mut Step) {
-        let Some(wanted) = self.need(of, "INTERACTION").map(compared) else {
-            return;
-        };
         let given = self.friction(to);
         let friction = self.rubbing(given);
-        let mut contacts = self.case.contacts.iter();
-        let mut names = Vec::new();
-        for card in self.cards("CONTACTPAIR") {
-            let npair = card.rows().count();
-            let of_card = contacts.by_ref().take(npair).map(|c| c.name.value.clone());
-            let is_meant = card.get("INTERACTION").map(compared).as_deref() == Some(&wanted);
-            names.extend(of_card.filter(|_| is_meant));
-        }
-        for name in names {
-            self.change(step, &name, &of.place).friction = Some(friction.clone());
+        for pair in self.pairs_of(of) {
+            let Some(pair) = self.pairs.get_mut(pair) else {
+                continue;
+            };
+            pair.interaction.friction = Some(given);
+            let at = pair.contact;
+            if let Some(change) = self.change(step, at, &of.place) {
+                change.friction = Some(friction.clone());
+            }
         }
     }
 
-    fn change<'s>(&self, step: &'s mut Step, name: &str, place: &Place) -> &'s mut ContactChange {
-        let known = step
-            .contacts
-            .iter()
-            .position(|change| change.name.value == name);
-        let at = known.unwrap_or_else(|| {
+    /// *CHANGE SURFACE BEHAVIOR within a step: another contact, with the law that follows, acts from now on in place of
+    /// the one before.
+    pub fn change_behavior(&mut self, of: &Statement, to: &Statement, step: &mut Step) {
+        let law = self.law(to);
+        for at in self.pairs_of(of) {
+            let Some(mut pair) = self.pairs.get(at).cloned() else {
+                continue;
+            };
+            let Some(before) = self.case.contacts.get(pair.contact).cloned() else {
+                continue;
+            };
+            pair.interaction.law = law.clone();
+            let mut after = Contact {
+                name: Spanned::new(self.fresh(&before.name.value), of.place.clone()),
+                enforcement: Enforcement::Auto,
+                per: None,
+                tied: None,
+                active: false,
+                place: of.place.clone(),
+                ..before.clone()
+            };
+            self.obey(&mut after, &pair.interaction, pair.method);
+            let acts = self.acts(&before, step);
+            let old = std::mem::replace(&mut pair.contact, self.case.contacts.len());
+            self.case.contacts.push(after);
+            for (contact, active) in [(old, false), (pair.contact, true)] {
+                let change = self.change(step, contact, &of.place).filter(|_| acts);
+                if let Some(change) = change {
+                    change.active = Some(active);
+                }
+            }
+            if let Some(known) = self.pairs.get_mut(at) {
+                *known = pair;
+            }
+        }
+    }
+
+    /// The places of the pairs whose interaction a card names.
+    fn pairs_of(&mut self, card: &Statement) -> Vec<usize> {
+        let Some(wanted) = self.need(card, "INTERACTION").map(compared) else {
+            return Vec::new();
+        };
+        let pairs = self.pairs.iter().enumerate();
+        let of: Vec<usize> = pairs
+            .filter(|(_, pair)| pair.named == wanted)
+            .map(|(at, _)| at)
+            .collect();
+        if of.is_empty() {
+            let text = format!("no contact pair has the interaction `{wanted}`");
+            self.error(&codes::UNDEFINED, text, &card.place, "");
+        }
+        of
+    }
+
+    /// Whether a contact acts so far in a step.
+    fn acts(&self, contact: &Contact, step: &Step) -> bool {
+        let steps = self.case.steps.iter().chain(std::iter::once(step));
+        let changes = steps.flat_map(|step| &step.contacts);
+        changes
+            .filter(|change| change.name == contact.name)
+            .filter_map(|change| change.active)
+            .next_back()
+            .unwrap_or(contact.active)
+    }
+
+    /// The change of a contact, by its place, in a step.
+    fn change<'s>(
+        &self,
+        step: &'s mut Step,
+        contact: usize,
+        place: &Place,
+    ) -> Option<&'s mut ContactChange> {
+        let name = &self.case.contacts.get(contact)?.name.value;
+        let mut known = step.contacts.iter();
+        let at = known.position(|change| change.name.value == *name);
+        let at = at.unwrap_or_else(|| {
             step.contacts.push(ContactChange {
-                name: Spanned::new(name.to_owned(), place.clone()),
+                name: Spanned::new(name.clone(), place.clone()),
                 active: None,
                 friction: None,
                 place: place.clone(),
             });
             step.contacts.len() - 1
         });
-        &mut step.contacts[at]
+        step.contacts.get_mut(at)
     }
 
     /// The contact of two surfaces, for printed tables.
     pub fn contact_of(&self, secondary: &Name, primary: &Name) -> Option<Name> {
-        let mut contacts = self.case.contacts.iter();
-        let found = contacts.find(|c| c.secondary == *secondary && c.primary == *primary);
+        let found = self.case.contacts.get(self.between(secondary, primary)?);
         found.map(|contact| contact.name.clone())
     }
 }

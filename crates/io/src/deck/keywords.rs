@@ -59,10 +59,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED",
     ),
     read("CHANGE FRICTION", "with FRICTION"),
-    refused(
-        "CHANGE SURFACE BEHAVIOR",
-        "a law of contact holds for the whole run",
-    ),
+    read("CHANGE SURFACE BEHAVIOR", "INTERACTION"),
     read("CLEARANCE", "MASTER, SLAVE, VALUE"),
     read(
         "CLOAD",

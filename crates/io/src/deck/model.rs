@@ -1,13 +1,13 @@
 //! Materials, sections, amplitudes, temperatures at the start.
 
-use super::constraint::Axes;
 use super::translation::{Target, Translation};
 use crate::case::{
-    Amplitude, Body, Constant, Expansion, Hardening, Integration, Locking, Material, Model, Name,
-    Orientation, Plasticity, Space, TimeBase,
+    Amplitude, AxesSystem, Body, Constant, Expansion, Hardening, Integration, Locking, Material,
+    Model, Name, Orientation, Plasticity, Space, TimeBase,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Kind, Statement, compared, number};
+use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
 
 /// What is known of a material.
@@ -448,11 +448,15 @@ impl Translation<'_> {
                 .is_some_and(|s| s.starts_with('C'));
             let numbers: Vec<_> = card.rows().next().unwrap_or_default();
             let [a, b, c, d, e, f] = self.reals(&numbers);
+            let system = AxesSystem::Rectangular {
+                x: [a, b, c],
+                xy: [d, e, f],
+            };
             let orientation = if cylindrical {
                 let text = "cylindrical *ORIENTATION is not supported";
                 self.error(&codes::NOT_BUILT, text, &card.place, "");
                 None
-            } else if Axes::new([a, b, c], [d, e, f]).is_none() {
+            } else if system.at(Vec3::ZERO).is_none() {
                 let text = "the two points of *ORIENTATION give no axes";
                 self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
                 None

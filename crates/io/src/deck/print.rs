@@ -92,6 +92,9 @@ impl Translation<'_> {
                     1
                 }
             });
+        // vectors at nodes with axes of their own are along these, unless the card says otherwise
+        let global = card.get("GLOBAL").map(compared).as_deref() == Some("YES");
+        let local = of == PrintOf::Nodes && !global && !self.axes.is_empty();
         let prints = step.prints.get_or_insert_default();
         let last = prints.last().map_or(1, |print| print.every);
         let every = every.unwrap_or(last).max(1);
@@ -100,6 +103,7 @@ impl Translation<'_> {
             of,
             quantities: wanted,
             totals,
+            local,
             every,
             place: card.place.clone(),
         });

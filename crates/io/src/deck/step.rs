@@ -134,10 +134,15 @@ impl Translation<'_> {
                 }
                 "TEMPERATURE" => self.temperatures(card, &mut step),
                 "MODELCHANGE" => self.model_change(card, &mut step),
-                "CHANGEFRICTION" => change_of = Some(*card),
+                "CHANGEFRICTION" | "CHANGESURFACEBEHAVIOR" => change_of = Some(*card),
                 "FRICTION" => {
                     if let Some(of) = change_of.take() {
                         self.change_friction(of, card, &mut step);
+                    }
+                }
+                "SURFACEBEHAVIOR" => {
+                    if let Some(of) = change_of.take() {
+                        self.change_behavior(of, card, &mut step);
                     }
                 }
                 "NODEPRINT" | "ELPRINT" | "CONTACTPRINT" => self.print(card, &mut step),
@@ -419,7 +424,7 @@ impl Translation<'_> {
             .collect();
         let on = self.nodes_named(vec![label], &place);
         if let [Some(a), Some(b), Some(c)] = values[..] {
-            let u = (axes.0[0] * a + axes.0[1] * b + axes.0[2] * c).to_array();
+            let u = (axes[0] * a + axes[1] * b + axes[2] * c).to_array();
             let key = |c| (Target::One(label), c);
             let moved = u != [0.0; 3] || (0..3).any(|c| standing.held.get(&key(c)) == Some(&true));
             for component in 0..3 {
@@ -447,7 +452,7 @@ impl Translation<'_> {
             }
             return;
         }
-        for (axis, (component, axes)) in components.into_iter().zip(axes.0).enumerate() {
+        for (axis, (component, axes)) in components.into_iter().zip(axes).enumerate() {
             let Some((course, place)) = component else {
                 continue;
             };
@@ -576,6 +581,6 @@ fn words(field: &Field<'_>) -> Option<&'static [usize]> {
 }
 
 /// A vector of a local system in the global one.
-pub(super) fn global(axes: &super::constraint::Axes, axis: usize, value: f64) -> Vec3 {
-    axes.0.get(axis).map_or(Vec3::ZERO, |e| *e * value)
+pub(super) fn global(axes: &[Vec3; 3], axis: usize, value: f64) -> Vec3 {
+    axes.get(axis).map_or(Vec3::ZERO, |e| *e * value)
 }

@@ -1,7 +1,7 @@
 //! What all stages of the translation share: the deck, the case so far, names, messages.
 
 use super::keywords::{Keyword, Support};
-use super::{Compat, constraint, model};
+use super::{Compat, constraint, contact, model};
 use crate::case::{Case, MeshSource, Name, Set, SetContent, Side, Space};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
@@ -24,10 +24,11 @@ pub(super) struct Translation<'d> {
     pub case: Case,
     pub found: Diagnostics,
     /// Local axes of nodes, by their numbers.
-    pub axes: BTreeMap<u64, constraint::Axes>,
+    pub axes: BTreeMap<u64, [Vec3; 3]>,
     /// References that nodes stand for, by their numbers.
     pub carriers: BTreeMap<u64, constraint::Carrier>,
     pub materials: BTreeMap<String, model::Properties>,
+    pub pairs: Vec<contact::Pair>,
     nodes: HashMap<u64, NodeId>,
     cells: HashMap<u64, CellId>,
     taken: BTreeSet<String>,
@@ -57,6 +58,7 @@ impl<'d> Translation<'d> {
             axes: BTreeMap::new(),
             carriers: BTreeMap::new(),
             materials: BTreeMap::new(),
+            pairs: Vec::new(),
             nodes: labels.map(|(&label, node)| (label, node)).collect(),
             cells: cells
                 .filter_map(|cell| Some((mesh.cell_label(cell)?, cell)))

@@ -249,7 +249,6 @@ impl Stepper {
             self.progress = Progress {
                 step: number + 1,
                 step_start: self.progress.step_start + step.duration,
-                easy: self.progress.easy,
                 ..Progress::default()
             };
         }

@@ -68,7 +68,7 @@ pub(super) fn contact(
             close: tied.close,
             within: tied.within,
         }),
-        start: start(&part.start),
+        start: start(&part.start, names, found),
         reach: part.reach,
         active: part.active,
         ..ContactPart::new(part.name.value.clone(), secondary, primary)
@@ -319,9 +319,11 @@ fn friction(part: &Friction) -> FrictionPart {
     }
 }
 
-fn start(part: &case::Start) -> StartPart {
+fn start(part: &case::Start, names: &Names<'_>, found: &mut Diagnostics) -> StartPart {
+    let of = part.close_gaps_of.as_ref();
     StartPart {
         close_below: part.close_gaps_below,
+        close_nodes: of.and_then(|of| names.nodes(of, found)).unwrap_or_default(),
         clearance: part.clearance,
         interference: match part.interference {
             case::Interference::Step => model::Interference::Ramped,

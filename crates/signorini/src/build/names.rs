@@ -312,6 +312,11 @@ impl<'a> Names<'a> {
         self.mesh.points.get(*node as usize).copied()
     }
 
+    /// Where a node is.
+    pub fn at(&self, node: NodeId) -> Option<Vec3> {
+        self.mesh.points.get(node as usize).copied()
+    }
+
     /// The number of a node in the input.
     pub fn label(&self, node: NodeId) -> u64 {
         let label = self.mesh.node_labels.get(node as usize);

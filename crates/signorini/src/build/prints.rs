@@ -3,10 +3,11 @@
 use super::names::Names;
 use super::quoted;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, Case, Name, PrintOf, Space, Totals};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_mechanics::system::Wanted;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Tables of one set.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Printed {
     pub set: String,
     /// What is printed of what.
     pub what: PrintedOf,
+    /// The axes along which vectors at nodes are printed, in the order of the nodes; empty where all are global.
+    pub axes: Vec<Option<[Vec3; 3]>>,
     /// Whether sums follow.
     pub totals: Totals,
     /// After how many increments.
@@ -182,12 +185,44 @@ fn printed(
             PrintedOf::Contacts(contacts(on, case, found)?, quantities)
         }
     };
+    let axes = match &what {
+        PrintedOf::Nodes(nodes, _) if one.local => axes(nodes, case, names, found)?,
+        _ => Vec::new(),
+    };
     Some(Printed {
         set: on.map_or_else(String::new, |on| on.value.clone()),
         what,
+        axes,
         totals: one.totals,
         every: one.every.max(1),
     })
+}
+
+/// The local axes of some nodes.
+fn axes(
+    nodes: &[NodeId],
+    case: &Case,
+    names: &Names<'_>,
+    found: &mut Diagnostics,
+) -> Option<Vec<Option<[Vec3; 3]>>> {
+    let mut of_node: BTreeMap<NodeId, [Vec3; 3]> = BTreeMap::new();
+    for one in &case.axes {
+        for node in names.nodes(&one.set, found)? {
+            let Some(axes) = names.at(node).and_then(|x| one.system.at(x)) else {
+                let message = "these axes have no directions";
+                let remark = "vectors that are parallel, or points that coincide";
+                found.push(Diagnostic::error(&codes::OUT_OF_RANGE, message).at(&one.place, remark));
+                return None;
+            };
+            of_node.insert(node, axes);
+        }
+    }
+    Some(
+        nodes
+            .iter()
+            .map(|node| of_node.get(node).copied())
+            .collect(),
+    )
 }
 
 /// The elements of a set as they are listed, each once.

@@ -1,7 +1,8 @@
 //! `NAME.frd`: frames in the one file that CalculiX GraphiX, PrePoMax and FreeCAD read.
 //!
 //! The same fields go there as into the frames for ParaView, but for those that viewers derive themselves, and only at
-//! nodes. There is no undeformed frame, as in files of CalculiX.
+//! nodes. There is no undeformed frame, as in files of CalculiX. Forces are internal ones: reactions at supports, and loads
+//! where they act.
 //!
 //! Slip and tangential traction are given in two directions: with `n` the normal of the primary side, taken as the
 //! opposite of the mean normal of the secondary facets around a node at their present positions, `t1` is the projection
@@ -36,7 +37,7 @@ pub fn append(file: &mut FrdFile, frame: &Frame, fields: Fields) -> Result<(), F
     if fields.strain {
         datasets.push(Dataset::Strain(&frame.strain));
     }
-    datasets.push(Dataset::Force(&frame.reaction_force));
+    datasets.push(Dataset::Force(&frame.internal_force));
     if fields.plastic_strain && !frame.plastic_strain.is_empty() {
         datasets.push(Dataset::PlasticStrain(&frame.plastic_strain));
     }

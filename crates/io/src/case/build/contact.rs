@@ -463,6 +463,7 @@ fn tied(fields: Fields<'_>) -> Option<Tied> {
 fn start(fields: Fields<'_>) -> Start {
     Start {
         close_gaps_below: fields.number("close_gaps_below"),
+        close_gaps_of: fields.text_if("close_gaps_of"),
         clearance: fields.number_if("clearance").map(|gap| gap.value),
         interference: match fields.text("interference").value.as_str() {
             "now" => Interference::Now,

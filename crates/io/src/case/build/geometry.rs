@@ -234,6 +234,26 @@ impl Builder {
         corners
     }
 
+    pub(super) fn local_axes(&mut self, fields: Fields<'_>, place: Place) -> LocalAxes {
+        let mut vector = |key| self.vector(fields, key).unwrap_or_default();
+        let system = if fields.has("x") {
+            AxesSystem::Rectangular {
+                x: vector("x"),
+                xy: vector("xy"),
+            }
+        } else {
+            AxesSystem::Cylindrical {
+                from: vector("from"),
+                to: vector("to"),
+            }
+        };
+        LocalAxes {
+            set: fields.text("set"),
+            system,
+            place,
+        }
+    }
+
     pub(super) fn reference_point(
         &mut self,
         name: Name,

@@ -93,6 +93,11 @@ impl Builder {
                 .into_iter()
                 .map(|(name, fields, place)| self.reference_point(name, fields, place))
                 .collect(),
+            axes: root
+                .tables("axes")
+                .into_iter()
+                .map(|(fields, place)| self.local_axes(fields, place))
+                .collect(),
             amplitudes: root
                 .named("amplitude")
                 .into_iter()

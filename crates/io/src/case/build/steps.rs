@@ -301,6 +301,7 @@ fn print(fields: Fields<'_>, place: Place) -> Print {
             "only" => Totals::Only,
             _ => Totals::No,
         },
+        local: fields.flag("local"),
         every: fields.count("every"),
         place,
     }

@@ -230,10 +230,12 @@ pub struct Tied {
 }
 
 /// What is done about gaps and overlaps at the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Start {
     /// Gaps and overlaps up to this (length) are removed by moving nodes.
     pub close_gaps_below: f64,
+    /// Those of the nodes of this set are, whatever their size.
+    pub close_gaps_of: Option<Name>,
     /// What gaps are taken to be (length); none: as measured.
     pub clearance: Option<f64>,
     /// What becomes of overlaps.

@@ -2,6 +2,7 @@
 
 use super::Name;
 use crate::diagnostic::{Place, Spanned};
+use signorini_geometry::tensor::Vec3;
 
 /// Where nodes and elements come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,6 +138,71 @@ pub enum Region {
         /// The point.
         point: [f64; 3],
     },
+}
+
+/// Local axes of some nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LocalAxes {
+    /// The nodes.
+    pub set: Name,
+    /// How the axes lie.
+    pub system: AxesSystem,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// How local axes lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AxesSystem {
+    /// The same everywhere.
+    Rectangular {
+        /// A vector along the first.
+        x: [f64; 3],
+        /// A vector in the plane of the first and the second.
+        xy: [f64; 3],
+    },
+    /// Radial, circumferential and along an axis through two points.
+    Cylindrical {
+        /// The one.
+        from: [f64; 3],
+        /// The other.
+        to: [f64; 3],
+    },
+}
+
+/// The distance of a point on an axis, over lengths around it.
+const ON_AXIS: f64 = 1e-10;
+
+impl AxesSystem {
+    /// Three unit vectors at right angles at a place; none where vectors are parallel or points coincide. On the axis of a
+    /// cylindrical system any direction is radial: that of the first global axis off it is taken.
+    #[must_use]
+    pub fn at(&self, place: Vec3) -> Option<[Vec3; 3]> {
+        let (first, third) = match *self {
+            Self::Rectangular { x, xy } => {
+                let first = Vec3::from(x).normalized()?;
+                (first, first.cross(Vec3::from(xy)).normalized()?)
+            }
+            Self::Cylindrical { from, to } => {
+                let (from, to) = (Vec3::from(from), Vec3::from(to));
+                let along = (to - from).normalized()?;
+                let out = place - from;
+                let across = |v: Vec3| v - along * v.dot(along);
+                let radial = across(out);
+                let near = ON_AXIS * (to - from).norm().max(out.norm());
+                let radial = if radial.norm() > near {
+                    radial
+                } else {
+                    let axes = (0..3).map(|k| across(Vec3::unit(k)));
+                    let further =
+                        |a: Vec3, b: Vec3| if b.norm() > a.norm() + ON_AXIS { b } else { a };
+                    axes.reduce(further)?
+                };
+                (radial.normalized()?, along)
+            }
+        };
+        Some([first, third.cross(first), third])
+    }
 }
 
 /// A named point with translations and rotations of its own: six in space, three in the plane.

@@ -41,6 +41,8 @@ pub struct Case {
     pub sets: Vec<Set>,
     /// Named points with translations and rotations of their own.
     pub references: Vec<Reference>,
+    /// Local axes of nodes, that tables are printed along; the last that names a node holds for it.
+    pub axes: Vec<LocalAxes>,
     /// Named functions of time.
     pub amplitudes: Vec<Amplitude>,
     /// Materials.

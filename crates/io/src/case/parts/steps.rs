@@ -269,6 +269,8 @@ pub struct Print {
     pub quantities: Vec<Spanned<String>>,
     /// Whether sums follow.
     pub totals: Totals,
+    /// Whether vectors at nodes are printed along the local axes that these have.
+    pub local: bool,
     /// After how many increments; the end of the step is always printed.
     pub every: u64,
     /// Where it was written.

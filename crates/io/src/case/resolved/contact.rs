@@ -166,11 +166,14 @@ fn start(start: &Start) -> Value {
         Interference::StrainFree => "strain-free",
     };
     let clearance = start.clearance.map_or("measured".into(), Value::Number);
-    Value::Table(vec![
-        ("close_gaps_below", start.close_gaps_below.into()),
+    let mut entries: Entries = vec![("close_gaps_below", start.close_gaps_below.into())];
+    let of = start.close_gaps_of.as_ref();
+    entries.extend(of.map(|of| ("close_gaps_of", (&of.value).into())));
+    entries.extend([
         ("clearance", clearance),
         ("interference", interference.into()),
-    ])
+    ]);
+    Value::Table(entries)
 }
 
 pub(super) fn contact_change(change: &ContactChange) -> Entries {

@@ -12,7 +12,7 @@ mod write;
 use super::parts::*;
 use super::vocabulary::CASE;
 use contact::contact;
-use model::{body, constraint, material, mesh, model, reference, set_content, spring};
+use model::{body, constraint, local_axes, material, mesh, model, reference, set_content, spring};
 use run::{checkpoint, expectation, output, solver};
 use steps::{amplitude, step};
 use surface::surface;
@@ -43,6 +43,7 @@ fn tree(case: &Case) -> Entries {
             "reference",
             named(&case.references, |one| (&one.name, reference(one))),
         ),
+        ("axes", tables(&case.axes, local_axes)),
         (
             "amplitude",
             named(&case.amplitudes, |one| (&one.name, amplitude(one))),

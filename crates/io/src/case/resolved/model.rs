@@ -87,6 +87,16 @@ fn region(region: &Region) -> Entries {
     }
 }
 
+pub(super) fn local_axes(one: &LocalAxes) -> Entries {
+    let set = ("set", (&one.set.value).into());
+    match &one.system {
+        AxesSystem::Rectangular { x, xy } => vec![set, ("x", x.into()), ("xy", xy.into())],
+        AxesSystem::Cylindrical { from, to } => {
+            vec![set, ("from", from.into()), ("to", to.into())]
+        }
+    }
+}
+
 pub(super) fn reference(one: &Reference) -> Entries {
     vec![match &one.position {
         Position::At(point) => ("at", point.into()),

@@ -167,6 +167,7 @@ fn print(one: &Print) -> Entries {
     entries.extend([
         (one.of.key(), names(&one.quantities)),
         ("totals", totals.into()),
+        ("local", one.local.into()),
         ("every", one.every.into()),
     ]);
     entries

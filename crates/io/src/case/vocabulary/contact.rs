@@ -284,6 +284,11 @@ static START: Table = Table {
         .or(Default::Number(0.0))
         .hints(&["adjust", "close_gaps"]),
         key(
+            "close_gaps_of",
+            Shape::Text,
+            "gaps and overlaps of the nodes of this set are removed likewise, whatever their size",
+        ),
+        key(
             "clearance",
             Shape::Either(&[Shape::Choice(&[word("measured")]), NOT_NEGATIVE]),
             "gaps are taken to be this, whatever the mesh says",

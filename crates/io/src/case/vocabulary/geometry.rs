@@ -110,6 +110,39 @@ pub(super) static REFERENCE: Table = Table {
     rules: &[Rule::ExactlyOne(&["at", "node"])],
 };
 
+pub(super) static AXES: Table = Table {
+    heading: "[[axes]]",
+    doc: "local axes of nodes, that  local = true  of [[step.print]] prints along; the last that names a node holds",
+    keys: &[
+        key("set", Shape::Text, "the set or group of nodes")
+            .required()
+            .hints(&["on"]),
+        key(
+            "x",
+            VECTOR,
+            "a vector along the first axis, the same everywhere",
+        ),
+        key(
+            "xy",
+            VECTOR,
+            "a vector in the plane of the first and the second",
+        ),
+        key(
+            "from",
+            VECTOR,
+            "a point of the axis of a cylindrical system: radial, circumferential, along the axis",
+        ),
+        key("to", VECTOR, "another one"),
+    ],
+    rules: &[
+        Rule::ExactlyOne(&["x", "from"]),
+        Rule::Needs("x", "xy"),
+        Rule::Needs("xy", "x"),
+        Rule::Needs("from", "to"),
+        Rule::Needs("to", "from"),
+    ],
+};
+
 pub(super) static INITIAL: Table = Table {
     heading: "[initial]",
     doc: "fields at the start",

@@ -17,7 +17,7 @@ pub use run::FIELDS;
 
 use bodies::{BODY, CONSTRAINT, MATERIAL, SPRING};
 use contact::CONTACT;
-use geometry::{INITIAL, MESH, MODEL, REFERENCE, SET};
+use geometry::{AXES, INITIAL, MESH, MODEL, REFERENCE, SET};
 use run::{CHECKPOINT, EXPECT, OUTPUT, SOLVER};
 use steps::{AMPLITUDE, STEP};
 use surface::SURFACE;
@@ -272,6 +272,7 @@ pub static CASE: Table = Table {
         key("model", Shape::Table(&MODEL), MODEL.doc),
         key("sets", Shape::Named(&SET), SET.doc).hints(&["set"]),
         key("reference", Shape::Named(&REFERENCE), REFERENCE.doc).hints(&["references", "point"]),
+        key("axes", Shape::Tables(&AXES), AXES.doc).hints(&["transform", "orientation"]),
         key("amplitude", Shape::Named(&AMPLITUDE), AMPLITUDE.doc).hints(&["amplitudes"]),
         key("material", Shape::Named(&MATERIAL), MATERIAL.doc).hints(&["materials"]),
         key("body", Shape::Tables(&BODY), BODY.doc).required().hints(&["bodies", "part", "section"]),

@@ -321,6 +321,12 @@ static PRINT: Table = Table {
         )
         .or(Default::Text("no")),
         key(
+            "local",
+            Shape::Flag,
+            "whether vectors at nodes are printed along their [[axes]]",
+        )
+        .or(Default::Flag(false)),
+        key(
             "every",
             COUNT,
             "after so many increments, and at the end of the step",

@@ -94,6 +94,8 @@ impl Kind {
 pub enum Of {
     /// The node or element of this number.
     One(u64),
+    /// The node of this number, along axes of its own.
+    Local(u64),
     /// A point of an element, from 1.
     Point(u64, usize),
     /// The whole set.
@@ -135,7 +137,7 @@ impl Page {
     pub fn row(&mut self, of: Of, numbers: &[f64]) {
         // writing to a string cannot fail
         let _ = match of {
-            Of::One(label) => write!(self.text, "{label:10}"),
+            Of::One(label) | Of::Local(label) => write!(self.text, "{label:10}"),
             Of::Point(label, point) => write!(self.text, "{label:10} {point:3}"),
             Of::All => write!(self.text, "{:6}", ""),
             Of::Both => write!(self.text, "{:2}", ""),
@@ -143,6 +145,9 @@ impl Page {
         for number in numbers {
             self.text.push(' ');
             put_number(&mut self.text, *number);
+        }
+        if matches!(of, Of::Local(_)) {
+            self.text.push_str(" L");
         }
         self.text.push('\n');
     }

@@ -102,7 +102,8 @@ pub(in crate::model) fn closed(
             let within = part.tie.and_then(|t| t.within);
             below = below.max(within.unwrap_or(f64::INFINITY));
         }
-        if below <= 0.0 {
+        let listed = &part.start.close_nodes;
+        if below <= 0.0 && listed.is_empty() {
             continue;
         }
         let at_nodes = ContactPart {
@@ -114,7 +115,16 @@ pub(in crate::model) fn closed(
             reference: &x,
             ..*source
         };
-        let moves = moves(&moved, contact, &at_nodes, poses, below)?;
+        let mut moves = if below > 0.0 {
+            moves(&moved, contact, &at_nodes, poses, below)?
+        } else {
+            HashMap::new()
+        };
+        if !listed.is_empty() {
+            let mut all = self::moves(&moved, contact, &at_nodes, poses, f64::INFINITY)?;
+            all.retain(|node, _| listed.contains(node));
+            moves.extend(all);
+        }
         for (node, to) in moves {
             if let Some(at) = x.get_mut(node as usize) {
                 *at = to;

@@ -212,10 +212,12 @@ pub struct TiePart {
 }
 
 /// What is done about gaps and overlaps at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StartPart {
     /// Gaps and overlaps up to this are removed by moving nodes, without strain.
     pub close_below: f64,
+    /// Those of these nodes are, whatever their size.
+    pub close_nodes: Vec<NodeId>,
     /// Gaps are taken to be this; `None`: as measured.
     pub clearance: Option<f64>,
     /// What becomes of overlaps.
@@ -238,6 +240,7 @@ impl Default for StartPart {
     fn default() -> Self {
         Self {
             close_below: 0.0,
+            close_nodes: Vec::new(),
             clearance: None,
             interference: Interference::default(),
         }

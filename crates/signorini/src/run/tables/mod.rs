@@ -161,14 +161,14 @@ impl Writer<'_> {
         match quantity {
             NodeQuantity::Displacement => {
                 self.page.table(Kind::Displacements, &one.set);
-                for &node in nodes {
+                for (k, &node) in nodes.iter().enumerate() {
                     let carrier = self.tables.references.get(&node);
                     let carrier = carrier.and_then(|c| self.frame.rigid.get(*c as usize));
                     let u = match carrier {
                         Some(rigid) => rigid.displacement,
                         None => at(&self.frame.displacement, node).unwrap_or_default(),
                     };
-                    self.page.row(self.node(node), &u.to_array());
+                    self.vector(one, k, node, u);
                 }
             }
             NodeQuantity::Temperature => {
@@ -187,8 +187,8 @@ impl Writer<'_> {
                 let forces: Vec<Vec3> = nodes.iter().map(|node| force(*node)).collect();
                 if one.totals != Totals::Only {
                     self.page.table(Kind::Forces, &one.set);
-                    for (&node, force) in nodes.iter().zip(&forces) {
-                        self.page.row(self.node(node), &force.to_array());
+                    for (k, (&node, force)) in nodes.iter().zip(&forces).enumerate() {
+                        self.vector(one, k, node, *force);
                     }
                 }
                 if one.totals != Totals::No {
@@ -197,6 +197,19 @@ impl Writer<'_> {
                     self.page.row(Of::All, &total.to_array());
                 }
             }
+        }
+    }
+
+    /// A vector at the node in place k of a table.
+    fn vector(&mut self, one: &Printed, k: usize, node: NodeId, vector: Vec3) {
+        let label = self.tables.mesh.node_labels.get(node as usize);
+        let label = label.copied().unwrap_or_default();
+        match one.axes.get(k).copied().flatten() {
+            Some(axes) => {
+                let along = axes.map(|axis| vector.dot(axis));
+                self.page.row(Of::Local(label), &along);
+            }
+            None => self.page.row(Of::One(label), &vector.to_array()),
         }
     }
 
