@@ -4,7 +4,8 @@
 //! |---|---|---|
 //! | HARD, LINEAR, none | the best way to hold surfaces apart | a penalty: K, or 50 E of the first material; at nodes rounded by an arctangent, with a tension σ∞, or E/70000, within c0 |
 //! | EXPONENTIAL, TABULAR | the same law | the same law |
-//! | TIED, \*TIE | sides that are joined | the same, node to segment by multipliers |
+//! | TIED | sides that are joined | by a penalty along all directions: K, or 50 E |
+//! | \*TIE | sides that are joined | the same, node to segment by multipliers |
 //! | TYPE | the best method | node to segment, points inside facets, mortar |
 //! | friction | μ | μ and the slope of sticking, or E/2 |
 //! | GAPUNI | no penetration | as LINEAR at nodes: K, or 1e12, and σ∞, or 1e-3 |
@@ -59,7 +60,8 @@ enum Law {
     },
     /// Pressures and overclosures.
     Table(Vec<[f64; 2]>),
-    Tied,
+    /// K; zero where it is not given.
+    Tied(f64),
 }
 
 /// A line of *CONTACT PAIR.
@@ -172,7 +174,7 @@ impl Translation<'_> {
                 }
                 Law::Table(rows)
             }
-            "TIED" => Law::Tied,
+            "TIED" => Law::Tied(a),
             _ => {
                 let text = format!("PRESSURE-OVERCLOSURE={kind} is not supported");
                 self.error(&codes::NOT_BUILT, text, &card.place, "");
@@ -351,9 +353,16 @@ impl Translation<'_> {
                 let falling = rows.iter().rev().map(|[pressure, over]| [-over, *pressure]);
                 Enforcement::Table(falling.collect())
             }
-            Law::Tied => {
+            Law::Tied(stiffness) => {
                 contact.tied = Some(Tied::default());
-                Enforcement::Auto
+                match method {
+                    Method::Mortar => Enforcement::Auto,
+                    _ if !exact => Enforcement::Auto,
+                    _ => {
+                        let stiffness = given(*stiffness, hard);
+                        Enforcement::Penalty(Some(Spanned::new(stiffness, contact.place.clone())))
+                    }
+                }
             }
         };
         if exact {
@@ -371,7 +380,9 @@ impl Translation<'_> {
                 contact.per = Some(Per::Area);
             }
         }
-        contact.friction = by.friction.and_then(|given| self.rubbing(given));
+        // what is tied does not slide
+        let rubs = by.friction.filter(|_| contact.tied.is_none());
+        contact.friction = rubs.and_then(|given| self.rubbing(given));
     }
 
     /// Friction; none where its coefficient is zero.

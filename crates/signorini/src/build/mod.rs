@@ -152,7 +152,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
             return Err(found);
         }
     };
-    model.system.wanted = prints::wanted(&prints, &mesh, *case.model.space);
+    model.system.wanted = prints::wanted(&prints, &mesh, &case);
     let stabilized = case.solver.stabilize == Stabilize::Auto;
     for unheld in &model.held_by_contact {
         let what = format!("{unheld} is held only by contact");

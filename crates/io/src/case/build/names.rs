@@ -341,7 +341,7 @@ impl Builder {
         }
     }
 
-    /// Pairs of sides that stand in two contacts, in one order or the other.
+    /// Pairs of sides that stand in two contacts, in one order or the other, and act in one step.
     pub(super) fn pairs(&mut self, case: &Case) {
         let mut seen: BTreeMap<[&str; 2], &Contact> = BTreeMap::new();
         for contact in &case.contacts {
@@ -354,6 +354,10 @@ impl Builder {
                 seen.insert(sides, contact);
                 continue;
             };
+            let [one, other] = [first, contact].map(|contact| acting(case, contact));
+            if !one.zip(other).any(|(one, other)| one && other) {
+                continue;
+            }
             let swapped = first.secondary != contact.secondary;
             let how = if swapped { ", with sides swapped" } else { "" };
             let mut one = Diagnostic::warning(
@@ -436,4 +440,15 @@ fn plural(kind: &str) -> String {
         Some(stem) => format!("{stem}ies"),
         None => format!("{kind}s"),
     }
+}
+
+/// Whether a contact acts, step by step.
+fn acting<'c>(case: &'c Case, contact: &'c Contact) -> impl Iterator<Item = bool> {
+    let mut acts = contact.active;
+    case.steps.iter().map(move |step| {
+        let mut changes = step.contacts.iter();
+        let change = changes.find(|change| change.name.value == contact.name.value);
+        acts = change.and_then(|change| change.active).unwrap_or(acts);
+        acts
+    })
 }
