@@ -110,12 +110,10 @@ impl<'a> Iterator for Fields<'a> {
 
     fn next(&mut self) -> Option<&'a [u8]> {
         let rest = self.rest?;
-        let mut quoted = false;
-        let comma = rest.iter().position(|&b| {
-            quoted ^= b == b'"';
-            b == b',' && !quoted
-        });
-        let comma = comma.or_else(|| rest.iter().position(|&b| b == b',').filter(|_| quoted));
+        let comma = match rest.iter().position(|&b| b == b',' || b == b'"') {
+            Some(at) if rest.get(at) == Some(&b'"') => unquoted_comma(rest),
+            found => found,
+        };
         let Some(comma) = comma else {
             self.rest = None;
             return Some(rest.trim_ascii());
@@ -125,18 +123,37 @@ impl<'a> Iterator for Fields<'a> {
     }
 }
 
+/// The first comma outside of quotes; where a quote has no end, the first of all.
+fn unquoted_comma(line: &[u8]) -> Option<usize> {
+    let mut quoted = false;
+    let comma = line.iter().position(|&b| {
+        quoted ^= b == b'"';
+        b == b',' && !quoted
+    });
+    comma.or_else(|| line.iter().position(|&b| b == b',').filter(|_| quoted))
+}
+
 /// A whole number without sign; nothing for anything else, or beyond 64 bits.
+#[inline]
 pub(super) fn whole(field: &[u8]) -> Option<u64> {
     let digits = field.strip_prefix(b"+").unwrap_or(field);
     if digits.is_empty() {
         return None;
     }
-    digits.iter().try_fold(0_u64, |sum, b| {
+    // nineteen digits fit whatever they are
+    let (short, long) = digits.split_at(digits.len().min(19));
+    let mut sum = 0_u64;
+    for b in short {
         let digit = b.wrapping_sub(b'0');
         if digit > 9 {
             return None;
         }
-        sum.checked_mul(10)?.checked_add(u64::from(digit))
+        sum = 10 * sum + u64::from(digit);
+    }
+    long.iter().try_fold(sum, |sum, b| {
+        let digit = b.wrapping_sub(b'0');
+        let more = sum.checked_mul(10)?.checked_add(u64::from(digit));
+        more.filter(|_| digit <= 9)
     })
 }
 
@@ -157,8 +174,9 @@ pub(super) fn real(field: &[u8]) -> Option<f64> {
 /// A number in decimal digits; words such as `nan` are none.
 fn decimal(text: &str) -> Option<f64> {
     let is_number = |b: u8| b.is_ascii_digit() || b"+-.eE".contains(&b);
-    let value = text.parse().ok()?;
-    text.bytes().all(is_number).then_some(value)
+    let value: f64 = text.parse().ok()?;
+    // all words that are read are not finite
+    (value.is_finite() || text.bytes().all(is_number)).then_some(value)
 }
 
 /// The fault of a field that is no number.

@@ -275,33 +275,8 @@ impl Reader<'_> {
         }
     }
 
-    fn not_a_number(&self, card: &Card, wanted: &'static str, found: &[u8]) -> MeshError {
-        not_a_number(&self.lines, card, wanted, found)
-    }
-
-    fn label(&self, card: &Card, wanted: &'static str, field: &[u8]) -> Result<u64> {
-        match whole(field) {
-            Some(0) => Err(MeshError::OutOfRange {
-                place: self.lines.place(),
-                wanted,
-                found: "0".into(),
-                range: "from 1 on",
-            }),
-            Some(label) => Ok(label),
-            None => Err(self.not_a_number(card, wanted, field)),
-        }
-    }
-
-    fn real(&self, card: &Card, wanted: &'static str, field: &[u8]) -> Result<f64> {
-        if field.is_empty() {
-            return Ok(0.0);
-        }
-        real(field).ok_or_else(|| self.not_a_number(card, wanted, field))
-    }
-
     fn scope(&mut self) -> &mut Scope {
-        let here = self.here.min(self.deck.scopes.len() - 1);
-        &mut self.deck.scopes[here]
+        scope_of(&mut self.deck, self.here)
     }
 
     fn nodes(&mut self, card: &Card) -> Result<()> {
@@ -313,19 +288,21 @@ impl Reader<'_> {
                 return Err(self.refused(card, why));
             }
         };
-        let first = self.scope().points.len();
-        while let Some(line) = self.lines.data() {
+        let lines = &mut self.lines;
+        let scope = scope_of(&mut self.deck, self.here);
+        let first = scope.points.len();
+        while let Some(line) = lines.data() {
             let mut fields = Fields::of(line);
             let field = fields.next().unwrap_or_default();
-            let label = self.label(card, "a node number", field)?;
+            let label = label(lines, card, "a node number", field)?;
             let mut x = [0.0; 3];
             let mut ncoordinate = 0;
             for ((field, x), axis) in (&mut fields).zip(&mut x).zip(['x', 'y', 'z']) {
-                *x = self.real(card, "a coordinate", field)?;
+                *x = number(lines, card, "a coordinate", field)?;
                 ncoordinate += usize::from(!field.is_empty());
                 if !x.is_finite() {
                     return Err(MeshError::NotFinite {
-                        place: self.lines.place(),
+                        place: lines.place(),
                         node: label,
                         axis,
                         found: excerpt(field),
@@ -334,7 +311,7 @@ impl Reader<'_> {
             }
             if ncoordinate == 0 {
                 return Err(MeshError::Truncated {
-                    place: self.lines.place(),
+                    place: lines.place(),
                     section: format!("node {label} of *NODE"),
                     wanted: "coordinates",
                 });
@@ -346,16 +323,14 @@ impl Reader<'_> {
             } else {
                 Vec3::new(a, b, c)
             };
-            let spot = self.lines.spot;
-            let scope = self.scope();
             scope.node_labels.push(label);
             scope.points.push(x);
-            scope.node_spots.push(spot);
+            scope.node_spots.push(lines.spot);
         }
-        let end = self.scope().points.len();
+        let end = scope.points.len();
         if end >= u32::MAX as usize {
             return Err(MeshError::Excess {
-                place: self.lines.place(),
+                place: lines.place(),
                 what: "the nodes",
             });
         }
@@ -391,7 +366,6 @@ impl Reader<'_> {
             }
         };
         let nnode = (self.deck.kinds.get(number as usize)).map_or(0, |kind| kind.nnode);
-        let first = self.scope().element_labels.len();
         let count_error = |place, element, found| MeshError::NodeCount {
             place,
             element,
@@ -399,42 +373,43 @@ impl Reader<'_> {
             found,
             wanted: nnode,
         };
+        let lines = &mut self.lines;
+        let scope = scope_of(&mut self.deck, self.here);
+        let first = scope.element_labels.len();
         // the element whose nodes are not complete yet: its number, its line, the nodes it has
         let mut open: Option<(u64, Spot, usize)> = None;
-        while let Some(line) = self.lines.data() {
+        while let Some(line) = lines.data() {
             let mut fields = Fields::of(line);
-            let (label, spot, mut count) = match open.take() {
+            let (element, spot, mut count) = match open.take() {
                 Some(element) => element,
                 None => {
                     let field = fields.next().unwrap_or_default();
-                    let label = self.label(card, "an element number", field)?;
-                    let spot = self.lines.spot;
-                    let scope = self.scope();
+                    let label = label(lines, card, "an element number", field)?;
                     scope.element_labels.push(label);
                     scope.element_kinds.push(number);
-                    scope.element_spots.push(spot);
-                    (label, spot, 0)
+                    scope.element_spots.push(lines.spot);
+                    (label, lines.spot, 0)
                 }
             };
             if nnode == 0 {
                 continue;
             }
             for field in fields.filter(|field| !field.is_empty()) {
-                let node = self.label(card, "a node number", field)?;
+                let node = label(lines, card, "a node number", field)?;
                 count += 1;
                 if count > nnode {
-                    return Err(count_error(self.lines.place(), label, count));
+                    return Err(count_error(lines.place(), element, count));
                 }
-                self.scope().connectivity.push(node);
+                scope.connectivity.push(node);
             }
             if count < nnode {
-                open = Some((label, spot, count));
+                open = Some((element, spot, count));
             }
         }
         if let Some((label, spot, count)) = open {
-            return Err(count_error(self.lines.place_of(spot), label, count));
+            return Err(count_error(lines.place_of(spot), label, count));
         }
-        let end = self.scope().element_labels.len();
+        let end = scope.element_labels.len();
         self.added(card, "ELSET", Family::Cells, first..end);
         Ok(())
     }
@@ -454,15 +429,15 @@ impl Reader<'_> {
         while let Some(line) = self.lines.data() {
             let mut fields = Fields::of(line);
             if generate {
-                let mut number = |default: Option<u64>| match (fields.next(), default) {
+                let mut entry = |default: Option<u64>| match (fields.next(), default) {
                     (None | Some(b""), Some(default)) => Ok(default),
                     (field, _) => {
                         let field = field.unwrap_or_default();
-                        whole(field).ok_or_else(|| self.not_a_number(card, wanted, field))
+                        whole(field).ok_or_else(|| not_a_number(&self.lines, card, wanted, field))
                     }
                 };
-                let first = number(None)?;
-                let (last, step) = (number(Some(first))?, number(Some(1))?);
+                let first = entry(None)?;
+                let (last, step) = (entry(Some(first))?, entry(Some(1))?);
                 if step == 0 || last < first {
                     return Err(MeshError::OutOfRange {
                         place: self.lines.place(),
@@ -606,8 +581,8 @@ impl Reader<'_> {
                 let found = "with more than a translation and a rotation";
                 return Err(self.nesting(card, found, "write two lines at most"));
             };
-            for (field, number) in Fields::of(line).zip(numbers) {
-                *number = self.real(card, "a number of its position", field)?;
+            for (field, x) in Fields::of(line).zip(numbers) {
+                *x = number(&self.lines, card, "a number of its position", field)?;
             }
             nline += 1;
         }
@@ -626,6 +601,49 @@ impl Reader<'_> {
         });
         Ok(())
     }
+}
+
+/// The scope that cards fill; the deck itself is always there.
+fn scope_of(deck: &mut Deck, here: usize) -> &mut Scope {
+    let here = here.min(deck.scopes.len() - 1);
+    &mut deck.scopes[here]
+}
+
+/// The number of a node or an element.
+#[inline]
+fn label(lines: &Lines<'_>, card: &Card, wanted: &'static str, field: &[u8]) -> Result<u64> {
+    match whole(field) {
+        Some(label) if label > 0 => Ok(label),
+        found => Err(no_label(lines, card, wanted, field, found)),
+    }
+}
+
+#[cold]
+fn no_label(
+    lines: &Lines<'_>,
+    card: &Card,
+    wanted: &'static str,
+    field: &[u8],
+    found: Option<u64>,
+) -> MeshError {
+    match found {
+        None => not_a_number(lines, card, wanted, field),
+        Some(label) => MeshError::OutOfRange {
+            place: lines.place(),
+            wanted,
+            found: label.to_string(),
+            range: "from 1 on",
+        },
+    }
+}
+
+/// A real number; 0 for an empty field.
+#[inline]
+fn number(lines: &Lines<'_>, card: &Card, wanted: &'static str, field: &[u8]) -> Result<f64> {
+    if field.is_empty() {
+        return Ok(0.0);
+    }
+    real(field).ok_or_else(|| not_a_number(lines, card, wanted, field))
 }
 
 /// The name in a field, without its quotes.
