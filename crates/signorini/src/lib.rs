@@ -26,7 +26,7 @@ pub mod run;
 pub mod text;
 
 pub use build::{Model, build};
-pub use load::{Loaded, Reading, Source, load, load_case, load_mesh};
+pub use load::{Loaded, Opened, Reading, Source, load, load_case, load_mesh};
 pub use run::{Finished, Limits, Listener, News, RunOptions, run};
 pub use signorini_io::deck::Compat;
 pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};

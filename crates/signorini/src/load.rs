@@ -1,6 +1,6 @@
 //! Reading what a run starts from: the case and its mesh, and what is remembered of both.
 
-use crate::build::{read_mesh_of, read_surfaces_of};
+use crate::build::{judge_mesh_of, read_mesh_of, read_surfaces_of};
 use sha2::{Digest, Sha256};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::{self, Case, MeshSource, Shape};
@@ -72,42 +72,81 @@ pub struct Reading {
     pub compat: Compat,
 }
 
+/// A case, or a deck, whose mesh may still have to be read.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// What it asks for; a deck, as a case would say it.
+    pub case: Case,
+    /// What is unusual.
+    pub warnings: Diagnostics,
+    /// Where it comes from.
+    pub source: Source,
+    /// The mesh of a deck, which is read with it.
+    mesh: Option<DeckMesh>,
+}
+
+/// A mesh that was read with its deck.
+#[derive(Clone, Debug)]
+struct DeckMesh {
+    mesh: Mesh,
+    /// Hash of the deck.
+    sha256: String,
+}
+
+impl Opened {
+    /// Reads the mesh, and the surfaces that are given by files.
+    ///
+    /// # Errors
+    /// All faults of the mesh and of those files, behind what was unusual before.
+    pub fn with_mesh(mut self) -> Result<Loaded, Diagnostics> {
+        match mesh_of(&mut self.case, &mut self.source, self.mesh) {
+            Ok((mesh, more)) => {
+                self.warnings.append(more);
+                Ok(Loaded {
+                    case: self.case,
+                    mesh,
+                    warnings: self.warnings,
+                    source: self.source,
+                })
+            }
+            Err(found) => {
+                self.warnings.append(found);
+                Err(self.warnings)
+            }
+        }
+    }
+}
+
 /// Reads a case or a deck, and its mesh.
 ///
 /// # Errors
 /// All faults of the case at once; else all faults of the mesh.
 pub fn load(path: &Path, reading: &Reading) -> Result<Loaded, Diagnostics> {
-    let (mut case, mut warnings, mut source) = load_case(path, reading)?;
-    let (mesh, more) = load_mesh(&mut case, &mut source)?;
-    warnings.append(more);
-    Ok(Loaded {
-        case,
-        mesh,
-        warnings,
-        source,
-    })
+    load_case(path, reading)?.with_mesh()
 }
 
-/// Reads a case without its mesh, or a deck: what it asks for, as a case would say it.
+/// Reads a case without its mesh, or a deck.
 ///
 /// # Errors
 /// All faults of the case at once.
-pub fn load_case(
-    path: &Path,
-    reading: &Reading,
-) -> Result<(Case, Diagnostics, Source), Diagnostics> {
+pub fn load_case(path: &Path, reading: &Reading) -> Result<Opened, Diagnostics> {
     let overrides = &reading.set;
     let Ok(text) = std::fs::read(path) else {
         // says why, in the words for users
         let (case, warnings) = case::read_case_file(path, overrides)?;
-        return Ok((case, warnings, Source::default()));
+        return Ok(Opened {
+            case,
+            warnings,
+            source: Source::default(),
+            mesh: None,
+        });
     };
     let name = path.display().to_string();
-    let (case, warnings, text) = if is_deck(path) {
+    let (case, warnings, text, mesh) = if is_deck(path) {
         read_deck(&name, &text, reading)?
     } else {
         let (case, warnings) = case::read_case(&name, &text, overrides)?;
-        (case, warnings, text)
+        (case, warnings, text, None)
     };
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
     let source = Source {
@@ -122,7 +161,12 @@ pub fn load_case(
         overrides: overrides.to_vec(),
         mesh: None,
     };
-    Ok((case, warnings, source))
+    Ok(Opened {
+        case,
+        warnings,
+        source,
+        mesh,
+    })
 }
 
 /// Reads the mesh of a case, and the surfaces that are given by files.
@@ -130,25 +174,42 @@ pub fn load_case(
 /// # Errors
 /// All faults of the mesh and of those files.
 pub fn load_mesh(case: &mut Case, source: &mut Source) -> Result<(Mesh, Diagnostics), Diagnostics> {
+    mesh_of(case, source, None)
+}
+
+/// As [`load_mesh`], with the mesh of a deck where it is the one of the case.
+fn mesh_of(
+    case: &mut Case,
+    source: &mut Source,
+    known: Option<DeckMesh>,
+) -> Result<(Mesh, Diagnostics), Diagnostics> {
     let mut warnings = read_surfaces_of(case, &source.folder)?;
-    let (mesh, more) = read_mesh_of(case, &source.folder)?;
-    warnings.append(more);
+    let (mesh, hash) = match known {
+        Some(of_deck) => {
+            warnings.append(judge_mesh_of(case, &of_deck.mesh)?);
+            (of_deck.mesh, Some(of_deck.sha256))
+        }
+        None => {
+            let (mesh, more) = read_mesh_of(case, &source.folder)?;
+            warnings.append(more);
+            (mesh, None)
+        }
+    };
+    let hash_of = |path: &Path| sha256(&std::fs::read(path).unwrap_or_default());
     for surface in &case.surfaces {
         if let Shape::Stl { path } = &surface.shape {
             let path = source.folder.join(&path.value);
-            let bytes = std::fs::read(&path).unwrap_or_default();
             source.inputs.push(Input {
                 path: path.display().to_string(),
-                sha256: sha256(&bytes),
+                sha256: hash_of(&path),
             });
         }
     }
     if let MeshSource::File { path } = &case.mesh {
         let path = source.folder.join(&path.value);
-        let bytes = std::fs::read(&path).unwrap_or_default();
         source.inputs.push(Input {
             path: path.display().to_string(),
-            sha256: sha256(&bytes),
+            sha256: hash.unwrap_or_else(|| hash_of(&path)),
         });
         source.mesh = Some(path);
     }
@@ -163,21 +224,26 @@ fn is_deck(path: &Path) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("inp"))
 }
 
-/// A deck as a case, and the text of that case.
+/// A deck as a case, the text of that case, and the mesh unless the case has another one.
 fn read_deck(
     name: &str,
-    text: &[u8],
+    bytes: &[u8],
     reading: &Reading,
-) -> Result<(Case, Diagnostics, Vec<u8>), Diagnostics> {
-    let read = deck::read(&RealFs, name, text, reading.compat)?;
+) -> Result<(Case, Diagnostics, Vec<u8>, Option<DeckMesh>), Diagnostics> {
+    let read = deck::read(&RealFs, name, bytes, reading.compat)?;
     let text = case::resolved(&read.case).into_bytes();
+    let mesh = DeckMesh {
+        mesh: read.mesh,
+        sha256: sha256(bytes),
+    };
     if reading.set.is_empty() {
-        return Ok((read.case, read.found, text));
+        return Ok((read.case, read.found, text, Some(mesh)));
     }
     let (case, more) = case::read_case(name, &text, &reading.set)?;
     let mut found = read.found;
     found.append(more);
-    Ok((case, found, text))
+    let is_own = case.mesh == read.case.mesh;
+    Ok((case, found, text, is_own.then_some(mesh)))
 }
 
 /// SHA-256 in hexadecimal.

@@ -6,9 +6,10 @@ use crate::case::{Case, MeshSource, Name, Set, SetContent, Side, Space};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
 use crate::readers::inp::{Deck, Field, Kind, Statement};
-use signorini_geometry::mesh::{CellId, Face, NodeId};
+use crate::readers::labels::Lookup;
+use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::Vec3;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a line of a card is about: a set of the mesh, or a single node or element by its number in the mesh.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,8 +30,10 @@ pub(super) struct Translation<'d> {
     pub carriers: BTreeMap<u64, constraint::Carrier>,
     pub materials: BTreeMap<String, model::Properties>,
     pub pairs: Vec<contact::Pair>,
-    nodes: HashMap<u64, NodeId>,
-    cells: HashMap<u64, CellId>,
+    nodes: Lookup,
+    /// Places of elements among those of the mesh's dimension.
+    elements: Lookup,
+    cells: Vec<CellId>,
     taken: BTreeSet<String>,
     /// Sets of nodes of the case, by the numbers in them.
     sets: BTreeMap<Vec<u64>, String>,
@@ -48,8 +51,9 @@ impl<'d> Translation<'d> {
         case.mesh = MeshSource::File {
             path: file.to_owned().into(),
         };
-        let labels = mesh.node_labels.iter().zip(0..);
-        let cells = mesh.cells(mesh.dim());
+        let cells: Vec<CellId> = mesh.cells(mesh.dim()).collect();
+        let label = |cell: &CellId| mesh.cell_label(*cell).unwrap_or(0);
+        let labels: Vec<u64> = cells.iter().map(label).collect();
         Self {
             deck,
             compat,
@@ -59,10 +63,9 @@ impl<'d> Translation<'d> {
             carriers: BTreeMap::new(),
             materials: BTreeMap::new(),
             pairs: Vec::new(),
-            nodes: labels.map(|(&label, node)| (label, node)).collect(),
-            cells: cells
-                .filter_map(|cell| Some((mesh.cell_label(cell)?, cell)))
-                .collect(),
+            nodes: Lookup::new(&mesh.node_labels),
+            elements: Lookup::new(&labels),
+            cells,
             taken: mesh.sets.keys().cloned().collect(),
             sets: BTreeMap::new(),
             outer: None,
@@ -192,8 +195,8 @@ impl<'d> Translation<'d> {
         for &space in directory.spaces(card.scope) {
             if let Some(label) = directory.label(space, kind, field.text) {
                 let known = match kind {
-                    Kind::Nodes => self.nodes.contains_key(&label),
-                    _ => self.cells.contains_key(&label),
+                    Kind::Nodes => self.nodes.find(label).is_some(),
+                    _ => self.elements.find(label).is_some(),
                 };
                 if known {
                     targets.push(Target::One(label));
@@ -289,13 +292,14 @@ impl<'d> Translation<'d> {
 
     /// Where a node is.
     pub fn point(&self, label: u64) -> Option<Vec3> {
-        let node = *self.nodes.get(&label)?;
+        let node = self.nodes.find(label)?;
         self.deck.mesh.points.get(node as usize).copied()
     }
 
     /// The element of this number.
     pub fn cell(&self, label: u64) -> Option<CellId> {
-        self.cells.get(&label).copied()
+        let at = self.elements.find(label)?;
+        self.cells.get(at as usize).copied()
     }
 
     /// The type of a cell as the deck calls it.

@@ -1,7 +1,7 @@
 //! From the numbers of a file to places in a list.
 
 /// Finds nodes or elements by the numbers that a file gives them.
-pub(super) enum Lookup {
+pub(crate) enum Lookup {
     /// By the distance from the smallest number, for numbers with few gaps.
     Dense { first: u64, places: Vec<u32> },
     /// By bisection.

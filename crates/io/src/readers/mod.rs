@@ -21,7 +21,7 @@ pub mod frd;
 pub mod gmsh;
 mod inline;
 pub mod inp;
-mod labels;
+pub(crate) mod labels;
 mod side;
 pub mod stl;
 mod validate;

@@ -1,11 +1,13 @@
 //! What can be wrong with a mesh that could be read.
 
 use signorini_geometry::mesh::quality::{self, Jacobian};
-use signorini_geometry::mesh::{CellId, Mesh};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use std::collections::hash_map::RandomState;
 use std::fmt;
 use std::hash::BuildHasher;
+use std::panic::resume_unwind;
+use std::thread;
 use thiserror::Error;
 
 /// How many elements or nodes an issue names.
@@ -175,14 +177,28 @@ pub fn validate(mesh: &Mesh) -> Vec<MeshIssue> {
     let mut issues = Vec::new();
     let usable = coordinates(mesh, &mut issues);
     repeated_nodes(mesh, &mut issues);
-    if usable {
-        volumes(mesh, &mut issues);
-    }
-    duplicates(mesh, &mut issues);
     let used = used_nodes(mesh);
-    if usable {
-        issues.extend(coincident(mesh, &used));
-    }
+    // the three that take their time have nothing to do with each other
+    let [of_volumes, of_pairs, coincident] = thread::scope(|scope| {
+        let volumes = scope.spawn(|| match usable {
+            true => volumes(mesh),
+            false => Vec::new(),
+        });
+        let coincident = scope.spawn(|| {
+            let found = usable.then(|| coincident(mesh, &used));
+            found.flatten().into_iter().collect()
+        });
+        let duplicates = duplicates(mesh);
+        let ended = |task: thread::ScopedJoinHandle<'_, Vec<MeshIssue>>| {
+            task.join().unwrap_or_else(|panic| resume_unwind(panic))
+        };
+        [
+            ended(volumes),
+            duplicates.into_iter().collect(),
+            ended(coincident),
+        ]
+    });
+    issues.extend([of_volumes, of_pairs, coincident].into_iter().flatten());
     let count = used.iter().filter(|used| !**used).count();
     if count > 0 {
         issues.push(MeshIssue::Unreferenced { count });
@@ -275,7 +291,8 @@ fn judge(jacobian: &Jacobian, x: &mut [Vec3]) -> Volume {
     }
 }
 
-fn volumes(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
+fn volumes(mesh: &Mesh) -> Vec<MeshIssue> {
+    let mut issues = Vec::new();
     let dim = mesh.dim();
     let plane = quality::is_plane(mesh);
     let [mut flat, mut folded, mut inverted] = [const {
@@ -317,20 +334,26 @@ fn volumes(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
     if flat.count > 0 {
         issues.push(MeshIssue::Flat { elements: flat });
     }
+    issues
 }
 
-fn duplicates(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
+fn duplicates(mesh: &Mesh) -> Option<MeshIssue> {
+    let hasher = RandomState::new();
+    let mut nodes: Vec<NodeId> = Vec::new();
+    let mut hash = |cell: CellId| {
+        nodes.clear();
+        nodes.extend(mesh.cell(cell));
+        nodes.sort_unstable();
+        hasher.hash_one(&nodes)
+    };
+    let cells = mesh.cells(mesh.dim());
+    let mut hashes: Vec<(u64, CellId)> = cells.map(|cell| (hash(cell), cell)).collect();
+    hashes.sort_unstable();
     let sorted = |cell| {
         let mut nodes = mesh.cell(cell).to_vec();
         nodes.sort_unstable();
         nodes
     };
-    let hasher = RandomState::new();
-    let mut hashes: Vec<(u64, CellId)> = mesh
-        .cells(mesh.dim())
-        .map(|cell| (hasher.hash_one(sorted(cell)), cell))
-        .collect();
-    hashes.sort_unstable();
     let same = |pair: &&[(u64, CellId)]| matches!(pair, [a, b] if a.0 == b.0 && sorted(a.1) == sorted(b.1));
     let mut labels: Vec<u64> = (hashes.windows(2).filter(same))
         .filter_map(|pair| mesh.cell_label(pair.last()?.1))
@@ -338,9 +361,7 @@ fn duplicates(mesh: &Mesh, issues: &mut Vec<MeshIssue>) {
     labels.sort_unstable();
     let mut elements = Sample::default();
     labels.into_iter().for_each(|label| elements.push(label));
-    if elements.count > 0 {
-        issues.push(MeshIssue::Duplicate { elements });
-    }
+    (elements.count > 0).then_some(MeshIssue::Duplicate { elements })
 }
 
 fn used_nodes(mesh: &Mesh) -> Vec<bool> {

@@ -78,6 +78,8 @@ pub struct ContactFrame {
     pub elastic_slip: Vec<Vec3>,
     /// Energy that springs of the contact law, and of sticking, hold at each node.
     pub energy: Vec<f64>,
+    /// The part of the area of each node where there is contact.
+    pub closed_area: Vec<f64>,
     /// Tributary area of each node: by mortar, the part that is covered, and none of a node that leans on another one.
     pub area: Vec<f64>,
     /// What the primary side exerts on the secondary; moment about the origin.

@@ -59,7 +59,7 @@ pub fn read_surfaces_of(case: &mut Case, folder: &Path) -> Result<Diagnostics, D
 /// A file that cannot be read, a damaged mesh, elements that no solver can use.
 pub fn read_mesh_of(case: &Case, folder: &Path) -> Result<(Mesh, Diagnostics), Diagnostics> {
     let mut found = Diagnostics::new();
-    let (mesh, place) = match &case.mesh {
+    let mesh = match &case.mesh {
         MeshSource::File { path } => {
             let file = folder.join(&path.value);
             let bytes = std::fs::read(&file).map_err(|error| {
@@ -82,21 +82,33 @@ pub fn read_mesh_of(case: &Case, folder: &Path) -> Result<(Mesh, Diagnostics), D
                     note,
                 ));
             }
-            (mesh, path.place.clone())
+            mesh
         }
         MeshSource::Inline {
-            nodes,
-            elements,
-            place,
-        } => (inline(nodes, elements)?, place.clone()),
+            nodes, elements, ..
+        } => inline(nodes, elements)?,
     };
-    for issue in readers::validate(&mesh) {
-        found.push(judged(&issue, &place));
+    found.append(judge_mesh_of(case, &mesh)?);
+    Ok((mesh, found))
+}
+
+/// What is unusual with the mesh of a case.
+///
+/// # Errors
+/// Elements that no solver can use.
+pub fn judge_mesh_of(case: &Case, mesh: &Mesh) -> Result<Diagnostics, Diagnostics> {
+    let place = match &case.mesh {
+        MeshSource::File { path } => &path.place,
+        MeshSource::Inline { place, .. } => place,
+    };
+    let mut found = Diagnostics::new();
+    for issue in readers::validate(mesh) {
+        found.push(judged(&issue, place));
     }
     if found.has_errors() {
         return Err(found);
     }
-    Ok((mesh, found))
+    Ok(found)
 }
 
 fn inline(

@@ -19,7 +19,7 @@ mod temperature;
 #[cfg(test)]
 mod tests;
 
-pub use mesh::{read_mesh_of, read_surfaces_of};
+pub use mesh::{judge_mesh_of, read_mesh_of, read_surfaces_of};
 pub use prints::{
     ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
 };

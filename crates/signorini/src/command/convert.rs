@@ -44,7 +44,8 @@ impl Convert {
     }
 
     fn convert(&self) -> Result<Diagnostics, Diagnostics> {
-        let (mut case, found, _) = load_case(&self.deck, &self.changes.reading())?;
+        let opened = load_case(&self.deck, &self.changes.reading())?;
+        let (mut case, found) = (opened.case, opened.warnings);
         case.mesh = MeshSource::File {
             path: self.mesh().into(),
         };

@@ -8,7 +8,6 @@ use clap::Args;
 use signorini::run::{Detail, Finished};
 use signorini::{
     Diagnostics, Limits, Listener, Loaded, Model, News, RunOptions, Source, build, load_case,
-    load_mesh,
 };
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::Case;
@@ -47,20 +46,20 @@ impl Run {
                 .set
                 .push(("output.format".into(), format!("{:?}", self.format)));
         }
-        let (mut case, warnings, mut source) = match load_case(&self.case, &reading) {
-            Ok(read) => read,
+        let opened = match load_case(&self.case, &reading) {
+            Ok(opened) => opened,
             Err(found) => return refused(&found, &self.solve),
         };
-        let nthread = threads::make(self.solve.threads, case.solver.threads);
-        let (mesh, more) = match load_mesh(&mut case, &mut source) {
-            Ok(read) => read,
-            Err(found) => return refused(&joined(warnings, found), &self.solve),
+        let nthread = threads::make(self.solve.threads, opened.case.solver.threads);
+        let loaded = match opened.with_mesh() {
+            Ok(loaded) => loaded,
+            Err(found) => return refused(&found, &self.solve),
         };
         let job = Job {
-            warnings: joined(warnings, more),
-            case,
-            mesh,
-            source,
+            warnings: loaded.warnings,
+            case: loaded.case,
+            mesh: loaded.mesh,
+            source: loaded.source,
             folder: self.folder.output,
             fresh: self.fresh,
             resume: false,

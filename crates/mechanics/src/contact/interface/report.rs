@@ -161,7 +161,11 @@ impl Interface {
                 let Ok(k) = self.parts.pair.points.binary_search(node) else {
                     continue;
                 };
-                report.area[k] += area * shape * shape / squares;
+                let share = area * shape * shape / squares;
+                report.area[k] += share;
+                if status.is_closed() {
+                    report.closed_area[k] += share;
+                }
                 report.energy[k] += energy * shape * shape / squares;
                 if let Some(of_row) = &of_row {
                     means.add(k, area * shape * shape, of_row);
@@ -191,7 +195,9 @@ impl Interface {
             }
         }
         for k in hosted {
-            report.area[k] = 0.0; // it is a part of its host's
+            // they are parts of those of its host
+            report.area[k] = 0.0;
+            report.closed_area[k] = 0.0;
         }
         if let Some(first) = first.and_then(|c| frame.contacts.get_mut(c)) {
             for k in 0..first.nodes.len() {
@@ -336,6 +342,7 @@ impl Interface {
             elastic_slip: vec![Vec3::ZERO; n],
             energy: vec![0.0; n],
             area: vec![0.0; n],
+            closed_area: vec![0.0; n],
             facet_size: self.parts.scale.length,
             ..ContactFrame::default()
         }

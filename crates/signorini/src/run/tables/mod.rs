@@ -395,11 +395,8 @@ impl Writer<'_> {
                 moment: moment * share,
                 ..Statistics::default()
             };
-            let closed = contact.status.iter().map(|status| status.is_closed());
-            let areas = closed
-                .zip(&contact.area)
-                .map(|(is, area)| if is { *area } else { 0.0 });
-            for ((area, x), normal) in areas.zip(&contact.points).zip(&contact.normal) {
+            let places = contact.points.iter().zip(&contact.normal);
+            for (&area, (x, normal)) in contact.closed_area.iter().zip(places) {
                 statistics.area += area;
                 statistics.center += *x * area;
                 statistics.normal -= *normal * area;

@@ -1,0 +1,72 @@
+//! Damaged decks: refused, built or solved, never a panic, a hang, or a good end without a result.
+
+use crate::{of_others, own};
+use signorini::{Compat, Limits, Model, RunOptions, Source, build};
+use signorini_io::case::mutate::{Generator, mutate};
+use signorini_io::deck;
+use signorini_io::fs::RealFs;
+use std::time::{Duration, Instant};
+
+/// What no deck may take longer than.
+const HANG: Duration = Duration::from_secs(10);
+
+/// Reads and builds so many; of each hundred, one that can be built is solved.
+fn mutants(count: usize, seed: u64) {
+    let originals = [own("block.inp"), own("pair.inp"), of_others("prepomax.inp")];
+    let originals = originals.map(|path| std::fs::read(path).unwrap());
+    let mut generator = Generator::new(seed);
+    let mut reached = [0usize; 3];
+    let mut ends = [0usize; 2];
+    for number in 0..count {
+        let mutant = mutate(&originals[number % originals.len()], &mut generator);
+        let name = own("mutant.inp").display().to_string();
+        let start = Instant::now();
+        let compat = [Compat::None, Compat::Ccx][number / 3 % 2];
+        let built = deck::read(&RealFs, &name, &mutant, compat)
+            .map_err(|_| 0)
+            .and_then(|read| build(read.case, read.mesh).map_err(|_| 1));
+        reached[built.as_ref().err().copied().unwrap_or(2)] += 1;
+        let of = format!("mutant {number} of seed {seed}");
+        if let Ok(mut model) = built
+            && ends.iter().sum::<usize>() <= number / 100
+        {
+            ends[usize::from(solve(&mut model, &of))] += 1;
+        }
+        assert!(start.elapsed() < HANG, "{of}");
+    }
+    println!("refused as deck, as model; accepted: {reached:?}; ended badly, well: {ends:?}");
+    assert!(reached.iter().chain(&ends).all(|n| *n > 0), "{reached:?}");
+    assert!(ends.iter().sum::<usize>() + 1 >= count / 100, "{ends:?}");
+}
+
+/// Whether a run ends well; then the end of its last step is among its results, all of numbers.
+fn solve(model: &mut Model, of: &str) -> bool {
+    let scratch = tempfile::tempdir().unwrap();
+    let mut options = RunOptions::new(Source::default());
+    options.folder = scratch.path().join("out");
+    options.limits = Limits {
+        deadline: Some(Instant::now() + HANG / 2),
+        ..Limits::default()
+    };
+    let finished = signorini::run(model, &options, &mut ());
+    if finished.exit_code > 1 {
+        return false;
+    }
+    let steps = &finished.summary.steps;
+    assert_eq!(steps.len(), model.steps.len(), "{of}");
+    assert!(steps.iter().all(|step| step.increments > 0), "{of}");
+    let series = std::fs::read_to_string(options.folder.join("results.pvd"));
+    assert!(series.is_ok_and(|text| text.contains("<DataSet")), "{of}");
+    true
+}
+
+#[test]
+fn of_two_thousand_damaged_decks_none_ends_badly() {
+    mutants(2_000, 20261122);
+}
+
+#[test]
+#[ignore = "takes minutes: run by .ci/run"]
+fn of_a_hundred_thousand_damaged_decks_none_ends_badly() {
+    mutants(100_000, 6);
+}
