@@ -76,11 +76,30 @@ fn a_deck_of_two_blocks_is_pressed_by_either_law() {
     assert!(soft.frames.last().unwrap().contacts[0].gap_min < 0.0);
 }
 
+/// ν = 0, between walls: the force F overlaps the sides of the cut by F l/(E A); what is locked there and cools by 2 is
+/// under F/A + E α · 2.
+#[test]
+fn a_bolt_is_tightened_by_a_force_and_locked() {
+    let done = solved(read(&own("bolt.inp"), Compat::None));
+    let stress = |k: usize| -> Vec<f64> {
+        let cells = &done.frames[k].cell_stress;
+        cells.iter().flatten().map(|s| s.zz).collect()
+    };
+    let ends = [8.0, 10.0].map(|s| [s, s]);
+    for (step, wanted) in ends.iter().enumerate() {
+        let last = done.frames.iter().rposition(|f| f.step_number == step);
+        assert!(relative(&stress(last.unwrap()), wanted) < 1e-12, "{step}");
+        let overlap = done.frames[last.unwrap()].rigid[0].displacement.x;
+        assert!((overlap - 8.0 * 4.0 / 1000.0).abs() < 1e-15, "{overlap}");
+    }
+}
+
 /// What `convert` writes has the result of the deck.
 #[test]
 fn a_converted_deck_has_the_same_result() {
     for (name, compat) in [
         ("block.inp", Compat::None),
+        ("bolt.inp", Compat::None),
         ("pair.inp", Compat::None),
         ("pair.inp", Compat::Ccx),
     ] {

@@ -91,7 +91,7 @@ impl Translation<'_> {
         }
         let mut step = Step {
             name: Spanned::new(name, place.clone()),
-            geometry: if standing.nonlinear {
+            geometry: if standing.nonlinear || self.bends {
                 Geometry::Nonlinear
             } else {
                 Geometry::Linear

@@ -27,6 +27,8 @@ pub(super) struct Translation<'d> {
     pub axes: BTreeMap<u64, constraint::Axes>,
     /// References that nodes stand for, by their numbers.
     pub carriers: BTreeMap<u64, constraint::Carrier>,
+    /// Whether a constraint bends with large displacements: then all steps are of large displacements.
+    pub bends: bool,
     pub materials: BTreeMap<String, model::Properties>,
     nodes: HashMap<u64, NodeId>,
     cells: HashMap<u64, CellId>,
@@ -56,6 +58,7 @@ impl<'d> Translation<'d> {
             found: Diagnostics::new(),
             axes: BTreeMap::new(),
             carriers: BTreeMap::new(),
+            bends: false,
             materials: BTreeMap::new(),
             nodes: labels.map(|(&label, node)| (label, node)).collect(),
             cells: cells

@@ -237,5 +237,45 @@ pub(super) fn constraint(constraint: &Constraint) -> Entries {
             entries.push(("dofs", self::axes(*axes)));
             entries
         }
+        ConstraintKind::Line { on } => of_kind("line", on),
+        ConstraintKind::Distance { on, most } => {
+            let mut entries = of_kind("distance", on);
+            entries.extend(most.map(|most| ("most", most.into())));
+            entries
+        }
+        ConstraintKind::Twist {
+            on,
+            reference,
+            axis,
+        } => {
+            let mut entries = of_kind("twist", on);
+            entries.push(("reference", (&reference.value).into()));
+            entries.push(("axis", list(*axis)));
+            entries
+        }
+        ConstraintKind::Pretension {
+            on,
+            reference,
+            normal,
+        } => {
+            let mut entries = of_kind("pretension", on);
+            entries.push(("reference", (&reference.value).into()));
+            entries.extend(normal.map(|normal| ("normal", list(normal))));
+            entries
+        }
+        ConstraintKind::Cyclic {
+            on,
+            with,
+            sectors,
+            point,
+            axis,
+        } => {
+            let mut entries = of_kind("cyclic", on);
+            entries.push(("with", (&with.value).into()));
+            entries.push(("sectors", (*sectors).into()));
+            entries.push(("point", list(*point)));
+            entries.push(("axis", list(*axis)));
+            entries
+        }
     }
 }
