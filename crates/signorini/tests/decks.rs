@@ -83,7 +83,7 @@ fn a_bolt_is_tightened_by_a_force_and_locked() {
     let done = solved(read(&own("bolt.inp"), Compat::None));
     let stress = |k: usize| -> Vec<f64> {
         let cells = &done.frames[k].cell_stress;
-        cells.iter().flatten().map(|s| s.zz).collect()
+        cells.iter().flatten().map(|s| s.zz()).collect()
     };
     let ends = [8.0, 10.0].map(|s| [s, s]);
     for (step, wanted) in ends.iter().enumerate() {

@@ -109,6 +109,7 @@ impl Translation<'_> {
         self.case.references.push(Reference {
             name: name.clone(),
             position: Position::Node(label),
+            rotations: None,
             place: place.clone(),
         });
         name
@@ -150,6 +151,10 @@ impl Translation<'_> {
                 && let Some(turning) = self.node_of(card, "ROTNODE")
             {
                 let name = reference.value.clone();
+                let mut known = self.case.references.iter_mut();
+                if let Some(known) = known.find(|one| one.name == reference) {
+                    known.rotations = Some(turning);
+                }
                 self.carriers.insert(turning, Carrier { name, turns: true });
             }
             if let Some(elset) = card.get("ELSET") {
@@ -278,7 +283,12 @@ impl Translation<'_> {
             let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
             if !(total > 0.0) {
                 let text = "*DISTRIBUTING COUPLING has no weights";
-                self.error(&codes::OUT_OF_RANGE, text, &card.place, "node or set, weight");
+                self.error(
+                    &codes::OUT_OF_RANGE,
+                    text,
+                    &card.place,
+                    "node or set, weight",
+                );
                 continue;
             }
             let reference = self.reference(node, &card.place);
@@ -339,7 +349,9 @@ impl Translation<'_> {
                     open = Some((first.key(), first.place(), Vec::new()));
                     fields = rest;
                 }
-                let of_nodes = fields.iter().filter(|f| !f.text.is_empty() && f.text != "0");
+                let of_nodes = fields
+                    .iter()
+                    .filter(|f| !f.text.is_empty() && f.text != "0");
                 for field in of_nodes {
                     let targets = self.targets(card, Some(field), Kind::Nodes);
                     let labels = targets.iter().flat_map(|target| self.labels(target));
@@ -407,9 +419,8 @@ impl Translation<'_> {
             .collect();
         for card in self.cards("CYCLICSYMMETRYMODEL") {
             let named = card.get("TIE").map(compared);
-            let of_name = |tie: &&&Statement| {
-                named.is_none() || tie.get("NAME").map(compared) == named
-            };
+            let of_name =
+                |tie: &&&Statement| named.is_none() || tie.get("NAME").map(compared) == named;
             let Some(tie) = ties.iter().find(of_name) else {
                 let text = "there is no *TIE, CYCLIC SYMMETRY of that name";
                 self.error(&codes::UNDEFINED, text, &card.place, "");

@@ -495,6 +495,7 @@ impl Translation<'_> {
         self.case.references.push(Reference {
             name: on.clone(),
             position: Position::Node(label),
+            rotations: None,
             place: place.clone(),
         });
         Summand {

@@ -1,7 +1,7 @@
 use super::*;
 use crate::case::{
-    Body, ConstraintKind, Enforcement, Geometry, Integration, Interference, LoadKind, Locking, Method,
-    Motion, SetContent, Space,
+    Body, ConstraintKind, Enforcement, Geometry, Integration, Interference, LoadKind, Locking,
+    Method, Motion, SetContent, Space,
 };
 use crate::fs::RealFs;
 
@@ -310,7 +310,10 @@ fn multi_point_constraints_become_those_of_a_case() {
     let [
         ConstraintKind::Plane { on: plane },
         ConstraintKind::Line { on: line },
-        ConstraintKind::Distance { on: rod, most: None },
+        ConstraintKind::Distance {
+            on: rod,
+            most: None,
+        },
         ConstraintKind::Twist {
             on: face,
             axis: [0.0, 0.0, 1.0],

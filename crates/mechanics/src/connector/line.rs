@@ -117,14 +117,7 @@ impl Line {
         })
     }
 
-    fn add(
-        &self,
-        k: usize,
-        trial: &State,
-        order: Order,
-        work: &mut Scratch,
-        out: &mut dyn Sink,
-    ) {
+    fn add(&self, k: usize, trial: &State, order: Order, work: &mut Scratch, out: &mut dyn Sink) {
         let many = self.across.len();
         let (Some(&node), Some(&normal)) = (self.nodes.get(k / many), self.across.get(k % many))
         else {

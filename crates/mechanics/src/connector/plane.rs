@@ -191,14 +191,7 @@ impl Plane {
         }
     }
 
-    fn add(
-        &self,
-        k: usize,
-        trial: &State,
-        order: Order,
-        work: &mut Scratch,
-        out: &mut dyn Sink,
-    ) {
+    fn add(&self, k: usize, trial: &State, order: Order, work: &mut Scratch, out: &mut dyn Sink) {
         let node = self.nodes[k];
         let dofs = self.dofs(k);
         let start = self.volume(node, |n| self.start(n));

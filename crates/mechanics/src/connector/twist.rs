@@ -76,7 +76,9 @@ impl Twist {
             arm - axis * arm.dot(axis)
         };
         let arms: Vec<Vec3> = start.iter().map(across).collect();
-        let extent = start.iter().fold(0.0f64, |m, x| m.max((*x - middle).norm()));
+        let extent = start
+            .iter()
+            .fold(0.0f64, |m, x| m.max((*x - middle).norm()));
         let off_axis = |arm: &Vec3| arm.norm() > ON_AXIS * extent;
         let arms: Vec<Option<Vec3>> = arms.into_iter().map(|a| Some(a).filter(off_axis)).collect();
         let turning = arms.iter().flatten().count();
@@ -141,8 +143,7 @@ impl Twist {
                 let square = q.norm_squared().max(f64::MIN_POSITIVE);
                 slope = self.axis.cross(q) * (share / square);
                 if self.nonlinear {
-                    bend = (turn * (share / square))
-                        - Mat3::outer(slope, q) * (2.0 / square);
+                    bend = (turn * (share / square)) - Mat3::outer(slope, q) * (2.0 / square);
                     let angle = self.axis.dot(p.cross(q)).atan2(p.dot(q));
                     // of all angles that look alike, the one next to what is wanted
                     let turns = ((given - angle) / std::f64::consts::TAU).round();

@@ -183,18 +183,18 @@ fn cut(
 }
 
 /// The elements around the nodes of a cut that hang together with those that own its faces.
-fn side(
-    mesh: &Mesh,
-    faces: &[Face],
-    nodes: &BTreeSet<NodeId>,
-) -> Result<BTreeSet<CellId>, Reason> {
+fn side(mesh: &Mesh, faces: &[Face], nodes: &BTreeSet<NodeId>) -> Result<BTreeSet<CellId>, Reason> {
     let touches = |cell: &CellId| mesh.cell(*cell).iter().any(|node| nodes.contains(node));
     let around: Vec<CellId> = mesh.cells(mesh.dim()).filter(touches).collect();
     let index = FaceIndex::new(mesh, around.iter().copied());
     let other = |face: Face| {
         let (element, nodes) = mesh.face(face)?;
         let (one, two) = index.find(element, &nodes)?;
-        if one.cell == face.cell { two } else { Some(one) }
+        if one.cell == face.cell {
+            two
+        } else {
+            Some(one)
+        }
     };
     let across: BTreeSet<Face> = faces.iter().filter_map(|&face| other(face)).collect();
     let cut: BTreeSet<Face> = faces.iter().chain(&across).copied().collect();
@@ -204,7 +204,9 @@ fn side(
     let mut side: BTreeSet<CellId> = faces.iter().map(|face| face.cell).collect();
     let mut open: Vec<CellId> = side.iter().copied().collect();
     while let Some(cell) = open.pop() {
-        let nside = mesh.element(cell).map_or(0, |element| element.sides().len());
+        let nside = mesh
+            .element(cell)
+            .map_or(0, |element| element.sides().len());
         for number in 0..nside {
             let face = Face {
                 cell,

@@ -385,11 +385,20 @@ impl<'a> Names<'a> {
         faces.dedup();
         if faces.is_empty() || !sided {
             let (what, help) = if normal.is_none() && !sided {
-                ("has two sides", "write  normal =  away from the side to cut")
+                (
+                    "has two sides",
+                    "write  normal =  away from the side to cut",
+                )
             } else {
-                ("has no faces", "name faces as  { faces = [[element, \"S1\"], ..] }")
+                (
+                    "has no faces",
+                    "name faces as  { faces = [[element, \"S1\"], ..] }",
+                )
             };
-            let message = format!("{} {what}: pretension cuts at one side of faces", quoted(name));
+            let message = format!(
+                "{} {what}: pretension cuts at one side of faces",
+                quoted(name)
+            );
             let message = Diagnostic::error(&codes::WRONG_KIND, message);
             found.push(message.at(&name.place, "cut here").help(help));
             return None;

@@ -1060,5 +1060,8 @@ fn nodes_of_a_sector_follow_those_of_its_other_side() {
     assert_eq!(of(4, 1), ((2, 0), -1.0));
     assert_eq!(of(8, 2), ((6, 2), -1.0));
     let (code, text) = refused(&sector(5));
-    assert!(code == "S0308" && text.contains("turned by a sector of 5"), "{text}");
+    assert!(
+        code == "S0308" && text.contains("turned by a sector of 5"),
+        "{text}"
+    );
 }

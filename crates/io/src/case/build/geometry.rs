@@ -247,6 +247,7 @@ impl Builder {
         Reference {
             name,
             position,
+            rotations: fields.count_if("rotations").map(|node| node.value),
             place,
         }
     }

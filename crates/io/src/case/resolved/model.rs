@@ -88,10 +88,12 @@ fn region(region: &Region) -> Entries {
 }
 
 pub(super) fn reference(one: &Reference) -> Entries {
-    vec![match &one.position {
+    let mut entries: Entries = vec![match &one.position {
         Position::At(point) => ("at", point.into()),
         Position::Node(node) => ("node", (*node).into()),
-    }]
+    }];
+    entries.extend(one.rotations.map(|node| ("rotations", node.into())));
+    entries
 }
 
 impl std::fmt::Display for Side {

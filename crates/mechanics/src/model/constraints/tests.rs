@@ -526,12 +526,15 @@ fn a_twisted_face_turns_by_its_angle_in_the_mean() {
             bodies: vec![solid("cube", cells.clone())],
             carriers: vec![carrier("angle", [0.0; 3])],
             constraints: vec![constraint("twist", kind)],
-            steps: vec![step(4, nonlinear, vec![prescribe(base.clone(), &ALL), turn])],
+            steps: vec![step(
+                4,
+                nonlinear,
+                vec![prescribe(base.clone(), &ALL), turn],
+            )],
             ..Parts::new(&mesh, Idealisation::Space)
         });
-        let mean = |x: &dyn Fn(NodeId) -> Vec3| {
-            top.iter().map(|&n| x(n)).sum::<Vec3>() / top.len() as f64
-        };
+        let mean =
+            |x: &dyn Fn(NodeId) -> Vec3| top.iter().map(|&n| x(n)).sum::<Vec3>() / top.len() as f64;
         let (start, now) = (
             |n: NodeId| mesh.points[n as usize],
             |n: NodeId| ran.state.x[n as usize],
@@ -548,7 +551,11 @@ fn a_twisted_face_turns_by_its_angle_in_the_mean() {
         let torque = ran.held(0).0.x;
         let (force, moment) = ran.reactions();
         assert!(torque > 0.0 && force.max_abs() < 1e-8);
-        let off = if nonlinear { 1e-8 } else { 2.0 * angle * torque };
+        let off = if nonlinear {
+            1e-8
+        } else {
+            2.0 * angle * torque
+        };
         assert!((moment.z + torque).abs() < off, "{moment:?} {torque}");
     }
 }
@@ -570,7 +577,12 @@ fn an_edge_stays_straight_and_a_rod_keeps_its_length() {
         let ran = run(Parts {
             bodies: vec![solid("cube", cells.clone())],
             constraints: vec![
-                constraint("line", ConstraintKind::Line { nodes: edge.clone() }),
+                constraint(
+                    "line",
+                    ConstraintKind::Line {
+                        nodes: edge.clone(),
+                    },
+                ),
                 constraint(
                     "rod",
                     ConstraintKind::Distance {
@@ -617,7 +629,10 @@ fn a_rope_pulls_and_never_pushes() {
     let more = block(&mut mesh, [1; 3], second, Vec3::new(1.0, 1.0, 1.0));
     let hook = nodes_at(&mesh, 2, 1.0)[0];
     let held = nodes_at(&mesh, 2, 3.0);
-    let all: Vec<NodeId> = nodes_at(&mesh, 2, 4.0).into_iter().chain(held.clone()).collect();
+    let all: Vec<NodeId> = nodes_at(&mesh, 2, 4.0)
+        .into_iter()
+        .chain(held.clone())
+        .collect();
     let rope = ConstraintKind::Distance {
         nodes: [hook, held[0]],
         most: Some(2.5),
@@ -627,7 +642,11 @@ fn a_rope_pulls_and_never_pushes() {
         bodies: vec![solid("cube", cells), solid("hook", more)],
         constraints: vec![constraint("rope", rope)],
         steps: vec![
-            step(1, true, vec![prescribe(Target::Nodes(nodes), &ALL), up(0.4)]),
+            step(
+                1,
+                true,
+                vec![prescribe(Target::Nodes(nodes), &ALL), up(0.4)],
+            ),
             step(2, true, vec![up(0.8)]),
             step(2, true, vec![up(0.2)]),
         ],

@@ -77,9 +77,7 @@ impl Held<'_> {
                 ConstraintKind::Plane { nodes } => self.stays_plane(nodes),
                 ConstraintKind::Line { nodes } => self.stays_straight(nodes),
                 // a rope holds nothing that goes nearer
-                ConstraintKind::Distance {
-                    most: Some(_), ..
-                } => {}
+                ConstraintKind::Distance { most: Some(_), .. } => {}
                 ConstraintKind::Distance { nodes: [a, b], .. } => {
                     let along = self.point(*b) - self.point(*a);
                     let ends = [(*a, -1.0), (*b, 1.0)];
@@ -309,7 +307,10 @@ impl Held<'_> {
         let middle = nodes.iter().map(|&n| self.point(n)).sum::<Vec3>() / count;
         let arms = nodes.iter().map(|&node| {
             let arm = axis.cross(self.point(node) - middle);
-            (node, arm * (1.0 / arm.norm_squared().max(f64::MIN_POSITIVE)))
+            (
+                node,
+                arm * (1.0 / arm.norm_squared().max(f64::MIN_POSITIVE)),
+            )
         });
         let arms: Vec<(NodeId, Vec3)> = arms.collect();
         let mean = arms.iter().map(|(_, slope)| *slope).sum::<Vec3>() / count;

@@ -298,17 +298,26 @@ name = "press"
 increments = 1
 fix = [{{ on = "base", u = "all" }}]
 move = [{{ on = "pilot", ux = 0, uy = 0, uz = -0.01, rx = 0, ry = 0, rz = 0 }}]
-print = [{{ on = "pilots", nodes = ["displacement"] }}]
+print = [{{ on = "pilots", nodes = ["displacement", "reaction"] }}]
 "#,
-        head.replace("[5, 0, 0, 1]", "[20, 0.5, 0.5, 2], [5, 0, 0, 1]")
+        head.replace("[5, 0, 0, 1]", "[20, 0.5, 0.5, 2], [21, 0, 0, 0], [5, 0, 0, 1]")
             .replace(
                 "[sets]",
-                "[reference]\npilot = { node = 20 }\n[sets]\npilots = { nodes = [20, 5] }"
+                "[reference]\npilot = { node = 20, rotations = 21 }\n[sets]\npilots = { nodes = [20, 5, 21, 7] }"
             )
     ));
     let rows = table(&text, "displacements");
     assert_close(&rows[0], &[20.0, 0.0, 0.0, -0.01], 0.01);
     assert_close(&rows[1], &[5.0, 0.0, 0.0, -0.01], 0.01);
+    assert_close(&rows[2], &[21.0, 0.0, 0.0, 0.0], 0.01);
+    // the reference bears what its four nodes do, and no moment by symmetry
+    let forces = table(&text, "forces");
+    let [pilot, corner, moment, _] = forces.as_slice() else {
+        panic!("{forces:?}");
+    };
+    assert!(corner[3] < -1e-3, "{corner:?}");
+    assert_close(&pilot[3..], &[4.0 * corner[3]], corner[3].abs());
+    assert_close(&moment[1..], &[0.0; 3], corner[3].abs());
 }
 
 /// A cube pressed by 8 on a rigid plane, penalty 1000 per area.
