@@ -198,8 +198,8 @@ fn faults_are_told_with_their_lines() {
             "did you mean *STATIC?",
         ),
         (
-            cube("C3D8", &format!("*MPC\nPLANE,1,2,3\n{STEP}")),
-            "*MPC is not supported",
+            cube("C3D8", &format!("*CREEP\n1.,2.,3.\n{STEP}")),
+            "*CREEP is not supported",
         ),
         (
             cube("C3D8", &format!("*TIE, NAME=T\nLID, SOL\n{STEP}")),
