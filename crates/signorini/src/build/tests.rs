@@ -1020,7 +1020,11 @@ fn a_cut_gives_its_side_nodes_of_its_own() {
             "[[constraint]]\nkind = 'pretension'\non = 'cut'\nreference = 'bolt'\n",
             "nodes of another pretension",
         ),
-        ("[[1, '+z'], [2, '-z']]", "", "does not cut the body"),
+        (
+            "[[1, '+z'], [2, '-z']]",
+            "normal = 'z'\n",
+            "does not cut the body",
+        ),
     ] {
         let all = try_parts(&text(faces, more)).err().unwrap().plain();
         assert!(all.contains(wanted), "{all}");

@@ -454,6 +454,7 @@ with = "lead"
 sectors = 4
 [[step]]
 name = "pull"
+geometry = "linear"
 increments = 1
 fix = [{ on = "base", u = ["z"] }, { on = "one", u = ["y"] }]
 load = [{ on = "outside", pressure = -8.0 }]
