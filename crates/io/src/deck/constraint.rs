@@ -281,7 +281,7 @@ impl Translation<'_> {
                 weights.extend(labels.map(|label| (label, weight)));
             }
             let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
-            if !(total > 0.0) {
+            if total <= 0.0 || !total.is_finite() {
                 let text = "*DISTRIBUTING COUPLING has no weights";
                 self.error(
                     &codes::OUT_OF_RANGE,
