@@ -1,4 +1,4 @@
-//! Local axes, equations, rigid bodies, couplings.
+//! Local axes, equations, rigid bodies, couplings, pre-tension, multi-point constraints, sectors.
 
 use super::translation::{Target, Translation};
 use crate::case::{
@@ -8,6 +8,7 @@ use crate::case::{
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeSet;
 
 /// What a node stands for that moves a rigid body or follows a surface.
 #[derive(Clone, Debug)]
@@ -23,6 +24,10 @@ impl Translation<'_> {
         self.transforms();
         self.rigid_bodies();
         self.couplings();
+        self.distributing_couplings();
+        self.pretensions();
+        self.multi_point_constraints();
+        self.sectors();
         self.equations();
     }
 
@@ -95,6 +100,7 @@ impl Translation<'_> {
         self.case.references.push(Reference {
             name: name.clone(),
             position: Position::Node(label),
+            rotations: None,
             place: place.clone(),
         });
         name
@@ -136,6 +142,10 @@ impl Translation<'_> {
                 && let Some(turning) = self.node_of(card, "ROTNODE")
             {
                 let name = reference.value.clone();
+                let mut known = self.case.references.iter_mut();
+                if let Some(known) = known.find(|one| one.name == reference) {
+                    known.rotations = Some(turning);
+                }
                 self.carriers.insert(turning, Carrier { name, turns: true });
             }
             if let Some(elset) = card.get("ELSET") {
@@ -238,6 +248,212 @@ impl Translation<'_> {
         self.case.constraints.push(Constraint { kind, place });
     }
 
+    /// The displacement of a node that is the weighted mean of others: without rotations, forces on it keep their lines.
+    fn distributing_couplings(&mut self) {
+        for card in self.cards("DISTRIBUTINGCOUPLING") {
+            let Some(elset) = self.need(card, "ELSET") else {
+                continue;
+            };
+            let directory = &self.deck.directory;
+            let spaces = directory.spaces(card.scope).iter();
+            let mut elements = spaces.flat_map(|&space| directory.special(space, elset));
+            let of_coupling = |kind: &str| kind.starts_with("DCOUP");
+            let node = elements.find(|one| of_coupling(&one.kind));
+            let Some(&node) = node.and_then(|one| one.nodes.first()) else {
+                let text = format!("there is no element of type DCOUP3D in `{elset}`");
+                self.error(&codes::NOT_IN_MESH, text, &card.place, "");
+                continue;
+            };
+            let mut weights: Vec<(u64, f64)> = Vec::new();
+            for row in card.rows().filter(|row| !row.is_empty()) {
+                let weight = self.real(row.get(1));
+                let targets = self.targets(card, row.first(), Kind::Nodes);
+                let labels = targets.iter().flat_map(|target| self.labels(target));
+                weights.extend(labels.map(|label| (label, weight)));
+            }
+            let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
+            if total <= 0.0 || !total.is_finite() {
+                let text = "*DISTRIBUTING COUPLING has no weights";
+                self.error(
+                    &codes::OUT_OF_RANGE,
+                    text,
+                    &card.place,
+                    "node or set, weight",
+                );
+                continue;
+            }
+            let reference = self.reference(node, &card.place);
+            for axis in 0..self.ndim() {
+                let summand = |on: Name, coefficient: f64| Summand {
+                    component: Spanned::new(axis, on.place.clone()),
+                    on,
+                    coefficient,
+                };
+                let mut terms = vec![summand(reference.clone(), -1.0)];
+                for &(label, weight) in &weights {
+                    let on = self.nodes_named(vec![label], &card.place);
+                    terms.push(summand(on, weight / total));
+                }
+                self.constrain(ConstraintKind::Equation { terms, rhs: 0.0 }, &card.place);
+            }
+        }
+    }
+
+    fn pretensions(&mut self) {
+        for card in self.cards("PRE-TENSIONSECTION") {
+            if card.has("ELEMENT") {
+                let text = "*PRE-TENSION SECTION, ELEMENT is not supported: beams are not built";
+                self.error(&codes::NOT_BUILT, text, &card.place, "name a SURFACE");
+                continue;
+            }
+            let (Some(surface), Some(node)) =
+                (self.need(card, "SURFACE"), self.node_of(card, "NODE"))
+            else {
+                continue;
+            };
+            let Some(on) = self.set(card, surface, &card.place, Kind::Surface) else {
+                continue;
+            };
+            let row = card.rows().next().unwrap_or_default();
+            let normal: [f64; 3] = self.reals(&row);
+            let kind = ConstraintKind::Pretension {
+                on,
+                reference: self.reference(node, &card.place),
+                normal: Some(normal).filter(|normal| *normal != [0.0; 3]),
+            };
+            self.constrain(kind, &card.place);
+        }
+    }
+
+    /// Lines that begin with the name of a type; lines that do not go on with the nodes of the one before.
+    fn multi_point_constraints(&mut self) {
+        for card in self.cards("MPC") {
+            let mut open: Option<(String, Place, Vec<u64>)> = None;
+            for row in card.rows().filter(|row| !row.is_empty()) {
+                let mut fields = row.as_slice();
+                if let [first, rest @ ..] = fields
+                    && (open.is_none() || TYPES.contains(&first.key().as_str()))
+                {
+                    if let Some(done) = open.take() {
+                        self.multi_point_constraint(done);
+                    }
+                    open = Some((first.key(), first.place(), Vec::new()));
+                    fields = rest;
+                }
+                let of_nodes = fields
+                    .iter()
+                    .filter(|f| !f.text.is_empty() && f.text != "0");
+                for field in of_nodes {
+                    let targets = self.targets(card, Some(field), Kind::Nodes);
+                    let labels = targets.iter().flat_map(|target| self.labels(target));
+                    let labels: Vec<u64> = labels.collect();
+                    if let Some((_, _, nodes)) = &mut open {
+                        nodes.extend(labels);
+                    }
+                }
+            }
+            if let Some(done) = open {
+                self.multi_point_constraint(done);
+            }
+        }
+    }
+
+    fn multi_point_constraint(&mut self, (kind, place, mut nodes): (String, Place, Vec<u64>)) {
+        // the last node of some says how far, or about which axis
+        let last = match kind.as_str() {
+            "MEANROT" | "DIST" => nodes.pop(),
+            _ => None,
+        };
+        let mut seen = BTreeSet::new();
+        nodes.retain(|label| seen.insert(*label));
+        if nodes.is_empty() {
+            let text = format!("the multi-point constraint {kind} names no nodes");
+            self.error(&codes::MISSING, text, &place, "");
+            return;
+        }
+        let pair = nodes.len() == 2;
+        let at = last.and_then(|label| self.point(label)).unwrap_or_default();
+        let on = self.nodes_named(nodes, &place);
+        let kind = match (kind.as_str(), last) {
+            ("PLANE", _) => ConstraintKind::Plane { on },
+            ("STRAIGHT", _) => ConstraintKind::Line { on },
+            ("BEAM", _) if pair => ConstraintKind::Distance { on, most: None },
+            ("DIST", Some(_)) if pair => ConstraintKind::Distance {
+                on,
+                most: Some(at.x),
+            },
+            ("BEAM" | "DIST", _) => {
+                let text = format!("the multi-point constraint {kind} is about two nodes");
+                self.error(&codes::WRONG_LENGTH, text, &place, "");
+                return;
+            }
+            ("MEANROT", Some(label)) => ConstraintKind::Twist {
+                on,
+                reference: self.reference(label, &place),
+                axis: at.to_array(),
+            },
+            _ => {
+                let text = format!("there is no multi-point constraint {kind} here");
+                self.error(&codes::NOT_BUILT, text, &place, TYPES.join(", "));
+                return;
+            }
+        };
+        self.bends |= !matches!(kind, ConstraintKind::Twist { .. });
+        self.constrain(kind, &place);
+    }
+
+    /// The ties between the sides of sectors, with the axes and numbers of the models they belong to.
+    fn sectors(&mut self) {
+        let ties: Vec<&Statement> = self
+            .cards("TIE")
+            .filter(|card| card.has("CYCLICSYMMETRY"))
+            .collect();
+        for card in self.cards("CYCLICSYMMETRYMODEL") {
+            let named = card.get("TIE").map(compared);
+            let of_name =
+                |tie: &&&Statement| named.is_none() || tie.get("NAME").map(compared) == named;
+            let Some(tie) = ties.iter().find(of_name) else {
+                let text = "there is no *TIE, CYCLIC SYMMETRY of that name";
+                self.error(&codes::UNDEFINED, text, &card.place, "");
+                continue;
+            };
+            let sectors = card.get("N").and_then(|n| n.trim().parse::<f64>().ok());
+            let Some(sectors) = sectors.filter(|n| *n >= 1.0 && n.fract() == 0.0) else {
+                let text = "*CYCLIC SYMMETRY MODEL needs N, the number of sectors";
+                self.error(&codes::MISSING, text, &card.place, "");
+                continue;
+            };
+            let row = card.rows().next().unwrap_or_default();
+            let [a, b, c, d, e, f] = self.reals(&row);
+            let (from, to) = (Vec3::new(a, b, c), Vec3::new(d, e, f));
+            if from == to {
+                let text = "*CYCLIC SYMMETRY MODEL needs two points of its axis";
+                self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
+                continue;
+            }
+            let row = tie.rows().next().unwrap_or_default();
+            let side = |this: &mut Self, at: usize| {
+                let field = row.get(at)?;
+                this.set(tie, field.text, &field.place(), Kind::Surface)
+            };
+            let (Some(on), Some(with)) = (side(self, 0), side(self, 1)) else {
+                if row.len() < 2 {
+                    let text = "a line of *TIE needs two surfaces";
+                    self.error(&codes::MISSING, text, &tie.place, "");
+                }
+                continue;
+            };
+            let kind = ConstraintKind::Cyclic {
+                on,
+                with,
+                sectors: sectors as u64,
+                point: from.to_array(),
+                axis: (to - from).to_array(),
+            };
+            self.constrain(kind, &card.place);
+        }
+    }
+
     fn equations(&mut self) {
         for card in self.cards("EQUATION") {
             let fields: Vec<Vec<_>> = card.rows().filter(|row| !row.is_empty()).collect();
@@ -312,6 +528,9 @@ impl Translation<'_> {
         along(on, direction, coefficient, self.ndim())
     }
 }
+
+/// Types of *MPC.
+const TYPES: [&str; 5] = ["PLANE", "STRAIGHT", "BEAM", "MEANROT", "DIST"];
 
 /// The unit vector along an axis.
 pub(super) fn unit(axis: usize) -> Vec3 {

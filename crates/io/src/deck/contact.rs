@@ -94,7 +94,9 @@ impl Translation<'_> {
             self.pairs(card, &interactions);
         }
         self.clearances();
-        for card in self.cards("TIE") {
+        // the sides of a sector are no contact
+        let ties = self.cards("TIE").filter(|card| !card.has("CYCLICSYMMETRY"));
+        for card in ties {
             self.tie(card);
         }
         for card in self.cards("GAP") {

@@ -3,7 +3,7 @@
 //! ```text
 //! bytes ──readers::inp──▶ Mesh, statements ──▶ Case
 //!                                  model       materials, sections, amplitudes
-//!                                  constraint  equations, local axes, rigid bodies, couplings
+//!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
 //!                                  contact     interactions, pairs, ties, gaps
 //!                                  step        supports, loads, temperatures, changes, printed tables
 //! ```

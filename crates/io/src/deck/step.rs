@@ -91,7 +91,7 @@ impl Translation<'_> {
         }
         let mut step = Step {
             name: Spanned::new(name, place.clone()),
-            geometry: if standing.nonlinear {
+            geometry: if standing.nonlinear || self.bends {
                 Geometry::Nonlinear
             } else {
                 Geometry::Linear
@@ -500,6 +500,7 @@ impl Translation<'_> {
         self.case.references.push(Reference {
             name: on.clone(),
             position: Position::Node(label),
+            rotations: None,
             place: place.clone(),
         });
         Summand {

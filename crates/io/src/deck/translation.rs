@@ -28,6 +28,8 @@ pub(super) struct Translation<'d> {
     pub axes: BTreeMap<u64, [Vec3; 3]>,
     /// References that nodes stand for, by their numbers.
     pub carriers: BTreeMap<u64, constraint::Carrier>,
+    /// Whether a constraint bends with large displacements: then all steps are of large displacements.
+    pub bends: bool,
     pub materials: BTreeMap<String, model::Properties>,
     pub pairs: Vec<contact::Pair>,
     nodes: Lookup,
@@ -61,6 +63,7 @@ impl<'d> Translation<'d> {
             found: Diagnostics::new(),
             axes: BTreeMap::new(),
             carriers: BTreeMap::new(),
+            bends: false,
             materials: BTreeMap::new(),
             pairs: Vec::new(),
             nodes: Lookup::new(&mesh.node_labels),

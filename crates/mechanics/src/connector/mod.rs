@@ -33,23 +33,52 @@
 //! to them. Rotations are finite; derivatives are by spins, `dR = [dθ]× R`, so that the tangent is symmetric where the
 //! moments on the carrier balance. At small strain everything is linearized about the start.
 //!
+//! Nodes that *stay on a line* through two of them have, with unit vectors `n_k` across the line at the start and its
+//! length `l_0` there (E5)
+//!
+//! ```text
+//!   g_k = n_k · ((x_i − x_a) × (x_b − x_a)) / l_0 − its value at the start
+//! ```
+//!
+//! A *rod* keeps two nodes at the distance `d`, a *rope* from going farther apart; with a stiffness `c` of the model (E6)
+//!
+//! ```text
+//!   g = |x_b − x_a| − d = 0;     of a rope:  g = 0 where λ + c g > 0,  λ = 0 elsewhere
+//! ```
+//!
+//! A *twist* is the mean of the angles by which nodes turn about an axis `a` through their mean. With the arms `p_i` at
+//! the start and `q_i` now, both across the axis, and their root mean square `r` at the start (E7)
+//!
+//! ```text
+//!   g = r (Σ θ_i / n − γ),     tan θ_i = a · (p_i × q_i) / (p_i · q_i),     ∂θ_i/∂q_i = a × q_i / |q_i|²
+//! ```
+//!
 //! The rows of a multiplier are added up in parts, node by node: what is small is judged by what cancels in it.
 //! Terms with multipliers have no energy that a step could lower: `energy` says `None`.
 //!
 //! Limits: what turns with a plane, or with a spring along a line, must keep a length; nodes on a line carry no moment
-//! about it. Sources: Crisfield, *Non-linear Finite Element Analysis*, vol. 2, 1997, chapters 16 and 23.
+//! about it. A line that nodes stay on turns by less than a right angle. All nodes of a twist see one another: some
+//! dozens are many. Sources: Crisfield, *Non-linear Finite Element Analysis*, vol. 2, 1997, chapters 16 and 23; Dhondt,
+//! *The Finite Element Method for Three-Dimensional Thermomechanical Applications*, 2004, chapter 3.
 
 mod damper;
+mod distance;
 mod distributing;
+mod hold;
+mod line;
 mod plane;
 mod springs;
 #[cfg(test)]
 mod tests;
+mod twist;
 
 pub use damper::Damper;
+pub use distance::{Distance, DistanceParts};
 pub use distributing::{Distributing, DistributingParts};
+pub use line::Line;
 pub use plane::Plane;
 pub use springs::{Springs, SpringsParts};
+pub use twist::{Twist, TwistParts};
 
 use crate::system::{Dof, State};
 use thiserror::Error;
@@ -91,13 +120,13 @@ pub enum ConnectorError {
         /// What they cannot do.
         what: &'static str,
     },
-    /// Nodes that are not in a plane at the start.
-    #[error(
-        "its nodes are not in one plane at the start: node {node} is {distance:.3e} away from it"
-    )]
+    /// Nodes that are not in a plane, or on a line, at the start.
+    #[error("its nodes are not {what} at the start: node {node} is {distance:.3e} away from it")]
     Uneven {
         /// Index of the node.
         node: u32,
+        /// Where they should be.
+        what: &'static str,
         /// Its distance.
         distance: f64,
     },

@@ -1,3 +1,4 @@
+use super::hold::{Hold, Scratch};
 use super::{CHUNK, ConnectorError, ROUNDING, value};
 use crate::system::{
     Dof, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term,
@@ -97,7 +98,11 @@ impl Plane {
         for &node in &plane.nodes {
             let distance = plane.volume(node, |n| plane.start(n)).value / plane.scale;
             if distance.abs() > UNEVEN * plane.scale.powf(1.0 / (layout.ndim - 1) as f64) {
-                return Err(ConnectorError::Uneven { node, distance });
+                return Err(ConnectorError::Uneven {
+                    node,
+                    what: "in one plane",
+                    distance,
+                });
             }
         }
         Ok(plane)
@@ -186,7 +191,7 @@ impl Plane {
         }
     }
 
-    fn add(&self, k: usize, trial: &State, order: Order, out: &mut dyn Sink) {
+    fn add(&self, k: usize, trial: &State, order: Order, work: &mut Scratch, out: &mut dyn Sink) {
         let node = self.nodes[k];
         let dofs = self.dofs(k);
         let start = self.volume(node, |n| self.start(n));
@@ -210,40 +215,24 @@ impl Plane {
             let u = dofs.iter().map(|&d| value(trial, d));
             gradient.iter().zip(u).map(|(g, u)| g * u).sum()
         };
-        let multiplier = value(trial, dofs[N - 1]);
-        // the gap in parts, so that it is judged against what cancels in it
-        let mut rest = gap;
-        for (part, of) in gradient.chunks_exact(3).zip(dofs.chunks_exact(3)) {
-            let part: f64 = part.iter().zip(of).map(|(g, &d)| g * value(trial, d)).sum();
-            out.add(&dofs[N - 1..], &[part], &[]);
-            rest -= part;
-        }
         let size = (x(node).max_abs() + x(self.base[0]).max_abs()) * f64::EPSILON;
-        out.uncertain(&dofs[N - 1..], ROUNDING * size);
-        let force: [f64; N] = std::array::from_fn(|i| match gradient.get(i) {
-            Some(g) => multiplier * g,
-            None => rest,
-        });
-        if order == Order::Residual {
-            out.add(&dofs, &force, &[]);
-            return;
-        }
-        let mut stiffness = [0.0; N * N];
-        for i in 0..N - 1 {
-            stiffness[i * N + N - 1] = gradient[i];
-            stiffness[(N - 1) * N + i] = gradient[i];
-            for j in 0..N - 1 {
-                let mut sum = 0.0;
-                for e in 0..3 {
-                    for f in 0..3 {
-                        let weight = self.moves(i / 3, e) * self.moves(j / 3, f);
-                        sum += weight * now.hessian[e][f].rows[i % 3][j % 3];
-                    }
+        let hold = Hold {
+            dofs: &dofs,
+            gap,
+            gradient: &gradient,
+            rounding: ROUNDING * size,
+        };
+        let hessian = |i: usize, j: usize| {
+            let mut sum = 0.0;
+            for e in 0..3 {
+                for f in 0..3 {
+                    let weight = self.moves(i / 3, e) * self.moves(j / 3, f);
+                    sum += weight * now.hessian[e][f].rows[i % 3][j % 3];
                 }
-                stiffness[i * N + j] = multiplier * scale * sum;
             }
-        }
-        out.add(&dofs, &force, &stiffness);
+            scale * sum
+        };
+        hold.add(hessian, trial, order, work, out);
     }
 }
 
@@ -284,11 +273,11 @@ impl Term for Plane {
         chunk: usize,
         trial: &State,
         order: Order,
-        _: &mut Work,
+        work: &mut Work,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         for k in (0..self.nodes.len()).skip(chunk * CHUNK).take(CHUNK) {
-            self.add(k, trial, order, out);
+            self.add(k, trial, order, work.of(), out);
         }
         Ok(())
     }

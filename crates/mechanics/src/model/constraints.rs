@@ -9,7 +9,8 @@ use super::{
     PrimaryPart, SpringPart, Unknown, label,
 };
 use crate::connector::{
-    ConnectorError, Distributing, DistributingParts, Plane, Springs, SpringsParts,
+    ConnectorError, Distance, DistanceParts, Distributing, DistributingParts, Line, Plane, Springs,
+    SpringsParts, Twist, TwistParts,
 };
 use crate::solve::{Motion, Step};
 use crate::system::{
@@ -118,6 +119,8 @@ pub(super) struct Ties {
     pub free: BTreeSet<Dof>,
     /// Whether something follows each carrier.
     pub followed: Vec<bool>,
+    /// Whether each carrier has a place that nodes follow, or that follows them; the others are unknowns of equations.
+    pub placed: Vec<bool>,
     /// Nodes of rigid bodies.
     pub rigid: BTreeSet<NodeId>,
     /// Nodes that a constraint or spring holds.
@@ -160,6 +163,8 @@ impl Followers<'_> {
     fn nmultiplier(&self, layout: &Layout, constraint: &ConstraintPart) -> usize {
         match &constraint.kind {
             ConstraintKind::Plane { nodes } => Plane::nmultiplier(layout, distinct(nodes).len()),
+            ConstraintKind::Line { nodes } => Line::nmultiplier(layout, distinct(nodes).len()),
+            ConstraintKind::Distance { .. } | ConstraintKind::Twist { .. } => 1,
             ConstraintKind::Distributing { .. } => Distributing::nmultiplier(self.space),
             _ => 0,
         }
@@ -227,7 +232,8 @@ impl Followers<'_> {
                     free.retain(|_| !rigid.get(*carrier as usize).is_some_and(|r| *r));
                     ties.free.extend(free);
                 }
-                ConstraintKind::Distributing { carrier, .. } => elimination.pull(*carrier),
+                ConstraintKind::Distributing { carrier, .. }
+                | ConstraintKind::Twist { carrier, .. } => elimination.pull(*carrier),
                 _ => {}
             }
         }
@@ -240,8 +246,13 @@ impl Followers<'_> {
             }
         }
         if self.space == Idealisation::Axisymmetric {
-            let axial = |dof: &Dof| matches!(layout.name(*dof), Some(DofName::Translation(_, 1)));
-            ties.free.retain(axial);
+            let placed = |carrier: RigidId| ties.placed.get(carrier as usize) == Some(&true);
+            let mut free = std::mem::take(&mut ties.free);
+            free.retain(|dof| match layout.name(*dof) {
+                Some(DofName::Translation(carrier, axis)) => axis == 1 || !placed(carrier),
+                _ => false,
+            });
+            ties.free = free;
         }
         Ok((elimination, ties))
     }
@@ -288,24 +299,27 @@ impl Followers<'_> {
     fn ties(&self, layout: &Layout, rigid: &[bool]) -> Ties {
         let mut ties = Ties {
             followed: rigid.to_vec(),
+            placed: rigid.to_vec(),
             ..Ties::default()
         };
         let mut next = 0;
         for constraint in self.constraints {
             ties.first.push(next);
             next += self.nmultiplier(layout, constraint);
-            let mut follows = |carrier: RigidId| {
-                if let Some(followed) = ties.followed.get_mut(carrier as usize) {
-                    *followed = true;
+            let mark = |flags: &mut Vec<bool>, carrier: RigidId| {
+                if let Some(flag) = flags.get_mut(carrier as usize) {
+                    *flag = true;
                 }
             };
             match &constraint.kind {
                 ConstraintKind::Kinematic { nodes, carrier, .. } => {
-                    follows(*carrier);
+                    mark(&mut ties.followed, *carrier);
+                    mark(&mut ties.placed, *carrier);
                     ties.nodes.extend(nodes);
                 }
                 ConstraintKind::Distributing { nodes, carrier } => {
-                    follows(*carrier);
+                    mark(&mut ties.followed, *carrier);
+                    mark(&mut ties.placed, *carrier);
                     ties.nodes.extend(nodes.iter().map(|n| n.0));
                     if !rigid.get(*carrier as usize).is_some_and(|r| *r) {
                         ties.free.extend(components(layout, *carrier));
@@ -315,13 +329,21 @@ impl Followers<'_> {
                     for (unknown, _) in terms {
                         match *unknown {
                             Unknown::Node(node, _) => drop(ties.nodes.insert(node)),
-                            Unknown::Carrier(carrier, _) => follows(carrier),
+                            Unknown::Carrier(carrier, _) => mark(&mut ties.followed, carrier),
                         }
                     }
                 }
-                ConstraintKind::Equal { nodes, .. } | ConstraintKind::Plane { nodes } => {
+                ConstraintKind::Twist { nodes, carrier, .. } => {
+                    mark(&mut ties.followed, *carrier);
+                    ties.nodes.extend(nodes);
+                    ties.free.insert(layout.translation(*carrier, 0));
+                }
+                ConstraintKind::Equal { nodes, .. }
+                | ConstraintKind::Plane { nodes }
+                | ConstraintKind::Line { nodes } => {
                     ties.nodes.extend(nodes);
                 }
+                ConstraintKind::Distance { nodes, .. } => ties.nodes.extend(nodes),
             }
         }
         for &(a, b) in self.springs.iter().flat_map(|s| &s.ends) {
@@ -589,6 +611,39 @@ impl Followers<'_> {
         for (constraint, &first) in self.constraints.iter().zip(&ties.first) {
             let name = &constraint.name;
             match &constraint.kind {
+                ConstraintKind::Line { nodes } => {
+                    let nodes = distinct(nodes);
+                    let line = Line::new(name, &nodes, reference.clone(), *layout, first);
+                    terms.push(Box::new(line.map_err(ConstraintError::connector(name))?));
+                }
+                ConstraintKind::Distance { nodes, most } => {
+                    let rod = Distance::new(&DistanceParts {
+                        name,
+                        nodes: *nodes,
+                        most: *most,
+                        stiffness: self.stiffness(*nodes),
+                        reference,
+                        layout: *layout,
+                        first,
+                    });
+                    terms.push(Box::new(rod.map_err(ConstraintError::connector(name))?));
+                }
+                ConstraintKind::Twist {
+                    nodes,
+                    axis,
+                    carrier,
+                } => {
+                    let twist = Twist::new(&TwistParts {
+                        name,
+                        nodes: &distinct(nodes),
+                        axis: *axis,
+                        angle: layout.translation(*carrier, 0),
+                        reference,
+                        layout: *layout,
+                        first,
+                    });
+                    terms.push(Box::new(twist.map_err(ConstraintError::connector(name))?));
+                }
                 ConstraintKind::Plane { nodes } => {
                     let nodes = distinct(nodes);
                     let plane = Plane::new(name, &nodes, reference.clone(), *layout, first);
@@ -614,6 +669,16 @@ impl Followers<'_> {
             }
         }
         Ok(terms)
+    }
+
+    /// The largest modulus times the distance of two nodes: how stiff the model may be between them.
+    fn stiffness(&self, nodes: [NodeId; 2]) -> f64 {
+        let at = |node: NodeId| self.mesh.points.get(node as usize).copied();
+        let [one, other] = nodes.map(|node| at(node).unwrap_or_default());
+        let materials = self.bodies.iter().filter_map(|body| body.kind.material());
+        let modulus = materials.map(|m| m.modulus()).fold(0.0, f64::max);
+        let stiffness = modulus * (other - one).norm();
+        if stiffness > 0.0 { stiffness } else { 1.0 }
     }
 }
 

@@ -67,10 +67,16 @@ impl Context<'_> {
         if !self.ties.followed.get(carrier as usize).is_some_and(|f| *f) {
             return Err(ConstraintError::Idle { step, reference }.into());
         }
-        if self.space == Idealisation::Axisymmetric && component != AXIAL {
+        if self.is_off_axis(carrier, component) {
             return Err(ConstraintError::OffAxis { step, reference }.into());
         }
         Ok(())
+    }
+
+    /// Whether a carrier would leave the axis of a body of revolution; what only equations speak of has no place there.
+    fn is_off_axis(&self, carrier: RigidId, component: usize) -> bool {
+        let placed = self.ties.placed.get(carrier as usize) == Some(&true);
+        self.space == Idealisation::Axisymmetric && component != AXIAL && (placed || component >= 3)
     }
 
     /// The raw dofs of a component of a target.
@@ -136,9 +142,8 @@ impl Context<'_> {
                     }
                     Change::Release(target, components) => {
                         for &component in components {
-                            if let (Target::Rigid(_), Idealisation::Axisymmetric) =
-                                (target, self.space)
-                                && component != AXIAL
+                            if let Target::Rigid(carrier) = target
+                                && self.is_off_axis(*carrier, component)
                             {
                                 continue;
                             }

@@ -64,11 +64,17 @@ impl Carriers {
                     carriers.in_use.extend(used);
                 }
                 ConstraintKind::Kinematic { reference, .. }
-                | ConstraintKind::Distributing { reference, .. } => {
+                | ConstraintKind::Distributing { reference, .. }
+                | ConstraintKind::Twist { reference, .. }
+                | ConstraintKind::Pretension { reference, .. } => {
                     let used = carriers.get(reference);
                     carriers.in_use.extend(used);
                 }
-                ConstraintKind::Plane { .. } | ConstraintKind::Equal { .. } => {}
+                ConstraintKind::Plane { .. }
+                | ConstraintKind::Line { .. }
+                | ConstraintKind::Equal { .. }
+                | ConstraintKind::Distance { .. }
+                | ConstraintKind::Cyclic { .. } => {}
             }
         }
         carriers

@@ -1,10 +1,11 @@
 //! Springs, and constraints between displacements.
 
 use super::carriers::Carriers;
+use super::cuts::Cuts;
 use super::names::Names;
 use super::quoted;
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::tensor::{Mat3, Vec3};
 use signorini_io::case::{
     self, Case, ConstraintKind, Directions, Name, Spring, SpringEnds, Summand,
 };
@@ -87,28 +88,167 @@ pub(super) fn constraints(
     case: &Case,
     names: &Names<'_>,
     carriers: &Carriers,
+    cuts: &Cuts,
     found: &mut Diagnostics,
 ) -> Vec<ConstraintPart> {
     let mut parts = Vec::new();
     let ndim = case.model.space.ndim();
     for (number, constraint) in case.constraints.iter().enumerate() {
         let name = name(number, constraint);
-        match &constraint.kind {
+        let place = &constraint.place;
+        let (equations, rhs) = match &constraint.kind {
             ConstraintKind::Equation { terms, rhs } => {
-                let place = &constraint.place;
-                for terms in equations(terms, place, names, carriers, found) {
-                    let kind = Kind::Equation { terms, rhs: *rhs };
-                    let name = name.clone();
-                    parts.push(ConstraintPart { name, kind });
-                }
+                (equations(terms, place, names, carriers, found), *rhs)
+            }
+            ConstraintKind::Pretension { reference, .. } => {
+                let carrier = carriers.get(reference);
+                let cut = carrier.map(|carrier| cuts.equations(number, carrier, ndim));
+                (cut.unwrap_or_default(), 0.0)
+            }
+            ConstraintKind::Cyclic { .. } => {
+                let sector = Sector::new(&constraint.kind, names, found);
+                let turned = sector.and_then(|sector| sector.equations(ndim, names, place, found));
+                (turned.unwrap_or_default(), 0.0)
             }
             kind => {
                 let kind = of_nodes(kind, ndim, names, carriers, found);
                 parts.extend(kind.map(|kind| ConstraintPart { name, kind }));
+                continue;
             }
-        }
+        };
+        let part = |terms| ConstraintPart {
+            name: name.clone(),
+            kind: Kind::Equation { terms, rhs },
+        };
+        parts.extend(equations.into_iter().map(part));
     }
     parts
+}
+
+/// The two sides of a sector: nodes of one move as those of the other do, turned (E1).
+///
+/// ```text
+///   u(R X) = R u(X),     R a rotation about the axis by ± 2π / sectors
+/// ```
+struct Sector<'a> {
+    on: &'a Name,
+    follow: Vec<NodeId>,
+    with: &'a Name,
+    lead: Vec<NodeId>,
+    sectors: u64,
+    point: Vec3,
+    axis: Vec3,
+}
+
+/// Part of the size of a side by which a node may miss the one it moves with.
+const APART: f64 = 1e-3;
+
+impl<'a> Sector<'a> {
+    fn new(kind: &'a ConstraintKind, names: &Names<'_>, found: &mut Diagnostics) -> Option<Self> {
+        let ConstraintKind::Cyclic {
+            on,
+            with,
+            sectors,
+            point,
+            axis,
+        } = kind
+        else {
+            return None;
+        };
+        Some(Self {
+            on,
+            follow: names.nodes(on, found)?,
+            with,
+            lead: names.nodes(with, found)?,
+            sectors: *sectors,
+            point: Vec3::from(*point),
+            axis: Vec3::from(*axis).normalized()?,
+        })
+    }
+
+    fn turn(&self, sense: f64) -> Mat3 {
+        Mat3::rotation(self.axis * (sense * std::f64::consts::TAU / self.sectors as f64))
+    }
+
+    /// The nodes with those that they follow, and the distance by which each misses it, as things turn in a sense.
+    fn pairs(&self, sense: f64, names: &Names<'_>) -> Vec<(NodeId, NodeId, f64)> {
+        let turn = self.turn(sense);
+        let place = |node: NodeId| names.place(node).unwrap_or_default() - self.point;
+        let mut turned: Vec<(Vec3, NodeId)> = self
+            .lead
+            .iter()
+            .map(|&node| (turn * place(node), node))
+            .collect();
+        // along the axis first: few nodes are as high as another
+        let height = |x: Vec3| x.dot(self.axis);
+        turned.sort_by(|a, b| height(a.0).total_cmp(&height(b.0)));
+        let nearest = |node: NodeId| {
+            let x = place(node);
+            let from = turned.partition_point(|(y, _)| height(*y) < height(x));
+            let mut best = (f64::INFINITY, None);
+            let mut look = |(y, lead): &(Vec3, NodeId)| {
+                let far = (height(*y) - height(x)).abs() > best.0;
+                let distance = (*y - x).norm();
+                if distance < best.0 {
+                    best = (distance, Some(*lead));
+                }
+                !far
+            };
+            let (below, above) = turned.split_at(from);
+            let _ = below.iter().rev().all(&mut look);
+            let _ = above.iter().all(&mut look);
+            Some((node, best.1?, best.0))
+        };
+        let nodes = self.follow.iter().copied();
+        nodes.filter_map(nearest).collect()
+    }
+
+    fn equations(
+        &self,
+        ndim: usize,
+        names: &Names<'_>,
+        place: &Place,
+        found: &mut Diagnostics,
+    ) -> Option<Vec<Vec<(Unknown, f64)>>> {
+        let worst = |pairs: &[(NodeId, NodeId, f64)]| pairs.iter().fold(0.0f64, |m, p| m.max(p.2));
+        let both = [1.0, -1.0].map(|sense| (sense, self.pairs(sense, names)));
+        let [one, other] = both;
+        let (sense, pairs) = if worst(&one.1) <= worst(&other.1) {
+            one
+        } else {
+            other
+        };
+        let points = self.lead.iter().filter_map(|&node| names.place(node));
+        let arms = points.map(|x| (x - self.point).norm());
+        let allowed = APART * arms.fold(0.0, f64::max);
+        if let Some((node, _, distance)) = pairs.iter().find(|pair| pair.2 > allowed) {
+            let message = format!(
+                "node {} of {} is {distance:.3e} away from all of {}, turned by a sector of {}",
+                names.label(*node),
+                quoted(self.on),
+                quoted(self.with),
+                self.sectors
+            );
+            found.push(
+                Diagnostic::error(&codes::BAD_CONSTRAINT, message)
+                    .at(place, "its sides do not match")
+                    .help("mesh both sides of the sector alike; look at `axis`, `point` and `sectors`"),
+            );
+            return None;
+        }
+        let turn = self.turn(sense);
+        let row = |(node, lead): (NodeId, NodeId), axis: usize| {
+            let led = (0..ndim).map(|k| (Unknown::Node(lead, k), -turn.rows[axis][k]));
+            let led = led.filter(|(_, c)| c.abs() > f64::EPSILON);
+            std::iter::once((Unknown::Node(node, axis), 1.0))
+                .chain(led)
+                .collect()
+        };
+        let rows = pairs
+            .iter()
+            .flat_map(|&(node, lead, _)| (0..ndim).map(move |axis| row((node, lead), axis)));
+        Some(rows.collect())
+    }
 }
 
 /// What a constraint is called in messages: it has no name of its own.
@@ -121,6 +261,11 @@ pub(super) fn name(number: usize, constraint: &case::Constraint) -> String {
         ConstraintKind::Distributing { on, .. } => of("distributing", on),
         ConstraintKind::Plane { on } => of("plane", on),
         ConstraintKind::Equal { on, .. } => of("equal", on),
+        ConstraintKind::Line { on } => of("line", on),
+        ConstraintKind::Distance { on, .. } => of("distance", on),
+        ConstraintKind::Twist { on, .. } => of("twist", on),
+        ConstraintKind::Pretension { on, .. } => of("pretension", on),
+        ConstraintKind::Cyclic { on, .. } => of("cyclic", on),
     }
 }
 
@@ -139,7 +284,25 @@ fn of_nodes(
     found: &mut Diagnostics,
 ) -> Option<Kind> {
     Some(match kind {
-        ConstraintKind::Equation { .. } => return None,
+        ConstraintKind::Equation { .. }
+        | ConstraintKind::Pretension { .. }
+        | ConstraintKind::Cyclic { .. } => return None,
+        ConstraintKind::Line { on } => Kind::Line {
+            nodes: names.nodes(on, found)?,
+        },
+        ConstraintKind::Distance { on, most } => Kind::Distance {
+            nodes: two(on, names, found)?,
+            most: *most,
+        },
+        ConstraintKind::Twist {
+            on,
+            reference,
+            axis,
+        } => Kind::Twist {
+            nodes: names.nodes(on, found)?,
+            axis: Vec3::from(*axis),
+            carrier: carriers.get(reference)?,
+        },
         ConstraintKind::Kinematic {
             on,
             reference,
@@ -164,6 +327,19 @@ fn of_nodes(
             axes: axes(*directions, ndim),
         },
     })
+}
+
+/// The nodes of a set of two.
+fn two(on: &Name, names: &Names<'_>, found: &mut Diagnostics) -> Option<[NodeId; 2]> {
+    let nodes = names.nodes_in_order(on, found)?;
+    let count = nodes.len();
+    let pair = <[NodeId; 2]>::try_from(nodes);
+    if pair.is_err() {
+        let message = format!("{} has {count} nodes", quoted(on));
+        let message = Diagnostic::error(&codes::WRONG_KIND, message);
+        found.push(message.at(&on.place, "a distance is that of two nodes"));
+    }
+    pair.ok()
 }
 
 /// The unknowns of a summand: one for each node, or that of a carrier.

@@ -8,6 +8,7 @@ mod bodies;
 mod carriers;
 mod constraints;
 mod contact;
+mod cuts;
 mod loads;
 mod mesh;
 mod names;
@@ -25,6 +26,7 @@ pub use prints::{
 };
 
 use carriers::Carriers;
+use cuts::Cuts;
 use names::Names;
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
@@ -136,11 +138,12 @@ impl Model {
 /// as far as they do not follow from each other.
 pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
     let mut found = Diagnostics::new();
+    let cuts = Cuts::new(&case, &mut mesh, &mut found);
     let names = Names::new(&case, &mesh, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
     let settings = settings(&case.solver, &mut found);
     let prints = prints::prints(&case, &names, &mut found);
-    let (parts, start) = match parts(&case, &mesh, &names, &carriers, &mut found) {
+    let (parts, start) = match parts(&case, &mesh, &names, &carriers, &cuts, &mut found) {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
     };
@@ -227,6 +230,7 @@ fn parts<'a>(
     mesh: &'a Mesh,
     names: &Names<'_>,
     carriers: &Carriers,
+    cuts: &Cuts,
     found: &mut Diagnostics,
 ) -> Option<(Parts<'a>, Option<f64>)> {
     if let Some(message) = mesh::unfit(case, mesh) {
@@ -237,7 +241,7 @@ fn parts<'a>(
     parts.bodies = bodies::bodies(case, names, carriers, found);
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
-    parts.constraints = constraints::constraints(case, names, carriers, found);
+    parts.constraints = constraints::constraints(case, names, carriers, cuts, found);
     let newton = &case.solver.newton;
     parts.gap_tol = newton.gap_tol;
     parts.traction_tol = parts.traction_tol.max(0.1 * newton.force_tol);
@@ -256,6 +260,13 @@ fn parts<'a>(
     };
     let (steps, couplings) = steps.steps(found);
     parts.steps = steps;
+    for step in &mut parts.steps {
+        // copies of nodes are as warm as the nodes
+        let given: BTreeMap<NodeId, f64> = step.temperatures.iter().copied().collect();
+        let copied = cuts.pairs();
+        let copied = copied.filter_map(|(node, copy)| Some((copy, *given.get(&node)?)));
+        step.temperatures.extend(copied);
+    }
     parts.constraints.extend(couplings);
     Some((parts, start))
 }

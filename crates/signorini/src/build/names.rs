@@ -313,7 +313,7 @@ impl<'a> Names<'a> {
     }
 
     /// Where a node is.
-    pub fn at(&self, node: NodeId) -> Option<Vec3> {
+    pub fn place(&self, node: NodeId) -> Option<Vec3> {
         self.mesh.points.get(node as usize).copied()
     }
 
@@ -354,6 +354,56 @@ impl<'a> Names<'a> {
                 None
             }
         }
+    }
+
+    /// The faces of a cut through a body, which lie inside it: those of the set as it names them, and those under its
+    /// surface elements on the side that a normal points away from.
+    pub fn cut(
+        &self,
+        name: &Name,
+        normal: Option<Vec3>,
+        found: &mut Diagnostics,
+    ) -> Option<Vec<Face>> {
+        let set = self.get(name, found)?;
+        let mut faces = set.faces.clone();
+        let below = |cell: &CellId| {
+            let element = self.mesh.element(*cell)?;
+            let flat = element.dim() + 1 == self.space.ndim();
+            flat.then(|| self.index.find(element, self.mesh.cell(*cell)))?
+        };
+        let mut sided = true;
+        for (one, other) in set.cells.iter().filter_map(below) {
+            let away = |face: &Face| {
+                let out = face_normal(self.mesh, *face);
+                normal.is_some_and(|normal| out.dot(normal) > 0.0)
+            };
+            let side = [Some(one), other].into_iter().flatten().find(away);
+            sided &= side.is_some();
+            faces.extend(side);
+        }
+        faces.sort_unstable();
+        faces.dedup();
+        if faces.is_empty() || !sided {
+            let (what, help) = if normal.is_none() && !sided {
+                (
+                    "has two sides",
+                    "write  normal =  away from the side to cut",
+                )
+            } else {
+                (
+                    "has no faces",
+                    "name faces as  { faces = [[element, \"S1\"], ..] }",
+                )
+            };
+            let message = format!(
+                "{} {what}: pretension cuts at one side of faces",
+                quoted(name)
+            );
+            let message = Diagnostic::error(&codes::WRONG_KIND, message);
+            found.push(message.at(&name.place, "cut here").help(help));
+            return None;
+        }
+        Some(faces)
     }
 
     fn resolve(&self, set: &Set) -> Result<Vec<Face>, String> {
@@ -405,6 +455,26 @@ impl<'a> Names<'a> {
         let sets = self.sets.iter();
         sets.map(|(name, set)| (name.clone(), self.mesh.nodes_of(set)))
             .collect()
+    }
+}
+
+/// The normal of a face out of its element, as long as twice the face is large; in the plane as it is long.
+pub(super) fn face_normal(mesh: &Mesh, face: Face) -> Vec3 {
+    let Some((element, nodes)) = mesh.face(face) else {
+        return Vec3::ZERO;
+    };
+    let corners = nodes.iter().take(element.ncorner());
+    let points: Vec<Vec3> = corners
+        .filter_map(|&node| mesh.points.get(node as usize).copied())
+        .collect();
+    match points.as_slice() {
+        [a, b] => (*b - *a).cross(Vec3::unit(2)),
+        [first, ..] => {
+            let arms = points.iter().map(|x| *x - *first);
+            let next = arms.clone().cycle().skip(1);
+            arms.zip(next).map(|(a, b)| a.cross(b)).sum()
+        }
+        [] => Vec3::ZERO,
     }
 }
 

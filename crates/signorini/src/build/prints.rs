@@ -216,7 +216,7 @@ fn axes(
     let mut of_node: BTreeMap<NodeId, [Vec3; 3]> = BTreeMap::new();
     for one in &case.axes {
         for node in names.nodes(&one.set, found)? {
-            let Some(axes) = names.at(node).and_then(|x| one.system.at(x)) else {
+            let Some(axes) = names.place(node).and_then(|x| one.system.at(x)) else {
                 let message = "these axes have no directions";
                 let remark = "vectors that are parallel, or points that coincide";
                 found.push(Diagnostic::error(&codes::OUT_OF_RANGE, message).at(&one.place, remark));

@@ -8,8 +8,9 @@ use signorini_io::case::{read_case, resolved};
 use signorini_mechanics::contact::discretization::SlidingRange;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{
-    self, BodyKind, Change, ConstraintKind, ContactChange, ContactPart, FrictionPart, LimitPart,
-    Load, PrimaryPart, SidePart, StartPart, StepPart, StickPart, Target, TiePart, Unknown,
+    self, AreaPart, BodyKind, Change, ConstraintKind, ContactChange, ContactPart, FrictionPart,
+    LimitPart, Load, PrimaryPart, SidePart, StartPart, StepPart, StickPart, Target, TiePart,
+    Unknown,
 };
 use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::Motion;
@@ -58,10 +59,11 @@ struct Built {
 
 fn try_parts(text: &str) -> Result<Built, Diagnostics> {
     let (mut case, mut found) = read_case("case.toml", text.as_bytes(), &[])?;
-    let (mesh, _) = read_mesh_of(&case, Path::new("."))?;
+    let (mut mesh, _) = read_mesh_of(&case, Path::new("."))?;
+    let cuts = Cuts::new(&case, &mut mesh, &mut found);
     let names = Names::new(&case, &mesh, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
-    let (parts, start) = match parts(&case, &mesh, &names, &carriers, &mut found) {
+    let (parts, start) = match parts(&case, &mesh, &names, &carriers, &cuts, &mut found) {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
     };
@@ -650,6 +652,7 @@ fn contacts_become_what_they_say() {
         &|part| {
             part.start = StartPart {
                 close_below: 0.1,
+                close_nodes: Vec::new(),
                 clearance: Some(0.0),
                 interference: model::Interference::StrainFree,
             };
@@ -967,4 +970,105 @@ fn the_remedy_against_locking_is_told_and_written_where_a_body_has_one() {
         assert_eq!(model.remedies().concat(), told);
         assert_eq!(model.case.bodies[0].locking.value, locking);
     }
+}
+
+/// Two cubes that share a face, cut between them.
+#[test]
+fn a_cut_gives_its_side_nodes_of_its_own() {
+    let mesh = "[mesh]\nnodes = [[1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0],\n\
+                [5, 0, 0, 1], [6, 1, 0, 1], [7, 1, 1, 1], [8, 0, 1, 1],\n\
+                [15, 0, 0, 2], [16, 1, 0, 2], [17, 1, 1, 2], [18, 0, 1, 2]]\n\
+                elements = [{ id = 1, type = 'hex8', group = 'low', nodes = [1, 2, 3, 4, 5, 6, 7, 8] },\n\
+                { id = 2, type = 'hex8', group = 'high', nodes = [5, 6, 7, 8, 15, 16, 17, 18] }]\n\
+                [material.steel]\nmodel = 'linear-elastic'\nE = 1\nnu = 0\n[[body]]\ngroup = ['low', 'high']\n\
+                material = 'steel'\n[reference]\nbolt = { at = [0, 0, 0] }\n[sets]\n\
+                base = { plane = 'z', at = 0 }\n";
+    let text = |faces: &str, more: &str| {
+        format!(
+            "{mesh}cut = {{ faces = {faces} }}\n[[constraint]]\nkind = 'pretension'\non = 'cut'\n\
+             reference = 'bolt'\n{more}{STEP}"
+        )
+    };
+    let built = parts_of(&text("[[1, '+z']]", ""));
+    let equations: Vec<_> = built
+        .constraints
+        .iter()
+        .map(|c| match &c.kind {
+            ConstraintKind::Equation { terms, .. } => terms.clone(),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(equations.len(), 12);
+    // the side below gets the copies: its normal points up
+    let overlap = (Unknown::Carrier(0, 0), -1.0);
+    assert_eq!(equations[2].last(), Some(&overlap));
+    assert!(equations[0].len() == 2 && equations[1].len() == 2);
+    assert!(matches!(
+        equations[2][..2],
+        [(Unknown::Node(12, 2), 1.0), (Unknown::Node(4..8, 2), -1.0)]
+    ));
+    let turned = parts_of(&text("[[2, '-z']]", "normal = [0, 3, -4]\n"));
+    let along: Vec<f64> = turned.constraints[..3]
+        .iter()
+        .map(|c| match &c.kind {
+            ConstraintKind::Equation { terms, .. } if terms.len() == 3 => terms[2].1,
+            _ => 0.0,
+        })
+        .collect();
+    assert_eq!(along, [0.0, -0.6, 0.8]);
+    for (faces, more, wanted) in [
+        ("[[1, '-z']]", "", "lies on the outside"),
+        (
+            "[[1, '+z']]",
+            "[[constraint]]\nkind = 'pretension'\non = 'cut'\nreference = 'bolt'\n",
+            "nodes of another pretension",
+        ),
+        (
+            "[[1, '+z'], [2, '-z']]",
+            "normal = 'z'\n",
+            "does not cut the body",
+        ),
+    ] {
+        let all = try_parts(&text(faces, more)).err().unwrap().plain();
+        assert!(all.contains(wanted), "{all}");
+    }
+}
+
+/// A quarter of a square about the z axis: the side y = 0 leads the side x = 0.
+#[test]
+fn nodes_of_a_sector_follow_those_of_its_other_side() {
+    let sides = "lead = { plane = 'y', at = 0, of = 'low' }\nfollow = { plane = 'x', at = 0, of = 'low' }\n";
+    let sector = |sectors: u32| {
+        format!(
+            "{sides}[[constraint]]\nkind = 'cyclic'\non = 'follow'\nwith = 'lead'\nsectors = {sectors}\n{STEP}"
+        )
+    };
+    let built = cubes(&sector(4));
+    assert_eq!(built.constraints.len(), 12);
+    let rows: Vec<Vec<(Unknown, f64)>> = built
+        .constraints
+        .iter()
+        .map(|c| match &c.kind {
+            ConstraintKind::Equation { terms, .. } => terms.clone(),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    // u_x of (0, 1, z) is −u_y of (1, 0, z)
+    let node = |unknown: Unknown| match unknown {
+        Unknown::Node(node, axis) => (labels(&[node])[0], axis),
+        other => panic!("{other:?}"),
+    };
+    let of = |label: u64, axis: usize| {
+        let row = rows.iter().find(|row| node(row[0].0) == (label, axis));
+        let row = row.unwrap();
+        (node(row[1].0), row[1].1)
+    };
+    assert_eq!(of(4, 0), ((2, 1), 1.0));
+    assert_eq!(of(4, 1), ((2, 0), -1.0));
+    assert_eq!(of(8, 2), ((6, 2), -1.0));
+    let (code, text) = refused(&sector(5));
+    assert!(
+        code == "S0308" && text.contains("turned by a sector of 5"),
+        "{text}"
+    );
 }

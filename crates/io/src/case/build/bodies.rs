@@ -284,12 +284,29 @@ impl Builder {
             };
             self.error(code, message, &at, remark);
         };
-        let with_reference = matches!(kind.value.as_str(), "kinematic" | "distributing");
-        needs("reference", with_reference);
-        match kind.value.as_str() {
-            "equal" => needs("dofs", true),
-            "kinematic" => {}
-            _ => needs("dofs", false),
+        // what a kind must have, and what it may
+        let (must, may): (&[&str], &[&str]) = match kind.value.as_str() {
+            "kinematic" => (&["reference"], &["dofs"]),
+            "distributing" => (&["reference"], &[]),
+            "twist" => (&["reference"], &["axis"]),
+            "pretension" => (&["reference"], &["normal"]),
+            "cyclic" => (&["with", "sectors"], &["axis", "point"]),
+            "equal" => (&["dofs"], &[]),
+            "distance" => (&[], &["most"]),
+            _ => (&[], &[]),
+        };
+        const KEYS: [&str; 8] = [
+            "reference",
+            "dofs",
+            "most",
+            "normal",
+            "with",
+            "sectors",
+            "point",
+            "axis",
+        ];
+        for key in KEYS.iter().filter(|key| !may.contains(key)) {
+            needs(key, must.contains(key));
         }
         let axes = if fields.has("dofs") {
             self.axes(fields)
@@ -305,9 +322,51 @@ impl Builder {
             },
             "distributing" => ConstraintKind::Distributing { on, reference },
             "plane" => ConstraintKind::Plane { on },
+            "line" => ConstraintKind::Line { on },
+            "distance" => ConstraintKind::Distance {
+                on,
+                most: fields.number_if("most").map(|most| most.value),
+            },
+            "twist" => ConstraintKind::Twist {
+                on,
+                reference,
+                axis: self.axis(fields),
+            },
+            "pretension" => {
+                let normal = self.line(fields, "normal");
+                let given = normal.unwrap_or_default();
+                self.within(given, "normal", &fields.place("normal"));
+                ConstraintKind::Pretension {
+                    on,
+                    reference,
+                    normal,
+                }
+            }
+            "cyclic" => ConstraintKind::Cyclic {
+                on,
+                with: fields.text("with"),
+                sectors: fields.count("sectors"),
+                point: self.vector(fields, "point").unwrap_or_default(),
+                axis: self.axis(fields),
+            },
             _ => ConstraintKind::Equal { on, axes },
         };
         Constraint { kind, place }
+    }
+
+    /// The axis that something turns about: z, unless another is given in space.
+    fn axis(&mut self, fields: Fields<'_>) -> [f64; 3] {
+        const Z: [f64; 3] = [0.0, 0.0, 1.0];
+        let axis = self.line(fields, "axis").unwrap_or(Z);
+        if self.space.ndim() == 2 && axis[..2] != [0.0; 2] {
+            self.error(
+                &codes::CONTRADICTION,
+                "`axis` lies in the plane",
+                &fields.place("axis"),
+                "what stays in the plane turns about z only",
+            );
+        }
+        axis
     }
 
     /// The directions of `dofs`. Nodes have no rotations.

@@ -267,6 +267,7 @@ impl Builder {
         Reference {
             name,
             position,
+            rotations: fields.count_if("rotations").map(|node| node.value),
             place,
         }
     }

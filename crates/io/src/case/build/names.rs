@@ -235,7 +235,9 @@ impl Builder {
             .filter_map(|body| body.reference.as_ref());
         let of_constraints = case.constraints.iter().filter_map(|one| match &one.kind {
             ConstraintKind::Kinematic { reference, .. }
-            | ConstraintKind::Distributing { reference, .. } => Some(reference),
+            | ConstraintKind::Distributing { reference, .. }
+            | ConstraintKind::Twist { reference, .. }
+            | ConstraintKind::Pretension { reference, .. } => Some(reference),
             _ => None,
         });
         let of_surfaces = case

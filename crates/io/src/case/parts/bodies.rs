@@ -178,6 +178,49 @@ pub enum ConstraintKind {
         /// The directions.
         axes: Directions,
     },
+    /// The nodes stay on a line, which may move and turn.
+    Line {
+        /// The nodes.
+        on: Name,
+    },
+    /// Two nodes keep their distance, or go no farther apart than `most`.
+    Distance {
+        /// The nodes.
+        on: Name,
+        /// The largest distance.
+        most: Option<f64>,
+    },
+    /// The x of the reference is the angle (radian) by which the nodes turn in the mean about an axis through their mean.
+    Twist {
+        /// The nodes.
+        on: Name,
+        /// Whose x is the angle.
+        reference: Name,
+        /// The direction of the axis.
+        axis: [f64; 3],
+    },
+    /// The body is cut at faces; the x of the reference is by how much the two sides overlap.
+    Pretension {
+        /// The faces, of the side that the normal points away from.
+        on: Name,
+        /// Whose x is the overlap, and whose force along x pulls the sides together.
+        reference: Name,
+        /// Along what; `None`: the mean normal of the faces.
+        normal: Option<[f64; 3]>,
+    },
+    /// The nodes of one side of a sector move as those of the other side do, turned by the angle of the sector.
+    Cyclic {
+        /// The nodes that follow.
+        on: Name,
+        /// Those they follow.
+        with: Name,
+        /// How many sectors make the whole.
+        sectors: u64,
+        /// A point of the axis.
+        point: [f64; 3],
+        /// The direction of the axis.
+        axis: [f64; 3],
+    },
 }
 
 /// A summand of an equation.

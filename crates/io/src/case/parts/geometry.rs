@@ -212,6 +212,8 @@ pub struct Reference {
     pub name: Name,
     /// Where it is at the start.
     pub position: Position,
+    /// A node that stands for its rotations in printed tables.
+    pub rotations: Option<u64>,
     /// Where it was written.
     pub place: Place,
 }

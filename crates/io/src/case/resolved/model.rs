@@ -98,10 +98,12 @@ pub(super) fn local_axes(one: &LocalAxes) -> Entries {
 }
 
 pub(super) fn reference(one: &Reference) -> Entries {
-    vec![match &one.position {
+    let mut entries: Entries = vec![match &one.position {
         Position::At(point) => ("at", point.into()),
         Position::Node(node) => ("node", (*node).into()),
-    }]
+    }];
+    entries.extend(one.rotations.map(|node| ("rotations", node.into())));
+    entries
 }
 
 impl std::fmt::Display for Side {
@@ -245,6 +247,46 @@ pub(super) fn constraint(constraint: &Constraint) -> Entries {
         ConstraintKind::Equal { on, axes } => {
             let mut entries = of_kind("equal", on);
             entries.push(("dofs", self::axes(*axes)));
+            entries
+        }
+        ConstraintKind::Line { on } => of_kind("line", on),
+        ConstraintKind::Distance { on, most } => {
+            let mut entries = of_kind("distance", on);
+            entries.extend(most.map(|most| ("most", most.into())));
+            entries
+        }
+        ConstraintKind::Twist {
+            on,
+            reference,
+            axis,
+        } => {
+            let mut entries = of_kind("twist", on);
+            entries.push(("reference", (&reference.value).into()));
+            entries.push(("axis", list(*axis)));
+            entries
+        }
+        ConstraintKind::Pretension {
+            on,
+            reference,
+            normal,
+        } => {
+            let mut entries = of_kind("pretension", on);
+            entries.push(("reference", (&reference.value).into()));
+            entries.extend(normal.map(|normal| ("normal", list(normal))));
+            entries
+        }
+        ConstraintKind::Cyclic {
+            on,
+            with,
+            sectors,
+            point,
+            axis,
+        } => {
+            let mut entries = of_kind("cyclic", on);
+            entries.push(("with", (&with.value).into()));
+            entries.push(("sectors", (*sectors).into()));
+            entries.push(("point", list(*point)));
+            entries.push(("axis", list(*axis)));
             entries
         }
     }

@@ -223,14 +223,27 @@ pub(super) static CONSTRAINT: Table = Table {
                 word("kinematic"),
                 word("distributing"),
                 word("plane"),
+                word("line"),
                 word("equal"),
+                word("distance"),
+                word("twist"),
+                word("pretension"),
+                word("cyclic"),
             ]),
             "kinematic: nodes follow the reference; distributing: the reference follows their mean; \
-             plane: nodes stay in a plane; equal: nodes move alike",
+             plane, line: nodes stay in a plane, on a line; equal: nodes move alike; distance: two nodes keep theirs; \
+             twist: x of the reference is the angle (radian) by which nodes turn in the mean; \
+             pretension: faces are cut apart, x of the reference is by how much their sides overlap; \
+             cyclic: nodes move as those of the other side of a sector do",
         )
         .hints(&["type"]),
-        key("on", Shape::Text, "the nodes").hints(&["set", "group"]),
-        key("reference", Shape::Text, "the reference, of kinematic and distributing"),
+        key("on", Shape::Text, "the nodes; of pretension the faces, of the side that the normal points away from")
+            .hints(&["set", "group", "surface"]),
+        key(
+            "reference",
+            Shape::Text,
+            "the reference, of kinematic, distributing, twist and pretension",
+        ),
         key(
             "dofs",
             Shape::Either(&[
@@ -239,6 +252,20 @@ pub(super) static CONSTRAINT: Table = Table {
             ]),
             "the directions, of kinematic and equal: \"all\" or a list of \"x\", \"y\", \"z\"",
         ),
+        key(
+            "most",
+            POSITIVE,
+            "how far apart the two nodes of distance may go; absent: they keep their distance",
+        ),
+        key(
+            "normal",
+            LINE,
+            "along which the sides of pretension overlap; absent: the mean normal of its faces",
+        ),
+        key("with", Shape::Text, "the nodes of the other side, of cyclic"),
+        key("sectors", COUNT, "how many sectors make the whole, of cyclic"),
+        key("point", VECTOR, "a point of the axis of cyclic; absent: the origin"),
+        key("axis", LINE, "the direction of the axis of twist and cyclic; absent: \"z\""),
     ],
     rules: &[
         Rule::ExactlyOne(&["equation", "kind"]),
@@ -247,6 +274,12 @@ pub(super) static CONSTRAINT: Table = Table {
         Rule::Needs("on", "kind"),
         Rule::Needs("reference", "kind"),
         Rule::Needs("dofs", "kind"),
+        Rule::Needs("most", "kind"),
+        Rule::Needs("normal", "kind"),
+        Rule::Needs("with", "kind"),
+        Rule::Needs("sectors", "kind"),
+        Rule::Needs("point", "kind"),
+        Rule::Needs("axis", "kind"),
     ],
 };
 /// Displacements along, and rotations about the axes.

@@ -106,6 +106,11 @@ pub(super) static REFERENCE: Table = Table {
     keys: &[
         key("at", VECTOR, "where it is at the start").hints(&["point", "position"]),
         key("node", ID, "the node where it is at the start"),
+        key(
+            "rotations",
+            ID,
+            "a node that stands for its rotations where displacements of nodes are printed",
+        ),
     ],
     rules: &[Rule::ExactlyOne(&["at", "node"])],
 };

@@ -509,6 +509,160 @@ fn a_face_that_stays_plane_tilts() {
     }
 }
 
+/// The angles of the nodes of a face, in the mean, are what is prescribed; what it takes is the moment at the base.
+#[test]
+fn a_twisted_face_turns_by_its_angle_in_the_mean() {
+    let (mesh, cells) = cube(3);
+    let base = Target::Nodes(nodes_at(&mesh, 2, 0.0));
+    let top = nodes_at(&mesh, 2, 1.0);
+    for (nonlinear, angle) in [(false, 1e-3), (true, 1.2)] {
+        let kind = ConstraintKind::Twist {
+            nodes: top.clone(),
+            axis: Vec3::new(0.0, 0.0, 2.0),
+            carrier: 0,
+        };
+        let turn = prescribe(Target::Rigid(0), &[(0, angle)]);
+        let ran = run(Parts {
+            bodies: vec![solid("cube", cells.clone())],
+            carriers: vec![carrier("angle", [0.0; 3])],
+            constraints: vec![constraint("twist", kind)],
+            steps: vec![step(
+                4,
+                nonlinear,
+                vec![prescribe(base.clone(), &ALL), turn],
+            )],
+            ..Parts::new(&mesh, Idealisation::Space)
+        });
+        let mean =
+            |x: &dyn Fn(NodeId) -> Vec3| top.iter().map(|&n| x(n)).sum::<Vec3>() / top.len() as f64;
+        let (start, now) = (
+            |n: NodeId| mesh.points[n as usize],
+            |n: NodeId| ran.state.x[n as usize],
+        );
+        let (from, to) = (mean(&start), mean(&now));
+        let angles = top.iter().map(|&n| {
+            let (p, q) = (start(n) - from, now(n) - to);
+            (p.x * q.y - p.y * q.x).atan2(p.x * q.x + p.y * q.y)
+        });
+        let turned = angles.sum::<f64>() / top.len() as f64;
+        // at small strain up to the square of the angle
+        let allowed = if nonlinear { 1e-11 } else { angle * angle };
+        assert!((turned - angle).abs() < allowed, "{turned} {angle}");
+        let torque = ran.held(0).0.x;
+        let (force, moment) = ran.reactions();
+        assert!(torque > 0.0 && force.max_abs() < 1e-8);
+        let off = if nonlinear {
+            1e-8
+        } else {
+            2.0 * angle * torque
+        };
+        assert!((moment.z + torque).abs() < off, "{moment:?} {torque}");
+    }
+}
+
+/// An edge stays straight while its end is pulled; a rod keeps it as long as it was.
+#[test]
+fn an_edge_stays_straight_and_a_rod_keeps_its_length() {
+    let (mesh, cells) = cube(3);
+    let base = Target::Nodes(nodes_at(&mesh, 2, 0.0));
+    let top = nodes_at(&mesh, 2, 1.0);
+    let edge: Vec<NodeId> = top
+        .iter()
+        .copied()
+        .filter(|&n| mesh.points[n as usize].y == 0.0)
+        .collect();
+    let ends = [edge[0], edge[3]];
+    for nonlinear in [false, true] {
+        let corner = prescribe(Target::Nodes(vec![ends[0]]), &[(1, 0.1), (2, 0.3)]);
+        let ran = run(Parts {
+            bodies: vec![solid("cube", cells.clone())],
+            constraints: vec![
+                constraint(
+                    "line",
+                    ConstraintKind::Line {
+                        nodes: edge.clone(),
+                    },
+                ),
+                constraint(
+                    "rod",
+                    ConstraintKind::Distance {
+                        nodes: ends,
+                        most: None,
+                    },
+                ),
+            ],
+            steps: vec![step(
+                3,
+                nonlinear,
+                vec![prescribe(base.clone(), &ALL), corner],
+            )],
+            ..Parts::new(&mesh, Idealisation::Space)
+        });
+        let u = |n: NodeId| ran.last().displacement[n as usize];
+        let x = |n: NodeId| mesh.points[n as usize] + u(n);
+        let along = x(ends[1]) - x(ends[0]);
+        let length = if nonlinear {
+            along.norm()
+        } else {
+            1.0 + u(ends[1]).x - u(ends[0]).x
+        };
+        assert!((length - 1.0).abs() < 1e-11, "{length}");
+        for (k, &node) in edge.iter().enumerate() {
+            let off = if nonlinear {
+                (x(node) - x(ends[0])).cross(along)
+            } else {
+                let s = k as f64 / 3.0;
+                let off = u(node) - u(ends[0]) * (1.0 - s) - u(ends[1]) * s;
+                Vec3::new(0.0, off.y, off.z)
+            };
+            assert!(off.max_abs() < 1e-11, "{k} {off:?}");
+        }
+        assert!(ran.reactions().0.max_abs() < 1e-8);
+    }
+}
+
+/// A cube is pulled up through a rope: nothing happens until it is taut.
+#[test]
+fn a_rope_pulls_and_never_pushes() {
+    let (mut mesh, cells) = cube(1);
+    let (second, nodes) = (Vec3::new(0.0, 0.0, 3.0), nodes_at(&mesh, 2, 0.0));
+    let more = block(&mut mesh, [1; 3], second, Vec3::new(1.0, 1.0, 1.0));
+    let hook = nodes_at(&mesh, 2, 1.0)[0];
+    let held = nodes_at(&mesh, 2, 3.0);
+    let all: Vec<NodeId> = nodes_at(&mesh, 2, 4.0)
+        .into_iter()
+        .chain(held.clone())
+        .collect();
+    let rope = ConstraintKind::Distance {
+        nodes: [hook, held[0]],
+        most: Some(2.5),
+    };
+    let up = |to: f64| prescribe(Target::Nodes(all.clone()), &[(0, 0.0), (1, 0.0), (2, to)]);
+    let ran = run(Parts {
+        bodies: vec![solid("cube", cells), solid("hook", more)],
+        constraints: vec![constraint("rope", rope)],
+        steps: vec![
+            step(
+                1,
+                true,
+                vec![prescribe(Target::Nodes(nodes), &ALL), up(0.4)],
+            ),
+            step(2, true, vec![up(0.8)]),
+            step(2, true, vec![up(0.2)]),
+        ],
+        ..Parts::new(&mesh, Idealisation::Space)
+    });
+    let lift = |frame: &Frame| frame.displacement[hook as usize].z;
+    let ends = [0, 2, 4].map(|k| lift(&ran.frames[k]));
+    assert_eq!(ends[0], 0.0);
+    assert!((ends[1] - 0.3).abs() < 0.05 && ends[1] > 0.2, "{ends:?}");
+    assert!(ends[2].abs() < 1e-9, "{ends:?}");
+    let frame = &ran.frames[2];
+    let distance = (mesh.points[held[0] as usize] + frame.displacement[held[0] as usize])
+        - (mesh.points[hook as usize] + frame.displacement[hook as usize]);
+    assert!((distance.norm() - 2.5).abs() < 1e-10);
+}
+
 /// A rigid block beside a held solid, turned by three full turns.
 #[test]
 fn three_prescribed_turns_bring_a_rigid_body_back() {

@@ -181,7 +181,8 @@ impl<'a> Held<'a> {
         match self.space {
             Idealisation::Space => &[0, 1, 2, 3, 4, 5],
             Idealisation::PlaneStrain { .. } | Idealisation::PlaneStress { .. } => &[0, 1, 5],
-            Idealisation::Axisymmetric => &[1],
+            // what only equations speak of has a first component, too
+            Idealisation::Axisymmetric => &[0, 1],
         }
     }
 

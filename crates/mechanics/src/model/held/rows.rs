@@ -7,7 +7,7 @@ use crate::model::{
     SpringPart, Unknown,
 };
 use crate::solve::Prescription;
-use crate::system::{DofName, Layout};
+use crate::system::{DofName, Idealisation, Layout};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, ContactSurface, Placement, Pose, RigidId, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -75,6 +75,22 @@ impl Held<'_> {
                     self.distributing(nodes, *carrier);
                 }
                 ConstraintKind::Plane { nodes } => self.stays_plane(nodes),
+                ConstraintKind::Line { nodes } => self.stays_straight(nodes),
+                // a rope holds nothing that goes nearer
+                ConstraintKind::Distance { most: Some(_), .. } => {}
+                ConstraintKind::Distance { nodes: [a, b], .. } => {
+                    let along = self.point(*b) - self.point(*a);
+                    let ends = [(*a, -1.0), (*b, 1.0)];
+                    let row = ends.iter().flat_map(|&(node, sign)| {
+                        (0..3).map(move |axis| (Unknown::Node(node, axis), sign * along[axis]))
+                    });
+                    self.equation(&row.collect::<Vec<_>>());
+                }
+                ConstraintKind::Twist {
+                    nodes,
+                    axis,
+                    carrier,
+                } => self.twists(nodes, *axis, *carrier),
             }
         }
     }
@@ -178,6 +194,12 @@ impl Held<'_> {
                 super::add(&mut gram[unit], &outer(&row));
             }
         }
+        if self.space == Idealisation::Axisymmetric {
+            // bodies of revolution stay where their axis is
+            let across = std::array::from_fn(|i| f64::from(u8::from(i == 0)));
+            let parts = self.rows.own.iter_mut().take(self.first_carrier);
+            parts.for_each(|own| super::add(own, &outer(&across)));
+        }
         for (own, gram) in self.rows.own.iter_mut().zip(&gram) {
             for vector in null_space(gram.as_flattened().to_vec(), NCOMPONENT) {
                 let row = std::array::from_fn(|i| vector.get(i).copied().unwrap_or(0.0));
@@ -251,6 +273,55 @@ impl Held<'_> {
     }
 
     /// Each node keeps its place, along the normal, in the plane of three of them.
+    /// Nodes on a line through two of them do not go across it.
+    fn stays_straight(&mut self, nodes: &[NodeId]) {
+        let Some(&first) = nodes.first() else { return };
+        let origin = self.point(first);
+        let farthest = nodes.iter().copied().max_by(|&a, &b| {
+            let [a, b] = [a, b].map(|node| (self.point(node) - origin).norm());
+            a.total_cmp(&b)
+        });
+        let Some(last) = farthest else { return };
+        let along = self.point(last) - origin;
+        let squared = along.norm_squared();
+        if squared == 0.0 {
+            return;
+        }
+        for &node in nodes {
+            let s = (self.point(node) - origin).dot(along) / squared;
+            for axis in 0..3 {
+                // displacement along an axis, less its part along the line
+                let across = Vec3::unit(axis) - along * (along[axis] / squared);
+                let ends = [(node, 1.0), (first, s - 1.0), (last, -s)];
+                let row = ends.iter().flat_map(|&(node, factor)| {
+                    (0..3).map(move |k| (Unknown::Node(node, k), factor * across[k]))
+                });
+                self.equation(&row.collect::<Vec<_>>());
+            }
+        }
+    }
+
+    /// The angle of a carrier is that by which nodes turn in the mean.
+    fn twists(&mut self, nodes: &[NodeId], axis: Vec3, carrier: RigidId) {
+        let count = nodes.len().max(1) as f64;
+        let middle = nodes.iter().map(|&n| self.point(n)).sum::<Vec3>() / count;
+        let arms = nodes.iter().map(|&node| {
+            let arm = axis.cross(self.point(node) - middle);
+            (
+                node,
+                arm * (1.0 / arm.norm_squared().max(f64::MIN_POSITIVE)),
+            )
+        });
+        let arms: Vec<(NodeId, Vec3)> = arms.collect();
+        let mean = arms.iter().map(|(_, slope)| *slope).sum::<Vec3>() / count;
+        let mut row: Vec<(Unknown, f64)> = Vec::new();
+        for (node, slope) in arms {
+            row.extend((0..3).map(|k| (Unknown::Node(node, k), (slope - mean)[k])));
+        }
+        row.push((Unknown::Carrier(carrier, 0), -count));
+        self.equation(&row);
+    }
+
     fn stays_plane(&mut self, nodes: &[NodeId]) {
         let Some(&first) = nodes.first() else { return };
         let farthest = |score: &dyn Fn(Vec3) -> f64| {

@@ -199,6 +199,28 @@ pub enum ConstraintKind {
         /// The nodes.
         nodes: Vec<NodeId>,
     },
+    /// The nodes, on a line at the start, stay on one, which may move and turn.
+    Line {
+        /// The nodes.
+        nodes: Vec<NodeId>,
+    },
+    /// Two nodes keep their distance, or go no farther apart than `most`.
+    Distance {
+        /// The nodes.
+        nodes: [NodeId; 2],
+        /// The largest distance; `None`: that at the start, neither more nor less.
+        most: Option<f64>,
+    },
+    /// The translation of the carrier along x is the angle (radian) by which the nodes turn in the mean about an axis
+    /// through their mean.
+    Twist {
+        /// The nodes.
+        nodes: Vec<NodeId>,
+        /// The direction of the axis.
+        axis: Vec3,
+        /// Whose translation along x is the angle.
+        carrier: RigidId,
+    },
 }
 
 /// What a support or a motion is applied to.

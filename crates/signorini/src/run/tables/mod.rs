@@ -10,12 +10,12 @@ use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Sym3, Vec3};
-use signorini_io::case::{Position, Reference, Space, Totals};
+use signorini_io::case::{Position, Space, Totals};
 use signorini_io::writers::dat::{
     ContactKind, Kind, Of, Page, Points, Statistics, WEDGE, tangents, tensor,
 };
 use signorini_mechanics::solve::IncrementRecord;
-use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Resultant};
+use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Resultant, RigidBody};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -28,8 +28,18 @@ pub struct Tables {
     // cells around nodes of bodies of revolution whose forces are printed, and steps of large strain
     around: Vec<CellId>,
     nonlinear: Vec<bool>,
-    // nodes of the mesh that are reference points
-    references: HashMap<NodeId, RigidId>,
+    // nodes of the mesh that stand for references
+    references: HashMap<NodeId, Stand>,
+    // what moves with each of them
+    followers: Vec<RigidBody>,
+}
+
+/// What a node of the mesh stands for.
+#[derive(Clone, Copy, Debug)]
+struct Stand {
+    rigid: RigidId,
+    /// Whether for its rotations, not its translations.
+    turns: bool,
 }
 
 impl Tables {
@@ -49,6 +59,7 @@ impl Tables {
             },
             nonlinear: model.steps.iter().map(|step| step.nonlinear).collect(),
             references: references(model),
+            followers: model.system.elimination.bodies().to_vec(),
         }
     }
 
@@ -131,17 +142,25 @@ impl Tables {
     }
 }
 
-/// The nodes of the mesh that are reference points, with what moves them.
-fn references(model: &Model) -> HashMap<NodeId, RigidId> {
-    let carrier = |reference: &Reference| {
-        let Position::Node(label) = reference.position else {
-            return None;
-        };
+/// The nodes of the mesh that stand for references, or for their rotations.
+fn references(model: &Model) -> HashMap<NodeId, Stand> {
+    let mut all = HashMap::new();
+    for reference in &model.case.references {
         let mut known = model.references.iter();
-        let known = known.find(|one| one.name == reference.name.value)?;
-        Some((model.node(label)?, known.rigid))
-    };
-    model.case.references.iter().filter_map(carrier).collect()
+        let Some(known) = known.find(|one| one.name == reference.name.value) else {
+            continue;
+        };
+        let place = match reference.position {
+            Position::Node(label) => model.node(label),
+            Position::At(_) => None,
+        };
+        let rotations = reference.rotations.and_then(|label| model.node(label));
+        for (node, turns) in [(place, false), (rotations, true)] {
+            let rigid = known.rigid;
+            all.extend(node.map(|node| (node, Stand { rigid, turns })));
+        }
+    }
+    all
 }
 
 /// Fills a page.
@@ -162,10 +181,11 @@ impl Writer<'_> {
             NodeQuantity::Displacement => {
                 self.page.table(Kind::Displacements, &one.set);
                 for (k, &node) in nodes.iter().enumerate() {
-                    let carrier = self.tables.references.get(&node);
-                    let carrier = carrier.and_then(|c| self.frame.rigid.get(*c as usize));
-                    let u = match carrier {
-                        Some(rigid) => rigid.displacement,
+                    let stand = self.tables.references.get(&node);
+                    let rigid = stand.and_then(|s| self.frame.rigid.get(s.rigid as usize));
+                    let u = match stand.zip(rigid) {
+                        Some((stand, rigid)) if stand.turns => rigid.rotation,
+                        Some((_, rigid)) => rigid.displacement,
                         None => at(&self.frame.displacement, node).unwrap_or_default(),
                     };
                     self.vector(one, k, node, u);
@@ -180,6 +200,9 @@ impl Writer<'_> {
             }
             NodeQuantity::Reaction => {
                 let force = |node: NodeId| {
+                    if let Some(stand) = self.tables.references.get(&node) {
+                        return self.carried(*stand) * share;
+                    }
                     let mut force = at(&self.frame.internal_force, node).unwrap_or_default();
                     force.x -= self.hoop.get(&node).copied().unwrap_or(0.0);
                     force * share
@@ -211,6 +234,27 @@ impl Writer<'_> {
             }
             None => self.page.row(Of::One(label), &vector.to_array()),
         }
+    }
+
+    /// The force of all nodes that move with a reference, or its moment about it.
+    fn carried(&self, stand: Stand) -> Vec3 {
+        let (Some(body), Some(rigid)) = (
+            self.tables.followers.get(stand.rigid as usize),
+            self.frame.rigid.get(stand.rigid as usize),
+        ) else {
+            return Vec3::ZERO;
+        };
+        let centre = body.reference + rigid.displacement;
+        let of_node = |&node: &NodeId| {
+            let at = |values: &[Vec3]| values.get(node as usize).copied().unwrap_or_default();
+            let force = at(&self.frame.internal_force);
+            match stand.turns {
+                true => (at(&self.tables.mesh.points) + at(&self.frame.displacement) - centre)
+                    .cross(force),
+                false => force,
+            }
+        };
+        body.nodes.iter().map(of_node).sum()
     }
 
     fn elements(&mut self, one: &Printed, cells: &[CellId], quantity: ElementQuantity) {

@@ -298,17 +298,26 @@ name = "press"
 increments = 1
 fix = [{{ on = "base", u = "all" }}]
 move = [{{ on = "pilot", ux = 0, uy = 0, uz = -0.01, rx = 0, ry = 0, rz = 0 }}]
-print = [{{ on = "pilots", nodes = ["displacement"] }}]
+print = [{{ on = "pilots", nodes = ["displacement", "reaction"] }}]
 "#,
-        head.replace("[5, 0, 0, 1]", "[20, 0.5, 0.5, 2], [5, 0, 0, 1]")
+        head.replace("[5, 0, 0, 1]", "[20, 0.5, 0.5, 2], [21, 0, 0, 0], [5, 0, 0, 1]")
             .replace(
                 "[sets]",
-                "[reference]\npilot = { node = 20 }\n[sets]\npilots = { nodes = [20, 5] }"
+                "[reference]\npilot = { node = 20, rotations = 21 }\n[sets]\npilots = { nodes = [20, 5, 21, 7] }"
             )
     ));
     let rows = table(&text, "displacements");
     assert_close(&rows[0], &[20.0, 0.0, 0.0, -0.01], 0.01);
     assert_close(&rows[1], &[5.0, 0.0, 0.0, -0.01], 0.01);
+    assert_close(&rows[2], &[21.0, 0.0, 0.0, 0.0], 0.01);
+    // the reference bears what its four nodes do, and no moment by symmetry
+    let forces = table(&text, "forces");
+    let [pilot, corner, moment, _] = forces.as_slice() else {
+        panic!("{forces:?}");
+    };
+    assert!(corner[3] < -1e-3, "{corner:?}");
+    assert_close(&pilot[3..], &[4.0 * corner[3]], corner[3].abs());
+    assert_close(&moment[1..], &[0.0; 3], corner[3].abs());
 }
 
 /// A cube pressed by 8 on a rigid plane, penalty 1000 per area.
@@ -412,4 +421,50 @@ fn what_cannot_be_printed_is_refused_with_its_place() {
         assert!(found.plain().contains(said), "{}", found.plain());
         assert!(found.plain().contains("case.toml:"), "{}", found.plain());
     }
+}
+
+/// A quarter of a square prism is pulled evenly on its outside: it widens as a whole, its axis stays.
+#[test]
+fn a_sector_moves_as_the_whole_does() {
+    let text = dat(r#"
+[mesh]
+nodes = [
+  [1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0],
+  [5, 0, 0, 1], [6, 1, 0, 1], [7, 1, 1, 1], [8, 0, 1, 1],
+]
+elements = [{ id = 7, type = "hex8", group = "brick", nodes = [1, 2, 3, 4, 5, 6, 7, 8] }]
+[sets]
+lead = { plane = "y", at = 0 }
+follow = { plane = "x", at = 0 }
+base = { plane = "z", at = 0 }
+one = { nodes = [2] }
+rim = { nodes = [1, 3, 4, 7] }
+outside = { faces = [[7, "+x"], [7, "+y"]] }
+[material.m]
+model = "linear-elastic"
+E = 1000.0
+nu = 0.25
+[[body]]
+group = "brick"
+material = "m"
+[[constraint]]
+kind = "cyclic"
+on = "follow"
+with = "lead"
+sectors = 4
+[[step]]
+name = "pull"
+geometry = "linear"
+increments = 1
+fix = [{ on = "base", u = ["z"] }, { on = "one", u = ["y"] }]
+load = [{ on = "outside", pressure = -8.0 }]
+print = [{ on = "rim", nodes = ["displacement"] }]
+"#);
+    // σ = 8 in the plane
+    let (wide, high) = (8.0 * 0.75 / 1000.0, -2.0 * 0.25 * 8.0 / 1000.0);
+    let rows = table(&text, "displacements");
+    assert_close(&rows[0], &[1.0, 0.0, 0.0, 0.0], wide);
+    assert_close(&rows[1], &[3.0, wide, wide, 0.0], wide);
+    assert_close(&rows[2], &[4.0, 0.0, wide, 0.0], wide);
+    assert_close(&rows[3], &[7.0, wide, wide, high], wide);
 }
