@@ -178,6 +178,7 @@ impl Translation<'_> {
             integration: Default::default(),
             locking: Default::default(),
             orientation: None,
+            thickness: None,
             area: None,
             rigid: true,
             reference: Some(reference),

@@ -3,29 +3,36 @@
 use super::constraint::Axes;
 use super::translation::{Target, Translation};
 use crate::case::{
-    Amplitude, Body, Constant, Expansion, Hardening, Integration, Locking, Material, Model, Name,
-    Orientation, Plasticity, Space, TimeBase,
+    Amplitude, AtPoint, Body, Constant, Expansion, Hardening, Integration, Locking, Material,
+    Model, Name, Orientation, Plasticity, Space, TimeBase,
 };
 use crate::diagnostic::{Place, Spanned, codes};
-use crate::readers::inp::{Kind, Statement, compared, number};
+use crate::readers::inp::{Field, Kind, Statement, compared, number};
 use std::collections::BTreeMap;
+
+/// Constants of a law, by their names in a case.
+type Constants = Vec<(&'static str, Vec<f64>)>;
 
 /// What is known of a material.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Properties {
     name: Name,
-    law: Option<(&'static str, Vec<(&'static str, f64)>)>,
+    law: Option<(&'static str, Constants)>,
     density: Option<f64>,
-    alpha: Option<(f64, Option<f64>)>,
+    expansion: Option<Expansion>,
     plasticity: Option<Plasticity>,
     place: Place,
 }
+
+/// Elements whose integration points are numbered as ours are.
+const POINTWISE: [&str; 5] = ["C3D4", "C3D8", "C3D8I", "C3D20", "C3D20R"];
 
 impl Properties {
     /// The first elastic constant.
     pub fn modulus(&self) -> Option<f64> {
         let (_, constants) = self.law.as_ref()?;
-        constants.first().map(|(_, value)| *value)
+        let (_, first) = constants.iter().find(|(name, _)| *name != "T")?;
+        first.first().copied()
     }
 }
 
@@ -35,6 +42,7 @@ impl Translation<'_> {
         self.space();
         self.materials();
         self.start_temperature();
+        self.at_start();
         self.amplitudes();
         self.sections();
     }
@@ -128,6 +136,17 @@ impl Translation<'_> {
         }
         order.extend(open);
         for material in order {
+            if let (Some((law, _)), Some(_)) = (&material.law, &material.plasticity)
+                && *law != "linear-elastic"
+            {
+                let text = format!("*PLASTIC does not go with {law} constants");
+                self.error(
+                    &codes::NOT_BUILT,
+                    text,
+                    &material.place,
+                    "isotropic ones, at one temperature",
+                );
+            }
             self.materials
                 .insert(compared(&material.name), material.clone());
             self.case.materials.extend(case_of(material));
@@ -143,64 +162,16 @@ impl Translation<'_> {
         };
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
         match card.keyword.as_str() {
-            "DENSITY" => material.density = Some(self.real(first.first())),
-            "ELASTIC" => {
-                // a second row of the same length is a second temperature
-                let per_row = match kind.as_str() {
-                    "" => 1,
-                    name if "ISOTROPIC".starts_with(name) => 1,
-                    _ => 2,
-                };
-                if rows.len() > per_row {
-                    let remark = "take the constants at the temperature that matters";
-                    let text = "constants that depend on temperature are not supported";
-                    self.error(&codes::NOT_BUILT, text, &card.place, remark);
-                }
-                let all: Vec<_> = rows.iter().flatten().cloned().collect();
-                if per_row == 1 {
-                    let [e, nu] = self.reals(&all);
-                    material.law = Some(("linear-elastic", vec![("E", e), ("nu", nu)]));
-                    return;
-                }
-                let c: [f64; 9] = self.reals(&all);
-                let law = if kind.starts_with("ENGINEERING") {
-                    Some(c)
-                } else if "ORTHOTROPIC".starts_with(&kind) {
-                    engineering(c)
-                } else {
-                    let text = format!("*ELASTIC, TYPE={kind} is not supported");
-                    let remark = "isotropic, ORTHO and ENGINEERING CONSTANTS are";
-                    self.error(&codes::NOT_BUILT, text, &card.place, remark);
-                    return;
-                };
-                let names = [
-                    "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23",
-                ];
-                match law {
-                    Some(c) => {
-                        material.law = Some(("orthotropic", names.into_iter().zip(c).collect()));
-                    }
-                    None => {
-                        let text = "these elastic constants have no compliance";
-                        self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
-                    }
-                }
-            }
-            "EXPANSION" => {
-                if !kind.is_empty() && !"ISOTROPIC".starts_with(&kind) || rows.len() > 1 {
-                    let text =
-                        "expansion that depends on direction or temperature is not supported";
+            "DENSITY" => {
+                let density = self.real(first.first());
+                if rows.iter().any(|row| self.real(row.first()) != density) {
+                    let text = "a density that depends on temperature is not supported";
                     self.error(&codes::NOT_BUILT, text, &card.place, "");
                 }
-                let zero = card.get("ZERO").map(|text| {
-                    number(text).unwrap_or_else(|| {
-                        let text = "ZERO is no number";
-                        self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
-                        0.0
-                    })
-                });
-                material.alpha = Some((self.real(first.first()), zero));
+                material.density = Some(density);
             }
+            "ELASTIC" => material.law = self.elastic(card, &kind, &rows).or(material.law.take()),
+            "EXPANSION" => material.expansion = self.expansion(card, &kind, &rows),
             "PLASTIC" => {
                 let hardening = match card.get("HARDENING").map(compared).as_deref() {
                     None | Some("ISOTROPIC") => Hardening::Isotropic,
@@ -228,22 +199,210 @@ impl Translation<'_> {
                     modulus: None,
                 });
             }
+            _ => material.law = self.hyperelastic(card, &rows).or(material.law.take()),
+        }
+    }
+
+    /// What *ELASTIC says.
+    fn elastic(
+        &mut self,
+        card: &Statement,
+        kind: &str,
+        rows: &[Vec<Field<'_>>],
+    ) -> Option<(&'static str, Constants)> {
+        if kind.is_empty() || "ISOTROPIC".starts_with(kind) {
+            let mut table: Vec<[f64; 3]> = rows.iter().map(|row| self.reals(row)).collect();
+            let [e, nu, _] = *table.first()?;
+            if table.iter().all(|row| row[..2] == [e, nu]) {
+                return Some(("linear-elastic", vec![("E", vec![e]), ("nu", vec![nu])]));
+            }
+            table.sort_by(|a, b| a[2].total_cmp(&b[2]));
+            let column = |i: usize| table.iter().map(|row| row[i]).collect();
+            let constants = vec![("T", column(2)), ("E", column(0)), ("nu", column(1))];
+            return Some(("linear-elastic-by-temperature", constants));
+        }
+        let anisotropic = "ANISOTROPIC".starts_with(kind);
+        // eight constants fill a row
+        let per_temperature = if anisotropic { 3 } else { 2 };
+        if rows.len() > per_temperature {
+            let remark = "take the constants at the temperature that matters";
+            let text =
+                "constants in several directions that depend on temperature are not supported";
+            self.error(&codes::NOT_BUILT, text, &card.place, remark);
+        }
+        let all: Vec<_> = rows.iter().flatten().cloned().collect();
+        if anisotropic {
+            let d: [f64; 21] = self.reals(&all);
+            return Some(("anisotropic", vec![("D", d.to_vec())]));
+        }
+        let c: [f64; 9] = self.reals(&all);
+        let law = if kind.starts_with("ENGINEERING") {
+            Some(c)
+        } else if "ORTHOTROPIC".starts_with(kind) {
+            engineering(c)
+        } else {
+            let text = format!("*ELASTIC, TYPE={kind} is not supported");
+            let remark = "isotropic, ORTHO, ENGINEERING CONSTANTS and ANISO are";
+            self.error(&codes::NOT_BUILT, text, &card.place, remark);
+            return None;
+        };
+        let names = [
+            "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23",
+        ];
+        let Some(c) = law else {
+            let text = "these elastic constants have no compliance";
+            self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
+            return None;
+        };
+        let constants = names.into_iter().zip(c.map(|value| vec![value]));
+        Some(("orthotropic", constants.collect()))
+    }
+
+    /// What *EXPANSION says: a secant from ZERO on.
+    fn expansion(
+        &mut self,
+        card: &Statement,
+        kind: &str,
+        rows: &[Vec<Field<'_>>],
+    ) -> Option<Expansion> {
+        if !kind.is_empty() && !"ISOTROPIC".starts_with(kind) {
+            let text = "expansion that depends on direction is not supported";
+            self.error(&codes::NOT_BUILT, text, &card.place, "");
+            return None;
+        }
+        let zero = card.get("ZERO").map(|text| {
+            number(text).unwrap_or_else(|| {
+                let text = "ZERO is no number";
+                self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
+                0.0
+            })
+        });
+        let reference = zero.unwrap_or(0.0);
+        let mut alpha: Vec<[f64; 2]> = Vec::new();
+        for row in rows {
+            let [value, temperature]: [f64; 2] = self.reals(row);
+            alpha.push([temperature, value]);
+        }
+        alpha.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let first = alpha.first().map_or(0.0, |row| row[1]);
+        if alpha.iter().all(|row| row[1] == first) {
+            alpha = vec![[reference, first]];
+        }
+        Some(Expansion {
+            alpha,
+            reference,
+            free: reference.into(),
+        })
+    }
+
+    /// What *HYPERELASTIC says, of the kinds that are sums over powers of stretches.
+    fn hyperelastic(
+        &mut self,
+        card: &Statement,
+        rows: &[Vec<Field<'_>>],
+    ) -> Option<(&'static str, Constants)> {
+        let order = card.get("N").map_or(Some(1), |n| n.parse::<usize>().ok());
+        let order = order.filter(|order| (1..=4).contains(order));
+        let all: Vec<_> = rows.iter().flatten().cloned().collect();
+        let mut numbers = all.iter().map(|field| self.real(Some(field)));
+        let mut next = || numbers.next().unwrap_or(0.0);
+        let (law, mut constants, shear): (_, Constants, f64) = match order {
+            Some(1) if card.has("NEOHOOKE") || card.has("REDUCEDPOLYNOMIAL") => {
+                let c10 = next();
+                (
+                    "mooney-rivlin",
+                    vec![("c10", vec![c10]), ("c01", vec![0.0])],
+                    2.0 * c10,
+                )
+            }
+            Some(order) if card.has("OGDEN") => {
+                let terms: Vec<(f64, f64)> = (0..order).map(|_| (next(), next())).collect();
+                let (mu, alpha): (Vec<f64>, Vec<f64>) = terms.into_iter().unzip();
+                let shear = mu.iter().sum();
+                ("ogden", vec![("mu", mu), ("alpha", alpha)], shear)
+            }
+            // polynomial is the default
+            Some(1) if !card.has("ARRUDA-BOYCE") && !card.has("YEOH") => {
+                let (c10, c01) = (next(), next());
+                let constants = vec![("c10", vec![c10]), ("c01", vec![c01])];
+                ("mooney-rivlin", constants, 2.0 * (c10 + c01))
+            }
             _ => {
-                if !card.has("NEOHOOKE") {
-                    let text = "only *HYPERELASTIC, NEO HOOKE is supported";
-                    self.error(&codes::NOT_BUILT, text, &card.place, "");
-                    return;
+                let text = "this kind of *HYPERELASTIC is not supported";
+                let remark = "NEO HOOKE, MOONEY-RIVLIN and OGDEN are";
+                self.error(&codes::NOT_BUILT, text, &card.place, remark);
+                return None;
+            }
+        };
+        // W = … + (J − 1)²/D1 + (J − 1)⁴/D2 + …: the bulk modulus is 2/D1
+        let d1 = next();
+        let higher = numbers.any(|d| d != 0.0);
+        if higher && law == "ogden" {
+            let text = "only the first of the coefficients D of *HYPERELASTIC is supported";
+            self.error(&codes::NOT_BUILT, text, &card.place, "");
+        }
+        if d1 < 0.0 || shear <= 0.0 {
+            let text = "the initial shear modulus has to be positive, D1 positive or zero";
+            self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
+            return None;
+        }
+        let bulk = if d1 > 0.0 {
+            2.0 / d1
+        } else {
+            let text = "D1 = 0 stands for a Poisson's ratio of 0.475, as in CalculiX";
+            self.note(text, &card.place);
+            const NU: f64 = 0.475;
+            2.0 * shear * (1.0 + NU) / (3.0 * (1.0 - 2.0 * NU))
+        };
+        constants.push(("bulk", vec![bulk]));
+        Some((law, constants))
+    }
+
+    /// Stress and strain at integration points.
+    fn at_start(&mut self) {
+        for card in self.cards("INITIALCONDITIONS") {
+            let kind = card.get("TYPE").map(compared).unwrap_or_default();
+            if kind == "TEMPERATURE" {
+                continue;
+            }
+            let is_stress = kind == "STRESS";
+            if !is_stress && kind != "PLASTICSTRAIN" || card.has("USER") {
+                let user = if card.has("USER") { ", USER" } else { "" };
+                let text = format!("*INITIAL CONDITIONS, TYPE={kind}{user} is not supported");
+                self.error(&codes::NOT_BUILT, text, &card.place, "");
+                continue;
+            }
+            if !is_stress && self.case.materials.iter().any(|m| m.plasticity.is_some()) {
+                let text = "an initial plastic strain does not go with *PLASTIC";
+                let remark = "its hardening is not known";
+                self.error(&codes::NOT_BUILT, text, &card.place, remark);
+            }
+            for row in card.rows().filter(|row| !row.is_empty()) {
+                let targets = self.targets(card, row.first(), Kind::Elements);
+                let point = self.count(row.get(1), 1);
+                let value: [f64; 6] = self.reals(row.get(2..).unwrap_or_default());
+                let place = row.first().map_or(card.place.clone(), Field::place);
+                let elements = targets.iter().flat_map(|target| self.elements(target));
+                for element in elements.collect::<Vec<_>>() {
+                    let kind = self.cell(element).map(|cell| self.type_of(cell));
+                    if !kind.is_some_and(|kind| POINTWISE.contains(&kind)) {
+                        let text = "values at the points of this element are not supported";
+                        let remark = format!("of {} they are", POINTWISE.join(", "));
+                        self.error(&codes::NOT_BUILT, text, &place, remark);
+                        break;
+                    }
+                    let points = if is_stress {
+                        &mut self.case.initial_stress
+                    } else {
+                        &mut self.case.initial_strain
+                    };
+                    points.push(AtPoint {
+                        element,
+                        point,
+                        value,
+                        place: place.clone(),
+                    });
                 }
-                // W = C10 (I1 − 3) + (J − 1)²/D1: shear modulus 2 C10, bulk modulus 2/D1
-                let [c10, d1]: [f64; 2] = self.reals(first);
-                if d1 <= 0.0 || c10 <= 0.0 {
-                    let text = "C10 and D1 have to be positive";
-                    let remark = "incompressible laws are not supported: give D1";
-                    self.error(&codes::OUT_OF_RANGE, text, &card.place, remark);
-                    return;
-                }
-                let constants = vec![("c10", c10), ("c01", 0.0), ("bulk", 2.0 / d1)];
-                material.law = Some(("mooney-rivlin", constants));
             }
         }
     }
@@ -253,8 +412,6 @@ impl Translation<'_> {
         for card in self.cards("INITIALCONDITIONS") {
             let kind = card.get("TYPE").map(compared).unwrap_or_default();
             if kind != "TEMPERATURE" {
-                let text = format!("*INITIAL CONDITIONS, TYPE={kind} is not supported");
-                self.error(&codes::NOT_BUILT, text, &card.place, "");
                 continue;
             }
             for row in card.rows() {
@@ -276,7 +433,7 @@ impl Translation<'_> {
         // thermal strain counts from the start, at which there is none
         for material in &mut self.case.materials {
             if let (Some(expansion), Some(start)) = (&mut material.expansion, start) {
-                expansion.reference.value = start;
+                expansion.free.value = start;
             }
         }
     }
@@ -331,13 +488,45 @@ impl Translation<'_> {
             .map(|one| &one.name.value)
             .find(|name| compared(name) == compared(wanted));
         match known.cloned() {
-            Some(name) => Some(Spanned::new(name, card.place.clone())),
+            Some(name) => {
+                let name = self.delayed(card, name);
+                Some(Spanned::new(name, card.place.clone()))
+            }
             None => {
                 let text = format!("there is no amplitude `{wanted}`");
                 self.error(&codes::UNDEFINED, text, &card.place, "");
                 None
             }
         }
+    }
+
+    /// The amplitude that is this one later, where a card has a TIME DELAY.
+    fn delayed(&mut self, card: &Statement, name: String) -> String {
+        let Some(text) = card.get("TIMEDELAY") else {
+            return name;
+        };
+        let Some(delay) = number(text) else {
+            let text = "TIME DELAY is no number";
+            self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
+            return name;
+        };
+        let mut all = self.case.amplitudes.iter();
+        let Some(known) = all.find(|one| *one.name == name).cloned() else {
+            return name;
+        };
+        let table: Vec<[f64; 2]> = known.table.iter().map(|[t, a]| [t + delay, *a]).collect();
+        let mut all = self.case.amplitudes.iter();
+        let same = |one: &&Amplitude| one.table == table && one.time == known.time;
+        if let Some(same) = all.find(same) {
+            return same.name.value.clone();
+        }
+        let name = self.fresh(&format!("{name}-delayed"));
+        self.case.amplitudes.push(Amplitude {
+            name: Spanned::new(name.clone(), card.place.clone()),
+            table,
+            ..known
+        });
+        name
     }
 
     fn sections(&mut self) {
@@ -363,19 +552,13 @@ impl Translation<'_> {
                     None
                 }
             });
+            let mut own = None;
             if let Some(row) = card.rows().next().filter(|row| !row.is_empty())
-                && self.is_plane()
-                && self.case.model.space.value != Space::Axisymmetric
+                && self.case.model.space.value.has_thickness()
             {
                 let given = self.real(row.first());
-                match thickness {
-                    Some(first) if first != given => {
-                        let text = "sections of different thickness are not supported";
-                        let remark = format!("the first one is {first}");
-                        self.error(&codes::NOT_BUILT, text, &card.place, remark);
-                    }
-                    _ => thickness = Some(given),
-                }
+                let of_model = *thickness.get_or_insert(given);
+                own = (given != of_model).then(|| Spanned::new(given, card.place.clone()));
             }
             let directory = &self.deck.directory;
             let sets: Vec<String> = (directory.spaces(card.scope).iter())
@@ -386,14 +569,21 @@ impl Translation<'_> {
                 self.set(card, elset, &card.place, Kind::Elements);
             }
             for set in sets {
-                self.body(card, &set, &material, orientation.as_ref());
+                self.body(card, &set, &material, orientation.as_ref(), own.as_ref());
             }
         }
         self.case.model.thickness = thickness.unwrap_or(1.0);
     }
 
     /// The bodies of a section: one, or one for each way its elements are integrated.
-    fn body(&mut self, card: &Statement, set: &str, material: &str, turned: Option<&Orientation>) {
+    fn body(
+        &mut self,
+        card: &Statement,
+        set: &str,
+        material: &str,
+        turned: Option<&Orientation>,
+        thickness: Option<&Spanned<f64>>,
+    ) {
         let mut ways: BTreeMap<(bool, bool, bool), Vec<u64>> = BTreeMap::new();
         for label in self.elements(&Target::Set(set.to_owned())) {
             let Some(cell) = self.cell(label) else {
@@ -401,7 +591,8 @@ impl Translation<'_> {
             };
             let kind = self.type_of(cell);
             let digits = kind.trim_start_matches(|c: char| c.is_ascii_uppercase());
-            let reduced = kind.ends_with('R') || kind.ends_with("RH") || kind.ends_with("RT");
+            // CalculiX takes three points for CAX6, too
+            let reduced = ["R", "RH", "RT"].iter().any(|end| kind.ends_with(end)) || kind == "CAX6";
             let linear = ["C3D8", "CPS4", "CPE4", "CAX4"]
                 .iter()
                 .any(|l| kind.starts_with(l));
@@ -427,6 +618,7 @@ impl Translation<'_> {
                 },
                 locking: Spanned::new(locking(reduced, modes, linear), card.place.clone()),
                 orientation: turned.cloned(),
+                thickness: thickness.cloned(),
                 area: None,
                 rigid: false,
                 reference: None,
@@ -485,16 +677,13 @@ fn case_of(of: Properties) -> Option<Material> {
         name: of.name,
         model: model.into(),
         constants: (constants.into_iter())
-            .map(|(name, value)| Constant {
+            .map(|(name, values)| Constant {
                 name,
-                values: vec![value].into(),
+                values: values.into(),
             })
             .collect(),
         density: of.density.map(Spanned::from),
-        expansion: of.alpha.map(|(alpha, zero)| Expansion {
-            alpha,
-            reference: zero.unwrap_or(0.0).into(),
-        }),
+        expansion: of.expansion,
         plasticity: of.plasticity,
         place: of.place,
     })

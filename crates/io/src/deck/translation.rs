@@ -2,7 +2,7 @@
 
 use super::keywords::{Keyword, Support};
 use super::{Compat, constraint, model};
-use crate::case::{Case, MeshSource, Name, Set, SetContent, Side, Space};
+use crate::case::{Case, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
 use crate::readers::inp::{Deck, Field, Kind, Statement};
@@ -308,10 +308,6 @@ impl<'d> Translation<'d> {
 
     pub fn ndim(&self) -> usize {
         self.case.model.space.value.ndim()
-    }
-
-    pub fn is_plane(&self) -> bool {
-        self.case.model.space.value != Space::ThreeD
     }
 
     /// A name that nothing has: `wanted`, or with a number behind.

@@ -131,8 +131,11 @@ impl Context<'_> {
                     material,
                     integration,
                     locking,
+                    thickness,
+                    initial,
                     ..
                 } => {
+                    let space = thickness.map_or(space, |own| space.of_thickness(own));
                     let solid = Solid::new(SolidParts {
                         name,
                         mesh,
@@ -144,6 +147,7 @@ impl Context<'_> {
                         integration,
                         locking,
                         temperature,
+                        initial: &initial,
                     })?;
                     for &kinematics in sizes {
                         let chosen = solid.locking(kinematics)?.into_iter();

@@ -6,7 +6,7 @@ pub use contact::*;
 
 use crate::load::Course;
 use crate::material::Material;
-use crate::solid::{Integration, Locking};
+use crate::solid::{AtStart, Integration, Locking};
 use crate::solve::{Increments, Motion};
 use crate::system::Idealisation;
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
@@ -84,6 +84,10 @@ pub enum BodyKind {
         integration: Integration,
         /// What is done against locking.
         locking: Locking,
+        /// Thickness in a plane model, where it is not that of the model (length). It does not go with contact.
+        thickness: Option<f64>,
+        /// Stress and strain at the start.
+        initial: Vec<AtStart>,
     },
     /// Bars that carry normal force only: cells of lines.
     Truss {
@@ -107,6 +111,8 @@ impl BodyKind {
             density: None,
             integration: Integration::default(),
             locking: Locking::default(),
+            thickness: None,
+            initial: Vec::new(),
         }
     }
 

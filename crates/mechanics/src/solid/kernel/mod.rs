@@ -38,6 +38,17 @@ pub(super) struct Element<'a> {
     pub ndilatation: usize,
     /// History at the start of the increment: of each point, then the incompatible modes.
     pub old: &'a [f64],
+    /// What each point has at the start; empty where no point has anything.
+    pub initial: &'a [Initial],
+}
+
+/// What a point has at the start.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Initial {
+    /// Stress without strain.
+    pub stress: Sym3,
+    /// Strain without stress.
+    pub strain: Sym3,
 }
 
 /// Results of one element. Forces and stiffness are those of displacements, node by node.
@@ -266,15 +277,21 @@ impl Element<'_> {
         new: &mut [f64],
         response: &mut Response,
     ) -> Result<(), MaterialError> {
+        let initial = self.initial.get(point);
         let strain = Strain {
             kinematics: self.kinematics,
-            value,
+            value: initial.map_or(value, |at| value - at.strain),
             temperature: self.temperature(point),
         };
         let nhistory = self.material.nhistory();
         let at = point * nhistory..(point + 1) * nhistory;
         let (old, new) = (&self.old[at.clone()], &mut new[at]);
-        self.material.respond(&strain, old, new, order, response)
+        self.material.respond(&strain, old, new, order, response)?;
+        if let Some(at) = initial {
+            response.stress = response.stress + at.stress;
+            response.energy += at.stress.double_dot(value);
+        }
+        Ok(())
     }
 
     /// What is known at a point where the deformation gradient that the material sees is `f = I + h`, and `weight`

@@ -125,6 +125,7 @@ fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, S
         integration: wish.integration,
         locking: wish.locking,
         temperature: None,
+        initial: &[],
     })?;
     solid.locking(wish.kinematics)?;
     solid.set_kinematics(wish.kinematics);
