@@ -415,6 +415,7 @@ def main():
     missed = [(name, least) for name, some, least in asked if agreeing(some) < least]
     for name, least in missed:
         print(f"fewer than {least} {name} decks agree")
+    print(f"compare_ccx: {agreeing(outcomes)} passed, {len(outcomes) - agreeing(outcomes)} did not")
     return 1 if missed else 0
 
 

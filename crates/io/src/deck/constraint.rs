@@ -2,7 +2,7 @@
 
 use super::translation::{Target, Translation};
 use crate::case::{
-    Body, Constraint, ConstraintKind, Directions, Name, Position, Reference, Summand,
+    Body, Constraint, ConstraintKind, Directions, Name, Position, Reference, Summand, Temperatures,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
@@ -179,6 +179,7 @@ impl Translation<'_> {
             locking: Default::default(),
             orientation: None,
             thickness: None,
+            temperatures: Temperatures::default(),
             area: None,
             rigid: true,
             reference: Some(reference),

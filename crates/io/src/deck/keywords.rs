@@ -53,12 +53,14 @@ pub const KEYWORDS: &[Keyword] = &[
         "NAME, TIME=TOTAL TIME; linear between its rows",
     ),
     read("ASSEMBLY", "with END ASSEMBLY"),
+    refused("BEAM GENERAL SECTION", "beams are not built"),
     refused("BEAM SECTION", "beams are not built"),
     read(
         "BOUNDARY",
         "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED",
     ),
     read("CHANGE FRICTION", "with FRICTION"),
+    refused("CHANGE SOLID SECTION", "a material holds for the whole run"),
     refused(
         "CHANGE SURFACE BEHAVIOR",
         "a law of contact holds for the whole run",
@@ -66,7 +68,7 @@ pub const KEYWORDS: &[Keyword] = &[
     read("CLEARANCE", "MASTER, SLAVE, VALUE"),
     read(
         "CLOAD",
-        "forces at nodes, moments at rigid bodies; AMPLITUDE, OP",
+        "forces at nodes, moments at rigid bodies; AMPLITUDE, TIME DELAY, OP",
     ),
     read("CONTACT PAIR", "TYPE, SMALL SLIDING, ADJUST by a tolerance"),
     ignored("CONTACT CONTROLS", "contact needs no controls here"),
@@ -79,8 +81,14 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     read("COUPLING", "with KINEMATIC or DISTRIBUTING, of surfaces"),
     refused("CREEP", "creep is not built"),
+    refused("CYCLIC HARDENING", "combined hardening is not built"),
     refused("CYCLIC SYMMETRY MODEL", "cyclic symmetry is not built"),
+    refused(
+        "DEFORMATION PLASTICITY",
+        "only incremental plasticity is built",
+    ),
     read("DENSITY", "constant"),
+    refused("DEPVAR", "materials of users are not built"),
     read("DISTRIBUTING", "with COUPLING"),
     read("DLOAD", "P and P1 to P6, GRAV, CENTRIF; AMPLITUDE, OP"),
     read("DSLOAD", "P; AMPLITUDE, OP"),
@@ -92,7 +100,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ),
     read(
         "ELASTIC",
-        "isotropic, ENGINEERING CONSTANTS, ORTHO; one temperature",
+        "isotropic, by temperature; ENGINEERING CONSTANTS, ORTHO, ANISO",
     ),
     read("ELEMENT", "solids in space and in the plane"),
     ignored("ELEMENT OUTPUT", "all fields are written anyway"),
@@ -100,7 +108,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ignored("END ASSEMBLY", ""),
     read("END STEP", ""),
     read("EQUATION", "of displacements"),
-    read("EXPANSION", "isotropic, constant; ZERO"),
+    read("EXPANSION", "isotropic, by temperature; ZERO"),
     refused("FREQUENCY", "only static steps are built"),
     read(
         "FRICTION",
@@ -109,9 +117,16 @@ pub const KEYWORDS: &[Keyword] = &[
     read("GAP", "of GAPUNI"),
     refused("HEAT TRANSFER", "temperatures are given, not solved for"),
     read("HEADING", "the title"),
-    read("HYPERELASTIC", "NEO HOOKE"),
+    read(
+        "HYPERELASTIC",
+        "NEO HOOKE, MOONEY-RIVLIN, OGDEN; one temperature",
+    ),
+    read("HYPERFOAM", "one temperature"),
     read("INCLUDE", "INPUT"),
-    read("INITIAL CONDITIONS", "TYPE=TEMPERATURE, one for all nodes"),
+    read(
+        "INITIAL CONDITIONS",
+        "TYPE=TEMPERATURE, one for all nodes; STRESS and PLASTIC STRAIN at integration points",
+    ),
     read("INSTANCE", "moved and turned"),
     read("KINEMATIC", "with COUPLING"),
     read("MATERIAL", ""),
@@ -159,6 +174,7 @@ pub const KEYWORDS: &[Keyword] = &[
     read("TIE", "POSITION TOLERANCE, ADJUST"),
     ignored("TIME POINTS", "results are written after every increment"),
     read("TRANSFORM", "TYPE=R, C"),
+    refused("USER MATERIAL", "materials of users are not built"),
     refused("VISCO", "only static steps are built"),
 ];
 

@@ -4,7 +4,7 @@ use super::constraint::Axes;
 use super::translation::{Target, Translation};
 use crate::case::{
     Amplitude, AtPoint, Body, Constant, Expansion, Hardening, Integration, Locking, Material,
-    Model, Name, Orientation, Plasticity, Space, TimeBase,
+    Model, Name, Orientation, Plasticity, Space, Temperatures, TimeBase,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -121,7 +121,7 @@ impl Translation<'_> {
                         ..Properties::default()
                     });
                 }
-                "ELASTIC" | "DENSITY" | "EXPANSION" | "PLASTIC" | "HYPERELASTIC" => {
+                "ELASTIC" | "DENSITY" | "EXPANSION" | "PLASTIC" | "HYPERELASTIC" | "HYPERFOAM" => {
                     let Some(mut material) = open.take() else {
                         let text = format!("*{} stands in no *MATERIAL", card.keyword);
                         self.error(&codes::CONTRADICTION, text, &card.place, "");
@@ -199,8 +199,29 @@ impl Translation<'_> {
                     modulus: None,
                 });
             }
+            "HYPERFOAM" => material.law = self.foam(card, &rows).or(material.law.take()),
             _ => material.law = self.hyperelastic(card, &rows).or(material.law.take()),
         }
+    }
+
+    /// What *HYPERFOAM says: pairs of modulus and exponent, then a Poisson's ratio of each.
+    fn foam(
+        &mut self,
+        card: &Statement,
+        rows: &[Vec<Field<'_>>],
+    ) -> Option<(&'static str, Constants)> {
+        let order = card.get("N").map_or(Some(1), |n| n.parse::<usize>().ok());
+        let Some(order) = order.filter(|order| (1..=3).contains(order)) else {
+            let text = "*HYPERFOAM has one to three terms, N";
+            self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
+            return None;
+        };
+        let all: Vec<_> = rows.iter().flatten().cloned().collect();
+        let mut number = |at: usize| self.real(all.get(at));
+        let mu = (0..order).map(|k| number(2 * k)).collect();
+        let alpha = (0..order).map(|k| number(2 * k + 1)).collect();
+        let nu = (0..order).map(|k| number(2 * order + k)).collect();
+        Some(("hyperfoam", vec![("mu", mu), ("alpha", alpha), ("nu", nu)]))
     }
 
     /// What *ELASTIC says.
@@ -584,25 +605,28 @@ impl Translation<'_> {
         turned: Option<&Orientation>,
         thickness: Option<&Spanned<f64>>,
     ) {
-        let mut ways: BTreeMap<(bool, bool, bool), Vec<u64>> = BTreeMap::new();
+        let mut ways: BTreeMap<(bool, bool, bool, bool), Vec<u64>> = BTreeMap::new();
         for label in self.elements(&Target::Set(set.to_owned())) {
             let Some(cell) = self.cell(label) else {
                 continue;
             };
             let kind = self.type_of(cell);
             let digits = kind.trim_start_matches(|c: char| c.is_ascii_uppercase());
-            // CalculiX takes three points for CAX6, too
-            let reduced = ["R", "RH", "RT"].iter().any(|end| kind.ends_with(end)) || kind == "CAX6";
+            let reduced = kind.ends_with('R') || kind.ends_with("RH") || kind.ends_with("RT");
             let linear = ["C3D8", "CPS4", "CPE4", "CAX4"]
                 .iter()
                 .any(|l| kind.starts_with(l));
             let modes = linear && digits.contains('I');
-            ways.entry((reduced, modes, linear))
+            // CalculiX interpolates temperatures of these linearly, those of C3D10 not
+            let corners = ["C3D20", "CPS8", "CPE8", "CAX8"]
+                .iter()
+                .any(|l| kind.starts_with(l));
+            ways.entry((reduced, modes, linear, corners))
                 .or_default()
                 .push(label);
         }
         let several = ways.len() > 1;
-        for ((reduced, modes, linear), elements) in ways {
+        for ((reduced, modes, linear, corners), elements) in ways {
             let group = if several {
                 self.elements_named(elements, &card.place)
             } else {
@@ -619,6 +643,11 @@ impl Translation<'_> {
                 locking: Spanned::new(locking(reduced, modes, linear), card.place.clone()),
                 orientation: turned.cloned(),
                 thickness: thickness.cloned(),
+                temperatures: if corners {
+                    Temperatures::Corners
+                } else {
+                    Temperatures::Nodes
+                },
                 area: None,
                 rigid: false,
                 reference: None,

@@ -36,17 +36,17 @@ struct Term {
 }
 
 impl Hyperfoam {
-    /// From the constants `mu`, `alpha` and `nu`, lists of one length.
+    /// From the constants `mu` and `alpha`, lists of one length, and `nu`, as many or one for all.
     ///
     /// # Errors
-    /// One is missing, the lists are not of one length, an exponent is zero, a `nu` is not between −1 and ½, or an
+    /// One is missing, the lists do not fit each other, an exponent is zero, a `nu` is not between −1 and ½, or an
     /// initial modulus is not positive.
     pub fn new(constants: &Constants) -> Result<Self, ConstantsError> {
         let [mu, alpha, nu] = ["mu", "alpha", "nu"].map(|name| constants.list(name));
         let (mu, alpha, nu) = (mu?, alpha?, nu?);
-        if mu.len() != alpha.len() || mu.len() != nu.len() {
+        if mu.len() != alpha.len() || ![1, mu.len()].contains(&nu.len()) {
             return Err(ConstantsError::Unfit {
-                what: "mu, alpha and nu must have as many numbers each",
+                what: "mu and alpha must have as many numbers each, nu as many or one",
             });
         }
         if let Some(&value) = alpha.iter().find(|a| **a == 0.0 || !a.is_finite()) {
@@ -63,7 +63,7 @@ impl Hyperfoam {
                 allowed: "greater than -1 and less than 0.5",
             });
         }
-        let terms: Vec<Term> = (mu.iter().zip(alpha).zip(nu))
+        let terms: Vec<Term> = (mu.iter().zip(alpha).zip(nu.iter().cycle()))
             .map(|((&mu, &alpha), &nu)| Term {
                 mu,
                 alpha,

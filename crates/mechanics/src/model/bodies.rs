@@ -132,6 +132,7 @@ impl Context<'_> {
                     integration,
                     locking,
                     thickness,
+                    corner_temperatures,
                     initial,
                     ..
                 } => {
@@ -147,6 +148,7 @@ impl Context<'_> {
                         integration,
                         locking,
                         temperature,
+                        corner_temperatures,
                         initial: &initial,
                     })?;
                     for &kinematics in sizes {

@@ -12,8 +12,7 @@ pub enum Integration {
     /// As many as integrate the stiffness of the undistorted element exactly.
     #[default]
     Full,
-    /// One order less, for quad8 and hex20, and for tri6 of revolution; other elements keep the full rule. Masses are
-    /// integrated by it, too.
+    /// One order less, for quad8 and hex20, of masses too; elements of lower order keep the full rule.
     Reduced,
 }
 
@@ -164,7 +163,7 @@ impl Situation {
         let revolved = self.space == Idealisation::Axisymmetric;
         match (self.element.name(), self.integration) {
             ("tri3", _) if revolved => &quadrature::TRI_3,
-            ("tri6", Integration::Full) if revolved => &quadrature::TRI_6,
+            ("tri6", _) if revolved => &quadrature::TRI_6,
             ("tet10", _) if projected => &quadrature::TET_14,
             (_, Integration::Full) => self.element.full_rule(),
             (_, Integration::Reduced) => self.element.reduced_rule(),

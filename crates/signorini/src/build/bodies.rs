@@ -5,7 +5,7 @@ use super::names::{Cells, Names};
 use super::quoted;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Sym3, Vec3};
-use signorini_io::case::{self, AtPoint, Body, Case, Name};
+use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::material::{
     self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Oriented,
@@ -88,6 +88,7 @@ fn body_part(
             integration: body.integration,
             locking: body.locking.value,
             thickness: thickness(case, body, found),
+            corner_temperatures: body.temperatures == Temperatures::Corners,
             initial: initial(case, names, &cells),
         },
         cells,

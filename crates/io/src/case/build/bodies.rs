@@ -191,6 +191,7 @@ impl Builder {
             "locking",
             "orientation",
             "thickness",
+            "temperatures",
             "area",
         ];
         let wrong = if rigid {
@@ -241,6 +242,10 @@ impl Builder {
                 .has("orientation")
                 .then(|| self.orientation(orientation, fields.place("orientation"))),
             thickness: fields.number_if("thickness"),
+            temperatures: match fields.text("temperatures").value.as_str() {
+                "corners" => Temperatures::Corners,
+                _ => Temperatures::Nodes,
+            },
             area: fields.number_if("area"),
             rigid,
             reference: fields.text_if("reference"),

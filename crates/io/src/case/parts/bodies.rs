@@ -90,6 +90,8 @@ pub struct Body {
     pub orientation: Option<Orientation>,
     /// Thickness in a plane model (length); none: that of the model.
     pub thickness: Option<Spanned<f64>>,
+    /// Which nodes of an element have temperatures.
+    pub temperatures: Temperatures,
     /// Cross-section of bars (area).
     pub area: Option<Spanned<f64>>,
     /// Whether it moves as a whole.
@@ -98,6 +100,16 @@ pub struct Body {
     pub reference: Option<Name>,
     /// Where it was written.
     pub place: Place,
+}
+
+/// Which nodes of an element have temperatures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Temperatures {
+    /// All of them.
+    #[default]
+    Nodes,
+    /// The corners; in the middle of an edge is the mean of its ends.
+    Corners,
 }
 
 /// Axes of a material: x, and y in the plane of both vectors. Of any length, not parallel.

@@ -29,8 +29,16 @@ pub(super) static MATERIAL: Table = Table {
         .hints(&["poisson", "poissons_ratio"]),
         key("c10", ANY, "constant of mooney-rivlin (stress)"),
         key("c01", ANY, "constant of mooney-rivlin (stress)"),
-        key("mu", LIST, "shear moduli of the terms of ogden and hyperfoam (stress)"),
-        key("alpha", LIST, "exponents of the terms of ogden and hyperfoam"),
+        key(
+            "mu",
+            LIST,
+            "shear moduli of the terms of ogden and hyperfoam (stress)",
+        ),
+        key(
+            "alpha",
+            LIST,
+            "exponents of the terms of ogden and hyperfoam",
+        ),
         key("bulk", POSITIVE, "bulk modulus (stress)").hints(&["K", "bulk_modulus"]),
         key(
             "E1",
@@ -194,6 +202,12 @@ pub(super) static BODY: Table = Table {
             POSITIVE,
             "thickness in a plane model (length); absent: that of the model",
         ),
+        key(
+            "temperatures",
+            Shape::Choice(&[word("nodes"), word("corners")]),
+            "which nodes of an element have temperatures; corners: in the middle of an edge is the mean of its ends",
+        )
+        .or(Default::Text("nodes")),
         key("area", POSITIVE, "cross-section of bars (area)").hints(&["section"]),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
         key(

@@ -525,3 +525,44 @@ fn secant_expansion_by_temperature_is_counted_from_its_start() {
         }
     }
 }
+
+#[test]
+fn foam_without_lateral_contraction_is_a_sum_of_springs() {
+    // nu = 0: the principal directions do not see each other, τ_i = Σ 2μ/α (l_i^α − 1)
+    let mut constants = Constants::default();
+    for (name, values) in [
+        ("mu", [3.0, -0.2]),
+        ("alpha", [4.0, -2.0]),
+        ("nu", [0.0, 0.0]),
+    ] {
+        constants.set(name, values.to_vec());
+    }
+    let law = Hyperfoam::new(&constants).unwrap();
+    for l in [0.4f64, 0.9, 1.7] {
+        let out = fresh(&law, &finite(Sym3::diagonal(0.5 * (l * l - 1.0), 0.0, 0.0)));
+        let tau = 1.5 * (l.powi(4) - 1.0) + 0.2 * (l.powi(-2) - 1.0);
+        assert!((out.stress.xx() * l * l - tau).abs() < 1e-12);
+        assert!(out.stress.yy().abs() < 1e-12);
+        let energy =
+            6.0 / 16.0 * (l.powi(4) - 1.0 - 4.0 * l.ln()) - 0.1 * (l.powi(-2) - 1.0 + 2.0 * l.ln());
+        assert!((out.energy - energy).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn foam_under_pressure_has_its_closed_form() {
+    let mut constants = Constants::default();
+    for (name, value) in [("mu", 3.0), ("alpha", 4.0), ("nu", 0.3)] {
+        constants.set(name, vec![value]);
+    }
+    let law = Hyperfoam::new(&constants).unwrap();
+    let beta = 0.3 / 0.4;
+    for l in [0.5f64, 1.4] {
+        let e = 0.5 * (l * l - 1.0);
+        let out = fresh(&law, &finite(Sym3::diagonal(e, e, e)));
+        let tau = 1.5 * (l.powi(4) - l.powf(-12.0 * beta));
+        assert!((out.stress.xx() * l * l - tau).abs() < 1e-11);
+    }
+    constants.set("nu", vec![0.5]);
+    assert!(Hyperfoam::new(&constants).is_err());
+}

@@ -86,6 +86,8 @@ pub enum BodyKind {
         locking: Locking,
         /// Thickness in a plane model, where it is not that of the model (length). It does not go with contact.
         thickness: Option<f64>,
+        /// Whether nodes between corners have the mean temperature of their edge, whatever is given there.
+        corner_temperatures: bool,
         /// Stress and strain at the start.
         initial: Vec<AtStart>,
     },
@@ -112,6 +114,7 @@ impl BodyKind {
             integration: Integration::default(),
             locking: Locking::default(),
             thickness: None,
+            corner_temperatures: false,
             initial: Vec::new(),
         }
     }
