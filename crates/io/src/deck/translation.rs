@@ -1,7 +1,7 @@
 //! What all stages of the translation share: the deck, the case so far, names, messages.
 
 use super::keywords::{Keyword, Support};
-use super::{Compat, constraint, model};
+use super::{Compat, constraint, material};
 use crate::case::{Case, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
@@ -27,7 +27,7 @@ pub(super) struct Translation<'d> {
     pub axes: BTreeMap<u64, constraint::Axes>,
     /// References that nodes stand for, by their numbers.
     pub carriers: BTreeMap<u64, constraint::Carrier>,
-    pub materials: BTreeMap<String, model::Properties>,
+    pub materials: BTreeMap<String, material::Properties>,
     nodes: HashMap<u64, NodeId>,
     cells: HashMap<u64, CellId>,
     taken: BTreeSet<String>,

@@ -132,7 +132,7 @@ impl Context<'_> {
                     integration,
                     locking,
                     thickness,
-                    corner_temperatures,
+                    linear_temperatures,
                     initial,
                     ..
                 } => {
@@ -148,7 +148,7 @@ impl Context<'_> {
                         integration,
                         locking,
                         temperature,
-                        corner_temperatures,
+                        linear_temperatures,
                         initial: &initial,
                     })?;
                     for &kinematics in sizes {

@@ -54,8 +54,9 @@ pub struct SolidParts<'a> {
     pub locking: Locking,
     /// Temperatures, where there are any.
     pub temperature: Option<Arc<NodalField>>,
-    /// Whether nodes between corners have the mean temperature of their edge, whatever is given there.
-    pub corner_temperatures: bool,
+    /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are: those at the points of
+    /// reduced integration, continued.
+    pub linear_temperatures: bool,
     /// Stress and strain at the start; zero at points that are not named.
     pub initial: &'a [AtStart],
 }
@@ -98,9 +99,6 @@ struct Cells {
     nhistory: usize,
     // accepted history of all cells
     history: Vec<f64>,
-    // whose middles have the mean temperature of their ends; none where they have their own
-    edges: &'static [[usize; 2]],
-    ncorner: usize,
     // at the points of all cells; empty where there is nothing at the start
     initial: Vec<Initial>,
     // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
@@ -232,7 +230,7 @@ impl Solid {
             integration,
             locking,
             temperature,
-            corner_temperatures,
+            linear_temperatures,
             initial,
         } = parts;
         let material: Box<dyn Material> = match space {
@@ -258,7 +256,7 @@ impl Solid {
                     };
                     let cells = Cells::new(situation, locking, material.nhistory());
                     let cells = cells.filter(|_| element.dim() == layout.ndim);
-                    let cells = cells.ok_or_else(|| SolidError::NotSolid {
+                    let mut cells = cells.ok_or_else(|| SolidError::NotSolid {
                         body: name.to_string(),
                         label,
                         element: element.name(),
@@ -266,6 +264,9 @@ impl Solid {
                     })?;
                     if let (Err(reason), Err(_)) = (cells.finite.locking, cells.small.locking) {
                         return Err(cells.refusal(name, locking, reason));
+                    }
+                    if linear_temperatures {
+                        cells.points.linear_temperatures(element);
                     }
                     blocks.push((id.block, cells));
                     blocks.len() - 1
@@ -281,9 +282,6 @@ impl Solid {
         for (number, block) in blocks.iter_mut().enumerate() {
             if space == Idealisation::Axisymmetric {
                 block.radii(name, &reference)?;
-            }
-            if !corner_temperatures {
-                block.edges = &[];
             }
             block.start(material.as_ref());
             block.begin(name, initial)?;
@@ -384,12 +382,6 @@ impl Solid {
         if let Some(field) = &self.temperature {
             let at = |&node: &NodeId| field.at(&self.step, trial.time, node);
             scratch.temperature.extend(nodes.iter().map(at));
-            for (k, &[a, b]) in block.edges.iter().enumerate() {
-                let mean = 0.5 * (scratch.temperature[a] + scratch.temperature[b]);
-                if let Some(between) = scratch.temperature.get_mut(block.ncorner + k) {
-                    *between = mean;
-                }
-            }
         }
         let element = Element {
             reference: &block.points,
@@ -482,8 +474,6 @@ impl Cells {
             finite,
             ndilatation: situation(Kinematics::Small).ndilatation(),
             nnode: element.nnode(),
-            edges: element.edges(),
-            ncorner: element.ncorner(),
             nodes: Vec::new(),
             labels: Vec::new(),
             ids: Vec::new(),

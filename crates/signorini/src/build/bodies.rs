@@ -88,7 +88,7 @@ fn body_part(
             integration: body.integration,
             locking: body.locking.value,
             thickness: thickness(case, body, found),
-            corner_temperatures: body.temperatures == Temperatures::Corners,
+            linear_temperatures: body.temperatures == Temperatures::Linear,
             initial: initial(case, names, &cells),
         },
         cells,

@@ -243,8 +243,8 @@ impl Builder {
                 .then(|| self.orientation(orientation, fields.place("orientation"))),
             thickness: fields.number_if("thickness"),
             temperatures: match fields.text("temperatures").value.as_str() {
-                "corners" => Temperatures::Corners,
-                _ => Temperatures::Nodes,
+                "linear" => Temperatures::Linear,
+                _ => Temperatures::Full,
             },
             area: fields.number_if("area"),
             rigid,

@@ -90,7 +90,7 @@ pub struct Body {
     pub orientation: Option<Orientation>,
     /// Thickness in a plane model (length); none: that of the model.
     pub thickness: Option<Spanned<f64>>,
-    /// Which nodes of an element have temperatures.
+    /// How temperatures vary in an element.
     pub temperatures: Temperatures,
     /// Cross-section of bars (area).
     pub area: Option<Spanned<f64>>,
@@ -102,14 +102,14 @@ pub struct Body {
     pub place: Place,
 }
 
-/// Which nodes of an element have temperatures.
+/// How temperatures vary in an element.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Temperatures {
-    /// All of them.
+    /// As its shape functions do.
     #[default]
-    Nodes,
-    /// The corners; in the middle of an edge is the mean of its ends.
-    Corners,
+    Full,
+    /// Linearly in quad8 and hex20 with full integration: those at the points of reduced integration, continued.
+    Linear,
 }
 
 /// Axes of a material: x, and y in the plane of both vectors. Of any length, not parallel.

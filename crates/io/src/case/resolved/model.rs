@@ -207,8 +207,8 @@ pub(super) fn body(body: &Body) -> Entries {
     let thickness = body.thickness.as_ref();
     entries.extend(thickness.map(|thickness| ("thickness", thickness.value.into())));
     let temperatures = match body.temperatures {
-        Temperatures::Nodes => "nodes",
-        Temperatures::Corners => "corners",
+        Temperatures::Full => "full",
+        Temperatures::Linear => "linear",
     };
     entries.push(("temperatures", temperatures.into()));
     entries.extend(body.area.as_ref().map(|area| ("area", area.value.into())));

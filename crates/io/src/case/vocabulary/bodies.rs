@@ -204,10 +204,10 @@ pub(super) static BODY: Table = Table {
         ),
         key(
             "temperatures",
-            Shape::Choice(&[word("nodes"), word("corners")]),
-            "which nodes of an element have temperatures; corners: in the middle of an edge is the mean of its ends",
+            Shape::Choice(&[word("full"), word("linear")]),
+            "how temperatures vary in an element; linear, as strains do: of quad8 and hex20 with full integration",
         )
-        .or(Default::Text("nodes")),
+        .or(Default::Text("full")),
         key("area", POSITIVE, "cross-section of bars (area)").hints(&["section"]),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
         key(

@@ -86,8 +86,8 @@ pub enum BodyKind {
         locking: Locking,
         /// Thickness in a plane model, where it is not that of the model (length). It does not go with contact.
         thickness: Option<f64>,
-        /// Whether nodes between corners have the mean temperature of their edge, whatever is given there.
-        corner_temperatures: bool,
+        /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are.
+        linear_temperatures: bool,
         /// Stress and strain at the start.
         initial: Vec<AtStart>,
     },
@@ -114,7 +114,7 @@ impl BodyKind {
             integration: Integration::default(),
             locking: Locking::default(),
             thickness: None,
-            corner_temperatures: false,
+            linear_temperatures: false,
             initial: Vec::new(),
         }
     }

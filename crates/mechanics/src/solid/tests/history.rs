@@ -97,7 +97,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         integration: Integration::Full,
         locking: Locking::None,
         temperature: Some(Arc::new(field)),
-        corner_temperatures: false,
+        linear_temperatures: false,
         initial: &[],
     })
     .unwrap();

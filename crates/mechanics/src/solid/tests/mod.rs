@@ -126,7 +126,7 @@ fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, S
         integration: wish.integration,
         locking: wish.locking,
         temperature: None,
-        corner_temperatures: false,
+        linear_temperatures: false,
         initial: &[],
     })?;
     solid.locking(wish.kinematics)?;

@@ -154,7 +154,7 @@ fn thermal_growth_is_no_mechanical_strain() {
             temperature: Some(Arc::new(NodalField {
                 ends: vec![row.clone(), row],
             })),
-            corner_temperatures: false,
+            linear_temperatures: false,
             initial: &[],
         })
         .unwrap();

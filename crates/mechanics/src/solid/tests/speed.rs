@@ -60,7 +60,7 @@ fn hexahedra_assembled_per_second() {
             integration: Integration::Full,
             locking,
             temperature: None,
-            corner_temperatures: false,
+            linear_temperatures: false,
             initial: &[],
         });
         let mut solid = solid.unwrap();
