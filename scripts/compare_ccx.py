@@ -65,6 +65,7 @@ CONTACT = ["CONTACTPAIR", "GAP"]
 # not *CONTACT PAIR's: *GAP CONDUCTANCE and *GAP HEAT GENERATION are no gaps
 NO_CONTACT = ["GAPCONDUCTANCE", "GAPHEATGENERATION"]
 IN_FRD = ["DISP", "STRESS"]
+TOLERANCE = 1e-3
 REFUSED = 3
 
 
@@ -318,9 +319,6 @@ class Programs:
             outcome.status = "agrees"
 
 
-TOLERANCE = 1e-3
-
-
 def shown(value, form):
     return "" if value is None else format(value, form)
 
@@ -339,8 +337,20 @@ def in_columns(row):
     return " ".join(f"{text:<{width}}" for text, width in zip(row, widths)) + " " + row[-1]
 
 
-def markdown(outcomes):
-    """All outcomes as a table."""
+PAGE = """# Decks beside CalculiX
+
+Written by `python scripts/compare_ccx.py --markdown`: decks whose steps are all static, through CalculiX and through
+signorini with `--compat ccx`. See [decks.md](decks.md) for what the words mean.
+
+"""
+
+
+def page(outcomes):
+    """All outcomes as a page: counts, reasons, a table."""
+    return PAGE + "".join(f"* {line.strip()}\n" for line in counts(outcomes)) + "\n" + table(outcomes)
+
+
+def table(outcomes):
     rows = [HEADINGS, ["---"] * len(HEADINGS), *(cells(outcome) for outcome in outcomes)]
     return "".join("| " + " | ".join(text.replace("|", "\\|") for text in row) + " |\n" for row in rows)
 
@@ -378,7 +388,7 @@ def arguments():
     parser.add_argument("--timeout", type=float, default=60.0, help="seconds for one deck in one program")
     parser.add_argument("--least-contact", type=int, default=0, metavar="N", help="so many with contact must agree")
     parser.add_argument("--least-static", type=int, default=0, metavar="N", help="so many static ones must agree")
-    parser.add_argument("--markdown", metavar="FILE", help="write the table for a page")
+    parser.add_argument("--markdown", metavar="FILE", help="write a page")
     return parser.parse_args()
 
 
@@ -407,7 +417,7 @@ def main():
     print()
     print("\n".join(counts(outcomes)))
     if args.markdown:
-        pathlib.Path(args.markdown).write_text(markdown(outcomes), encoding="utf-8")
+        pathlib.Path(args.markdown).write_text(page(outcomes), encoding="utf-8")
     asked = [
         ("static", outcomes, args.least_static),
         ("contact", [outcome for outcome in outcomes if outcome.has_contact], args.least_contact),
