@@ -10,6 +10,7 @@ where it is not, that test is skipped, which is a failure with --nothing-skipped
 """
 
 import csv
+import gzip
 import json
 import os
 import shutil
@@ -374,6 +375,144 @@ class Patches(unittest.TestCase):
             flat = patches(sides, x, x[:, 2])[0][..., :2]
             a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
             self.assertAlmostEqual(abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2, area, places=12)
+
+
+class CompareCcx(unittest.TestCase):
+    """Pieces of compare_ccx.py, and all of it with programs that only pretend."""
+
+    def setUp(self):
+        sys.path.insert(0, HERE)
+        import compare_ccx
+
+        self.script = compare_ccx
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = holder.name
+
+    def test_keywords_lose_blanks_comments_and_parameters(self):
+        text = "** *DYNAMIC\n*Contact Pair, INTERACTION=A\n1, *2\n  *Static,DIRECT\n"
+        self.assertEqual(self.script.keywords(text), ["CONTACTPAIR", "STATIC"])
+
+    def test_static_are_decks_whose_procedures_all_are(self):
+        for found, wanted in (
+            (["STEP", "STATIC"], True),
+            (["STATIC", "STATICDIRECT"], True),
+            (["STATIC", "FREQUENCY"], False),
+            (["STEP"], False),
+        ):
+            self.assertIs(self.script.is_static(found), wanted, found)
+
+    def test_gaps_are_contact_and_their_conductance_is_not(self):
+        for found, wanted in ((["GAP"], True), (["CONTACTPAIR"], True), (["GAPCONDUCTANCE"], False), (["TIE"], False)):
+            self.assertIs(self.script.has_contact(found), wanted, found)
+
+    def test_reasons_are_counted_without_what_is_the_decks_own(self):
+        for reason, wanted in (
+            ('there is no material `EL`', "there is no material …"),
+            ('part.inp, line 9: element 1 has 9 nodes; a C3D8I has 8', "element n has n nodes; a C3D8I has n"),
+            ("*DEFORMATION PLASTICITY is not supported: none", "*DEFORMATION PLASTICITY is not supported: none"),
+        ):
+            self.assertEqual(self.script.feature(reason), wanted)
+
+    def test_tight_tolerances_stand_in_every_step_and_the_solver_is_direct(self):
+        text = "*STEP\n*Static, Solver = ITERATIVE CHOLESKY, DIRECT\n1., 1.\n*End Step\n*STEP\n*STATIC\n*END STEP\n"
+        found = self.script.converged(text)
+        self.assertEqual(found.count(self.script.CONVERGED), 2)
+        self.assertIn("*Static, DIRECT\n1., 1.\n*CONTROLS", found)
+
+    def judge(self, *blocks, names=None):
+        return self.script.judge("\n".join(json.dumps({"ev": "block", **block}) for block in blocks), names)
+
+    def test_the_largest_difference_names_its_table(self):
+        def block(name, time, ratio, **more):
+            return {"name": name, "time": time, "outcome": "compared", "numbers": {"ratio": ratio, **more}}
+
+        found = self.judge(block("U", 1.0, 1e-5), block("U", 2.0, 2e-3), block("S", 2.0, 1e-4))
+        self.assertEqual((found.compared, found.largest, found.worst, found.lacking), (3, 2e-3, "U at 2", []))
+        found = self.judge(block("U", 1.0, 1e-5, mismatch="1 row more"))
+        self.assertEqual(found.largest, 1.0)
+        found = self.judge(block("DISP", 1.0, 1e-5), block("nodes", None, 0.5), names=["DISP"])
+        self.assertEqual((found.compared, found.largest), (1, 1e-5))
+
+    def test_tables_must_be_there_at_their_last_time_only(self):
+        def block(time, outcome):
+            return {"name": "U", "time": time, "outcome": outcome, "numbers": {"ratio": 0.0}}
+
+        found = self.judge(block(0.5, "only in the reference"), block(1.0, "compared"), block(2.0, "not in the reference"))
+        self.assertEqual(found.lacking, [])
+        found = self.judge(block(0.5, "compared"), block(1.0, "only in the reference"))
+        self.assertEqual(found.lacking, ["U"])
+
+    def program(self, name, text):
+        """A program of this text, in place of one that solves."""
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(f"#!{sys.executable}\n{text}")
+        os.chmod(path, 0o755)
+        return path
+
+    def compare(self, *more):
+        """A folder of five decks and what is no deck, run through programs that pretend."""
+        decks = os.path.join(self.folder, "decks")
+        os.makedirs(decks)
+        contact = "*CONTACT PAIR\n"
+        for name, text in (("near", contact), ("far", ""), ("loose", ""), ("odd", contact), ("modes", "*FREQUENCY\n")):
+            with gzip.open(os.path.join(decks, f"{name}.inp.gz"), "wt", encoding="utf-8") as file:
+                file.write(f"{text}*STEP\n*STATIC\n*END STEP\n")
+        ccx = self.program(
+            "ccx",
+            """import sys
+name = sys.argv[2]
+open(name + ".dat", "w").write("table")
+open(name + ".sta", "w").write("head\\nhead\\n 1 1 1 4 1. 1. 1.\\n 1 2 1 3 1. 1. 1.\\n")
+""",
+        )
+        signorini = self.program(
+            "signorini",
+            """import json, os, sys
+if sys.argv[1] == "diff":
+    near = "near" in sys.argv[2] or "loose-converged" in sys.argv[3]
+    ratio = 1e-5 if near else 0.25
+    print(json.dumps({"ev": "block", "name": "U", "time": 1.0, "outcome": "compared", "numbers": {"ratio": ratio}}))
+    sys.exit(0)
+name = sys.argv[2][: -len(".inp")]
+if name == "odd":
+    print(json.dumps({"ev": "diagnostic", "severity": "error", "message": "*ODD is not supported"}))
+    sys.exit(3)
+os.makedirs(name + ".out")
+open(f"{name}.out/{name}.dat", "w").write("table")
+open(f"{name}.out/summary.json", "w").write(json.dumps({"steps": [{"iterations": 5}, {"iterations": 1}]}))
+""",
+        )
+        return run("compare_ccx.py", decks, "--ccx", ccx, "--signorini", signorini, *more)
+
+    def test_every_static_deck_has_a_line_and_is_counted(self):
+        page = os.path.join(self.folder, "page.md")
+        code, said = self.compare("--markdown", page)
+        self.assertEqual(code, 0, said)
+        rows = {line.split()[0]: line.split()[1:] for line in said.splitlines() if line.strip()}
+        self.assertEqual(rows["near"][:4], ["agrees", "1.0e-05", "6", "7"])
+        self.assertEqual(rows["far"][:2], ["differs", "2.5e-01"])
+        self.assertEqual(rows["far"][-3:], ["U", "at", "1"])
+        self.assertEqual(rows["loose"][:2], ["converged", "2.5e-01"])
+        self.assertEqual(rows["odd"][0], "refused")
+        self.assertNotIn("modes", rows)
+        self.assertIn("1 of 4 static decks agree, 1 more", said)
+        self.assertIn("1 of 2 static decks with contact agree", said)
+        self.assertIn("1 *ODD is not supported: odd", said)
+        with open(page, encoding="utf-8") as file:
+            self.assertIn("| far | differs | 2.5e-01 | 6 | 7 |", file.read())
+
+    def test_fewer_than_asked_for_is_a_failure(self):
+        code, said = self.compare("--contact", "--least-contact", "2")
+        self.assertEqual(code, 1, said)
+        self.assertIn("fewer than 2 contact decks agree", said)
+        self.assertNotIn("far", said)
+
+    def test_missing_programs_are_named(self):
+        code, said = run("compare_ccx.py", self.folder, "--ccx", os.path.join(self.folder, "none"))
+        self.assertEqual(code, 2, said)
+        self.assertIn("there is no program", said)
 
 
 if __name__ == "__main__":

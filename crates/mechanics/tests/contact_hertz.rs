@@ -123,6 +123,9 @@ fn pressed(facets: f64) -> ContactFrame {
             density: None,
             integration: Integration::Full,
             locking: Locking::Auto,
+            thickness: None,
+            linear_temperatures: false,
+            initial: Vec::new(),
         },
     };
     let mut contact = ContactPart::new(

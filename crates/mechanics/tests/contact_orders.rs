@@ -249,6 +249,9 @@ impl Solution {
                 density: None,
                 integration: Integration::Full,
                 locking: Locking::None,
+                thickness: None,
+                linear_temperatures: false,
+                initial: Vec::new(),
             },
         };
         let (secondary, primary) = if way == Way::Swapped { (0, 1) } else { (1, 0) };

@@ -106,6 +106,9 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 density: None,
                 integration: Integration::Full,
                 locking,
+                thickness: None,
+                linear_temperatures: false,
+                initial: Vec::new(),
             },
         }],
         steps: vec![StepPart {

@@ -195,6 +195,9 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
             density: None,
             integration: Integration::Full,
             locking: Locking::Auto,
+            thickness: None,
+            linear_temperatures: false,
+            initial: Vec::new(),
         },
     };
     let mut contact = ContactPart::new(

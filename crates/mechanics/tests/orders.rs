@@ -167,6 +167,9 @@ fn solution(
                 density: None,
                 integration: choice.integration,
                 locking: choice.locking,
+                thickness: None,
+                linear_temperatures: false,
+                initial: Vec::new(),
             },
         }],
         steps: vec![StepPart {

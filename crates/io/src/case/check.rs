@@ -324,7 +324,7 @@ impl Checker<'_> {
             (Shape::Tables(words), DeValue::Table(_)) => {
                 one = one.help(format!("write {}", words.heading));
             }
-            (Shape::Number(_) | Shape::Integer(..), DeValue::String(text)) => {
+            (shape, DeValue::String(text)) if takes_number(shape) => {
                 let number = text.trim().replace(',', ".");
                 if number.parse::<f64>().is_ok_and(f64::is_finite) {
                     one = one.help(format!("write {} = {number}", key.name));
@@ -495,6 +495,15 @@ fn quoted(keys: &[&str]) -> String {
         .map(|key| format!("`{key}`"))
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+/// Whether a number may stand here.
+fn takes_number(shape: &Shape) -> bool {
+    match shape {
+        Shape::Number(_) | Shape::Integer(..) => true,
+        Shape::Either(shapes) => shapes.iter().any(takes_number),
+        _ => false,
+    }
 }
 
 fn takes_list(shape: &Shape) -> bool {

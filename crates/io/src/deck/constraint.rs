@@ -3,7 +3,7 @@
 use super::translation::{Target, Translation};
 use crate::case::{
     AxesSystem, Body, Constraint, ConstraintKind, Directions, LocalAxes, Name, Position, Reference,
-    Summand,
+    Summand, Temperatures,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
@@ -179,6 +179,8 @@ impl Translation<'_> {
             integration: Default::default(),
             locking: Default::default(),
             orientation: None,
+            thickness: None,
+            temperatures: Temperatures::default(),
             area: None,
             rigid: true,
             reference: Some(reference),

@@ -190,7 +190,7 @@ impl Translation<'_> {
         let first = self.case.materials.first();
         let known = first.and_then(|one| self.materials.get(&compared(&one.name)));
         known
-            .and_then(super::model::Properties::modulus)
+            .and_then(super::material::Properties::modulus)
             .unwrap_or(1.0)
     }
 

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! bytes ──readers::inp──▶ Mesh, statements ──▶ Case
-//!                                  model       materials, sections, amplitudes
+//!                                  material    materials
+//!                                  model       sections, amplitudes, what is there at the start
 //!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
 //!                                  contact     interactions, pairs, ties, gaps
 //!                                  step        supports, loads, temperatures, changes, printed tables
@@ -23,6 +24,7 @@ mod constraint;
 mod contact;
 mod keywords;
 mod load;
+mod material;
 mod model;
 mod print;
 mod step;

@@ -1,33 +1,17 @@
-//! Materials, sections, amplitudes, temperatures at the start.
+//! Sections, amplitudes, what is there at the start.
 
 use super::translation::{Target, Translation};
 use crate::case::{
-    Amplitude, AxesSystem, Body, Constant, Expansion, Hardening, Integration, Locking, Material,
-    Model, Name, Orientation, Plasticity, Space, TimeBase,
+    Amplitude, AtPoint, AxesSystem, Body, Integration, Locking, Model, Name, Orientation, Space,
+    Temperatures, TimeBase,
 };
 use crate::diagnostic::{Place, Spanned, codes};
-use crate::readers::inp::{Kind, Statement, compared, number};
+use crate::readers::inp::{Field, Kind, Statement, compared, number};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
 
-/// What is known of a material.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Properties {
-    name: Name,
-    law: Option<(&'static str, Vec<(&'static str, f64)>)>,
-    density: Option<f64>,
-    alpha: Option<(f64, Option<f64>)>,
-    plasticity: Option<Plasticity>,
-    place: Place,
-}
-
-impl Properties {
-    /// The first elastic constant.
-    pub fn modulus(&self) -> Option<f64> {
-        let (_, constants) = self.law.as_ref()?;
-        constants.first().map(|(_, value)| *value)
-    }
-}
+/// Elements whose integration points are numbered as ours are.
+const POINTWISE: [&str; 5] = ["C3D4", "C3D8", "C3D8I", "C3D20", "C3D20R"];
 
 impl Translation<'_> {
     pub fn model(&mut self) {
@@ -35,6 +19,7 @@ impl Translation<'_> {
         self.space();
         self.materials();
         self.start_temperature();
+        self.at_start();
         self.amplitudes();
         self.sections();
     }
@@ -94,156 +79,51 @@ impl Translation<'_> {
         };
     }
 
-    fn materials(&mut self) {
-        let mut open: Option<Properties> = None;
-        let mut order = Vec::new();
-        let deck = self.deck;
-        for card in &deck.statements {
-            match card.keyword.as_str() {
-                "MATERIAL" => {
-                    order.extend(open.take());
-                    let name = self
-                        .need(card, "NAME")
-                        .unwrap_or_default()
-                        .trim()
-                        .to_owned();
-                    open = Some(Properties {
-                        name: Spanned::new(name, card.place.clone()),
-                        place: card.place.clone(),
-                        ..Properties::default()
+    /// Stress and strain at integration points.
+    fn at_start(&mut self) {
+        for card in self.cards("INITIALCONDITIONS") {
+            let kind = card.get("TYPE").map(compared).unwrap_or_default();
+            if kind == "TEMPERATURE" {
+                continue;
+            }
+            let is_stress = kind == "STRESS";
+            if !is_stress && kind != "PLASTICSTRAIN" || card.has("USER") {
+                let user = if card.has("USER") { ", USER" } else { "" };
+                let text = format!("*INITIAL CONDITIONS, TYPE={kind}{user} is not supported");
+                self.error(&codes::NOT_BUILT, text, &card.place, "");
+                continue;
+            }
+            if !is_stress && self.case.materials.iter().any(|m| m.plasticity.is_some()) {
+                let text = "an initial plastic strain does not go with *PLASTIC";
+                let remark = "its hardening is not known";
+                self.error(&codes::NOT_BUILT, text, &card.place, remark);
+            }
+            for row in card.rows().filter(|row| !row.is_empty()) {
+                let targets = self.targets(card, row.first(), Kind::Elements);
+                let point = self.count(row.get(1), 1);
+                let value: [f64; 6] = self.reals(row.get(2..).unwrap_or_default());
+                let place = row.first().map_or(card.place.clone(), Field::place);
+                let elements = targets.iter().flat_map(|target| self.elements(target));
+                for element in elements.collect::<Vec<_>>() {
+                    let kind = self.cell(element).map(|cell| self.type_of(cell));
+                    if !kind.is_some_and(|kind| POINTWISE.contains(&kind)) {
+                        let text = "values at the points of this element are not supported";
+                        let remark = format!("of {} they are", POINTWISE.join(", "));
+                        self.error(&codes::NOT_BUILT, text, &place, remark);
+                        break;
+                    }
+                    let points = if is_stress {
+                        &mut self.case.initial_stress
+                    } else {
+                        &mut self.case.initial_strain
+                    };
+                    points.push(AtPoint {
+                        element,
+                        point,
+                        value,
+                        place: place.clone(),
                     });
                 }
-                "ELASTIC" | "DENSITY" | "EXPANSION" | "PLASTIC" | "HYPERELASTIC" => {
-                    let Some(mut material) = open.take() else {
-                        let text = format!("*{} stands in no *MATERIAL", card.keyword);
-                        self.error(&codes::CONTRADICTION, text, &card.place, "");
-                        continue;
-                    };
-                    self.property(card, &mut material);
-                    open = Some(material);
-                }
-                "STEP" => break,
-                _ => {}
-            }
-        }
-        order.extend(open);
-        for material in order {
-            self.materials
-                .insert(compared(&material.name), material.clone());
-            self.case.materials.extend(case_of(material));
-        }
-    }
-
-    fn property(&mut self, card: &Statement, material: &mut Properties) {
-        let rows: Vec<_> = card.rows().filter(|row| !row.is_empty()).collect();
-        let Some(first) = rows.first() else {
-            let text = format!("*{} has no data", card.keyword);
-            self.error(&codes::MISSING, text, &card.place, "");
-            return;
-        };
-        let kind = card.get("TYPE").map(compared).unwrap_or_default();
-        match card.keyword.as_str() {
-            "DENSITY" => material.density = Some(self.real(first.first())),
-            "ELASTIC" => {
-                // a second row of the same length is a second temperature
-                let per_row = match kind.as_str() {
-                    "" => 1,
-                    name if "ISOTROPIC".starts_with(name) => 1,
-                    _ => 2,
-                };
-                if rows.len() > per_row {
-                    let remark = "take the constants at the temperature that matters";
-                    let text = "constants that depend on temperature are not supported";
-                    self.error(&codes::NOT_BUILT, text, &card.place, remark);
-                }
-                let all: Vec<_> = rows.iter().flatten().cloned().collect();
-                if per_row == 1 {
-                    let [e, nu] = self.reals(&all);
-                    material.law = Some(("linear-elastic", vec![("E", e), ("nu", nu)]));
-                    return;
-                }
-                let c: [f64; 9] = self.reals(&all);
-                let law = if kind.starts_with("ENGINEERING") {
-                    Some(c)
-                } else if "ORTHOTROPIC".starts_with(&kind) {
-                    engineering(c)
-                } else {
-                    let text = format!("*ELASTIC, TYPE={kind} is not supported");
-                    let remark = "isotropic, ORTHO and ENGINEERING CONSTANTS are";
-                    self.error(&codes::NOT_BUILT, text, &card.place, remark);
-                    return;
-                };
-                let names = [
-                    "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23",
-                ];
-                match law {
-                    Some(c) => {
-                        material.law = Some(("orthotropic", names.into_iter().zip(c).collect()));
-                    }
-                    None => {
-                        let text = "these elastic constants have no compliance";
-                        self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
-                    }
-                }
-            }
-            "EXPANSION" => {
-                if !kind.is_empty() && !"ISOTROPIC".starts_with(&kind) || rows.len() > 1 {
-                    let text =
-                        "expansion that depends on direction or temperature is not supported";
-                    self.error(&codes::NOT_BUILT, text, &card.place, "");
-                }
-                let zero = card.get("ZERO").map(|text| {
-                    number(text).unwrap_or_else(|| {
-                        let text = "ZERO is no number";
-                        self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
-                        0.0
-                    })
-                });
-                material.alpha = Some((self.real(first.first()), zero));
-            }
-            "PLASTIC" => {
-                let hardening = match card.get("HARDENING").map(compared).as_deref() {
-                    None | Some("ISOTROPIC") => Hardening::Isotropic,
-                    Some("KINEMATIC") => Hardening::Kinematic,
-                    Some(other) => {
-                        let text = format!("*PLASTIC, HARDENING={other} is not supported");
-                        self.error(&codes::NOT_BUILT, text, &card.place, "");
-                        return;
-                    }
-                };
-                let mut table: Vec<[f64; 2]> = rows.iter().map(|row| self.reals(row)).collect();
-                let is_at_another_temperature =
-                    |pair: &[[f64; 2]]| matches!(pair, [a, b] if b[1] <= a[1]);
-                if table.windows(2).any(is_at_another_temperature) {
-                    let text = "plastic strains do not increase";
-                    let remark = "hardening that depends on temperature is not supported";
-                    self.error(&codes::NOT_INCREASING, text, &card.place, remark);
-                }
-                if let Some(first) = table.first_mut() {
-                    first[1] = 0.0;
-                }
-                material.plasticity = Some(Plasticity {
-                    hardening: hardening.into(),
-                    table: table.into(),
-                    modulus: None,
-                });
-            }
-            _ => {
-                if !card.has("NEOHOOKE") {
-                    let text = "only *HYPERELASTIC, NEO HOOKE is supported";
-                    self.error(&codes::NOT_BUILT, text, &card.place, "");
-                    return;
-                }
-                // W = C10 (I1 − 3) + (J − 1)²/D1: shear modulus 2 C10, bulk modulus 2/D1
-                let [c10, d1]: [f64; 2] = self.reals(first);
-                if d1 <= 0.0 || c10 <= 0.0 {
-                    let text = "C10 and D1 have to be positive";
-                    let remark = "incompressible laws are not supported: give D1";
-                    self.error(&codes::OUT_OF_RANGE, text, &card.place, remark);
-                    return;
-                }
-                let constants = vec![("c10", c10), ("c01", 0.0), ("bulk", 2.0 / d1)];
-                material.law = Some(("mooney-rivlin", constants));
             }
         }
     }
@@ -253,8 +133,6 @@ impl Translation<'_> {
         for card in self.cards("INITIALCONDITIONS") {
             let kind = card.get("TYPE").map(compared).unwrap_or_default();
             if kind != "TEMPERATURE" {
-                let text = format!("*INITIAL CONDITIONS, TYPE={kind} is not supported");
-                self.error(&codes::NOT_BUILT, text, &card.place, "");
                 continue;
             }
             for row in card.rows() {
@@ -276,7 +154,7 @@ impl Translation<'_> {
         // thermal strain counts from the start, at which there is none
         for material in &mut self.case.materials {
             if let (Some(expansion), Some(start)) = (&mut material.expansion, start) {
-                expansion.reference.value = start;
+                expansion.free.value = start;
             }
         }
     }
@@ -331,13 +209,45 @@ impl Translation<'_> {
             .map(|one| &one.name.value)
             .find(|name| compared(name) == compared(wanted));
         match known.cloned() {
-            Some(name) => Some(Spanned::new(name, card.place.clone())),
+            Some(name) => {
+                let name = self.delayed(card, name);
+                Some(Spanned::new(name, card.place.clone()))
+            }
             None => {
                 let text = format!("there is no amplitude `{wanted}`");
                 self.error(&codes::UNDEFINED, text, &card.place, "");
                 None
             }
         }
+    }
+
+    /// The amplitude that is this one later, where a card has a TIME DELAY.
+    fn delayed(&mut self, card: &Statement, name: String) -> String {
+        let Some(text) = card.get("TIMEDELAY") else {
+            return name;
+        };
+        let Some(delay) = number(text) else {
+            let text = "TIME DELAY is no number";
+            self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
+            return name;
+        };
+        let mut all = self.case.amplitudes.iter();
+        let Some(known) = all.find(|one| *one.name == name).cloned() else {
+            return name;
+        };
+        let table: Vec<[f64; 2]> = known.table.iter().map(|[t, a]| [t + delay, *a]).collect();
+        let mut all = self.case.amplitudes.iter();
+        let same = |one: &&Amplitude| one.table == table && one.time == known.time;
+        if let Some(same) = all.find(same) {
+            return same.name.value.clone();
+        }
+        let name = self.fresh(&format!("{name}-delayed"));
+        self.case.amplitudes.push(Amplitude {
+            name: Spanned::new(name.clone(), card.place.clone()),
+            table,
+            ..known
+        });
+        name
     }
 
     fn sections(&mut self) {
@@ -363,19 +273,13 @@ impl Translation<'_> {
                     None
                 }
             });
+            let mut own = None;
             if let Some(row) = card.rows().next().filter(|row| !row.is_empty())
-                && self.is_plane()
-                && self.case.model.space.value != Space::Axisymmetric
+                && self.case.model.space.value.has_thickness()
             {
                 let given = self.real(row.first());
-                match thickness {
-                    Some(first) if first != given => {
-                        let text = "sections of different thickness are not supported";
-                        let remark = format!("the first one is {first}");
-                        self.error(&codes::NOT_BUILT, text, &card.place, remark);
-                    }
-                    _ => thickness = Some(given),
-                }
+                let of_model = *thickness.get_or_insert(given);
+                own = (given != of_model).then(|| Spanned::new(given, card.place.clone()));
             }
             let directory = &self.deck.directory;
             let sets: Vec<String> = (directory.spaces(card.scope).iter())
@@ -386,15 +290,22 @@ impl Translation<'_> {
                 self.set(card, elset, &card.place, Kind::Elements);
             }
             for set in sets {
-                self.body(card, &set, &material, orientation.as_ref());
+                self.body(card, &set, &material, orientation.as_ref(), own.as_ref());
             }
         }
         self.case.model.thickness = thickness.unwrap_or(1.0);
     }
 
     /// The bodies of a section: one, or one for each way its elements are integrated.
-    fn body(&mut self, card: &Statement, set: &str, material: &str, turned: Option<&Orientation>) {
-        let mut ways: BTreeMap<(bool, bool, bool), Vec<u64>> = BTreeMap::new();
+    fn body(
+        &mut self,
+        card: &Statement,
+        set: &str,
+        material: &str,
+        turned: Option<&Orientation>,
+        thickness: Option<&Spanned<f64>>,
+    ) {
+        let mut ways: BTreeMap<(bool, bool, bool, bool), Vec<u64>> = BTreeMap::new();
         for label in self.elements(&Target::Set(set.to_owned())) {
             let Some(cell) = self.cell(label) else {
                 continue;
@@ -406,12 +317,17 @@ impl Translation<'_> {
                 .iter()
                 .any(|l| kind.starts_with(l));
             let modes = linear && digits.contains('I');
-            ways.entry((reduced, modes, linear))
+            // CalculiX' temperatures in elements of 27 points
+            let quadratic = ["C3D20", "CPS8", "CPE8", "CAX8"]
+                .iter()
+                .any(|l| kind.starts_with(l));
+            let even = quadratic && !reduced;
+            ways.entry((reduced, modes, linear, even))
                 .or_default()
                 .push(label);
         }
         let several = ways.len() > 1;
-        for ((reduced, modes, linear), elements) in ways {
+        for ((reduced, modes, linear, even), elements) in ways {
             let group = if several {
                 self.elements_named(elements, &card.place)
             } else {
@@ -427,6 +343,12 @@ impl Translation<'_> {
                 },
                 locking: Spanned::new(locking(reduced, modes, linear), card.place.clone()),
                 orientation: turned.cloned(),
+                thickness: thickness.cloned(),
+                temperatures: if even {
+                    Temperatures::Linear
+                } else {
+                    Temperatures::Full
+                },
                 area: None,
                 rigid: false,
                 reference: None,
@@ -481,56 +403,4 @@ const fn locking(reduced: bool, modes: bool, linear: bool) -> Locking {
         (_, true) => Locking::Auto,
         _ => Locking::None,
     }
-}
-
-fn case_of(of: Properties) -> Option<Material> {
-    let (model, constants) = of.law?;
-    Some(Material {
-        name: of.name,
-        model: model.into(),
-        constants: (constants.into_iter())
-            .map(|(name, value)| Constant {
-                name,
-                values: vec![value].into(),
-            })
-            .collect(),
-        density: of.density.map(Spanned::from),
-        expansion: of.alpha.map(|(alpha, zero)| Expansion {
-            alpha,
-            reference: zero.unwrap_or(0.0).into(),
-        }),
-        plasticity: of.plasticity,
-        place: of.place,
-    })
-}
-
-/// Young's moduli, Poisson's ratios and shear moduli of the stiffnesses
-/// `D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323`; none where they have no inverse.
-fn engineering(d: [f64; 9]) -> Option<[f64; 9]> {
-    let [a, h, b, g, f, c, g12, g13, g23] = d;
-    // the inverse of [a h g; h b f; g f c] by cofactors
-    let cofactors = [b * c - f * f, g * f - h * c, h * f - b * g];
-    let determinant = a * cofactors[0] + h * cofactors[1] + g * cofactors[2];
-    if determinant.abs() <= 1e-14 * (a * b * c).abs() {
-        return None;
-    }
-    let s11 = cofactors[0] / determinant;
-    let s12 = cofactors[1] / determinant;
-    let s13 = cofactors[2] / determinant;
-    let s22 = (a * c - g * g) / determinant;
-    let s23 = (g * h - a * f) / determinant;
-    let s33 = (a * b - h * h) / determinant;
-    let ratios = [-s12 / s11, -s13 / s11, -s23 / s22];
-    let all = [
-        1.0 / s11,
-        1.0 / s22,
-        1.0 / s33,
-        ratios[0],
-        ratios[1],
-        ratios[2],
-        g12,
-        g13,
-        g23,
-    ];
-    all.iter().all(|x| x.is_finite()).then_some(all)
 }

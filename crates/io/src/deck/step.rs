@@ -350,9 +350,9 @@ impl Translation<'_> {
     ) {
         let ndim = self.ndim();
         let (on, components) = self.carried(targets, &line.components, &line.place);
-        // nodes of a plane model have no third displacement, and nodes no rotations
+        // nodes have no rotations; in a plane model nothing leaves the plane
         let turns = self.carrier_of(targets).is_some();
-        let is_there = |c: &usize| *c < ndim || (*c >= 3 && turns);
+        let is_there = |c: &usize| *c < ndim || turns && *c >= if ndim == 3 { 3 } else { 5 };
         let components: Vec<usize> = components.iter().copied().filter(is_there).collect();
         if components.is_empty() {
             return;

@@ -364,3 +364,136 @@ fn sectors_and_distributing_couplings_become_constraints() {
         }
     )));
 }
+
+/// The first material of a deck whose material has these cards in place of its elastic constants.
+fn material(cards: &str) -> crate::case::Material {
+    let deck = cube("C3D8", STEP).replace("*ELASTIC\n1000., 0.3\n", cards);
+    case(&deck).materials[0].clone()
+}
+
+fn constant(material: &crate::case::Material, name: &str) -> Vec<f64> {
+    let found = material.constants.iter().find(|one| one.name == name);
+    found.unwrap().values.value.clone()
+}
+
+#[test]
+fn constants_depend_on_temperature_where_their_rows_differ() {
+    let hot = material(
+        "*ELASTIC\n150., .31, 500.\n200., .3, 0.\n*EXPANSION, ZERO=20.\n1e-5, 0.\n2e-5, 500.\n",
+    );
+    assert_eq!(hot.model.value, "linear-elastic-by-temperature");
+    assert_eq!(constant(&hot, "T"), [0.0, 500.0]);
+    assert_eq!(constant(&hot, "E"), [200.0, 150.0]);
+    assert_eq!(constant(&hot, "nu"), [0.3, 0.31]);
+    let expansion = hot.expansion.unwrap();
+    assert_eq!(expansion.alpha, [[0.0, 1e-5], [500.0, 2e-5]]);
+    assert_eq!((expansion.reference, expansion.free.value), (20.0, 20.0));
+    let same =
+        material("*ELASTIC\n200., .3, 0.\n200., .3, 500.\n*EXPANSION\n1e-5, 0.\n1e-5, 500.\n");
+    assert_eq!(same.model.value, "linear-elastic");
+    assert_eq!(same.expansion.unwrap().alpha, [[0.0, 1e-5]]);
+    let start = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 100.\n*STEP";
+    let deck = cube("C3D8", STEP).replace("1000., 0.3\n", "1000., 0.3\n*EXPANSION\n1e-5\n");
+    let expansion = case(&deck.replace("*STEP", start)).materials[0]
+        .expansion
+        .clone();
+    assert_eq!(expansion.unwrap().free.value, 100.0);
+    let text = refused(&cube("C3D8", STEP).replace(
+        "1000., 0.3\n",
+        "1000., 0.3, 0.\n900., 0.3, 100.\n*PLASTIC\n10., 0.\n",
+    ));
+    assert!(text.contains("*PLASTIC does not go with"), "{text}");
+}
+
+#[test]
+fn anisotropic_constants_are_taken_in_their_order() {
+    let numbers: Vec<f64> = (1..=21).map(f64::from).collect();
+    let text: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    let rows: Vec<String> = text.chunks(8).map(|row| row.join(", ")).collect();
+    let law = material(&format!("*ELASTIC, TYPE=ANISO\n{}\n", rows.join("\n")));
+    assert_eq!(law.model.value, "anisotropic");
+    assert_eq!(constant(&law, "D"), numbers);
+}
+
+#[test]
+fn hyperelastic_laws_have_the_bulk_modulus_of_d() {
+    let law = material("*HYPERELASTIC, NEO HOOKE\n3., 0.1\n");
+    assert_eq!(law.model.value, "mooney-rivlin");
+    assert_eq!(
+        [constant(&law, "c10"), constant(&law, "bulk")],
+        [[3.0], [20.0]]
+    );
+    let law = material("*HYPERELASTIC, MOONEY-RIVLIN\n3., 1., 0.1\n");
+    assert_eq!(
+        [constant(&law, "c10"), constant(&law, "c01")],
+        [[3.0], [1.0]]
+    );
+    let law = material("*HYPERELASTIC, OGDEN, N=2\n3., 2., 1., -2., 0.1, 0.\n");
+    assert_eq!(law.model.value, "ogden");
+    assert_eq!(constant(&law, "mu"), [3.0, 1.0]);
+    assert_eq!(constant(&law, "alpha"), [2.0, -2.0]);
+    assert_eq!(constant(&law, "bulk"), [20.0]);
+    // without D: a Poisson's ratio of 0.475
+    let law = material("*HYPERELASTIC, OGDEN, N=1\n3., 2., 0.\n");
+    assert!((constant(&law, "bulk")[0] - 3.0 * 2.0 * 1.475 / 0.15).abs() < 1e-12);
+    let law = material("*HYPERFOAM, N=2\n3., 2., 1., -2., 0.1, 0.2\n");
+    assert_eq!(law.model.value, "hyperfoam");
+    assert_eq!(
+        [constant(&law, "mu"), constant(&law, "nu")],
+        [[3.0, 1.0], [0.1, 0.2]]
+    );
+}
+
+#[test]
+fn points_of_elements_have_stress_and_strain_at_the_start() {
+    let cards = format!(
+        "*INITIAL CONDITIONS, TYPE=STRESS\n1, 2, 1., 2., 3., 4., 5., 6.\n\
+         *INITIAL CONDITIONS, TYPE=PLASTIC STRAIN\nCUBE, 1, .1\n{STEP}"
+    );
+    let case = case(&cube("C3D8", &cards));
+    let [at] = &case.initial_stress[..] else {
+        panic!("{:?}", case.initial_stress);
+    };
+    assert_eq!((at.element, at.point), (1, 2));
+    assert_eq!(at.value, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    assert_eq!(case.initial_strain[0].value, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let text = refused(&cube("C3D8R", &cards));
+    assert!(
+        text.contains("values at the points of this element"),
+        "{text}"
+    );
+    let text = refused(&cube("C3D8", &cards.replace("STRESS\n", "STRESS, USER\n")));
+    assert!(
+        text.contains("TYPE=STRESS, USER is not supported"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_time_delay_is_an_amplitude_of_its_own() {
+    let cards = "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*STEP\n*STATIC\n*CLOAD, AMPLITUDE=A, TIME DELAY=0.5\nTOP, 3, 1.\n\
+                 *CLOAD, AMPLITUDE=A\nTOP, 1, 1.\n*END STEP\n";
+    let case = case(&cube("C3D8", cards));
+    let tables: Vec<_> = case
+        .amplitudes
+        .iter()
+        .map(|one| one.table.clone())
+        .collect();
+    assert_eq!(tables, [[[0.0, 0.0], [1.0, 1.0]], [[0.5, 0.0], [1.5, 1.0]]]);
+}
+
+#[test]
+fn sections_of_a_plane_model_have_a_thickness_each() {
+    let deck = "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n5,2,0\n6,2,1\n*ELEMENT, TYPE=CPS4, ELSET=A\n1,1,2,3,4\n\
+                *ELEMENT, TYPE=CPS4, ELSET=B\n2,2,5,6,3\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n\
+                *SOLID SECTION, ELSET=A, MATERIAL=M\n0.5\n*SOLID SECTION, ELSET=B, MATERIAL=M\n2.\n\
+                *STEP\n*STATIC\n*END STEP\n";
+    let case = case(deck);
+    assert_eq!(case.model.thickness, 0.5);
+    let own: Vec<_> = case
+        .bodies
+        .iter()
+        .map(|b| b.thickness.as_ref().map(|t| t.value))
+        .collect();
+    assert_eq!(own, [None, Some(2.0)]);
+}

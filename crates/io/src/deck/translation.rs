@@ -1,8 +1,8 @@
 //! What all stages of the translation share: the deck, the case so far, names, messages.
 
 use super::keywords::{Keyword, Support};
-use super::{Compat, constraint, contact, model};
-use crate::case::{Case, MeshSource, Name, Set, SetContent, Side, Space};
+use super::{Compat, constraint, contact, material};
+use crate::case::{Case, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
 use crate::readers::inp::{Deck, Field, Kind, Statement};
@@ -30,7 +30,7 @@ pub(super) struct Translation<'d> {
     pub carriers: BTreeMap<u64, constraint::Carrier>,
     /// Whether a constraint bends with large displacements: then all steps are of large displacements.
     pub bends: bool,
-    pub materials: BTreeMap<String, model::Properties>,
+    pub materials: BTreeMap<String, material::Properties>,
     pub pairs: Vec<contact::Pair>,
     nodes: Lookup,
     /// Places of elements among those of the mesh's dimension.
@@ -317,10 +317,6 @@ impl<'d> Translation<'d> {
 
     pub fn ndim(&self) -> usize {
         self.case.model.space.value.ndim()
-    }
-
-    pub fn is_plane(&self) -> bool {
-        self.case.model.space.value != Space::ThreeD
     }
 
     /// A name that nothing has: `wanted`, or with a number behind.

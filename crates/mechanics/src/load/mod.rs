@@ -31,7 +31,7 @@
 //! Prescribed motion needs no term: it is data of a step ([`crate::solve::Prescription`]).
 //!
 //! Limits: in plane stress (E3) takes the thickness of the start, and so neglects that a stretched sheet gets thinner.
-//! The mass of (E5) is consistent, and that of the start. A jump within a table happens at the first increment that
+//! The mass of (E2) and (E5) is consistent, that of the start, and integrated by the rule of its element. A jump within a table happens at the first increment that
 //! ends at it or after. Sources: Bonet and Wood 2008, sections 8.5.2 and 9.3 (following pressure); Schweizerhof and
 //! Ramm, Comput. Struct. 18, 1984 (its potentials).
 //!

@@ -35,10 +35,21 @@ pub(super) struct Sample<'a> {
 impl Region {
     /// Adds a face or a cell. Its measure counts `factor` times: the cross-section of a bar, a density.
     pub fn push(&mut self, element: Element, nodes: &[NodeId], factor: f64) {
+        self.push_by(element, element.surface_rule(), nodes, factor);
+    }
+
+    /// The same, integrated by this rule.
+    pub fn push_by(
+        &mut self,
+        element: Element,
+        rule: &'static Rule,
+        nodes: &[NodeId],
+        factor: f64,
+    ) {
         debug_assert_eq!(nodes.len(), element.nnode());
-        let found = self.patches.iter().position(|p| *p.element == *element);
-        let at = found.unwrap_or_else(|| {
-            self.patches.push(Patch::new(element));
+        let alike = |p: &Patch| *p.element == *element && std::ptr::eq(p.rule, rule);
+        let at = self.patches.iter().position(alike).unwrap_or_else(|| {
+            self.patches.push(Patch::new(element, rule));
             self.patches.len() - 1
         });
         let patch = &mut self.patches[at];
@@ -79,8 +90,7 @@ impl Region {
 }
 
 impl Patch {
-    fn new(element: Element) -> Self {
-        let rule = element.surface_rule();
+    fn new(element: Element, rule: &'static Rule) -> Self {
         let n = element.nnode();
         let mut shape = vec![0.0; n * rule.npoint()];
         let mut dshape = vec![Vec3::ZERO; n * rule.npoint()];

@@ -26,6 +26,12 @@ pub enum ConstantsError {
         /// The range, in words.
         allowed: &'static str,
     },
+    /// A list where there must be one number.
+    #[error("the constant {name} must be one number")]
+    Several {
+        /// Its name.
+        name: &'static str,
+    },
     /// Several that do not fit each other.
     #[error("{what}")]
     Unfit {
@@ -63,6 +69,14 @@ impl Constants {
             ("G12", &[170.0]),
             ("G13", &[140.0]),
             ("G23", &[90.0]),
+            ("T", &[0.0]),
+            (
+                "D",
+                &[
+                    300.0, 110.0, 320.0, 130.0, 140.0, 350.0, 16.0, 17.0, 18.0, 190.0, 20.0, 21.0,
+                    22.0, 23.0, 240.0, 25.0, 26.0, 27.0, 28.0, 29.0, 200.0,
+                ],
+            ),
         ] {
             constants.set(name, values.to_vec());
         }
@@ -77,12 +91,12 @@ impl Constants {
     /// A number.
     ///
     /// # Errors
-    /// It is missing.
+    /// It is missing, or a list of several.
     pub fn number(&self, name: &'static str) -> Result<f64, ConstantsError> {
-        self.list(name)?
-            .first()
-            .copied()
-            .ok_or(ConstantsError::Missing { name })
+        match self.list(name)? {
+            [value] => Ok(*value),
+            _ => Err(ConstantsError::Several { name }),
+        }
     }
 
     /// A list of numbers.

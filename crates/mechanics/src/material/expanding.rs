@@ -1,36 +1,70 @@
+use super::by_temperature::interpolate;
 use super::{Kinematics, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::Sym3;
 
 /// A law with thermal expansion, the same in all directions.
 ///
-/// With `x = α (T − T_ref)`, small strain: the law inside sees `ε − x I`. Finite strain: `F = θ F_e`, `θ = 1 + x`,
+/// With the strain `x` that a free body has, small strain: the law inside sees `ε − x I`. Finite strain: `F = θ F_e`,
+/// `θ = 1 + x`,
 ///
 /// ```text
 /// W = θ³ W_e(E_e),    E_e = (E − ½(θ² − 1) I)/θ²,    S = θ S_e,    C = C_e/θ
 /// ```
 ///
-/// with `W_e` per volume of the body free of stress at `T`. Goes inside [`super::Reduced`] and outside of or inside
+/// with `W_e` per volume of the body free of stress at `T`. `x = α (T − T_0)`, free of stress at `T_0`; where `α` depends
+/// on temperature, it is a secant from `T_ref` on, and
+///
+/// ```text
+/// x = α(T) (T − T_ref) − α(T_0) (T_0 − T_ref)
+/// ```
+///
+/// Goes inside [`super::Reduced`] and outside of or inside
 /// [`super::Oriented`].
 pub struct Expanding {
     inner: Box<dyn Material>,
-    alpha: f64,
+    /// Rows of temperature and `α`, temperatures increasing.
+    alpha: Vec<[f64; 2]>,
+    /// `T_ref`
     reference: f64,
+    /// `α(T_0) (T_0 − T_ref)`
+    at_start: f64,
 }
 
 impl Expanding {
     /// Wraps a law: `alpha` per degree, free of stress at the temperature `reference`.
     #[must_use]
     pub fn new(inner: Box<dyn Material>, alpha: f64, reference: f64) -> Self {
-        Self {
+        Self::by_temperature(inner, vec![[reference, alpha]], reference, reference)
+    }
+
+    /// Wraps a law: `alpha` are rows of temperature and secant strain per degree from the temperature `reference` on,
+    /// temperatures increasing; linear between, constant outside. Free of stress at the temperature `free`.
+    #[must_use]
+    pub fn by_temperature(
+        inner: Box<dyn Material>,
+        alpha: Vec<[f64; 2]>,
+        reference: f64,
+        free: f64,
+    ) -> Self {
+        let mut law = Self {
             inner,
             alpha,
             reference,
-        }
+            at_start: 0.0,
+        };
+        law.at_start = law.secant(free);
+        law
+    }
+
+    /// `α(T) (T − T_ref)`
+    fn secant(&self, temperature: f64) -> f64 {
+        let [_, alpha] = interpolate(&self.alpha, temperature);
+        alpha * (temperature - self.reference)
     }
 
     /// `x`.
     fn growth(&self, strain: &Strain) -> f64 {
-        self.alpha * (strain.temperature - self.reference)
+        self.secant(strain.temperature) - self.at_start
     }
 
     /// `θ`, and 1 at small strain.

@@ -19,10 +19,13 @@
 //! A law knows no degree of freedom. To add one: one file that implements [`Material`], one line in [`TABLE`] and the
 //! constants it needs in `Constants::sample`; the property tests of this room run over the table.
 
+mod anisotropic;
+mod by_temperature;
 mod constants;
 mod expanding;
 mod frame;
 mod hardening;
+mod hyperfoam;
 mod logarithmic;
 mod neo_hookean;
 mod ogden;
@@ -34,9 +37,12 @@ mod saint_venant_kirchhoff;
 #[cfg(test)]
 mod tests;
 
+pub use anisotropic::Anisotropic;
+pub use by_temperature::ByTemperature;
 pub use constants::{Constants, ConstantsError};
 pub use expanding::Expanding;
 pub use hardening::{Hardening, HardeningError, HardeningKind};
+pub use hyperfoam::Hyperfoam;
 pub use neo_hookean::NeoHookean;
 pub use ogden::Ogden;
 pub use oriented::Oriented;
@@ -230,9 +236,9 @@ pub struct Law {
     pub make: fn(&Constants) -> Result<Box<dyn Material>, ConstantsError>,
 }
 
-/// Every law, by its name in a case. At finite strain `linear-elastic` is the law of Saint Venant and Kirchhoff:
+/// Every law, by its name in a case. At finite strain `linear-elastic`, at one temperature or several, is the law of Saint Venant and Kirchhoff:
 /// rotations are exact, strains should stay small.
-pub static TABLE: [Law; 6] = [
+pub static TABLE: [Law; 9] = [
     Law {
         name: "linear-elastic",
         constants: &["E", "nu"],
@@ -273,6 +279,21 @@ pub static TABLE: [Law; 6] = [
             "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23",
         ],
         make: |c| Ok(Box::new(Orthotropic::new(c)?)),
+    },
+    Law {
+        name: "hyperfoam",
+        constants: &["mu", "alpha", "nu"],
+        make: |c| Ok(Box::new(Hyperfoam::new(c)?)),
+    },
+    Law {
+        name: "anisotropic",
+        constants: &["D"],
+        make: |c| Ok(Box::new(Anisotropic::new(c)?)),
+    },
+    Law {
+        name: "linear-elastic-by-temperature",
+        constants: &["T", "E", "nu"],
+        make: |c| Ok(Box::new(ByTemperature::new(c)?)),
     },
 ];
 

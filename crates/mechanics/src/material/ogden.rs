@@ -170,7 +170,7 @@ impl Material for Ogden {
 }
 
 /// `exp(x) − 1 − x`, with its digits where `x` is small.
-fn exp_m1_less_linear(x: f64) -> f64 {
+pub(super) fn exp_m1_less_linear(x: f64) -> f64 {
     if x.abs() > 0.5 {
         return x.exp_m1() - x;
     }

@@ -131,8 +131,12 @@ impl Context<'_> {
                     material,
                     integration,
                     locking,
+                    thickness,
+                    linear_temperatures,
+                    initial,
                     ..
                 } => {
+                    let space = thickness.map_or(space, |own| space.of_thickness(own));
                     let solid = Solid::new(SolidParts {
                         name,
                         mesh,
@@ -144,6 +148,8 @@ impl Context<'_> {
                         integration,
                         locking,
                         temperature,
+                        linear_temperatures,
+                        initial: &initial,
                     })?;
                     for &kinematics in sizes {
                         let chosen = solid.locking(kinematics)?.into_iter();

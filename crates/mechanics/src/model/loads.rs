@@ -3,6 +3,7 @@
 use super::{BodyKind, BodyPart, Context, Load, LoadError, LoadPart, ModelError};
 use crate::load::spread::{self, NodalVectors};
 use crate::load::{Centrifugal, Course, FollowingPressure, NodalForces, Region, Schedule, Spin};
+use crate::solid::Integration;
 use crate::solve::Step;
 use crate::system::{Dof, Idealisation, NO_DOF, StepContext, Term};
 use signorini_geometry::mesh::{CellId, Face, NodeId};
@@ -105,20 +106,38 @@ pub(super) struct Substance {
     density: Option<f64>,
     /// Cross-section of bars.
     section: Option<f64>,
+    integration: Integration,
+    /// Thickness, where it is not that of the model.
+    thickness: Option<f64>,
 }
 
 impl From<&BodyPart> for Substance {
     fn from(body: &BodyPart) -> Self {
-        let (density, section) = match body.kind {
-            BodyKind::Solid { density, .. } => (density, None),
-            BodyKind::Truss { density, area, .. } => (density, Some(area)),
-            BodyKind::Rigid(_) => (None, None),
-        };
-        Self {
+        let mut of = Self {
             name: body.name.clone(),
-            density,
-            section,
+            density: None,
+            section: None,
+            integration: Integration::Full,
+            thickness: None,
+        };
+        match body.kind {
+            BodyKind::Solid {
+                density,
+                integration,
+                thickness,
+                ..
+            } => {
+                of.density = density;
+                of.integration = integration;
+                of.thickness = thickness;
+            }
+            BodyKind::Truss { density, area, .. } => {
+                of.density = density;
+                of.section = Some(area);
+            }
+            BodyKind::Rigid(_) => {}
         }
+        of
     }
 }
 
@@ -282,18 +301,24 @@ impl Context<'_> {
         })
     }
 
+    /// The thickness of a body in parts of that of the model.
+    fn share(&self, body: &Substance) -> f64 {
+        let of_model = self.space.extent(Vec3::ZERO);
+        body.thickness.map_or(1.0, |own| own / of_model)
+    }
+
     /// Faces of bodies that a load acts on.
     fn faces(&self, faces: &[Face]) -> Result<Region, LoadError> {
         let mut region = Region::default();
         for &face in &set(faces) {
-            self.body(face.cell)?;
+            let share = self.share(self.body(face.cell)?);
             let side = self.mesh.face(face);
             let side = side.filter(|(e, _)| e.dim() + 1 == self.layout.ndim);
             let (element, nodes) = side.ok_or_else(|| LoadError::NoFace {
                 element: self.number(face.cell),
                 side: usize::from(face.side) + 1,
             })?;
-            region.push(element, &nodes, 1.0);
+            region.push(element, &nodes, share);
         }
         some(region)
     }
@@ -315,8 +340,13 @@ impl Context<'_> {
             let density = density.ok_or_else(|| LoadError::NoDensity {
                 body: body.name.clone(),
             })?;
-            let factor = density * body.section.unwrap_or(1.0);
-            region.push(element, self.mesh.cell(cell), factor);
+            let factor = density * body.section.unwrap_or(1.0) * self.share(body);
+            // by the rule of the element: reduced integration makes another mass of bent elements
+            let rule = match body.integration {
+                Integration::Full => element.surface_rule(),
+                Integration::Reduced => element.reduced_rule(),
+            };
+            region.push_by(element, rule, self.mesh.cell(cell), factor);
         }
         some(region)
     }

@@ -12,7 +12,7 @@ pub enum Integration {
     /// As many as integrate the stiffness of the undistorted element exactly.
     #[default]
     Full,
-    /// One order less, for quad8 and hex20; elements of lower order keep the full rule.
+    /// One order less, for quad8 and hex20, of masses too; elements of lower order keep the full rule.
     Reduced,
 }
 

@@ -49,6 +49,11 @@
 //! and wedge6 have no remedy: their dilatation is constant already, or nearly so, and they stay stiff in bending and lock
 //! where volume is kept; quadratic elements are the way out. What was chosen can be read back, [`Solid::locking`].
 //!
+//! # At the start
+//!
+//! A point may have a stress `S_0` and a strain `E_0` that leaves no stress, [`AtStart`]: `S = S(E − E_0) + S_0`, with
+//! the energy `W(E − E_0) + S_0 : E`. Both stay what they are; they are not in equilibrium by themselves.
+//!
 //! # History
 //!
 //! The accepted history of every quadrature point lies here, and beside it the incompatible modes. Evaluation is pure:
@@ -71,5 +76,5 @@ mod tests;
 mod truss;
 
 pub use choice::{Integration, Locking};
-pub use term::{Solid, SolidError, SolidParts};
+pub use term::{AtStart, Solid, SolidError, SolidParts};
 pub use truss::{Truss, TrussParts};

@@ -1,5 +1,5 @@
 use super::choice::{Situation, keeps_volume};
-use super::kernel::{Element, Failure, Kernel, Output, Points, Remedy, Sample, kernel};
+use super::kernel::{Element, Failure, Initial, Kernel, Output, Points, Remedy, Sample, kernel};
 use super::report;
 use super::{Integration, Locking};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Strain};
@@ -9,7 +9,8 @@ use crate::system::{
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::tensor::{Sym3, Vec3};
+use std::collections::HashMap;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -53,6 +54,24 @@ pub struct SolidParts<'a> {
     pub locking: Locking,
     /// Temperatures, where there are any.
     pub temperature: Option<Arc<NodalField>>,
+    /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are: those at the points of
+    /// reduced integration, continued.
+    pub linear_temperatures: bool,
+    /// Stress and strain at the start; zero at points that are not named.
+    pub initial: &'a [AtStart],
+}
+
+/// Stress and strain that a quadrature point has at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtStart {
+    /// The cell.
+    pub cell: CellId,
+    /// The point, from 0, in the order of the rule of its element.
+    pub point: usize,
+    /// Stress without strain: Cauchy, or second Piola–Kirchhoff at finite strain.
+    pub stress: Sym3,
+    /// Strain without stress: linearized, or of Green and Lagrange.
+    pub strain: Sym3,
 }
 
 /// What is done against locking at one size of strains.
@@ -80,6 +99,8 @@ struct Cells {
     nhistory: usize,
     // accepted history of all cells
     history: Vec<f64>,
+    // at the points of all cells; empty where there is nothing at the start
+    initial: Vec<Initial>,
     // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
     rigidity: Vec<f64>,
 }
@@ -124,6 +145,22 @@ pub enum SolidError {
     BarOfRevolution {
         /// Name of the body.
         body: String,
+    },
+    /// A stress at the start at a point that is not there.
+    #[error(
+        "element {label} of body \"{body}\", a {element}, has {npoint} points: there is no point {point}"
+    )]
+    NoPoint {
+        /// Name of the body.
+        body: String,
+        /// Number of the element in the input.
+        label: u64,
+        /// Its type.
+        element: &'static str,
+        /// How many there are.
+        npoint: usize,
+        /// The one that was named, from 1.
+        point: usize,
     },
     /// A remedy that an element does not have.
     #[error(
@@ -193,6 +230,8 @@ impl Solid {
             integration,
             locking,
             temperature,
+            linear_temperatures,
+            initial,
         } = parts;
         let material: Box<dyn Material> = match space {
             Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
@@ -217,7 +256,7 @@ impl Solid {
                     };
                     let cells = Cells::new(situation, locking, material.nhistory());
                     let cells = cells.filter(|_| element.dim() == layout.ndim);
-                    let cells = cells.ok_or_else(|| SolidError::NotSolid {
+                    let mut cells = cells.ok_or_else(|| SolidError::NotSolid {
                         body: name.to_string(),
                         label,
                         element: element.name(),
@@ -225,6 +264,9 @@ impl Solid {
                     })?;
                     if let (Err(reason), Err(_)) = (cells.finite.locking, cells.small.locking) {
                         return Err(cells.refusal(name, locking, reason));
+                    }
+                    if linear_temperatures {
+                        cells.points.linear_temperatures(element);
                     }
                     blocks.push((id.block, cells));
                     blocks.len() - 1
@@ -242,6 +284,7 @@ impl Solid {
                 block.radii(name, &reference)?;
             }
             block.start(material.as_ref());
+            block.begin(name, initial)?;
             block.rigidity = block.rigidities(&reference, space, material.modulus());
             let ncell = block.labels.len();
             chunks.extend(
@@ -350,6 +393,7 @@ impl Solid {
             temperature: &scratch.temperature,
             ndilatation: block.ndilatation,
             old: &block.history[cell * block.nhistory..(cell + 1) * block.nhistory],
+            initial: block.initial_of(cell),
         };
         let mut out = Output {
             force: &mut scratch.force,
@@ -436,6 +480,7 @@ impl Cells {
             rigidity: Vec::new(),
             nhistory: rule.npoint() * nhistory + modes,
             history: Vec::new(),
+            initial: Vec::new(),
         })
     }
 
@@ -471,6 +516,41 @@ impl Cells {
             let points = cell[..of_points].chunks_exact_mut(n);
             points.for_each(|point| material.start(point));
         }
+    }
+
+    /// Gives its points what they have at the start.
+    fn begin(&mut self, body: &str, given: &[AtStart]) -> Result<(), SolidError> {
+        if given.is_empty() {
+            return Ok(());
+        }
+        let npoint = self.points.rule.npoint();
+        let places: HashMap<CellId, usize> = self.ids.iter().copied().zip(0..).collect();
+        for at in given {
+            let Some(&cell) = places.get(&at.cell) else {
+                continue;
+            };
+            if at.point >= npoint {
+                return Err(SolidError::NoPoint {
+                    body: body.to_string(),
+                    label: self.labels[cell],
+                    element: self.element,
+                    npoint,
+                    point: at.point + 1,
+                });
+            }
+            self.initial
+                .resize(self.ids.len() * npoint, Initial::default());
+            let to = &mut self.initial[cell * npoint + at.point];
+            to.stress = to.stress + at.stress;
+            to.strain = to.strain + at.strain;
+        }
+        Ok(())
+    }
+
+    fn initial_of(&self, cell: usize) -> &[Initial] {
+        let npoint = self.points.rule.npoint();
+        let of_cell = self.initial.get(cell * npoint..(cell + 1) * npoint);
+        of_cell.unwrap_or_default()
     }
 
     /// `M ∫ max_i |N_i,X|² dV` of every cell, with the modulus `M`: the largest entry of its stiffness, about.

@@ -4,15 +4,16 @@ use super::carriers::Carriers;
 use super::names::{Cells, Names};
 use super::quoted;
 use signorini_geometry::mesh::{CellId, Mesh};
-use signorini_geometry::tensor::Vec3;
-use signorini_io::case::{self, Body, Case, Name};
+use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::material::{
     self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Oriented,
     Plasticity,
 };
 use signorini_mechanics::model::{BodyKind, BodyPart};
-use std::collections::BTreeMap;
+use signorini_mechanics::solid::AtStart;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The bodies of a case, in its order.
 pub(super) fn bodies(
@@ -22,7 +23,9 @@ pub(super) fn bodies(
     found: &mut Diagnostics,
 ) -> Vec<BodyPart> {
     let one = |body| body_part(case, body, names, carriers, found);
-    case.bodies.iter().filter_map(one).collect()
+    let bodies: Vec<BodyPart> = case.bodies.iter().filter_map(one).collect();
+    at_start(case, names, &bodies, found);
+    bodies
 }
 
 /// What a body is called: by its groups.
@@ -76,16 +79,85 @@ fn body_part(
             .at(&area.place, "only bars, of line elements, have one"),
         );
     }
+    let cells = solids(cells, body, found);
     Some(BodyPart {
         name,
-        cells: solids(cells, body, found),
         kind: BodyKind::Solid {
             material,
             density,
             integration: body.integration,
             locking: body.locking.value,
+            thickness: thickness(case, body, found),
+            linear_temperatures: body.temperatures == Temperatures::Linear,
+            initial: initial(case, names, &cells),
         },
+        cells,
     })
+}
+
+/// The thickness of a body, where it is not that of the model.
+fn thickness(case: &Case, body: &Body, found: &mut Diagnostics) -> Option<f64> {
+    let own = body.thickness.as_ref()?;
+    if let Some(contact) = case.contacts.first() {
+        found.push(
+            Diagnostic::error(
+                &codes::NOT_BUILT,
+                "a body with a thickness of its own does not go with contact",
+            )
+            .at(&own.place, "delete it, or write  [model] thickness =")
+            .note(format!("there is the contact {}", quoted(&contact.name))),
+        );
+    }
+    Some(own.value)
+}
+
+/// What the integration points of these cells have at the start.
+fn initial(case: &Case, names: &Names<'_>, cells: &[CellId]) -> Vec<AtStart> {
+    if case.initial_stress.is_empty() && case.initial_strain.is_empty() {
+        return Vec::new();
+    }
+    let label = |&cell: &CellId| Some((names.element(cell)?, cell));
+    let by_label: HashMap<u64, CellId> = cells.iter().filter_map(label).collect();
+    let here = |at: &AtPoint| {
+        let cell = *by_label.get(&at.element)?;
+        let [xx, yy, zz, xy, xz, yz] = at.value;
+        // points count from 1
+        let point = (at.point as usize).saturating_sub(1);
+        Some((cell, point, Sym3::new(xx, yy, zz, xy, yz, xz)))
+    };
+    let with = |(cell, point, stress), strain| AtStart {
+        cell,
+        point,
+        stress,
+        strain,
+    };
+    let stresses = case.initial_stress.iter().filter_map(here);
+    let strains = case.initial_strain.iter().filter_map(here);
+    let stresses = stresses.map(|at| with(at, Sym3::ZERO));
+    let strains = strains.map(|(cell, point, strain)| with((cell, point, Sym3::ZERO), strain));
+    stresses.chain(strains).collect()
+}
+
+/// Elements that have something at the start, and are in no body that deforms.
+fn at_start(case: &Case, names: &Names<'_>, bodies: &[BodyPart], found: &mut Diagnostics) {
+    if case.initial_stress.is_empty() && case.initial_strain.is_empty() {
+        return;
+    }
+    let solids = bodies
+        .iter()
+        .filter(|b| matches!(b.kind, BodyKind::Solid { .. }));
+    let cells = solids.flat_map(|body| &body.cells);
+    let known: HashSet<u64> = cells.filter_map(|&cell| names.element(cell)).collect();
+    let points = case.initial_stress.iter().chain(&case.initial_strain);
+    if let Some(at) = points.into_iter().find(|at| !known.contains(&at.element)) {
+        found.push(
+            Diagnostic::error(
+                &codes::NOT_IN_MESH,
+                format!("element {} is in no solid body", at.element),
+            )
+            .at(&at.place, "something is to be here at the start"),
+        );
+    }
 }
 
 /// The solids of a body; lines among them have been named by mistake.
@@ -137,7 +209,12 @@ fn law(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Materia
     };
     let inner = inner?;
     Some(match &part.expansion {
-        Some(one) => Box::new(Expanding::new(inner, one.alpha, one.reference.value)),
+        Some(one) => Box::new(Expanding::by_temperature(
+            inner,
+            one.alpha.clone(),
+            one.reference,
+            one.free.value,
+        )),
         None => inner,
     })
 }
@@ -187,7 +264,10 @@ fn plastic(
 
 /// Where the constant stands that an error speaks of.
 fn place_of<'a>(part: &'a case::Material, error: &ConstantsError) -> &'a Place {
-    let (ConstantsError::Missing { name } | ConstantsError::Range { name, .. }) = error else {
+    let (ConstantsError::Missing { name }
+    | ConstantsError::Several { name }
+    | ConstantsError::Range { name, .. }) = error
+    else {
         return &part.model.place;
     };
     let constant = part.constants.iter().find(|one| one.name == *name);

@@ -258,6 +258,11 @@ impl<'a> Names<'a> {
         cells
     }
 
+    /// The number of an element in the input.
+    pub fn element(&self, cell: CellId) -> Option<u64> {
+        self.mesh.cell_label(cell)
+    }
+
     /// The elements of a set as they are listed, each once.
     pub fn cells_of(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<CellId>> {
         let mut seen = BTreeSet::new();

@@ -134,6 +134,11 @@ fn of_solid_error(error: &SolidError) -> (&'static Code, &str, &'static str) {
             body,
             "look at the mesh: signorini check",
         ),
+        SolidError::NoPoint { body, .. } => (
+            &codes::NOT_IN_MESH,
+            body,
+            "points count from 1; reduced integration has fewer",
+        ),
         SolidError::Locking { body, .. } => {
             (&codes::NOT_A_CHOICE, body, "write  locking = \"auto\"")
         }

@@ -35,10 +35,10 @@ pub(super) fn at_start(
         (Some(given), _) => given.value,
         (None, []) => 0.0,
         (None, [(first, one), others @ ..]) => {
-            let reference = one.reference.value;
+            let reference = one.free.value;
             if let Some((second, other)) = others
                 .iter()
-                .find(|(_, other)| other.reference.value != reference)
+                .find(|(_, other)| other.free.value != reference)
             {
                 found.push(
                     Diagnostic::error(
@@ -46,10 +46,10 @@ pub(super) fn at_start(
                         format!(
                             "materials \"{}\" and \"{}\" are without thermal strain at {reference} and {}: \
                              where does the run start?",
-                            first.name.value, second.name.value, other.reference.value
+                            first.name.value, second.name.value, other.free.value
                         ),
                     )
-                    .at(&other.reference.place, "another reference than the first")
+                    .at(&other.free.place, "another reference than the first")
                     .help("write  [initial] temperature ="),
                 );
             }

@@ -97,3 +97,94 @@ fn keywords_are_listed_and_faults_shown_where_they_are() {
     run(folder.path(), &["run", "bad.inp"])
         .says(3, &["there is no node 66", "bad.inp:31:1", "66, 3, 100."]);
 }
+
+/// A cube of edge one whose material has these cards, held so that it may stretch freely, and more cards.
+fn free_cube(material: &str, more: &str) -> String {
+    format!(
+        "*NODE, NSET=ALL\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n\
+         *ELEMENT, TYPE=C3D8, ELSET=CUBE\n1,1,2,3,4,5,6,7,8\n*NSET, NSET=FAR\n7\n*NSET, NSET=TOP\n5,6,7,8\n\
+         *BOUNDARY\n1,1,3\n2,2,3\n3,3\n4,1\n4,3\n5,1,2\n6,2\n8,1\n*MATERIAL, NAME=M\n{material}\n\
+         *SOLID SECTION, ELSET=CUBE, MATERIAL=M\n{more}\n*NODE PRINT, NSET=FAR\nU\n*EL PRINT, ELSET=CUBE\nS\n*END STEP\n"
+    )
+}
+
+/// The numbers of the first row below this heading in the printed tables of a deck.
+fn printed(deck: &str, heading: &str) -> Vec<f64> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("job.inp"), deck).unwrap();
+    run(folder.path(), &["run", "job.inp"]).says(0, &["solved"]);
+    let text = read(&folder.path().join("job.out/job.dat"));
+    let mut lines = text.lines().skip_while(|line| !line.contains(heading));
+    let row = lines.nth(2).unwrap_or_else(|| panic!("{text}"));
+    row.split_whitespace().map(|n| n.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_bar_whose_constants_depend_on_temperature_has_those_of_its_end() {
+    let material =
+        "*ELASTIC\n200., 0.25, 0.\n100., 0.25, 1000.\n*EXPANSION, ZERO=20.\n1e-5, 0.\n3e-5, 1000.";
+    let step = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 100.\n*STEP\n*STATIC\n*TEMPERATURE\nALL, 600.\n*CLOAD\nTOP, 3, 0.25";
+    let row = printed(&free_cube(material, step), "displacements");
+    // E(600) = 140; α is a secant from 20 on
+    let alpha = |t: f64| (1e-5 + 2e-8 * t) * (t - 20.0);
+    let thermal = alpha(600.0) - alpha(100.0);
+    for (at, wanted) in [(1, -0.25 / 140.0 + thermal), (3, 1.0 / 140.0 + thermal)] {
+        assert!((row[at] - wanted).abs() < 1e-8, "{row:?} {wanted}");
+    }
+}
+
+#[test]
+fn a_strain_at_the_start_stretches_what_is_free_and_stresses_what_is_held() {
+    let elastic = "*ELASTIC\n200., 0.25";
+    let points: Vec<String> = (1..=8)
+        .map(|k| format!("1, {k}, 0.01, 0., -0.02, 0., 0., 0."))
+        .collect();
+    let start = |kind: &str| format!("*INITIAL CONDITIONS, TYPE={kind}\n{}\n", points.join("\n"));
+    let step = "*STEP\n*STATIC";
+    let free = free_cube(elastic, &format!("{}{step}", start("PLASTIC STRAIN")));
+    let row = printed(&free, "displacements");
+    for (at, wanted) in [(1, 0.01), (2, 0.0), (3, -0.02)] {
+        assert!((row[at] - wanted).abs() < 1e-9, "{row:?}");
+    }
+    let held = free_cube(
+        elastic,
+        &format!("*BOUNDARY\nALL, 1, 3\n{}{step}", start("STRESS")),
+    );
+    let row = printed(&held, "stresses");
+    for (at, wanted) in [(2, 0.01), (3, 0.0), (4, -0.02)] {
+        assert!((row[at] - wanted).abs() < 1e-12, "{row:?}");
+    }
+}
+
+#[test]
+fn foams_and_anisotropic_bars_stretch_as_their_laws_say() {
+    // nu = 0: τ = 2μ/α (l^α − 1) = σ l, no lateral strain
+    let foam = "*HYPERFOAM, N=1\n50., 2., 0.";
+    let step = "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\nTOP, 3, 3, 0.2";
+    let row = printed(&free_cube(foam, step), "stresses");
+    let wanted = 50.0 * (1.2f64.powi(2) - 1.0);
+    assert!(
+        (row[4] * 1.0 - wanted / 1.2).abs() < 1e-4,
+        "{row:?} {wanted}"
+    );
+    let d = "*ELASTIC, TYPE=ANISO\n300., 110., 320., 130., 140., 350., 0., 0.\n0., 190., 0., 0., 0., 0., 240., 0.\n0., 0., 0., 0., 200.";
+    let step = "*BOUNDARY\nALL, 1, 2\n*STEP\n*STATIC\n*BOUNDARY\nTOP, 3, 3, 0.001";
+    let row = printed(&free_cube(d, step), "stresses");
+    for (at, wanted) in [(2, 0.13), (3, 0.14), (4, 0.35)] {
+        assert!((row[at] - wanted).abs() < 1e-9, "{row:?}");
+    }
+}
+
+#[test]
+fn sections_of_different_thickness_share_a_force_by_it() {
+    // two sheets side by side, stretched alike: forces go by thickness
+    let deck = "*NODE, NSET=ALL\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n5,0,2\n6,1,2\n*ELEMENT, TYPE=CPS4, ELSET=A\n1,1,2,3,4\n\
+                *ELEMENT, TYPE=CPS4, ELSET=B\n2,4,3,6,5\n*NSET, NSET=RIGHT\n2,3,6\n*MATERIAL, NAME=M\n*ELASTIC\n100., 0.\n\
+                *SOLID SECTION, ELSET=A, MATERIAL=M\n0.5\n*SOLID SECTION, ELSET=B, MATERIAL=M\n2.\n\
+                *BOUNDARY\n1,1,2\n4,1\n5,1\n*STEP\n*STATIC\n*DLOAD\n1, P2, -0.3\n2, P2, -0.3\n*NODE PRINT, NSET=RIGHT\nU\n\
+                *EL PRINT, ELSET=B\nS\n*NODE PRINT, NSET=ALL, TOTALS=ONLY\nRF\n*END STEP\n";
+    let row = printed(deck, "displacements");
+    assert!((row[1] - 0.003).abs() < 1e-9, "{row:?}");
+    let row = printed(deck, "total force");
+    assert!((row[0] + 0.3 * 2.5).abs() < 1e-6, "{row:?}");
+}

@@ -99,46 +99,6 @@ fn a_bolt_is_tightened_by_a_force_and_locked() {
     }
 }
 
-/// What `convert` writes has the result of the deck.
-#[test]
-fn a_converted_deck_has_the_same_result() {
-    for (name, compat) in [
-        ("block.inp", Compat::None),
-        ("bolt.inp", Compat::None),
-        ("pair.inp", Compat::None),
-        ("pair.inp", Compat::Ccx),
-    ] {
-        same_after_conversion(&own(name), compat);
-    }
-}
-
-/// Runs a deck, and the case that it is; both have to end alike.
-fn same_after_conversion(path: &Path, compat: Compat) {
-    let loaded = read(path, compat);
-    let mut case = loaded.case.clone();
-    case.mesh = MeshSource::File {
-        path: path.display().to_string().into(),
-    };
-    let text = resolved(&case);
-    let (again, _) = read_case("case.toml", text.as_bytes(), &[])
-        .unwrap_or_else(|found| panic!("{}\n{text}", found.plain()));
-    assert_eq!(again, case, "{}", path.display());
-    let converted = Loaded {
-        case: again,
-        ..loaded.clone()
-    };
-    let (direct, converted) = (solved(loaded), solved(converted));
-    assert_eq!(direct.frames.len(), converted.frames.len());
-    let of = |done: &Run| -> Vec<f64> {
-        let last = done.frames.last().unwrap();
-        last.displacement
-            .iter()
-            .flat_map(|u| u.to_array())
-            .collect()
-    };
-    assert!(relative(&of(&converted), &of(&direct)) < 1e-12);
-}
-
 /// The folder of CalculiX's own decks beside the repository.
 fn suite() -> Option<PathBuf> {
     let near = [

@@ -33,12 +33,7 @@ impl Builder {
             name,
             constants: constants.unwrap_or_default(),
             density: fields.number_if("density"),
-            expansion: fields.has("expansion").then(|| Expansion {
-                alpha: expansion.number("alpha"),
-                reference: expansion
-                    .number_if("reference")
-                    .unwrap_or_else(|| expansion.number("reference").into()),
-            }),
+            expansion: fields.has("expansion").then(|| self.expansion(expansion)),
             plasticity,
             model,
             place,
@@ -84,6 +79,37 @@ impl Builder {
             Some(Constant { name, values })
         });
         given.collect()
+    }
+
+    fn expansion(&mut self, fields: Fields<'_>) -> Expansion {
+        let reference = fields.number_if("reference");
+        let reference = reference.unwrap_or_else(|| fields.number("reference").into());
+        let mut alpha: Vec<[f64; 2]> = match fields.number_if("alpha") {
+            Some(alpha) => vec![[reference.value, alpha.value]],
+            None => Vec::new(),
+        };
+        for row in fields.rows("alpha") {
+            let Some(pair) = numbers::<2>(row.get_ref()) else {
+                continue;
+            };
+            if alpha.last().is_some_and(|before| pair[0] <= before[0]) {
+                self.error(
+                    &codes::NOT_INCREASING,
+                    "the temperatures of `alpha` do not increase",
+                    &fields.at(row.span()),
+                    "rows [temperature, alpha]",
+                );
+                break;
+            }
+            alpha.push(pair);
+        }
+        Expansion {
+            alpha,
+            free: fields
+                .number_if("free")
+                .unwrap_or_else(|| reference.clone()),
+            reference: reference.value,
+        }
     }
 
     fn plasticity(&mut self, fields: Fields<'_>) -> Plasticity {
@@ -159,7 +185,15 @@ impl Builder {
                 .help("write  material = \"NAME\"  of a [material.NAME], or  rigid = true"),
             );
         }
-        let of_solids = ["material", "integration", "locking", "orientation", "area"];
+        let of_solids = [
+            "material",
+            "integration",
+            "locking",
+            "orientation",
+            "thickness",
+            "temperatures",
+            "area",
+        ];
         let wrong = if rigid {
             &of_solids[..]
         } else {
@@ -176,6 +210,14 @@ impl Builder {
                 format!("`{key}` means nothing for {what}"),
                 &fields.place(key),
                 remark,
+            );
+        }
+        if fields.has("thickness") && !self.space.has_thickness() {
+            self.error(
+                &codes::CONTRADICTION,
+                "`thickness` means something in plane strain and plane stress only",
+                &fields.place("thickness"),
+                "delete it",
             );
         }
         let locking = fields.text("locking");
@@ -199,6 +241,11 @@ impl Builder {
             orientation: fields
                 .has("orientation")
                 .then(|| self.orientation(orientation, fields.place("orientation"))),
+            thickness: fields.number_if("thickness"),
+            temperatures: match fields.text("temperatures").value.as_str() {
+                "linear" => Temperatures::Linear,
+                _ => Temperatures::Full,
+            },
             area: fields.number_if("area"),
             rigid,
             reference: fields.text_if("reference"),

@@ -298,6 +298,24 @@ impl Builder {
     }
 }
 
+/// Rows of element, integration point and a tensor.
+pub(super) fn at_points(fields: Fields<'_>, key: &str) -> Vec<AtPoint> {
+    let rows = fields.rows(key).filter_map(|row| {
+        let items = row.get_ref().as_array()?;
+        let mut value = [0.0; 6];
+        for (slot, item) in value.iter_mut().zip(items.iter().skip(2)) {
+            *slot = number(item.get_ref())?;
+        }
+        Some(AtPoint {
+            element: id(items.first()?)?,
+            point: id(items.get(1)?)?,
+            value,
+            place: fields.at(row.span()),
+        })
+    });
+    rows.collect()
+}
+
 impl Side {
     /// Reads `S2` or `+z`; capitals do not matter.
     pub fn parse(word: &str) -> Option<Self> {

@@ -17,6 +17,7 @@ use super::scalar::shortened;
 use super::vocabulary::CASE;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, SourceFile, closest, codes};
 pub(super) use bodies::COMPONENTS;
+use geometry::at_points;
 use run::{expectation, output};
 
 /// The version of the case format that this program reads and writes.
@@ -134,6 +135,8 @@ impl Builder {
                 .map(|(fields, place)| self.constraint(fields, place))
                 .collect(),
             initial_temperature: root.table("initial").number_if("temperature"),
+            initial_stress: at_points(root.table("initial"), "stress"),
+            initial_strain: at_points(root.table("initial"), "strain"),
             steps: root
                 .tables("step")
                 .into_iter()

@@ -12,10 +12,15 @@ impl Builder {
     /// Names that stand for two things.
     pub(super) fn names(&mut self, case: &Case) {
         let sets = case.sets.iter().map(|set| ("set", &set.name));
-        let groups = case
-            .bodies
-            .iter()
-            .flat_map(|body| body.groups.iter().map(|group| ("body", group)));
+        // a body made of a set of elements is that set, not another thing of its name
+        let elements: BTreeSet<&str> = (case.sets.iter())
+            .filter(|set| matches!(set.content, SetContent::Elements(_)))
+            .map(|set| set.name.as_str())
+            .collect();
+        let groups = (case.bodies.iter())
+            .flat_map(|body| &body.groups)
+            .filter(|group| !elements.contains(group.as_str()))
+            .map(|group| ("body", group));
         let references = case.references.iter().map(|one| ("reference", &one.name));
         let surfaces = case.surfaces.iter().map(|one| ("surface", &one.name));
         let all = groups.chain(sets).chain(surfaces.clone());

@@ -41,13 +41,15 @@ pub struct Constant {
     pub values: Spanned<Vec<f64>>,
 }
 
-/// Thermal expansion: strain `alpha (T − reference)` in all directions.
+/// Thermal expansion: strain `alpha(T) (T − reference)` in all directions, less what it is where it is to be none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expansion {
-    /// Strain per temperature.
-    pub alpha: f64,
+    /// Rows of temperature, increasing, and strain per temperature; one holds at all temperatures.
+    pub alpha: Vec<[f64; 2]>,
+    /// The temperature from which `alpha` counts.
+    pub reference: f64,
     /// The temperature without thermal strain.
-    pub reference: Spanned<f64>,
+    pub free: Spanned<f64>,
 }
 
 /// Plasticity of von Mises.
@@ -86,6 +88,10 @@ pub struct Body {
     pub locking: Spanned<Locking>,
     /// Axes of the material; none: those of the frame.
     pub orientation: Option<Orientation>,
+    /// Thickness in a plane model (length); none: that of the model.
+    pub thickness: Option<Spanned<f64>>,
+    /// How temperatures vary in an element.
+    pub temperatures: Temperatures,
     /// Cross-section of bars (area).
     pub area: Option<Spanned<f64>>,
     /// Whether it moves as a whole.
@@ -94,6 +100,16 @@ pub struct Body {
     pub reference: Option<Name>,
     /// Where it was written.
     pub place: Place,
+}
+
+/// How temperatures vary in an element.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Temperatures {
+    /// As its shape functions do.
+    #[default]
+    Full,
+    /// Linearly in quad8 and hex20 with full integration: those at the points of reduced integration, continued.
+    Linear,
 }
 
 /// Axes of a material: x, and y in the plane of both vectors. Of any length, not parallel.

@@ -255,3 +255,16 @@ pub enum Sense {
     /// Against it.
     Minus,
 }
+
+/// A tensor at an integration point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtPoint {
+    /// The number of its element.
+    pub element: u64,
+    /// Its number in the element, from 1.
+    pub point: u64,
+    /// xx, yy, zz, xy, xz, yz.
+    pub value: [f64; 6],
+    /// Where it was written.
+    pub place: Place,
+}

@@ -59,6 +59,10 @@ pub struct Case {
     pub constraints: Vec<Constraint>,
     /// Temperature of everything at the start; none: where no material expands, or as the build finds it.
     pub initial_temperature: Option<Spanned<f64>>,
+    /// Stress without strain at integration points, at the start.
+    pub initial_stress: Vec<AtPoint>,
+    /// Strain without stress at integration points, at the start.
+    pub initial_strain: Vec<AtPoint>,
     /// What happens, in order.
     pub steps: Vec<Step>,
     /// How equations are solved.

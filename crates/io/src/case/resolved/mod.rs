@@ -12,7 +12,9 @@ mod write;
 use super::parts::*;
 use super::vocabulary::CASE;
 use contact::contact;
-use model::{body, constraint, local_axes, material, mesh, model, reference, set_content, spring};
+use model::{
+    body, constraint, initial, local_axes, material, mesh, model, reference, set_content, spring,
+};
 use run::{checkpoint, expectation, output, solver};
 use steps::{amplitude, step};
 use surface::surface;
@@ -61,10 +63,10 @@ fn tree(case: &Case) -> Entries {
         ("contact", tables(&case.contacts, contact)),
         ("constraint", tables(&case.constraints, constraint)),
     ]);
-    entries.extend(case.initial_temperature.as_ref().map(|temperature| {
-        let entries = vec![("temperature", temperature.value.into())];
-        ("initial", Value::Table(entries))
-    }));
+    let initial = initial(case);
+    if !initial.is_empty() {
+        entries.push(("initial", Value::Table(initial)));
+    }
     entries.extend([
         ("step", tables(&case.steps, step)),
         ("solver", Value::Table(solver(&case.solver))),

@@ -123,6 +123,25 @@ impl std::fmt::Display for Side {
     }
 }
 
+pub(super) fn initial(case: &Case) -> Entries {
+    let row = |at: &AtPoint| {
+        let number = [Value::from(at.element), Value::from(at.point)].into_iter();
+        Value::List(number.chain(at.value.map(Value::from)).collect())
+    };
+    let temperature = case.initial_temperature.as_ref();
+    let mut entries = Entries::new();
+    entries.extend(temperature.map(|temperature| ("temperature", temperature.value.into())));
+    for (name, points) in [
+        ("stress", &case.initial_stress),
+        ("strain", &case.initial_strain),
+    ] {
+        if !points.is_empty() {
+            entries.push((name, Value::List(points.iter().map(row).collect())));
+        }
+    }
+    entries
+}
+
 pub(super) fn material(one: &Material) -> Entries {
     let mut entries = vec![("model", (&one.model.value).into())];
     entries.extend(one.constants.iter().map(|constant| {
@@ -138,10 +157,14 @@ pub(super) fn material(one: &Material) -> Entries {
             .map(|density| ("density", density.value.into())),
     );
     entries.extend(one.expansion.as_ref().map(|expansion| {
-        let entries = vec![
-            ("alpha", expansion.alpha.into()),
-            ("reference", expansion.reference.value.into()),
-        ];
+        let alpha = match expansion.alpha.as_slice() {
+            [[_, alpha]] => (*alpha).into(),
+            rows => list(rows),
+        };
+        let mut entries = vec![("alpha", alpha), ("reference", expansion.reference.into())];
+        if expansion.free.value != expansion.reference {
+            entries.push(("free", expansion.free.value.into()));
+        }
         ("expansion", Value::Table(entries))
     }));
     let plasticity = one.plasticity.as_ref();
@@ -193,6 +216,13 @@ pub(super) fn body(body: &Body) -> Entries {
         let entries = vec![("x", one.x.into()), ("y", one.y.into())];
         ("orientation", Value::Table(entries))
     }));
+    let thickness = body.thickness.as_ref();
+    entries.extend(thickness.map(|thickness| ("thickness", thickness.value.into())));
+    let temperatures = match body.temperatures {
+        Temperatures::Full => "full",
+        Temperatures::Linear => "linear",
+    };
+    entries.push(("temperatures", temperatures.into()));
     entries.extend(body.area.as_ref().map(|area| ("area", area.value.into())));
     entries.push(("rigid", false.into()));
     entries

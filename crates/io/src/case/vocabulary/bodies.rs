@@ -9,16 +9,36 @@ pub(super) static MATERIAL: Table = Table {
         key("model", Shape::Choice(MATERIALS), "the law")
             .required()
             .hints(&["law", "type"]),
-        key("E", POSITIVE, "Young's modulus (stress)").hints(&[
-            "young",
-            "youngs_modulus",
-            "modulus",
-        ]),
-        key("nu", POISSON, "Poisson's ratio").hints(&["poisson", "poissons_ratio"]),
+        key(
+            "T",
+            LIST,
+            "temperatures of linear-elastic-by-temperature, increasing",
+        )
+        .hints(&["temperature", "temperatures"]),
+        key(
+            "E",
+            Shape::Either(&[POSITIVE, Shape::List(&POSITIVE, 1, MANY)]),
+            "Young's modulus (stress); at each of the temperatures T",
+        )
+        .hints(&["young", "youngs_modulus", "modulus"]),
+        key(
+            "nu",
+            Shape::Either(&[POISSON, Shape::List(&POISSON, 1, MANY)]),
+            "Poisson's ratio; at each of the temperatures T, of each term of hyperfoam",
+        )
+        .hints(&["poisson", "poissons_ratio"]),
         key("c10", ANY, "constant of mooney-rivlin (stress)"),
         key("c01", ANY, "constant of mooney-rivlin (stress)"),
-        key("mu", LIST, "shear moduli of the terms of ogden (stress)"),
-        key("alpha", LIST, "exponents of the terms of ogden"),
+        key(
+            "mu",
+            LIST,
+            "shear moduli of the terms of ogden and hyperfoam (stress)",
+        ),
+        key(
+            "alpha",
+            LIST,
+            "exponents of the terms of ogden and hyperfoam",
+        ),
         key("bulk", POSITIVE, "bulk modulus (stress)").hints(&["K", "bulk_modulus"]),
         key(
             "E1",
@@ -65,6 +85,12 @@ pub(super) static MATERIAL: Table = Table {
             POSITIVE,
             "shear modulus between the axes 2 and 3 (stress)",
         ),
+        key(
+            "D",
+            Shape::List(&ANY, 21, 21),
+            "stiffness of anisotropic (stress), upper half by columns: D1111, D1122, D2222, D1133, D2233, D3333, \
+             D1112, … D1212, D1113, … D1313, D1123, … D2323",
+        ),
         key("density", POSITIVE, "mass per volume").hints(&["rho"]),
         key("expansion", Shape::Table(&EXPANSION), EXPANSION.doc).hints(&["thermal_expansion"]),
         key("plasticity", Shape::Table(&PLASTICITY), PLASTICITY.doc).hints(&[
@@ -75,7 +101,7 @@ pub(super) static MATERIAL: Table = Table {
     ],
     rules: &[],
 };
-const LIST: Shape = Shape::Either(&[ANY, Shape::List(&ANY, 1, 16)]);
+const LIST: Shape = Shape::Either(&[ANY, Shape::List(&ANY, 1, MANY)]);
 const MATERIALS: &[Choice] = &[
     word("linear-elastic"),
     word("saint-venant-kirchhoff"),
@@ -83,14 +109,30 @@ const MATERIALS: &[Choice] = &[
     word("mooney-rivlin"),
     word("ogden"),
     word("orthotropic"),
+    word("hyperfoam"),
+    word("anisotropic"),
+    word("linear-elastic-by-temperature"),
 ];
 
 static EXPANSION: Table = Table {
     heading: "expansion",
-    doc: "thermal expansion: strain alpha (T - reference)",
+    doc: "thermal expansion: strain alpha (T - reference), counted from the temperature `free` on",
     keys: &[
-        key("alpha", ANY, "strain per temperature").required(),
-        key("reference", ANY, "the temperature without thermal strain").or(Default::Number(0.0)),
+        key(
+            "alpha",
+            Shape::Either(&[
+                ANY,
+                Shape::List(&Shape::Row("[temperature, alpha]", &[ANY, ANY]), 1, MANY),
+            ]),
+            "strain per temperature; or rows [temperature, alpha], linear between, constant outside",
+        )
+        .required(),
+        key("reference", ANY, "the temperature from which alpha counts").or(Default::Number(0.0)),
+        key(
+            "free",
+            ANY,
+            "the temperature without thermal strain; absent: the reference",
+        ),
     ],
     rules: &[],
 };
@@ -155,6 +197,17 @@ pub(super) static BODY: Table = Table {
         )
         .or(Default::Text("auto")),
         key("orientation", Shape::Table(&ORIENTATION), ORIENTATION.doc),
+        key(
+            "thickness",
+            POSITIVE,
+            "thickness in a plane model (length); absent: that of the model",
+        ),
+        key(
+            "temperatures",
+            Shape::Choice(&[word("full"), word("linear")]),
+            "how temperatures vary in an element; linear, as strains do: of quad8 and hex20 with full integration",
+        )
+        .or(Default::Text("full")),
         key("area", POSITIVE, "cross-section of bars (area)").hints(&["section"]),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
         key(

@@ -151,11 +151,31 @@ pub(super) static AXES: Table = Table {
 pub(super) static INITIAL: Table = Table {
     heading: "[initial]",
     doc: "fields at the start",
-    keys: &[key(
-        "temperature",
-        ANY,
-        "temperature of everything; absent: that at which materials have no thermal strain",
-    )
-    .required()],
-    rules: &[],
+    keys: &[
+        key(
+            "temperature",
+            ANY,
+            "temperature of everything; absent: that at which materials have no thermal strain",
+        ),
+        key(
+            "stress",
+            POINTS,
+            "stress without strain at integration points, rows [element, point, xx, yy, zz, xy, xz, yz]",
+        ),
+        key(
+            "strain",
+            POINTS,
+            "strain without stress at integration points, likewise; shears are those of the tensor",
+        )
+        .hints(&["plastic_strain"]),
+    ],
+    rules: &[Rule::AtLeastOne(&["temperature", "stress", "strain"])],
 };
+const POINTS: Shape = Shape::List(
+    &Shape::Row(
+        "[element, point, xx, yy, zz, xy, xz, yz]",
+        &[ID, COUNT, ANY, ANY, ANY, ANY, ANY, ANY],
+    ),
+    1,
+    MANY,
+);

@@ -1,6 +1,7 @@
 //! Sums of forces and moments, in closed form.
 
 use super::*;
+use signorini_geometry::element::quadrature::Rule;
 use std::f64::consts::{PI, TAU};
 
 /// Area of the model's plane and its centre, or volume.
@@ -45,6 +46,48 @@ fn pressure_on_a_closed_curved_surface_has_no_resultant() {
         assert_near(force, Vec3::ZERO, 1e-12, &what);
         assert_near(moment, Vec3::ZERO, 1e-11, &what);
     }
+}
+
+#[test]
+fn masses_are_integrated_by_the_rule_that_they_are_given() {
+    let element = element::by_name("hex20").unwrap();
+    let single = Single::new(element, Idealisation::Space, 0.2);
+    let x = &single.reference;
+    let mass = |rule: &'static Rule| {
+        let mut region = Region::default();
+        region.push_by(element, rule, single.mesh.cell(single.cell), 2.0);
+        let forces = spread::over_cells(&region, single.space, x, Vec3::unit(0));
+        forces.values().map(|f| f.x).sum::<f64>()
+    };
+    let by_hand = |rule: &'static Rule| {
+        let mut slopes = [Vec3::ZERO; 20];
+        let at = rule.iter().map(|(xi, weight)| {
+            element.dshape(xi, &mut slopes);
+            let mut rows = [Vec3::ZERO; 3];
+            for (x, slope) in x.iter().zip(&slopes) {
+                for (row, slope) in rows.iter_mut().zip(slope.to_array()) {
+                    *row += *x * slope;
+                }
+            }
+            2.0 * weight * rows[0].cross(rows[1]).dot(rows[2])
+        });
+        at.sum::<f64>()
+    };
+    let rules = [element.surface_rule(), element.reduced_rule()];
+    let [full, reduced] = rules.map(mass);
+    assert_near(
+        Vec3::unit(0) * full,
+        Vec3::unit(0) * by_hand(rules[0]),
+        1e-12,
+        "full",
+    );
+    assert_near(
+        Vec3::unit(0) * reduced,
+        Vec3::unit(0) * by_hand(rules[1]),
+        1e-12,
+        "reduced",
+    );
+    assert!((full - reduced).abs() > 1e-6);
 }
 
 #[test]

@@ -398,3 +398,171 @@ fn what_is_held_while_it_warms_has_its_thermal_stress() {
     let outcome = law.respond(&cold, &[], &mut [], Order::Stress, &mut Response::default());
     assert!(matches!(outcome, Err(MaterialError::Inverted { .. })));
 }
+
+fn size(tensor: Sym3) -> f64 {
+    tensor.double_dot(tensor).sqrt()
+}
+
+/// Constants of this name, alone.
+fn only(name: &str, values: &[f64]) -> Constants {
+    let mut constants = Constants::default();
+    constants.set(name, values.to_vec());
+    constants
+}
+
+#[test]
+fn an_anisotropic_law_takes_its_columns_in_their_order() {
+    // every column alone: D of the pair (row, column) is ten times the row plus the column, on a large diagonal
+    let mut values = Vec::new();
+    for column in 0..6u32 {
+        for row in 0..=column {
+            let large = if row == column { 1000.0 } else { 0.0 };
+            values.push(large + f64::from(10 * row + column));
+        }
+    }
+    let law = Anisotropic::new(&only("D", &values)).unwrap();
+    let axes = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+    for (column, &(i, j)) in axes.iter().enumerate() {
+        let mut pairs = [0.0; 6];
+        let place = Sym3::PAIRS.iter().position(|p| *p == (i, j)).unwrap();
+        // a doubled shear of 1e-3
+        pairs[place] = if i == j { 1e-3 } else { 0.5e-3 };
+        let strain = Strain::new(Kinematics::Small, Sym3::from_pairs(pairs));
+        let stress = fresh(&law, &strain).stress.to_pairs();
+        for (row, &(k, l)) in axes.iter().enumerate() {
+            let (low, high) = (row.min(column), row.max(column));
+            let large = if row == column { 1000.0 } else { 0.0 };
+            let expected = 1e-3 * (large + (10 * low + high) as f64);
+            let place = Sym3::PAIRS.iter().position(|p| *p == (k, l)).unwrap();
+            assert!((stress[place] - expected).abs() < 1e-12, "{row} {column}");
+        }
+    }
+}
+
+#[test]
+fn an_anisotropic_law_that_is_not_positive_is_an_error() {
+    let mut values = vec![0.0; 21];
+    assert!(Anisotropic::new(&only("D", &values)).is_err());
+    for at in [0, 2, 5, 9, 14, 20] {
+        values[at] = 1.0;
+    }
+    assert!(Anisotropic::new(&only("D", &values)).is_ok());
+    values[1] = 1.0;
+    assert!(Anisotropic::new(&only("D", &values)).is_err());
+    assert!(Anisotropic::new(&only("D", &values[..20])).is_err());
+}
+
+fn by_temperature(t: &[f64], e: &[f64], nu: &[f64]) -> Result<ByTemperature, ConstantsError> {
+    let mut constants = Constants::default();
+    for (name, values) in [("T", t), ("E", e), ("nu", nu)] {
+        constants.set(name, values.to_vec());
+    }
+    ByTemperature::new(&constants)
+}
+
+#[test]
+fn constants_by_temperature_are_linear_between_and_constant_outside() {
+    let (t, e, nu) = (
+        [-100.0, 100.0, 500.0],
+        [200.0, 180.0, 90.0],
+        [0.3, 0.3, 0.4],
+    );
+    let law = by_temperature(&t, &e, &nu).unwrap();
+    let value = random(3, 1e-2);
+    for (temperature, e, nu) in [
+        (-300.0, 200.0, 0.3),
+        (-100.0, 200.0, 0.3),
+        (0.0, 190.0, 0.3),
+        (200.0, 157.5, 0.325),
+        (500.0, 90.0, 0.4),
+        (900.0, 90.0, 0.4),
+    ] {
+        for kinematics in KINEMATICS {
+            let strain = Strain {
+                kinematics,
+                value,
+                temperature,
+            };
+            let [a, b] = [
+                fresh(&law, &strain),
+                fresh(&SaintVenantKirchhoff::new(e, nu), &strain),
+            ];
+            assert!(size(a.stress - b.stress) < 1e-12 * size(b.stress));
+            assert!((a.energy - b.energy).abs() < 1e-12 * b.energy);
+        }
+    }
+    assert!(by_temperature(&[0.0, 0.0], &[1.0, 1.0], &[0.3, 0.3]).is_err());
+    assert!(by_temperature(&[0.0, 1.0], &[1.0], &[0.3, 0.3]).is_err());
+    assert!(by_temperature(&[0.0, 1.0], &[1.0, -1.0], &[0.3, 0.3]).is_err());
+}
+
+#[test]
+fn a_list_is_no_number() {
+    let mut constants = Constants::elastic(1.0, 0.3);
+    constants.set("E", vec![1.0, 2.0]);
+    let error = ConstantsError::Several { name: "E" };
+    assert_eq!(constants.isotropic(), Err(error));
+}
+
+#[test]
+fn secant_expansion_by_temperature_is_counted_from_its_start() {
+    let make = || Box::new(SaintVenantKirchhoff::new(500.0, 0.3));
+    let table = vec![[0.0, 1e-5], [1000.0, 3e-5]];
+    let law = Expanding::by_temperature(make(), table, 20.0, 100.0);
+    let x = |t: f64| (1e-5 + 2e-8 * t) * (t - 20.0);
+    for temperature in [100.0, 400.0, 900.0] {
+        let grown = x(temperature) - x(100.0);
+        for (kinematics, free) in [
+            (Kinematics::Small, grown),
+            (Kinematics::Finite, grown + 0.5 * grown * grown),
+        ] {
+            let strain = Strain {
+                kinematics,
+                value: Sym3::IDENTITY * free,
+                temperature,
+            };
+            assert!(size(fresh(&law, &strain).stress) < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn foam_without_lateral_contraction_is_a_sum_of_springs() {
+    // nu = 0: the principal directions do not see each other, τ_i = Σ 2μ/α (l_i^α − 1)
+    let mut constants = Constants::default();
+    for (name, values) in [
+        ("mu", [3.0, -0.2]),
+        ("alpha", [4.0, -2.0]),
+        ("nu", [0.0, 0.0]),
+    ] {
+        constants.set(name, values.to_vec());
+    }
+    let law = Hyperfoam::new(&constants).unwrap();
+    for l in [0.4f64, 0.9, 1.7] {
+        let out = fresh(&law, &finite(Sym3::diagonal(0.5 * (l * l - 1.0), 0.0, 0.0)));
+        let tau = 1.5 * (l.powi(4) - 1.0) + 0.2 * (l.powi(-2) - 1.0);
+        assert!((out.stress.xx() * l * l - tau).abs() < 1e-12);
+        assert!(out.stress.yy().abs() < 1e-12);
+        let energy =
+            6.0 / 16.0 * (l.powi(4) - 1.0 - 4.0 * l.ln()) - 0.1 * (l.powi(-2) - 1.0 + 2.0 * l.ln());
+        assert!((out.energy - energy).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn foam_under_pressure_has_its_closed_form() {
+    let mut constants = Constants::default();
+    for (name, value) in [("mu", 3.0), ("alpha", 4.0), ("nu", 0.3)] {
+        constants.set(name, vec![value]);
+    }
+    let law = Hyperfoam::new(&constants).unwrap();
+    let beta = 0.3 / 0.4;
+    for l in [0.5f64, 1.4] {
+        let e = 0.5 * (l * l - 1.0);
+        let out = fresh(&law, &finite(Sym3::diagonal(e, e, e)));
+        let tau = 1.5 * (l.powi(4) - l.powf(-12.0 * beta));
+        assert!((out.stress.xx() * l * l - tau).abs() < 1e-11);
+    }
+    constants.set("nu", vec![0.5]);
+    assert!(Hyperfoam::new(&constants).is_err());
+}

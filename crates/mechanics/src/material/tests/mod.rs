@@ -304,7 +304,7 @@ fn every_law_keeps_its_digits_at_small_strain_and_its_modulus_is_its_stiffness()
 #[test]
 fn isotropic_laws_turn_with_the_axes() {
     for (name, material) in laws() {
-        if name == "orthotropic" {
+        if ["orthotropic", "anisotropic"].contains(&name.as_str()) {
             continue;
         }
         for kinematics in KINEMATICS {

@@ -6,7 +6,7 @@ pub use contact::*;
 
 use crate::load::Course;
 use crate::material::Material;
-use crate::solid::{Integration, Locking};
+use crate::solid::{AtStart, Integration, Locking};
 use crate::solve::{Increments, Motion};
 use crate::system::Idealisation;
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
@@ -84,6 +84,12 @@ pub enum BodyKind {
         integration: Integration,
         /// What is done against locking.
         locking: Locking,
+        /// Thickness in a plane model, where it is not that of the model (length). It does not go with contact.
+        thickness: Option<f64>,
+        /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are.
+        linear_temperatures: bool,
+        /// Stress and strain at the start.
+        initial: Vec<AtStart>,
     },
     /// Bars that carry normal force only: cells of lines.
     Truss {
@@ -107,6 +113,9 @@ impl BodyKind {
             density: None,
             integration: Integration::default(),
             locking: Locking::default(),
+            thickness: None,
+            linear_temperatures: false,
+            initial: Vec::new(),
         }
     }
 

@@ -38,6 +38,17 @@ pub(super) struct Element<'a> {
     pub ndilatation: usize,
     /// History at the start of the increment: of each point, then the incompatible modes.
     pub old: &'a [f64],
+    /// What each point has at the start; empty where no point has anything.
+    pub initial: &'a [Initial],
+}
+
+/// What a point has at the start.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Initial {
+    /// Stress without strain.
+    pub stress: Sym3,
+    /// Strain without stress.
+    pub strain: Sym3,
 }
 
 /// Results of one element. Forces and stiffness are those of displacements, node by node.
@@ -94,6 +105,8 @@ pub(super) struct Points {
     pub rule: &'static Rule,
     shape: Vec<f64>,
     dshape: Vec<Vec3>,
+    /// What temperatures of nodes are multiplied with; empty where it is the shape functions.
+    thermal: Vec<f64>,
     shape_at_centre: Vec<f64>,
     dshape_at_centre: Vec<Vec3>,
     nnode: usize,
@@ -106,6 +119,7 @@ impl Points {
             rule,
             shape: vec![0.0; nnode * npoint],
             dshape: vec![Vec3::ZERO; nnode * npoint],
+            thermal: Vec::new(),
             shape_at_centre: vec![0.0; nnode],
             dshape_at_centre: vec![Vec3::ZERO; nnode],
             nnode,
@@ -119,6 +133,36 @@ impl Points {
         element.shape(&centre, &mut points.shape_at_centre);
         element.dshape(&centre, &mut points.dshape_at_centre);
         points
+    }
+
+    /// Makes temperatures linear where the rule has more points than the reduced one: with those points `q`, at `±1/√3`
+    /// along each axis, the temperature at a point is `Σ_q Π_a ½ (1 + 3 ξ_a q_a) T(q)`.
+    pub fn linear_temperatures(&mut self, element: &dyn ReferenceElement) {
+        let reduced = element.reduced_rule();
+        if !matches!(element.name(), "quad8" | "hex20") || reduced.npoint() >= self.rule.npoint() {
+            return;
+        }
+        let mut shape = vec![0.0; self.nnode];
+        self.thermal = vec![0.0; self.nnode * self.rule.npoint()];
+        for q in reduced.points {
+            element.shape(q, &mut shape);
+            let rows = self.thermal.chunks_exact_mut(self.nnode);
+            for (xi, row) in self.rule.points.iter().zip(rows) {
+                let axes = 0..element.dim();
+                let weight: f64 = axes.map(|a| 0.5 * (1.0 + 3.0 * xi[a] * q[a])).product();
+                for (to, n) in row.iter_mut().zip(&shape) {
+                    *to += weight * n;
+                }
+            }
+        }
+    }
+
+    /// What temperatures of nodes are multiplied with at a point.
+    fn thermal(&self, point: usize) -> &[f64] {
+        let own = self
+            .thermal
+            .get(point * self.nnode..(point + 1) * self.nnode);
+        own.unwrap_or_else(|| self.shape(point))
     }
 
     /// Shape functions at a point.
@@ -252,7 +296,7 @@ impl Element<'_> {
 
     /// The temperature at a point.
     fn temperature(&self, point: usize) -> f64 {
-        let shape = self.reference.shape(point).iter();
+        let shape = self.reference.thermal(point).iter();
         shape.zip(self.temperature).map(|(n, t)| n * t).sum()
     }
 
@@ -266,15 +310,21 @@ impl Element<'_> {
         new: &mut [f64],
         response: &mut Response,
     ) -> Result<(), MaterialError> {
+        let initial = self.initial.get(point);
         let strain = Strain {
             kinematics: self.kinematics,
-            value,
+            value: initial.map_or(value, |at| value - at.strain),
             temperature: self.temperature(point),
         };
         let nhistory = self.material.nhistory();
         let at = point * nhistory..(point + 1) * nhistory;
         let (old, new) = (&self.old[at.clone()], &mut new[at]);
-        self.material.respond(&strain, old, new, order, response)
+        self.material.respond(&strain, old, new, order, response)?;
+        if let Some(at) = initial {
+            response.stress = response.stress + at.stress;
+            response.energy += at.stress.double_dot(value);
+        }
+        Ok(())
     }
 
     /// What is known at a point where the deformation gradient that the material sees is `f = I + h`, and `weight`

@@ -97,6 +97,8 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         integration: Integration::Full,
         locking: Locking::None,
         temperature: Some(Arc::new(field)),
+        linear_temperatures: false,
+        initial: &[],
     })
     .unwrap();
     assert_eq!(solid.symmetry(), Symmetry::Unsymmetric);

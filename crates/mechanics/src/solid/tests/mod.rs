@@ -20,6 +20,7 @@ mod locking;
 mod patch;
 mod samples;
 mod speed;
+mod start;
 mod truss;
 
 const PLANE: [&str; 5] = ["tri3", "quad4", "tri6", "quad8", "quad9"];
@@ -125,6 +126,8 @@ fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, S
         integration: wish.integration,
         locking: wish.locking,
         temperature: None,
+        linear_temperatures: false,
+        initial: &[],
     })?;
     solid.locking(wish.kinematics)?;
     solid.set_kinematics(wish.kinematics);

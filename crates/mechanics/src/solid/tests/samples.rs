@@ -154,6 +154,8 @@ fn thermal_growth_is_no_mechanical_strain() {
             temperature: Some(Arc::new(NodalField {
                 ends: vec![row.clone(), row],
             })),
+            linear_temperatures: false,
+            initial: &[],
         })
         .unwrap();
         let u: Vec<f64> = (0..plain.layout.ndof()).map(|k| 0.02 * noise(k)).collect();

@@ -60,6 +60,8 @@ fn hexahedra_assembled_per_second() {
             integration: Integration::Full,
             locking,
             temperature: None,
+            linear_temperatures: false,
+            initial: &[],
         });
         let mut solid = solid.unwrap();
         solid.set_kinematics(if nonlinear {

@@ -1,0 +1,433 @@
+#!/usr/bin/env python3
+"""Run decks through CalculiX and through signorini, and compare what both print.
+
+    python scripts/compare_ccx.py [DECKS] [--contact] [--least-contact N] [--least-static N] [--markdown FILE]
+
+DECKS is a folder with decks, .inp or .inp.gz; without it, that of Debian's package calculix-ccx-test. Taken are the
+decks whose procedures are all *STATIC, or of these, with --contact, those with *CONTACT PAIR or *GAP. Each runs in a
+temporary folder, with one thread, once by ccx and once by `signorini run --compat ccx`. Compared are the tables of
+their .dat files by `signorini diff`: a difference counts in parts of the largest value of its table; where the deck
+prints no table, displacements and stresses of their .frd files. Where increments differ, times that only one of both
+has do not count, but the last time of every table of ccx does.
+
+What differs is compared once more with ccx iterating to the end: with the residual that ends its iterations ten thousand
+times smaller, and with its direct solver. Its default, half a percent of the mean force, is larger than the tolerance.
+
+A line for each deck: `agrees`; `converged`, which agrees with the second run of ccx; `differs`, with the table that differs most; `refused`, with the first reason of
+signorini; `fails`, where signorini did not solve it; `no reference`, where ccx did not, or left nothing to compare. Behind it the
+largest difference, iterations of signorini and of ccx, seconds of both. Then the counts, and the reasons by how often
+they occur.
+
+Only what comes with Python is used. Exit code: 0; 1 where fewer agree than asked for; 2 wrong command line or missing
+programs.
+"""
+
+import argparse
+import collections
+import gzip
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+
+DEBIAN = "/usr/share/doc/calculix-ccx-test/examples/test"
+# blank-free beginnings of the keywords of procedures, as CalculiX knows them
+PROCEDURES = [
+    "BUCKLE",
+    "CFD",
+    "COMPLEXFREQUENCY",
+    "COUPLEDTEMPERATURE-DISPLACEMENT",
+    "CRACKPROPAGATION",
+    "DYNAMIC",
+    "ELECTROMAGNETICS",
+    "FEASIBLEDIRECTION",
+    "FREQUENCY",
+    "GREEN",
+    "HEATTRANSFER",
+    "MODALDYNAMIC",
+    "ROBUSTDESIGN",
+    "SENSITIVITY",
+    "STATIC",
+    "STEADYSTATEDYNAMICS",
+    "SUBSTRUCTUREGENERATE",
+    "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
+    "VISCO",
+]
+# residual and correction, in parts of the mean force and the largest increment
+CONVERGED = "*CONTROLS, PARAMETERS=FIELD\n5.E-7, 1.E-5\n"
+CONTACT = ["CONTACTPAIR", "GAP"]
+# not *CONTACT PAIR's: *GAP CONDUCTANCE and *GAP HEAT GENERATION are no gaps
+NO_CONTACT = ["GAPCONDUCTANCE", "GAPHEATGENERATION"]
+IN_FRD = ["DISP", "STRESS"]
+TOLERANCE = 1e-3
+REFUSED = 3
+
+
+@dataclass
+class Outcome:
+    """What became of a deck."""
+
+    deck: str
+    has_contact: bool
+    status: str
+    reason: str = ""
+    largest: float | None = None
+    iterations: tuple[int | None, int | None] = (None, None)
+    seconds: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass
+class Blocks:
+    """What a comparison of two files found."""
+
+    compared: int = 0
+    largest: float = 0.0
+    # name, or name and time, of what differs most; tables of the reference that are not there at their last time
+    worst: str = ""
+    lacking: list[str] = field(default_factory=list)
+
+
+def keywords(text):
+    """The keywords of a deck, without blanks, in capitals, without their parameters."""
+    lines = (line.strip() for line in text.splitlines())
+    cards = (line for line in lines if line.startswith("*") and not line.startswith("**"))
+    return [re.sub(r"\s", "", card[1:].split(",")[0]).upper() for card in cards]
+
+
+def begins(keyword, names):
+    return any(keyword.startswith(name) for name in names)
+
+
+def is_static(found):
+    """Whether all procedures among these keywords are *STATIC, and there is one."""
+    procedures = [keyword for keyword in found if begins(keyword, PROCEDURES)]
+    return bool(procedures) and all(keyword.startswith("STATIC") for keyword in procedures)
+
+
+def has_contact(found):
+    return any(begins(keyword, CONTACT) and not begins(keyword, NO_CONTACT) for keyword in found)
+
+
+def converged(text):
+    """The deck with tight tolerances and a direct solver."""
+    lines = []
+    for line in text.splitlines():
+        card = keywords(line)[:1]
+        if card == ["ENDSTEP"]:
+            lines.append(CONVERGED.rstrip())
+        if card == ["STATIC"]:
+            line = re.sub(r",\s*SOLVER\s*=[^,]*", "", line, flags=re.IGNORECASE)
+        lines.append(line)
+    return "\n".join(lines) + "\n"
+
+
+def unpack(source, target):
+    """Copies the files of a folder into another one; those that end in .gz are unpacked."""
+    os.makedirs(target)
+    for entry in sorted(os.scandir(source), key=lambda entry: entry.name):
+        if not entry.is_file():
+            continue
+        to = os.path.join(target, entry.name)
+        if entry.name.endswith(".gz"):
+            with gzip.open(entry.path, "rb") as packed, open(to[: -len(".gz")], "wb") as file:
+                shutil.copyfileobj(packed, file)
+        else:
+            shutil.copyfile(entry.path, to)
+
+
+def chosen(folder, only_contact):
+    """Static decks of a folder by name: their paths, and whether they have contact."""
+    decks = []
+    for path in sorted(pathlib.Path(folder).glob("*.inp")):
+        found = keywords(path.read_text(encoding="utf-8", errors="replace"))
+        contact = has_contact(found)
+        if is_static(found) and (contact or not only_contact):
+            decks.append((path.stem, contact))
+    return decks
+
+
+def run(command, folder, timeout):
+    """Exit code (None: out of time), output, seconds."""
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "CCX_NPROC_EQUATION_SOLVER": "1"}
+    began = time.monotonic()
+    try:
+        done = subprocess.run(
+            command,
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            timeout=timeout,
+        )
+        code, said = done.returncode, done.stdout.decode("utf-8", "replace")
+    except subprocess.TimeoutExpired:
+        code, said = None, ""
+    return code, said, time.monotonic() - began
+
+
+def events(said):
+    """The lines of JSON in an output."""
+    found = []
+    for line in said.splitlines():
+        try:
+            event = json.loads(line)
+        except json.JSONDecodeError:
+            continue
+        if isinstance(event, dict):
+            found.append(event)
+    return found
+
+
+def first_error(said):
+    """The message of the first error in a run's events."""
+    of_errors = (e for e in events(said) if e.get("ev") == "diagnostic" and e.get("severity") == "error")
+    return next((str(e.get("message", "")) for e in of_errors), "")
+
+
+def feature(reason):
+    """A reason without names and numbers of its deck: what is counted."""
+    text = re.sub(r"^.*\.inp(, line \d+)?: ", "", reason)
+    text = re.sub(r"\"[^\"]*\"|`[^`]*`", "…", text)
+    text = re.sub(r"(?<![A-Z0-9_*-])\d+(?![A-Z0-9])", "n", text)
+    return " ".join(text.split())
+
+
+def judge(said, names=None):
+    """What `signorini diff --json` found, of the tables of these names, or of all."""
+    blocks = Blocks()
+    last = {}
+    for event in events(said):
+        name = event.get("name", "")
+        if event.get("ev") != "block" or names is not None and name not in names:
+            continue
+        outcome, at = event.get("outcome"), event.get("time")
+        if outcome == "compared":
+            numbers = event["numbers"]
+            # rows that only one of both has differ, whatever their values are
+            ratio = 1.0 if numbers.get("mismatch") else numbers["ratio"]
+            blocks.compared += 1
+            if ratio > blocks.largest:
+                blocks.largest = ratio
+                blocks.worst = name if at is None else f"{name} at {at:g}"
+        if outcome != "not in the reference" and at is not None and at >= last.get(name, (at,))[0]:
+            last[name] = (at, outcome)
+    blocks.lacking = [name for name, (_, outcome) in last.items() if outcome != "compared"]
+    return blocks
+
+
+def iterations_of_ccx(folder, deck):
+    """The sum over the column ITRS of a .sta file."""
+    try:
+        lines = pathlib.Path(folder, f"{deck}.sta").read_text(encoding="ascii", errors="replace").splitlines()
+    except OSError:
+        return None
+    rows = [line.split() for line in lines[2:]]
+    counts = [int(row[3]) for row in rows if len(row) == 7 and row[3].isdigit()]
+    return sum(counts) if counts else None
+
+
+def iterations_of_ours(results):
+    try:
+        with open(os.path.join(results, "summary.json"), encoding="utf-8") as file:
+            return sum(step["iterations"] for step in json.load(file)["steps"])
+    except (OSError, ValueError, KeyError):
+        return None
+
+
+def holds_something(path):
+    try:
+        return bool(pathlib.Path(path).read_text(encoding="ascii", errors="replace").strip())
+    except OSError:
+        return False
+
+
+class Programs:
+    """Both programs, and the folders in which they run."""
+
+    def __init__(self, ccx, signorini, folder, timeout):
+        self.ccx, self.signorini, self.timeout = ccx, signorini, timeout
+        self.theirs, self.ours = os.path.join(folder, "theirs"), os.path.join(folder, "ours")
+
+    def compare(self, deck, contact):
+        """Runs a deck through both."""
+        code, said, ours = run(
+            [self.signorini, "run", f"{deck}.inp", "--compat", "ccx", "--format", "frd", "--threads", "1", "--json"],
+            self.ours,
+            self.timeout,
+        )
+        results = os.path.join(self.ours, f"{deck}.out")
+        outcome = Outcome(deck, contact, "", seconds=(ours, 0.0))
+        if code == REFUSED:
+            outcome.status, outcome.reason = "refused", first_error(said)
+            return outcome
+        theirs_code, _, theirs = run([self.ccx, "-i", deck], self.theirs, self.timeout)
+        outcome.seconds = (ours, theirs)
+        outcome.iterations = (iterations_of_ours(results), iterations_of_ccx(self.theirs, deck))
+        if code != 0:
+            outcome.status = "fails"
+            outcome.reason = "out of time" if code is None else first_error(said) or f"exit code {code}"
+        elif theirs_code != 0:
+            outcome.status = "no reference"
+            outcome.reason = "ccx: out of time" if theirs_code is None else f"ccx: exit code {theirs_code}"
+        else:
+            self.judge(outcome, results, deck)
+            if outcome.status == "differs":
+                self.once_more(outcome, results)
+        shutil.rmtree(results, ignore_errors=True)
+        return outcome
+
+    def once_more(self, outcome, results):
+        """Compares with ccx iterating to the end."""
+        job = f"{outcome.deck}-converged"
+        deck = pathlib.Path(self.theirs, f"{outcome.deck}.inp").read_text(encoding="utf-8", errors="replace")
+        pathlib.Path(self.theirs, f"{job}.inp").write_text(converged(deck), encoding="utf-8")
+        code, _, _ = run([self.ccx, "-i", job], self.theirs, self.timeout)
+        second = Outcome(outcome.deck, outcome.has_contact, "")
+        if code == 0:
+            self.judge(second, results, job)
+        if second.status == "agrees":
+            outcome.status = "converged"
+            outcome.reason = f"{second.largest:.1e} where ccx iterates to the end"
+
+    def judge(self, outcome, results, job):
+        """Compares results with those of a job of ccx."""
+        kind, names = "dat", None
+        if not holds_something(os.path.join(self.theirs, f"{job}.dat")):
+            kind, names = "frd", IN_FRD
+        mine, their = os.path.join(results, f"{outcome.deck}.{kind}"), os.path.join(self.theirs, f"{job}.{kind}")
+        if kind == "dat" and not os.path.exists(mine):
+            outcome.status, outcome.reason = "differs", "signorini prints no table"
+            return
+        _, said, _ = run([self.signorini, "diff", mine, their, "--common", "--json"], self.ours, self.timeout)
+        blocks = judge(said, names)
+        if blocks.compared == 0 and not blocks.lacking:
+            outcome.status, outcome.reason = "no reference", "ccx: nothing to compare"
+            return
+        outcome.largest = blocks.largest
+        if blocks.lacking:
+            outcome.status, outcome.reason = "differs", f"only ccx prints {blocks.lacking[0]}"
+        elif blocks.largest > TOLERANCE:
+            outcome.status, outcome.reason = "differs", blocks.worst
+        else:
+            outcome.status = "agrees"
+
+
+def shown(value, form):
+    return "" if value is None else format(value, form)
+
+
+def cells(outcome):
+    both = [shown(count, "d") for count in outcome.iterations]
+    seconds = [shown(value or None, ".1f") for value in outcome.seconds]
+    return [outcome.deck, outcome.status, shown(outcome.largest, ".1e"), *both, *seconds, outcome.reason]
+
+
+HEADINGS = ["deck", "", "difference", "iterations", "of ccx", "seconds", "of ccx", "why"]
+
+
+def in_columns(row):
+    widths = [24, 12, 10, 10, 7, 8, 7]
+    return " ".join(f"{text:<{width}}" for text, width in zip(row, widths)) + " " + row[-1]
+
+
+PAGE = """# Decks beside CalculiX
+
+Written by `python scripts/compare_ccx.py --markdown`: decks whose steps are all static, through CalculiX and through
+signorini with `--compat ccx`. See [decks.md](decks.md) for what the words mean.
+
+"""
+
+
+def page(outcomes):
+    """All outcomes as a page: counts, reasons, a table."""
+    return PAGE + "".join(f"* {line.strip()}\n" for line in counts(outcomes)) + "\n" + table(outcomes)
+
+
+def table(outcomes):
+    rows = [HEADINGS, ["---"] * len(HEADINGS), *(cells(outcome) for outcome in outcomes)]
+    return "".join("| " + " | ".join(text.replace("|", "\\|") for text in row) + " |\n" for row in rows)
+
+
+def agreeing(outcomes):
+    return sum(outcome.status == "agrees" for outcome in outcomes)
+
+
+def counts(outcomes):
+    """The counts in words, and the reasons, most frequent first."""
+    contact = [outcome for outcome in outcomes if outcome.has_contact]
+    lines = []
+    for name, some in (("static decks", outcomes), ("static decks with contact", contact)):
+        text = f"{agreeing(some)} of {len(some)} {name} agree"
+        more = sum(outcome.status == "converged" for outcome in some)
+        lines.append(f"{text}, {more} more where ccx iterates to the end")
+    by_status = collections.Counter(outcome.status for outcome in outcomes)
+    lines.append(", ".join(f"{number} {status}" for status, number in by_status.most_common()))
+    refused = [outcome for outcome in outcomes if outcome.status == "refused"]
+    reasons = collections.defaultdict(list)
+    for outcome in refused:
+        reasons[feature(outcome.reason)].append(outcome.deck)
+    for reason, decks in sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0])):
+        lines.append(f"{len(decks):4} {reason}: {', '.join(decks)}")
+    return lines
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("decks", nargs="?", default=DEBIAN, help=f"folder of decks, {DEBIAN} without it")
+    parser.add_argument("--ccx", default="ccx", help="the command of CalculiX")
+    parser.add_argument("--signorini", default="target/release/signorini", help="the command of signorini")
+    parser.add_argument("--contact", action="store_true", help="only decks with contact")
+    parser.add_argument("--only", nargs="+", metavar="DECK", help="only these, by name")
+    parser.add_argument("--timeout", type=float, default=60.0, help="seconds for one deck in one program")
+    parser.add_argument("--least-contact", type=int, default=0, metavar="N", help="so many with contact must agree")
+    parser.add_argument("--least-static", type=int, default=0, metavar="N", help="so many static ones must agree")
+    parser.add_argument("--markdown", metavar="FILE", help="write a page")
+    return parser.parse_args()
+
+
+def main():
+    args = arguments()
+    programs = [shutil.which(name) for name in (args.ccx, args.signorini)]
+    for name, found in zip((args.ccx, args.signorini), programs):
+        if found is None:
+            print(f"error: there is no program {name}", file=sys.stderr)
+            return 2
+    if not os.path.isdir(args.decks):
+        print(f"error: there is no folder {args.decks}", file=sys.stderr)
+        return 2
+    ccx, signorini = map(os.path.abspath, programs)
+    outcomes = []
+    with tempfile.TemporaryDirectory() as folder:
+        both = Programs(ccx, signorini, folder, args.timeout)
+        for target in (both.theirs, both.ours):
+            unpack(args.decks, target)
+        print(in_columns(HEADINGS))
+        for deck, contact in chosen(both.ours, args.contact):
+            if args.only and deck not in args.only:
+                continue
+            outcomes.append(both.compare(deck, contact))
+            print(in_columns(cells(outcomes[-1])), flush=True)
+    print()
+    print("\n".join(counts(outcomes)))
+    if args.markdown:
+        pathlib.Path(args.markdown).write_text(page(outcomes), encoding="utf-8")
+    asked = [
+        ("static", outcomes, args.least_static),
+        ("contact", [outcome for outcome in outcomes if outcome.has_contact], args.least_contact),
+    ]
+    missed = [(name, least) for name, some, least in asked if agreeing(some) < least]
+    for name, least in missed:
+        print(f"fewer than {least} {name} decks agree")
+    print(f"compare_ccx: {agreeing(outcomes)} passed, {len(outcomes) - agreeing(outcomes)} did not")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
