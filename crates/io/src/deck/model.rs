@@ -8,10 +8,21 @@ use crate::case::{
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
 use signorini_geometry::tensor::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Elements whose integration points are numbered as ours are.
 const POINTWISE: [&str; 5] = ["C3D4", "C3D8", "C3D8I", "C3D20", "C3D20R"];
+
+/// A *SOLID SECTION.
+struct Section<'s> {
+    card: &'s Statement,
+    material: &'s str,
+    orientation: Option<&'s Orientation>,
+    /// Where it is not that of the model.
+    thickness: Option<&'s Spanned<f64>>,
+    /// The set of its elements, if all of this set are.
+    set: Option<String>,
+}
 
 impl Translation<'_> {
     pub fn model(&mut self) {
@@ -253,7 +264,8 @@ impl Translation<'_> {
     fn sections(&mut self) {
         let orientations = self.orientations();
         let mut thickness: Option<f64> = None;
-        for card in self.cards("SOLIDSECTION") {
+        let last = self.last_sections();
+        for (number, card) in self.cards("SOLIDSECTION").enumerate() {
             let (elset, material) = (self.need(card, "ELSET"), self.need(card, "MATERIAL"));
             let (Some(elset), Some(material)) = (elset, material) else {
                 continue;
@@ -281,32 +293,69 @@ impl Translation<'_> {
                 let of_model = *thickness.get_or_insert(given);
                 own = (given != of_model).then(|| Spanned::new(given, card.place.clone()));
             }
-            let directory = &self.deck.directory;
-            let sets: Vec<String> = (directory.spaces(card.scope).iter())
-                .filter_map(|&space| directory.set(space, Kind::Elements, elset))
-                .map(str::to_owned)
-                .collect();
+            let sets = self.sets_of(card, elset);
             if sets.is_empty() {
                 self.set(card, elset, &card.place, Kind::Elements);
             }
             for set in sets {
-                self.body(card, &set, &material, orientation.as_ref(), own.as_ref());
+                let all = self.elements(&Target::Set(set.clone()));
+                let nall = all.len();
+                let is_own = |label: &u64| last.get(label).is_none_or(|last| *last == number);
+                let mut section = Section {
+                    card,
+                    material: &material,
+                    orientation: orientation.as_ref(),
+                    thickness: own.as_ref(),
+                    set: Some(set),
+                };
+                let own: Vec<u64> = all.into_iter().filter(is_own).collect();
+                if own.len() < nall {
+                    let nelsewhere = nall - own.len();
+                    let text = format!(
+                        "{nelsewhere} elements of `{elset}` have a later *SOLID SECTION, which holds"
+                    );
+                    self.note(text, &card.place);
+                    section.set = None;
+                }
+                self.body(&section, own);
             }
         }
         self.case.model.thickness = thickness.unwrap_or(1.0);
     }
 
+    /// The number of the last section of each element, if there are several.
+    fn last_sections(&self) -> HashMap<u64, usize> {
+        let mut last = HashMap::new();
+        let cards: Vec<&Statement> = self.cards("SOLIDSECTION").collect();
+        if cards.len() < 2 {
+            return last;
+        }
+        for (number, card) in cards.into_iter().enumerate() {
+            for set in card
+                .get("ELSET")
+                .map_or_else(Vec::new, |name| self.sets_of(card, name))
+            {
+                let elements = self.elements(&Target::Set(set));
+                last.extend(elements.into_iter().map(|label| (label, number)));
+            }
+        }
+        last
+    }
+
+    /// The sets of elements that a name stands for where a card is.
+    fn sets_of(&self, card: &Statement, name: &str) -> Vec<String> {
+        let directory = &self.deck.directory;
+        (directory.spaces(card.scope).iter())
+            .filter_map(|&space| directory.set(space, Kind::Elements, name))
+            .map(str::to_owned)
+            .collect()
+    }
+
     /// The bodies of a section: one, or one for each way its elements are integrated.
-    fn body(
-        &mut self,
-        card: &Statement,
-        set: &str,
-        material: &str,
-        turned: Option<&Orientation>,
-        thickness: Option<&Spanned<f64>>,
-    ) {
+    fn body(&mut self, section: &Section<'_>, elements: Vec<u64>) {
+        let place = &section.card.place;
         let mut ways: BTreeMap<(bool, bool, bool, bool), Vec<u64>> = BTreeMap::new();
-        for label in self.elements(&Target::Set(set.to_owned())) {
+        for label in elements {
             let Some(cell) = self.cell(label) else {
                 continue;
             };
@@ -328,22 +377,21 @@ impl Translation<'_> {
         }
         let several = ways.len() > 1;
         for ((reduced, modes, linear, even), elements) in ways {
-            let group = if several {
-                self.elements_named(elements, &card.place)
-            } else {
-                Spanned::new(set.to_owned(), card.place.clone())
+            let group = match &section.set {
+                Some(set) if !several => Spanned::new(set.clone(), place.clone()),
+                _ => self.elements_named(elements, place),
             };
             self.case.bodies.push(Body {
                 groups: vec![group],
-                material: Some(Spanned::new(material.to_owned(), card.place.clone())),
+                material: Some(Spanned::new(section.material.to_owned(), place.clone())),
                 integration: if reduced && !linear {
                     Integration::Reduced
                 } else {
                     Integration::Full
                 },
-                locking: Spanned::new(locking(reduced, modes, linear), card.place.clone()),
-                orientation: turned.cloned(),
-                thickness: thickness.cloned(),
+                locking: Spanned::new(locking(reduced, modes, linear), place.clone()),
+                orientation: section.orientation.cloned(),
+                thickness: section.thickness.cloned(),
                 temperatures: if even {
                     Temperatures::Linear
                 } else {
@@ -352,7 +400,7 @@ impl Translation<'_> {
                 area: None,
                 rigid: false,
                 reference: None,
-                place: card.place.clone(),
+                place: place.clone(),
             });
         }
     }

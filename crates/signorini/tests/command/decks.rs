@@ -115,7 +115,7 @@ fn printed(deck: &str, heading: &str) -> Vec<f64> {
     run(folder.path(), &["run", "job.inp"]).says(0, &["solved"]);
     let text = read(&folder.path().join("job.out/job.dat"));
     let mut lines = text.lines().skip_while(|line| !line.contains(heading));
-    let row = lines.nth(2).unwrap_or_else(|| panic!("{text}"));
+    let row = lines.nth(2).unwrap();
     row.split_whitespace().map(|n| n.parse().unwrap()).collect()
 }
 
