@@ -847,7 +847,7 @@ fn what_the_page_about_contacts_shows_reads_without_a_word() {
     let cells = PAGE.lines().filter_map(|line| line.strip_prefix("| "));
     let laws = cells.flat_map(|line| line.split('`').skip(1).step_by(2));
     let laws: Vec<&str> = laws.filter(|law| law.starts_with('{')).collect();
-    assert_eq!(laws.len(), 9);
+    assert_eq!(laws.len(), 10);
     for law in laws {
         let of_friction = ["mu", "tresca", "static"]
             .iter()

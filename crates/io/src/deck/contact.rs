@@ -21,7 +21,7 @@ use crate::case::{
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
-use signorini_geometry::mesh::{Set, boundary};
+use signorini_geometry::mesh::boundary;
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
 
@@ -375,7 +375,8 @@ impl Translation<'_> {
                 contact.sliding = Sliding::Increment;
             }
             let secondary = self.deck.mesh.sets.get(&contact.secondary.value);
-            if secondary.is_some_and(Set::is_bare) {
+            let by_nodes = secondary.is_some_and(|set| !set.nodes.is_empty());
+            if method == Method::NodeToSegment && by_nodes {
                 contact.area = Area::Adjacent;
             }
             if !matches!(contact.enforcement, Enforcement::Auto) {

@@ -41,6 +41,8 @@ pub(super) struct Standing {
     held: BTreeMap<(Target, usize), bool>,
     /// Local components of nodes that equations hold.
     local: BTreeSet<(u64, usize)>,
+    /// What is prescribed along all local axes of a node.
+    along: BTreeMap<u64, [f64; 3]>,
     nonlinear: bool,
     pub loads: Loads,
 }
@@ -416,14 +418,18 @@ impl Translation<'_> {
         let Some(place) = given().next().map(|(_, place)| place.clone()) else {
             return;
         };
-        let values: Vec<Option<f64>> = (components.iter())
-            .map(|one| match one {
+        // what is prescribed along all three axes, and not said anew, stays
+        let known = standing.along.get(&label).copied();
+        let values: Vec<Option<f64>> = (components.iter().zip(0..))
+            .map(|(one, axis)| match one {
                 Some((Course::To(value, None), _)) => Some(*value),
-                _ => None,
+                None => known.and_then(|values| values.get(axis).copied()),
+                Some(_) => None,
             })
             .collect();
         let on = self.nodes_named(vec![label], &place);
         if let [Some(a), Some(b), Some(c)] = values[..] {
+            standing.along.insert(label, [a, b, c]);
             let u = (axes[0] * a + axes[1] * b + axes[2] * c).to_array();
             let key = |c| (Target::One(label), c);
             let moved = u != [0.0; 3] || (0..3).any(|c| standing.held.get(&key(c)) == Some(&true));

@@ -1,9 +1,10 @@
 use super::*;
 use crate::case::{
-    Body, ConstraintKind, Enforcement, Geometry, Integration, Interference, LoadKind, Locking,
-    Method, Motion, SetContent, Space,
+    Area, AxesSystem, Body, ConstraintKind, Enforcement, Geometry, Integration, Interference,
+    LoadKind, Locking, Method, Motion, Per, SetContent, Space,
 };
 use crate::fs::RealFs;
+use signorini_geometry::tensor::Vec3;
 
 /// A cube with an element of this type, and more cards.
 fn cube(kind: &str, cards: &str) -> String {
@@ -22,7 +23,11 @@ fn translated(text: &str, compat: Compat) -> Result<Read, Diagnostics> {
 }
 
 fn case(text: &str) -> Case {
-    let read = translated(text, Compat::None);
+    case_as(text, Compat::None)
+}
+
+fn case_as(text: &str, compat: Compat) -> Case {
+    let read = translated(text, compat);
     read.unwrap_or_else(|found| panic!("{}", found.plain()))
         .case
 }
@@ -496,4 +501,92 @@ fn sections_of_a_plane_model_have_a_thickness_each() {
         .map(|b| b.thickness.as_ref().map(|t| t.value))
         .collect();
     assert_eq!(own, [None, Some(2.0)]);
+}
+
+/// Two cubes, a pair between them, and this law.
+fn pair(kind: &str, law: &str, steps: &str) -> String {
+    let cards = format!(
+        "*NODE\n11,0,0,1\n12,1,0,1\n13,1,1,1\n14,0,1,1\n15,0,0,2\n16,1,0,2\n17,1,1,2\n18,0,1,2\n\
+         *ELEMENT, TYPE=C3D8, ELSET=UPPER\n2,11,12,13,14,15,16,17,18\n*NSET, NSET=FEET\n11,12,13,14\n\
+         *SOLID SECTION, ELSET=UPPER, MATERIAL=M\n{kind}\n*SURFACE, NAME=TABLE\n1, S2\n\
+         *SURFACE INTERACTION, NAME=I\n{law}\n{steps}"
+    );
+    cube("C3D8", &cards)
+}
+
+const BY_NODES: &str = "*SURFACE, NAME=FOOT, TYPE=NODE\nFEET\n\
+                        *CONTACT PAIR, INTERACTION=I, TYPE=NODE TO SURFACE, ADJUST=FEET\nFOOT, TABLE";
+const BY_FACES: &str = "*SURFACE, NAME=FOOT\n2, S1\n\
+                        *CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nFOOT, TABLE";
+
+#[test]
+fn nodes_have_the_rounded_law_of_calculix_and_adjust_by_a_set() {
+    let law = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e4, 3.";
+    let deck = pair(BY_NODES, law, STEP);
+    let (exact, best) = (case_as(&deck, Compat::Ccx), case(&deck));
+    let [ours, theirs] = [&best.contacts[0], &exact.contacts[0]];
+    assert_eq!(ours.enforcement, Enforcement::Auto);
+    assert_eq!((theirs.area, theirs.per), (Area::Adjacent, Some(Per::Area)));
+    let rounded = Enforcement::Arctangent {
+        stiffness: 1e4,
+        tension: 3.0,
+        within: Some(1e-3),
+    };
+    assert_eq!(theirs.enforcement, rounded);
+    for contact in [ours, theirs] {
+        let of = contact.start.close_gaps_of.as_ref();
+        assert_eq!(of.map(|of| of.value.as_str()), Some("FEET"));
+    }
+}
+
+#[test]
+fn another_contact_takes_over_where_the_behavior_changes() {
+    let law = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1e4\n*FRICTION\n0.1, 50.";
+    let steps = "*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n*CHANGE SURFACE BEHAVIOR, INTERACTION=I\n\
+                 *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n2e4\n*END STEP\n\
+                 *STEP\n*STATIC\n*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nFOOT, TABLE\n*END STEP\n";
+    let case = case_as(&pair(BY_FACES, law, steps), Compat::Ccx);
+    let [tied, free] = case.contacts.as_slice() else {
+        panic!("{:?}", case.contacts);
+    };
+    assert!(tied.tied.is_some() && tied.active && tied.friction.is_none());
+    assert!(free.tied.is_none() && !free.active && free.friction.is_some());
+    let changes = |step: usize| -> Vec<(&str, Option<bool>)> {
+        let changes = case.steps[step].contacts.iter();
+        changes
+            .map(|one| (one.name.value.as_str(), one.active))
+            .collect()
+    };
+    let (tied, free) = (tied.name.as_str(), free.name.as_str());
+    assert_eq!(changes(1), [(tied, Some(false)), (free, Some(true))]);
+    assert_eq!(changes(2), [(free, Some(false))]);
+}
+
+#[test]
+fn the_last_section_of_an_element_holds() {
+    let cards =
+        "*MATERIAL, NAME=SOFT\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=EALL, MATERIAL=SOFT\n";
+    let deck = cube("C3D8", &format!("*ELSET, ELSET=EALL\n1\n{cards}{STEP}"));
+    let case = case(&deck);
+    let materials: Vec<_> = case.bodies.iter().map(|b| b.material.as_ref()).collect();
+    assert_eq!(materials.len(), 1);
+    assert_eq!(materials[0].map(|m| m.value.as_str()), Some("SOFT"));
+}
+
+#[test]
+fn cylindrical_axes_have_a_radius_on_their_axis_too() {
+    let system = AxesSystem::Cylindrical {
+        from: [1.0, 0.0, 0.0],
+        to: [1.0, 0.0, 4.0],
+    };
+    let off = system.at([1.0, 2.0, 3.0].into()).unwrap();
+    assert_eq!(
+        off.map(Vec3::to_array),
+        [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    );
+    let on = system.at([1.0, 0.0, 9.0].into()).unwrap();
+    assert_eq!(
+        on.map(Vec3::to_array),
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    );
 }

@@ -792,7 +792,7 @@ fn what_sides_cannot_do_is_refused_with_its_reason() {
         (
             format!("{bare}area = 'current'\n"),
             "S0203",
-            "`area` needs faces",
+            "area \"current\" needs faces",
         ),
         (
             format!("{bare}method = 'gauss-point'\n"),

@@ -53,6 +53,7 @@ impl Kind {
 pub(crate) enum Method {
     NodeToSegment,
     SmallSliding,
+    OfIncrement,
     Gauss,
     Lobatto,
     GivenNormals,
@@ -264,12 +265,14 @@ impl Scene {
                 area = mortar.areas().to_vec();
                 Box::new(mortar)
             }
-            Method::NodeToSegment | Method::SmallSliding => {
+            Method::NodeToSegment | Method::SmallSliding | Method::OfIncrement => {
                 let mut at_nodes = PointToSegment::at_nodes(&points);
                 at_nodes.closest = closest;
-                if method == Method::SmallSliding {
-                    at_nodes.sliding = SlidingRange::Small;
-                }
+                at_nodes.sliding = match method {
+                    Method::SmallSliding => SlidingRange::Small,
+                    Method::OfIncrement => SlidingRange::Increment,
+                    _ => SlidingRange::Finite,
+                };
                 Box::new(at_nodes)
             }
             Method::Gauss | Method::Lobatto => {

@@ -483,6 +483,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
     let methods = [
         Method::NodeToSegment,
         Method::SmallSliding,
+        Method::OfIncrement,
         Method::Gauss,
         Method::PrimaryNormals,
     ];
@@ -526,4 +527,45 @@ fn bits(scene: &Scene) -> String {
     let mut archive = Archive::default();
     scene.interface.save(&mut archive);
     format!("{:?} {archive:?}", scene.report())
+}
+
+#[test]
+fn planes_of_an_increment_are_those_at_its_start() {
+    let gaps = |method: Method| -> [Vec<f64>; 2] {
+        let choice = Choice {
+            law: Box::new(Penalty),
+            friction: None,
+            bond: false,
+        };
+        let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
+        let mut random = Random::new(8);
+        let start = scene.state.clone();
+        scene.interface.begin_increment(&start).unwrap();
+        scene.state = scene.further(&mut random);
+        scene.settle();
+        let state = scene.state.clone();
+        scene.interface.accept(&state).unwrap();
+        scene.interface.begin_increment(&state).unwrap();
+        let at_start = scene.report().gap;
+        scene.state = scene.further(&mut random);
+        scene.settle();
+        [at_start, scene.report().gap]
+    };
+    let ways = [
+        Method::NodeToSegment,
+        Method::OfIncrement,
+        Method::SmallSliding,
+    ];
+    let [finite, increment, small] = ways.map(gaps);
+    let apart = |a: &[f64], b: &[f64]| {
+        let pairs = a
+            .iter()
+            .zip(b)
+            .filter(|(a, b)| a.is_finite() && b.is_finite());
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    // met anew at the start, and kept from there
+    assert!(apart(&increment[0], &finite[0]) < 1e-12);
+    assert!(apart(&small[0], &finite[0]) > 1e-4);
+    assert!(apart(&increment[1], &finite[1]) > 1e-4);
 }

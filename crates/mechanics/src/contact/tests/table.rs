@@ -54,7 +54,11 @@ fn frictions() -> Vec<Friction> {
 }
 
 fn methods(kind: Kind) -> Vec<Method> {
-    let on_surfaces = vec![Method::NodeToSegment, Method::SmallSliding];
+    let on_surfaces = vec![
+        Method::NodeToSegment,
+        Method::SmallSliding,
+        Method::OfIncrement,
+    ];
     let on_facets = vec![
         Method::Gauss,
         Method::Lobatto,
