@@ -291,6 +291,8 @@ impl Reader<'_> {
         let lines = &mut self.lines;
         let scope = scope_of(&mut self.deck, self.here);
         let first = scope.points.len();
+        // the last node, where it has a number alone: coordinates that are not given are zero, but a file may be cut off
+        let mut unplaced = None;
         while let Some(line) = lines.data() {
             let mut fields = Fields::of(line);
             let field = fields.next().unwrap_or_default();
@@ -309,13 +311,7 @@ impl Reader<'_> {
                     });
                 }
             }
-            if ncoordinate == 0 {
-                return Err(MeshError::Truncated {
-                    place: lines.place(),
-                    section: format!("node {label} of *NODE"),
-                    wanted: "coordinates",
-                });
-            }
+            unplaced = (ncoordinate == 0).then(|| (label, lines.spot));
             let [a, b, c] = x;
             let x = if is_cylindrical {
                 let (sin, cos) = b.to_radians().sin_cos();
@@ -326,6 +322,13 @@ impl Reader<'_> {
             scope.node_labels.push(label);
             scope.points.push(x);
             scope.node_spots.push(lines.spot);
+        }
+        if let Some((label, spot)) = unplaced.filter(|_| lines.is_at_end()) {
+            return Err(MeshError::Truncated {
+                place: lines.place_of(spot),
+                section: format!("node {label} of *NODE"),
+                wanted: "coordinates",
+            });
         }
         let end = scope.points.len();
         if end >= u32::MAX as usize {
@@ -366,6 +369,8 @@ impl Reader<'_> {
             }
         };
         let nnode = (self.deck.kinds.get(number as usize)).map_or(0, |kind| kind.nnode);
+        // early CalculiX had nodes for the modes of C3D8I
+        let nspare = if name == "C3D8I" { 3 } else { 0 };
         let count_error = |place, element, found| MeshError::NodeCount {
             place,
             element,
@@ -397,10 +402,12 @@ impl Reader<'_> {
             for field in fields.filter(|field| !field.is_empty()) {
                 let node = label(lines, card, "a node number", field)?;
                 count += 1;
-                if count > nnode {
+                if count > nnode + nspare {
                     return Err(count_error(lines.place(), element, count));
                 }
-                scope.connectivity.push(node);
+                if count <= nnode {
+                    scope.connectivity.push(node);
+                }
             }
             if count < nnode {
                 open = Some((element, spot, count));

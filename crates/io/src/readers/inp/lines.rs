@@ -325,6 +325,11 @@ impl<'f> Lines<'f> {
         Some(line)
     }
 
+    /// Whether nothing follows: no card waits where data ended.
+    pub const fn is_at_end(&self) -> bool {
+        self.pending.is_none()
+    }
+
     /// The place of the line that was given last.
     pub fn place(&self) -> Place {
         self.files.place(self.spot)

@@ -712,3 +712,19 @@ fn a_quarter_of_a_million_nodes_are_read_in_a_fraction_of_a_second() {
     assert_eq!((mesh.nnode(), mesh.ncell()), (64 * 64 * 64, 63 * 63 * 63));
     assert!(start.elapsed() < Duration::from_secs(2));
 }
+
+#[test]
+fn a_node_without_coordinates_is_at_the_origin_and_nodes_for_modes_are_passed_over() {
+    let text = "*NODE\n1\n2,1\n3,1,1\n4,,1\n5,,,1\n6,1,,1\n7,1,1,1\n8,,1,1\n\
+                *ELEMENT, TYPE=C3D8I, ELSET=E\n1,1,2,3,4,5,6,7,8,9,10,\n";
+    let (mesh, _) = read_text(text).unwrap();
+    assert_eq!(mesh.points[0].to_array(), [0.0; 3]);
+    assert_eq!(mesh.points[7].to_array(), [0.0, 1.0, 1.0]);
+    assert_eq!(mesh.blocks[0].nodes, [0, 1, 2, 3, 4, 5, 6, 7]);
+    let more = text.replace("9,10,\n", "9,10,11,12\n");
+    let message = fault(&more);
+    assert!(
+        message.contains("element 1 has 12 nodes; a C3D8I has 8"),
+        "{message}"
+    );
+}
