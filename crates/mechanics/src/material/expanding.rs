@@ -18,8 +18,7 @@ use signorini_geometry::tensor::Sym3;
 /// x = α(T) (T − T_ref) − α(T_0) (T_0 − T_ref)
 /// ```
 ///
-/// Goes inside [`super::Reduced`] and outside of or inside
-/// [`super::Oriented`].
+/// Goes inside [`super::Reduced`] and outside of or inside [`super::Oriented`].
 pub struct Expanding {
     inner: Box<dyn Material>,
     /// Rows of temperature and `α`, temperatures increasing.

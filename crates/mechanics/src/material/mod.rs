@@ -236,8 +236,8 @@ pub struct Law {
     pub make: fn(&Constants) -> Result<Box<dyn Material>, ConstantsError>,
 }
 
-/// Every law, by its name in a case. At finite strain `linear-elastic`, at one temperature or several, is the law of Saint Venant and Kirchhoff:
-/// rotations are exact, strains should stay small.
+/// Every law, by its name in a case. At finite strain `linear-elastic`, at one temperature or several, is the law of
+/// Saint Venant and Kirchhoff: rotations are exact, strains should stay small.
 pub static TABLE: [Law; 9] = [
     Law {
         name: "linear-elastic",

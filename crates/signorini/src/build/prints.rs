@@ -136,8 +136,8 @@ pub(super) fn prints(case: &Case, names: &Names<'_>, found: &mut Diagnostics) ->
     case.steps.iter().map(of_step).collect()
 }
 
-/// What the tables of all steps, and forces in `.frd` files, want to be sampled. Forces of bodies of revolution are printed without what hoop stresses
-/// do, which is known at the points around the nodes.
+/// What the tables of all steps, and forces in `.frd` files, want to be sampled. Forces of bodies of revolution are
+/// printed without what hoop stresses do, which is known at the points around the nodes.
 pub(super) fn wanted(prints: &[Vec<Printed>], mesh: &Mesh, case: &Case) -> Wanted {
     let space = *case.model.space;
     let mut wanted = Wanted {
