@@ -194,7 +194,7 @@ impl Translation<'_> {
             Increments::Adaptive {
                 initial,
                 min: or(least, (1e-6 * step.duration).min(initial)).min(initial),
-                max: or(most, step.duration).max(initial),
+                max: or(most, step.duration).min(step.duration).max(initial),
                 count_max: limit,
             }
         };

@@ -311,7 +311,7 @@ impl Reader<'_> {
                     });
                 }
             }
-            unplaced = (ncoordinate == 0).then(|| (label, lines.spot));
+            unplaced = (ncoordinate == 0).then_some((label, lines.spot));
             let [a, b, c] = x;
             let x = if is_cylindrical {
                 let (sin, cos) = b.to_radians().sin_cos();
