@@ -1,9 +1,6 @@
-use super::hold::{Hold, Scratch};
-use super::{ConnectorError, ROUNDING, value};
-use crate::system::{
-    Dof, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term, TermError,
-    Work,
-};
+use super::hold::{Constraints, Hold, Scratch};
+use super::{ConnectorError, ROUNDING, place, value};
+use crate::system::{Dof, Layout, Order, PatternSink, Sink, State};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 
@@ -49,8 +46,7 @@ impl Distance {
     /// # Errors
     /// Nodes in one point; a length or stiffness that is no positive number.
     pub fn new(parts: &DistanceParts<'_>) -> Result<Self, ConnectorError> {
-        let at = |node: NodeId| parts.reference.get(node as usize).copied();
-        let start = parts.nodes.map(|node| at(node).unwrap_or_default());
+        let start = parts.nodes.map(|node| place(parts.reference, node));
         let distance = (start[1] - start[0]).norm();
         if distance == 0.0 {
             return Err(ConnectorError::Narrow {
@@ -82,12 +78,29 @@ impl Distance {
             nonlinear: true,
         })
     }
+}
 
-    fn add(&self, trial: &State, order: Order, work: &mut Scratch, out: &mut dyn Sink) {
-        let x = |k: usize| {
-            let now = trial.x.get(self.nodes[k] as usize).copied();
-            now.unwrap_or(self.start[k])
-        };
+impl Constraints for Distance {
+    type Work = Scratch;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn couple(&self, _: usize, out: &mut dyn PatternSink) {
+        out.interface(&self.dofs);
+    }
+
+    fn set_nonlinear(&mut self, nonlinear: bool) {
+        self.nonlinear = nonlinear;
+    }
+
+    fn add(&self, _: usize, trial: &State, order: Order, work: &mut Scratch, out: &mut dyn Sink) {
+        let x = |k: usize| place(&trial.x, self.nodes[k]);
         let between = |nonlinear: bool| match nonlinear {
             true => x(1) - x(0),
             false => self.start[1] - self.start[0],
@@ -131,52 +144,5 @@ impl Distance {
             sign * turn.rows[i % 3][j % 3]
         };
         hold.add(hessian, trial, order, work, out);
-    }
-}
-
-impl Term for Distance {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn pattern(&self, out: &mut dyn PatternSink) {
-        out.interface(&self.dofs);
-    }
-
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.nonlinear = step.nonlinear;
-        Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
-    }
-
-    fn nchunk(&self) -> usize {
-        1
-    }
-
-    fn evaluate(
-        &self,
-        _: usize,
-        trial: &State,
-        order: Order,
-        work: &mut Work,
-        out: &mut dyn Sink,
-    ) -> Result<(), TermError> {
-        self.add(trial, order, work.of(), out);
-        Ok(())
-    }
-
-    fn energy(&self, _: usize, _: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
-        Ok(None)
     }
 }

@@ -1,5 +1,92 @@
-use super::value;
-use crate::system::{Dof, Order, Sink, State};
+use super::{CHUNK, value};
+use crate::system::{
+    Dof, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term, TermError, Work,
+};
+use signorini_geometry::mesh::NodeId;
+
+/// Constraints of one kind that a connector adds, each with its own multiplier. Whoever has them is a term.
+pub(super) trait Constraints: Send + Sync {
+    /// What adding one of them needs.
+    type Work: Default + Send + 'static;
+
+    /// What they are called in messages.
+    fn name(&self) -> &str;
+
+    /// How many there are.
+    fn count(&self) -> usize;
+
+    /// Names the unknowns of the k-th.
+    fn couple(&self, k: usize, out: &mut dyn PatternSink);
+
+    /// Whether the step is at finite strain.
+    fn set_nonlinear(&mut self, nonlinear: bool);
+
+    /// Adds forces and stiffness of the k-th.
+    fn add(&self, k: usize, trial: &State, order: Order, work: &mut Self::Work, out: &mut dyn Sink);
+}
+
+impl<C: Constraints> Term for C {
+    fn name(&self) -> &str {
+        Constraints::name(self)
+    }
+
+    fn pattern(&self, out: &mut dyn PatternSink) {
+        for k in 0..self.count() {
+            self.couple(k, out);
+        }
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::Symmetric
+    }
+
+    fn part(&self) -> Part {
+        Part::Interface
+    }
+
+    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
+        self.set_nonlinear(step.nonlinear);
+        Ok(())
+    }
+
+    fn is_outside(&self) -> bool {
+        true
+    }
+
+    fn nchunk(&self) -> usize {
+        self.count().div_ceil(CHUNK)
+    }
+
+    fn evaluate(
+        &self,
+        chunk: usize,
+        trial: &State,
+        order: Order,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        for k in (0..self.count()).skip(chunk * CHUNK).take(CHUNK) {
+            self.add(k, trial, order, work.of(), out);
+        }
+        Ok(())
+    }
+
+    fn energy(&self, _: usize, _: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
+        Ok(None)
+    }
+}
+
+/// Takes out the node for which a measure is largest; the first one of several.
+pub(super) fn take_out(nodes: &mut Vec<NodeId>, measure: impl Fn(NodeId) -> f64) -> NodeId {
+    let mut best = (0, f64::NEG_INFINITY);
+    for (k, &node) in nodes.iter().enumerate() {
+        let m = measure(node);
+        if m > best.1 {
+            best = (k, m);
+        }
+    }
+    nodes.remove(best.0)
+}
 
 /// What a constraint needs to write down its tangent.
 #[derive(Default)]

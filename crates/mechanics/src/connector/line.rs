@@ -1,9 +1,6 @@
-use super::hold::{Hold, Scratch};
-use super::{CHUNK, ConnectorError, ROUNDING, value};
-use crate::system::{
-    Dof, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term, TermError,
-    Work,
-};
+use super::hold::{Constraints, Hold, Scratch, take_out};
+use super::{ConnectorError, ROUNDING, place, value};
+use crate::system::{Dof, Layout, Order, PatternSink, Sink, State};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::sync::Arc;
@@ -90,20 +87,13 @@ impl Line {
     }
 
     fn start(&self, node: NodeId) -> Vec3 {
-        let x = self.reference.get(node as usize);
-        x.copied().unwrap_or_default()
+        place(&self.reference, node)
     }
 
-    /// Takes out the node that is farthest from a point; the first one of several.
+    /// Takes out the node that is farthest from a point.
     fn take_farthest(&mut self, from: Vec3) -> NodeId {
-        let mut best = (0, f64::NEG_INFINITY);
-        for (k, &node) in self.nodes.iter().enumerate() {
-            let distance = (self.start(node) - from).norm();
-            if distance > best.1 {
-                best = (k, distance);
-            }
-        }
-        self.nodes.remove(best.0)
+        let reference = &self.reference;
+        take_out(&mut self.nodes, |n| (place(reference, n) - from).norm())
     }
 
     /// The unknowns of the k-th constraint.
@@ -116,6 +106,38 @@ impl Line {
             None => self.layout.multiplier(self.first + k),
         })
     }
+}
+
+/// Unit vectors across a direction: two at right angles, or in the plane the normal of the plane, about which the
+/// direction turns.
+fn across(along: Vec3, ndim: usize) -> Vec<Vec3> {
+    if ndim == 2 {
+        return vec![Vec3::unit(2)];
+    }
+    let least = (0..3).min_by(|&i, &j| along[i].abs().total_cmp(&along[j].abs()));
+    let first = along.cross(Vec3::unit(least.unwrap_or(0))).normalized();
+    let first = first.unwrap_or_default();
+    vec![first, along.cross(first)]
+}
+
+impl Constraints for Line {
+    type Work = Scratch;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn count(&self) -> usize {
+        self.nodes.len() * self.across.len()
+    }
+
+    fn couple(&self, k: usize, out: &mut dyn PatternSink) {
+        out.interface(&self.dofs(k));
+    }
+
+    fn set_nonlinear(&mut self, nonlinear: bool) {
+        self.nonlinear = nonlinear;
+    }
 
     fn add(&self, k: usize, trial: &State, order: Order, work: &mut Scratch, out: &mut dyn Sink) {
         let many = self.across.len();
@@ -125,7 +147,7 @@ impl Line {
         };
         let dofs = self.dofs(k);
         let x = |n: NodeId| match self.nonlinear {
-            true => trial.x.get(n as usize).copied().unwrap_or_default(),
+            true => place(&trial.x, n),
             false => self.start(n),
         };
         let [a, b] = self.base;
@@ -165,69 +187,5 @@ impl Line {
             }
         };
         hold.add(hessian, trial, order, work, out);
-    }
-}
-
-/// Unit vectors across a direction: two at right angles, or in the plane the normal of the plane, about which the
-/// direction turns.
-fn across(along: Vec3, ndim: usize) -> Vec<Vec3> {
-    if ndim == 2 {
-        return vec![Vec3::unit(2)];
-    }
-    let least = (0..3).min_by(|&i, &j| along[i].abs().total_cmp(&along[j].abs()));
-    let first = along.cross(Vec3::unit(least.unwrap_or(0))).normalized();
-    let first = first.unwrap_or_default();
-    vec![first, along.cross(first)]
-}
-
-impl Term for Line {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn pattern(&self, out: &mut dyn PatternSink) {
-        for k in 0..self.nodes.len() * self.across.len() {
-            out.interface(&self.dofs(k));
-        }
-    }
-
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.nonlinear = step.nonlinear;
-        Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
-    }
-
-    fn nchunk(&self) -> usize {
-        (self.nodes.len() * self.across.len()).div_ceil(CHUNK)
-    }
-
-    fn evaluate(
-        &self,
-        chunk: usize,
-        trial: &State,
-        order: Order,
-        work: &mut Work,
-        out: &mut dyn Sink,
-    ) -> Result<(), TermError> {
-        let many = self.nodes.len() * self.across.len();
-        for k in (0..many).skip(chunk * CHUNK).take(CHUNK) {
-            self.add(k, trial, order, work.of(), out);
-        }
-        Ok(())
-    }
-
-    fn energy(&self, _: usize, _: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
-        Ok(None)
     }
 }

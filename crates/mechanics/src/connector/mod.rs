@@ -81,6 +81,8 @@ pub use springs::{Springs, SpringsParts};
 pub use twist::{Twist, TwistParts};
 
 use crate::system::{Dof, State};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::tensor::Vec3;
 use thiserror::Error;
 
 /// Constraints or springs of one chunk.
@@ -130,6 +132,11 @@ pub enum ConnectorError {
         /// Its distance.
         distance: f64,
     },
+}
+
+/// Where a node is, in a list of the positions of all.
+fn place(positions: &[Vec3], node: NodeId) -> Vec3 {
+    positions.get(node as usize).copied().unwrap_or_default()
 }
 
 fn value(state: &State, dof: Dof) -> f64 {

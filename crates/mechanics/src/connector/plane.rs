@@ -1,9 +1,6 @@
-use super::hold::{Hold, Scratch};
-use super::{CHUNK, ConnectorError, ROUNDING, value};
-use crate::system::{
-    Dof, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term,
-    TermError, Work,
-};
+use super::hold::{Constraints, Hold, Scratch, take_out};
+use super::{ConnectorError, ROUNDING, place, value};
+use crate::system::{Dof, Layout, NO_DOF, Order, PatternSink, Sink, State};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::sync::Arc;
@@ -109,10 +106,7 @@ impl Plane {
     }
 
     fn start(&self, node: NodeId) -> Vec3 {
-        self.reference
-            .get(node as usize)
-            .copied()
-            .unwrap_or_default()
+        place(&self.reference, node)
     }
 
     /// Chooses the nodes that span the plane: far from the middle, far from the first, far from the line between them.
@@ -146,16 +140,10 @@ impl Plane {
         Ok(())
     }
 
-    /// Takes out the node for which a measure is largest; the first one of several.
+    /// Takes out the node at which a measure is largest.
     fn take(&mut self, measure: impl Fn(Vec3) -> f64) -> NodeId {
-        let mut best = (0, f64::NEG_INFINITY);
-        for (k, &node) in self.nodes.iter().enumerate() {
-            let m = measure(self.start(node));
-            if m > best.1 {
-                best = (k, m);
-            }
-        }
-        self.nodes.remove(best.0)
+        let reference = &self.reference;
+        take_out(&mut self.nodes, |n| measure(place(reference, n)))
     }
 
     fn volume(&self, node: NodeId, x: impl Fn(NodeId) -> Vec3) -> Volume {
@@ -190,12 +178,32 @@ impl Plane {
             MOVES[node][edge]
         }
     }
+}
+
+impl Constraints for Plane {
+    type Work = Scratch;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn couple(&self, k: usize, out: &mut dyn PatternSink) {
+        out.interface(&self.dofs(k));
+    }
+
+    fn set_nonlinear(&mut self, nonlinear: bool) {
+        self.nonlinear = nonlinear;
+    }
 
     fn add(&self, k: usize, trial: &State, order: Order, work: &mut Scratch, out: &mut dyn Sink) {
         let node = self.nodes[k];
         let dofs = self.dofs(k);
         let start = self.volume(node, |n| self.start(n));
-        let x = |n: NodeId| trial.x.get(n as usize).copied().unwrap_or_default();
+        let x = |n: NodeId| place(&trial.x, n);
         let now = if self.nonlinear {
             self.volume(node, x)
         } else {
@@ -233,56 +241,5 @@ impl Plane {
             scale * sum
         };
         hold.add(hessian, trial, order, work, out);
-    }
-}
-
-impl Term for Plane {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn pattern(&self, out: &mut dyn PatternSink) {
-        for k in 0..self.nodes.len() {
-            out.interface(&self.dofs(k));
-        }
-    }
-
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.nonlinear = step.nonlinear;
-        Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
-    }
-
-    fn nchunk(&self) -> usize {
-        self.nodes.len().div_ceil(CHUNK)
-    }
-
-    fn evaluate(
-        &self,
-        chunk: usize,
-        trial: &State,
-        order: Order,
-        work: &mut Work,
-        out: &mut dyn Sink,
-    ) -> Result<(), TermError> {
-        for k in (0..self.nodes.len()).skip(chunk * CHUNK).take(CHUNK) {
-            self.add(k, trial, order, work.of(), out);
-        }
-        Ok(())
-    }
-
-    fn energy(&self, _: usize, _: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
-        Ok(None)
     }
 }

@@ -1,9 +1,6 @@
-use super::hold::{Hold, Scratch};
-use super::{ConnectorError, ROUNDING, value};
-use crate::system::{
-    Dof, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term, TermError,
-    Work,
-};
+use super::hold::{Constraints, Hold, Scratch};
+use super::{ConnectorError, ROUNDING, place, value};
+use crate::system::{Dof, Layout, Order, PatternSink, Sink, State};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 
@@ -46,7 +43,7 @@ const ON_AXIS: f64 = 1e-9;
 
 /// What one evaluation needs.
 #[derive(Default)]
-struct Twisted {
+pub(super) struct Twisted {
     gradient: Vec<f64>,
     hessian: Vec<Mat3>,
     hold: Scratch,
@@ -64,12 +61,8 @@ impl Twist {
                 positive: true,
             });
         };
-        let at = |node: &NodeId| parts.reference.get(*node as usize).copied();
-        let start: Vec<Vec3> = parts
-            .nodes
-            .iter()
-            .map(|n| at(n).unwrap_or_default())
-            .collect();
+        let start = parts.nodes.iter().map(|&n| place(parts.reference, n));
+        let start: Vec<Vec3> = start.collect();
         let middle = start.iter().copied().sum::<Vec3>() / start.len().max(1) as f64;
         let across = |x: &Vec3| {
             let arm = *x - middle;
@@ -117,14 +110,33 @@ impl Twist {
 
     /// u_i
     fn moved(&self, k: usize, trial: &State) -> Vec3 {
-        let now = self.nodes.get(k).and_then(|&n| trial.x.get(n as usize));
-        match (now, self.start.get(k)) {
-            (Some(&now), Some(&start)) => now - start,
+        match (self.nodes.get(k), self.start.get(k)) {
+            (Some(&node), Some(&start)) => place(&trial.x, node) - start,
             _ => Vec3::ZERO,
         }
     }
+}
 
-    fn add(&self, trial: &State, order: Order, work: &mut Twisted, out: &mut dyn Sink) {
+impl Constraints for Twist {
+    type Work = Twisted;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn couple(&self, _: usize, out: &mut dyn PatternSink) {
+        out.interface(&self.dofs);
+    }
+
+    fn set_nonlinear(&mut self, nonlinear: bool) {
+        self.nonlinear = nonlinear;
+    }
+
+    fn add(&self, _: usize, trial: &State, order: Order, work: &mut Twisted, out: &mut dyn Sink) {
         let count = self.nodes.len();
         let middle = (0..count).map(|k| self.moved(k, trial)).sum::<Vec3>() / count as f64;
         let turning = self.arms.iter().flatten().count() as f64;
@@ -178,52 +190,5 @@ impl Twist {
             own - (at(a) + at(b) - at(&mean_hessian)) / count as f64
         };
         hold.add(hessian, trial, order, &mut work.hold, out);
-    }
-}
-
-impl Term for Twist {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn pattern(&self, out: &mut dyn PatternSink) {
-        out.interface(&self.dofs);
-    }
-
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.nonlinear = step.nonlinear;
-        Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
-    }
-
-    fn nchunk(&self) -> usize {
-        1
-    }
-
-    fn evaluate(
-        &self,
-        _: usize,
-        trial: &State,
-        order: Order,
-        work: &mut Work,
-        out: &mut dyn Sink,
-    ) -> Result<(), TermError> {
-        self.add(trial, order, work.of(), out);
-        Ok(())
-    }
-
-    fn energy(&self, _: usize, _: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
-        Ok(None)
     }
 }

@@ -162,9 +162,12 @@ impl<'a> Laws<'a> {
         self.law.multiplier() != Multiplier::None
     }
 
-    /// The elastic slip that belongs to a traction.
+    /// The elastic slip that belongs to a traction of friction.
     pub fn elastic(&self, traction: &Traction) -> Vec3 {
-        match self.stick_of() {
+        if self.bond || self.sticks_exactly() {
+            return Vec3::ZERO;
+        }
+        match self.stick {
             Stick::Stiffness(stiffness) if stiffness > 0.0 => traction.tangential / stiffness,
             Stick::Slip(length) if traction.limit > 0.0 => {
                 traction.tangential * (length / traction.limit)

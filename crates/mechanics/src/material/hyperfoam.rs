@@ -1,9 +1,5 @@
-use super::logarithmic::Logarithmic;
-use super::ogden::exp_m1_less_linear;
-use super::{
-    Constants, ConstantsError, Kinematics, Lame, Material, MaterialError, Order, Response, Strain,
-};
-use signorini_geometry::tensor::Sym3;
+use super::stretches::{InStretches, Principal, exp_m1_less_linear, exponents};
+use super::{Constants, ConstantsError, Lame};
 
 /// The law of foams, which change their volume easily.
 ///
@@ -42,18 +38,11 @@ impl Hyperfoam {
     /// One is missing, the lists do not fit each other, an exponent is zero, a `nu` is not between −1 and ½, or an
     /// initial modulus is not positive.
     pub fn new(constants: &Constants) -> Result<Self, ConstantsError> {
-        let [mu, alpha, nu] = ["mu", "alpha", "nu"].map(|name| constants.list(name));
-        let (mu, alpha, nu) = (mu?, alpha?, nu?);
+        let (mu, alpha) = (constants.list("mu")?, exponents(constants)?);
+        let nu = constants.list("nu")?;
         if mu.len() != alpha.len() || ![1, mu.len()].contains(&nu.len()) {
             return Err(ConstantsError::Unfit {
                 what: "mu and alpha must have as many numbers each, nu as many or one",
-            });
-        }
-        if let Some(&value) = alpha.iter().find(|a| **a == 0.0 || !a.is_finite()) {
-            return Err(ConstantsError::Range {
-                name: "alpha",
-                value,
-                allowed: "a number other than 0",
             });
         }
         if let Some(&value) = nu.iter().find(|nu| !(**nu > -1.0 && **nu < 0.5)) {
@@ -82,12 +71,15 @@ impl Hyperfoam {
         }
         Ok(Self { terms, lame })
     }
+}
 
-    /// `τ`, its derivative and the energy in the principal axes.
-    fn principal(&self, strain: &[f64; 3], order: Order, out: &mut Response) {
+impl InStretches for Hyperfoam {
+    fn initial(&self) -> &Lame {
+        &self.lame
+    }
+
+    fn add(&self, strain: &[f64; 3], to: &mut Principal) {
         let trace = strain[0] + strain[1] + strain[2];
-        let (mut stress, mut normal, mut shear) = ([0.0; 3], [[0.0; 3]; 3], [0.0; 3]);
-        out.energy = 0.0;
         for &Term { mu, alpha, beta } in &self.terms {
             let x = strain.map(|e| (alpha * e).exp_m1());
             let volume = (-alpha * beta * trace).exp_m1();
@@ -97,56 +89,15 @@ impl Hyperfoam {
                 beta => exp_m1_less_linear(-alpha * beta * trace) / beta,
             };
             let stretched: f64 = strain.iter().map(|e| exp_m1_less_linear(alpha * e)).sum();
-            out.energy += 2.0 * mu / (alpha * alpha) * (stretched + change);
-            for i in 0..3 {
-                stress[i] += 2.0 * mu / alpha * (x[i] - volume);
-                for to in &mut normal[i] {
-                    *to += 2.0 * mu * beta * (1.0 + volume);
+            to.energy += 2.0 * mu / (alpha * alpha) * (stretched + change);
+            for (i, x) in x.into_iter().enumerate() {
+                to.stress[i] += 2.0 * mu / alpha * (x - volume);
+                for normal in &mut to.normal[i] {
+                    *normal += 2.0 * mu * beta * (1.0 + volume);
                 }
-                normal[i][i] += 2.0 * mu * (1.0 + x[i]);
+                to.normal[i][i] += 2.0 * mu * (1.0 + x);
             }
-            for (shear, (i, j)) in shear.iter_mut().zip([(0, 1), (1, 2), (0, 2)]) {
-                // (τ_i − τ_j)/(ε_i − ε_j)/2
-                let distance = alpha * (strain[i] - strain[j]);
-                let share = if distance == 0.0 {
-                    1.0
-                } else {
-                    distance.exp_m1() / distance
-                };
-                *shear += mu * (1.0 + x[j]) * share;
-            }
+            to.shear(mu, alpha, strain, x);
         }
-        out.stress = Sym3::diagonal(stress[0], stress[1], stress[2]);
-        if order == Order::Tangent {
-            out.tangent = [[0.0; 6]; 6];
-            for i in 0..3 {
-                out.tangent[i][..3].copy_from_slice(&normal[i]);
-                out.tangent[i + 3][i + 3] = shear[i];
-            }
-        }
-    }
-}
-
-impl Material for Hyperfoam {
-    fn respond(
-        &self,
-        strain: &Strain,
-        _: &[f64],
-        _: &mut [f64],
-        order: Order,
-        out: &mut Response,
-    ) -> Result<(), MaterialError> {
-        if strain.kinematics == Kinematics::Small {
-            self.lame.respond(&strain.value, order, out);
-            return Ok(());
-        }
-        let logarithmic = Logarithmic::new(&strain.value)?;
-        self.principal(&logarithmic.strain, order, out);
-        logarithmic.pull_back(order, out);
-        Ok(())
-    }
-
-    fn modulus(&self) -> f64 {
-        self.lame.lambda + 2.0 * self.lame.mu
     }
 }

@@ -34,6 +34,7 @@ mod orthotropic;
 mod plasticity;
 mod reduced;
 mod saint_venant_kirchhoff;
+mod stretches;
 #[cfg(test)]
 mod tests;
 

@@ -1,8 +1,5 @@
-use super::logarithmic::Logarithmic;
-use super::{
-    Constants, ConstantsError, Kinematics, Lame, Material, MaterialError, Order, Response, Strain,
-};
-use signorini_geometry::tensor::Sym3;
+use super::stretches::{InStretches, Principal, exp_m1_less_linear, exponents};
+use super::{Constants, ConstantsError, Lame};
 
 /// The compressible law of Ogden; Mooney and Rivlin's is the one with two terms.
 ///
@@ -46,17 +43,10 @@ impl Ogden {
     /// One is missing, the lists are not of one length, an exponent is zero, the sum of `mu` or the bulk modulus is not
     /// positive.
     pub fn new(constants: &Constants) -> Result<Self, ConstantsError> {
-        let (mu, alpha) = (constants.list("mu")?, constants.list("alpha")?);
+        let (mu, alpha) = (constants.list("mu")?, exponents(constants)?);
         if mu.len() != alpha.len() {
             return Err(ConstantsError::Unfit {
                 what: "mu and alpha must have as many numbers each",
-            });
-        }
-        if let Some(&value) = alpha.iter().find(|a| **a == 0.0 || !a.is_finite()) {
-            return Err(ConstantsError::Range {
-                name: "alpha",
-                value,
-                allowed: "a number other than 0",
             });
         }
         let sum: f64 = mu.iter().sum();
@@ -100,84 +90,33 @@ impl Ogden {
             lame: Lame { lambda, mu },
         }
     }
+}
 
-    /// `τ`, its derivative and the energy in the principal axes.
-    fn principal(&self, strain: &[f64; 3], order: Order, out: &mut Response) {
+impl InStretches for Ogden {
+    fn initial(&self) -> &Lame {
+        &self.lame
+    }
+
+    fn add(&self, strain: &[f64; 3], to: &mut Principal) {
         let trace = strain[0] + strain[1] + strain[2];
         let dilation = trace.exp_m1(); // J − 1
         let ratio = 1.0 + dilation;
-        let pressure = self.bulk * ratio * dilation;
-        let mut stress = [pressure; 3];
-        let mut normal = [[self.bulk * ratio * (ratio + dilation); 3]; 3];
-        let mut shear = [0.0; 3];
-        out.energy = 0.5 * self.bulk * dilation * dilation;
+        to.stress = [self.bulk * ratio * dilation; 3];
+        to.normal = [[self.bulk * ratio * (ratio + dilation); 3]; 3];
+        to.energy = 0.5 * self.bulk * dilation * dilation;
         for &Term { mu, alpha } in &self.terms {
             let d = strain.map(|e| alpha * (e - trace / 3.0));
             let x = d.map(f64::exp_m1);
             let mean = (x[0] + x[1] + x[2]) / 3.0;
             for i in 0..3 {
-                stress[i] += 2.0 * mu / alpha * (x[i] - mean);
-                out.energy += 2.0 * mu / (alpha * alpha) * exp_m1_less_linear(d[i]);
-                normal[i][i] += 2.0 * mu * (1.0 + x[i]);
+                to.stress[i] += 2.0 * mu / alpha * (x[i] - mean);
+                to.energy += 2.0 * mu / (alpha * alpha) * exp_m1_less_linear(d[i]);
+                to.normal[i][i] += 2.0 * mu * (1.0 + x[i]);
                 for j in 0..3 {
-                    normal[i][j] -= 2.0 * mu / 3.0 * (1.0 + x[i] + x[j] - mean);
+                    to.normal[i][j] -= 2.0 * mu / 3.0 * (1.0 + x[i] + x[j] - mean);
                 }
             }
-            for (shear, (i, j)) in shear.iter_mut().zip([(0, 1), (1, 2), (0, 2)]) {
-                // (τ_i − τ_j)/(ε_i − ε_j)/2
-                let distance = alpha * (strain[i] - strain[j]);
-                let share = if distance == 0.0 {
-                    1.0
-                } else {
-                    distance.exp_m1() / distance
-                };
-                *shear += mu * (1.0 + x[j]) * share;
-            }
-        }
-        out.stress = Sym3::diagonal(stress[0], stress[1], stress[2]);
-        if order == Order::Tangent {
-            out.tangent = [[0.0; 6]; 6];
-            for i in 0..3 {
-                out.tangent[i][..3].copy_from_slice(&normal[i]);
-                out.tangent[i + 3][i + 3] = shear[i];
-            }
+            to.shear(mu, alpha, strain, x);
         }
     }
-}
-
-impl Material for Ogden {
-    fn respond(
-        &self,
-        strain: &Strain,
-        _: &[f64],
-        _: &mut [f64],
-        order: Order,
-        out: &mut Response,
-    ) -> Result<(), MaterialError> {
-        if strain.kinematics == Kinematics::Small {
-            self.lame.respond(&strain.value, order, out);
-            return Ok(());
-        }
-        let logarithmic = Logarithmic::new(&strain.value)?;
-        self.principal(&logarithmic.strain, order, out);
-        logarithmic.pull_back(order, out);
-        Ok(())
-    }
-
-    fn modulus(&self) -> f64 {
-        self.lame.lambda + 2.0 * self.lame.mu
-    }
-}
-
-/// `exp(x) − 1 − x`, with its digits where `x` is small.
-pub(super) fn exp_m1_less_linear(x: f64) -> f64 {
-    if x.abs() > 0.5 {
-        return x.exp_m1() - x;
-    }
-    // ½x² (1 + x/3 (1 + x/4 (…)))
-    let mut sum = 1.0;
-    for n in (3..18).rev() {
-        sum = 1.0 + sum * x / f64::from(n);
-    }
-    0.5 * x * x * sum
 }

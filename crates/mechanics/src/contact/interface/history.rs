@@ -259,11 +259,7 @@ impl Interface {
                 continue;
             };
             let traction = self.traction(filled, &lambda);
-            let elastic = if exact {
-                Vec3::ZERO
-            } else {
-                self.laws().elastic(&traction)
-            };
+            let elastic = self.laws().elastic(&traction);
             // what is left of the way from the anchor has slipped
             let slipped = filled.sliding.slip - elastic;
             memory.anchor = None;

@@ -102,11 +102,7 @@ impl Interface {
                 let lambda = self.lambda(row, state);
                 let traction = self.traction(filled, &lambda);
                 energy = self.measure(row) * self.stored(filled, &lambda, &traction);
-                elastic_slip = if self.parts.bond.is_none() && self.laws().slips() {
-                    self.laws().elastic(&traction)
-                } else {
-                    Vec3::ZERO
-                };
+                elastic_slip = self.laws().elastic(&traction);
                 let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
                 pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
