@@ -116,6 +116,11 @@ fn plane_blocks_with_friction_match_by_multipliers() {
         let mut model = model("two_blocks_2d", &text, &set);
         let result = run(&mut model);
         check(enforcement, &result, steps, &top, 2);
+        // what multipliers hold does not yield, however large the traction
+        for contact in result.frames.iter().map(|frame| &frame.contacts[0]) {
+            assert!(contact.traction.iter().any(|t| t.norm() > 0.0));
+            assert!(contact.elastic_slip.iter().all(|slip| slip.norm() == 0.0));
+        }
     }
 }
 

@@ -68,6 +68,16 @@ impl Cuts {
         self.0.values().flat_map(|cut| cut.pairs.iter().copied())
     }
 
+    /// Copies of nodes are as warm as the nodes.
+    pub fn warm(&self, temperatures: &mut Vec<(NodeId, f64)>) {
+        if self.0.is_empty() {
+            return;
+        }
+        let given: BTreeMap<NodeId, f64> = temperatures.iter().copied().collect();
+        let copied = self.pairs();
+        temperatures.extend(copied.filter_map(|(node, copy)| Some((copy, *given.get(&node)?))));
+    }
+
     /// The equations of a constraint (E1), with what carries its overlap.
     pub fn equations(
         &self,

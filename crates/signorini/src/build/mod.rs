@@ -261,11 +261,7 @@ fn parts<'a>(
     let (steps, couplings) = steps.steps(found);
     parts.steps = steps;
     for step in &mut parts.steps {
-        // copies of nodes are as warm as the nodes
-        let given: BTreeMap<NodeId, f64> = step.temperatures.iter().copied().collect();
-        let copied = cuts.pairs();
-        let copied = copied.filter_map(|(node, copy)| Some((copy, *given.get(&node)?)));
-        step.temperatures.extend(copied);
+        cuts.warm(&mut step.temperatures);
     }
     parts.constraints.extend(couplings);
     Some((parts, start))

@@ -123,12 +123,17 @@ const OF_CONTACTS: [(&str, ContactQuantity); 7] = [
 
 /// The tables of every step; a step without a word goes on with those before it.
 pub(super) fn prints(case: &Case, names: &Names<'_>, found: &mut Diagnostics) -> Vec<Vec<Printed>> {
+    let mut all = case.steps.iter().flat_map(|step| &step.prints).flatten();
+    let local = match all.any(|one| one.local) {
+        true => axes(case, names, found),
+        false => BTreeMap::new(),
+    };
     let mut now = Vec::new();
     let of_step = |step: &case::Step| {
         if let Some(prints) = &step.prints {
             let tables = prints
                 .iter()
-                .filter_map(|one| printed(one, case, names, found));
+                .filter_map(|one| printed(one, case, names, &local, found));
             now = tables.collect();
         }
         now.clone()
@@ -176,6 +181,7 @@ fn printed(
     one: &case::Print,
     case: &Case,
     names: &Names<'_>,
+    local: &BTreeMap<NodeId, [Vec3; 3]>,
     found: &mut Diagnostics,
 ) -> Option<Printed> {
     let on = one.on.as_ref();
@@ -194,7 +200,9 @@ fn printed(
         }
     };
     let axes = match &what {
-        PrintedOf::Nodes(nodes, _) if one.local => axes(nodes, case, names, found)?,
+        PrintedOf::Nodes(nodes, _) if one.local => {
+            nodes.iter().map(|node| local.get(node).copied()).collect()
+        }
         _ => Vec::new(),
     };
     Some(Printed {
@@ -206,31 +214,21 @@ fn printed(
     })
 }
 
-/// The local axes of some nodes.
-fn axes(
-    nodes: &[NodeId],
-    case: &Case,
-    names: &Names<'_>,
-    found: &mut Diagnostics,
-) -> Option<Vec<Option<[Vec3; 3]>>> {
-    let mut of_node: BTreeMap<NodeId, [Vec3; 3]> = BTreeMap::new();
+/// The local axes of all nodes that have some.
+fn axes(case: &Case, names: &Names<'_>, found: &mut Diagnostics) -> BTreeMap<NodeId, [Vec3; 3]> {
+    let mut of_node = BTreeMap::new();
     for one in &case.axes {
-        for node in names.nodes(&one.set, found)? {
+        for node in names.nodes(&one.set, found).unwrap_or_default() {
             let Some(axes) = names.place(node).and_then(|x| one.system.at(x)) else {
                 let message = "these axes have no directions";
                 let remark = "vectors that are parallel, or points that coincide";
                 found.push(Diagnostic::error(&codes::OUT_OF_RANGE, message).at(&one.place, remark));
-                return None;
+                break;
             };
             of_node.insert(node, axes);
         }
     }
-    Some(
-        nodes
-            .iter()
-            .map(|node| of_node.get(node).copied())
-            .collect(),
-    )
+    of_node
 }
 
 /// The elements of a set as they are listed, each once.
