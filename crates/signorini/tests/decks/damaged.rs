@@ -65,8 +65,11 @@ fn of_two_thousand_damaged_decks_none_ends_badly() {
     mutants(2_000, 20261122);
 }
 
+/// How many and from which seed is asked for by `SIGNORINI_MUTANTS="1000000 7"`.
 #[test]
 #[ignore = "takes minutes: run by .ci/run"]
 fn of_a_hundred_thousand_damaged_decks_none_ends_badly() {
-    mutants(100_000, 6);
+    let asked = std::env::var("SIGNORINI_MUTANTS").unwrap_or_else(|_| "100000 6".into());
+    let (count, seed) = asked.split_once(' ').unwrap();
+    mutants(count.parse().unwrap(), seed.parse().unwrap());
 }
