@@ -123,7 +123,7 @@ fn pressed(facets: f64) -> ContactFrame {
             density: None,
             integration: Integration::Full,
             locking: Locking::Auto,
-            thickness: None,
+            space: None,
             linear_temperatures: false,
             initial: Vec::new(),
         },

@@ -249,7 +249,7 @@ impl Solution {
                 density: None,
                 integration: Integration::Full,
                 locking: Locking::None,
-                thickness: None,
+                space: None,
                 linear_temperatures: false,
                 initial: Vec::new(),
             },

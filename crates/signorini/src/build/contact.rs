@@ -52,6 +52,7 @@ pub(super) fn contact(
             Area::Reference => AreaPart::Reference,
             Area::Current => AreaPart::Present,
             Area::Adjacent => AreaPart::Adjacent,
+            Area::Opposite => AreaPart::Opposite,
         },
         enforcement: enforcement(&part.enforcement),
         measure: part.per.map(|per| match per {
@@ -142,7 +143,7 @@ fn in_order(
 fn bare(part: &Contact) -> Diagnostics {
     let needs = [
         (
-            part.per == Some(Per::Area) && part.area != Area::Adjacent,
+            part.per == Some(Per::Area) && !matches!(part.area, Area::Adjacent | Area::Opposite),
             "a penalty per area",
             "write  per = \"node\"  in `enforcement`,  area = \"adjacent\", or name a surface",
         ),
@@ -273,7 +274,11 @@ fn enforcement(part: &Enforcement) -> model::Enforcement {
             model::Enforcement::Penalty(penalty.as_ref().map(|one| one.value))
         }
         Enforcement::Table(rows) => model::Enforcement::Table(rows.clone()),
-        Enforcement::Exponential { p0, c0 } => model::Enforcement::Exponential { p0: *p0, c0: *c0 },
+        &Enforcement::Exponential { p0, c0, within } => model::Enforcement::Exponential {
+            p0,
+            c0,
+            within: within.unwrap_or(f64::INFINITY),
+        },
         &Enforcement::Arctangent {
             stiffness,
             tension,

@@ -30,6 +30,7 @@ impl Builder {
             area: match fields.text("area").value.as_str() {
                 "current" => Area::Current,
                 "adjacent" => Area::Adjacent,
+                "opposite" => Area::Opposite,
                 _ => Area::Reference,
             },
             enforcement: self.enforcement(fields),
@@ -137,8 +138,9 @@ impl Builder {
         );
         only(
             "area",
-            contact.area == Area::Adjacent && matches!(method, Method::GaussPoint | Method::Mortar),
-            "only nodes have adjacent faces: delete `area`",
+            matches!(contact.area, Area::Adjacent | Area::Opposite)
+                && matches!(method, Method::GaussPoint | Method::Mortar),
+            "only nodes have adjacent and opposite faces: delete `area`",
         );
         only(
             "area",
@@ -292,6 +294,7 @@ impl Builder {
             return Enforcement::Exponential {
                 p0: law.number("p0"),
                 c0: law.number("c0"),
+                within: law.number_if("within").map(|within| within.value),
             };
         }
         if table.has("arctangent") {

@@ -99,6 +99,8 @@ pub enum Area {
     Current,
     /// Those of all outer faces of solids that meet a node, at the start.
     Adjacent,
+    /// That of the facet of the primary side that a point meets first, at the start.
+    Opposite,
 }
 
 /// How penetration is prevented.
@@ -117,6 +119,8 @@ pub enum Enforcement {
         p0: f64,
         /// The gap at which it has fallen to 1 %.
         c0: f64,
+        /// The gap beyond which nothing acts (length); none: it acts at any distance.
+        within: Option<f64>,
     },
     /// Proportional to the penetration far inside, rounded by an arctangent, with a tension at a distance.
     Arctangent {

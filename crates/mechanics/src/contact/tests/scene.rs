@@ -284,7 +284,7 @@ impl Scene {
                 let facets = second.as_ref().unwrap();
                 let rule = |e| on_facet(e, &rule);
                 let (mut inside, areas) =
-                    PointToSegment::inside(facets, rule, &x, &|_| 1.0).unwrap();
+                    PointToSegment::inside(facets, rule, &x, &|_, _| 1.0).unwrap();
                 inside.closest = closest;
                 area = areas;
                 Box::new(inside)
