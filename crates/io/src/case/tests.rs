@@ -673,11 +673,11 @@ fn a_fault_does_not_draw_others_after_it() {
     assert_eq!(codes_of(&brick("[[contact]]", "[contact]")), ["S0107"]);
     assert_eq!(
         codes_of(&brick("[1, 2, 3, 4] }", "[1, 2, 3, 4 }")),
-        ["S0106"]
+        ["S0104"]
     );
     assert_eq!(
         codes_of(&brick("material = \"soft\"", "material = soft")),
-        ["S0106"]
+        ["S0104"]
     );
     assert_eq!(codes_of(&brick("nu    = 0.0", "nu = 0,3")), ["S0115"]);
     assert_eq!(codes_of(&brick("tip_node = {", "brick = {")), ["S0113"]);
@@ -1097,23 +1097,25 @@ fn a_hundred_thousand_nodes_read_well_under_a_second() {
 #[test]
 fn a_body_has_a_plane_of_its_own_where_it_goes_with_the_model() {
     let text = |model: &str, body: &str| {
-        PLANE
-            .replace("space     = \"plane-stress\"\nthickness = 2.5", model)
-            .replace("space     = \"plane-strain\"\nthickness = 1.5", body)
+        format!(
+            "step = [{{ name = 's' }}]\nmodel = {{ {model} }}\nmaterial = {{ m = {{ model = 'linear-elastic', E = 1, nu = 0 }} }}\n\
+             body = [{{ group = 'a', material = 'm', {body} }}]\n[mesh]\nnodes = [[1, 0, 0], [2, 1, 0], [3, 0, 1]]\n\
+             elements = [{{ id = 1, type = 'tri3', group = 'a', nodes = [1, 2, 3] }}]\n"
+        )
     };
     let ring = "space = 'axisymmetric'";
-    let (case, _) = read(&text(ring, "space = 'plane-stress'\nthickness = 3")).unwrap();
+    let (case, _) = read(&text(ring, "space = 'plane-stress', thickness = 3")).unwrap();
     let body = &case.bodies[0];
     assert_eq!(body.space.as_ref().unwrap().value, Space::PlaneStress);
     assert_eq!(read(&resolved(&case)).unwrap().0, case);
     for (model, body, code) in [
-        (ring, "space = 'plane-strain'\nthickness = 3", "S0112"),
+        (ring, "space = 'plane-strain', thickness = 3", "S0112"),
         (ring, "space = 'plane-stress'", "S0106"),
         (ring, "thickness = 3", "S0112"),
         ("space = 'plane-strain'", "space = 'axisymmetric'", "S0112"),
         (
             "space = 'plane-stress'",
-            "space = 'axisymmetric'\nthickness = 2",
+            "space = 'axisymmetric', thickness = 2",
             "S0112",
         ),
     ] {
