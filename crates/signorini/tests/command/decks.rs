@@ -203,7 +203,7 @@ fn sections_of_different_thickness_share_a_force_by_it() {
 }
 
 /// A ring of the radii 1 and 2 under a sheet as thick as the circumference at their mean, ν = 0: what presses the sheet
-/// arrives below the ring, and the pressure between them is that of the sheet.
+/// arrives below the ring, and the mean stress of the sheet is that pressure.
 #[test]
 fn a_ring_bears_a_sheet_that_stands_for_what_is_around_the_circumference() {
     let around = 3.0 * std::f64::consts::PI;
@@ -232,8 +232,9 @@ fn a_ring_bears_a_sheet_that_stands_for_what_is_around_the_circumference() {
             assert!((force[1] - 10.0 * share).abs() < 1e-6, "{force:?}");
             let volume = first("volume (");
             assert!((volume[1] - share).abs() < 1e-6, "{volume:?}");
-            let stress = first("stresses");
-            assert!((stress[3] + 10.0).abs() < 1e-1, "{stress:?}");
+            let stresses = all_printed(&deck, "stresses", compat);
+            let mean = stresses.iter().map(|row| row[3]).sum::<f64>() / stresses.len() as f64;
+            assert!((mean + 10.0).abs() < 1e-5, "{stresses:?}");
         }
     }
     let folder = tempfile::tempdir().unwrap();
