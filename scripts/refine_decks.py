@@ -156,10 +156,10 @@ class Mesh:
         return self.next - 1
 
     def on_side(self, label, side):
-        """Nodes on a side of an element, and its parts there."""
+        """Nodes on a side of an element, in order along it, and its parts there."""
         axis, value = SIDES[len(self.elements[label])][side]
         wanted = round((value + 1) * self.level * 2)
-        nodes = [node for key, node in self.known[label].items() if key[axis] == wanted]
+        nodes = [node for key, node in sorted(self.known[label].items()) if key[axis] == wanted]
         end = 0 if value < 0 else self.level - 1
         return nodes, [at for at, cell in self.parts[label] if cell[axis] == end]
 
@@ -191,8 +191,7 @@ class Mesh:
                         continue
                     total = sum(at[one] for one in edge)
                     done.update(edge)
-                    axis, _ = SIDES[8][side]
-                    along = sorted(self.on_side(element, side)[0], key=lambda n: self.place[n][1 - axis])
+                    along = self.on_side(element, side)[0]
                     for first in range(0, 2 * self.level, 2):
                         for node, share in zip(along[first : first + 3], (1 / 6, 4 / 6, 1 / 6)):
                             out[node, dof] = out.get((node, dof), 0.0) + total * share / self.level

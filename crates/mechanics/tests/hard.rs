@@ -226,9 +226,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
             contact.enforcement = Enforcement::Lagrange;
         }
         Way::Mortar => {
-            contact.method = Method::Mortar {
-                normals: Default::default(),
-            };
+            contact.method = Method::Mortar(Default::default());
             contact.enforcement = Enforcement::Auto;
         }
     }

@@ -16,7 +16,7 @@
 use super::Compat;
 use super::translation::Translation;
 use crate::case::{
-    Area, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
+    Area, Basis, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
     Normals, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
@@ -327,6 +327,7 @@ impl Translation<'_> {
                 ..Start::default()
             },
             normals: Normals::Primary,
+            basis: Basis::Part,
             pairs: Pairs::Nearest,
             reach: None,
             active: true,
@@ -377,6 +378,9 @@ impl Translation<'_> {
         };
         if exact {
             contact.method = method.into();
+            if method == Method::Mortar {
+                contact.basis = Basis::Whole;
+            }
             if method == Method::GaussPoint {
                 contact.rule.points = Some(POINTS);
                 contact.area = Area::Current;

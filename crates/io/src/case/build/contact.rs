@@ -50,6 +50,10 @@ impl Builder {
             tied: tied(fields),
             start: start(fields.table("start")),
             normals: self.normals(fields),
+            basis: match fields.text("basis").value.as_str() {
+                "whole" => Basis::Whole,
+                _ => Basis::Part,
+            },
             pairs: if fields.text("pairs").value == "order" {
                 Pairs::Order
             } else {
@@ -105,6 +109,11 @@ impl Builder {
                     _ => true,
                 },
             "\"nodal\" belongs to  method = \"mortar\", all others to \"node-to-node\"",
+        );
+        only(
+            "basis",
+            fields.has("basis") && method != Method::Mortar,
+            "it belongs to  method = \"mortar\"",
         );
         only(
             "pairs",

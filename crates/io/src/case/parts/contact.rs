@@ -37,6 +37,8 @@ pub struct Contact {
     pub start: Start,
     /// The normals of [`Method::NodeToNode`] and [`Method::Mortar`].
     pub normals: Normals,
+    /// The basis of [`Method::Mortar`].
+    pub basis: Basis,
     /// The pairs of [`Method::NodeToNode`].
     pub pairs: Pairs,
     /// How far from each other the sides are searched (length); none: found by the program.
@@ -256,6 +258,16 @@ pub enum Interference {
     Now,
     /// They stay, without pressure.
     StrainFree,
+}
+
+/// Over what weights of mortar contact are not negative on quadratic facets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Basis {
+    /// Over any part of a facet.
+    #[default]
+    Part,
+    /// Over a whole facet.
+    Whole,
 }
 
 /// Where node-to-node contact and mortar contact take their normals from.

@@ -44,10 +44,17 @@ pub(super) fn contact(contact: &Contact) -> Entries {
             ("normals", normals(&contact.normals)),
             ("pairs", pairs(contact.pairs)),
         ]),
-        Method::Mortar if contact.normals == Normals::Nodal => {
-            entries.push(("normals", "nodal".into()));
+        Method::Mortar => {
+            if contact.normals == Normals::Nodal {
+                entries.push(("normals", "nodal".into()));
+            }
+            let basis = match contact.basis {
+                Basis::Part => "part",
+                Basis::Whole => "whole",
+            };
+            entries.push(("basis", basis.into()));
         }
-        Method::Auto | Method::NodeToSegment | Method::Mortar => {}
+        Method::Auto | Method::NodeToSegment => {}
     }
     if contact.tied.is_none() {
         entries.push(("start", start(&contact.start)));

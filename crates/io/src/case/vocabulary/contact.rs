@@ -77,6 +77,12 @@ pub(super) static CONTACT: Table = Table {
         .or(Default::Text("primary"))
         .hints(&["normal"]),
         key(
+            "basis",
+            Shape::Choice(&[word("part"), word("whole")]),
+            "of mortar, on quadratic facets: over what no weight of a node is negative, any part of a facet or the whole",
+        )
+        .or(Default::Text("part")),
+        key(
             "pairs",
             Shape::Choice(&[word("nearest"), word("order")]),
             "of node-to-node: which nodes meet, the nearest or those of one place in the two lists",

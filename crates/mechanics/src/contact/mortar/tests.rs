@@ -723,7 +723,7 @@ fn linear_fields_pass_from_one_side_to_the_other_where_surfaces_coincide() {
             })
             .collect();
         let covered = evaluate(elements, &x, false);
-        let t = Transformation::of(elements[0]);
+        let t = Transformation::of(elements[0], Basis::Part);
         for axis in 0..elements[0].dim() {
             let mut own: Vec<f64> = x[0].iter().map(|x| x[axis]).collect();
             t.values(&mut own);
@@ -909,7 +909,7 @@ fn rings_that_coincide_pass_on_the_forces_of_a_uniform_pressure() {
         let rest = [line(0.3, -0.2), line(1.1, 0.8)];
         let all = [own.clone(), other, rest[0].clone(), rest[1].clone()];
         let all = measured(Measure::Revolved, elements, &all, false);
-        let t = Transformation::of(elements[0]);
+        let t = Transformation::of(elements[0], Basis::Part);
         let of_own = exact(elements[0], &own);
         for (j, d) in all.d().iter().enumerate() {
             let e: f64 = (0..own.len()).map(|k| t.get(j, k) * of_own[k]).sum();

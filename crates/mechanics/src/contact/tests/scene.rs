@@ -256,8 +256,12 @@ impl Scene {
                     Method::NodalMortar => mortar::Normals::Nodal,
                     _ => mortar::Normals::Facet,
                 };
+                let form = mortar::Form {
+                    normals,
+                    ..Default::default()
+                };
                 let mut mortar =
-                    Mortar::new(second.as_ref().unwrap(), normals, Default::default(), &x).unwrap();
+                    Mortar::new(second.as_ref().unwrap(), form, Default::default(), &x).unwrap();
                 if choice.bond || method == Method::HeldMortar {
                     let (x, poses) = (&x[..], &poses[..]);
                     mortar = mortar.held_at(&pair, &Placement { x, poses }).unwrap();

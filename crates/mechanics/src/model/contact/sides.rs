@@ -205,7 +205,7 @@ impl Source<'_> {
                 }
                 (Box::new(inside), area)
             }
-            Method::Mortar { normals } => {
+            Method::Mortar(form) => {
                 let (Some(facets), Some(_)) = (&secondary, &primary) else {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
@@ -219,7 +219,7 @@ impl Source<'_> {
                     });
                 }
                 let space = self.one_space(part, facets)?;
-                let mortar = Mortar::new(facets, normals, measure(space), self.reference)
+                let mortar = Mortar::new(facets, form, measure(space), self.reference)
                     .map_err(surface_error)?;
                 let area = mortar_areas(&mortar, self.reference, space);
                 (Box::new(mortar), area)
@@ -307,9 +307,7 @@ impl Source<'_> {
                 pairs: PairOrder::default(),
             },
             (Method::Auto, PrimaryPart::Faces(_)) if open && self.suits_mortar(part, secondary) => {
-                Method::Mortar {
-                    normals: discretization::mortar::Normals::default(),
-                }
+                Method::Mortar(discretization::mortar::Form::default())
             }
             (Method::Auto, _) if self.is_quadratic(part) && !exact => {
                 Method::GaussPoint(PointRule {
@@ -628,14 +626,13 @@ impl Sides {
 
     /// Keeps what mortar rows see of both sides at this configuration for good.
     pub fn hold(&mut self, at: &Placement, spaces: &Spaces<'_>) -> Result<(), SurfaceError> {
-        let (&Method::Mortar { normals }, Some(facets)) = (&self.method, &self.pair.secondary)
-        else {
+        let (&Method::Mortar(form), Some(facets)) = (&self.method, &self.pair.secondary) else {
             return Ok(());
         };
         let Some(&space) = spaces.behind(facets).first() else {
             return Ok(());
         };
-        let mortar = Mortar::new(facets, normals, measure(space), at.x)?.held_at(&self.pair, at)?;
+        let mortar = Mortar::new(facets, form, measure(space), at.x)?.held_at(&self.pair, at)?;
         self.area = mortar_areas(&mortar, at.x, space);
         self.discretization = Box::new(mortar);
         Ok(())

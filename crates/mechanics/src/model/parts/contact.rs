@@ -59,17 +59,14 @@ pub enum Method {
     /// Points inside the secondary facets against segments of the primary side.
     GaussPoint(PointRule),
     /// Means over secondary facets against all facets of the primary side that they meet.
-    Mortar {
-        /// Whose normals pressures act along.
-        normals: mortar::Normals,
-    },
+    Mortar(mortar::Form),
 }
 
 impl Method {
     /// Whether multipliers prevent penetration, unless something else is given.
     #[must_use]
     pub fn takes_multipliers(&self) -> bool {
-        matches!(self, Self::Mortar { .. })
+        matches!(self, Self::Mortar(_))
     }
 }
 
