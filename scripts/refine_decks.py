@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Solve refinements of a deck with CalculiX and with signorini, and tell which coarse result is nearer to their limit.
 
-    python scripts/refine_decks.py DECK.inp ... [--levels 1 2 4 8] [--ccx CCX] [--signorini SIGNORINI] [--markdown]
+    python scripts/refine_decks.py DECK.inp ... [--levels 1 2 4 8] [--ccx CCX] [--signorini SIGNORINI]
 
-A deck of C3D20 or CPS8R (with R or without) is read, and every element cut into n × n (× n) by its own shape functions,
+A deck of C3D20 or CPS8 (with R or without) is read, and every element cut into n × n (× n) by its own shape functions,
 for each level n. Nodes of the deck keep their numbers. A set of nodes becomes all nodes of those sides of elements whose
 nodes it holds, surfaces and pressures become those of the parts of a side, forces at the three nodes of an edge that are in
 the ratio 1 : 4 : 1 those of its parts. Everything else is copied.
@@ -12,6 +12,9 @@ Both programs solve every level, ccx with tight tolerances. Compared are displac
 at the same places on every level. The limit is what both programs find on the finest level: the mean of both. Printed is the
 distance from it, in parts of its largest displacement, of each program on each level; of the finest, half of what the two
 differ. Displacements at corners where two bodies meet converge slowly: the limit is as good as the last row says.
+
+Where a reference lies beside the deck, DECK.dat.ref or DECK.frd.ref, the displacement in which it and signorini differ most
+on the mesh of the deck is told: that of the reference, of both programs, and on the finest level.
 
 Of plane stress, the largest stresses that the printed table has and the idealisation has not, szz, sxz, syz, are told in
 parts of the largest one, too; and, as CalculiX makes a sheet of solid elements, the same for a sheet a tenth and a hundredth
@@ -45,7 +48,6 @@ SIDES = {
 }
 NODES = {"C3D20": HEX20, "C3D20R": HEX20, "CPS8": QUAD8, "CPS8R": QUAD8}
 NEAR = 1e-8
-FINEST_TIGHT = "*CONTROLS, PARAMETERS=FIELD\n5.E-7, 1.E-5\n"
 
 
 def shape(kind, at):
@@ -219,10 +221,8 @@ class Mesh:
                 lines = [f"{part}," for one in fields(lines) for part, _ in self.parts[int(one)]]
             elif key == "SURFACE":
                 lines = self.surface(lines)
-            elif key in ("DLOAD",):
+            elif key == "DLOAD":
                 lines = self.pressures(lines)
-            elif key == "BOUNDARY":
-                lines = self.boundary(lines)
             elif key == "CLOAD":
                 lines = [self.scaled(line, thinner) for line in self.forces(lines)]
             elif key == "SOLIDSECTION":
@@ -233,7 +233,7 @@ class Mesh:
                 out.append("*NODE PRINT, NSET=ORIGINALNODES\nU\n")
                 if thinner != 1.0 or any(kind.startswith("CPS") for kind in self.kinds.values()):
                     out.append("*EL PRINT, ELSET=ALLPARTS\nS\n")
-                out.append(FINEST_TIGHT)
+                out.append(compare_ccx.CONVERGED)
             elif key == "STEP":
                 out.append("*NSET, NSET=ORIGINALNODES\n" + "".join(f"{n},\n" for n in sorted(self.old)))
                 out.append("*ELSET, ELSET=ALLPARTS\n" + "".join(f"{n},\n" for n in sorted(self.new)))
@@ -270,12 +270,6 @@ class Mesh:
                 found += [f"{part},{side},{value}" for part in parts]
         return found
 
-    def boundary(self, lines):
-        found = []
-        for name, *rest in ([field.strip() for field in line.split(",")] for line in lines):
-            found.append(",".join([name, *rest]))
-        return found
-
 
 def table(path, caption):
     """The last table of a .dat file below this caption: rows of numbers."""
@@ -305,6 +299,32 @@ def solved(programs, text, name):
         files = os.path.join(folder, f"{name}.dat"), os.path.join(folder, f"{name}.out", f"{name}.dat")
         moved = [table(file, "displacements") for file in files]
         return moved, [table(file, "stresses (elem, integ.pnt.") for file in files]
+
+
+def reference(path):
+    """Displacements that lie beside the deck; none where there are no such."""
+    printed = path.with_suffix(".dat.ref")
+    if printed.is_file() and printed.stat().st_size:
+        return table(printed, "displacements")
+    rows, inside = {}, False
+    file = path.with_suffix(".frd.ref")
+    for line in file.read_text(encoding="ascii").splitlines() if file.is_file() else []:
+        if line.startswith(" -4"):
+            inside = line.split()[1] == "DISP"
+        elif inside and line.startswith(" -1"):
+            rows[(line[3:13].strip(),)] = [float(line[13 + 12 * k : 25 + 12 * k]) for k in range(3)]
+    return rows
+
+
+def beside(name, given, coarse, limit):
+    """Where the reference and signorini differ most: what all say."""
+    theirs, ours = coarse
+    apart = {(node, k): abs(a - ours[node][k]) for node, row in given.items() for k, a in enumerate(row)}
+    node, k = max(apart, key=apart.get)
+    lines = [f"| {name} | {' '.join(node)} along {'xyz'[k]} |", "|---|---|"]
+    for what, rows in (("reference", given), ("CalculiX", theirs), ("signorini", ours), ("finest level", limit)):
+        lines.append(f"| {what} | {rows[node][k]:.3e} |")
+    return "\n".join(lines)
 
 
 def largest(rows):
@@ -337,7 +357,9 @@ def study(path, levels, programs):
             _, stresses = solved(programs, Mesh(text, 1).deck(thinner), path.stem)
             far = [across(rows) for rows in stresses]
             lines.append(f"| stress across, thickness × {thinner:g} | 1 × 1 | {far[0]:.1e} | {far[1]:.1e} |")
-    return "\n".join(lines)
+    given = reference(path)
+    coarse = [] if levels[0] != 1 or not given else [beside(path.stem, given, found[1][0], limit)]
+    return "\n\n".join(["\n".join(lines), *coarse])
 
 
 def main():
