@@ -1079,3 +1079,33 @@ fn speed() {
         );
     }
 }
+
+/// SOURCE: Popp, Wohlmuth, Gee, Wall 2012: parts of the facet that its corners and the middles of its edges stand for.
+#[test]
+fn weights_over_a_whole_facet_are_positive_in_either_basis() {
+    let parts = [
+        ("tri6", Basis::Part, [1.0 / 6.0, 1.0 / 6.0]),
+        ("tri6", Basis::Whole, [2.0 / 15.0, 1.0 / 5.0]),
+        ("quad8", Basis::Part, [1.0 / 6.0, 1.0 / 12.0]),
+        ("quad8", Basis::Whole, [1.0 / 20.0, 1.0 / 5.0]),
+    ];
+    for (name, basis, [corner, middle]) in parts {
+        let element = by_name(name).unwrap();
+        let mut covered = Covered::default();
+        covered.measured(Measure::Flat, basis);
+        let x = element.nodes();
+        covered.evaluate(&Facet { element, x }, &[], false).unwrap();
+        let area: f64 = covered.full().iter().sum();
+        for (k, weight) in covered.full().iter().enumerate() {
+            let wanted = if k < element.ncorner() {
+                corner
+            } else {
+                middle
+            };
+            assert!(
+                (weight / area - wanted).abs() < 1e-12,
+                "{name} {basis:?} {k}: {weight}"
+            );
+        }
+    }
+}
