@@ -515,6 +515,87 @@ open(f"{name}.out/summary.json", "w").write(json.dumps({"steps": [{"iterations":
         self.assertIn("there is no program", said)
 
 
+HEX = """*NODE, NSET=ALL
+1,0,0,0
+2,2,0,0
+3,2,1,0
+4,0,1,0
+5,0,0,1
+6,2,0,1
+7,2,1,1
+8,0,1,1
+9,1,0,0
+10,2,.5,0
+11,1,1,0
+12,0,.5,0
+13,1,0,1
+14,2,.5,1
+15,1,1,1
+16,0,.5,1
+17,0,0,.5
+18,2,0,.5
+19,2,1,.5
+20,0,1,.5
+*ELEMENT, TYPE=C3D20, ELSET=E
+1,1,2,3,4,5,6,7,8,9,10,11,12,13,14,
+15,16,17,18,19,20
+*NSET, NSET=BASE
+1,2,3,4,9,10,11,12
+*STEP
+*DLOAD
+1, P2, 3.
+*END STEP
+"""
+
+QUAD = """*NODE
+1,0,2,0
+2,0,0,0
+3,1,0,0
+4,1,2,0
+5,0,1,0
+6,.5,0,0
+7,1,1,0
+8,.5,2,0
+*ELEMENT, TYPE=CPS8R, ELSET=E
+1,1,2,3,4,5,6,7,8
+*STEP
+*CLOAD
+4,2,-1.
+8,2,-4.
+1,2,-1.
+*END STEP
+"""
+
+
+class Refinements(unittest.TestCase):
+    """Decks of one element, cut into eight or four."""
+
+    def setUp(self):
+        sys.path.insert(0, HERE)
+        self.script = __import__("refine_decks")
+
+    def test_an_element_becomes_eight_that_share_their_nodes(self):
+        mesh = self.script.Mesh(HEX, 2)
+        self.assertEqual(len(mesh.new), 8)
+        # those of a grid of 5 × 5 × 5 but the middles of faces and cells
+        self.assertEqual(len(mesh.place), 81)
+        self.assertEqual(mesh.old, set(range(1, 21)))
+        self.assertEqual(mesh.place[1], (0.0, 0.0, 0.0))
+        base = mesh.grown([1, 2, 3, 4, 9, 10, 11, 12])
+        self.assertEqual(len(base), 21)
+        self.assertTrue(all(mesh.place[node][2] == 0.0 for node in base))
+        self.assertEqual(sum(",P2," in line for line in mesh.deck().splitlines()), 4)
+
+    def test_forces_of_an_edge_are_those_of_its_parts(self):
+        mesh = self.script.Mesh(QUAD, 2)
+        rows = [line.split(",") for line in mesh.forces(["4,2,-1.", "8,2,-4.", "1,2,-1."])]
+        forces = {mesh.place[int(node)][0]: float(value) for node, _, value in rows}
+        wanted = {0.0: -0.5, 0.25: -2.0, 0.5: -1.0, 0.75: -2.0, 1.0: -0.5}
+        self.assertEqual(sorted(forces), sorted(wanted))
+        for x, force in wanted.items():
+            self.assertAlmostEqual(forces[x], force)
+
+
 if __name__ == "__main__":
     strict = "--nothing-skipped" in sys.argv
     result = unittest.main(argv=[a for a in sys.argv if a != "--nothing-skipped"], verbosity=2, exit=False).result

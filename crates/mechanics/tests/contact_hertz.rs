@@ -123,7 +123,7 @@ fn pressed(facets: f64) -> ContactFrame {
             density: None,
             integration: Integration::Full,
             locking: Locking::Auto,
-            thickness: None,
+            space: None,
             linear_temperatures: false,
             initial: Vec::new(),
         },
@@ -133,9 +133,7 @@ fn pressed(facets: f64) -> ContactFrame {
         SidePart::Faces(upper.faces.clone()),
         PrimaryPart::Faces(lower.faces.clone()),
     );
-    contact.method = Method::Mortar {
-        normals: Default::default(),
-    };
+    contact.method = Method::Mortar(Default::default());
     contact.sliding = SlidingRange::Small;
     let step = StepPart {
         name: "press".into(),

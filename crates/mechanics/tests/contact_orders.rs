@@ -249,7 +249,7 @@ impl Solution {
                 density: None,
                 integration: Integration::Full,
                 locking: Locking::None,
-                thickness: None,
+                space: None,
                 linear_temperatures: false,
                 initial: Vec::new(),
             },
@@ -260,9 +260,7 @@ impl Solution {
             SidePart::Faces(self.layer(secondary).faces.clone()),
             PrimaryPart::Faces(self.layer(primary).faces.clone()),
         );
-        contact.method = Method::Mortar {
-            normals: Default::default(),
-        };
+        contact.method = Method::Mortar(Default::default());
         if way != Way::Finite {
             contact.sliding = SlidingRange::Small;
         }

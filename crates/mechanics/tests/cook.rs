@@ -106,7 +106,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 density: None,
                 integration: Integration::Full,
                 locking,
-                thickness: None,
+                space: None,
                 linear_temperatures: false,
                 initial: Vec::new(),
             },

@@ -195,7 +195,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
             density: None,
             integration: Integration::Full,
             locking: Locking::Auto,
-            thickness: None,
+            space: None,
             linear_temperatures: false,
             initial: Vec::new(),
         },
@@ -226,9 +226,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
             contact.enforcement = Enforcement::Lagrange;
         }
         Way::Mortar => {
-            contact.method = Method::Mortar {
-                normals: Default::default(),
-            };
+            contact.method = Method::Mortar(Default::default());
             contact.enforcement = Enforcement::Auto;
         }
     }

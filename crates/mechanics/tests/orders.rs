@@ -167,7 +167,7 @@ fn solution(
                 density: None,
                 integration: choice.integration,
                 locking: choice.locking,
-                thickness: None,
+                space: None,
                 linear_temperatures: false,
                 initial: Vec::new(),
             },

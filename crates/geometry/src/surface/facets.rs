@@ -167,15 +167,15 @@ impl Facets {
     }
 
     /// `∫ N_i e dA` of every node over all facets, in the order of [`Facets::all_nodes`]; `dA` is a length in the plane,
-    /// and `e` the extent across it at a position (thickness, circumference; 1 in space). These are the forces of a unit
-    /// traction: at the corners of tri6 and quad8 they vanish or are negative.
+    /// and `e` the extent across it of a facet at a position (thickness, circumference; 1 in space). These are the forces
+    /// of a unit traction: at the corners of tri6 and quad8 they vanish or are negative.
     ///
     /// # Errors
     /// A facet without a normal.
     pub fn nodal_areas(
         &self,
         x: &[Vec3],
-        extent: &dyn Fn(Vec3) -> f64,
+        extent: &dyn Fn(u32, Vec3) -> f64,
     ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
         self.gather(|facet| Ok(self.integrals(x, facet, extent)?.0))
     }
@@ -192,7 +192,7 @@ impl Facets {
     pub fn lumped_areas(
         &self,
         x: &[Vec3],
-        extent: &dyn Fn(Vec3) -> f64,
+        extent: &dyn Fn(u32, Vec3) -> f64,
     ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
         self.gather(|facet| {
             let (consistent, squares) = self.integrals(x, facet, extent)?;
@@ -244,7 +244,7 @@ impl Facets {
         &self,
         x: &[Vec3],
         facet: u32,
-        extent: &dyn Fn(Vec3) -> f64,
+        extent: &dyn Fn(u32, Vec3) -> f64,
     ) -> Result<([f64; MAX_FACET_NODES], [f64; MAX_FACET_NODES]), SurfaceError> {
         let missing = SurfaceError::NoSuchFacet { facet };
         let element = self.element(facet).ok_or(missing)?;
@@ -254,7 +254,7 @@ impl Facets {
         for (xi, weight) in element.surface_rule().iter() {
             let anchor = Anchor { facet, local: *xi };
             self.jet(&at, &anchor, &mut jet)?;
-            let area = weight * area_factor(&jet, self.ntan) * extent(jet.position);
+            let area = weight * area_factor(&jet, self.ntan) * extent(facet, jet.position);
             for (i, n) in jet.shape.iter().take(jet.nnode).enumerate() {
                 first[i] += n * area;
                 second[i] += n * n * area;

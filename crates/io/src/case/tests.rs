@@ -1093,3 +1093,33 @@ fn a_hundred_thousand_nodes_read_well_under_a_second() {
     println!("{seconds:.3} s");
     assert!(seconds < limit, "{seconds} s");
 }
+
+#[test]
+fn a_body_has_a_plane_of_its_own_where_it_goes_with_the_model() {
+    let text = |model: &str, body: &str| {
+        format!(
+            "step = [{{ name = 's' }}]\nmodel = {{ {model} }}\nmaterial = {{ m = {{ model = 'linear-elastic', E = 1, nu = 0 }} }}\n\
+             body = [{{ group = 'a', material = 'm', {body} }}]\n[mesh]\nnodes = [[1, 0, 0], [2, 1, 0], [3, 0, 1]]\n\
+             elements = [{{ id = 1, type = 'tri3', group = 'a', nodes = [1, 2, 3] }}]\n"
+        )
+    };
+    let ring = "space = 'axisymmetric'";
+    let (case, _) = read(&text(ring, "space = 'plane-stress', thickness = 3")).unwrap();
+    let body = &case.bodies[0];
+    assert_eq!(body.space.as_ref().unwrap().value, Space::PlaneStress);
+    assert_eq!(read(&resolved(&case)).unwrap().0, case);
+    for (model, body, code) in [
+        (ring, "space = 'plane-strain', thickness = 3", "S0112"),
+        (ring, "space = 'plane-stress'", "S0106"),
+        (ring, "thickness = 3", "S0112"),
+        ("space = 'plane-strain'", "space = 'axisymmetric'", "S0112"),
+        (
+            "space = 'plane-stress'",
+            "space = 'axisymmetric', thickness = 2",
+            "S0112",
+        ),
+    ] {
+        let found = codes_of(&text(model, body));
+        assert_eq!(found, [code], "{model} {body}");
+    }
+}

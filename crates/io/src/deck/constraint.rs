@@ -179,6 +179,7 @@ impl Translation<'_> {
             integration: Default::default(),
             locking: Default::default(),
             orientation: None,
+            space: None,
             thickness: None,
             temperatures: Temperatures::default(),
             area: None,

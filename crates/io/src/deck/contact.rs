@@ -16,7 +16,7 @@
 use super::Compat;
 use super::translation::Translation;
 use crate::case::{
-    Area, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
+    Area, Basis, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
     Normals, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
@@ -327,6 +327,7 @@ impl Translation<'_> {
                 ..Start::default()
             },
             normals: Normals::Primary,
+            basis: Basis::Part,
             pairs: Pairs::Nearest,
             reach: None,
             active: true,
@@ -350,7 +351,15 @@ impl Translation<'_> {
             Law::Hard if exact && method != Method::Mortar => penalty([hard, 0.0, 0.0]),
             Law::Linear(numbers) if exact => penalty(*numbers),
             Law::Hard | Law::Linear(_) => Enforcement::Auto,
-            Law::Exponential { c0, p0 } => Enforcement::Exponential { p0: *p0, c0: *c0 },
+            &Law::Exponential { c0, p0 } => Enforcement::Exponential {
+                p0,
+                c0,
+                // of points in faces, CalculiX looks at those that penetrate; of nodes, up to c0
+                within: exact.then_some(match method {
+                    Method::NodeToSegment => c0,
+                    _ => 0.0,
+                }),
+            },
             Law::Table(rows) => {
                 let falling = rows.iter().rev().map(|[pressure, over]| [-over, *pressure]);
                 Enforcement::Table(falling.collect())
@@ -369,6 +378,9 @@ impl Translation<'_> {
         };
         if exact {
             contact.method = method.into();
+            if method == Method::Mortar {
+                contact.basis = Basis::Whole;
+            }
             if method == Method::GaussPoint {
                 contact.rule.points = Some(POINTS);
                 contact.area = Area::Current;
@@ -377,7 +389,11 @@ impl Translation<'_> {
             let secondary = self.deck.mesh.sets.get(&contact.secondary.value);
             let by_nodes = secondary.is_some_and(|set| !set.nodes.is_empty());
             if method == Method::NodeToSegment && by_nodes {
-                contact.area = Area::Adjacent;
+                // CalculiX expands planes into space, where these nodes are none of the faces: it takes those opposite
+                contact.area = match self.case.model.space.ndim() {
+                    2 => Area::Opposite,
+                    _ => Area::Adjacent,
+                };
             }
             if !matches!(contact.enforcement, Enforcement::Auto) {
                 contact.per = Some(Per::Area);

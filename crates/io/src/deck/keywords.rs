@@ -99,7 +99,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ignored("EL FILE", "all fields are written anyway"),
     read(
         "EL PRINT",
-        "S, E, ME, PEEQ, ENER, ELSE, EVOL; TOTALS, FREQUENCY",
+        "S, E, ME, PEEQ, ENER, ELSE, EVOL, CENT; TOTALS, FREQUENCY",
     ),
     read(
         "ELASTIC",

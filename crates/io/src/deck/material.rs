@@ -1,7 +1,7 @@
 //! Materials: their constants, density, expansion, yield stresses.
 
 use super::translation::Translation;
-use crate::case::{Constant, Expansion, Hardening, Material, Name, Plasticity};
+use crate::case::{Constant, Expansion, Hardening, Material, Name, Plasticity, Unstrained};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Statement, compared, number};
 
@@ -239,7 +239,7 @@ impl Translation<'_> {
         Some(Expansion {
             alpha,
             reference,
-            free: reference.into(),
+            free: Unstrained::At(reference).into(),
         })
     }
 

@@ -3,7 +3,7 @@
 use super::translation::{Target, Translation};
 use crate::case::{
     Amplitude, AtPoint, AxesSystem, Body, Integration, Locking, Model, Name, Orientation, Space,
-    Temperatures, TimeBase,
+    TemperatureAt, Temperatures, TimeBase, Unstrained,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -18,7 +18,6 @@ struct Section<'s> {
     card: &'s Statement,
     material: &'s str,
     orientation: Option<&'s Orientation>,
-    /// Where it is not that of the model.
     thickness: Option<&'s Spanned<f64>>,
     /// The set of its elements, if all of this set are.
     set: Option<String>,
@@ -71,17 +70,12 @@ impl Translation<'_> {
             _ if of("CPS") => Space::PlaneStress,
             _ => Space::PlaneStrain,
         };
-        let mixed = ["CAX", "CPS", "CPE"]
-            .iter()
-            .filter(|letters| of(letters))
-            .count()
-            > 1;
-        if mixed && dim == 2 {
+        if space == Space::Axisymmetric && of("CPE") {
             self.error(
-                &codes::NOT_BUILT,
-                "elements of plane stress, plane strain and axisymmetry in one deck",
+                &codes::CONTRADICTION,
+                "elements of plane strain and axisymmetry in one deck",
                 &Place::nowhere(),
-                "a model has one of them",
+                "a slice that cannot stretch across its plane is no part of a ring",
             );
         }
         self.case.model = Model {
@@ -140,32 +134,41 @@ impl Translation<'_> {
     }
 
     fn start_temperature(&mut self) {
-        let mut found: Option<(f64, Place)> = None;
+        let mut found: Vec<TemperatureAt> = Vec::new();
         for card in self.cards("INITIALCONDITIONS") {
             let kind = card.get("TYPE").map(compared).unwrap_or_default();
             if kind != "TEMPERATURE" {
                 continue;
             }
             for row in card.rows() {
-                self.targets(card, row.first(), Kind::Nodes);
-                let value = self.real(row.get(1));
-                match &found {
-                    Some((first, _)) if *first != value => {
-                        let text = "temperatures at the start that differ are not supported";
-                        let remark = format!("the first one is {first}");
-                        self.error(&codes::NOT_BUILT, text, &card.place, remark);
-                    }
-                    Some(_) => {}
-                    None => found = Some((value, card.place.clone())),
+                let targets = self.targets(card, row.first(), Kind::Nodes);
+                let temperature = self.real(row.get(1));
+                if !targets.is_empty() {
+                    found.push(TemperatureAt {
+                        on: self.named(&targets, &card.place),
+                        temperature,
+                        place: card.place.clone(),
+                    });
                 }
             }
         }
-        let start = found.as_ref().map(|(value, _)| *value);
-        self.case.initial_temperature = found.map(|(value, place)| Spanned::new(value, place));
+        let Some(first) = found.first().cloned() else {
+            return;
+        };
+        let alike = found.iter().all(|one| one.temperature == first.temperature);
+        // what no line names is at zero once lines differ; CalculiX leaves it without a value
+        let (everywhere, free) = match alike {
+            true => (first.temperature, Unstrained::At(first.temperature)),
+            false => (0.0, Unstrained::AtStart),
+        };
+        self.case.initial_temperature = Some(Spanned::new(everywhere, first.place));
+        if !alike {
+            self.case.initial_temperatures = found;
+        }
         // thermal strain counts from the start, at which there is none
         for material in &mut self.case.materials {
-            if let (Some(expansion), Some(start)) = (&mut material.expansion, start) {
-                expansion.free.value = start;
+            if let Some(expansion) = &mut material.expansion {
+                expansion.free.value = free;
             }
         }
     }
@@ -285,13 +288,12 @@ impl Translation<'_> {
                     None
                 }
             });
-            let mut own = None;
-            if let Some(row) = card.rows().next().filter(|row| !row.is_empty())
-                && self.case.model.space.value.has_thickness()
+            let row = card.rows().next().filter(|row| !row.is_empty());
+            let given = row.map(|row| Spanned::new(self.real(row.first()), card.place.clone()));
+            if self.case.model.space.value.has_thickness()
+                && let Some(given) = &given
             {
-                let given = self.real(row.first());
-                let of_model = *thickness.get_or_insert(given);
-                own = (given != of_model).then(|| Spanned::new(given, card.place.clone()));
+                self.case.model.thickness = *thickness.get_or_insert(given.value);
             }
             let sets = self.sets_of(card, elset);
             if sets.is_empty() {
@@ -305,7 +307,7 @@ impl Translation<'_> {
                     card,
                     material: &material,
                     orientation: orientation.as_ref(),
-                    thickness: own.as_ref(),
+                    thickness: given.as_ref(),
                     set: Some(set),
                 };
                 let own: Vec<u64> = all.into_iter().filter(is_own).collect();
@@ -320,7 +322,6 @@ impl Translation<'_> {
                 self.body(&section, own);
             }
         }
-        self.case.model.thickness = thickness.unwrap_or(1.0);
     }
 
     /// The number of the last section of each element, if there are several.
@@ -354,7 +355,7 @@ impl Translation<'_> {
     /// The bodies of a section: one, or one for each way its elements are integrated.
     fn body(&mut self, section: &Section<'_>, elements: Vec<u64>) {
         let place = &section.card.place;
-        let mut ways: BTreeMap<(bool, bool, bool, bool), Vec<u64>> = BTreeMap::new();
+        let mut ways: BTreeMap<(bool, bool, bool, bool, Space), Vec<u64>> = BTreeMap::new();
         for label in elements {
             let Some(cell) = self.cell(label) else {
                 continue;
@@ -371,12 +372,13 @@ impl Translation<'_> {
                 .iter()
                 .any(|l| kind.starts_with(l));
             let even = quadratic && !reduced;
-            ways.entry((reduced, modes, linear, even))
+            let space = self.plane(kind);
+            ways.entry((reduced, modes, linear, even, space))
                 .or_default()
                 .push(label);
         }
         let several = ways.len() > 1;
-        for ((reduced, modes, linear, even), elements) in ways {
+        for ((reduced, modes, linear, even, space), elements) in ways {
             let group = match &section.set {
                 Some(set) if !several => Spanned::new(set.clone(), place.clone()),
                 _ => self.elements_named(elements, place),
@@ -391,7 +393,9 @@ impl Translation<'_> {
                 },
                 locking: Spanned::new(locking(reduced, modes, linear), place.clone()),
                 orientation: section.orientation.cloned(),
-                thickness: section.thickness.cloned(),
+                space: (space != *self.case.model.space)
+                    .then(|| Spanned::new(space, place.clone())),
+                thickness: self.thickness(space, section),
                 temperatures: if even {
                     Temperatures::Linear
                 } else {
@@ -403,6 +407,31 @@ impl Translation<'_> {
                 place: place.clone(),
             });
         }
+    }
+
+    /// What the plane of an element of this type stands for.
+    fn plane(&self, kind: &str) -> Space {
+        let of_model = *self.case.model.space;
+        match kind.get(..3) {
+            Some("CAX") if of_model.ndim() == 2 => Space::Axisymmetric,
+            Some("CPS") if of_model.ndim() == 2 => Space::PlaneStress,
+            Some("CPE") if of_model.ndim() == 2 => Space::PlaneStrain,
+            _ => of_model,
+        }
+    }
+
+    /// The thickness of a section, where it is not that of the model.
+    fn thickness(&self, space: Space, section: &Section<'_>) -> Option<Spanned<f64>> {
+        let model = &self.case.model;
+        if !space.has_thickness() {
+            return None;
+        }
+        let given = section.thickness.cloned();
+        if model.space.has_thickness() {
+            return given.filter(|given| given.value != model.thickness);
+        }
+        let one = || Spanned::new(1.0, section.card.place.clone());
+        Some(given.unwrap_or_else(one))
     }
 
     /// Axes of materials; nothing for those that are not supported, which have been told of.

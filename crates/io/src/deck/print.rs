@@ -21,6 +21,7 @@ fn quantities(of: PrintOf) -> &'static [(&'static str, &'static str)] {
             ("ENER", "energy-density"),
             ("ELSE", "energy"),
             ("EVOL", "volume"),
+            ("CENT", "spin-squared"),
         ],
         PrintOf::Contact => &[
             ("CDIS", "gap"),

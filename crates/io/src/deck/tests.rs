@@ -1,7 +1,7 @@
 use super::*;
 use crate::case::{
     Area, AxesSystem, Body, ConstraintKind, Enforcement, Geometry, Integration, Interference,
-    LoadKind, Locking, Method, Motion, Per, SetContent, Space,
+    LoadKind, Locking, Method, Motion, Per, SetContent, Space, Unstrained,
 };
 use crate::fs::RealFs;
 use signorini_geometry::tensor::Vec3;
@@ -392,7 +392,8 @@ fn constants_depend_on_temperature_where_their_rows_differ() {
     assert_eq!(constant(&hot, "nu"), [0.3, 0.31]);
     let expansion = hot.expansion.unwrap();
     assert_eq!(expansion.alpha, [[0.0, 1e-5], [500.0, 2e-5]]);
-    assert_eq!((expansion.reference, expansion.free.value), (20.0, 20.0));
+    assert_eq!(expansion.reference, 20.0);
+    assert_eq!(expansion.free.value, Unstrained::At(20.0));
     let same =
         material("*ELASTIC\n200., .3, 0.\n200., .3, 500.\n*EXPANSION\n1e-5, 0.\n1e-5, 500.\n");
     assert_eq!(same.model.value, "linear-elastic");
@@ -402,7 +403,7 @@ fn constants_depend_on_temperature_where_their_rows_differ() {
     let expansion = case(&deck.replace("*STEP", start)).materials[0]
         .expansion
         .clone();
-    assert_eq!(expansion.unwrap().free.value, 100.0);
+    assert_eq!(expansion.unwrap().free.value, Unstrained::At(100.0));
     let text = refused(&cube("C3D8", STEP).replace(
         "1000., 0.3\n",
         "1000., 0.3, 0.\n900., 0.3, 100.\n*PLASTIC\n10., 0.\n",
@@ -501,6 +502,51 @@ fn sections_of_a_plane_model_have_a_thickness_each() {
         .map(|b| b.thickness.as_ref().map(|t| t.value))
         .collect();
     assert_eq!(own, [None, Some(2.0)]);
+}
+
+/// A ring beside a sheet; without a thickness a sheet is one thick.
+#[test]
+fn bodies_have_the_plane_that_their_elements_name() {
+    let deck = "*NODE\n1,1,0\n2,2,0\n3,2,1\n4,1,1\n5,3,0\n6,3,1\n7,4,0\n8,4,1\n*ELEMENT, TYPE=CAX4, ELSET=A\n1,1,2,3,4\n\
+                *ELEMENT, TYPE=CPS4, ELSET=B\n2,2,5,6,3\n*ELEMENT, TYPE=CPS4, ELSET=C\n3,5,7,8,6\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n\
+                *SOLID SECTION, ELSET=A, MATERIAL=M\n0.1\n*SOLID SECTION, ELSET=B, MATERIAL=M\n2.\n*SOLID SECTION, ELSET=C, MATERIAL=M\n\
+                *STEP\n*STATIC\n*END STEP\n";
+    let own = |deck: &str| -> Vec<_> {
+        let case = case(deck);
+        let of = |body: &Body| {
+            let thickness = body.thickness.as_ref().map(|t| t.value);
+            (body.space.as_ref().map(|s| s.value), thickness)
+        };
+        case.bodies.iter().map(of).collect()
+    };
+    let sheet = Some(Space::PlaneStress);
+    assert_eq!(
+        own(deck),
+        [(None, None), (sheet, Some(2.0)), (sheet, Some(1.0))]
+    );
+    let flat = deck.replace("CAX4", "CPE4");
+    assert_eq!(
+        own(&flat),
+        [
+            (Some(Space::PlaneStrain), None),
+            (None, Some(2.0)),
+            (None, None)
+        ]
+    );
+    let text = refused(&deck.replace("CPS4, ELSET=B", "CPE4, ELSET=B"));
+    assert!(text.contains("no part of a ring"), "{text}");
+}
+
+#[test]
+fn temperatures_at_the_start_that_differ_are_those_of_sets_in_their_order() {
+    let start = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 100.\nTOP, 20.\n*STEP";
+    let deck = cube("C3D8", STEP).replace("1000., 0.3\n", "1000., 0.3\n*EXPANSION\n1e-5\n");
+    let case = case(&deck.replace("*STEP", start));
+    let sets = case.initial_temperatures.iter();
+    let sets: Vec<_> = sets.map(|one| (one.on.as_str(), one.temperature)).collect();
+    assert_eq!(sets, [("ALL", 100.0), ("TOP", 20.0)]);
+    let expansion = case.materials[0].expansion.as_ref().unwrap();
+    assert_eq!(expansion.free.value, Unstrained::AtStart);
 }
 
 /// Two cubes, a pair between them, and this law.

@@ -2,9 +2,10 @@ use super::course::Clock;
 use super::local::{Local, gather};
 use super::{Region, Schedule};
 use crate::system::{
-    Idealisation, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term,
+    Frame, Layout, Order, Part, PatternSink, Sink, SpinFrame, State, StepContext, Symmetry, Term,
     TermError, Work,
 };
+use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::sync::Arc;
 
@@ -29,13 +30,14 @@ impl Spin {
 /// Centrifugal forces about an axis that stays where it is, (E5): at the present positions, in a step of small
 /// displacements at those of the start.
 pub struct Centrifugal {
-    name: String,
+    name: Arc<str>,
+    /// What it acts on, sorted.
+    acts_on: Arc<[CellId]>,
     /// The densities are its factors.
     cells: Region,
     spin: Spin,
     clock: Clock,
     layout: Layout,
-    space: Idealisation,
     reference: Arc<[Vec3]>,
     chunks: Vec<(usize, usize, usize)>,
 }
@@ -51,23 +53,28 @@ impl Centrifugal {
     /// Forces on cells whose densities are the factors of the region, and the factor of the squared speed over time.
     #[must_use]
     pub fn new(
-        name: impl Into<String>,
+        name: &str,
         (cells, spin): (Region, Spin),
+        acts_on: &[CellId],
         schedule: Schedule,
         layout: Layout,
-        space: Idealisation,
         reference: Arc<[Vec3]>,
     ) -> Self {
         Self {
             name: name.into(),
+            acts_on: sorted(acts_on),
             spin,
             clock: Clock::new(schedule),
             layout,
-            space,
             reference,
             chunks: cells.chunks(),
             cells,
         }
+    }
+
+    /// ω²
+    fn square(&self, time: f64) -> f64 {
+        self.spin.speed * self.spin.speed * self.clock.factor(time)
     }
 
     /// Hands every cell of a chunk to `take`, with `½ ∫ρω² |P(x − c)|² dV`; none where nothing turns.
@@ -79,7 +86,7 @@ impl Centrifugal {
         work: &mut Work,
         mut take: impl FnMut(&Local, f64),
     ) {
-        let square = self.spin.speed * self.spin.speed * self.clock.factor(trial.time);
+        let square = self.square(trial.time);
         let Some(&(patch, first, last)) = self.chunks.get(chunk).filter(|_| square != 0.0) else {
             return;
         };
@@ -93,7 +100,7 @@ impl Centrifugal {
             local.begin(&self.layout, nodes, places, order);
             let mut half = 0.0;
             for sample in patch.samples() {
-                let weight = square * density * patch.volume(self.space, &sample, reference);
+                let weight = square * density * patch.volume(&sample, reference);
                 let arm = projector * (sample.position(&local.x) - self.spin.point);
                 half += 0.5 * weight * arm.norm_squared();
                 local.push(sample.shape, arm * -weight);
@@ -168,4 +175,19 @@ impl Term for Centrifugal {
         });
         Ok(Some(total))
     }
+
+    fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        frame.spins.push(SpinFrame {
+            name: self.name.clone(),
+            cells: self.acts_on.clone(),
+            square: self.square(state.time),
+        });
+        Ok(())
+    }
+}
+
+fn sorted(cells: &[CellId]) -> Arc<[CellId]> {
+    let mut cells = cells.to_vec();
+    cells.sort_unstable();
+    cells.into()
 }

@@ -17,7 +17,6 @@ pub struct FollowingPressure {
     pressure: f64,
     clock: Clock,
     layout: Layout,
-    space: Idealisation,
     reference: Arc<[Vec3]>,
     chunks: Vec<(usize, usize, usize)>,
 }
@@ -30,7 +29,6 @@ impl FollowingPressure {
         (faces, pressure): (Region, f64),
         schedule: Schedule,
         layout: Layout,
-        space: Idealisation,
         reference: Arc<[Vec3]>,
     ) -> Self {
         Self {
@@ -38,7 +36,6 @@ impl FollowingPressure {
             pressure,
             clock: Clock::new(schedule),
             layout,
-            space,
             reference,
             chunks: faces.chunks(),
             faces,
@@ -73,31 +70,18 @@ impl FollowingPressure {
         for (nodes, factor) in patch.pieces(first, last) {
             local.begin(&self.layout, nodes, places, order);
             for sample in patch.samples() {
-                let (t1, t2) = sample.tangents(self.space, &local.x);
+                let (t1, t2) = sample.tangents(patch.space(), &local.x);
                 let weight = pressure * factor * sample.weight;
                 local.push(sample.shape, t1.cross(t2) * weight);
                 if order == Order::Residual || !follows {
                     continue;
                 }
                 for (j, (shape, dshape)) in sample.shape.iter().zip(sample.dshape).enumerate() {
-                    let turned = self.turned(t1, t2, *shape, *dshape);
+                    let turned = turned(patch.space(), t1, t2, *shape, *dshape);
                     local.stiffen(sample.shape, j, turned * weight);
                 }
             }
             take(local);
-        }
-    }
-
-    /// ∂(t1 × t2)/∂u_J (E4)
-    fn turned(&self, t1: Vec3, t2: Vec3, shape: f64, dshape: Vec3) -> Mat3 {
-        let first = Mat3::skew(t2) * -dshape.x;
-        match self.space {
-            Idealisation::Space => first + Mat3::skew(t1) * dshape.y,
-            Idealisation::Axisymmetric => {
-                let across = t1.cross(Vec3::unit(2)) * (TAU * shape);
-                first + Mat3::outer(across, Vec3::unit(0))
-            }
-            Idealisation::PlaneStrain { .. } | Idealisation::PlaneStress { .. } => first,
         }
     }
 }
@@ -166,5 +150,18 @@ impl Term for FollowingPressure {
             total += local.work(&trial.u);
         });
         Ok(Some(total))
+    }
+}
+
+/// ∂(t1 × t2)/∂u_J (E4)
+fn turned(space: Idealisation, t1: Vec3, t2: Vec3, shape: f64, dshape: Vec3) -> Mat3 {
+    let first = Mat3::skew(t2) * -dshape.x;
+    match space {
+        Idealisation::Space => first + Mat3::skew(t1) * dshape.y,
+        Idealisation::Axisymmetric => {
+            let across = t1.cross(Vec3::unit(2)) * (TAU * shape);
+            first + Mat3::outer(across, Vec3::unit(0))
+        }
+        Idealisation::PlaneStrain { .. } | Idealisation::PlaneStress { .. } => first,
     }
 }

@@ -13,10 +13,12 @@ pub struct Region {
     patches: Vec<Patch>,
 }
 
-/// Pieces of one element.
+/// Pieces of one element and idealisation.
 pub(super) struct Patch {
     element: Element,
     rule: &'static Rule,
+    /// What the plane of its pieces stands for.
+    space: Idealisation,
     /// At each quadrature point, those of all nodes.
     shape: Vec<f64>,
     dshape: Vec<Vec3>,
@@ -34,22 +36,23 @@ pub(super) struct Sample<'a> {
 
 impl Region {
     /// Adds a face or a cell. Its measure counts `factor` times: the cross-section of a bar, a density.
-    pub fn push(&mut self, element: Element, nodes: &[NodeId], factor: f64) {
-        self.push_by(element, element.surface_rule(), nodes, factor);
+    pub fn push(&mut self, element: Element, space: Idealisation, nodes: &[NodeId], factor: f64) {
+        self.push_by((element, element.surface_rule()), space, nodes, factor);
     }
 
     /// The same, integrated by this rule.
     pub fn push_by(
         &mut self,
-        element: Element,
-        rule: &'static Rule,
+        (element, rule): (Element, &'static Rule),
+        space: Idealisation,
         nodes: &[NodeId],
         factor: f64,
     ) {
         debug_assert_eq!(nodes.len(), element.nnode());
-        let alike = |p: &Patch| *p.element == *element && std::ptr::eq(p.rule, rule);
+        let alike =
+            |p: &Patch| *p.element == *element && std::ptr::eq(p.rule, rule) && p.space == space;
         let at = self.patches.iter().position(alike).unwrap_or_else(|| {
-            self.patches.push(Patch::new(element, rule));
+            self.patches.push(Patch::new(element, rule, space));
             self.patches.len() - 1
         });
         let patch = &mut self.patches[at];
@@ -90,7 +93,7 @@ impl Region {
 }
 
 impl Patch {
-    fn new(element: Element, rule: &'static Rule) -> Self {
+    fn new(element: Element, rule: &'static Rule, space: Idealisation) -> Self {
         let n = element.nnode();
         let mut shape = vec![0.0; n * rule.npoint()];
         let mut dshape = vec![Vec3::ZERO; n * rule.npoint()];
@@ -102,11 +105,16 @@ impl Patch {
         Self {
             element,
             rule,
+            space,
             shape,
             dshape,
             nodes: Vec::new(),
             factors: Vec::new(),
         }
+    }
+
+    pub fn space(&self) -> Idealisation {
+        self.space
     }
 
     pub fn nnode(&self) -> usize {
@@ -138,11 +146,11 @@ impl Patch {
 
     /// dV of a cell at a quadrature point, from the positions of its nodes: a volume, in the plane an area times its
     /// extent, of a bar a length.
-    pub fn volume(&self, space: Idealisation, sample: &Sample<'_>, x: &[Vec3]) -> f64 {
+    pub fn volume(&self, sample: &Sample<'_>, x: &[Vec3]) -> f64 {
         let t = |a| sample.tangent(x, a);
         let measure = match self.element.dim() {
             3 => t(0).cross(t(1)).dot(t(2)),
-            2 => t(0).cross(t(1)).z * space.extent(sample.position(x)),
+            2 => t(0).cross(t(1)).z * self.space.extent(sample.position(x)),
             _ => t(0).norm(),
         };
         measure * sample.weight

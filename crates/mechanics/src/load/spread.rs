@@ -2,7 +2,6 @@
 
 use super::Region;
 use super::local::gather;
-use crate::system::Idealisation;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,9 +14,9 @@ const STRAIGHT: f64 = 1e-9;
 
 /// The area of faces at the start; axisymmetric: of the full circumference.
 #[must_use]
-pub fn area(faces: &Region, space: Idealisation, reference: &[Vec3]) -> f64 {
+pub fn area(faces: &Region, reference: &[Vec3]) -> f64 {
     let mut total = 0.0;
-    each_area(faces, space, reference, |_, _, directed| {
+    each_area(faces, reference, |_, _, directed| {
         total += directed.norm();
     });
     total
@@ -27,12 +26,11 @@ pub fn area(faces: &Region, space: Idealisation, reference: &[Vec3]) -> f64 {
 #[must_use]
 pub fn over_faces(
     faces: &Region,
-    space: Idealisation,
     reference: &[Vec3],
     traction: impl Fn(Vec3) -> Vec3,
 ) -> NodalVectors {
     let mut out = NodalVectors::new();
-    each_area(faces, space, reference, |nodes, shape, directed| {
+    each_area(faces, reference, |nodes, shape, directed| {
         add(&mut out, nodes, shape, traction(directed));
     });
     out
@@ -40,18 +38,13 @@ pub fn over_faces(
 
 /// `∫ N_I b dV` over cells at the start (E2); the density is in the factors of the region.
 #[must_use]
-pub fn over_cells(
-    cells: &Region,
-    space: Idealisation,
-    reference: &[Vec3],
-    force: Vec3,
-) -> NodalVectors {
+pub fn over_cells(cells: &Region, reference: &[Vec3], force: Vec3) -> NodalVectors {
     let mut out = NodalVectors::new();
     let mut x = Vec::new();
     for (patch, nodes, factor) in cells.pieces() {
         gather(reference, nodes, &mut x);
         for sample in patch.samples() {
-            let measure = factor * patch.volume(space, &sample, &x);
+            let measure = factor * patch.volume(&sample, &x);
             add(&mut out, nodes, sample.shape, force * measure);
         }
     }
@@ -86,17 +79,12 @@ pub fn moment(nodes: &[NodeId], reference: &[Vec3], moment: Vec3) -> Option<Noda
 }
 
 /// Hands the nodes, the shape functions and the directed area of every quadrature point of faces to `take`.
-fn each_area(
-    faces: &Region,
-    space: Idealisation,
-    reference: &[Vec3],
-    mut take: impl FnMut(&[NodeId], &[f64], Vec3),
-) {
+fn each_area(faces: &Region, reference: &[Vec3], mut take: impl FnMut(&[NodeId], &[f64], Vec3)) {
     let mut x = Vec::new();
     for (patch, nodes, factor) in faces.pieces() {
         gather(reference, nodes, &mut x);
         for sample in patch.samples() {
-            let (t1, t2) = sample.tangents(space, &x);
+            let (t1, t2) = sample.tangents(patch.space(), &x);
             take(nodes, sample.shape, t1.cross(t2) * (factor * sample.weight));
         }
     }

@@ -25,34 +25,33 @@ pub struct Expanding {
     alpha: Vec<[f64; 2]>,
     /// `T_ref`
     reference: f64,
-    /// `α(T_0) (T_0 − T_ref)`
-    at_start: f64,
+    /// `T_0`; none: what the temperature is at the start, at each point.
+    free: Option<f64>,
 }
 
 impl Expanding {
     /// Wraps a law: `alpha` per degree, free of stress at the temperature `reference`.
     #[must_use]
     pub fn new(inner: Box<dyn Material>, alpha: f64, reference: f64) -> Self {
-        Self::by_temperature(inner, vec![[reference, alpha]], reference, reference)
+        Self::by_temperature(inner, vec![[reference, alpha]], reference, Some(reference))
     }
 
     /// Wraps a law: `alpha` are rows of temperature and secant strain per degree from the temperature `reference` on,
-    /// temperatures increasing; linear between, constant outside. Free of stress at the temperature `free`.
+    /// temperatures increasing; linear between, constant outside. Free of stress at the temperature `free`;
+    /// without one, at what the temperature of each point is at the start.
     #[must_use]
     pub fn by_temperature(
         inner: Box<dyn Material>,
         alpha: Vec<[f64; 2]>,
         reference: f64,
-        free: f64,
+        free: Option<f64>,
     ) -> Self {
-        let mut law = Self {
+        Self {
             inner,
             alpha,
             reference,
-            at_start: 0.0,
-        };
-        law.at_start = law.secant(free);
-        law
+            free,
+        }
     }
 
     /// `α(T) (T − T_ref)`
@@ -63,7 +62,8 @@ impl Expanding {
 
     /// `x`.
     fn growth(&self, strain: &Strain) -> f64 {
-        self.secant(strain.temperature) - self.at_start
+        let free = self.free.unwrap_or(strain.temperature_at_start);
+        self.secant(strain.temperature) - self.secant(free)
     }
 
     /// `θ`, and 1 at small strain.

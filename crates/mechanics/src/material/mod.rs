@@ -82,6 +82,8 @@ pub struct Strain {
     pub value: Sym3,
     /// The temperature; laws without thermal expansion ignore it.
     pub temperature: f64,
+    /// The temperature there at the start of the run.
+    pub temperature_at_start: f64,
 }
 
 impl Strain {
@@ -92,6 +94,7 @@ impl Strain {
             kinematics,
             value,
             temperature: 0.0,
+            temperature_at_start: 0.0,
         }
     }
 }

@@ -2,8 +2,9 @@ use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError, Unheld};
 use crate::connector::Damper;
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
-use crate::system::{Dof, NO_DOF, NodalField, Term};
+use crate::system::{Dof, Idealisation, NO_DOF, NodalField, Term};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::surface::{ContactSurface, Facets};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -33,6 +34,65 @@ pub(super) fn owners(
         }
     }
     Ok(owner)
+}
+
+/// What the cells of a plane model stand for, body by body.
+pub(super) struct Spaces<'a> {
+    owner: &'a HashMap<CellId, usize>,
+    /// That of the model.
+    common: Idealisation,
+    /// That of each body.
+    own: Vec<Idealisation>,
+    /// The body of each node.
+    body_of_node: &'a [u32],
+}
+
+impl<'a> Spaces<'a> {
+    pub fn new(
+        common: Idealisation,
+        owner: &'a HashMap<CellId, usize>,
+        body_of_node: &'a [u32],
+        bodies: &[BodyPart],
+    ) -> Self {
+        let own = bodies.iter().map(|body| body.kind.space(common));
+        Self {
+            owner,
+            common,
+            own: own.collect(),
+            body_of_node,
+        }
+    }
+
+    /// Of a body.
+    pub fn of_body(&self, body: usize) -> Idealisation {
+        self.own.get(body).copied().unwrap_or(self.common)
+    }
+
+    /// Of a cell; that of the model where no body has it.
+    pub fn of_cell(&self, cell: CellId) -> Idealisation {
+        let body = self.owner.get(&cell);
+        body.map_or(self.common, |&body| self.of_body(body))
+    }
+
+    /// Of the body that a node is in; that of the model where none is.
+    pub fn of_node(&self, node: NodeId) -> Idealisation {
+        let body = self.body_of_node.get(node as usize);
+        body.map_or(self.common, |&body| self.of_body(body as usize))
+    }
+
+    /// Of all cells behind facets, where it is the same.
+    pub fn alike(&self, facets: &Facets) -> Option<Idealisation> {
+        let all = self.behind(facets);
+        let first = *all.first()?;
+        all.iter().all(|one| *one == first).then_some(first)
+    }
+
+    /// Of the cells behind facets.
+    pub fn behind(&self, facets: &Facets) -> Vec<Idealisation> {
+        let of = |facet| facets.face(facet).map(|face| self.of_cell(face.cell));
+        let facets = 0..facets.nfacet() as u32;
+        facets.map(|f| of(f).unwrap_or(self.common)).collect()
+    }
 }
 
 /// The body of each node; `u32::MAX` where there is none.
@@ -72,7 +132,7 @@ impl Context<'_> {
         let softest = self.modulus.iter().flatten().copied();
         let softest = softest.reduce(f64::min).unwrap_or(1.0);
         let mut dofs: Vec<(Dof, f64)> = Vec::new();
-        for (body, modulus) in bodies.iter().zip(self.modulus) {
+        for (number, (body, modulus)) in bodies.iter().zip(self.modulus).enumerate() {
             let (Some(modulus), true) = (modulus, named(&body.name)) else {
                 continue;
             };
@@ -81,7 +141,9 @@ impl Context<'_> {
                 .iter()
                 .flat_map(|&c| self.mesh.cell(c).iter().copied())
                 .collect();
-            let stiffness = modulus * self.extent(nodes.iter().map(at)) / nodes.len() as f64;
+            let stiffness = modulus
+                * self.extent(self.spaces.of_body(number), nodes.iter().map(at))
+                / nodes.len() as f64;
             let of_node = |&n: &NodeId| (0..self.layout.ndim).map(move |axis| (n, axis));
             let of_nodes = nodes.iter().flat_map(of_node);
             let own = of_nodes.map(|(n, axis)| self.layout.node(n, axis));
@@ -92,7 +154,7 @@ impl Context<'_> {
             if !named(&carrier.name) {
                 continue;
             }
-            let size = self.extent(self.reference.iter().copied());
+            let size = self.extent(self.space, self.reference.iter().copied());
             let stiffness = softest * size;
             for axis in 0..3 {
                 dofs.push((self.layout.translation(number, axis), stiffness));
@@ -104,13 +166,13 @@ impl Context<'_> {
     }
 
     /// The size of a body: the diagonal of its box in space, the extent across it in the plane.
-    fn extent(&self, points: impl Iterator<Item = Vec3> + Clone) -> f64 {
+    fn extent(&self, space: Idealisation, points: impl Iterator<Item = Vec3> + Clone) -> f64 {
         if self.layout.ndim == 3 {
             let low = points.clone().fold(Vec3::from([f64::MAX; 3]), Vec3::min);
             let high = points.fold(Vec3::from([f64::MIN; 3]), Vec3::max);
             return (high - low).norm();
         }
-        points.map(|x| self.space.extent(x)).fold(0.0, f64::max)
+        points.map(|x| space.extent(x)).fold(0.0, f64::max)
     }
 
     /// The terms of the bodies, and what was chosen against locking for these sizes of strains.
@@ -124,19 +186,18 @@ impl Context<'_> {
         let mut summaries = Vec::new();
         for body in bodies {
             let (name, cells) = (&*body.name, &*body.cells);
-            let (mesh, layout, space) = (self.mesh, self.layout, self.space);
+            let (mesh, layout) = (self.mesh, self.layout);
+            let space = body.kind.space(self.space);
             let (reference, temperature) = (self.reference.clone(), temperature.clone());
             match body.kind {
                 BodyKind::Solid {
                     material,
                     integration,
                     locking,
-                    thickness,
                     linear_temperatures,
                     initial,
                     ..
                 } => {
-                    let space = thickness.map_or(space, |own| space.of_thickness(own));
                     let solid = Solid::new(SolidParts {
                         name,
                         mesh,

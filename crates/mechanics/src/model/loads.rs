@@ -107,29 +107,26 @@ pub(super) struct Substance {
     /// Cross-section of bars.
     section: Option<f64>,
     integration: Integration,
-    /// Thickness, where it is not that of the model.
-    thickness: Option<f64>,
+    space: Idealisation,
 }
 
-impl From<&BodyPart> for Substance {
-    fn from(body: &BodyPart) -> Self {
+impl Substance {
+    pub fn new(body: &BodyPart, of_model: Idealisation) -> Self {
         let mut of = Self {
             name: body.name.clone(),
             density: None,
             section: None,
             integration: Integration::Full,
-            thickness: None,
+            space: body.kind.space(of_model),
         };
         match body.kind {
             BodyKind::Solid {
                 density,
                 integration,
-                thickness,
                 ..
             } => {
                 of.density = density;
                 of.integration = integration;
-                of.thickness = thickness;
             }
             BodyKind::Truss { density, area, .. } => {
                 of.density = density;
@@ -156,7 +153,7 @@ impl Context<'_> {
         schedule: Schedule,
         steps: &[Step],
     ) -> Result<Option<Box<dyn Term>>, ModelError> {
-        let (space, reference, name) = (self.space, &self.reference[..], &part.name[..]);
+        let (reference, name) = (&self.reference[..], &part.name[..]);
         let named = |source| ModelError::Load {
             load: name.into(),
             source,
@@ -175,12 +172,12 @@ impl Context<'_> {
             } => return Ok(self.on_carrier(name, *carrier, [*force, *moment], schedule, steps)),
             Load::Force { faces, total } => {
                 let faces = self.faces(faces).map_err(named)?;
-                let area = spread::area(&faces, space, reference);
+                let area = spread::area(&faces, reference);
                 if area <= 0.0 {
                     return Err(named(LoadError::NoArea));
                 }
                 let traction = *total / area;
-                let forces = spread::over_faces(&faces, space, reference, |n| traction * n.norm());
+                let forces = spread::over_faces(&faces, reference, |n| traction * n.norm());
                 self.at_nodes(forces)
             }
             Load::Moment { nodes, moment } => {
@@ -191,7 +188,7 @@ impl Context<'_> {
             }
             Load::Traction { faces, traction } => {
                 let faces = self.faces(faces).map_err(named)?;
-                let forces = spread::over_faces(&faces, space, reference, |n| *traction * n.norm());
+                let forces = spread::over_faces(&faces, reference, |n| *traction * n.norm());
                 self.at_nodes(forces)
             }
             Load::Pressure {
@@ -203,23 +200,22 @@ impl Context<'_> {
                 if *follows && *pressure != 0.0 {
                     let what = (faces, *pressure);
                     let (layout, reference) = (self.layout, self.reference.clone());
-                    let term =
-                        FollowingPressure::new(name, what, schedule, layout, space, reference);
+                    let term = FollowingPressure::new(name, what, schedule, layout, reference);
                     return Ok(Some(Box::new(term)));
                 }
-                let forces = spread::over_faces(&faces, space, reference, |n| n * -*pressure);
+                let forces = spread::over_faces(&faces, reference, |n| n * -*pressure);
                 self.at_nodes(forces)
             }
             Load::Body { cells, force } => {
                 let cells = self.cells(cells, Per::Volume).map_err(named)?;
-                self.at_nodes(spread::over_cells(&cells, space, reference, *force))
+                self.at_nodes(spread::over_cells(&cells, reference, *force))
             }
             Load::Gravity {
                 cells,
                 acceleration,
             } => {
                 let cells = self.cells(cells, Per::Mass).map_err(named)?;
-                self.at_nodes(spread::over_cells(&cells, space, reference, *acceleration))
+                self.at_nodes(spread::over_cells(&cells, reference, *acceleration))
             }
             Load::Centrifugal {
                 cells,
@@ -227,11 +223,10 @@ impl Context<'_> {
                 point,
                 axis,
             } => {
-                let cells = self.cells(cells, Per::Mass).map_err(named)?;
-                let spin = self.spin(*speed, *point, *axis).map_err(named)?;
+                let spin = self.spin(cells, *speed, *point, *axis).map_err(named)?;
+                let what = (self.cells(cells, Per::Mass).map_err(named)?, spin);
                 let (layout, reference) = (self.layout, self.reference.clone());
-                let term =
-                    Centrifugal::new(name, (cells, spin), schedule, layout, space, reference);
+                let term = Centrifugal::new(name, what, cells, schedule, layout, reference);
                 return Ok((*speed != 0.0).then(|| Box::new(term) as Box<dyn Term>));
             }
         };
@@ -283,10 +278,17 @@ impl Context<'_> {
         spread::moment(nodes, self.reference, moment).ok_or(LoadError::NoArm)
     }
 
-    fn spin(&self, speed: f64, point: Vec3, axis: Vec3) -> Result<Spin, LoadError> {
+    fn spin(
+        &self,
+        cells: &[CellId],
+        speed: f64,
+        point: Vec3,
+        axis: Vec3,
+    ) -> Result<Spin, LoadError> {
         let axis = axis.normalized().ok_or(LoadError::NoAxis)?;
         let revolves = axis.cross(Vec3::unit(1)) == Vec3::ZERO && point.x == 0.0;
-        if self.space == Idealisation::Axisymmetric && !revolves {
+        let revolved = |&cell: &CellId| self.spaces.of_cell(cell) == Idealisation::Axisymmetric;
+        if cells.iter().any(revolved) && !revolves {
             return Err(LoadError::OtherAxis);
         }
         Ok(Spin { speed, point, axis })
@@ -301,24 +303,18 @@ impl Context<'_> {
         })
     }
 
-    /// The thickness of a body in parts of that of the model.
-    fn share(&self, body: &Substance) -> f64 {
-        let of_model = self.space.extent(Vec3::ZERO);
-        body.thickness.map_or(1.0, |own| own / of_model)
-    }
-
     /// Faces of bodies that a load acts on.
     fn faces(&self, faces: &[Face]) -> Result<Region, LoadError> {
         let mut region = Region::default();
         for &face in &set(faces) {
-            let share = self.share(self.body(face.cell)?);
+            let space = self.body(face.cell)?.space;
             let side = self.mesh.face(face);
             let side = side.filter(|(e, _)| e.dim() + 1 == self.layout.ndim);
             let (element, nodes) = side.ok_or_else(|| LoadError::NoFace {
                 element: self.number(face.cell),
                 side: usize::from(face.side) + 1,
             })?;
-            region.push(element, &nodes, share);
+            region.push(element, space, &nodes, 1.0);
         }
         some(region)
     }
@@ -340,13 +336,13 @@ impl Context<'_> {
             let density = density.ok_or_else(|| LoadError::NoDensity {
                 body: body.name.clone(),
             })?;
-            let factor = density * body.section.unwrap_or(1.0) * self.share(body);
+            let factor = density * body.section.unwrap_or(1.0);
             // by the rule of the element: reduced integration makes another mass of bent elements
             let rule = match body.integration {
                 Integration::Full => element.surface_rule(),
                 Integration::Reduced => element.reduced_rule(),
             };
-            region.push_by(element, rule, self.mesh.cell(cell), factor);
+            region.push_by((element, rule), body.space, self.mesh.cell(cell), factor);
         }
         some(region)
     }

@@ -44,7 +44,7 @@ use crate::material::Kinematics;
 use crate::solid::Locking;
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System};
-use bodies::{nodes_by_body, owners};
+use bodies::{Spaces, nodes_by_body, owners};
 use constraints::{Followers, Ties};
 use contact::Source;
 use held::Held;
@@ -139,6 +139,8 @@ impl Model {
             traction_tol,
         } = parts;
         let owner = owners(mesh, &bodies)?;
+        let body_of_node = nodes_by_body(mesh, &bodies);
+        let spaces = Spaces::new(space, &owner, &body_of_node, &bodies);
         let followers = Followers {
             mesh,
             space,
@@ -156,6 +158,7 @@ impl Model {
             mesh,
             reference: &mesh.points,
             space,
+            spaces: &spaces,
             elimination: &elimination,
             prescribed: &prescribed,
         };
@@ -186,8 +189,10 @@ impl Model {
         if modulus.iter().all(Option::is_none) {
             return Err(ModelError::NothingDeforms);
         }
-        let substances: Vec<Substance> = bodies.iter().map(Substance::from).collect();
-        let body_of_node = nodes_by_body(mesh, &bodies);
+        let substances: Vec<Substance> = bodies
+            .iter()
+            .map(|body| Substance::new(body, space))
+            .collect();
         let temperature = temperatures(temperature, &steps);
 
         let mut context = Context {
@@ -199,6 +204,7 @@ impl Model {
             elimination: Arc::new(elimination),
             carriers: &carriers,
             space,
+            spaces: &spaces,
             layout,
             ties: &ties,
             poses,
@@ -302,7 +308,9 @@ struct Context<'a> {
     substances: &'a [Substance],
     elimination: Arc<Elimination>,
     carriers: &'a [CarrierPart],
+    /// That of bodies that say nothing else, and of all that is no body.
     space: Idealisation,
+    spaces: &'a Spaces<'a>,
     layout: Layout,
     ties: &'a Ties,
     /// Poses of the carriers at the start.

@@ -196,6 +196,7 @@ struct Scratch {
     x: Vec<Vec3>,
     u: Vec<f64>,
     temperature: Vec<f64>,
+    temperature_at_start: Vec<f64>,
     dofs: Vec<Dof>,
     force: Vec<f64>,
     stiffness: Vec<f64>,
@@ -371,6 +372,7 @@ impl Solid {
         scratch.u.clear();
         scratch.dofs.clear();
         scratch.temperature.clear();
+        scratch.temperature_at_start.clear();
         for &node in nodes {
             scratch.x.push(self.reference[node as usize]);
             for axis in 0..self.layout.ndim {
@@ -382,6 +384,8 @@ impl Solid {
         if let Some(field) = &self.temperature {
             let at = |&node: &NodeId| field.at(&self.step, trial.time, node);
             scratch.temperature.extend(nodes.iter().map(at));
+            let at_start = nodes.iter().map(|&node| field.at_start(node));
+            scratch.temperature_at_start.extend(at_start);
         }
         let element = Element {
             reference: &block.points,
@@ -391,6 +395,7 @@ impl Solid {
             kinematics: self.kinematics,
             space: self.space,
             temperature: &scratch.temperature,
+            temperature_at_start: &scratch.temperature_at_start,
             ndilatation: block.ndilatation,
             old: &block.history[cell * block.nhistory..(cell + 1) * block.nhistory],
             initial: block.initial_of(cell),
@@ -748,6 +753,7 @@ impl Term for Solid {
                         kinematics: self.kinematics,
                         value: s.seen,
                         temperature: s.temperature,
+                        temperature_at_start: s.temperature_at_start,
                     }),
                     plastic_strain: s.plastic_strain.unwrap_or(0.0),
                     energy: s.energy,

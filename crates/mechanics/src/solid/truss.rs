@@ -205,16 +205,19 @@ impl Truss {
         })
     }
 
-    fn temperature(&self, bar: &Bar, point: usize, time: f64) -> f64 {
+    /// The temperatures at a point: that of the present, and that at the start.
+    fn temperature(&self, bar: &Bar, point: usize, time: f64) -> [f64; 2] {
         let Some(field) = &self.temperature else {
-            return 0.0;
+            return [0.0; 2];
         };
         let mut shape = [0.0; 3];
         let n = bar.nodes.len();
         bar.element
             .shape(&bar.element.full_rule().points[point], &mut shape[..n]);
-        let at = |(&node, n): (&NodeId, f64)| n * field.at(&self.step, time, node);
-        bar.nodes.iter().zip(shape).map(at).sum()
+        let now = |(&node, n): (&NodeId, f64)| n * field.at(&self.step, time, node);
+        let start = |(&node, n): (&NodeId, f64)| n * field.at_start(node);
+        let nodes = || bar.nodes.iter().zip(shape);
+        [nodes().map(now).sum(), nodes().map(start).sum()]
     }
 
     /// Hands every point of a bar with the material's answer to `take`; `new` becomes the bar's history.
@@ -237,10 +240,12 @@ impl Truss {
                 ratio: 0.0,
             };
             let point = self.point(bar, p, trial).ok_or_else(inverted)?;
+            let [temperature, temperature_at_start] = self.temperature(bar, p, trial.time);
             let strain = Strain {
                 kinematics: self.kinematics,
                 value: Sym3::diagonal(point.strain, 0.0, 0.0),
-                temperature: self.temperature(bar, p, trial.time),
+                temperature,
+                temperature_at_start,
             };
             let old = &self.history[bar.history + p * nhistory..][..nhistory];
             let new = &mut new[p * nhistory..][..nhistory];
@@ -318,13 +323,14 @@ impl Truss {
         point: &Point,
         response: &Response,
         history: &[f64],
-        temperature: f64,
+        [temperature, temperature_at_start]: [f64; 2],
     ) -> PointSample {
         let strain = Sym3::diagonal(point.strain, response.across, response.across);
         let mechanical = self.material.mechanical_strain(&Strain {
             kinematics: self.kinematics,
             value: strain,
             temperature,
+            temperature_at_start,
         });
         let turned = |of: Sym3| {
             let along = dyad(point.unit);

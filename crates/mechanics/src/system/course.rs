@@ -25,6 +25,14 @@ pub struct NodalField {
 }
 
 impl NodalField {
+    /// The value at a node at the start of the run.
+    #[must_use]
+    pub fn at_start(&self, node: NodeId) -> f64 {
+        let row = self.ends.first();
+        let value = row.and_then(|row| row.get(node as usize));
+        value.copied().unwrap_or(0.0)
+    }
+
     /// The value at a node at a time within a step.
     #[must_use]
     pub fn at(&self, step: &StepContext, time: f64, node: NodeId) -> f64 {

@@ -1,6 +1,8 @@
 use super::Samples;
 use signorini_geometry::element::Element;
+use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::{Sym3, Vec3};
+use std::sync::Arc;
 
 /// The state of contact at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -184,10 +186,23 @@ pub struct Frame {
     pub contacts: Vec<ContactFrame>,
     /// What contact exerts on each rigid body, about its reference point; and its motion.
     pub rigid: Vec<RigidFrame>,
+    /// The centrifugal loads, in the order in which they are given.
+    pub spins: Vec<SpinFrame>,
     /// Work spent so far by viscous forces that hold what only contact stops.
     pub work_stabilization: f64,
     /// Potential energy, where every term has one.
     pub energy: Option<f64>,
+}
+
+/// A centrifugal load at an accepted state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpinFrame {
+    /// Its name.
+    pub name: Arc<str>,
+    /// The cells that it acts on, sorted.
+    pub cells: Arc<[CellId]>,
+    /// The squared angular velocity; of what fades, its part.
+    pub square: f64,
 }
 
 /// A rigid body at an accepted state.

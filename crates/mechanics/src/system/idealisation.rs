@@ -30,16 +30,6 @@ impl Idealisation {
         }
     }
 
-    /// The same with another thickness, where it has one.
-    #[must_use]
-    pub const fn of_thickness(self, thickness: f64) -> Self {
-        match self {
-            Self::PlaneStrain { .. } => Self::PlaneStrain { thickness },
-            Self::PlaneStress { .. } => Self::PlaneStress { thickness },
-            other => other,
-        }
-    }
-
     /// What an area of the model's plane (in space: a volume) at a reference position is multiplied by: the
     /// thickness, or the circumference 2πr.
     #[inline]

@@ -87,28 +87,12 @@ fn body_part(
             density,
             integration: body.integration,
             locking: body.locking.value,
-            thickness: thickness(case, body, found),
+            space: super::own_idealisation(&case.model, body),
             linear_temperatures: body.temperatures == Temperatures::Linear,
             initial: initial(case, names, &cells),
         },
         cells,
     })
-}
-
-/// The thickness of a body, where it is not that of the model.
-fn thickness(case: &Case, body: &Body, found: &mut Diagnostics) -> Option<f64> {
-    let own = body.thickness.as_ref()?;
-    if let Some(contact) = case.contacts.first() {
-        found.push(
-            Diagnostic::error(
-                &codes::NOT_BUILT,
-                "a body with a thickness of its own does not go with contact",
-            )
-            .at(&own.place, "delete it, or write  [model] thickness =")
-            .note(format!("there is the contact {}", quoted(&contact.name))),
-        );
-    }
-    Some(own.value)
 }
 
 /// What the integration points of these cells have at the start.
@@ -198,6 +182,17 @@ fn bars(body: &Body, found: &mut Diagnostics) -> Option<f64> {
             .help("write  area = , the cross-section of its bars; or name a group of solids"),
         );
     }
+    let of_planes = [
+        ("space", body.space.as_ref().map(|space| &space.place)),
+        ("thickness", body.thickness.as_ref().map(|one| &one.place)),
+    ];
+    for (key, place) in of_planes {
+        if let Some(place) = place {
+            let message = format!("`{key}` means nothing for bars, which have an `area`");
+            let message = Diagnostic::error(&codes::CONTRADICTION, message);
+            found.push(message.at(place, "delete it"));
+        }
+    }
     body.area.as_ref().map(|area| area.value)
 }
 
@@ -213,7 +208,7 @@ fn law(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Materia
             inner,
             one.alpha.clone(),
             one.reference,
-            one.free.value,
+            one.free.value.given(),
         )),
         None => inner,
     })

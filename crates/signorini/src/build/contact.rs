@@ -14,6 +14,7 @@ use signorini_io::case::{
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
+use signorini_mechanics::contact::mortar::Basis;
 use signorini_mechanics::model::{
     self, AreaPart, ContactChange, ContactPart, ContactSummary, FrictionPart, LimitPart, Method,
     PrimaryPart, SidePart, StartPart, StickPart, TiePart,
@@ -52,6 +53,7 @@ pub(super) fn contact(
             Area::Reference => AreaPart::Reference,
             Area::Current => AreaPart::Present,
             Area::Adjacent => AreaPart::Adjacent,
+            Area::Opposite => AreaPart::Opposite,
         },
         enforcement: enforcement(&part.enforcement),
         measure: part.per.map(|per| match per {
@@ -142,7 +144,7 @@ fn in_order(
 fn bare(part: &Contact) -> Diagnostics {
     let needs = [
         (
-            part.per == Some(Per::Area) && part.area != Area::Adjacent,
+            part.per == Some(Per::Area) && !matches!(part.area, Area::Adjacent | Area::Opposite),
             "a penalty per area",
             "write  per = \"node\"  in `enforcement`,  area = \"adjacent\", or name a surface",
         ),
@@ -193,12 +195,16 @@ fn method(part: &Contact) -> Method {
     match *part.method {
         case::Method::Auto => Method::Auto,
         case::Method::NodeToSegment => Method::NodeToSegment,
-        case::Method::Mortar => Method::Mortar {
+        case::Method::Mortar => Method::Mortar(mortar::Form {
             normals: match part.normals {
                 Normals::Nodal => mortar::Normals::Nodal,
                 _ => mortar::Normals::Facet,
             },
-        },
+            basis: match part.basis {
+                case::Basis::Part => Basis::Part,
+                case::Basis::Whole => Basis::Whole,
+            },
+        }),
         case::Method::NodeToNode => Method::NodeToNode {
             normals: match part.normals {
                 Normals::Primary | Normals::Nodal => model::Normals::Primary,
@@ -225,7 +231,7 @@ pub(super) fn word(method: &Method) -> &'static str {
     match method {
         Method::NodeToNode { .. } => "node-to-node",
         Method::GaussPoint(_) => "gauss-point",
-        Method::Mortar { .. } => "mortar",
+        Method::Mortar(_) => "mortar",
         Method::Auto | Method::NodeToSegment => "node-to-segment",
     }
 }
@@ -261,7 +267,7 @@ pub(super) fn choose(part: &mut Contact, method: &Method) {
     part.method.value = match method {
         Method::NodeToNode { .. } => case::Method::NodeToNode,
         Method::GaussPoint(_) => case::Method::GaussPoint,
-        Method::Mortar { .. } => case::Method::Mortar,
+        Method::Mortar(_) => case::Method::Mortar,
         Method::Auto | Method::NodeToSegment => case::Method::NodeToSegment,
     };
 }
@@ -273,7 +279,11 @@ fn enforcement(part: &Enforcement) -> model::Enforcement {
             model::Enforcement::Penalty(penalty.as_ref().map(|one| one.value))
         }
         Enforcement::Table(rows) => model::Enforcement::Table(rows.clone()),
-        Enforcement::Exponential { p0, c0 } => model::Enforcement::Exponential { p0: *p0, c0: *c0 },
+        &Enforcement::Exponential { p0, c0, within } => model::Enforcement::Exponential {
+            p0,
+            c0,
+            within: within.unwrap_or(f64::INFINITY),
+        },
         &Enforcement::Arctangent {
             stiffness,
             tension,

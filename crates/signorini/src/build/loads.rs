@@ -8,9 +8,10 @@ use super::steps::idle;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
-use signorini_io::case::{self, Axis, Case, Directions, LoadKind, Space, Step};
+use signorini_io::case::{self, Axis, Case, Directions, LoadKind, Step};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::model::{BodyKind, BodyPart, ConstraintKind, ConstraintPart, Load};
+use signorini_mechanics::system::Idealisation;
 use std::collections::HashMap;
 
 /// What a load is called: by its own name, or by its step and its number there.
@@ -133,7 +134,13 @@ impl Context<'_> {
 
     /// Gravity across the axis of a body of revolution is no load of revolution.
     fn check_axial(&self, load: &case::Load, acceleration: [f64; 3], found: &mut Diagnostics) {
-        if self.case.model.space.value == Space::Axisymmetric && acceleration[0] != 0.0 {
+        let of_model = super::idealisation(&self.case.model);
+        let is_ring = |body: &BodyPart| body.kind.space(of_model) == Idealisation::Axisymmetric;
+        let falls = acceleration[0] != 0.0;
+        // names that are not there are told of where the cells are looked for
+        let bodies = falls.then(|| self.deformable(load, &mut Diagnostics::new()));
+        let bodies = bodies.flatten().unwrap_or_default();
+        if bodies.iter().any(|(body, _)| is_ring(body)) {
             found.push(
                 Diagnostic::error(
                     &codes::CONTRADICTION,

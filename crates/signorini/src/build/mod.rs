@@ -28,7 +28,7 @@ pub use prints::{
 use carriers::Carriers;
 use cuts::Cuts;
 use names::Names;
-use signorini_geometry::mesh::{Mesh, NodeId};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_io::case::{self, Case, Enforcement, HistorySource, Method, Per, Space, Stabilize};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
@@ -38,7 +38,7 @@ use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{LineSearch, NewtonSettings, Step, StepperSettings};
 use signorini_mechanics::system::linear::{LinearKind, SOLVERS};
 use signorini_mechanics::system::{Idealisation, System};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use surfaces::Surfaces;
 
@@ -68,6 +68,10 @@ pub struct Model {
     pub warnings: Diagnostics,
     sets: BTreeMap<String, Vec<NodeId>>,
     by_label: BTreeMap<u64, NodeId>,
+    /// Cells of bodies of revolution.
+    pub(crate) revolving: BTreeSet<CellId>,
+    /// Those of them around nodes whose forces are printed.
+    pub(crate) hoops: Vec<CellId>,
 }
 
 /// What a contact became.
@@ -155,7 +159,11 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
             return Err(found);
         }
     };
-    model.system.wanted = prints::wanted(&prints, &mesh, &case);
+    let (wanted, hoops) = prints::wanted(&prints, &mesh, &case, &names);
+    model.system.wanted = wanted;
+    let solids = mesh.cells(case.model.space.ndim());
+    let revolves = |cell: &CellId| names.plane(*cell) == Idealisation::Axisymmetric;
+    let revolving = solids.filter(revolves).collect();
     let stabilized = case.solver.stabilize == Stabilize::Auto;
     for unheld in &model.held_by_contact {
         let what = format!("{unheld} is held only by contact");
@@ -220,6 +228,8 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
         warnings: found,
         sets,
         by_label,
+        revolving,
+        hoops,
         mesh: Arc::new(mesh),
     })
 }
@@ -250,7 +260,7 @@ fn parts<'a>(
     parts.contacts = contact::acting(case)
         .filter_map(|c| contact::contact(c, names, &surfaces, found))
         .collect();
-    let (temperature, start) = temperature::at_start(case, mesh, found);
+    let (temperature, start) = temperature::at_start(case, names, mesh, found);
     parts.temperature = temperature;
     let steps = steps::Builder {
         case,
@@ -268,8 +278,21 @@ fn parts<'a>(
 }
 
 fn idealisation(model: &case::Model) -> Idealisation {
-    let thickness = model.thickness;
-    match model.space.value {
+    standing_for(model.space.value, model.thickness)
+}
+
+/// What the plane of a body stands for, where it says something of its own.
+fn own_idealisation(model: &case::Model, body: &case::Body) -> Option<Idealisation> {
+    let space = body.space.as_ref().map(|space| space.value);
+    let thickness = body.thickness.as_ref().map(|thickness| thickness.value);
+    (space.is_some() || thickness.is_some()).then(|| {
+        let space = space.unwrap_or(model.space.value);
+        standing_for(space, thickness.unwrap_or(model.thickness))
+    })
+}
+
+fn standing_for(space: Space, thickness: f64) -> Idealisation {
+    match space {
         Space::ThreeD => Idealisation::Space,
         Space::PlaneStrain => Idealisation::PlaneStrain { thickness },
         Space::PlaneStress => Idealisation::PlaneStress { thickness },

@@ -1,6 +1,6 @@
 //! What the names of a case stand for in its mesh.
 
-use super::{idealisation, quoted};
+use super::{idealisation, own_idealisation, quoted};
 use signorini_geometry::mesh::{CellId, Face, FaceIndex, Mesh, NodeId, Set, boundary, select};
 use signorini_geometry::surface::Facets;
 use signorini_geometry::tensor::Vec3;
@@ -18,6 +18,8 @@ pub(super) const ALL: &str = "all";
 pub(super) struct Names<'a> {
     mesh: &'a Mesh,
     space: Idealisation,
+    /// What planes stand for in bodies that differ from the model.
+    planes: HashMap<CellId, Idealisation>,
     sets: BTreeMap<String, Set>,
     /// Surfaces, which have neither nodes nor faces.
     surfaces: BTreeSet<String>,
@@ -56,6 +58,7 @@ impl<'a> Names<'a> {
         let mut names = Self {
             mesh,
             space: idealisation(&case.model),
+            planes: HashMap::new(),
             sets: mesh.sets.clone(),
             surfaces: case
                 .surfaces
@@ -82,7 +85,22 @@ impl<'a> Names<'a> {
             let set = names.content(part, &cells, found);
             names.sets.insert(part.name.value.clone(), set);
         }
+        names.planes = names.own_planes(case);
         names
+    }
+
+    /// What planes stand for in the cells of bodies that say so themselves.
+    fn own_planes(&self, case: &Case) -> HashMap<CellId, Idealisation> {
+        let own = |body| Some((body, own_idealisation(&case.model, body)?));
+        let mut planes = HashMap::new();
+        for (body, plane) in case.bodies.iter().filter_map(own) {
+            let sets = body
+                .groups
+                .iter()
+                .filter_map(|name| self.sets.get(&name.value));
+            planes.extend(sets.flat_map(|set| &set.cells).map(|cell| (*cell, plane)));
+        }
+        planes
     }
 
     fn content(
@@ -300,8 +318,12 @@ impl<'a> Names<'a> {
         let nodes = self.nodes(name, found)?;
         let even = 1.0 / nodes.len() as f64;
         let areas = self.covering(name, &nodes).and_then(|faces| {
-            let extent = |at| self.space.extent(at);
             let facets = Facets::new(self.mesh, &faces).ok()?;
+            let extent = |facet, at| {
+                let face = facets.face(facet);
+                face.map_or(self.space, |face| self.plane(face.cell))
+                    .extent(at)
+            };
             facets.nodal_areas(&self.mesh.points, &extent).ok()
         });
         let areas = areas.filter(|areas| areas.iter().any(|(_, area)| *area > 0.0));
@@ -453,6 +475,11 @@ impl<'a> Names<'a> {
             .iter()
             .all(|node| covered.contains(node))
             .then_some(faces)
+    }
+
+    /// What the plane of a cell stands for.
+    pub fn plane(&self, cell: CellId) -> Idealisation {
+        self.planes.get(&cell).copied().unwrap_or(self.space)
     }
 
     /// The nodes of every set.

@@ -6,7 +6,7 @@ use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, Case, Name, PrintOf, Space, Totals};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
-use signorini_mechanics::system::Wanted;
+use signorini_mechanics::system::{Idealisation, Wanted};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Tables of one set.
@@ -74,6 +74,8 @@ pub enum ElementQuantity {
     Energy,
     /// Initial volume of each element.
     Volume,
+    /// Squared angular velocity of the centrifugal load that acts on each element.
+    SpinSquared,
 }
 
 /// A quantity of contacts.
@@ -101,7 +103,7 @@ const OF_NODES: [(&str, NodeQuantity); 3] = [
     ("temperature", NodeQuantity::Temperature),
 ];
 
-const OF_ELEMENTS: [(&str, ElementQuantity); 7] = [
+const OF_ELEMENTS: [(&str, ElementQuantity); 8] = [
     ("stress", ElementQuantity::Stress),
     ("strain", ElementQuantity::Strain),
     ("mechanical-strain", ElementQuantity::MechanicalStrain),
@@ -109,6 +111,7 @@ const OF_ELEMENTS: [(&str, ElementQuantity); 7] = [
     ("energy-density", ElementQuantity::EnergyDensity),
     ("energy", ElementQuantity::Energy),
     ("volume", ElementQuantity::Volume),
+    ("spin-squared", ElementQuantity::SpinSquared),
 ];
 
 const OF_CONTACTS: [(&str, ContactQuantity); 7] = [
@@ -142,8 +145,13 @@ pub(super) fn prints(case: &Case, names: &Names<'_>, found: &mut Diagnostics) ->
 }
 
 /// What the tables of all steps, and forces in `.frd` files, want to be sampled. Forces of bodies of revolution are
-/// printed without what hoop stresses do, which is known at the points around the nodes.
-pub(super) fn wanted(prints: &[Vec<Printed>], mesh: &Mesh, case: &Case) -> Wanted {
+/// printed without what hoop stresses do, which is known at the points around the nodes: of the cells that come second.
+pub(super) fn wanted(
+    prints: &[Vec<Printed>],
+    mesh: &Mesh,
+    case: &Case,
+    names: &Names<'_>,
+) -> (Wanted, Vec<CellId>) {
     let space = *case.model.space;
     let mut wanted = Wanted {
         forces: case
@@ -153,7 +161,7 @@ pub(super) fn wanted(prints: &[Vec<Printed>], mesh: &Mesh, case: &Case) -> Wante
             .any(|format| format.value == "frd"),
         ..Wanted::default()
     };
-    let mut revolved = BTreeSet::new();
+    let (mut revolved, mut around) = (BTreeSet::new(), Vec::new());
     for one in prints.iter().flatten() {
         match &one.what {
             PrintedOf::Elements(cells, _) => wanted.cells.extend(cells),
@@ -170,11 +178,14 @@ pub(super) fn wanted(prints: &[Vec<Printed>], mesh: &Mesh, case: &Case) -> Wante
     }
     if !revolved.is_empty() {
         let is_near = |cell: &CellId| mesh.cell(*cell).iter().any(|node| revolved.contains(node));
-        wanted.cells.extend(mesh.cells(mesh.dim()).filter(is_near));
+        let revolves = |cell: &CellId| names.plane(*cell) == Idealisation::Axisymmetric;
+        let near = mesh.cells(mesh.dim()).filter(is_near);
+        around.extend(near.filter(revolves));
+        wanted.cells.extend_from_slice(&around);
     }
     wanted.cells.sort_unstable();
     wanted.cells.dedup();
-    wanted
+    (wanted, around)
 }
 
 fn printed(

@@ -1,14 +1,16 @@
 //! Temperatures: at the start, and at the end of steps.
 
+use super::names::Names;
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::{Case, Expansion, Material};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 
-/// The temperature of every node at the start, and its one value; nothing where the case knows no temperatures.
+/// The temperature of every node at the start, and that of all nodes that nothing else is said of; nothing where the case knows no temperatures.
 ///
 /// Without `[initial]` bodies start without thermal strain, at the reference temperature of their materials.
-pub(super) fn at_start(
-    case: &Case,
+pub(super) fn at_start<'a>(
+    case: &'a Case,
+    names: &Names<'_>,
     mesh: &Mesh,
     found: &mut Diagnostics,
 ) -> (Vec<f64>, Option<f64>) {
@@ -16,10 +18,12 @@ pub(super) fn at_start(
         .filter_map(|material| Some((material, material.expansion.as_ref()?)))
         .collect();
     let given = case.initial_temperature.as_ref();
+    let somewhere = case.initial_temperatures.first();
     let mut changes = case.steps.iter().flat_map(|step| &step.temperatures);
     let first = changes.next();
     if expanding.is_empty() {
         let place = first.map(|one| &one.place).or(given.map(|one| &one.place));
+        let place = place.or(somewhere.map(|one| &one.place));
         if let Some(place) = place {
             found.push(
                 Diagnostic::warning(&codes::NO_EFFECT, "temperatures that change nothing")
@@ -34,29 +38,49 @@ pub(super) fn at_start(
     let start = match (given, expanding.as_slice()) {
         (Some(given), _) => given.value,
         (None, []) => 0.0,
-        (None, [(first, one), others @ ..]) => {
-            let reference = one.free.value;
-            if let Some((second, other)) = others
-                .iter()
-                .find(|(_, other)| other.free.value != reference)
-            {
+        (None, all) => {
+            let given = |(material, one): &(&'a Material, &'a Expansion)| {
+                Some((*material, one.free.value.given()?, &one.free.place))
+            };
+            let mut known = all.iter().filter_map(given);
+            let Some((first, reference, _)) = known.next() else {
+                let message =
+                    "a material is without thermal strain at the start: how warm is that?";
+                let place = all.first().map(|(_, one)| &one.free.place);
+                let message = Diagnostic::error(&codes::MISSING, message);
+                let message = message.help("write  [initial] temperature =");
+                found.push(match place {
+                    Some(place) => message.at(place, "what each place is at at the start"),
+                    None => message,
+                });
+                return (Vec::new(), None);
+            };
+            if let Some((second, other, place)) = known.find(|(_, other, _)| *other != reference) {
                 found.push(
                     Diagnostic::error(
                         &codes::MISSING,
                         format!(
                             "materials \"{}\" and \"{}\" are without thermal strain at {reference} and {}: \
                              where does the run start?",
-                            first.name.value, second.name.value, other.free.value
+                            first.name.value, second.name.value, other
                         ),
                     )
-                    .at(&other.free.place, "another reference than the first")
+                    .at(place, "another reference than the first")
                     .help("write  [initial] temperature ="),
                 );
             }
             reference
         }
     };
-    (vec![start; mesh.nnode()], Some(start))
+    let mut field = vec![start; mesh.nnode()];
+    for one in &case.initial_temperatures {
+        for node in names.nodes(&one.on, found).unwrap_or_default() {
+            if let Some(at) = field.get_mut(node as usize) {
+                *at = one.temperature;
+            }
+        }
+    }
+    (field, Some(start))
 }
 
 /// The materials that bodies are made of.

@@ -592,7 +592,11 @@ fn contacts_become_what_they_say() {
         ),
         (
             "exponential = { p0 = 2, c0 = 0.5 }",
-            Law::Exponential { p0: 2.0, c0: 0.5 },
+            Law::Exponential {
+                p0: 2.0,
+                c0: 0.5,
+                within: f64::INFINITY,
+            },
         ),
         ("lagrange = {}", Law::Lagrange),
         ("augmented = 'uzawa'", Law::Uzawa(None)),

@@ -110,13 +110,26 @@ fn free_cube(material: &str, more: &str) -> String {
 
 /// The numbers of the first row below this heading in the printed tables of a deck.
 fn printed(deck: &str, heading: &str) -> Vec<f64> {
+    all_printed(deck, heading, "none").swap_remove(0)
+}
+
+/// The numbers of all rows below this heading in the printed tables of a deck, at all times.
+fn all_printed(deck: &str, heading: &str, compat: &str) -> Vec<Vec<f64>> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("job.inp"), deck).unwrap();
-    run(folder.path(), &["run", "job.inp"]).says(0, &["solved"]);
+    let command = ["run", "job.inp", "--compat", compat];
+    run(folder.path(), &command).says(0, &["solved"]);
     let text = read(&folder.path().join("job.out/job.dat"));
-    let mut lines = text.lines().skip_while(|line| !line.contains(heading));
-    let row = lines.nth(2).unwrap();
-    row.split_whitespace().map(|n| n.parse().unwrap()).collect()
+    let mut rows = Vec::new();
+    let mut lines = text.lines();
+    while lines.by_ref().any(|line| line.contains(heading)) {
+        let table = lines.by_ref().skip(1).take_while(|line| !line.is_empty());
+        rows.extend(table.map(|row| {
+            let numbers = row.split_whitespace();
+            numbers.map(|n| n.parse().unwrap()).collect()
+        }));
+    }
+    rows
 }
 
 #[test]
@@ -187,4 +200,80 @@ fn sections_of_different_thickness_share_a_force_by_it() {
     assert!((row[1] - 0.003).abs() < 1e-9, "{row:?}");
     let row = printed(deck, "total force");
     assert!((row[0] + 0.3 * 2.5).abs() < 1e-6, "{row:?}");
+}
+
+/// A ring of the radii 1 and 2 under a sheet as thick as the circumference at their mean, ν = 0: what presses the sheet
+/// arrives below the ring, and the mean stress of the sheet is that pressure.
+#[test]
+fn a_ring_bears_a_sheet_that_stands_for_what_is_around_the_circumference() {
+    let around = 3.0 * std::f64::consts::PI;
+    let deck = |contact: &str| {
+        format!(
+            "*NODE, NSET=ALL\n1,1,0\n2,2,0\n3,2,1\n4,1,1\n5,1,1\n6,2,1\n7,2,2\n8,1,2\n\
+             *ELEMENT, TYPE=CAX4, ELSET=RING\n1,1,2,3,4\n*ELEMENT, TYPE=CPS4, ELSET=SHEET\n2,5,6,7,8\n\
+             *NSET, NSET=BASE\n1,2\n*SURFACE, NAME=FOOT\nSHEET, S1\n*SURFACE, NAME=SEAT\nRING, S3\n\
+             *SURFACE, NAME=FEET, TYPE=NODE\n5,\n6,\n{contact}*SURFACE INTERACTION, NAME=I\n\
+             *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e6\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n\
+             *SOLID SECTION, ELSET=RING, MATERIAL=M\n0.1\n*SOLID SECTION, ELSET=SHEET, MATERIAL=M\n{around}\n\
+             *BOUNDARY\nBASE, 2\nALL, 1\n*STEP\n*STATIC\n*DLOAD\n2, P3, 10.\n*NODE PRINT, NSET=BASE, TOTALS=ONLY\nRF\n\
+             *EL PRINT, ELSET=SHEET\nS,EVOL\n*END STEP\n"
+        )
+    };
+    // forces and volumes are printed as those of two degrees
+    let share = around / 180.0;
+    for contact in [
+        "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nFOOT, SEAT\n",
+        "*CONTACT PAIR, INTERACTION=I, TYPE=NODE TO SURFACE\nFEET, SEAT\n",
+    ] {
+        let deck = deck(contact);
+        for compat in ["none", "ccx"] {
+            let first = |heading| all_printed(&deck, heading, compat).swap_remove(0);
+            let force = first("total force");
+            assert!((force[1] - 10.0 * share).abs() < 1e-6, "{force:?}");
+            let volume = first("volume (");
+            assert!((volume[1] - share).abs() < 1e-6, "{volume:?}");
+            let stresses = all_printed(&deck, "stresses", compat);
+            let mean = stresses.iter().map(|row| row[3]).sum::<f64>() / stresses.len() as f64;
+            assert!((mean + 10.0).abs() < 1e-5, "{stresses:?}");
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let strain = deck("").replace("CPS4", "CPE4");
+    std::fs::write(folder.path().join("job.inp"), strain).unwrap();
+    run(folder.path(), &["run", "job.inp"]).says(3, &["no part of a ring"]);
+}
+
+/// The lower nodes begin at 100 degrees, the others at 20: at 100 everywhere, ε = 1e-3 (100 − T₀), whose mean is 0.04.
+#[test]
+fn thermal_strain_counts_from_what_each_place_is_at_at_the_start() {
+    let start =
+        "*NSET, NSET=BASE\n1,2,3,4\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\nBASE, 100.\n";
+    let step = "*BOUNDARY\nALL, 1, 2\n*STEP\n*STATIC\n*TEMPERATURE\nALL, 100.";
+    let law = "*ELASTIC\n1000., 0.\n*EXPANSION, ZERO=7.\n1e-3";
+    let deck = free_cube(law, &format!("{start}{step}"));
+    let row = printed(&deck, "displacements");
+    assert!((row[3] - 0.04).abs() < 1e-9, "{row:?}");
+}
+
+/// In the second step the first load is replaced, and the second element turns, too.
+#[test]
+fn squared_speeds_of_centrifugal_loads_are_printed_by_element() {
+    let nodes = "*NODE, NSET=ALL\n1,1,0\n2,2,0\n3,2,1\n4,1,1\n5,3,0\n6,3,1\n*ELEMENT, TYPE=CPS4, ELSET=ALL\n1,1,2,3,4\n2,2,5,6,3\n";
+    let deck = format!(
+        "{nodes}*ELSET, ELSET=ONE\n1\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n*DENSITY\n1e-3\n\
+         *SOLID SECTION, ELSET=ALL, MATERIAL=M\n1.\n*BOUNDARY\n1,1,2\n4,1\n\
+         *STEP\n*STATIC, DIRECT\n0.5, 1.\n*DLOAD\nONE, CENTRIF, 4., 0., 0., 0., 0., 0., 1.\n*EL PRINT, ELSET=ALL\nCENT\n*END STEP\n\
+         *STEP\n*STATIC\n1., 1.\n*DLOAD\nALL, CENTRIF, 6., 0., 0., 0., 0., 0., 1.\n*END STEP\n"
+    );
+    let heading = "centrifugal force(element,omega square)";
+    let rows = all_printed(&deck, heading, "none");
+    let wanted = [
+        [1.0, 2.0],
+        [2.0, 0.0],
+        [1.0, 4.0],
+        [2.0, 0.0],
+        [1.0, 6.0],
+        [2.0, 6.0],
+    ];
+    assert_eq!(rows, wanted);
 }

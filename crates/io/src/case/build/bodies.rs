@@ -105,9 +105,7 @@ impl Builder {
         }
         Expansion {
             alpha,
-            free: fields
-                .number_if("free")
-                .unwrap_or_else(|| reference.clone()),
+            free: unstrained(fields, &reference),
             reference: reference.value,
         }
     }
@@ -190,6 +188,7 @@ impl Builder {
             "integration",
             "locking",
             "orientation",
+            "space",
             "thickness",
             "temperatures",
             "area",
@@ -212,14 +211,11 @@ impl Builder {
                 remark,
             );
         }
-        if fields.has("thickness") && !self.space.has_thickness() {
-            self.error(
-                &codes::CONTRADICTION,
-                "`thickness` means something in plane strain and plane stress only",
-                &fields.place("thickness"),
-                "delete it",
-            );
-        }
+        let space = fields.text_if("space").map(|word| {
+            let space = super::geometry::space(&word.value);
+            Spanned::new(space, word.place)
+        });
+        self.plane(&fields, space.as_ref(), name);
         let locking = fields.text("locking");
         let orientation = fields.table("orientation");
         Body {
@@ -241,6 +237,7 @@ impl Builder {
             orientation: fields
                 .has("orientation")
                 .then(|| self.orientation(orientation, fields.place("orientation"))),
+            space,
             thickness: fields.number_if("thickness"),
             temperatures: match fields.text("temperatures").value.as_str() {
                 "linear" => Temperatures::Linear,
@@ -251,6 +248,49 @@ impl Builder {
             reference: fields.text_if("reference"),
             groups,
             place,
+        }
+    }
+
+    /// What the plane of a body stands for goes with the model, and with its thickness.
+    fn plane(&mut self, fields: &Fields<'_>, space: Option<&Spanned<Space>>, name: &str) {
+        let of_body = space.map_or(self.space, |space| space.value);
+        if let Some(space) = space
+            && !self.space.goes_with(space.value)
+        {
+            let remark = match self.space {
+                Space::ThreeD => "delete it: the model is in space",
+                _ => {
+                    "a slice that cannot stretch across its plane is no part of a ring: take plane-stress, or two cases"
+                }
+            };
+            let message = format!(
+                "body \"{name}\" is {} in a model that is {}",
+                space.word(),
+                self.space.word()
+            );
+            self.error(&codes::CONTRADICTION, message, &space.place, remark);
+        }
+        if fields.has("thickness") && !of_body.has_thickness() {
+            self.error(
+                &codes::CONTRADICTION,
+                "`thickness` means something in plane strain and plane stress only",
+                &fields.place("thickness"),
+                "delete it",
+            );
+        }
+        if let Some(space) = space
+            && of_body.has_thickness()
+            && self.space == Space::Axisymmetric
+            && !fields.has("thickness")
+        {
+            self.error(
+                &codes::MISSING,
+                format!(
+                    "body \"{name}\" has no `thickness`, and neither has a model of revolution"
+                ),
+                &space.place,
+                "write the thickness of all such parts around the circumference together",
+            );
         }
     }
 
@@ -458,3 +498,13 @@ fn component_of(word: &str) -> Option<usize> {
 
 /// The names of displacements and rotations, in their order.
 pub(in super::super) const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// The temperature without thermal strain; that from which expansion counts where nothing is said.
+fn unstrained(fields: Fields<'_>, reference: &Spanned<f64>) -> Spanned<Unstrained> {
+    if let Some(word) = fields.text_if("free") {
+        return Spanned::new(Unstrained::AtStart, word.place);
+    }
+    let free = fields.number_if("free");
+    let free = free.unwrap_or_else(|| reference.clone());
+    Spanned::new(Unstrained::At(free.value), free.place)
+}

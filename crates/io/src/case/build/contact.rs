@@ -30,6 +30,7 @@ impl Builder {
             area: match fields.text("area").value.as_str() {
                 "current" => Area::Current,
                 "adjacent" => Area::Adjacent,
+                "opposite" => Area::Opposite,
                 _ => Area::Reference,
             },
             enforcement: self.enforcement(fields),
@@ -49,6 +50,10 @@ impl Builder {
             tied: tied(fields),
             start: start(fields.table("start")),
             normals: self.normals(fields),
+            basis: match fields.text("basis").value.as_str() {
+                "whole" => Basis::Whole,
+                _ => Basis::Part,
+            },
             pairs: if fields.text("pairs").value == "order" {
                 Pairs::Order
             } else {
@@ -106,6 +111,11 @@ impl Builder {
             "\"nodal\" belongs to  method = \"mortar\", all others to \"node-to-node\"",
         );
         only(
+            "basis",
+            fields.has("basis") && method != Method::Mortar,
+            "it belongs to  method = \"mortar\"",
+        );
+        only(
             "pairs",
             fields.has("pairs") && method != Method::NodeToNode,
             "it belongs to  method = \"node-to-node\"",
@@ -137,8 +147,9 @@ impl Builder {
         );
         only(
             "area",
-            contact.area == Area::Adjacent && matches!(method, Method::GaussPoint | Method::Mortar),
-            "only nodes have adjacent faces: delete `area`",
+            matches!(contact.area, Area::Adjacent | Area::Opposite)
+                && matches!(method, Method::GaussPoint | Method::Mortar),
+            "only nodes have adjacent and opposite faces: delete `area`",
         );
         only(
             "area",
@@ -292,6 +303,7 @@ impl Builder {
             return Enforcement::Exponential {
                 p0: law.number("p0"),
                 c0: law.number("c0"),
+                within: law.number_if("within").map(|within| within.value),
             };
         }
         if table.has("arctangent") {

@@ -12,12 +12,7 @@ use crate::diagnostic::{Place, Spanned, codes};
 impl Builder {
     pub(super) fn model(&mut self, fields: Fields<'_>) -> Model {
         let word = fields.text("space");
-        let space = match word.value.as_str() {
-            "plane-strain" => Space::PlaneStrain,
-            "plane-stress" => Space::PlaneStress,
-            "axisymmetric" => Space::Axisymmetric,
-            _ => Space::ThreeD,
-        };
+        let space = space(&word.value);
         if fields.has("thickness") && !space.has_thickness() {
             let what = match space {
                 Space::Axisymmetric => "of a body of revolution",
@@ -298,6 +293,12 @@ impl Builder {
     }
 }
 
+/// The space of a word.
+pub(super) fn space(word: &str) -> Space {
+    let mut known = Space::ALL.into_iter();
+    known.find(|one| one.word() == word).unwrap_or_default()
+}
+
 /// Rows of element, integration point and a tensor.
 pub(super) fn at_points(fields: Fields<'_>, key: &str) -> Vec<AtPoint> {
     let rows = fields.rows(key).filter_map(|row| {
@@ -314,6 +315,17 @@ pub(super) fn at_points(fields: Fields<'_>, key: &str) -> Vec<AtPoint> {
         })
     });
     rows.collect()
+}
+
+/// Temperatures of parts at the start.
+pub(super) fn temperatures_at(fields: Fields<'_>) -> Vec<TemperatureAt> {
+    let tables = fields.tables("at").into_iter();
+    let at = tables.map(|(fields, place)| TemperatureAt {
+        on: fields.text("on"),
+        temperature: fields.number("temperature"),
+        place,
+    });
+    at.collect()
 }
 
 impl Side {

@@ -17,7 +17,7 @@ use super::scalar::shortened;
 use super::vocabulary::CASE;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, SourceFile, closest, codes};
 pub(super) use bodies::COMPONENTS;
-use geometry::at_points;
+use geometry::{at_points, temperatures_at};
 use run::{expectation, output};
 
 /// The version of the case format that this program reads and writes.
@@ -135,6 +135,7 @@ impl Builder {
                 .map(|(fields, place)| self.constraint(fields, place))
                 .collect(),
             initial_temperature: root.table("initial").number_if("temperature"),
+            initial_temperatures: temperatures_at(root.table("initial")),
             initial_stress: at_points(root.table("initial"), "stress"),
             initial_strain: at_points(root.table("initial"), "strain"),
             steps: root

@@ -1,6 +1,6 @@
 //! Materials, bodies, springs, constraints.
 
-use super::{Directions, Name};
+use super::{Directions, Name, Space};
 use crate::diagnostic::{Place, Spanned};
 
 pub use signorini_mechanics::solid::{Integration, Locking};
@@ -49,7 +49,27 @@ pub struct Expansion {
     /// The temperature from which `alpha` counts.
     pub reference: f64,
     /// The temperature without thermal strain.
-    pub free: Spanned<f64>,
+    pub free: Spanned<Unstrained>,
+}
+
+/// The temperature without thermal strain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unstrained {
+    /// This one.
+    At(f64),
+    /// What each place is at at the start.
+    AtStart,
+}
+
+impl Unstrained {
+    /// The temperature, where it is the same everywhere.
+    #[must_use]
+    pub fn given(self) -> Option<f64> {
+        match self {
+            Self::At(temperature) => Some(temperature),
+            Self::AtStart => None,
+        }
+    }
 }
 
 /// Plasticity of von Mises.
@@ -88,6 +108,8 @@ pub struct Body {
     pub locking: Spanned<Locking>,
     /// Axes of the material; none: those of the frame.
     pub orientation: Option<Orientation>,
+    /// What its plane stands for; none: what that of the model does.
+    pub space: Option<Spanned<Space>>,
     /// Thickness in a plane model (length); none: that of the model.
     pub thickness: Option<Spanned<f64>>,
     /// How temperatures vary in an element.
@@ -98,6 +120,17 @@ pub struct Body {
     pub rigid: bool,
     /// The reference a rigid body moves with; none: a point of its own, in the mean of its nodes.
     pub reference: Option<Name>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// The temperature of some nodes at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TemperatureAt {
+    /// The nodes.
+    pub on: Name,
+    /// Their temperature.
+    pub temperature: f64,
     /// Where it was written.
     pub place: Place,
 }

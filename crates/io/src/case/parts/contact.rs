@@ -37,6 +37,8 @@ pub struct Contact {
     pub start: Start,
     /// The normals of [`Method::NodeToNode`] and [`Method::Mortar`].
     pub normals: Normals,
+    /// The basis of [`Method::Mortar`].
+    pub basis: Basis,
     /// The pairs of [`Method::NodeToNode`].
     pub pairs: Pairs,
     /// How far from each other the sides are searched (length); none: found by the program.
@@ -99,6 +101,8 @@ pub enum Area {
     Current,
     /// Those of all outer faces of solids that meet a node, at the start.
     Adjacent,
+    /// That of the facet of the primary side that a point meets first, at the start.
+    Opposite,
 }
 
 /// How penetration is prevented.
@@ -117,6 +121,8 @@ pub enum Enforcement {
         p0: f64,
         /// The gap at which it has fallen to 1 %.
         c0: f64,
+        /// The gap beyond which nothing acts (length); none: it acts at any distance.
+        within: Option<f64>,
     },
     /// Proportional to the penetration far inside, rounded by an arctangent, with a tension at a distance.
     Arctangent {
@@ -252,6 +258,16 @@ pub enum Interference {
     Now,
     /// They stay, without pressure.
     StrainFree,
+}
+
+/// Over what weights of mortar contact are not negative on quadratic facets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Basis {
+    /// Over any part of a facet.
+    #[default]
+    Part,
+    /// Over a whole facet.
+    Whole,
 }
 
 /// Where node-to-node contact and mortar contact take their normals from.

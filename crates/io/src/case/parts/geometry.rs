@@ -48,7 +48,7 @@ pub struct Model {
 }
 
 /// Space or plane.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Space {
     /// Three dimensions.
     #[default]
@@ -62,6 +62,34 @@ pub enum Space {
 }
 
 impl Space {
+    /// All of them.
+    pub const ALL: [Self; 4] = [
+        Self::ThreeD,
+        Self::PlaneStrain,
+        Self::PlaneStress,
+        Self::Axisymmetric,
+    ];
+
+    /// Its name in a case.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::ThreeD => "3d",
+            Self::PlaneStrain => "plane-strain",
+            Self::PlaneStress => "plane-stress",
+            Self::Axisymmetric => "axisymmetric",
+        }
+    }
+
+    /// Whether bodies of both can be in one model: a ring stretches along its circumference, where plane strain allows no
+    /// strain.
+    #[must_use]
+    pub fn goes_with(self, other: Self) -> bool {
+        let pair = [self, other];
+        let mixed = pair.contains(&Self::Axisymmetric) && pair.contains(&Self::PlaneStrain);
+        self.ndim() == other.ndim() && !mixed
+    }
+
     /// Whether a thickness means something.
     pub fn has_thickness(self) -> bool {
         matches!(self, Self::PlaneStrain | Self::PlaneStress)

@@ -59,6 +59,8 @@ pub struct Case {
     pub constraints: Vec<Constraint>,
     /// Temperature of everything at the start; none: where no material expands, or as the build finds it.
     pub initial_temperature: Option<Spanned<f64>>,
+    /// Temperatures of parts at the start; of several that name a node the last holds.
+    pub initial_temperatures: Vec<TemperatureAt>,
     /// Stress without strain at integration points, at the start.
     pub initial_stress: Vec<AtPoint>,
     /// Strain without stress at integration points, at the start.

@@ -16,6 +16,7 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         Area::Reference => "reference",
         Area::Current => "current",
         Area::Adjacent => "adjacent",
+        Area::Opposite => "opposite",
     };
     let sliding = match contact.sliding {
         Sliding::Finite => "finite",
@@ -43,10 +44,17 @@ pub(super) fn contact(contact: &Contact) -> Entries {
             ("normals", normals(&contact.normals)),
             ("pairs", pairs(contact.pairs)),
         ]),
-        Method::Mortar if contact.normals == Normals::Nodal => {
-            entries.push(("normals", "nodal".into()));
+        Method::Mortar => {
+            if contact.normals == Normals::Nodal {
+                entries.push(("normals", "nodal".into()));
+            }
+            let basis = match contact.basis {
+                Basis::Part => "part",
+                Basis::Whole => "whole",
+            };
+            entries.push(("basis", basis.into()));
         }
-        Method::Auto | Method::NodeToSegment | Method::Mortar => {}
+        Method::Auto | Method::NodeToSegment => {}
     }
     if contact.tied.is_none() {
         entries.push(("start", start(&contact.start)));
@@ -90,8 +98,9 @@ fn enforcement(contact: &Contact) -> Value {
         Enforcement::Auto => return "auto".into(),
         Enforcement::Penalty(penalty) => vec![("penalty", number(penalty))],
         Enforcement::Table(rows) => vec![("penalty", list(rows))],
-        Enforcement::Exponential { p0, c0 } => {
-            let law = vec![("p0", (*p0).into()), ("c0", (*c0).into())];
+        &Enforcement::Exponential { p0, c0, within } => {
+            let mut law = vec![("p0", p0.into()), ("c0", c0.into())];
+            law.extend(within.map(|within| ("within", within.into())));
             vec![("exponential", Value::Table(law))]
         }
         &Enforcement::Arctangent {

@@ -39,13 +39,7 @@ pub(super) fn mesh(mesh: &MeshSource) -> Entries {
 }
 
 pub(super) fn model(model: &Model) -> Entries {
-    let space = match *model.space {
-        Space::ThreeD => "3d",
-        Space::PlaneStrain => "plane-strain",
-        Space::PlaneStress => "plane-stress",
-        Space::Axisymmetric => "axisymmetric",
-    };
-    let mut entries = vec![("space", space.into())];
+    let mut entries = vec![("space", model.space.word().into())];
     if model.space.has_thickness() {
         entries.push(("thickness", model.thickness.into()));
     }
@@ -131,6 +125,16 @@ pub(super) fn initial(case: &Case) -> Entries {
     let temperature = case.initial_temperature.as_ref();
     let mut entries = Entries::new();
     entries.extend(temperature.map(|temperature| ("temperature", temperature.value.into())));
+    if !case.initial_temperatures.is_empty() {
+        let at = |one: &TemperatureAt| {
+            Value::Table(vec![
+                ("on", (&one.on.value).into()),
+                ("temperature", one.temperature.into()),
+            ])
+        };
+        let all = case.initial_temperatures.iter().map(at);
+        entries.push(("at", Value::List(all.collect())));
+    }
     for (name, points) in [
         ("stress", &case.initial_stress),
         ("strain", &case.initial_strain),
@@ -162,8 +166,12 @@ pub(super) fn material(one: &Material) -> Entries {
             rows => list(rows),
         };
         let mut entries = vec![("alpha", alpha), ("reference", expansion.reference.into())];
-        if expansion.free.value != expansion.reference {
-            entries.push(("free", expansion.free.value.into()));
+        match expansion.free.value {
+            Unstrained::AtStart => entries.push(("free", "start".into())),
+            Unstrained::At(free) if free != expansion.reference => {
+                entries.push(("free", free.into()));
+            }
+            Unstrained::At(_) => {}
         }
         ("expansion", Value::Table(entries))
     }));
@@ -216,6 +224,8 @@ pub(super) fn body(body: &Body) -> Entries {
         let entries = vec![("x", one.x.into()), ("y", one.y.into())];
         ("orientation", Value::Table(entries))
     }));
+    let space = body.space.as_ref();
+    entries.extend(space.map(|space| ("space", space.word().into())));
     let thickness = body.thickness.as_ref();
     entries.extend(thickness.map(|thickness| ("thickness", thickness.value.into())));
     let temperatures = match body.temperatures {

@@ -130,8 +130,8 @@ static EXPANSION: Table = Table {
         key("reference", ANY, "the temperature from which alpha counts").or(Default::Number(0.0)),
         key(
             "free",
-            ANY,
-            "the temperature without thermal strain; absent: the reference",
+            Shape::Either(&[ANY, Shape::Choice(&[word("start")])]),
+            "the temperature without thermal strain; start: what each place is at at the start; absent: the reference",
         ),
     ],
     rules: &[],
@@ -198,9 +198,14 @@ pub(super) static BODY: Table = Table {
         .or(Default::Text("auto")),
         key("orientation", Shape::Table(&ORIENTATION), ORIENTATION.doc),
         key(
+            "space",
+            Shape::Choice(geometry::PLANES),
+            "what the plane of this body stands for; absent: what that of the model does",
+        ),
+        key(
             "thickness",
             POSITIVE,
-            "thickness in a plane model (length); absent: that of the model",
+            "thickness in a plane model (length); beside bodies of revolution, that of the full circumference; absent: that of the model",
         ),
         key(
             "temperatures",

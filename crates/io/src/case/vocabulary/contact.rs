@@ -36,8 +36,13 @@ pub(super) static CONTACT: Table = Table {
         key("rule", Shape::Table(&RULE), RULE.doc).hints(&["integration", "quadrature"]),
         key(
             "area",
-            Shape::Choice(&[word("reference"), word("current"), word("adjacent")]),
-            "what points stand for: their area at the start, their present one, or that of all outer faces at a node",
+            Shape::Choice(&[
+                word("reference"),
+                word("current"),
+                word("adjacent"),
+                word("opposite"),
+            ]),
+            "what points stand for: their area at the start, their present one, that of all outer faces at a node, or the facet opposite",
         )
         .or(Default::Text("reference")),
         key(
@@ -71,6 +76,12 @@ pub(super) static CONTACT: Table = Table {
         )
         .or(Default::Text("primary"))
         .hints(&["normal"]),
+        key(
+            "basis",
+            Shape::Choice(&[word("part"), word("whole")]),
+            "of mortar, on quadratic facets: over what no weight of a node is negative, any part of a facet or the whole",
+        )
+        .or(Default::Text("part")),
         key(
             "pairs",
             Shape::Choice(&[word("nearest"), word("order")]),
@@ -185,6 +196,11 @@ static EXPONENTIAL: Table = Table {
     keys: &[
         key("p0", POSITIVE, "pressure at zero gap").required(),
         key("c0", POSITIVE, "the gap at which it has fallen to 1 %").required(),
+        key(
+            "within",
+            NOT_NEGATIVE,
+            "the gap beyond which nothing acts (length); absent: it acts at any distance",
+        ),
     ],
     rules: &[],
 };

@@ -68,8 +68,9 @@ pub(super) static MODEL: Table = Table {
     ],
     rules: &[],
 };
-const SPACES: &[Choice] = &[
-    word("3d"),
+const SPACES: &[Choice] = &[word("3d"), PLANES[0], PLANES[1], PLANES[2]];
+/// What a plane stands for.
+pub(super) const PLANES: &[Choice] = &[
     word("plane-strain"),
     word("plane-stress"),
     word("axisymmetric"),
@@ -157,6 +158,7 @@ pub(super) static INITIAL: Table = Table {
             ANY,
             "temperature of everything; absent: that at which materials have no thermal strain",
         ),
+        key("at", Shape::Tables(&INITIAL_AT), INITIAL_AT.doc),
         key(
             "stress",
             POINTS,
@@ -169,7 +171,19 @@ pub(super) static INITIAL: Table = Table {
         )
         .hints(&["plastic_strain"]),
     ],
-    rules: &[Rule::AtLeastOne(&["temperature", "stress", "strain"])],
+    rules: &[Rule::AtLeastOne(&["temperature", "at", "stress", "strain"])],
+};
+
+static INITIAL_AT: Table = Table {
+    heading: "[[initial.at]]",
+    doc: "temperatures at the start that differ from that of everything; of several that name a node the last holds",
+    keys: &[
+        key("on", Shape::Text, "the set or group")
+            .required()
+            .hints(&["set", "group"]),
+        key("temperature", ANY, "the temperature at the start").required(),
+    ],
+    rules: &[],
 };
 const POINTS: Shape = Shape::List(
     &Shape::Row(

@@ -350,6 +350,7 @@ const OF_ELEMENTS: &[Choice] = &[
     word("energy-density"),
     word("energy"),
     word("volume"),
+    word("spin-squared"),
 ];
 const OF_CONTACTS: &[Choice] = &[
     word("gap"),

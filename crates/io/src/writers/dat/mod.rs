@@ -64,6 +64,8 @@ pub enum Kind {
     Volumes,
     /// Their sum.
     TotalVolume,
+    /// Squared angular velocities of the centrifugal loads on elements.
+    Spins,
 }
 
 impl Kind {
@@ -85,6 +87,7 @@ impl Kind {
             Self::TotalEnergy => "total internal energy ",
             Self::Volumes => "volume (element, volume) ",
             Self::TotalVolume => "total volume ",
+            Self::Spins => "centrifugal force(element,omega square) ",
         }
     }
 }

@@ -56,7 +56,7 @@ impl PointToSegment {
     }
 
     /// Points inside the facets, `rule` gives those of an element with their weights; and the area of each point at the
-    /// positions `x`, times the `extent` across it.
+    /// positions `x`, times the `extent` across its facet.
     ///
     /// # Errors
     /// A facet that has no normal.
@@ -64,7 +64,7 @@ impl PointToSegment {
         facets: &Facets,
         rule: impl Fn(Element) -> Vec<(Vec3, f64)>,
         x: &[Vec3],
-        extent: &dyn Fn(Vec3) -> f64,
+        extent: &dyn Fn(u32, Vec3) -> f64,
     ) -> Result<(Self, Vec<f64>), SurfaceError> {
         let mut points = Self {
             first: vec![0],
@@ -84,7 +84,7 @@ impl PointToSegment {
                 points.nodes.extend_from_slice(nodes);
                 points.weights.extend_from_slice(&shape[..nodes.len()]);
                 points.first.push(points.nodes.len() as u32);
-                areas.push(weight * area * extent(at));
+                areas.push(weight * area * extent(facet, at));
             }
         }
         Ok((points, areas))

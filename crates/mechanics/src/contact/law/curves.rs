@@ -3,15 +3,19 @@ use std::cmp::Ordering;
 use std::f64::consts::PI;
 use thiserror::Error;
 
-/// A pressure that falls exponentially with the gap: `p0` at `g = 0`, 1 % of it at `g = c0`; without end on both sides.
+/// A pressure that falls exponentially with the gap: `p0` at `g = 0`, 1 % of it at `g = c0`; without end inside, and
+/// outside up to a gap.
 ///
 /// `p = p0 exp(ln(0.01) g/c0)`; below `g = −2 c0` it goes on along its tangent, so that a bad start does not overflow.
+/// Beyond `within` there is nothing: the pressure jumps there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponential {
     /// Pressure at zero gap.
     pub p0: f64,
     /// The gap at which it has fallen to 1 %.
     pub c0: f64,
+    /// The gap beyond which nothing acts; infinite where it acts at any distance.
+    pub within: f64,
 }
 
 impl Exponential {
@@ -21,16 +25,29 @@ impl Exponential {
     fn rate(&self) -> f64 {
         0.01_f64.ln() / self.c0
     }
+
+    /// Pressure and slope of the curve itself.
+    fn at(&self, gap: f64) -> (f64, f64) {
+        let p = self.p0 * (self.rate() * gap).exp();
+        (p, self.rate() * p)
+    }
+
+    /// The potential, zero far outside.
+    fn potential(&self, gap: f64) -> f64 {
+        let bend = gap.max(Self::STRAIGHT * self.c0);
+        let (value, slope) = self.at(bend);
+        let further = gap - bend;
+        -value / self.rate() - value * further - 0.5 * slope * further * further
+    }
 }
 
 impl ContactLaw for Exponential {
     fn pressure(&self, gap: f64, _: f64, _: &Scale) -> Eval {
-        let rate = self.rate();
+        if gap > self.within {
+            return Eval::default();
+        }
         let bend = gap.max(Self::STRAIGHT * self.c0);
-        let (value, slope) = {
-            let p = self.p0 * (rate * bend).exp();
-            (p, rate * p)
-        };
+        let (value, slope) = self.at(bend);
         Eval {
             value: value + slope * (gap - bend),
             dgap: slope,
@@ -38,12 +55,12 @@ impl ContactLaw for Exponential {
         }
     }
 
-    fn energy(&self, gap: f64, _: f64, scale: &Scale) -> Option<f64> {
-        let rate = self.rate();
-        let bend = gap.max(Self::STRAIGHT * self.c0);
-        let at = self.pressure(bend, 0.0, scale);
-        let further = gap - bend;
-        Some(-at.value / rate - at.value * further - 0.5 * at.dgap * further * further)
+    fn energy(&self, gap: f64, _: f64, _: &Scale) -> Option<f64> {
+        let beyond = match self.within.is_finite() {
+            true => self.potential(self.within),
+            false => 0.0,
+        };
+        Some(self.potential(gap.min(self.within)) - beyond)
     }
 }
 

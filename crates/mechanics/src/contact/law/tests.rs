@@ -5,6 +5,14 @@ const SCALE: Scale = Scale {
     length: 1.0,
 };
 
+fn endless() -> Exponential {
+    Exponential {
+        p0: 2.0,
+        c0: 0.1,
+        within: f64::INFINITY,
+    }
+}
+
 fn all() -> Vec<Box<dyn ContactLaw>> {
     let rows = vec![[-0.2, 5.0], [-0.05, 2.0], [0.1, 0.5], [0.3, 0.0]];
     vec![
@@ -12,7 +20,11 @@ fn all() -> Vec<Box<dyn ContactLaw>> {
         Box::new(Lagrange),
         Box::new(Uzawa),
         Box::new(AugmentedNewton),
-        Box::new(Exponential { p0: 2.0, c0: 0.1 }),
+        Box::new(endless()),
+        Box::new(Exponential {
+            within: 0.15,
+            ..endless()
+        }),
         Box::new(Arctangent {
             stiffness: 4.0,
             tension: 0.05,
@@ -117,7 +129,7 @@ fn tables_that_are_no_laws_are_refused() {
 #[test]
 fn curves_pass_through_what_they_are_given() {
     let p = |law: &dyn ContactLaw, gap| law.pressure(gap, 0.0, &SCALE).value;
-    let exponential = Exponential { p0: 2.0, c0: 0.1 };
+    let exponential = endless();
     assert_eq!(p(&exponential, 0.0), 2.0);
     assert!((p(&exponential, 0.1) - 0.02).abs() < 1e-15);
     // a tangent below −2 c0

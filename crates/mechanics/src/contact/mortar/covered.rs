@@ -1,6 +1,6 @@
 use super::basis::{Small, inverse};
 use super::pair::zeros;
-use super::{Facet, Frame, Measure, MortarError, Pair, Transformation};
+use super::{Basis, Facet, Frame, Measure, MortarError, Pair, Transformation};
 use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::tensor::Vec3;
 
@@ -15,6 +15,7 @@ pub const MIN_COVERAGE: f64 = 1e-8;
 #[derive(Clone, Debug, Default)]
 pub struct Covered {
     measure: Measure,
+    basis: Basis,
     nnode: usize,
     nprimary: usize,
     ncolumn: usize,
@@ -52,9 +53,10 @@ impl Covered {
         }
     }
 
-    /// What its integrals are taken over from now on.
-    pub fn measured(&mut self, measure: Measure) {
+    /// What its integrals are taken over from now on, and by what basis.
+    pub fn measured(&mut self, measure: Measure, basis: Basis) {
         self.measure = measure;
+        self.basis = basis;
     }
 
     /// Integrates over what a secondary facet shares with primary facets near it.
@@ -89,7 +91,7 @@ impl Covered {
         let nprimary = self.pairs[..self.met.len()].iter().map(|p| p.nnode()[1]);
         self.nprimary = nprimary.sum();
         self.ncolumn = 3 * (self.nnode + self.nprimary);
-        let t = Transformation::of(secondary.element);
+        let t = Transformation::of(secondary.element, self.basis);
         self.measure_whole(&frame, secondary, &t);
         self.combine(&t, derivatives);
         Ok(())

@@ -107,7 +107,7 @@ mod weights;
 
 pub use covered::{Covered, MIN_COVERAGE};
 pub use pair::{Frame, Pair};
-pub use transformation::Transformation;
+pub use transformation::{Basis, Transformation};
 pub use weights::{Guests, OfFacet, OfRow, Weights};
 
 use signorini_geometry::element::Element;

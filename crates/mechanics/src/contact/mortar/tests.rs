@@ -723,7 +723,7 @@ fn linear_fields_pass_from_one_side_to_the_other_where_surfaces_coincide() {
             })
             .collect();
         let covered = evaluate(elements, &x, false);
-        let t = Transformation::of(elements[0]);
+        let t = Transformation::of(elements[0], Basis::Part);
         for axis in 0..elements[0].dim() {
             let mut own: Vec<f64> = x[0].iter().map(|x| x[axis]).collect();
             t.values(&mut own);
@@ -909,7 +909,7 @@ fn rings_that_coincide_pass_on_the_forces_of_a_uniform_pressure() {
         let rest = [line(0.3, -0.2), line(1.1, 0.8)];
         let all = [own.clone(), other, rest[0].clone(), rest[1].clone()];
         let all = measured(Measure::Revolved, elements, &all, false);
-        let t = Transformation::of(elements[0]);
+        let t = Transformation::of(elements[0], Basis::Part);
         let of_own = exact(elements[0], &own);
         for (j, d) in all.d().iter().enumerate() {
             let e: f64 = (0..own.len()).map(|k| t.get(j, k) * of_own[k]).sum();
@@ -1077,5 +1077,35 @@ fn speed() {
             1e6 * derived,
             1e6 * facet
         );
+    }
+}
+
+/// SOURCE: Popp, Wohlmuth, Gee, Wall 2012: parts of the facet that its corners and the middles of its edges stand for.
+#[test]
+fn weights_over_a_whole_facet_are_positive_in_either_basis() {
+    let parts = [
+        ("tri6", Basis::Part, [1.0 / 6.0, 1.0 / 6.0]),
+        ("tri6", Basis::Whole, [2.0 / 15.0, 1.0 / 5.0]),
+        ("quad8", Basis::Part, [1.0 / 6.0, 1.0 / 12.0]),
+        ("quad8", Basis::Whole, [1.0 / 20.0, 1.0 / 5.0]),
+    ];
+    for (name, basis, [corner, middle]) in parts {
+        let element = by_name(name).unwrap();
+        let mut covered = Covered::default();
+        covered.measured(Measure::Flat, basis);
+        let x = element.nodes();
+        covered.evaluate(&Facet { element, x }, &[], false).unwrap();
+        let area: f64 = covered.full().iter().sum();
+        for (k, weight) in covered.full().iter().enumerate() {
+            let wanted = if k < element.ncorner() {
+                corner
+            } else {
+                middle
+            };
+            assert!(
+                (weight / area - wanted).abs() < 1e-12,
+                "{name} {basis:?} {k}: {weight}"
+            );
+        }
     }
 }

@@ -1,5 +1,18 @@
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
 
+/// Over what the weights of nodes of quadratic facets are not negative.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Basis {
+    /// Over any part of a facet: for contact that covers facets in part.
+    #[default]
+    Part,
+    /// Over a whole facet: weights are nearer to those of an even pressure.
+    ///
+    /// # Source
+    /// Popp, Wohlmuth, Gee, Wall, SIAM J. Sci. Comput. 34, 2012.
+    Whole,
+}
+
 /// The transformation T of the shape functions of a facet, (E4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transformation {
@@ -8,12 +21,15 @@ pub struct Transformation {
 }
 
 impl Transformation {
-    /// The one that makes weights non-negative at every point; the identity for linear facets.
+    /// The one of this basis; the identity for linear facets.
     #[must_use]
-    pub fn of(element: Element) -> Self {
-        let (n, corners) = (element.nnode(), element.ncorner());
-        let serendipity = element.dim() == 2 && corners == 4 && n == 8;
-        Self::with_alpha(element, if serendipity { 3.0 / 8.0 } else { 0.25 })
+    pub fn of(element: Element, basis: Basis) -> Self {
+        let alpha = match (element.name(), basis) {
+            ("tri6" | "quad8", Basis::Whole) => 0.2,
+            ("quad8", Basis::Part) => 3.0 / 8.0,
+            _ => 0.25,
+        };
+        Self::with_alpha(element, alpha)
     }
 
     /// The one with this α; mid nodes follow the corners in the order of the edges, then comes the centre.

@@ -256,8 +256,12 @@ impl Scene {
                     Method::NodalMortar => mortar::Normals::Nodal,
                     _ => mortar::Normals::Facet,
                 };
+                let form = mortar::Form {
+                    normals,
+                    ..Default::default()
+                };
                 let mut mortar =
-                    Mortar::new(second.as_ref().unwrap(), normals, Default::default(), &x).unwrap();
+                    Mortar::new(second.as_ref().unwrap(), form, Default::default(), &x).unwrap();
                 if choice.bond || method == Method::HeldMortar {
                     let (x, poses) = (&x[..], &poses[..]);
                     mortar = mortar.held_at(&pair, &Placement { x, poses }).unwrap();
@@ -284,7 +288,7 @@ impl Scene {
                 let facets = second.as_ref().unwrap();
                 let rule = |e| on_facet(e, &rule);
                 let (mut inside, areas) =
-                    PointToSegment::inside(facets, rule, &x, &|_| 1.0).unwrap();
+                    PointToSegment::inside(facets, rule, &x, &|_, _| 1.0).unwrap();
                 inside.closest = closest;
                 area = areas;
                 Box::new(inside)

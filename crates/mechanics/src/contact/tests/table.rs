@@ -18,7 +18,11 @@ fn laws() -> Vec<Box<dyn ContactLaw>> {
     vec![
         Box::new(Penalty),
         Box::new(Table::new(rows).unwrap()),
-        Box::new(Exponential { p0: 0.3, c0: 0.08 }),
+        Box::new(Exponential {
+            p0: 0.3,
+            c0: 0.08,
+            within: f64::INFINITY,
+        }),
         Box::new(Arctangent {
             stiffness: 3.0,
             tension: 0.02,
@@ -355,7 +359,11 @@ fn multipliers_that_stick_act_as_they_hold() {
 #[test]
 fn a_pressure_that_acts_at_a_distance_is_coupled() {
     let choice = Choice {
-        law: Box::new(Exponential { p0: 1.0, c0: 1.0 }),
+        law: Box::new(Exponential {
+            p0: 1.0,
+            c0: 1.0,
+            within: f64::INFINITY,
+        }),
         friction: None,
         bond: false,
     };

@@ -84,15 +84,14 @@ fn stiffness_and_force_of_every_load_are_derivatives() {
                 &format!("{what} centrifugal"),
             );
             let x = &single.reference;
-            let body = spread::over_cells(&single.volume(1.0), space, x, Vec3::new(0.3, -2.0, 1.0));
+            let body = spread::over_cells(&single.volume(1.0), x, Vec3::new(0.3, -2.0, 1.0));
             check(
                 &single,
                 &mut single.dead(body),
                 nonlinear,
                 &format!("{what} body"),
             );
-            let faces =
-                spread::over_faces(&single.surface(), space, x, |n| Vec3::unit(0) * n.norm());
+            let faces = spread::over_faces(&single.surface(), x, |n| Vec3::unit(0) * n.norm());
             check(
                 &single,
                 &mut single.dead(faces),
@@ -112,7 +111,6 @@ fn a_pressure_that_does_not_act_in_a_step_leaves_the_system_symmetric_and_with_a
         (single.surface(), 2.0),
         Schedule::ramps(&[1.0, 0.0, 0.0]),
         single.layout,
-        single.space,
         single.reference.clone(),
     );
     let state = single.state(&[]);

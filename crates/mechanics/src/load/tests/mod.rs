@@ -107,25 +107,25 @@ impl Single {
             side: side as u8,
         };
         let (element, nodes) = self.mesh.face(face).unwrap();
-        region.push(element, &nodes, 1.0);
+        region.push(element, self.space, &nodes, 1.0);
     }
 
     fn volume(&self, density: f64) -> Region {
         let mut region = Region::default();
-        region.push(self.element, self.mesh.cell(self.cell), density);
+        region.push(self.element, self.space, self.mesh.cell(self.cell), density);
         region
     }
 
     fn pressure(&self, faces: Region, pressure: f64) -> FollowingPressure {
         let (layout, reference) = (self.layout, self.reference.clone());
         let what = (faces, pressure);
-        FollowingPressure::new("p", what, full(), layout, self.space, reference)
+        FollowingPressure::new("p", what, full(), layout, reference)
     }
 
     fn centrifugal(&self, density: f64, spin: Spin) -> Centrifugal {
         let (layout, reference) = (self.layout, self.reference.clone());
         let what = (self.volume(density), spin);
-        Centrifugal::new("spin", what, full(), layout, self.space, reference)
+        Centrifugal::new("spin", what, &[self.cell], full(), layout, reference)
     }
 
     fn dead(&self, forces: spread::NodalVectors) -> NodalForces {

@@ -11,9 +11,11 @@ fn measure(single: &Single) -> (f64, Vec3) {
         _ => Idealisation::PlaneStrain { thickness: 1.0 },
     };
     let mut sum = (0.0, Vec3::ZERO);
-    for (patch, _, _) in single.volume(1.0).pieces() {
+    let mut region = Region::default();
+    region.push(single.element, space, single.mesh.cell(single.cell), 1.0);
+    for (patch, _, _) in region.pieces() {
         for sample in patch.samples() {
-            let dv = patch.volume(space, &sample, &single.reference);
+            let dv = patch.volume(&sample, &single.reference);
             sum.0 += dv;
             sum.1 += sample.position(&single.reference) * dv;
         }
@@ -55,8 +57,13 @@ fn masses_are_integrated_by_the_rule_that_they_are_given() {
     let x = &single.reference;
     let mass = |rule: &'static Rule| {
         let mut region = Region::default();
-        region.push_by(element, rule, single.mesh.cell(single.cell), 2.0);
-        let forces = spread::over_cells(&region, single.space, x, Vec3::unit(0));
+        region.push_by(
+            (element, rule),
+            single.space,
+            single.mesh.cell(single.cell),
+            2.0,
+        );
+        let forces = spread::over_cells(&region, x, Vec3::unit(0));
         forces.values().map(|f| f.x).sum::<f64>()
     };
     let by_hand = |rule: &'static Rule| {
@@ -97,7 +104,7 @@ fn dead_and_following_pressure_agree_at_the_start() {
         let x = &single.reference;
         for side in 0..element.sides().len() {
             let face = single.face(side);
-            let dead = single.dead(spread::over_faces(&face, space, x, |n| n * -2.5));
+            let dead = single.dead(spread::over_faces(&face, x, |n| n * -2.5));
             let follows = single.pressure(face, 2.5);
             let start = single.state(&[]);
             let [a, b] = [&dead as &dyn Term, &follows]
@@ -114,18 +121,18 @@ fn a_total_force_is_spread_without_loss_and_evenly() {
         let single = Single::new(element, space, 0.1);
         let (faces, x) = (single.surface(), &single.reference);
         let total = Vec3::new(3.0, -2.0, if space.ndim() == 3 { 1.0 } else { 0.0 });
-        let area = spread::area(&faces, space, x);
-        let forces = spread::over_faces(&faces, space, x, |n| total * (n.norm() / area));
+        let area = spread::area(&faces, x);
+        let forces = spread::over_faces(&faces, x, |n| total * (n.norm() / area));
         let sum: Vec3 = forces.values().copied().sum();
         assert_near(sum, total, 1e-13, element.name());
     }
     // a unit cube from 1 to 3: 6 sides of 4; the lateral face of a ring: 2πr h
     let cube = Single::new(element::by_name("hex8").unwrap(), Idealisation::Space, 0.0);
-    let area = spread::area(&cube.surface(), cube.space, &cube.reference);
+    let area = spread::area(&cube.surface(), &cube.reference);
     assert!((area - 24.0).abs() < 1e-13, "{area}");
     let quad = element::by_name("quad8").unwrap();
     let ring = Single::new(quad, Idealisation::Axisymmetric, 0.0);
-    let area = spread::area(&ring.face(1), ring.space, &ring.reference);
+    let area = spread::area(&ring.face(1), &ring.reference);
     assert!((area - TAU * 3.0 * 2.0).abs() < 1e-13, "{area}");
 }
 
@@ -134,7 +141,7 @@ fn gravity_is_mass_times_acceleration_at_the_centre_of_mass() {
     let g = Vec3::new(0.0, -9.81, 0.0);
     for (element, space) in cases() {
         let single = Single::new(element, space, 0.1);
-        let forces = spread::over_cells(&single.volume(7.8), space, &single.reference, g);
+        let forces = spread::over_cells(&single.volume(7.8), &single.reference, g);
         let (measure, centre) = measure(&single);
         // Pappus: a ring has the volume 2π r A
         let volume = measure * space.extent(centre);
@@ -160,9 +167,9 @@ fn a_column_of_water_rests_on_its_pressure() {
             let single = Single::new(element, space, 0.0);
             let down = Vec3::unit(space.ndim() - 1) * -g;
             let x = &single.reference;
-            let weight = spread::over_cells(&single.volume(density), space, x, down);
+            let weight = spread::over_cells(&single.volume(density), x, down);
             let pressure = density * g * height;
-            let support = spread::over_faces(&single.face(side), space, x, |n| n * -pressure);
+            let support = spread::over_faces(&single.face(side), x, |n| n * -pressure);
             let sum: Vec3 = weight.values().chain(support.values()).copied().sum();
             assert_near(sum, Vec3::ZERO, 1e-11 * pressure, name);
         }

@@ -134,7 +134,7 @@ fn pressure_on_one_face_does_the_work_of_its_lever_and_none_where_it_has_none() 
     for side in 0..6 {
         let face = model.single.face(side);
         let x = &model.single.reference;
-        let forces = spread::over_faces(&face, Idealisation::Space, x, |n| n * -5.0);
+        let forces = spread::over_faces(&face, x, |n| n * -5.0);
         let lever = |(n, f): (&NodeId, &Vec3)| (x[*n as usize] - point).cross(*f);
         let moment: Vec3 = forces.iter().map(lever).sum();
         let terms: [Box<dyn Term>; 1] = [Box::new(model.single.pressure(face, 5.0))];
@@ -165,9 +165,8 @@ fn the_stiffness_of_loads_on_a_rigid_box_is_the_derivative_of_their_forces() {
         let model = RigidBox::new(name, space, Vec3::new(0.7, 0.2, 0.0));
         let single = &model.single;
         let x = &single.reference;
-        let traction = spread::over_faces(&single.face(1), space, x, |n| {
-            Vec3::new(1.0, 2.0, -0.5) * n.norm()
-        });
+        let traction =
+            spread::over_faces(&single.face(1), x, |n| Vec3::new(1.0, 2.0, -0.5) * n.norm());
         let dead = single
             .dead(traction)
             .following(&model.elimination, &model.layout);

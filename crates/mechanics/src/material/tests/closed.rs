@@ -357,9 +357,8 @@ fn what_expands_freely_has_no_stress() {
                 (Kinematics::Finite, x + 0.5 * x * x),
             ] {
                 let strain = Strain {
-                    kinematics,
-                    value: Sym3::IDENTITY * e,
                     temperature,
+                    ..Strain::new(kinematics, Sym3::IDENTITY * e)
                 };
                 let out = fresh(&law, &strain);
                 let largest = out
@@ -479,9 +478,8 @@ fn constants_by_temperature_are_linear_between_and_constant_outside() {
     ] {
         for kinematics in KINEMATICS {
             let strain = Strain {
-                kinematics,
-                value,
                 temperature,
+                ..Strain::new(kinematics, value)
             };
             let [a, b] = [
                 fresh(&law, &strain),
@@ -508,7 +506,8 @@ fn a_list_is_no_number() {
 fn secant_expansion_by_temperature_is_counted_from_its_start() {
     let make = || Box::new(SaintVenantKirchhoff::new(500.0, 0.3));
     let table = vec![[0.0, 1e-5], [1000.0, 3e-5]];
-    let law = Expanding::by_temperature(make(), table, 20.0, 100.0);
+    let given = Expanding::by_temperature(make(), table.clone(), 20.0, Some(100.0));
+    let by_place = Expanding::by_temperature(make(), table, 20.0, None);
     let x = |t: f64| (1e-5 + 2e-8 * t) * (t - 20.0);
     for temperature in [100.0, 400.0, 900.0] {
         let grown = x(temperature) - x(100.0);
@@ -517,11 +516,16 @@ fn secant_expansion_by_temperature_is_counted_from_its_start() {
             (Kinematics::Finite, grown + 0.5 * grown * grown),
         ] {
             let strain = Strain {
-                kinematics,
-                value: Sym3::IDENTITY * free,
                 temperature,
+                ..Strain::new(kinematics, Sym3::IDENTITY * free)
             };
-            assert!(size(fresh(&law, &strain).stress) < 1e-12);
+            assert!(size(fresh(&given, &strain).stress) < 1e-12);
+            let started = Strain {
+                temperature_at_start: 100.0,
+                ..strain
+            };
+            assert!(size(fresh(&by_place, &started).stress) < 1e-12);
+            assert!(size(fresh(&by_place, &strain).stress) > 1e-3);
         }
     }
 }

@@ -189,9 +189,8 @@ fn stress_is_the_gradient_of_energy_and_tangent_that_of_stress() {
             let (mut checks, mut kinks) = (0, 0);
             let mut check = |value: Sym3, old: &[f64]| {
                 let strain = Strain {
-                    kinematics,
-                    value,
                     temperature: 30.0,
+                    ..Strain::new(kinematics, value)
                 };
                 checks += 1;
                 let Some((stress, tangent)) = gradient_errors(material.as_ref(), &strain, old)
@@ -219,9 +218,8 @@ fn stress_is_the_gradient_of_energy_and_tangent_that_of_stress() {
             let mut old = start.clone();
             for k in 0..3 {
                 let strain = Strain {
-                    kinematics,
-                    value: random(k, 0.2),
                     temperature: 30.0,
+                    ..Strain::new(kinematics, random(k, 0.2))
                 };
                 advance(material.as_ref(), &strain, &mut old);
                 check(strain.value * 1.3, &old);

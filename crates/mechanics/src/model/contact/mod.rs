@@ -7,8 +7,8 @@ pub(super) use sides::{Sides, Source};
 pub(super) use start::closed;
 
 use super::{
-    ContactChange, ContactPart, ContactSummary, Context, Enforcement, FrictionPart, LimitPart,
-    ModelError, StartSummary, StickPart,
+    AreaPart, ContactChange, ContactPart, ContactSummary, Context, Enforcement, FrictionPart,
+    LimitPart, ModelError, StartSummary, StickPart,
 };
 use crate::contact::discretization::SlidingRange;
 use crate::contact::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
@@ -109,11 +109,26 @@ impl Context<'_> {
             .flatten()
             .map(|s| s.largest)
             .fold(0.0, f64::max);
-        let points = &sides.pair.points;
         let length = match (&sizes[0], &sizes[1]) {
             (Some(s), _) | (None, Some(s)) => s.mean,
-            (None, None) => self.size_of_cells(points),
+            (None, None) => self.size_of_cells(&sides.pair.points),
         };
+        let size = if largest > 0.0 { largest } else { length };
+        let at = self.placement();
+        let found = sides
+            .look_around(&at, part.reach, REACH * size)
+            .map_err(|source| ModelError::Surface {
+                contact: part.name.clone(),
+                source,
+            })?;
+        if part.area == AreaPart::Opposite {
+            let known = sides.stand_for_opposite(&found, self.reference, self.spaces);
+            known.map_err(|source| ModelError::Surface {
+                contact: part.name.clone(),
+                source,
+            })?;
+        }
+        let points = &sides.pair.points;
         let softest = sizes
             .iter()
             .flatten()
@@ -153,16 +168,8 @@ impl Context<'_> {
                 });
             }
         };
-        let size = if largest > 0.0 { largest } else { length };
-        let at = self.placement();
-        let found = sides
-            .look_around(&at, part.reach, REACH * size)
-            .map_err(|source| ModelError::Surface {
-                contact: part.name.clone(),
-                source,
-            })?;
         if part.sliding == SlidingRange::Small || part.tie.is_some() {
-            let held = sides.hold(&at, self.space);
+            let held = sides.hold(&at, self.spaces);
             held.map_err(|source| ModelError::Surface {
                 contact: part.name.clone(),
                 source,
@@ -228,7 +235,8 @@ impl Context<'_> {
             return length * length;
         }
         let at = |n: &NodeId| self.reference.get(*n as usize).copied();
-        let extents = points.iter().filter_map(at).map(|x| self.space.extent(x));
+        let extent = |n: &NodeId| Some(self.spaces.of_node(*n).extent(at(n)?));
+        let extents = points.iter().filter_map(extent);
         length * extents.sum::<f64>() / points.len().max(1) as f64
     }
 

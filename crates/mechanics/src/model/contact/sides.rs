@@ -2,13 +2,14 @@
 
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
-    Discretization, Mortar, NodeNormals, NodeToNode, Pairing, PointToSegment, SurfacePair,
+    Discretization, Mortar, NodeNormals, NodeToNode, Pair, Pairing, PointToSegment, SurfacePair,
 };
 use crate::contact::law::{
     Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
     Uzawa,
 };
 use crate::contact::{Areas, Measure, closest_points, discretization, mortar};
+use crate::model::bodies::Spaces;
 use crate::model::{
     AreaPart, ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind,
     PointRule, PrimaryPart, SidePart, label,
@@ -53,6 +54,8 @@ pub(in crate::model) struct Source<'a> {
     /// Positions at the start.
     pub reference: &'a [Vec3],
     pub space: Idealisation,
+    /// What the planes of bodies stand for.
+    pub spaces: &'a Spaces<'a>,
     /// What follows rigid bodies.
     pub elimination: &'a Elimination,
     /// Of each node, whether the steps prescribe its motion along all axes.
@@ -118,6 +121,12 @@ impl Source<'_> {
             PrimaryPart::Itself => secondary.clone(),
             PrimaryPart::Nodes(_) | PrimaryPart::Surface(_) => None,
         };
+        if part.area == AreaPart::Opposite && primary.is_none() {
+            return Err(ModelError::Unsuited {
+                contact: part.name.clone(),
+                what: "points stand for facets opposite, and its primary side has none",
+            });
+        }
         let same = matches!(part.primary, PrimaryPart::Itself);
         let method = self.method(part, secondary.as_ref());
         let law = law(part, &method)?;
@@ -142,20 +151,21 @@ impl Source<'_> {
         } else {
             Closest::Anywhere
         };
-        let extent = |x| self.space.extent(x);
         let around = match part.area {
             AreaPart::Adjacent => Some(facets(&self.outer_faces_at(&points))?),
             AreaPart::Reference | AreaPart::Present => secondary.clone(),
+            // which it is, is known when the sides have met
+            AreaPart::Opposite => None,
         };
         let nodal = |points: &[NodeId]| -> Result<Vec<f64>, ModelError> {
             let Some(facets) = &around else {
                 return Ok(Vec::new());
             };
-            let areas = facets.lumped_areas(self.reference, &extent);
+            let spaces = self.spaces.behind(facets);
+            let areas = facets.lumped_areas(self.reference, &|f, x| extent(&spaces, f, x));
             Ok(of_points(points, &areas.map_err(surface_error)?))
         };
         let present = secondary.clone().filter(|_| part.area == AreaPart::Present);
-        let space = self.space;
         let mut areas: Option<Areas> = None;
         let (discretization, area): (Box<dyn Discretization>, Vec<f64>) = match method {
             Method::NodeToNode { normals, pairs } => {
@@ -163,7 +173,7 @@ impl Source<'_> {
                 let normals = node_normals(part, normals, &primary, &secondary)?;
                 let first: Vec<NodeId> = pairs.iter().map(|pair| pair[0]).collect();
                 let area = nodal(&first)?;
-                areas = present.map(|facets| present_areas(facets, first, space));
+                areas = present.map(|facets| self.present_areas(facets, first));
                 (Box::new(NodeToNode::new(pairs, normals)), area)
             }
             Method::GaussPoint(rule) => {
@@ -179,21 +189,23 @@ impl Source<'_> {
                         what: "points inside facets need a secondary side made of faces",
                     });
                 };
+                let spaces = self.spaces.behind(facets);
                 let points = |element: Element| on_facet(rule, element);
+                let across = |facet, x| extent(&spaces, facet, x);
                 let (mut inside, area) =
-                    PointToSegment::inside(facets, points, self.reference, &extent)
+                    PointToSegment::inside(facets, points, self.reference, &across)
                         .map_err(surface_error)?;
                 inside.sliding = part.sliding;
                 if let Some(facets) = present {
                     areas = Some(Box::new(move |x| {
                         let points = |element: Element| on_facet(rule, element);
-                        let extent = |x| space.extent(x);
-                        Ok(PointToSegment::inside(&facets, points, x, &extent)?.1)
+                        let across = |facet, x| extent(&spaces, facet, x);
+                        Ok(PointToSegment::inside(&facets, points, x, &across)?.1)
                     }));
                 }
                 (Box::new(inside), area)
             }
-            Method::Mortar { normals } => {
+            Method::Mortar(form) => {
                 let (Some(facets), Some(_)) = (&secondary, &primary) else {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
@@ -206,9 +218,10 @@ impl Source<'_> {
                         what: "mortar contact has one pass between two surfaces, and pressures per present area",
                     });
                 }
-                let mortar = Mortar::new(facets, normals, measure(self.space), self.reference)
+                let space = self.one_space(part, facets)?;
+                let mortar = Mortar::new(facets, form, measure(space), self.reference)
                     .map_err(surface_error)?;
-                let area = mortar_areas(&mortar, self.reference, self.space);
+                let area = mortar_areas(&mortar, self.reference, space);
                 (Box::new(mortar), area)
             }
             Method::NodeToSegment | Method::Auto => {
@@ -216,7 +229,7 @@ impl Source<'_> {
                 at_nodes.closest = closest;
                 at_nodes.sliding = part.sliding;
                 let area = nodal(&points)?;
-                areas = present.map(|facets| present_areas(facets, points.clone(), space));
+                areas = present.map(|facets| self.present_areas(facets, points.clone()));
                 (Box::new(at_nodes), area)
             }
         };
@@ -243,6 +256,24 @@ impl Source<'_> {
             area,
             areas,
             swapped,
+        })
+    }
+
+    /// The areas of some nodes of these facets, wherever they are.
+    fn present_areas(&self, facets: Facets, points: Vec<NodeId>) -> Areas {
+        let spaces = self.spaces.behind(&facets);
+        Box::new(move |x| {
+            let areas = facets.lumped_areas(x, &|facet, x| extent(&spaces, facet, x))?;
+            Ok(of_points(&points, &areas))
+        })
+    }
+
+    /// What the plane stands for behind all facets of a mortar side.
+    fn one_space(&self, part: &ContactPart, facets: &Facets) -> Result<Idealisation, ModelError> {
+        let first = self.spaces.alike(facets);
+        first.ok_or_else(|| ModelError::Unsuited {
+                contact: part.name.clone(),
+                what: "bodies of its secondary side differ in thickness or idealisation, which mortar contact does not weigh: write a contact for each, or take points",
         })
     }
 
@@ -276,9 +307,7 @@ impl Source<'_> {
                 pairs: PairOrder::default(),
             },
             (Method::Auto, PrimaryPart::Faces(_)) if open && self.suits_mortar(part, secondary) => {
-                Method::Mortar {
-                    normals: discretization::mortar::Normals::default(),
-                }
+                Method::Mortar(discretization::mortar::Form::default())
             }
             (Method::Auto, _) if self.is_quadratic(part) && !exact => {
                 Method::GaussPoint(PointRule {
@@ -303,7 +332,10 @@ impl Source<'_> {
         let follows = |facets: &Facets| {
             (0..facets.nfacet() as u32).all(|f| !facets.nodes(f).iter().all(given))
         };
-        plain && secondary.is_some_and(|facets| follows(facets) && self.is_smooth(facets))
+        let suits = |facets: &Facets| {
+            follows(facets) && self.spaces.alike(facets).is_some() && self.is_smooth(facets)
+        };
+        plain && secondary.is_some_and(suits)
     }
 
     /// Whether a surface has no edges: a mean over both of its sides would say little about either.
@@ -442,12 +474,10 @@ fn of_points(points: &[NodeId], areas: &[(NodeId, f64)]) -> Vec<f64> {
     points.iter().map(of).collect()
 }
 
-/// The areas of some nodes of these facets, wherever they are.
-fn present_areas(facets: Facets, points: Vec<NodeId>, space: Idealisation) -> Areas {
-    Box::new(move |x| {
-        let areas = facets.lumped_areas(x, &|x| space.extent(x))?;
-        Ok(of_points(&points, &areas))
-    })
+/// The extent across a facet, from what the planes of all facets stand for.
+fn extent(spaces: &[Idealisation], facet: u32, at: Vec3) -> f64 {
+    let space = spaces.get(facet as usize);
+    space.map_or(1.0, |space| space.extent(at))
 }
 
 fn node_normals(
@@ -504,7 +534,7 @@ fn law(part: &ContactPart, method: &Method) -> Result<Box<dyn ContactLaw>, Model
                 })?,
             )
         }
-        Enforcement::Exponential { p0, c0 } => Box::new(Exponential { p0: *p0, c0: *c0 }),
+        &Enforcement::Exponential { p0, c0, within } => Box::new(Exponential { p0, c0, within }),
         &Enforcement::Arctangent {
             stiffness,
             tension,
@@ -563,13 +593,46 @@ impl Sides {
         Ok(found)
     }
 
-    /// Keeps what mortar rows see of both sides at this configuration for good.
-    pub fn hold(&mut self, at: &Placement, space: Idealisation) -> Result<(), SurfaceError> {
-        let (&Method::Mortar { normals }, Some(facets)) = (&self.method, &self.pair.secondary)
-        else {
+    /// Makes each point stand for the facet that it was found to meet, as large as it were if it were everywhere as it is
+    /// there; for the mean of those that other points meet, where it meets none.
+    pub fn stand_for_opposite(
+        &mut self,
+        found: &Pairing,
+        x: &[Vec3],
+        spaces: &Spaces<'_>,
+    ) -> Result<(), SurfaceError> {
+        let Some(facets) = &self.facets else {
             return Ok(());
         };
-        let mortar = Mortar::new(facets, normals, measure(space), at.x)?.held_at(&self.pair, at)?;
+        let spaces = spaces.behind(facets);
+        let area = |anchor: Anchor| -> Result<f64, SurfaceError> {
+            let Anchor { facet, local } = anchor;
+            let (shape, per_parameter) = facets.sample(x, facet, local)?;
+            let nodes = facets.nodes(facet).iter().zip(shape);
+            let at = nodes.map(|(&n, w)| x.get(n as usize).copied().unwrap_or_default() * w);
+            let rule = facets.element(facet).map(|element| element.surface_rule());
+            let domain: f64 = rule.map_or(0.0, |rule| rule.weights.iter().sum());
+            Ok(per_parameter * domain * extent(&spaces, facet, at.sum()))
+        };
+        let met = found.pairs.iter().flatten();
+        let areas = met.map(|pair| area(pair.anchor));
+        let areas: Vec<f64> = areas.collect::<Result<_, _>>()?;
+        let mean = areas.iter().sum::<f64>() / areas.len().max(1) as f64;
+        let mut known = areas.into_iter();
+        let of = |pair: &Option<Pair>| pair.as_ref().and_then(|_| known.next()).unwrap_or(mean);
+        self.area = found.pairs.iter().map(of).collect();
+        Ok(())
+    }
+
+    /// Keeps what mortar rows see of both sides at this configuration for good.
+    pub fn hold(&mut self, at: &Placement, spaces: &Spaces<'_>) -> Result<(), SurfaceError> {
+        let (&Method::Mortar(form), Some(facets)) = (&self.method, &self.pair.secondary) else {
+            return Ok(());
+        };
+        let Some(&space) = spaces.behind(facets).first() else {
+            return Ok(());
+        };
+        let mortar = Mortar::new(facets, form, measure(space), at.x)?.held_at(&self.pair, at)?;
         self.area = mortar_areas(&mortar, at.x, space);
         self.discretization = Box::new(mortar);
         Ok(())

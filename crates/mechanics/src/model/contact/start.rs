@@ -72,10 +72,7 @@ pub(super) fn bonds(
             .discretization
             .anchor(row, &sides.pair, at, &pair, Vec3::ZERO)?;
         // these anchors know their own way
-        let whole = matches!(
-            sides.method,
-            Method::NodeToNode { .. } | Method::Mortar { .. }
-        );
+        let whole = matches!(sides.method, Method::NodeToNode { .. } | Method::Mortar(_));
         let offset = if sides.facets.is_some() && !whole {
             sides.pair.primary.jet(at, &anchor.anchor, &mut jet)?;
             sides.discretization.point(row).position(at) - jet.position

@@ -94,6 +94,8 @@ impl fmt::Display for Unheld {
 pub(super) struct Held<'a> {
     mesh: &'a Mesh,
     space: Idealisation,
+    /// What each body stands for.
+    spaces: Vec<Idealisation>,
     elimination: &'a Elimination,
     names: Vec<String>,
     units: Vec<Unit>,
@@ -128,6 +130,7 @@ impl<'a> Held<'a> {
         let mut held = Self {
             mesh,
             space,
+            spaces: bodies.iter().map(|b| b.kind.space(space)).collect(),
             elimination,
             names: bodies.iter().map(|b| b.name.clone()).collect(),
             units,
@@ -177,13 +180,25 @@ impl<'a> Held<'a> {
     }
 
     /// Components in which units move.
-    const fn components(&self) -> &'static [usize] {
+    fn components(&self) -> &'static [usize] {
+        let mut all = self.spaces.iter().chain([&self.space]);
         match self.space {
             Idealisation::Space => &[0, 1, 2, 3, 4, 5],
-            Idealisation::PlaneStrain { .. } | Idealisation::PlaneStress { .. } => &[0, 1, 5],
             // what only equations speak of has a first component, too
-            Idealisation::Axisymmetric => &[0, 1],
+            _ if all.all(|one| *one == Idealisation::Axisymmetric) => &[0, 1],
+            _ => &[0, 1, 5],
         }
+    }
+
+    /// Whether a unit stays where its axis is: one with bodies of revolution, and what moves with a carrier of a model of
+    /// revolution.
+    fn revolves(&self, unit: &Unit) -> bool {
+        let axisymmetric = |space: &Idealisation| *space == Idealisation::Axisymmetric;
+        if unit.carrier.is_some() {
+            return axisymmetric(&self.space);
+        }
+        let mut spaces = unit.bodies.iter().filter_map(|&b| self.spaces.get(b));
+        spaces.any(axisymmetric)
     }
 
     /// A basis of the free motions of each unit (E3), of all together.

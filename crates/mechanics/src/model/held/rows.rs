@@ -7,7 +7,7 @@ use crate::model::{
     SpringPart, Unknown,
 };
 use crate::solve::Prescription;
-use crate::system::{DofName, Idealisation, Layout};
+use crate::system::{DofName, Layout};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, ContactSurface, Placement, Pose, RigidId, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -194,11 +194,17 @@ impl Held<'_> {
                 super::add(&mut gram[unit], &outer(&row));
             }
         }
-        if self.space == Idealisation::Axisymmetric {
-            // bodies of revolution stay where their axis is
-            let across = std::array::from_fn(|i| f64::from(u8::from(i == 0)));
-            let parts = self.rows.own.iter_mut().take(self.first_carrier);
-            parts.for_each(|own| super::add(own, &outer(&across)));
+        // bodies of revolution stay where their axis is, and what moves with a carrier does not turn
+        let only = |component| std::array::from_fn(|i| f64::from(u8::from(i == component)));
+        for (number, unit) in self.units.iter().enumerate() {
+            let held = match (self.revolves(unit), unit.carrier.is_some()) {
+                (false, _) => &[][..],
+                (true, false) => &[0, 5],
+                (true, true) => &[5],
+            };
+            for &component in held {
+                super::add(&mut self.rows.own[number], &outer(&only(component)));
+            }
         }
         for (own, gram) in self.rows.own.iter_mut().zip(&gram) {
             for vector in null_space(gram.as_flattened().to_vec(), NCOMPONENT) {

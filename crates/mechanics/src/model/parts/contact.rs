@@ -59,17 +59,14 @@ pub enum Method {
     /// Points inside the secondary facets against segments of the primary side.
     GaussPoint(PointRule),
     /// Means over secondary facets against all facets of the primary side that they meet.
-    Mortar {
-        /// Whose normals pressures act along.
-        normals: mortar::Normals,
-    },
+    Mortar(mortar::Form),
 }
 
 impl Method {
     /// Whether multipliers prevent penetration, unless something else is given.
     #[must_use]
     pub fn takes_multipliers(&self) -> bool {
-        matches!(self, Self::Mortar { .. })
+        matches!(self, Self::Mortar(_))
     }
 }
 
@@ -124,6 +121,9 @@ pub enum AreaPart {
     Present,
     /// All outer faces of solids that meet a node, at the start, whether they belong to the side or not.
     Adjacent,
+    /// The whole facet of the primary side that each node meets at the start, as large as if it were everywhere as it is
+    /// there.
+    Opposite,
 }
 
 /// How penetration is prevented.
@@ -142,6 +142,8 @@ pub enum Enforcement {
         p0: f64,
         /// The gap at which it has fallen to 1 %.
         c0: f64,
+        /// The gap beyond which nothing acts; infinite where it acts at any distance.
+        within: f64,
     },
     /// Proportional to the penetration far inside, rounded by an arctangent, with a tension that remains at a distance.
     Arctangent {

@@ -17,7 +17,7 @@ use signorini_geometry::tensor::Vec3;
 pub struct Parts<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
-    /// Space, plane or axisymmetry.
+    /// Space, plane or axisymmetry; of bodies that say nothing else.
     pub space: Idealisation,
     /// The bodies.
     pub bodies: Vec<BodyPart>,
@@ -84,8 +84,10 @@ pub enum BodyKind {
         integration: Integration,
         /// What is done against locking.
         locking: Locking,
-        /// Thickness in a plane model, where it is not that of the model (length). It does not go with contact.
-        thickness: Option<f64>,
+        /// What its plane stands for, where it is not what that of the model does: another thickness, or another
+        /// idealisation of two dimensions. Thicknesses in a model with bodies of revolution are those of the full
+        /// circumference.
+        space: Option<Idealisation>,
         /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are.
         linear_temperatures: bool,
         /// Stress and strain at the start.
@@ -113,9 +115,18 @@ impl BodyKind {
             density: None,
             integration: Integration::default(),
             locking: Locking::default(),
-            thickness: None,
+            space: None,
             linear_temperatures: false,
             initial: Vec::new(),
+        }
+    }
+
+    /// What its plane stands for, in a model of this space.
+    #[must_use]
+    pub fn space(&self, of_model: Idealisation) -> Idealisation {
+        match self {
+            Self::Solid { space, .. } => space.unwrap_or(of_model),
+            Self::Truss { .. } | Self::Rigid(_) => of_model,
         }
     }
 

@@ -34,6 +34,8 @@ pub(super) struct Element<'a> {
     pub space: Idealisation,
     /// Temperatures of the nodes; empty where there are none.
     pub temperature: &'a [f64],
+    /// What they were at the start of the run.
+    pub temperature_at_start: &'a [f64],
     /// Terms of the polynomial onto which the dilatation is projected.
     pub ndilatation: usize,
     /// History at the start of the increment: of each point, then the incompatible modes.
@@ -79,6 +81,8 @@ pub(super) struct Sample {
     pub seen: Sym3,
     /// What it was at.
     pub temperature: f64,
+    /// What it was at at the start of the run.
+    pub temperature_at_start: f64,
     /// Energy per volume at the start.
     pub energy: f64,
     /// That volume.
@@ -294,10 +298,10 @@ impl Element<'_> {
         self.reference.rule.npoint()
     }
 
-    /// The temperature at a point.
-    fn temperature(&self, point: usize) -> f64 {
+    /// The temperature at a point, from those of the nodes.
+    fn temperature(&self, point: usize, of_nodes: &[f64]) -> f64 {
         let shape = self.reference.thermal(point).iter();
-        shape.zip(self.temperature).map(|(n, t)| n * t).sum()
+        shape.zip(of_nodes).map(|(n, t)| n * t).sum()
     }
 
     /// The material's answer at a point to a strain.
@@ -314,7 +318,8 @@ impl Element<'_> {
         let strain = Strain {
             kinematics: self.kinematics,
             value: initial.map_or(value, |at| value - at.strain),
-            temperature: self.temperature(point),
+            temperature: self.temperature(point, self.temperature),
+            temperature_at_start: self.temperature(point, self.temperature_at_start),
         };
         let nhistory = self.material.nhistory();
         let at = point * nhistory..(point + 1) * nhistory;
@@ -368,7 +373,8 @@ impl Element<'_> {
             plastic_strain: self.material.plastic_strain(history),
             volume,
             seen,
-            temperature: self.temperature(point),
+            temperature: self.temperature(point, self.temperature),
+            temperature_at_start: self.temperature(point, self.temperature_at_start),
             energy: response.energy,
             volume_at_start: weight,
         }

@@ -15,8 +15,10 @@ use signorini_io::writers::dat::{
     ContactKind, Kind, Of, Page, Points, Statistics, WEDGE, tangents, tensor,
 };
 use signorini_mechanics::solve::IncrementRecord;
-use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Resultant, RigidBody};
-use std::collections::HashMap;
+use signorini_mechanics::system::{
+    ContactFrame, Frame, PointSample, Resultant, RigidBody, SpinFrame,
+};
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 /// The tables of a run.
@@ -24,7 +26,9 @@ use std::sync::Arc;
 pub struct Tables {
     steps: Vec<Vec<Printed>>,
     mesh: Arc<Mesh>,
+    // whether the model is one of revolution, and the cells that are
     revolved: bool,
+    revolving: BTreeSet<CellId>,
     // cells around nodes of bodies of revolution whose forces are printed, and steps of large strain
     around: Vec<CellId>,
     nonlinear: Vec<bool>,
@@ -46,17 +50,12 @@ impl Tables {
     /// The tables of every step of a model.
     pub fn new(model: &Model) -> Self {
         let revolved = *model.case.model.space == Space::Axisymmetric;
-        let wanted = &model.system.wanted;
-        let forces = revolved && wanted.forces;
         Self {
             steps: model.prints.clone(),
             mesh: Arc::clone(&model.mesh),
             revolved,
-            around: if forces {
-                wanted.cells.clone()
-            } else {
-                Vec::new()
-            },
+            revolving: model.revolving.clone(),
+            around: model.hoops.clone(),
             nonlinear: model.steps.iter().map(|step| step.nonlinear).collect(),
             references: references(model),
             followers: model.system.elimination.bodies().to_vec(),
@@ -168,8 +167,8 @@ struct Writer<'a> {
     tables: &'a Tables,
     frame: &'a Frame,
     page: Page,
-    // by element and number of points
-    points: HashMap<(&'static str, usize), Points>,
+    // by element, number of points and whether it revolves
+    points: HashMap<(&'static str, usize, bool), Points>,
     hoop: HashMap<NodeId, f64>,
 }
 
@@ -287,6 +286,23 @@ impl Writer<'_> {
                 let kinds = [Kind::Volumes, Kind::TotalVolume];
                 self.sums(kinds, one, cells, |s| s.volume);
             }
+            ElementQuantity::SpinSquared => self.spins(&one.set, cells),
+        }
+    }
+
+    /// The squared angular velocity of the last centrifugal load that acts on each element, zero without one. One of
+    /// that name goes on in a later step as another load while the first one fades: both together are meant.
+    fn spins(&mut self, set: &str, cells: &[CellId]) {
+        self.page.table(Kind::Spins, set);
+        let frame = self.frame;
+        for cell in cells {
+            let here = |spin: &&SpinFrame| spin.cells.binary_search(cell).is_ok();
+            let acts = |spin: &&SpinFrame| here(spin) && spin.square != 0.0;
+            let last = frame.spins.iter().rfind(acts);
+            let of_name = |spin: &&SpinFrame| last.is_some_and(|last| last.name == spin.name);
+            let together = frame.spins.iter().filter(here).filter(of_name);
+            let square = together.fold(0.0, |sum, spin| sum + spin.square);
+            self.page.row(Of::One(self.label(*cell)), &[square]);
         }
     }
 
@@ -333,8 +349,9 @@ impl Writer<'_> {
             let Some(element) = tables.mesh.element(cell) else {
                 continue;
             };
-            let new = || Points::new(element.name(), rule, tables.revolved);
-            let key = (element.name(), rule.npoint());
+            let revolves = tables.revolving.contains(&cell);
+            let new = || Points::new(element.name(), rule, revolves);
+            let key = (element.name(), rule.npoint(), revolves);
             let points = points.entry(key).or_insert_with(new);
             for place in 0..points.len() {
                 put(page, Of::Point(label, place + 1), points, place, samples);

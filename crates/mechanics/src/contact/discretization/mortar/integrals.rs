@@ -2,7 +2,7 @@
 
 use super::nodes_of;
 use crate::contact::discretization::SurfacePair;
-use crate::contact::mortar::{Covered, Facet, Measure, MortarError, OfFacet};
+use crate::contact::mortar::{Basis, Covered, Facet, Measure, MortarError, OfFacet};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
@@ -22,11 +22,10 @@ pub(super) struct Integrator {
 }
 
 impl Integrator {
-    pub fn new(measure: Measure) -> Self {
-        Self {
-            covered: Covered::new(measure),
-            ..Self::default()
-        }
+    pub fn new(measure: Measure, basis: Basis) -> Self {
+        let mut new = Self::default();
+        new.covered.measured(measure, basis);
+        new
     }
 
     pub fn place(&mut self, facets: &Facets, facet: u32, x: &[Vec3]) {
@@ -130,7 +129,7 @@ impl Kept {
         &mut self,
         stamp: u64,
         facet: u32,
-        measure: Measure,
+        (measure, basis): (Measure, Basis),
         integrate: impl FnOnce(&mut Integrator) -> Result<(), SurfaceError>,
     ) -> Result<&Covered, SurfaceError> {
         self.clock += 1;
@@ -152,7 +151,7 @@ impl Kept {
         if found.is_none() {
             // not known before it is done
             slot.stamp = 0;
-            slot.integrator.covered.measured(measure);
+            slot.integrator.covered.measured(measure, basis);
             integrate(&mut slot.integrator)?;
             (slot.stamp, slot.facet) = (stamp, facet);
         }

@@ -51,7 +51,9 @@ mod place;
 
 use super::projected::Point;
 use super::{Anchored, Discretization, Links, NOWHERE, Pair, Pairing, SurfacePair};
-use crate::contact::mortar::{Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights};
+use crate::contact::mortar::{
+    Basis, Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights,
+};
 use crate::contact::row::{Participant, RowOrder, Rows, Wanted};
 use integrals::Integrator;
 use place::{Place, Workspace};
@@ -86,6 +88,15 @@ pub enum Normals {
     Nodal,
 }
 
+/// How rows are formed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Whose normals pressures act along.
+    pub normals: Normals,
+    /// The weights of nodes of quadratic facets.
+    pub basis: Basis,
+}
+
 /// Rows of the nodes of a surface made of facets.
 pub struct Mortar {
     nodes: Vec<NodeId>,
@@ -98,7 +109,7 @@ pub struct Mortar {
     kinds: Vec<(Element, Inverse)>,
     kind: Vec<usize>,
     area: Vec<f64>,
-    normals: Normals,
+    form: Form,
     measure: Measure,
     held: Option<Weights>,
 }
@@ -114,7 +125,7 @@ impl Mortar {
     /// A facet without a normal.
     pub fn new(
         facets: &Facets,
-        normals: Normals,
+        form: Form,
         measure: Measure,
         x: &[Vec3],
     ) -> Result<Self, SurfaceError> {
@@ -126,14 +137,14 @@ impl Mortar {
         let mut around = vec![Vec::new(); nodes.len()];
         let mut near: Vec<Vec<NodeId>> = nodes.iter().map(|&n| vec![n]).collect();
         let mut area = vec![0.0; nodes.len()];
-        let mut integrator = Integrator::new(measure);
+        let mut integrator = Integrator::new(measure, form.basis);
         for facet in 0..facets.nfacet() as u32 {
             let missing = SurfaceError::NoSuchFacet { facet };
             let element = facets.element(facet).ok_or(missing)?;
             let known = kinds.iter().position(|k| k.0.name() == element.name());
             kind.push(known.unwrap_or(kinds.len()));
             if known.is_none() {
-                kinds.push((element, inverse(element)));
+                kinds.push((element, inverse(element, form.basis)));
             }
             integrator.place(facets, facet, x);
             let own = Facet {
@@ -166,7 +177,7 @@ impl Mortar {
             kinds,
             kind,
             area,
-            normals,
+            form,
             measure,
             held: None,
         })
@@ -247,7 +258,7 @@ impl Mortar {
             .enumerate()
             .with_min_len(TASK)
             .try_for_each_init(
-                || Integrator::new(self.measure),
+                || Integrator::new(self.measure, self.form.basis),
                 |integrator, (facet, to)| {
                     let facet = facet as u32;
                     integrator.find(facets, facet, pair, at, search);
@@ -360,7 +371,7 @@ impl Mortar {
                 continue;
             }
             to.d += d;
-            to.normal += match self.normals {
+            to.normal += match self.form.normals {
                 Normals::Facet => covered.normal * d,
                 Normals::Nodal => corner_normal(facets, facet, place, at)?.0 * share,
             };
@@ -387,7 +398,7 @@ impl Mortar {
                 }
             }
         }
-        if self.normals == Normals::Nodal {
+        if self.form.normals == Normals::Nodal {
             let normal = to.normal.normalized().unwrap_or_default();
             for (vector, scalar) in to.vector.iter_mut().zip(&to.scalar) {
                 *vector = normal * *scalar;
@@ -417,8 +428,8 @@ impl Mortar {
 }
 
 /// `T⁻ᵀ` of a kind of facet.
-fn inverse(element: Element) -> Inverse {
-    let t = Transformation::of(element);
+fn inverse(element: Element, basis: Basis) -> Inverse {
+    let t = Transformation::of(element, basis);
     let mut inverse = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
     for k in 0..element.nnode().min(MAX_FACET_NODES) {
         let mut column = [0.0; MAX_FACET_NODES];

@@ -132,7 +132,7 @@ impl Place<'_> {
         work: &mut Workspace,
     ) -> Result<(), SurfaceError> {
         let n = row.gradient.len();
-        let nodal = self.mortar.normals == Normals::Nodal;
+        let nodal = self.mortar.form.normals == Normals::Nodal;
         work.d.clear();
         work.d.resize(n, 0.0);
         for vectors in [&mut work.normal, &mut work.way] {
@@ -154,7 +154,7 @@ impl Place<'_> {
             let covered = work.kept.of(
                 self.weights.stamp,
                 facet,
-                self.mortar.measure,
+                (self.mortar.measure, self.mortar.form.basis),
                 |integrator| {
                     integrator.near.clone_from(&of.met);
                     integrator.integrate(facets, facet, self.pair, self.at, true)
@@ -204,7 +204,7 @@ impl Place<'_> {
     ) -> Result<(), SurfaceError> {
         let (nodes, area) = (facets.nodes(facet), self.mortar.area[self.row]);
         let n = to.row.gradient.len();
-        let nodal = self.mortar.normals == Normals::Nodal;
+        let nodal = self.mortar.form.normals == Normals::Nodal;
         let (dd, nu) = (covered.dd(place), covered.normal());
         let d = share * covered.d()[place];
         let dnu = |i: usize| {
