@@ -129,6 +129,7 @@ impl Context<'_> {
             match body.kind {
                 BodyKind::Solid {
                     material,
+                    later,
                     integration,
                     locking,
                     thickness,
@@ -137,7 +138,7 @@ impl Context<'_> {
                     ..
                 } => {
                     let space = thickness.map_or(space, |own| space.of_thickness(own));
-                    let solid = Solid::new(SolidParts {
+                    let mut solid = Solid::new(SolidParts {
                         name,
                         mesh,
                         reference,
@@ -151,6 +152,9 @@ impl Context<'_> {
                         linear_temperatures,
                         initial: &initial,
                     })?;
+                    for (step, material) in later {
+                        solid.change(step, material)?;
+                    }
                     for &kinematics in sizes {
                         let chosen = solid.locking(kinematics)?.into_iter();
                         summaries.extend(chosen.map(|(element, locking)| LockingSummary {
