@@ -214,6 +214,8 @@ def judge(said, names=None):
             numbers = event["numbers"]
             # rows that only one of both has differ, whatever their values are
             ratio = 1.0 if numbers.get("mismatch") else numbers["ratio"]
+            # no part of zero
+            ratio = 1.0 if ratio is None else ratio
             if numbers.get("norm", 1.0) < ZERO and numbers.get("difference", 1.0) < ZERO:
                 ratio = 0.0
             blocks.compared += 1
