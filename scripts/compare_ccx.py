@@ -7,7 +7,8 @@ DECKS is a folder with decks, .inp or .inp.gz; without it, that of Debian's pack
 decks whose procedures are all *STATIC, or of these, with --contact, those with *CONTACT PAIR or *GAP. Each runs in a
 temporary folder, with one thread, once by ccx and once by `signorini run --compat ccx`. Compared are the tables of
 their .dat files by `signorini diff`: a difference counts in parts of the largest value of its table; where the deck
-prints no table, displacements and stresses of their .frd files. Tables of numbers below 1e-9 alone are zero. Where increments differ, times that only one of both
+prints no table, displacements and stresses of their .frd files. Tables of numbers below 1e-9 alone are zero. Where
+increments differ, times that only one of both
 has do not count, but the last time of every table of ccx does.
 
 What differs is compared once more with ccx iterating to the end: with the residual that ends its iterations ten thousand
