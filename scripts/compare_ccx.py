@@ -8,8 +8,7 @@ decks whose procedures are all *STATIC, or of these, with --contact, those with 
 temporary folder, with one thread, once by ccx and once by `signorini run --compat ccx`. Compared are the tables of
 their .dat files by `signorini diff`: a difference counts in parts of the largest value of its table; where the deck
 prints no table, displacements and stresses of their .frd files. Tables of numbers below 1e-9 alone are zero. Where
-increments differ, times that only one of both
-has do not count, but the last time of every table of ccx does.
+increments differ, times that only one of both has do not count, but the last time of every table of ccx does.
 
 What differs is compared once more with ccx iterating to the end: with the residual that ends its iterations ten thousand
 times smaller, and with its direct solver. Its default, half a percent of the mean force, is larger than the tolerance.
