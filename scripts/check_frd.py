@@ -137,9 +137,17 @@ def cells(grid):
     return found
 
 
+def used(frame):
+    """The points that cells have, which are those of the file, in their order."""
+    return np.unique(frame.cell_connectivity)
+
+
 def compare_volume(checks, name, converted, frame):
-    checks.same_numbers(f"{name}: coordinates", converted.points, frame.points, SINGLE)
-    ours, theirs = cells(frame), cells(converted)
+    kept = used(frame)
+    number = {int(point): k for k, point in enumerate(kept)}
+    checks.same_numbers(f"{name}: coordinates", converted.points, frame.points[kept], SINGLE)
+    ours = [(kind, [number[point] for point in points]) for kind, points in cells(frame)]
+    theirs = cells(converted)
     checks.check(f"{name}: cells", ours == theirs, next((f"{b} for {a}" for a, b in zip(ours, theirs) if a != b), "count"))
     for field, (theirs, names) in FIELDS.items():
         if field not in frame.point_data:
@@ -148,7 +156,7 @@ def compare_volume(checks, name, converted, frame):
         if array is None:
             checks.check(f"{name}: {field}", False, f"the file has no {theirs}")
             continue
-        values = np.asarray(frame.point_data[field]).reshape(frame.n_points, -1)
+        values = np.asarray(frame.point_data[field]).reshape(frame.n_points, -1)[kept]
         found, left = columns(array, names), 0.0
         if field == "reaction_force":
             # those of the file are internal ones: at supports they are reactions, up to the tolerance of equilibrium
@@ -169,7 +177,7 @@ def compare_contact(checks, name, converted, frame, contact):
     if array is None:
         checks.check(f"{name}: contact", False, "the file has no CONTACT")
         return
-    place = {int(n): k for k, n in enumerate(frame.point_data["node_id"])}
+    place = {int(n): k for k, n in enumerate(frame.point_data["node_id"][used(frame)])}
     rows = [place[int(n)] for n in ids[near]]
     for field, component in CONTACT.items():
         found = columns(array, [component])[rows, 0]

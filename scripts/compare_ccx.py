@@ -7,8 +7,8 @@ DECKS is a folder with decks, .inp or .inp.gz; without it, that of Debian's pack
 decks whose procedures are all *STATIC, or of these, with --contact, those with *CONTACT PAIR or *GAP. Each runs in a
 temporary folder, with one thread, once by ccx and once by `signorini run --compat ccx`. Compared are the tables of
 their .dat files by `signorini diff`: a difference counts in parts of the largest value of its table; where the deck
-prints no table, displacements and stresses of their .frd files. Where increments differ, times that only one of both
-has do not count, but the last time of every table of ccx does.
+prints no table, displacements and stresses of their .frd files. Tables of numbers below 1e-9 alone are zero. Where
+increments differ, times that only one of both has do not count, but the last time of every table of ccx does.
 
 What differs is compared once more with ccx iterating to the end: with the residual that ends its iterations ten thousand
 times smaller, and with its direct solver. Its default, half a percent of the mean force, is larger than the tolerance.
@@ -66,6 +66,8 @@ CONTACT = ["CONTACTPAIR", "GAP"]
 NO_CONTACT = ["GAPCONDUCTANCE", "GAPHEATGENERATION"]
 IN_FRD = ["DISP", "STRESS"]
 TOLERANCE = 1e-3
+# what is smaller is zero but for rounding, in the units of any deck
+ZERO = 1e-9
 REFUSED = 3
 
 
@@ -212,6 +214,10 @@ def judge(said, names=None):
             numbers = event["numbers"]
             # rows that only one of both has differ, whatever their values are
             ratio = 1.0 if numbers.get("mismatch") else numbers["ratio"]
+            # no part of zero
+            ratio = 1.0 if ratio is None else ratio
+            if numbers.get("norm", 1.0) < ZERO and numbers.get("difference", 1.0) < ZERO:
+                ratio = 0.0
             blocks.compared += 1
             if ratio > blocks.largest:
                 blocks.largest = ratio

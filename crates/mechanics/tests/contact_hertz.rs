@@ -120,6 +120,7 @@ fn pressed(facets: f64) -> ContactFrame {
         cells: cells.to_vec(),
         kind: BodyKind::Solid {
             material: Box::new(SaintVenantKirchhoff::new(MODULUS, POISSON)),
+            later: Vec::new(),
             density: None,
             integration: Integration::Full,
             locking: Locking::Auto,

@@ -246,6 +246,7 @@ impl Solution {
             cells: part.cells.clone(),
             kind: BodyKind::Solid {
                 material: Box::new(SaintVenantKirchhoff::new(MODULUS, POISSON)),
+                later: Vec::new(),
                 density: None,
                 integration: Integration::Full,
                 locking: Locking::None,

@@ -103,6 +103,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
             cells: grid.cells.clone(),
             kind: BodyKind::Solid {
                 material: Box::new(material),
+                later: Vec::new(),
                 density: None,
                 integration: Integration::Full,
                 locking,

@@ -192,6 +192,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
         cells: cells.to_vec(),
         kind: BodyKind::Solid {
             material: Box::new(NeoHookean::new(modulus, 0.3)),
+            later: Vec::new(),
             density: None,
             integration: Integration::Full,
             locking: Locking::Auto,

@@ -164,6 +164,7 @@ fn solution(
             cells: cells.to_vec(),
             kind: BodyKind::Solid {
                 material: Box::new(SaintVenantKirchhoff::new(field.e, field.nu)),
+                later: Vec::new(),
                 density: None,
                 integration: choice.integration,
                 locking: choice.locking,

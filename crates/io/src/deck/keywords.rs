@@ -60,7 +60,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "displacements, and rotations of rigid bodies; AMPLITUDE, OP, FIXED",
     ),
     read("CHANGE FRICTION", "with FRICTION"),
-    refused("CHANGE SOLID SECTION", "a material holds for the whole run"),
+    read("CHANGE SOLID SECTION", "ELSET of whole sections, MATERIAL"),
     read("CHANGE SURFACE BEHAVIOR", "INTERACTION"),
     read("CLEARANCE", "MASTER, SLAVE, VALUE"),
     read(
@@ -153,6 +153,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ignored("LATENT HEAT", "only of heat: temperatures are given"),
     ignored("MAGNETIC PERMEABILITY", "only of currents"),
     read("MATERIAL", ""),
+    read("MEMBRANE", "of no elements; membranes are not built"),
     refused("MEMBRANE SECTION", "membranes are not built"),
     read("MODEL CHANGE", "TYPE=CONTACT PAIR, ADD and REMOVE"),
     ignored("MONITOR", "every increment is told of"),
@@ -187,11 +188,14 @@ pub const KEYWORDS: &[Keyword] = &[
     refused("SHELL SECTION", "shells are not built"),
     read(
         "SOLID SECTION",
-        "ELSET, MATERIAL, ORIENTATION, thickness in the plane",
+        "ELSET, MATERIAL, ORIENTATION, thickness in the plane, cross-section of trusses",
     ),
     ignored("SPECIFIC GAS CONSTANT", "only of fluids"),
     ignored("SPECIFIC HEAT", "only of heat: temperatures are given"),
-    refused("SPRING", "springs of decks are not built"),
+    read(
+        "SPRING",
+        "of SPRINGA, SPRING1, SPRING2; NONLINEAR, at one temperature",
+    ),
     read("STATIC", "DIRECT"),
     read("STEP", "NLGEOM, INC, AMPLITUDE"),
     read("SURFACE", "TYPE=ELEMENT, NODE"),

@@ -247,7 +247,10 @@ impl Translation<'_> {
                     .and_then(|side| side.parse::<u8>().ok());
                 let Some(side) = side.filter(|side| *side > 0) else {
                     let text = format!("*DLOAD has no load `{label}` here");
-                    let remark = "P1 to P6, GRAV and CENTRIF are read";
+                    let remark = match label.ends_with("NU") || label.ends_with("NP") {
+                        true => "pressures of users' routines are not built",
+                        false => "P1 to P6, GRAV and CENTRIF are read",
+                    };
                     self.error(&codes::NOT_BUILT, text, &place, remark);
                     return Vec::new();
                 };

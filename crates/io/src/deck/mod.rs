@@ -5,6 +5,7 @@
 //!                                  material    materials
 //!                                  model       sections, amplitudes, what is there at the start
 //!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
+//!                                  spring      springs between nodes, and to the ground
 //!                                  contact     interactions, pairs, ties, gaps
 //!                                  step        supports, loads, temperatures, changes, printed tables
 //! ```
@@ -27,6 +28,7 @@ mod load;
 mod material;
 mod model;
 mod print;
+mod spring;
 mod step;
 #[cfg(test)]
 mod tests;
@@ -72,6 +74,7 @@ pub fn read(fs: &dyn Fs, name: &str, bytes: &[u8], compat: Compat) -> Result<Rea
     let mut translation = Translation::new(&deck, name, compat);
     translation.model();
     translation.constraints();
+    translation.springs();
     translation.contacts();
     translation.steps();
     translation.judge();

@@ -1,14 +1,14 @@
 //! Sections, amplitudes, what is there at the start.
 
-use super::translation::{Target, Translation};
+use super::translation::{Target, Translation, is_truss};
 use crate::case::{
-    Amplitude, AtPoint, AxesSystem, Body, Integration, Locking, Model, Name, Orientation, Space,
-    TemperatureAt, Temperatures, TimeBase, Unstrained,
+    Amplitude, AtPoint, AxesSystem, Body, Integration, Locking, MaterialChange, Model, Name,
+    Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
 use signorini_geometry::tensor::Vec3;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Elements whose integration points are numbered as ours are.
 const POINTWISE: [&str; 5] = ["C3D4", "C3D8", "C3D8I", "C3D20", "C3D20R"];
@@ -21,6 +21,27 @@ struct Section<'s> {
     thickness: Option<&'s Spanned<f64>>,
     /// The set of its elements, if all of this set are.
     set: Option<String>,
+}
+
+impl Section<'_> {
+    /// A body of its material, everything else as it is by default.
+    fn made_of(&self, group: Name) -> Body {
+        let place = &self.card.place;
+        Body {
+            groups: vec![group],
+            material: Some(Spanned::new(self.material.to_owned(), place.clone())),
+            integration: Integration::Full,
+            locking: Spanned::new(Locking::Auto, place.clone()),
+            orientation: None,
+            space: None,
+            thickness: None,
+            temperatures: Temperatures::Full,
+            area: None,
+            rigid: false,
+            reference: None,
+            place: place.clone(),
+        }
+    }
 }
 
 impl Translation<'_> {
@@ -65,7 +86,8 @@ impl Translation<'_> {
         };
         let of = |letters: &str| names().any(|name| name.starts_with(letters));
         let space = match dim {
-            3 => Space::ThreeD,
+            0 | 3 => Space::ThreeD,
+            1 if !of("T2D") => Space::ThreeD,
             _ if of("CAX") => Space::Axisymmetric,
             _ if of("CPS") => Space::PlaneStress,
             _ => Space::PlaneStrain,
@@ -290,14 +312,16 @@ impl Translation<'_> {
             });
             let row = card.rows().next().filter(|row| !row.is_empty());
             let given = row.map(|row| Spanned::new(self.real(row.first()), card.place.clone()));
-            if self.case.model.space.value.has_thickness()
-                && let Some(given) = &given
-            {
-                self.case.model.thickness = *thickness.get_or_insert(given.value);
-            }
             let sets = self.sets_of(card, elset);
             if sets.is_empty() {
                 self.set(card, elset, &card.place, Kind::Elements);
+            }
+            let trusses = sets.iter().any(|set| self.has_trusses(set));
+            if self.case.model.space.value.has_thickness()
+                && !trusses
+                && let Some(given) = &given
+            {
+                self.case.model.thickness = *thickness.get_or_insert(given.value);
             }
             for set in sets {
                 let all = self.elements(&Target::Set(set.clone()));
@@ -319,8 +343,14 @@ impl Translation<'_> {
                     self.note(text, &card.place);
                     section.set = None;
                 }
-                self.body(&section, own);
+                match trusses {
+                    true => self.bars(&section, own),
+                    false => self.body(&section, own),
+                }
             }
+        }
+        for card in self.cards("MEMBRANE") {
+            self.membrane(card);
         }
     }
 
@@ -350,6 +380,122 @@ impl Translation<'_> {
             .filter_map(|&space| directory.set(space, Kind::Elements, name))
             .map(str::to_owned)
             .collect()
+    }
+
+    /// Whether a set of elements has trusses.
+    fn has_trusses(&self, set: &str) -> bool {
+        let (kinds, _) = self.deck.directory.types();
+        if !kinds.iter().any(|kind| is_truss(kind)) {
+            return false;
+        }
+        let elements = self.elements(&Target::Set(set.to_owned()));
+        let mut cells = elements.into_iter().filter_map(|label| self.cell(label));
+        cells.any(|cell| is_truss(self.type_of(cell)))
+    }
+
+    /// The body of a section of trusses.
+    fn bars(&mut self, section: &Section<'_>, elements: Vec<u64>) {
+        let place = &section.card.place;
+        let is_truss = |label: &u64| {
+            let cell = self.cell(*label);
+            cell.is_some_and(|cell| is_truss(self.type_of(cell)))
+        };
+        if !elements.iter().all(is_truss) {
+            let text = "trusses and solids in one *SOLID SECTION";
+            let remark = "a section for each";
+            self.error(&codes::NOT_BUILT, text, place, remark);
+            return;
+        }
+        let row = section.card.rows().next().unwrap_or_default();
+        let area = self.real(row.first());
+        if area <= 0.0 {
+            let text = "*SOLID SECTION of trusses has no cross-section";
+            let remark = "a positive area, in the line below";
+            self.error(&codes::OUT_OF_RANGE, text, place, remark);
+            return;
+        }
+        let group = match &section.set {
+            Some(set) => Spanned::new(set.clone(), place.clone()),
+            None => self.elements_named(elements, place),
+        };
+        self.case.bodies.push(Body {
+            area: Some(Spanned::new(area, place.clone())),
+            ..section.made_of(group)
+        });
+    }
+
+    /// *CHANGE SOLID SECTION within a step: bodies whose elements are all in the set get another material.
+    pub fn change_section(&mut self, card: &Statement, step: &mut Step) {
+        let (elset, material) = (self.need(card, "ELSET"), self.need(card, "MATERIAL"));
+        let (Some(elset), Some(material)) = (elset, material) else {
+            return;
+        };
+        if card.has("ORIENTATION") {
+            let text = "*CHANGE SOLID SECTION, ORIENTATION is not supported";
+            self.error(
+                &codes::NOT_BUILT,
+                text,
+                &card.place,
+                "a material may change",
+            );
+        }
+        let Some(known) = self.materials.get(&compared(material)) else {
+            let text = format!("there is no material `{material}`");
+            self.error(&codes::UNDEFINED, text, &card.place, "");
+            return;
+        };
+        let material = Spanned::new(known.name.value.clone(), card.place.clone());
+        if self.set(card, elset, &card.place, Kind::Elements).is_none() {
+            return;
+        }
+        let sets = self.sets_of(card, elset);
+        let named = sets
+            .iter()
+            .flat_map(|set| self.elements(&Target::Set(set.clone())));
+        let named: HashSet<u64> = named.collect();
+        let groups = self.case.bodies.iter().flat_map(|body| &body.groups);
+        let mut changed = 0;
+        for group in groups {
+            let own = self.elements_of(group);
+            let inside = own.iter().filter(|label| named.contains(label)).count();
+            if inside > 0 && inside == own.len() {
+                changed += inside;
+                step.materials.push(MaterialChange {
+                    group: group.clone(),
+                    material: material.clone(),
+                    place: card.place.clone(),
+                });
+            }
+        }
+        if changed < named.len() {
+            let text = "*CHANGE SOLID SECTION of a part of a section is not supported";
+            let remark = "give this part a *SOLID SECTION of its own";
+            self.error(&codes::NOT_BUILT, text, &card.place, remark);
+        }
+    }
+
+    /// The elements of a group, which is a set of the mesh or of the case.
+    fn elements_of(&self, group: &Name) -> Vec<u64> {
+        let mut sets = self.case.sets.iter();
+        match sets
+            .find(|set| set.name.value == group.value)
+            .map(|set| &set.content)
+        {
+            Some(SetContent::Elements(elements)) => elements.clone(),
+            _ => self.elements(&Target::Set(group.value.clone())),
+        }
+    }
+
+    /// A card that CalculiX does not know; of no elements, it does no harm.
+    fn membrane(&mut self, card: &Statement) {
+        let name = card.get("ELSET").unwrap_or_default();
+        if self.sets_of(card, name).is_empty() {
+            let text = "*MEMBRANE is left out: it speaks of no elements";
+            self.note(text, &card.place);
+        } else {
+            let text = "*MEMBRANE is not supported: membranes are not built";
+            self.error(&codes::NOT_BUILT, text, &card.place, "");
+        }
     }
 
     /// The bodies of a section: one, or one for each way its elements are integrated.
@@ -384,8 +530,6 @@ impl Translation<'_> {
                 _ => self.elements_named(elements, place),
             };
             self.case.bodies.push(Body {
-                groups: vec![group],
-                material: Some(Spanned::new(section.material.to_owned(), place.clone())),
                 integration: if reduced && !linear {
                     Integration::Reduced
                 } else {
@@ -401,10 +545,7 @@ impl Translation<'_> {
                 } else {
                     Temperatures::Full
                 },
-                area: None,
-                rigid: false,
-                reference: None,
-                place: place.clone(),
+                ..section.made_of(group)
             });
         }
     }

@@ -105,6 +105,7 @@ impl Translation<'_> {
             frees: Vec::new(),
             loads: Vec::new(),
             contacts: Vec::new(),
+            materials: Vec::new(),
             temperatures: Vec::new(),
             prints: None,
             place,
@@ -136,6 +137,7 @@ impl Translation<'_> {
                 }
                 "TEMPERATURE" => self.temperatures(card, &mut step),
                 "MODELCHANGE" => self.model_change(card, &mut step),
+                "CHANGESOLIDSECTION" => self.change_section(card, &mut step),
                 "CHANGEFRICTION" | "CHANGESURFACEBEHAVIOR" => change_of = Some(*card),
                 "FRICTION" => {
                     if let Some(of) = change_of.take() {

@@ -1,7 +1,8 @@
 use super::*;
 use crate::case::{
-    Area, AxesSystem, Body, ConstraintKind, Enforcement, Geometry, Integration, Interference,
-    LoadKind, Locking, Method, Motion, Per, SetContent, Space, Unstrained,
+    Area, AxesSystem, Body, ConstraintKind, Enforcement, FreeMotions, Geometry, Integration,
+    Interference, LoadKind, Locking, Method, Motion, Per, SetContent, Space, SpringEnds, SpringLaw,
+    Unstrained,
 };
 use crate::fs::RealFs;
 use signorini_geometry::tensor::Vec3;
@@ -635,4 +636,114 @@ fn cylindrical_axes_have_a_radius_on_their_axis_too() {
         on.map(Vec3::to_array),
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     );
+}
+
+#[test]
+fn springs_pull_along_their_line_or_an_axis_by_stiffness_or_table() {
+    let nodes = "*NODE\n1,0,0,0\n2,1,0,0\n*ELEMENT, TYPE=SPRINGA, ELSET=A\n1,1,2\n\
+                 *ELEMENT, TYPE=SPRING1, ELSET=B\n2,2\n*ELEMENT, TYPE=SPRING2, ELSET=C\n3,1,2\n";
+    let cards = "*SPRING, ELSET=A, NONLINEAR\n\n0., 0.\n10., 1.\n100., 20.\n*SPRING, ELSET=B\n2\n7.\n\
+                 *SPRING, ELSET=C\n3, 3\n8.\n";
+    let step = "*STEP\n*STATIC\n*END STEP\n";
+    let case = case(&format!("{nodes}{cards}{step}"));
+    let [along, ground, between] = &case.springs[..] else {
+        panic!("{:?}", case.springs)
+    };
+    let table = vec![[0.0, 0.0], [10.0, 1.0], [100.0, 20.0]];
+    assert_eq!(
+        (&along.law, along.direction),
+        (&SpringLaw::Table(table), None)
+    );
+    assert!(matches!(&along.ends, SpringEnds::Between(..)));
+    assert_eq!(ground.law, SpringLaw::Linear(7.0));
+    assert!(matches!(&ground.ends, SpringEnds::Ground(on) if on.value == "node-2"));
+    assert_eq!(ground.direction, Some([0.0, -1.0, 0.0]));
+    assert_eq!(between.direction, Some([0.0, 0.0, -1.0]));
+    assert_eq!(
+        (case.bodies.len(), case.model.space.value),
+        (0, Space::ThreeD)
+    );
+    for (cards, expected) in [
+        (
+            "*SPRING, ELSET=C\n3, 2\n8.\n",
+            "degrees of freedom of this spring",
+        ),
+        (
+            "*SPRING, ELSET=A, NONLINEAR\n\n1., 0.\n0., 1.\n",
+            "no rising table",
+        ),
+        ("*SPRING, ELSET=A\n\n-3.\n", "has to be positive"),
+        (
+            "*SPRING, ELSET=A\n\n3., 1.\n4., 2.\n",
+            "depends on temperature",
+        ),
+        ("*SPRING, ELSET=A\n", "has no data"),
+        ("*SPRING, ELSET=D\n\n3.\n", "element set `D` has no springs"),
+    ] {
+        let told = refused(&format!("{nodes}{cards}{step}"));
+        assert!(told.contains(expected), "{expected}: {told}");
+    }
+}
+
+#[test]
+fn trusses_are_bars_with_the_cross_section_of_their_section() {
+    let bars = "*ELEMENT, TYPE=T3D2, ELSET=BARS\n20,1,7\n21,2,8\n";
+    let section = "*SOLID SECTION, ELSET=BARS, MATERIAL=M\n0.25\n";
+    let both = case(&cube("C3D8", &format!("{bars}{section}{STEP}")));
+    let areas: Vec<Option<f64>> = both
+        .bodies
+        .iter()
+        .map(|body| body.area.as_ref().map(|area| area.value))
+        .collect();
+    assert_eq!(areas, [None, Some(0.25)]);
+    let alone = "*NODE\n1,0,0\n2,1,0\n*ELEMENT, TYPE=T2D2, ELSET=BARS\n1,1,2\n\
+                 *MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n";
+    let step = "*STEP\n*STATIC\n*END STEP\n";
+    let plane = case(&format!("{alone}{section}{step}"));
+    assert_eq!(plane.model.space.value.ndim(), 2);
+    assert_eq!(plane.bodies[0].area.as_ref().unwrap().value, 0.25);
+    let none = refused(&format!("{alone}*SOLID SECTION, ELSET=BARS, MATERIAL=M\n"));
+    assert!(none.contains("has no cross-section"), "{none}");
+}
+
+#[test]
+fn a_membrane_of_no_elements_does_no_harm() {
+    case(&cube(
+        "C3D8",
+        &format!("*MEMBRANE, ELSET=NONE, MATERIAL=M\n0.\n{STEP}"),
+    ));
+    let told = refused(&cube("C3D8", &format!("*MEMBRANE, ELSET=CUBE\n0.\n{STEP}")));
+    assert!(told.contains("membranes are not built"), "{told}");
+}
+
+#[test]
+fn what_nothing_resists_is_held_as_in_calculix_or_refused() {
+    let text = cube("C3D8", STEP);
+    assert_eq!(case(&text).solver.free_motions, FreeMotions::Refuse);
+    let ccx = case_as(&text, Compat::Ccx);
+    assert_eq!(ccx.solver.free_motions, FreeMotions::Hold);
+}
+
+#[test]
+fn whole_sections_may_change_their_material() {
+    let cards = "*MATERIAL, NAME=N\n*ELASTIC\n500., 0.3\n*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n\
+                 *CHANGE SOLID SECTION, ELSET=CUBE, MATERIAL=N\n*END STEP\n";
+    let changed = case(&cube("C3D8", cards));
+    assert!(changed.steps[0].materials.is_empty());
+    let [change] = &changed.steps[1].materials[..] else {
+        panic!("{:?}", changed.steps[1])
+    };
+    assert_eq!(
+        (change.group.as_str(), change.material.as_str()),
+        ("CUBE", "N")
+    );
+    let told = refused(&cube(
+        "C3D8",
+        &cards.replace("MATERIAL=N\n*END", "MATERIAL=O\n*END"),
+    ));
+    assert!(told.contains("there is no material `O`"), "{told}");
+    let two = "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n2,1,2,3,4,5,6,7,8\n*ELSET, ELSET=ONE\n1\n";
+    let part = cards.replace("ELSET=CUBE, MATERIAL=N", "ELSET=ONE, MATERIAL=N");
+    let told = refused(&cube("C3D8", &format!("{two}{part}")));
+    assert!(told.contains("a part of a section"), "{told}");
 }

@@ -2,7 +2,7 @@
 
 use super::keywords::{Keyword, Support};
 use super::{Compat, constraint, contact, material};
-use crate::case::{Case, MeshSource, Name, Set, SetContent, Side};
+use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
 use crate::readers::inp::{Deck, Field, Kind, Statement};
@@ -45,15 +45,34 @@ pub(super) struct Translation<'d> {
     pub faced: BTreeMap<String, String>,
 }
 
+/// Whether elements of this type are bars that carry normal force only.
+pub(super) fn is_truss(kind: &str) -> bool {
+    kind.starts_with("T2D") || kind.starts_with("T3D")
+}
+
 impl<'d> Translation<'d> {
     pub fn new(deck: &'d Deck, name: &str, compat: Compat) -> Self {
         let mesh = &deck.mesh;
         let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
         let mut case = Case::empty();
+        if compat == Compat::Ccx {
+            // CalculiX' factorization passes zero pivots
+            case.solver.free_motions = FreeMotions::Hold;
+        }
         case.mesh = MeshSource::File {
             path: file.to_owned().into(),
         };
-        let cells: Vec<CellId> = mesh.cells(mesh.dim()).collect();
+        let (names, types) = deck.directory.types();
+        let is_truss = |cell: &CellId| {
+            let number = types
+                .get(cell.block as usize)
+                .and_then(|t| t.get(cell.index as usize));
+            let name = number.and_then(|&number| names.get(number as usize));
+            name.is_some_and(|name| is_truss(name))
+        };
+        let trusses = mesh.cells(1).filter(is_truss);
+        let trusses = trusses.filter(|_| mesh.dim() > 1);
+        let cells: Vec<CellId> = mesh.cells(mesh.dim()).chain(trusses).collect();
         let label = |cell: &CellId| mesh.cell_label(*cell).unwrap_or(0);
         let labels: Vec<u64> = cells.iter().map(label).collect();
         Self {

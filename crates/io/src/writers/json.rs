@@ -114,6 +114,13 @@ pub enum Event {
         /// Stages that it took.
         stages: u64,
     },
+    /// Motions that nothing resists and no load acts on were held.
+    Held {
+        /// The step.
+        step: String,
+        /// Where, in words.
+        at: Vec<String>,
+    },
     /// A frame is complete and listed.
     Frame {
         /// Its number.
@@ -547,6 +554,13 @@ mod tests {
                     stages: 9,
                 },
                 "stabilized",
+            ),
+            (
+                Event::Held {
+                    step: text(),
+                    at: vec![text()],
+                },
+                "held",
             ),
             (
                 Event::Frame {

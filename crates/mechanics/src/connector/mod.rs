@@ -10,7 +10,8 @@
 //! | λ | multiplier, a force everywhere: every constraint is a length | `Layout::multiplier` |
 //!
 //! A *spring* has `Π = ½ k e²`, with the elongation `e = n·(u_b − u_a)` along a fixed direction, or `e = l − l_0` along the
-//! line between its ends (E1). Then `f = k e n` and `K = k n nᵀ + (k e/l)(1 − n nᵀ)`; at small strain `n` stays.
+//! line between its ends (E1). Then `f = k e n` and `K = k n nᵀ + (k e/l)(1 − n nᵀ)`; at small strain `n` stays. One with
+//! a table has its force in place of `k e`, and the slope of the table in place of `k` in `n nᵀ`.
 //!
 //! Nodes that *stay in a plane* through three of them, `x_1, x_2, x_3`, have (E2)
 //!
@@ -77,7 +78,7 @@ pub use distance::{Distance, DistanceParts};
 pub use distributing::{Distributing, DistributingParts};
 pub use line::Line;
 pub use plane::Plane;
-pub use springs::{Springs, SpringsParts};
+pub use springs::{SpringLaw, Springs, SpringsParts};
 pub use twist::{Twist, TwistParts};
 
 use crate::system::{Dof, State};

@@ -13,8 +13,8 @@ pub struct SpringsParts<'a> {
     pub name: &'a str,
     /// Pairs of ends; the second is `None` where the spring is tied to the ground.
     pub ends: &'a [(NodeId, Option<NodeId>)],
-    /// Force over elongation.
-    pub stiffness: f64,
+    /// The force of each, by its elongation.
+    pub law: &'a SpringLaw,
     /// Fixed direction, of any length; `None`: along the line between the ends.
     pub direction: Option<Vec3>,
     /// Positions of all nodes at the start.
@@ -23,11 +23,90 @@ pub struct SpringsParts<'a> {
     pub layout: Layout,
 }
 
-/// Springs of one stiffness (E1).
+/// The force of a spring, by its elongation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpringLaw {
+    /// In proportion: force over elongation.
+    Linear(f64),
+    /// Rows of force and elongation, by increasing elongation and with forces that do not decrease; straight between
+    /// them, constant outside.
+    Table(Vec<[f64; 2]>),
+}
+
+/// Force, slope and energy at an elongation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Pull {
+    force: f64,
+    slope: f64,
+    energy: f64,
+}
+
+impl SpringLaw {
+    /// Whether all of it is finite, and rows are in their order.
+    fn is_sound(&self) -> bool {
+        match self {
+            Self::Linear(stiffness) => stiffness.is_finite(),
+            Self::Table(rows) => {
+                let rises =
+                    |pair: &[[f64; 2]]| matches!(pair, [a, b] if b[0] >= a[0] && b[1] > a[1]);
+                let is_finite = |number: &f64| number.is_finite();
+                let all_finite = rows.iter().flatten().all(is_finite);
+                !rows.is_empty() && all_finite && rows.windows(2).all(rises)
+            }
+        }
+    }
+
+    fn at(&self, elongation: f64) -> Pull {
+        match self {
+            Self::Linear(stiffness) => Pull {
+                force: stiffness * elongation,
+                slope: *stiffness,
+                energy: 0.5 * stiffness * elongation * elongation,
+            },
+            Self::Table(rows) => {
+                let pull = along(rows, elongation);
+                Pull {
+                    energy: pull.energy - along(rows, 0.0).energy,
+                    ..pull
+                }
+            }
+        }
+    }
+}
+
+/// What a table says at an elongation; its energy counts from the first row.
+fn along(rows: &[[f64; 2]], elongation: f64) -> Pull {
+    let Some((&[mut force, mut at], rest)) = rows.split_first() else {
+        return Pull::default();
+    };
+    let mut energy = 0.0;
+    if elongation >= at {
+        for &[next, to] in rest {
+            if elongation < to {
+                let slope = (next - force) / (to - at);
+                let by = elongation - at;
+                return Pull {
+                    force: force + slope * by,
+                    slope,
+                    energy: energy + (force + 0.5 * slope * by) * by,
+                };
+            }
+            energy += 0.5 * (force + next) * (to - at);
+            (force, at) = (next, to);
+        }
+    }
+    Pull {
+        force,
+        slope: 0.0,
+        energy: energy + force * (elongation - at),
+    }
+}
+
+/// Springs of one law (E1).
 pub struct Springs {
     name: String,
     layout: Layout,
-    stiffness: f64,
+    law: SpringLaw,
     springs: Vec<Spring>,
     /// Whether directions turn with the ends.
     turns: bool,
@@ -41,9 +120,9 @@ struct Spring {
     direction: Vec3,
 }
 
-/// What a spring does: elongation, direction, stiffness across it.
+/// What a spring does: its pull along a direction, stiffness across it.
 struct Response {
-    elongation: f64,
+    pull: Pull,
     direction: Vec3,
     across: f64,
 }
@@ -52,9 +131,9 @@ impl Springs {
     /// Springs between nodes.
     ///
     /// # Errors
-    /// A direction that is none, an end that is not there, a stiffness that is not finite.
+    /// A direction that is none, an end that is not there, a law that is not finite or not in order.
     pub fn new(parts: SpringsParts<'_>) -> Result<Self, ConnectorError> {
-        if !parts.stiffness.is_finite() {
+        if !parts.law.is_sound() {
             return Err(ConnectorError::Number {
                 what: "the stiffness of a spring",
                 positive: false,
@@ -83,7 +162,7 @@ impl Springs {
         Ok(Self {
             name: parts.name.to_string(),
             layout: parts.layout,
-            stiffness: parts.stiffness,
+            law: parts.law.clone(),
             springs: springs.collect::<Result<_, _>>()?,
             turns: parts.direction.is_none(),
             nonlinear: true,
@@ -106,7 +185,7 @@ impl Springs {
         let [from, to] = spring.start;
         let a = x(spring.ends.0);
         let fixed = |moved: Vec3| Response {
-            elongation: spring.direction.dot(moved),
+            pull: self.law.at(spring.direction.dot(moved)),
             direction: spring.direction,
             across: 0.0,
         };
@@ -124,10 +203,11 @@ impl Springs {
         // l − l_0 without cancellation
         let moved = (b - to) - (a - from);
         let elongation = moved.dot(line + (to - from)) / (line.norm() + rest);
+        let pull = self.law.at(elongation);
         Ok(Response {
-            elongation,
+            pull,
             direction,
-            across: self.stiffness * elongation / line.norm(),
+            across: pull.force / line.norm(),
         })
     }
 }
@@ -170,18 +250,18 @@ impl Term for Springs {
     ) -> Result<(), TermError> {
         for spring in self.of(chunk) {
             let Response {
-                elongation,
+                pull: Pull { force, slope, .. },
                 direction: n,
                 across,
             } = self.respond(spring, trial)?;
-            let pull = n * (self.stiffness * elongation);
+            let pull = n * force;
             let sign = |k: usize| if k < 3 { -1.0 } else { 1.0 };
             let force: [f64; 6] = std::array::from_fn(|k| sign(k) * pull[k % 3]);
             if order == Order::Residual {
                 out.add(&self.dofs(spring), &force, &[]);
                 continue;
             }
-            let block = Mat3::outer(n, n) * (self.stiffness - across) + Mat3::IDENTITY * across;
+            let block = Mat3::outer(n, n) * (slope - across) + Mat3::IDENTITY * across;
             let stiffness: [f64; 36] = std::array::from_fn(|k| {
                 let (i, j) = (k / 6, k % 6);
                 sign(i) * sign(j) * block.rows[i % 3][j % 3]
@@ -194,8 +274,7 @@ impl Term for Springs {
     fn energy(&self, chunk: usize, trial: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
         let mut sum = 0.0;
         for spring in self.of(chunk) {
-            let e = self.respond(spring, trial)?.elongation;
-            sum += 0.5 * self.stiffness * e * e;
+            sum += self.respond(spring, trial)?.pull.energy;
         }
         Ok(Some(sum))
     }

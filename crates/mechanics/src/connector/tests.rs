@@ -156,7 +156,15 @@ impl Scene {
                         (13, Some(14)),
                         (3, Some(6)),
                     ],
-                    stiffness: 3.0,
+                    law: &match which {
+                        "buffers" => SpringLaw::Table(vec![
+                            [-2.0, -0.3],
+                            [0.0, -0.1],
+                            [1.0, 0.2],
+                            [4.0, 0.5],
+                        ]),
+                        _ => SpringLaw::Linear(3.0),
+                    },
                     direction: None,
                     reference: &reference,
                     layout,
@@ -216,6 +224,7 @@ fn tangents_match_differences_whatever_the_nodes_follow() {
         for nonlinear in [true, false] {
             for which in [
                 "springs",
+                "buffers",
                 "plane",
                 "line",
                 "rod",
@@ -256,8 +265,14 @@ fn tangents_match_differences_whatever_the_nodes_follow() {
 
 #[test]
 fn the_force_of_springs_is_the_gradient_of_their_energy() {
-    for (ndim, nonlinear) in [(2, true), (3, true), (3, false)] {
-        let scene = Scene::new(ndim, nonlinear, "springs");
+    for (ndim, nonlinear, which) in [
+        (2, true, "springs"),
+        (3, true, "springs"),
+        (3, false, "springs"),
+        (3, true, "buffers"),
+        (2, false, "buffers"),
+    ] {
+        let scene = Scene::new(ndim, nonlinear, which);
         let (mut assembler, out) = scene.assemble(&scene.state, Order::Residual);
         let h = 1e-3;
         for dof in 0..scene.layout.ndof() {
@@ -414,13 +429,26 @@ fn what_cannot_be_made_is_refused() {
         let parts = SpringsParts {
             name: "s",
             ends,
-            stiffness: 1.0,
+            law: &SpringLaw::Linear(1.0),
             direction,
             reference: &scene.reference,
             layout: scene.layout,
         };
         Springs::new(parts).err()
     };
+    let by = |rows: &[[f64; 2]]| {
+        let parts = SpringsParts {
+            name: "s",
+            ends: &[(0, Some(1))],
+            law: &SpringLaw::Table(rows.to_vec()),
+            direction: None,
+            reference: &scene.reference,
+            layout: scene.layout,
+        };
+        Springs::new(parts).is_ok()
+    };
+    assert!(by(&[[0.0, 0.0], [0.0, 1.0], [2.0, 3.0]]));
+    assert!(!by(&[]) && !by(&[[0.0, 0.0], [1.0, 0.0]]) && !by(&[[1.0, 0.0], [0.0, 1.0]]));
     let none = ConnectorError::NoLength { number: 1 };
     assert_eq!(springs(&[(4, Some(4))], None), Some(none));
     assert_eq!(

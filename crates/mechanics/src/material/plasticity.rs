@@ -61,6 +61,9 @@ pub struct Plasticity {
 const NHISTORY: usize = 14;
 /// Place of the equivalent plastic strain.
 const PLASTIC: usize = 12;
+/// What a stress on the yield surface is beyond it by rounding. There the tangent is the elastic one: a step that turns
+/// the load round begins with it, and one that goes on meets flow in the next iterate.
+const ROUNDING: f64 = 1e-12;
 
 /// What a point remembers: `strain` is `ε_p`, at finite strain `H_p`.
 #[derive(Clone, Copy)]
@@ -117,7 +120,7 @@ impl Plasticity {
         let relative = deviator(elastic) * (2.0 * mu) - memory.centre;
         let q = relative.von_mises();
         let excess = q - self.hardening.radius(memory.plastic);
-        if excess <= 0.0 {
+        if excess <= ROUNDING * q {
             out.energy += memory.work;
             return;
         }

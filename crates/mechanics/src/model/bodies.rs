@@ -192,13 +192,14 @@ impl Context<'_> {
             match body.kind {
                 BodyKind::Solid {
                     material,
+                    later,
                     integration,
                     locking,
                     linear_temperatures,
                     initial,
                     ..
                 } => {
-                    let solid = Solid::new(SolidParts {
+                    let mut solid = Solid::new(SolidParts {
                         name,
                         mesh,
                         reference,
@@ -212,6 +213,9 @@ impl Context<'_> {
                         linear_temperatures,
                         initial: &initial,
                     })?;
+                    for (step, material) in later {
+                        solid.change(step, material)?;
+                    }
                     for &kinematics in sizes {
                         let chosen = solid.locking(kinematics)?.into_iter();
                         summaries.extend(chosen.map(|(element, locking)| LockingSummary {

@@ -599,7 +599,7 @@ impl Followers<'_> {
             let springs = Springs::new(SpringsParts {
                 name: &spring.name,
                 ends: &spring.ends,
-                stiffness: spring.stiffness,
+                law: &spring.law,
                 direction: spring.direction,
                 reference,
                 layout: *layout,

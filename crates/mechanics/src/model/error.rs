@@ -8,7 +8,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ModelError {
     /// Nothing can deform.
-    #[error("no body has a material: there is nothing to solve for")]
+    #[error("no body has a material, and there are no springs: there is nothing to solve for")]
     NothingDeforms,
     /// An element in two bodies.
     #[error("element {label} belongs to body \"{first}\" and to body \"{second}\"")]

@@ -135,6 +135,7 @@ impl Model {
             temperature,
             steps,
             stabilize,
+            hold_free,
             gap_tol,
             traction_tol,
         } = parts;
@@ -186,7 +187,7 @@ impl Model {
             .iter()
             .map(|b| b.kind.material().map(|m| m.modulus()))
             .collect();
-        if modulus.iter().all(Option::is_none) {
+        if modulus.iter().all(Option::is_none) && springs.is_empty() {
             return Err(ModelError::NothingDeforms);
         }
         let substances: Vec<Substance> = bodies
@@ -225,7 +226,10 @@ impl Model {
         if let Some(first) = steps.first() {
             held.supports(&layout, &first.prescriptions);
         }
-        let held_by_contact = held.judge()?;
+        let held_by_contact = match held.judge() {
+            Err(ModelError::FreeBody(_)) if hold_free => Vec::new(),
+            judged => judged?,
+        };
 
         let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
         sizes.retain(|k| {

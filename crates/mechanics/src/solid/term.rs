@@ -23,6 +23,8 @@ pub struct Solid {
     layout: Layout,
     reference: Arc<[Vec3]>,
     material: Box<dyn Material>,
+    // materials that take its place, each with the step from which on it does, in their order
+    later: Vec<(usize, Box<dyn Material>)>,
     kinematics: Kinematics,
     space: Idealisation,
     temperature: Option<Arc<NodalField>>,
@@ -162,6 +164,14 @@ pub enum SolidError {
         /// The one that was named, from 1.
         point: usize,
     },
+    /// A material that takes the place of one with another history.
+    #[error(
+        "body \"{body}\" changes to a material that remembers other things than the one before"
+    )]
+    OtherHistory {
+        /// Name of the body.
+        body: String,
+    },
     /// A remedy that an element does not have.
     #[error(
         "locking = \"{locking}\" is not possible for the {element} of body \"{body}\": {reason}"
@@ -299,6 +309,7 @@ impl Solid {
             layout,
             reference,
             material,
+            later: Vec::new(),
             kinematics: Kinematics::Finite,
             space,
             temperature,
@@ -306,6 +317,31 @@ impl Solid {
             blocks,
             chunks,
         })
+    }
+
+    /// Another material takes the place of the present one when a step begins; steps come in their order.
+    ///
+    /// # Errors
+    /// Its history at a point is another one's.
+    pub fn change(&mut self, step: usize, material: Box<dyn Material>) -> Result<(), SolidError> {
+        let material: Box<dyn Material> = match self.space {
+            Idealisation::PlaneStress { .. } => Box::new(Reduced::plane_stress(material)),
+            _ => material,
+        };
+        if material.nhistory() != self.material.nhistory() {
+            return Err(SolidError::OtherHistory {
+                body: self.name.clone(),
+            });
+        }
+        self.later.push((step, material));
+        Ok(())
+    }
+
+    /// The material of the present step.
+    fn material(&self) -> &dyn Material {
+        let mut later = self.later.iter().rev();
+        let of_step = later.find(|(step, _)| *step <= self.step.number);
+        of_step.map_or(self.material.as_ref(), |(_, material)| material.as_ref())
     }
 
     /// Which strains it uses; steps change it.
@@ -391,7 +427,7 @@ impl Solid {
             reference: &block.points,
             x: &scratch.x,
             u: &scratch.u,
-            material: self.material.as_ref(),
+            material: self.material(),
             kinematics: self.kinematics,
             space: self.space,
             temperature: &scratch.temperature,
@@ -622,7 +658,9 @@ impl Term for Solid {
     }
 
     fn symmetry(&self) -> Symmetry {
-        if self.material.is_symmetric() {
+        let later = self.later.iter().map(|(_, material)| material);
+        let mut all = std::iter::once(&self.material).chain(later);
+        if all.all(|material| material.is_symmetric()) {
             Symmetry::Definite
         } else {
             Symmetry::Unsymmetric
@@ -749,7 +787,7 @@ impl Term for Solid {
                 let of_point = |s: &Sample| PointSample {
                     stress: s.stress,
                     strain: s.seen,
-                    mechanical_strain: self.material.mechanical_strain(&Strain {
+                    mechanical_strain: self.material().mechanical_strain(&Strain {
                         kinematics: self.kinematics,
                         value: s.seen,
                         temperature: s.temperature,

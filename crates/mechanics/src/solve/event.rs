@@ -97,6 +97,13 @@ pub enum Event<'a> {
         /// Stages that it took.
         stages: usize,
     },
+    /// Motions that nothing resists and no load acts on were held, in the first increment of a step.
+    Held {
+        /// Number of the step, from 0.
+        step: usize,
+        /// Where: a dof for each motion.
+        dofs: &'a [Dof],
+    },
     /// An increment was accepted.
     Increment {
         /// Its record.

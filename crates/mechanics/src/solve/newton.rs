@@ -27,6 +27,8 @@ pub struct NewtonSettings {
     pub force_tol: f64,
     /// Whether steps are shortened.
     pub line_search: LineSearch,
+    /// Whether motions without stiffness and without load are held; else they are a failure.
+    pub hold_free: bool,
 }
 
 impl Default for NewtonSettings {
@@ -35,6 +37,7 @@ impl Default for NewtonSettings {
             max_iterations: 20,
             force_tol: 1e-6,
             line_search: LineSearch::Auto,
+            hold_free: false,
         }
     }
 }
@@ -88,6 +91,15 @@ pub enum Failure {
         dof: Option<Dof>,
     },
 }
+
+/// Free motions that are held at once: a body that is all mechanism is not worth solving.
+const HELD_AT_MOST: usize = 200;
+
+/// What holds a free motion bears nothing where its force is below this part of the largest force ...
+const BORNE: f64 = 1e-6;
+
+/// ... or its motion, by rounding, below this part of the largest one.
+const STILL: f64 = 1e-9;
 
 /// What counts as small: residuals are judged against the mean force, separately for forces, moments, multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -260,6 +272,8 @@ pub(super) struct Newton {
     pub trial: State,
     before: State,
     du: Vec<f64>,
+    /// Dofs at which motions without stiffness are held by the present tangent, each with the stiffness that does.
+    held: Vec<(Dof, f64)>,
 }
 
 impl Newton {
@@ -278,6 +292,7 @@ impl Newton {
             trial: state.clone(),
             before: state,
             du: Vec::new(),
+            held: Vec::new(),
         }
     }
 
@@ -517,6 +532,9 @@ impl Newton {
     }
 
     fn assemble(&mut self, system: &System, order: Order) -> Result<(), TermError> {
+        if order == Order::Tangent {
+            self.held.clear();
+        }
         self.assembler.assemble(
             &system.layout,
             &system.elimination,
@@ -553,9 +571,46 @@ impl Newton {
                 .equations
                 .solve(assembler, assembly, motion, new, &mut self.du);
         }
-        outcome
-            .map(|_| ())
-            .map_err(|source| self.linear_failure(source))
+        while self.settings.hold_free
+            && let Err(LinearError::Singular { equation }) = &outcome
+            && let Some(dof) = self.equations.dof(*equation)
+            && self.held.len() < HELD_AT_MOST
+            && let Some(stiffness) = self.assembler.stiffen(dof, &mut self.assembly)
+        {
+            self.held.push((dof, stiffness));
+            let (assembler, assembly) = (&self.assembler, &self.assembly);
+            let new = Factor::New;
+            outcome = self
+                .equations
+                .solve(assembler, assembly, motion, new, &mut self.du);
+        }
+        outcome.map_err(|source| self.linear_failure(source))?;
+        self.judge_held()
+    }
+
+    /// Where a free motion is held at one dof for each, the equations have a solution exactly where no load acts on it:
+    /// then what holds it bears nothing.
+    fn judge_held(&self) -> Result<(), Failure> {
+        let largest = |sizes: &[f64]| sizes.iter().fold(0.0, |most: f64, m| most.max(m.abs()));
+        let scale = largest(&self.assembly.magnitude).max(largest(&self.assembly.residual));
+        // where motions are prescribed and nothing is strained yet, there is no force to compare with
+        let moved = STILL * largest(&self.du);
+        let bears = |&&(dof, stiffness): &&(Dof, f64)| {
+            let du = self.du.get(dof as usize).copied().unwrap_or_default();
+            (stiffness * du).abs() > BORNE * scale && du.abs() > moved
+        };
+        match self.held.iter().find(bears) {
+            Some(&(dof, _)) => Err(Failure::Linear {
+                dof: Some(dof),
+                source: LinearError::Singular { equation: None },
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// The dofs at which motions without stiffness were held in the last solve.
+    pub fn held(&self) -> impl Iterator<Item = Dof> {
+        self.held.iter().map(|(dof, _)| *dof)
     }
 
     fn linear_failure(&self, source: LinearError) -> Failure {

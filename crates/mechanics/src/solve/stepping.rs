@@ -386,6 +386,11 @@ impl Stepper {
                 dt,
                 residual: accepted.residual,
             };
+            let held: Vec<Dof> = self.newton.held().collect();
+            if self.progress.increment == 0 && !held.is_empty() {
+                let step = self.progress.step;
+                observer.notice(&Event::Held { step, dofs: &held });
+            }
             self.progress.increment += 1;
             self.progress.time = end;
             let frame = self.frame(system, step)?;

@@ -208,6 +208,27 @@ impl Assembler {
         changed
     }
 
+    /// Adds the largest stiffness there is to the diagonal at a dof, and returns it; `None` where it has no place.
+    pub fn stiffen(&self, dof: Dof, out: &mut Assembly) -> Option<f64> {
+        let all = out.bulk.iter().chain(&out.interface);
+        let stiffness = all.fold(0.0, |most: f64, k| most.max(k.abs()));
+        let (ndim, node) = (self.bulk.block, dof / self.bulk.block.max(1) as u32);
+        let of_block = (node as usize) < self.bulk.nrow();
+        let block = of_block.then(|| self.bulk.position(node, node)).flatten();
+        let to = match block {
+            Some(block) => {
+                let axis = dof as usize % ndim;
+                out.bulk.get_mut(block * ndim * ndim + axis * (ndim + 1))
+            }
+            None => {
+                let position = self.interface.position(dof, dof)?;
+                out.interface.get_mut(position)
+            }
+        };
+        *to? += stiffness;
+        Some(stiffness)
+    }
+
     /// Evaluates all terms at a trial state into `out`.
     ///
     /// # Errors

@@ -214,6 +214,10 @@ pub struct RigidFrame {
     pub displacement: Vec3,
     /// Rotation since the start, as axis times angle.
     pub rotation: Vec3,
+    /// What supports exert on it along prescribed translations.
+    pub reaction_force: Vec3,
+    /// What they exert about prescribed rotations.
+    pub reaction_moment: Vec3,
 }
 
 impl Frame {

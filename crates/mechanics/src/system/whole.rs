@@ -54,17 +54,29 @@ impl System {
         for (node, u) in frame.displacement.iter_mut().enumerate() {
             *u = self.displacement(state, node as u32);
         }
+        let layout = &self.layout;
+        frame.rigid.resize_with(layout.nrigid, Default::default);
         let at_dofs = prescribed.iter().zip(&assembly.residual).enumerate();
         for (dof, (_, r)) in at_dofs.filter(|(_, (prescribed, _))| **prescribed) {
-            if let Some(DofName::Node(node, axis)) = self.layout.name(dof as Dof)
-                && let Some(to) = frame.reaction_force.get_mut(node as usize)
-            {
+            let to = match layout.name(dof as Dof) {
+                Some(DofName::Node(node, axis)) => {
+                    frame.reaction_force.get_mut(node as usize).zip(Some(axis))
+                }
+                Some(DofName::Translation(body, axis)) => {
+                    let body = frame.rigid.get_mut(body as usize);
+                    body.map(|body| (&mut body.reaction_force, axis))
+                }
+                Some(DofName::Rotation(body, axis)) => {
+                    let body = frame.rigid.get_mut(body as usize);
+                    body.map(|body| (&mut body.reaction_moment, axis))
+                }
+                Some(DofName::Multiplier(_)) | None => None,
+            };
+            if let Some((to, axis)) = to {
                 to[axis] = *r;
             }
         }
         let value = |dof: Dof| state.u.get(dof as usize).copied().unwrap_or(0.0);
-        let layout = &self.layout;
-        frame.rigid.resize_with(layout.nrigid, Default::default);
         for (body, rigid) in frame.rigid.iter_mut().enumerate() {
             let body = body as u32;
             for axis in 0..3 {

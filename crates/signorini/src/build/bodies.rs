@@ -25,6 +25,7 @@ pub(super) fn bodies(
     let one = |body| body_part(case, body, names, carriers, found);
     let bodies: Vec<BodyPart> = case.bodies.iter().filter_map(one).collect();
     at_start(case, names, &bodies, found);
+    unchangeable(case, found);
     bodies
 }
 
@@ -57,8 +58,18 @@ fn body_part(
         material.and_then(|m| case.materials.iter().find(|one| one.name.value == m.value))?;
     let density = part.density.as_ref().map(|density| density.value);
     let material = law(part, found).and_then(|inner| oriented(inner, body, found))?;
+    let later = later(case, body, found);
     if cells.solids.is_empty() && !cells.bars.is_empty() {
         let area = bars(body, found)?;
+        if let Some((step, _)) = later.first() {
+            let message = "bars keep their material";
+            let place = case
+                .steps
+                .get(*step)
+                .map_or(&body.place, |step| &step.place);
+            let remark = "this step gives them another one";
+            found.push(Diagnostic::error(&codes::NOT_BUILT, message).at(place, remark));
+        }
         return Some(BodyPart {
             name,
             cells: cells.bars,
@@ -84,6 +95,7 @@ fn body_part(
         name,
         kind: BodyKind::Solid {
             material,
+            later,
             density,
             integration: body.integration,
             locking: body.locking.value,
@@ -93,6 +105,55 @@ fn body_part(
         },
         cells,
     })
+}
+
+/// The materials that steps give a body, each with the number of the step.
+fn later(case: &Case, body: &Body, found: &mut Diagnostics) -> Vec<(usize, Box<dyn Material>)> {
+    let mut later = Vec::new();
+    for (number, step) in case.steps.iter().enumerate() {
+        for change in &step.materials {
+            if !body
+                .groups
+                .iter()
+                .any(|group| group.value == change.group.value)
+            {
+                continue;
+            }
+            if body.groups.len() > 1 {
+                let message = format!("{} is a part of a body", quoted(&change.group));
+                found.push(
+                    Diagnostic::error(&codes::NOT_BUILT, message)
+                        .at(
+                            &change.group.place,
+                            "a body changes its material as a whole",
+                        )
+                        .help("make a [[body]] of this group alone"),
+                );
+            }
+            let mut materials = case.materials.iter();
+            let part = materials.find(|one| one.name.value == change.material.value);
+            let material = part.and_then(|part| law(part, found));
+            let material = material.and_then(|inner| oriented(inner, body, found));
+            later.extend(material.map(|material| (number, material)));
+        }
+    }
+    later
+}
+
+/// A group that a step gives a material and that no deformable body is made of.
+fn unchangeable(case: &Case, found: &mut Diagnostics) {
+    let deformable = case.bodies.iter().filter(|body| !body.rigid);
+    let groups: HashSet<&str> = deformable
+        .flat_map(|body| &body.groups)
+        .map(|group| group.as_str())
+        .collect();
+    for change in case.steps.iter().flat_map(|step| &step.materials) {
+        if !groups.contains(change.group.as_str()) {
+            let message = format!("no deformable body is made of {}", quoted(&change.group));
+            let diagnostic = Diagnostic::error(&codes::UNDEFINED, message);
+            found.push(diagnostic.at(&change.group.place, "no [[body]] has this group"));
+        }
+    }
 }
 
 /// What the integration points of these cells have at the start.

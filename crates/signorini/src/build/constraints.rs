@@ -10,6 +10,7 @@ use signorini_io::case::{
     self, Case, ConstraintKind, Directions, Name, Spring, SpringEnds, Summand,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
+use signorini_mechanics::connector::SpringLaw;
 use signorini_mechanics::model::{ConstraintKind as Kind, ConstraintPart, SpringPart, Unknown};
 
 /// The springs of a case.
@@ -18,13 +19,20 @@ pub(super) fn springs(case: &Case, names: &Names<'_>, found: &mut Diagnostics) -
         Some(SpringPart {
             name: spring.name.value.clone(),
             ends: ends(spring, names, found)?,
-            stiffness: spring.stiffness,
+            law: law(&spring.law),
             direction: spring
                 .direction
                 .and_then(|along| Vec3::from(along).normalized()),
         })
     };
     case.springs.iter().filter_map(one).collect()
+}
+
+fn law(law: &case::SpringLaw) -> SpringLaw {
+    match law {
+        case::SpringLaw::Linear(stiffness) => SpringLaw::Linear(*stiffness),
+        case::SpringLaw::Table(rows) => SpringLaw::Table(rows.clone()),
+    }
 }
 
 type Ends = Vec<(NodeId, Option<NodeId>)>;

@@ -172,7 +172,12 @@ pub(super) fn unfit(case: &Case, mesh: &Mesh) -> Option<Diagnostic> {
     let space = &case.model.space;
     let (found, wanted) = (mesh.dim(), space.ndim());
     let of_bars = || case.bodies.iter().any(|body| body.area.is_some());
-    if found != wanted && !(0 < found && found < wanted && of_bars()) {
+    let of_springs = || case.bodies.is_empty() && !case.springs.is_empty();
+    let suits = match found {
+        0 => of_springs(),
+        _ => found == wanted || found < wanted && of_bars(),
+    };
+    if !suits {
         let message = match (found, wanted) {
             (2, 3) => "the mesh has no volume elements; did you save only the surface?",
             (3, 2) => "the mesh has volume elements, the model is in the plane",

@@ -30,7 +30,9 @@ use cuts::Cuts;
 use names::Names;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
-use signorini_io::case::{self, Case, Enforcement, HistorySource, Method, Per, Space, Stabilize};
+use signorini_io::case::{
+    self, Case, Enforcement, FreeMotions, HistorySource, Method, Per, Space, Stabilize,
+};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::model::{self, ContactSummary, LockingSummary, Parts};
@@ -256,6 +258,7 @@ fn parts<'a>(
     parts.gap_tol = newton.gap_tol;
     parts.traction_tol = parts.traction_tol.max(0.1 * newton.force_tol);
     parts.stabilize = case.solver.stabilize == Stabilize::Auto;
+    parts.hold_free = case.solver.free_motions == FreeMotions::Hold;
     let surfaces = Surfaces::new(case, mesh, carriers, found);
     parts.contacts = contact::acting(case)
         .filter_map(|c| contact::contact(c, names, &surfaces, found))
@@ -379,6 +382,7 @@ fn settings(solver: &case::Solver, found: &mut Diagnostics) -> StepperSettings {
                 case::LineSearch::Off => LineSearch::Off,
                 case::LineSearch::Auto | case::LineSearch::On => LineSearch::Auto,
             },
+            hold_free: solver.free_motions == FreeMotions::Hold,
         },
         linear: linear(&solver.linear, found),
         stabilize_after: stabilize_after(&solver.on_trouble),

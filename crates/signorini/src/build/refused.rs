@@ -139,6 +139,11 @@ fn of_solid_error(error: &SolidError) -> (&'static Code, &str, &'static str) {
             body,
             "points count from 1; reduced integration has fewer",
         ),
+        SolidError::OtherHistory { body } => (
+            &codes::NOT_BUILT,
+            body,
+            "change to a material of the same kind: elastic ones remember nothing",
+        ),
         SolidError::Locking { body, .. } => {
             (&codes::NOT_A_CHOICE, body, "write  locking = \"auto\"")
         }

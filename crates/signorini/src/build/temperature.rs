@@ -86,7 +86,9 @@ pub(super) fn at_start<'a>(
 /// The materials that bodies are made of.
 fn used(case: &Case) -> impl Iterator<Item = &Material> {
     case.materials.iter().filter(|material| {
-        let mut names = case.bodies.iter().filter_map(|body| body.material.as_ref());
+        let names = case.bodies.iter().filter_map(|body| body.material.as_ref());
+        let changes = case.steps.iter().flat_map(|step| &step.materials);
+        let mut names = names.chain(changes.map(|change| &change.material));
         names.any(|name| name.value == material.name.value)
     })
 }

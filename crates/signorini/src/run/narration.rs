@@ -110,6 +110,21 @@ impl Narrator {
                 ));
                 lines
             }
+            (Event::Held { step, at }, _) => {
+                let mut lines = self.head();
+                lines.push(line(
+                    format!(
+                        " {step:<12}      warning: nothing resists {}, and no load acts there: held at {}",
+                        match at.len() {
+                            1 => "a motion".to_owned(),
+                            n => format!("{n} motions"),
+                        },
+                        at.join(", ")
+                    ),
+                    Level::Normal,
+                ));
+                lines
+            }
             (Event::Checkpoint { file, .. }, _) => {
                 vec![line(format!("   saved to {file}"), Level::Verbose)]
             }

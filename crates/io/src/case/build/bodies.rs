@@ -332,13 +332,39 @@ impl Builder {
                 "there is no line between two ends: write  direction = \"x\"  or a vector",
             );
         }
+        let law = match fields.number_if("stiffness") {
+            Some(stiffness) => SpringLaw::Linear(stiffness.value),
+            None => SpringLaw::Table(self.forces(fields)),
+        };
         Spring {
             name,
             ends,
-            stiffness: fields.number("stiffness"),
+            law,
             direction,
             place,
         }
+    }
+
+    /// Rows of force and elongation: elongations increase, forces do not decrease.
+    fn forces(&mut self, fields: Fields<'_>) -> Vec<[f64; 2]> {
+        let mut table: Vec<[f64; 2]> = Vec::new();
+        for row in fields.rows("table") {
+            let Some([force, elongation]) = numbers(row.get_ref()) else {
+                continue;
+            };
+            if let Some([before, at]) = table.last()
+                && (elongation <= *at || force < *before)
+            {
+                self.error(
+                    &codes::NOT_INCREASING,
+                    "elongations do not increase, or forces decrease",
+                    &fields.at(row.span()),
+                    format!("[{force}, {elongation}] comes after [{before}, {at}]"),
+                );
+            }
+            table.push([force, elongation]);
+        }
+        table
     }
 
     pub(super) fn constraint(&mut self, fields: Fields<'_>, place: Place) -> Constraint {

@@ -199,10 +199,11 @@ impl Builder {
         let known = |key: &str| !root.has(key) || root.is_of_its_form(key);
         let materials: BTreeSet<&str> =
             case.materials.iter().map(|one| one.name.as_str()).collect();
-        for material in case
-            .bodies
-            .iter()
+        let changes = case.steps.iter().flat_map(|step| &step.materials);
+        let bodies = case.bodies.iter();
+        for material in bodies
             .filter_map(|body| body.material.as_ref())
+            .chain(changes.map(|change| &change.material))
             .filter(|_| known("material"))
         {
             self.reference("material", material, &materials);

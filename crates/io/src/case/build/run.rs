@@ -42,6 +42,10 @@ impl Builder {
             } else {
                 Stabilize::Auto
             },
+            free_motions: match fields.text("free_motions").value.as_str() {
+                "hold" => FreeMotions::Hold,
+                _ => FreeMotions::Refuse,
+            },
             on_trouble: fields
                 .texts("on_trouble")
                 .iter()

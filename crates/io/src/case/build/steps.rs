@@ -89,6 +89,15 @@ impl Builder {
                 .into_iter()
                 .map(|(one, place)| self.contact_change(one, place))
                 .collect(),
+            materials: fields
+                .tables("material")
+                .into_iter()
+                .map(|(one, place)| MaterialChange {
+                    group: one.text("group"),
+                    material: one.text("material"),
+                    place,
+                })
+                .collect(),
             temperatures: fields
                 .tables("temperature")
                 .into_iter()

@@ -163,12 +163,21 @@ pub struct Spring {
     pub name: Name,
     /// What it is tied to.
     pub ends: SpringEnds,
-    /// Force over elongation of each spring.
-    pub stiffness: f64,
+    /// Its force, by its elongation.
+    pub law: SpringLaw,
     /// Its direction, fixed in space, of any length; none: along the line between its ends.
     pub direction: Option<[f64; 3]>,
     /// Where it was written.
     pub place: Place,
+}
+
+/// The force of a spring, by its elongation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpringLaw {
+    /// In proportion: force over elongation.
+    Linear(f64),
+    /// Rows of force and elongation; straight between, constant outside.
+    Table(Vec<[f64; 2]>),
 }
 
 /// What a spring is tied to.

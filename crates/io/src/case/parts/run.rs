@@ -12,6 +12,8 @@ pub struct Solver {
     pub linear: Spanned<LinearChoice>,
     /// Whether a vanishing viscous force holds bodies that nothing else holds.
     pub stabilize: Stabilize,
+    /// What becomes of motions that nothing resists.
+    pub free_motions: FreeMotions,
     /// What is tried, in order, when an increment does not converge.
     pub on_trouble: Vec<Remedy>,
     /// The number of threads; none: as many as the machine has.
@@ -75,6 +77,16 @@ pub enum Stabilize {
     Auto,
     /// Never.
     Off,
+}
+
+/// What becomes of motions that neither supports nor stiffness resist.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FreeMotions {
+    /// They are an error.
+    #[default]
+    Refuse,
+    /// Where no load acts on them, they are held, with a note; else they are an error.
+    Hold,
 }
 
 /// What is tried when an increment does not converge.

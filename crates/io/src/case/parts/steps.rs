@@ -45,10 +45,23 @@ pub struct Step {
     pub loads: Vec<Load>,
     /// Changes of contacts.
     pub contacts: Vec<ContactChange>,
+    /// Bodies that are made of another material from now on.
+    pub materials: Vec<MaterialChange>,
     /// Temperatures.
     pub temperatures: Vec<Temperature>,
     /// Printed tables; none: those of the step before.
     pub prints: Option<Vec<Print>>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// A body that is made of another material from a step on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialChange {
+    /// Its group.
+    pub group: Name,
+    /// The material.
+    pub material: Name,
     /// Where it was written.
     pub place: Place,
 }

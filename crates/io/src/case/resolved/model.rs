@@ -245,7 +245,10 @@ pub(super) fn spring(spring: &Spring) -> Entries {
             SpringEnds::Between(one, other) => ("between", names([one, other])),
             SpringEnds::Ground(on) => ("on", (&on.value).into()),
         },
-        ("stiffness", spring.stiffness.into()),
+        match &spring.law {
+            SpringLaw::Linear(stiffness) => ("stiffness", (*stiffness).into()),
+            SpringLaw::Table(rows) => ("table", list(rows)),
+        },
     ];
     entries.extend(spring.direction.map(|along| ("direction", along.into())));
     entries

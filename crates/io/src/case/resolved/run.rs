@@ -32,6 +32,13 @@ pub(super) fn solver(solver: &Solver) -> Entries {
                 Stabilize::Off => false.into(),
             },
         ),
+        (
+            "free_motions",
+            match solver.free_motions {
+                FreeMotions::Refuse => "refuse".into(),
+                FreeMotions::Hold => "hold".into(),
+            },
+        ),
         ("on_trouble", list(remedies)),
         (
             "threads",

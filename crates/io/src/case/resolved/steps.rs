@@ -35,6 +35,7 @@ pub(super) fn step(step: &Step) -> Entries {
         ),
         ("load", tables(&step.loads, load)),
         ("contact", tables(&step.contacts, contact_change)),
+        ("material", tables(&step.materials, material)),
         ("temperature", tables(&step.temperatures, temperature)),
     ];
     entries.extend(step.prints.as_ref().map(|prints| {
@@ -150,6 +151,13 @@ fn what(kind: &LoadKind) -> Value {
             ("axis", axis.into()),
         ]),
     }
+}
+
+fn material(one: &MaterialChange) -> Entries {
+    vec![
+        ("group", (&one.group.value).into()),
+        ("material", (&one.material.value).into()),
+    ]
 }
 
 fn temperature(one: &Temperature) -> Entries {

@@ -246,9 +246,12 @@ pub(super) static SPRING: Table = Table {
         )
         .hints(&["ends", "nodes"]),
         key("on", Shape::Text, "a set of nodes tied to the ground").hints(&["set"]),
-        key("stiffness", POSITIVE, "force over elongation, of each spring")
-            .required()
-            .hints(&["k"]),
+        key("stiffness", POSITIVE, "force over elongation, of each spring").hints(&["k"]),
+        key(
+            "table",
+            Shape::List(&Shape::Row("[force, elongation]", &[ANY, ANY]), 1, MANY),
+            "rows [force, elongation], linear between, constant outside",
+        ),
         key(
             "direction",
             LINE,
@@ -256,7 +259,10 @@ pub(super) static SPRING: Table = Table {
         )
         .hints(&["axis"]),
     ],
-    rules: &[Rule::ExactlyOne(&["between", "on"])],
+    rules: &[
+        Rule::ExactlyOne(&["between", "on"]),
+        Rule::ExactlyOne(&["stiffness", "table"]),
+    ],
 };
 
 pub(super) static CONSTRAINT: Table = Table {

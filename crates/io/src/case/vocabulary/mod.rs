@@ -275,7 +275,7 @@ pub static CASE: Table = Table {
         key("axes", Shape::Tables(&AXES), AXES.doc).hints(&["transform", "orientation"]),
         key("amplitude", Shape::Named(&AMPLITUDE), AMPLITUDE.doc).hints(&["amplitudes"]),
         key("material", Shape::Named(&MATERIAL), MATERIAL.doc).hints(&["materials"]),
-        key("body", Shape::Tables(&BODY), BODY.doc).required().hints(&["bodies", "part", "section"]),
+        key("body", Shape::Tables(&BODY), BODY.doc).hints(&["bodies", "part", "section"]),
         key("surface", Shape::Tables(&SURFACE), SURFACE.doc).hints(&["surfaces"]),
         key("contact", Shape::Tables(&CONTACT), CONTACT.doc).hints(&["contacts", "pair", "interface"]),
         key("spring", Shape::Tables(&SPRING), SPRING.doc).hints(&["springs"]),
@@ -288,5 +288,5 @@ pub static CASE: Table = Table {
         key("checkpoint", Shape::Table(&CHECKPOINT), CHECKPOINT.doc).hints(&["restart"]),
         key("expect", Shape::Tables(&EXPECT), EXPECT.doc).hints(&["check", "test"]),
     ],
-    rules: &[],
+    rules: &[Rule::AtLeastOne(&["body", "spring"])],
 };

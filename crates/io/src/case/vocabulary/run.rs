@@ -25,6 +25,12 @@ pub(super) static SOLVER: Table = Table {
         )
         .or(Default::Text("auto")),
         key(
+            "free_motions",
+            Shape::Choice(&[word("refuse"), word("hold")]),
+            "motions that nothing resists: an error, or held where no load acts on them",
+        )
+        .or(Default::Text("refuse")),
+        key(
             "on_trouble",
             Shape::List(&Shape::Choice(&[word("cut"), word("stabilize")]), 0, 2),
             "what is tried, in order, when an increment does not converge",

@@ -55,6 +55,12 @@ pub(super) static STEP: Table = Table {
             Shape::Tables(&CONTACT_CHANGE),
             CONTACT_CHANGE.doc,
         ),
+        key(
+            "material",
+            Shape::Tables(&MATERIAL_CHANGE),
+            MATERIAL_CHANGE.doc,
+        )
+        .hints(&["section"]),
         key("temperature", Shape::Tables(&TEMPERATURE), TEMPERATURE.doc),
         key("print", Shape::Tables(&PRINT), PRINT.doc).hints(&["table", "dat"]),
     ],
@@ -271,6 +277,18 @@ static CENTRIFUGAL: Table = Table {
             "\"x\", \"y\", \"z\" or a vector along the axis",
         )
         .required(),
+    ],
+    rules: &[],
+};
+
+static MATERIAL_CHANGE: Table = Table {
+    heading: "[[step.material]]",
+    doc: "bodies that are made of another material from this step on",
+    keys: &[
+        key("group", Shape::Text, "the group of the body")
+            .required()
+            .hints(&["body", "on"]),
+        key("material", Shape::Text, "its new material").required(),
     ],
     rules: &[],
 };

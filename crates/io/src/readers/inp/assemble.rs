@@ -73,8 +73,8 @@ pub(super) struct Assembled {
     pub notes: Vec<String>,
 }
 
-/// Makes the mesh.
-pub(super) fn assemble(files: &Files<'_>, deck: Deck) -> Result<Assembled> {
+/// Makes the mesh; of a `whole` deck, its cards say what springs and bars are.
+pub(super) fn assemble(files: &Files<'_>, deck: Deck, whole: bool) -> Result<Assembled> {
     let nbyte = files.nbyte() as u64;
     let mut assembly = Assembly {
         files,
@@ -99,7 +99,7 @@ pub(super) fn assemble(files: &Files<'_>, deck: Deck) -> Result<Assembled> {
             nnode: assembly.mesh.nnode(),
         });
     }
-    assembly.judge_kinds()?;
+    assembly.judge_kinds(whole)?;
     for family in [Family::Cells, Family::Nodes, Family::Faces] {
         assembly.define_all(family)?;
     }
@@ -348,7 +348,7 @@ impl Assembly<'_> {
     }
 
     /// Refuses solids that have no element here; notes what is left out and what types mean.
-    fn judge_kinds(&mut self) -> Result<()> {
+    fn judge_kinds(&mut self, whole: bool) -> Result<()> {
         let dim = self.mesh.dim();
         let in_words = |count: u64, name: &str| {
             let s = if count == 1 { "" } else { "s" };
@@ -357,7 +357,8 @@ impl Assembly<'_> {
         let kinds = || self.deck.kinds.iter().zip(self.counts.iter().copied());
         let left_out = || kinds().filter(|(kind, count)| kind.element.is_none() && *count > 0);
         let highest = left_out().map(|(kind, _)| kind.dim()).max().unwrap_or(0);
-        if highest >= dim.max(1) || dim == 0 {
+        let springs = || kinds().any(|(kind, count)| count > 0 && kind.is_spring());
+        if highest >= dim.max(1) || dim == 0 && !springs() {
             let solids = left_out().filter(|(kind, _)| kind.dim() == highest);
             let words: Vec<String> = solids.map(|(k, n)| in_words(n, &k.name)).collect();
             return Err(MeshError::Unsupported {
@@ -370,7 +371,9 @@ impl Assembly<'_> {
             let words = in_words(count, &kind.name);
             let role = kind.role.word();
             self.notes.push(match (kind.element, kind.role) {
+                (None, _) if whole && kind.is_spring() => continue,
                 (None, _) => format!("{words} left out: {role}"),
+                (_, Role::Truss) if whole => continue,
                 (_, Role::Solid) | (_, Role::Surface) => continue,
                 _ if kind.dim() < dim => {
                     format!("{words} ({role}): faces or edges of the solids, without stiffness")

@@ -174,6 +174,11 @@ impl Kind {
         FAMILIES.iter().find_map(fits)
     }
 
+    /// Whether it is a spring.
+    pub fn is_spring(&self) -> bool {
+        self.name.starts_with("SPRING")
+    }
+
     /// The dimension of a cell, 0 for what is no cell.
     pub fn dim(&self) -> usize {
         self.role.dim()

@@ -220,8 +220,8 @@ fn faults_are_told_with_their_line() {
             "part.inp, line 2: the file ends inside node 1 of *NODE, where coordinates should follow",
         ),
         (
-            fault("*NODE\n1,0\n2,1\n*ELEMENT,TYPE=SPRINGA\n1,1,2\n"),
-            "part.inp: the mesh has 1 element of type SPRINGA: not supported yet",
+            fault("*NODE\n1,0\n2,1\n*ELEMENT,TYPE=GAPUNI\n1,1,2\n"),
+            "part.inp: the mesh has 1 element of type GAPUNI: not supported yet",
         ),
     ] {
         assert!(message.starts_with(expected), "{message}\n{expected}");

@@ -31,7 +31,8 @@
 //! The mesh is written once, then the frames, each with one write that also ends the file. The next frame takes that
 //! end away first: at any instant the file is the mesh with whole frames and at most one that is torn, and a resumed
 //! run cuts it back to the checkpoint's frames. Numbers of elements and nodes are those of the mesh, unless a reader
-//! with numbers of 32 bits could not hold them: then nodes or elements count from 1.
+//! with numbers of 32 bits could not hold them: then nodes or elements count from 1. Nodes of no element, such as those
+//! that rigid bodies are moved by, are left out, as CalculiX does: nothing is drawn there.
 //!
 //! Limits: six digits; exponents of two digits. Orders of nodes and what has no type are told in
 //! [`cells`](crate::frd::cells).
@@ -241,8 +242,8 @@ pub struct Mark {
 pub struct FrdFile {
     log: Box<dyn Log>,
     path: PathBuf,
-    /// The number of each node.
-    labels: Vec<u64>,
+    /// The number of each node; of those that no element has, none.
+    labels: Vec<Option<u64>>,
     at: Mark,
     /// The frame in the making, kept for its memory.
     draft: Vec<u8>,
@@ -257,7 +258,7 @@ impl FrdFile {
         let mut file = Self {
             log: fs.open_log(path, 0)?,
             path: path.to_path_buf(),
-            labels: numbers(&mesh.node_labels),
+            labels: node_numbers(mesh),
             at: Mark::default(),
             draft: Vec::new(),
         };
@@ -276,7 +277,7 @@ impl FrdFile {
         let mut file = Self {
             log: fs.open_log(path, mark.length)?,
             path: path.to_path_buf(),
-            labels: numbers(&mesh.node_labels),
+            labels: node_numbers(mesh),
             at: mark,
             draft: Vec::new(),
         };
@@ -296,7 +297,12 @@ impl FrdFile {
         let nframe = self.at.nframe + 1;
         for (number, dataset) in (self.at.ndataset + 1..).zip(datasets) {
             let out = &mut self.draft;
-            push_moment(out, moment, [number, nframe], dataset.len());
+            push_moment(
+                out,
+                moment,
+                [number, nframe],
+                written(&self.labels, dataset),
+            );
             push_declaration(out, dataset);
             push_values(out, &self.labels, dataset);
         }
@@ -375,6 +381,37 @@ fn numbers(labels: &[u64]) -> Vec<u64> {
     }
 }
 
+/// The number of each node of an element in the file.
+fn node_numbers(mesh: &Mesh) -> Vec<Option<u64>> {
+    let mut labels = vec![None; mesh.nnode()];
+    let own = numbers(&mesh.node_labels);
+    for cell in (1..=mesh.dim()).flat_map(|dim| mesh.cells(dim)) {
+        for &node in mesh.cell(cell) {
+            let node = node as usize;
+            if let Some(label) = labels.get_mut(node) {
+                *label = own.get(node).copied();
+            }
+        }
+    }
+    labels
+}
+
+/// The number of a node, if it is in the file.
+fn number_of(labels: &[Option<u64>], node: u32) -> Option<u64> {
+    labels.get(node as usize).copied().flatten()
+}
+
+/// How many of a data set's nodes are in the file.
+fn written(labels: &[Option<u64>], dataset: &Dataset<'_>) -> usize {
+    match dataset {
+        Dataset::Contact { nodes, .. } => {
+            let known = |&&node: &&u32| number_of(labels, node).is_some();
+            nodes.iter().filter(known).count()
+        }
+        _ => labels.iter().flatten().count(),
+    }
+}
+
 fn push_head(out: &mut Vec<u8>, title: &str) {
     let is_plain = |c: &char| c.is_ascii() && !c.is_ascii_control();
     let title: String = title.chars().filter(is_plain).take(60).collect();
@@ -401,15 +438,14 @@ fn push_count(out: &mut Vec<u8>, key: &[u8], count: usize) {
     out.extend_from_slice(b"                   1\n");
 }
 
-fn push_nodes(out: &mut Vec<u8>, labels: &[u64], points: &[Vec3]) {
-    push_count(out, b"    2C                  ", points.len());
-    for (&label, x) in labels.iter().zip(points) {
-        push_row(out, label, &x.to_array());
-    }
+fn push_nodes(out: &mut Vec<u8>, labels: &[Option<u64>], points: &[Vec3]) {
+    let nnode = labels.iter().flatten().count();
+    push_count(out, b"    2C                  ", nnode);
+    push_rows(out, labels, points.iter().map(|x| x.to_array()));
     out.extend_from_slice(b" -3\n");
 }
 
-fn push_elements(out: &mut Vec<u8>, labels: &[u64], mesh: &Mesh) {
+fn push_elements(out: &mut Vec<u8>, labels: &[Option<u64>], mesh: &Mesh) {
     let known = |&cell: &CellId| mesh.element(cell).and_then(CellType::of_element).is_some();
     let cells: Vec<CellId> = mesh.cells(mesh.dim()).filter(known).collect();
     let own: Vec<u64> = cells
@@ -431,7 +467,7 @@ fn push_elements(out: &mut Vec<u8>, labels: &[u64], mesh: &Mesh) {
             if k % NODES_IN_LINE == 0 {
                 out.extend_from_slice(b"\n -2");
             }
-            push_whole(out, labels.get(node as usize).copied().unwrap_or(0), 10);
+            push_whole(out, number_of(labels, node).unwrap_or(0), 10);
         }
         out.push(b'\n');
     }
@@ -472,7 +508,7 @@ fn push_declaration(out: &mut Vec<u8>, dataset: &Dataset<'_>) {
     }
 }
 
-fn push_values(out: &mut Vec<u8>, labels: &[u64], dataset: &Dataset<'_>) {
+fn push_values(out: &mut Vec<u8>, labels: &[Option<u64>], dataset: &Dataset<'_>) {
     match dataset {
         Dataset::Displacement(values) | Dataset::Force(values) => {
             push_rows(out, labels, values.iter().map(|v| v.to_array()));
@@ -486,7 +522,9 @@ fn push_values(out: &mut Vec<u8>, labels: &[u64], dataset: &Dataset<'_>) {
         }
         Dataset::Contact { nodes, values } => {
             for (&node, row) in nodes.iter().zip(*values) {
-                push_row(out, labels.get(node as usize).copied().unwrap_or(0), row);
+                if let Some(label) = number_of(labels, node) {
+                    push_row(out, label, row);
+                }
             }
         }
     }
@@ -495,12 +533,14 @@ fn push_values(out: &mut Vec<u8>, labels: &[u64], dataset: &Dataset<'_>) {
 
 fn push_rows<const N: usize>(
     out: &mut Vec<u8>,
-    labels: &[u64],
+    labels: &[Option<u64>],
     rows: impl ExactSizeIterator<Item = [f64; N]>,
 ) {
     out.reserve(rows.len() * (14 + 12 * N));
-    for (&label, row) in labels.iter().zip(rows) {
-        push_row(out, label, &row);
+    for (label, row) in labels.iter().zip(rows) {
+        if let Some(label) = label {
+            push_row(out, *label, &row);
+        }
     }
 }
 

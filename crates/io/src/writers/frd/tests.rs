@@ -315,3 +315,26 @@ fn a_frame_of_a_million_nodes_is_written_in_a_second_or_two() {
     assert_eq!(frd.datasets[1].values.len(), 6_000_000);
     assert!(writing.as_secs_f64() < 5.0 && reading.as_secs_f64() < 15.0);
 }
+
+#[test]
+fn nodes_of_no_element_are_left_out() {
+    let mut mesh = zoo(3);
+    let alone = mesh.nnode() as u32;
+    mesh.points.push(Vec3::new(9.0, 9.0, 9.0));
+    mesh.node_labels.push(9999);
+    let u = vectors(&mesh, 0.5);
+    let contact = Dataset::Contact {
+        nodes: &[alone, 2],
+        values: &[[1.0; 6], [2.0; 6]],
+    };
+    let (_, frd) = written(
+        &mesh,
+        &[(at(1.0, 1, 1), vec![Dataset::Displacement(&u), contact])],
+    );
+    assert_eq!(frd.node_labels, mesh.node_labels[..alone as usize]);
+    let [disp, contact] = &frd.datasets[..] else {
+        panic!()
+    };
+    assert_eq!(disp.nodes.len(), alone as usize);
+    assert_eq!(contact.nodes, [mesh.node_labels[2]]);
+}

@@ -118,6 +118,7 @@ fn press(discretization: Box<dyn Discretization>, line_search: LineSearch) -> Co
             max_iterations: 200,
             force_tol: 1e-10,
             line_search,
+            hold_free: false,
         },
         ..StepperSettings::default()
     };

@@ -547,3 +547,33 @@ fn stress_does_not_oscillate_in_shear_when_the_centre_moves() {
         },
     );
 }
+
+/// Where a step begins, stress lies on the yield surface but for rounding: the tangent there is that of unloading.
+#[test]
+fn on_the_yield_surface_the_tangent_is_the_elastic_one() {
+    for kind in kinds() {
+        for kinematics in KINEMATICS {
+            let law = plastic(kind);
+            let mut history = vec![0.0; law.nhistory()];
+            law.start(&mut history);
+            let value = Sym3::new(0.07, -0.02, 0.01, 0.05, -0.03, 0.02);
+            let strain = Strain::new(kinematics, value);
+            advance(law.as_ref(), &strain, &mut history);
+            assert!(law.plastic_strain(&history).unwrap() > 0.01);
+            let tangent = |by: f64| {
+                let strain = Strain::new(kinematics, value * by);
+                let (mut new, mut out) = (history.clone(), Response::default());
+                law.respond(&strain, &history, &mut new, Order::Tangent, &mut out)
+                    .unwrap();
+                out.tangent
+            };
+            let [at, unloaded, loaded] = [1.0, 1.0 - 1e-7, 1.0 + 1e-7].map(tangent);
+            let apart = |other: [[f64; 6]; 6]| {
+                let pairs = at.as_flattened().iter().zip(other.as_flattened());
+                pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+            };
+            assert!(apart(unloaded) < 1e-3, "{kind:?} {kinematics:?}");
+            assert!(apart(loaded) > 0.1 * MU, "{kind:?} {kinematics:?}");
+        }
+    }
+}

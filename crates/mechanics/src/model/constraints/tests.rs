@@ -1,6 +1,7 @@
 //! Blocks whose nodes follow others: closed forms, balance, refusals, restarts.
 
 use super::*;
+use crate::connector::SpringLaw;
 use crate::material::{NeoHookean, SaintVenantKirchhoff};
 use crate::model::Parts;
 use crate::model::{
@@ -767,7 +768,7 @@ fn refusal(constraints: Vec<ConstraintPart>, changes: Vec<Change>) -> Result<(),
     let to_ground = |axis: usize| SpringPart {
         name: format!("ground {axis}"),
         ends: (0..8).map(|node| (node, None)).collect(),
-        stiffness: 1.0,
+        law: SpringLaw::Linear(1.0),
         direction: Some(Vec3::unit(axis)),
     };
     Model::assemble(Parts {

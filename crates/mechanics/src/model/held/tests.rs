@@ -1,4 +1,5 @@
 use super::*;
+use crate::connector::SpringLaw;
 use crate::material;
 use crate::model::{
     BodyKind, ConstraintKind, ConstraintPart, ContactPart, PrimaryPart, SidePart, SpringPart,
@@ -395,7 +396,7 @@ fn what_is_tied_to_a_held_body_is_held() {
     held.springs(&[SpringPart {
         name: String::new(),
         ends: vec![(8, Some(1)), (11, None)],
-        stiffness: 3.0,
+        law: SpringLaw::Linear(3.0),
         direction: Some(Vec3::unit(0)),
     }]);
     assert_eq!(

@@ -4,6 +4,7 @@ mod contact;
 
 pub use contact::*;
 
+use crate::connector::SpringLaw;
 use crate::load::Course;
 use crate::material::Material;
 use crate::solid::{AtStart, Integration, Locking};
@@ -35,6 +36,8 @@ pub struct Parts<'a> {
     pub steps: Vec<StepPart>,
     /// Whether viscous forces hold bodies that nothing but contact stops.
     pub stabilize: bool,
+    /// Whether bodies may move freely where no load moves them, see [`crate::solve::NewtonSettings::hold_free`].
+    pub hold_free: bool,
     /// Gap over the size of the facets that contact methods with multipliers may leave.
     pub gap_tol: f64,
     /// What multipliers that friction limits may be off by, over themselves.
@@ -56,6 +59,7 @@ impl<'a> Parts<'a> {
             temperature: Vec::new(),
             steps: Vec::new(),
             stabilize: true,
+            hold_free: false,
             gap_tol: 1e-6,
             traction_tol: 1e-7,
         }
@@ -78,6 +82,8 @@ pub enum BodyKind {
     Solid {
         /// What it is made of.
         material: Box<dyn Material>,
+        /// Materials that take its place, each with the step, from 0, from which on it does.
+        later: Vec<(usize, Box<dyn Material>)>,
         /// Mass per volume, where it is known.
         density: Option<f64>,
         /// Full or reduced integration.
@@ -112,6 +118,7 @@ impl BodyKind {
     pub fn solid(material: Box<dyn Material>) -> Self {
         Self::Solid {
             material,
+            later: Vec::new(),
             density: None,
             integration: Integration::default(),
             locking: Locking::default(),
@@ -149,16 +156,15 @@ pub struct CarrierPart {
     pub at: Option<Vec3>,
 }
 
-/// A spring. Its force is `stiffness` times its elongation, measured along `direction`, or along the line between its
-/// ends, which turns with them.
+/// A spring. Its elongation is measured along `direction`, or along the line between its ends, which turns with them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringPart {
     /// Its name.
     pub name: String,
     /// Pairs of ends; the second is `None` where the spring is tied to the ground.
     pub ends: Vec<(NodeId, Option<NodeId>)>,
-    /// Force over elongation of each spring.
-    pub stiffness: f64,
+    /// The force of each spring, by its elongation.
+    pub law: SpringLaw,
     /// Unit vector, fixed in space; `None`: along the line between the ends.
     pub direction: Option<Vec3>,
 }

@@ -280,6 +280,7 @@ fn settings(force_tol: f64, line_search: LineSearch) -> StepperSettings {
         max_iterations: 20,
         force_tol,
         line_search,
+        hold_free: false,
     };
     StepperSettings {
         newton,
@@ -313,7 +314,7 @@ fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> To
                 reactions.push(frame.reaction_force.iter().map(|f| f.x).collect());
             }
             Event::Cutback { cause, next, .. } => cuts.push([cause.dt, *next]),
-            Event::Step { .. } | Event::Stabilized { .. } => {}
+            Event::Step { .. } | Event::Stabilized { .. } | Event::Held { .. } => {}
         }
         Flow::Continue
     });

@@ -111,7 +111,7 @@ fn advance(model: &mut Model, stepper: &mut Stepper) -> Option<Leg> {
                 increment = Some((*record).clone());
                 return Flow::Stop;
             }
-            Event::Step { .. } | Event::Stabilized { .. } => {}
+            Event::Step { .. } | Event::Stabilized { .. } | Event::Held { .. } => {}
         }
         Flow::Continue
     });

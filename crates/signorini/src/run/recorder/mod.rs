@@ -304,6 +304,7 @@ impl Observer for Recorder<'_> {
                 attempt,
                 stages,
             } => self.stabilized([*step, *increment, *attempt], *stages),
+            Happening::Held { step, dofs } => self.held(*step, dofs),
             Happening::Increment { record, frame } => {
                 self.increment(record, frame);
                 if self.is_due() {

@@ -96,6 +96,23 @@ impl Recorder<'_> {
         self.tell(&event, Detail::None);
     }
 
+    pub(super) fn held(&mut self, step: usize, dofs: &[Dof]) {
+        let setting = &self.setting;
+        let in_words = |&dof: &Dof| match setting.layout.name(dof) {
+            Some(DofName::Node(node, axis)) => {
+                let label = setting.mesh.node_labels.get(node as usize);
+                let axis = ["x", "y", "z"].get(axis).copied().unwrap_or_default();
+                format!("{axis} of node {}", label.copied().unwrap_or_default())
+            }
+            _ => "a reference".to_owned(),
+        };
+        let event = Event::Held {
+            step: self.step_name(step),
+            at: dofs.iter().map(in_words).collect(),
+        };
+        self.tell(&event, Detail::None);
+    }
+
     pub(super) fn increment(&mut self, record: &IncrementRecord, frame: &Frame) {
         self.counts.increments += 1;
         if let Some(step) = self.counts.steps.get_mut(record.step) {

@@ -235,7 +235,8 @@ impl Writer<'_> {
         }
     }
 
-    /// The force of all nodes that move with a reference, or its moment about it.
+    /// The force of all nodes that move with a reference, or its moment about it; of one that nodes do not simply move
+    /// with, what supports exert on it.
     fn carried(&self, stand: Stand) -> Vec3 {
         let (Some(body), Some(rigid)) = (
             self.tables.followers.get(stand.rigid as usize),
@@ -243,6 +244,12 @@ impl Writer<'_> {
         ) else {
             return Vec3::ZERO;
         };
+        if body.nodes.is_empty() {
+            return match stand.turns {
+                true => rigid.reaction_moment,
+                false => rigid.reaction_force,
+            };
+        }
         let centre = body.reference + rigid.displacement;
         let of_node = |&node: &NodeId| {
             let at = |values: &[Vec3]| values.get(node as usize).copied().unwrap_or_default();
