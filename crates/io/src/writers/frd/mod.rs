@@ -242,7 +242,7 @@ pub struct FrdFile {
     log: Box<dyn Log>,
     path: PathBuf,
     /// The number of each node.
-    labels: Vec<u64>,
+    labels: Labels,
     at: Mark,
     /// The frame in the making, kept for its memory.
     draft: Vec<u8>,
@@ -257,7 +257,7 @@ impl FrdFile {
         let mut file = Self {
             log: fs.open_log(path, 0)?,
             path: path.to_path_buf(),
-            labels: numbers(&mesh.node_labels),
+            labels: Labels::new(mesh),
             at: Mark::default(),
             draft: Vec::new(),
         };
@@ -276,7 +276,7 @@ impl FrdFile {
         let mut file = Self {
             log: fs.open_log(path, mark.length)?,
             path: path.to_path_buf(),
-            labels: numbers(&mesh.node_labels),
+            labels: Labels::new(mesh),
             at: mark,
             draft: Vec::new(),
         };
@@ -296,7 +296,7 @@ impl FrdFile {
         let nframe = self.at.nframe + 1;
         for (number, dataset) in (self.at.ndataset + 1..).zip(datasets) {
             let out = &mut self.draft;
-            push_moment(out, moment, [number, nframe], dataset.len());
+            push_moment(out, moment, [number, nframe], self.labels.nrow(dataset));
             push_declaration(out, dataset);
             push_values(out, &self.labels, dataset);
         }
@@ -324,7 +324,7 @@ impl FrdFile {
             Dataset::Contact { nodes, .. } => Some(*nodes),
             _ => None,
         };
-        let expected = nodes.map_or(self.labels.len(), <[u32]>::len);
+        let expected = nodes.map_or(self.labels.all.len(), <[u32]>::len);
         let (path, name, got) = (&self.path, dataset.name(), dataset.len());
         if got != expected {
             return Err(FrdError::WrongLength {
@@ -335,7 +335,7 @@ impl FrdFile {
             });
         }
         let mut nodes = nodes.unwrap_or_default().iter();
-        match nodes.find(|&&node| node as usize >= self.labels.len()) {
+        match nodes.find(|&&node| node as usize >= self.labels.all.len()) {
             Some(&node) => Err(FrdError::NoSuchNode {
                 path: path.clone(),
                 name,
@@ -363,6 +363,52 @@ impl std::fmt::Debug for FrdFile {
             .field("path", &self.path)
             .field("at", &self.at)
             .finish_non_exhaustive()
+    }
+}
+
+/// The numbers of the nodes in the file, and which of them have elements: the others are left out, as CalculiX does.
+#[derive(Debug)]
+struct Labels {
+    all: Vec<u64>,
+    has_elements: Vec<bool>,
+}
+
+impl Labels {
+    fn new(mesh: &Mesh) -> Self {
+        let mut has_elements = vec![false; mesh.node_labels.len()];
+        let cells = (1..=mesh.dim()).flat_map(|dim| mesh.cells(dim));
+        for &node in cells.flat_map(|cell| mesh.cell(cell)) {
+            if let Some(known) = has_elements.get_mut(node as usize) {
+                *known = true;
+            }
+        }
+        Self {
+            all: numbers(&mesh.node_labels),
+            has_elements,
+        }
+    }
+
+    fn of(&self, node: u32) -> u64 {
+        self.all.get(node as usize).copied().unwrap_or(0)
+    }
+
+    /// The rows that a data set has in the file.
+    fn nrow(&self, dataset: &Dataset<'_>) -> usize {
+        match dataset {
+            Dataset::Contact { nodes, .. } => nodes.len(),
+            _ => self.count(),
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.has_elements.iter().filter(|has| **has).count()
+    }
+
+    /// Of values of all nodes those with elements, with the numbers of the nodes.
+    fn of_elements<T>(&self, values: impl Iterator<Item = T>) -> impl Iterator<Item = (u64, T)> {
+        let all = self.all.iter().zip(&self.has_elements).zip(values);
+        all.filter(|((_, has), _)| **has)
+            .map(|((&label, _), value)| (label, value))
     }
 }
 
@@ -401,15 +447,15 @@ fn push_count(out: &mut Vec<u8>, key: &[u8], count: usize) {
     out.extend_from_slice(b"                   1\n");
 }
 
-fn push_nodes(out: &mut Vec<u8>, labels: &[u64], points: &[Vec3]) {
-    push_count(out, b"    2C                  ", points.len());
-    for (&label, x) in labels.iter().zip(points) {
+fn push_nodes(out: &mut Vec<u8>, labels: &Labels, points: &[Vec3]) {
+    push_count(out, b"    2C                  ", labels.count());
+    for (label, x) in labels.of_elements(points.iter()) {
         push_row(out, label, &x.to_array());
     }
     out.extend_from_slice(b" -3\n");
 }
 
-fn push_elements(out: &mut Vec<u8>, labels: &[u64], mesh: &Mesh) {
+fn push_elements(out: &mut Vec<u8>, labels: &Labels, mesh: &Mesh) {
     let known = |&cell: &CellId| mesh.element(cell).and_then(CellType::of_element).is_some();
     let cells: Vec<CellId> = mesh.cells(mesh.dim()).filter(known).collect();
     let own: Vec<u64> = cells
@@ -431,7 +477,7 @@ fn push_elements(out: &mut Vec<u8>, labels: &[u64], mesh: &Mesh) {
             if k % NODES_IN_LINE == 0 {
                 out.extend_from_slice(b"\n -2");
             }
-            push_whole(out, labels.get(node as usize).copied().unwrap_or(0), 10);
+            push_whole(out, labels.of(node), 10);
         }
         out.push(b'\n');
     }
@@ -472,7 +518,7 @@ fn push_declaration(out: &mut Vec<u8>, dataset: &Dataset<'_>) {
     }
 }
 
-fn push_values(out: &mut Vec<u8>, labels: &[u64], dataset: &Dataset<'_>) {
+fn push_values(out: &mut Vec<u8>, labels: &Labels, dataset: &Dataset<'_>) {
     match dataset {
         Dataset::Displacement(values) | Dataset::Force(values) => {
             push_rows(out, labels, values.iter().map(|v| v.to_array()));
@@ -486,7 +532,7 @@ fn push_values(out: &mut Vec<u8>, labels: &[u64], dataset: &Dataset<'_>) {
         }
         Dataset::Contact { nodes, values } => {
             for (&node, row) in nodes.iter().zip(*values) {
-                push_row(out, labels.get(node as usize).copied().unwrap_or(0), row);
+                push_row(out, labels.of(node), row);
             }
         }
     }
@@ -495,11 +541,11 @@ fn push_values(out: &mut Vec<u8>, labels: &[u64], dataset: &Dataset<'_>) {
 
 fn push_rows<const N: usize>(
     out: &mut Vec<u8>,
-    labels: &[u64],
-    rows: impl ExactSizeIterator<Item = [f64; N]>,
+    labels: &Labels,
+    rows: impl Iterator<Item = [f64; N]>,
 ) {
-    out.reserve(rows.len() * (14 + 12 * N));
-    for (&label, row) in labels.iter().zip(rows) {
+    out.reserve(labels.count() * (14 + 12 * N));
+    for (label, row) in labels.of_elements(rows) {
         push_row(out, label, &row);
     }
 }
