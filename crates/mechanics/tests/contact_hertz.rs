@@ -125,6 +125,7 @@ fn pressed(facets: f64) -> ContactFrame {
             locking: Locking::Auto,
             thickness: None,
             linear_temperatures: false,
+            at_nodes: Default::default(),
             initial: Vec::new(),
         },
     };

@@ -251,6 +251,7 @@ impl Solution {
                 locking: Locking::None,
                 thickness: None,
                 linear_temperatures: false,
+                at_nodes: Default::default(),
                 initial: Vec::new(),
             },
         };

@@ -108,6 +108,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 locking,
                 thickness: None,
                 linear_temperatures: false,
+                at_nodes: Default::default(),
                 initial: Vec::new(),
             },
         }],

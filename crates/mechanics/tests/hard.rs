@@ -197,6 +197,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
             locking: Locking::Auto,
             thickness: None,
             linear_temperatures: false,
+            at_nodes: Default::default(),
             initial: Vec::new(),
         },
     };

@@ -169,6 +169,7 @@ fn solution(
                 locking: choice.locking,
                 thickness: None,
                 linear_temperatures: false,
+                at_nodes: Default::default(),
                 initial: Vec::new(),
             },
         }],

@@ -1,9 +1,10 @@
 //! Sections, amplitudes, what is there at the start.
 
+use super::Compat;
 use super::translation::{Target, Translation};
 use crate::case::{
-    Amplitude, AtPoint, AxesSystem, Body, Integration, Locking, Model, Name, Orientation, Space,
-    Temperatures, TimeBase,
+    Amplitude, AtNodes, AtPoint, AxesSystem, Body, Integration, Locking, Model, Name, Orientation,
+    Space, Temperatures, TimeBase,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -396,6 +397,10 @@ impl Translation<'_> {
                     Temperatures::Linear
                 } else {
                     Temperatures::Full
+                },
+                at_nodes: match self.compat {
+                    Compat::None => AtNodes::Fitted,
+                    Compat::Ccx => AtNodes::Interpolated,
                 },
                 area: None,
                 rigid: false,

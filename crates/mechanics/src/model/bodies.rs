@@ -133,6 +133,7 @@ impl Context<'_> {
                     locking,
                     thickness,
                     linear_temperatures,
+                    at_nodes,
                     initial,
                     ..
                 } => {
@@ -149,6 +150,7 @@ impl Context<'_> {
                         locking,
                         temperature,
                         linear_temperatures,
+                        at_nodes,
                         initial: &initial,
                     })?;
                     for &kinematics in sizes {

@@ -192,6 +192,7 @@ impl Builder {
             "orientation",
             "thickness",
             "temperatures",
+            "at_nodes",
             "area",
         ];
         let wrong = if rigid {
@@ -245,6 +246,10 @@ impl Builder {
             temperatures: match fields.text("temperatures").value.as_str() {
                 "linear" => Temperatures::Linear,
                 _ => Temperatures::Full,
+            },
+            at_nodes: match fields.text("at_nodes").value.as_str() {
+                "interpolated" => AtNodes::Interpolated,
+                _ => AtNodes::Fitted,
             },
             area: fields.number_if("area"),
             rigid,

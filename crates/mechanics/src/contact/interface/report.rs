@@ -102,10 +102,10 @@ impl Interface {
                 let lambda = self.lambda(row, state);
                 let traction = self.traction(filled, &lambda);
                 energy = self.measure(row) * self.stored(filled, &lambda, &traction);
-                elastic_slip = if self.parts.bond.is_none() && self.laws().slips() {
-                    self.laws().elastic(&traction)
-                } else {
-                    Vec3::ZERO
+                elastic_slip = match (self.parts.bond.is_some(), self.laws().slips()) {
+                    (true, _) => filled.within(filled.sliding.slip),
+                    (false, true) => self.laws().elastic(&traction),
+                    (false, false) => Vec3::ZERO,
                 };
                 let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
@@ -262,7 +262,7 @@ impl Interface {
     fn stored(&self, filled: &Row, lambda: &Lambda, traction: &Traction) -> f64 {
         let laws = self.laws();
         if laws.bond {
-            return 0.5 * laws.scale.penalty * filled.sliding.slip.norm_squared();
+            return laws.bond_energy(filled);
         }
         let along = match laws.friction {
             Some(_) => 0.5 * traction.tangential.dot(filled.sliding.slip),

@@ -6,7 +6,7 @@ pub use contact::*;
 
 use crate::load::Course;
 use crate::material::Material;
-use crate::solid::{AtStart, Integration, Locking};
+use crate::solid::{AtNodes, AtStart, Integration, Locking};
 use crate::solve::{Increments, Motion};
 use crate::system::Idealisation;
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
@@ -88,6 +88,8 @@ pub enum BodyKind {
         thickness: Option<f64>,
         /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are.
         linear_temperatures: bool,
+        /// How stresses and strains at points are carried to nodes.
+        at_nodes: AtNodes,
         /// Stress and strain at the start.
         initial: Vec<AtStart>,
     },
@@ -115,6 +117,7 @@ impl BodyKind {
             locking: Locking::default(),
             thickness: None,
             linear_temperatures: false,
+            at_nodes: AtNodes::default(),
             initial: Vec::new(),
         }
     }
