@@ -28,3 +28,9 @@ fn what_is_tied_has_another_stiffness_along_the_surface() {
 fn in_the_plane_only_corners_are_tied_as_in_calculix() {
     agrees(&own("tied_plane.inp"), "", Compat::Ccx, 1e-6);
 }
+
+/// Gaps, tractions and energies of faces, which CalculiX prints at each of its points.
+#[test]
+fn what_happens_at_points_inside_faces_is_printed_of_faces() {
+    agrees(&own("faces.inp"), "", Compat::Ccx, 1e-6);
+}

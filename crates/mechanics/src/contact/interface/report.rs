@@ -5,9 +5,9 @@ use super::{
 };
 use crate::contact::kernel::{Lambda, Traction};
 use crate::contact::row::Row;
-use crate::system::{ContactFrame, Frame, Resultant, Status};
+use crate::system::{ContactFrame, ContactSample, Frame, Resultant, Status};
 use signorini_geometry::element::Element;
-use signorini_geometry::mesh::NodeId;
+use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::{Carrier, ContactSurface, Facets, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
@@ -67,6 +67,19 @@ impl Means {
             slip: self.slip[k] / weight,
             elastic_slip: self.elastic_slip[k] / weight,
         })
+    }
+}
+
+impl ContactSample {
+    /// Sums become means.
+    fn divide(&mut self) {
+        if self.area > 0.0 {
+            self.gap /= self.area;
+            self.pressure /= self.area;
+            self.traction = self.traction / self.area;
+            self.slip = self.slip / self.area;
+        }
+        self.normal = self.normal.normalized().unwrap_or_default();
     }
 }
 
@@ -174,6 +187,11 @@ impl Interface {
                     report.status[k] = status;
                 }
             }
+            if let (Some(faces), Some(of_row)) = (&mut report.faces, &of_row)
+                && status.is_closed()
+            {
+                self.add_inside(row, area, energy, of_row, faces);
+            }
             if let (Some(first), Some(of_row)) = (first, of_row) {
                 let nodes = &frame.contacts[first].nodes;
                 self.add_across(row, state, area, of_row, nodes, &mut across)?;
@@ -193,6 +211,9 @@ impl Interface {
                 report.slip[k] = mean.slip;
                 report.elastic_slip[k] = mean.elastic_slip;
             }
+        }
+        for (_, sum) in report.faces.iter_mut().flatten() {
+            sum.divide();
         }
         for k in hosted {
             // they are parts of those of its host
@@ -228,6 +249,38 @@ impl Interface {
             }
         }
         Ok(())
+    }
+
+    /// Adds a point that touches to the sums over its face.
+    fn add_inside(
+        &self,
+        row: usize,
+        area: f64,
+        energy: f64,
+        of_row: &OfRow,
+        faces: &mut Vec<(Face, ContactSample)>,
+    ) {
+        let parts = &self.parts;
+        let inside = parts.discretization.inside();
+        let facet = inside.and_then(|facets| facets.get(row));
+        let secondary = parts.pair.secondary.as_ref();
+        let Some(face) = facet.and_then(|&facet| secondary?.face(facet)) else {
+            return;
+        };
+        // rows of a face follow one another
+        if faces.last().is_none_or(|(last, _)| *last != face) {
+            faces.push((face, ContactSample::default()));
+        }
+        let Some((_, sum)) = faces.last_mut() else {
+            return;
+        };
+        sum.area += area;
+        sum.normal += of_row.normal * area;
+        sum.gap += of_row.gap * area;
+        sum.pressure += of_row.pressure * area;
+        sum.traction += of_row.traction * area;
+        sum.slip += (of_row.slip + of_row.elastic_slip) * area;
+        sum.energy += energy;
     }
 
     /// What a unit of pressure does to the secondary side; moment about the origin.
@@ -341,6 +394,7 @@ impl Interface {
             slip: vec![Vec3::ZERO; n],
             elastic_slip: vec![Vec3::ZERO; n],
             energy: vec![0.0; n],
+            faces: self.parts.discretization.inside().map(|_| Vec::new()),
             area: vec![0.0; n],
             closed_area: vec![0.0; n],
             facet_size: self.parts.scale.length,
