@@ -660,6 +660,13 @@ impl Translation<'_> {
             let Some(before) = self.case.contacts.get(pair.contact).cloned() else {
                 continue;
             };
+            // a joint knows where the sides are at the start, not where they have come to
+            let joins = matches!(law, Law::Tied(_)) && before.tied.is_none();
+            if joins && !self.case.steps.is_empty() {
+                let text = "*CHANGE SURFACE BEHAVIOR to TIED in a later step is not supported";
+                self.error(&codes::NOT_BUILT, text, &to.place, "");
+                return;
+            }
             pair.interaction.law = law.clone();
             let mut after = Contact {
                 name: Spanned::new(self.fresh(&before.name.value), of.place.clone()),
