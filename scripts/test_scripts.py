@@ -420,6 +420,21 @@ class CompareCcx(unittest.TestCase):
         self.assertEqual(found.count(self.script.CONVERGED), 2)
         self.assertIn("*Static, DIRECT\n1., 1.\n*CONTROLS", found)
 
+    def test_results_are_asked_for_in_the_last_step(self):
+        text = "*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n1., 1.\n*End Step\n"
+        found = self.script.asked(text)
+        self.assertEqual(found.count("*NODE FILE"), 1)
+        self.assertTrue(found.endswith(f"1., 1.\n{self.script.ASKED}*End Step\n"))
+
+    def test_tables_at_points_of_contact_do_not_count(self):
+        def block(name, ratio):
+            return {"name": name, "time": 1.0, "outcome": "compared", "numbers": {"ratio": ratio}}
+
+        at_points = block("contact stress (slave element+face,press,tang1,tang2) for all contact elements", 0.5)
+        energy = block("contact print energy (slave element+face,energy)for all contact elements", 1e-5)
+        found = self.judge(at_points, energy)
+        self.assertEqual((found.compared, found.largest), (1, 1e-5))
+
     def judge(self, *blocks, names=None):
         return self.script.judge("\n".join(json.dumps({"ev": "block", **block}) for block in blocks), names)
 

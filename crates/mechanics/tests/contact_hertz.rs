@@ -126,6 +126,7 @@ fn pressed(facets: f64) -> ContactFrame {
             locking: Locking::Auto,
             space: None,
             linear_temperatures: false,
+            at_nodes: Default::default(),
             initial: Vec::new(),
         },
     };

@@ -252,6 +252,7 @@ impl Solution {
                 locking: Locking::None,
                 space: None,
                 linear_temperatures: false,
+                at_nodes: Default::default(),
                 initial: Vec::new(),
             },
         };

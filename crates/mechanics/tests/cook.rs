@@ -109,6 +109,7 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
                 locking,
                 space: None,
                 linear_temperatures: false,
+                at_nodes: Default::default(),
                 initial: Vec::new(),
             },
         }],

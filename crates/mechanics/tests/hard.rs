@@ -198,6 +198,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
             locking: Locking::Auto,
             space: None,
             linear_temperatures: false,
+            at_nodes: Default::default(),
             initial: Vec::new(),
         },
     };

@@ -170,6 +170,7 @@ fn solution(
                 locking: choice.locking,
                 space: None,
                 linear_temperatures: false,
+                at_nodes: Default::default(),
                 initial: Vec::new(),
             },
         }],

@@ -18,7 +18,8 @@
 //! A table agrees where `difference ≤ max(rel · norm, abs)` (E1) and no row and no column is in one file only. Two values
 //! that are no numbers agree with each other and with nothing else. Rows of zeros and tables without rows that the
 //! reference alone has say nothing: CalculiX prints zeros for every number of a set that no node has, and the headings
-//! of loads that do not act.
+//! of loads that do not act. Rows of the points inside a face in contact become one: the sum of their energies, the mean
+//! of everything else.
 //!
 //! One more kind of file: a function in `tables` and a line in [`KINDS`].
 

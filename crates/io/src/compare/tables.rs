@@ -56,6 +56,9 @@ const ROW_COLUMNS: [&str; 6] = [
     "point",
 ];
 
+/// In the names of tables of points inside faces in contact.
+const OF_FACES: &str = "(slave element+face";
+
 /// The column that names the step.
 const STEP_COLUMN: &str = "step";
 
@@ -103,7 +106,38 @@ fn of_dat(name: &str, bytes: &[u8]) -> Result<Vec<Table>, CompareError> {
             values: block.values,
         }
     };
-    Ok(blocks.into_iter().map(table).collect())
+    let tables = blocks.into_iter().map(table);
+    Ok(tables.map(over_faces).collect())
+}
+
+/// Of tables of the points inside faces, which no identifier tells apart, one row for each face: the sum of energies, the
+/// mean of everything else.
+fn over_faces(table: Table) -> Table {
+    if !table.name.contains(OF_FACES) {
+        return table;
+    }
+    let adds_up = table.name.contains("energy");
+    let width = table.columns.len();
+    let mut sums: BTreeMap<&[i64], (f64, Vec<f64>)> = BTreeMap::new();
+    for row in 0..table.nrow() {
+        let zeros = || (0.0, vec![0.0; width]);
+        let (count, sum) = sums.entry(table.ids_of(row)).or_insert_with(zeros);
+        *count += 1.0;
+        for (column, to) in sum.iter_mut().enumerate() {
+            *to += table.value(row, column);
+        }
+    }
+    let ids = sums.keys().flat_map(|ids| ids.iter().copied()).collect();
+    let share = |count: f64| if adds_up { 1.0 } else { count };
+    let means = sums
+        .values()
+        .flat_map(|(count, sum)| sum.iter().map(|value| value / share(*count)));
+    let values = means.collect();
+    Table {
+        ids,
+        values,
+        ..table
+    }
 }
 
 fn of_frd(name: &str, bytes: &[u8]) -> Result<Vec<Table>, CompareError> {

@@ -56,6 +56,30 @@ fn a_file_agrees_with_itself_and_banners_do_not_count() {
 }
 
 #[test]
+fn points_inside_a_face_in_contact_are_one_row() {
+    let table = |caption: &str, rows: &[(u64, f64)]| {
+        let rows = rows
+            .iter()
+            .map(|(e, v)| format!("{e:10}          3 {v:13.6E}\n"));
+        let rows: String = rows.collect();
+        format!("\n {caption}for all contact elements and time 0.1000000E+01\n\n{rows}")
+    };
+    for (name, of_two, of_four) in [("energy", 4.0, 2.0), ("stress", 3.0, 3.0)] {
+        let caption = format!("contact {name} (slave element+face,{name}) ");
+        let text = table(&caption, &[(7, of_two - 1.0), (7, of_two + 1.0), (8, 1.0)]);
+        let four = [of_four - 1.5, of_four - 0.5, of_four + 0.5, of_four + 1.5];
+        let mut reference: Vec<(u64, f64)> = four.iter().map(|value| (7, *value)).collect();
+        reference.push((8, 1.0));
+        let reference = table(&caption, &reference);
+        let findings = dat(&text, &reference);
+        assert_eq!(both(&findings[0]).nrow, 2, "{findings:?}");
+        assert!(findings[0].agrees(TIGHT), "{findings:?}");
+        let other = reference.replace("         8          3", "         9          3");
+        assert!(!dat(&text, &other)[0].agrees(TIGHT));
+    }
+}
+
+#[test]
 fn differences_are_in_parts_of_the_largest_value_of_the_reference_at_that_time() {
     let findings = dat(&DAT.replace("1.000000E+00  0.0", "1.004000E+00  0.0"), DAT);
     let one = both(&findings[0]);

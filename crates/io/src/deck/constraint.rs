@@ -2,8 +2,8 @@
 
 use super::translation::{Target, Translation};
 use crate::case::{
-    AxesSystem, Body, Constraint, ConstraintKind, Directions, LocalAxes, Name, Position, Reference,
-    Summand, Temperatures,
+    AtNodes, AxesSystem, Body, Constraint, ConstraintKind, Directions, LocalAxes, Name, Position,
+    Reference, Summand, Temperatures,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
@@ -182,6 +182,7 @@ impl Translation<'_> {
             space: None,
             thickness: None,
             temperatures: Temperatures::default(),
+            at_nodes: AtNodes::default(),
             area: None,
             rigid: true,
             reference: Some(reference),

@@ -4,8 +4,8 @@
 //! |---|---|---|
 //! | HARD, LINEAR, none | the best way to hold surfaces apart | a penalty: K, or 50 E of the first material; at nodes rounded by an arctangent, with a tension σ∞, or E/70000, within c0 |
 //! | EXPONENTIAL, TABULAR | the same law | the same law |
-//! | TIED | sides that are joined | by a penalty along all directions: K, or 50 E |
-//! | \*TIE | sides that are joined | the same, node to segment by multipliers |
+//! | TIED | sides that are joined | by a penalty: K, or 50 E, along the normal, the slope of sticking across it; distances at the start are pulled together |
+//! | \*TIE | sides that are joined | the same, node to segment by multipliers; in the plane, corner nodes alone |
 //! | TYPE | the best method | node to segment, points inside facets, mortar |
 //! | friction | μ | μ and the slope of sticking, or E/2 |
 //! | GAPUNI | no penetration | as LINEAR at nodes: K, or 1e12, and σ∞, or 1e-3 |
@@ -17,13 +17,13 @@ use super::Compat;
 use super::translation::Translation;
 use crate::case::{
     Area, Basis, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
-    Normals, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
+    Normals, Offset, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
-use signorini_geometry::mesh::boundary;
+use signorini_geometry::mesh::{NodeId, boundary};
 use signorini_geometry::tensor::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A penalty over the first modulus of the deck, where CalculiX finds none.
 const PENALTY: f64 = 50.0;
@@ -365,14 +365,21 @@ impl Translation<'_> {
                 Enforcement::Table(falling.collect())
             }
             Law::Tied(stiffness) => {
-                contact.tied = Some(Tied::default());
-                match method {
-                    Method::Mortar => Enforcement::Auto,
-                    _ if !exact => Enforcement::Auto,
-                    _ => {
+                let by_penalty = exact && method != Method::Mortar;
+                contact.tied = Some(Tied {
+                    offset: match by_penalty {
+                        true => Offset::Pull,
+                        false => Offset::Keep,
+                    },
+                    within: None,
+                    penalty_tangential: by.friction.filter(|_| by_penalty).map(|f| self.slope(f)),
+                });
+                match by_penalty {
+                    true => {
                         let stiffness = given(*stiffness, hard);
                         Enforcement::Penalty(Some(Spanned::new(stiffness, contact.place.clone())))
                     }
+                    false => Enforcement::Auto,
                 }
             }
         };
@@ -404,12 +411,17 @@ impl Translation<'_> {
         contact.friction = rubs.and_then(|given| self.rubbing(given));
     }
 
+    /// The slope of sticking.
+    fn slope(&self, [_, slope]: [f64; 2]) -> f64 {
+        given(slope, STICK * self.first_modulus())
+    }
+
     /// Friction; none where its coefficient is zero.
-    fn rubbing(&self, [mu, slope]: [f64; 2]) -> Option<Friction> {
+    fn rubbing(&self, given: [f64; 2]) -> Option<Friction> {
+        let [mu, _] = given;
         let stick = match self.compat {
             Compat::None => None,
-            Compat::Ccx if slope > 0.0 => Some(Stick::Stiffness(slope)),
-            Compat::Ccx => Some(Stick::Stiffness(STICK * self.first_modulus())),
+            Compat::Ccx => Some(Stick::Stiffness(self.slope(given))),
         };
         let limit = Limit::Coulomb { mu, cap: None };
         (mu > 0.0).then_some(Friction { limit, stick })
@@ -457,15 +469,54 @@ impl Translation<'_> {
             let near = TIE * self.size_of(&sides.primary);
             let mut contact = self.contact(sides, &card.place);
             contact.tied = Some(Tied {
-                close: card.get("ADJUST").map(compared).as_deref() != Some("NO"),
+                offset: match card.get("ADJUST").map(compared).as_deref() {
+                    Some("NO") => Offset::Keep,
+                    _ => Offset::Close,
+                },
                 within: Some(given.unwrap_or(near)),
+                penalty_tangential: None,
             });
             if self.compat == Compat::Ccx {
                 contact.method = Method::NodeToSegment.into();
                 contact.enforcement = Enforcement::Lagrange;
+                contact.secondary = self.corners(contact.secondary, card);
             }
             self.case.contacts.push(contact);
         }
+    }
+
+    /// The nodes of a side that CalculiX ties in a model of the plane or of revolution: not those in the middle of edges,
+    /// whose counterparts in its expanded elements depend on others already.
+    fn corners(&mut self, surface: Name, card: &Statement) -> Name {
+        let mesh = &self.deck.mesh;
+        let set = mesh.sets.get(&surface.value);
+        let Some(set) = set.filter(|_| mesh.dim() == 2) else {
+            return surface;
+        };
+        let sides = set.faces.iter().filter_map(|face| mesh.face(*face));
+        let mut nodes: Vec<NodeId> = sides.flat_map(|(_, nodes)| nodes).collect();
+        nodes.extend(&set.nodes);
+        let middles: BTreeSet<NodeId> = mesh
+            .cells(2)
+            .filter_map(|cell| {
+                let corners = mesh.element(cell)?.sides().len();
+                mesh.cell(cell).get(corners..)
+            })
+            .flatten()
+            .copied()
+            .collect();
+        let count = nodes.len();
+        nodes.retain(|node| !middles.contains(node));
+        if nodes.len() == count {
+            return surface;
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        let label = |node: &NodeId| mesh.node_labels.get(*node as usize).copied();
+        let labels = nodes.iter().filter_map(label).collect();
+        let text = "as in CalculiX, nodes in the middle of edges are not tied in the plane";
+        self.note(text, &card.place);
+        self.nodes_named(labels, &surface.place)
     }
 
     /// The mean size of the elements of a surface: the edge of a cube as large as the box around each.
@@ -625,6 +676,13 @@ impl Translation<'_> {
             let Some(before) = self.case.contacts.get(pair.contact).cloned() else {
                 continue;
             };
+            // a joint knows where the sides are at the start, not where they have come to
+            let joins = matches!(law, Law::Tied(_)) && before.tied.is_none();
+            if joins && !self.case.steps.is_empty() {
+                let text = "*CHANGE SURFACE BEHAVIOR to TIED in a later step is not supported";
+                self.error(&codes::NOT_BUILT, text, &to.place, "");
+                return;
+            }
             pair.interaction.law = law.clone();
             let mut after = Contact {
                 name: Spanned::new(self.fresh(&before.name.value), of.place.clone()),

@@ -1,9 +1,10 @@
 //! Sections, amplitudes, what is there at the start.
 
+use super::Compat;
 use super::translation::{Target, Translation, is_truss};
 use crate::case::{
-    Amplitude, AtPoint, AxesSystem, Body, Integration, Locking, MaterialChange, Model, Name,
-    Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
+    Amplitude, AtNodes, AtPoint, AxesSystem, Body, Integration, Locking, MaterialChange, Model,
+    Name, Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -34,6 +35,7 @@ impl Section<'_> {
             locking: Spanned::new(Locking::Auto, place.clone()),
             orientation: None,
             space: None,
+            at_nodes: AtNodes::Fitted,
             thickness: None,
             temperatures: Temperatures::Full,
             area: None,
@@ -544,6 +546,10 @@ impl Translation<'_> {
                     Temperatures::Linear
                 } else {
                     Temperatures::Full
+                },
+                at_nodes: match self.compat {
+                    Compat::None => AtNodes::Fitted,
+                    Compat::Ccx => AtNodes::Interpolated,
                 },
                 ..section.made_of(group)
             });

@@ -1,8 +1,8 @@
 use super::*;
 use crate::case::{
     Area, AxesSystem, Body, ConstraintKind, Enforcement, FreeMotions, Geometry, Integration,
-    Interference, LoadKind, Locking, Method, Motion, Per, SetContent, Space, SpringEnds, SpringLaw,
-    Unstrained,
+    Interference, LoadKind, Locking, Method, Motion, Offset, Per, SetContent, Space, SpringEnds,
+    SpringLaw, Unstrained,
 };
 use crate::fs::RealFs;
 use signorini_geometry::tensor::Vec3;
@@ -596,7 +596,12 @@ fn another_contact_takes_over_where_the_behavior_changes() {
     let [tied, free] = case.contacts.as_slice() else {
         panic!("{:?}", case.contacts);
     };
-    assert!(tied.tied.is_some() && tied.active && tied.friction.is_none());
+    let joint = tied.tied.unwrap();
+    assert_eq!(
+        (joint.offset, joint.penalty_tangential),
+        (Offset::Pull, Some(50.0))
+    );
+    assert!(tied.active && tied.friction.is_none());
     assert!(free.tied.is_none() && !free.active && free.friction.is_some());
     let changes = |step: usize| -> Vec<(&str, Option<bool>)> {
         let changes = case.steps[step].contacts.iter();
@@ -607,6 +612,18 @@ fn another_contact_takes_over_where_the_behavior_changes() {
     let (tied, free) = (tied.name.as_str(), free.name.as_str());
     assert_eq!(changes(1), [(tied, Some(false)), (free, Some(true))]);
     assert_eq!(changes(2), [(free, Some(false))]);
+}
+
+#[test]
+fn what_moved_freely_is_not_tied_later() {
+    let law = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e4";
+    let steps = "*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n*CHANGE SURFACE BEHAVIOR, INTERACTION=I\n\
+                 *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n2e4\n*END STEP\n";
+    let found = translated(&pair(BY_FACES, law, steps), Compat::Ccx).unwrap_err();
+    assert!(
+        found.plain().contains("to TIED in a later step"),
+        "{found:?}"
+    );
 }
 
 #[test]

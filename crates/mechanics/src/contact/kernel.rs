@@ -14,6 +14,8 @@ pub(super) struct Laws<'a> {
     pub scale: &'a Scale,
     /// Whether the sides are joined.
     pub bond: bool,
+    /// The stiffness of bonds within the tangent plane; `None`: as along the normal.
+    pub bond_tangential: Option<f64>,
     /// Whether multipliers are tractions.
     pub vectors: bool,
 }
@@ -150,7 +152,7 @@ impl<'a> Laws<'a> {
     /// Tangential traction per slip, of what sticks.
     pub fn stick_stiffness(&self, traction: &Traction) -> f64 {
         match (self.bond, self.stick_of()) {
-            (true, _) => self.scale.penalty,
+            (true, _) => self.scale.penalty.max(self.bond_tangential()),
             (false, Stick::Stiffness(stiffness)) if self.slips() => stiffness,
             (false, Stick::Slip(length)) if self.slips() => traction.limit / length,
             _ => 0.0,
@@ -281,10 +283,27 @@ impl<'a> Laws<'a> {
         }
     }
 
+    fn bond_tangential(&self) -> f64 {
+        self.bond_tangential.unwrap_or(self.scale.penalty)
+    }
+
+    /// E e of (E6).
+    fn stretched(&self, row: &Row, e: Vec3) -> Vec3 {
+        let tangential = self.bond_tangential();
+        let more = self.scale.penalty - tangential;
+        e * tangential + row.normal * (row.normal.dot(e) * more)
+    }
+
+    /// The energy in a bond, without multipliers.
+    pub fn bond_energy(&self, row: &Row) -> f64 {
+        let e = row.sliding.slip;
+        0.5 * e.dot(self.stretched(row, e))
+    }
+
     fn bonded(&self, row: &Row, lambda: &Lambda) -> Traction {
         let stretched = match self.law.multiplier() {
             Multiplier::Direct => lambda.vector,
-            _ => lambda.vector + row.sliding.slip * self.scale.penalty,
+            _ => lambda.vector + self.stretched(row, row.sliding.slip),
         };
         let along = stretched.dot(row.normal);
         Traction {
@@ -484,12 +503,11 @@ impl<'a> Laws<'a> {
     fn tie(&self, row: &Row, measure: f64, lambda: &Lambda, target: &mut Target<'_>) {
         let (n, width) = (row.weights.len(), target.force.len());
         let sliding = &row.sliding;
-        let multiplier = self.law.multiplier();
-        let stiffness = match multiplier {
-            Multiplier::Direct => 0.0,
-            _ => self.scale.penalty,
+        let stretched = |e: Vec3| match self.law.multiplier() {
+            Multiplier::Direct => Vec3::ZERO,
+            _ => self.stretched(row, e),
         };
-        let traction = lambda.vector + sliding.slip * stiffness;
+        let traction = lambda.vector + stretched(sliding.slip);
         for (f, b) in target.force.iter_mut().zip(&sliding.operator) {
             *f += measure * b.dot(traction);
         }
@@ -508,7 +526,7 @@ impl<'a> Laws<'a> {
             }
             let b = sliding.operator[i];
             for (k, de) in line.iter_mut().zip(&sliding.dslip) {
-                *k += measure * stiffness * b.dot(*de);
+                *k += measure * b.dot(stretched(*de));
             }
             for c in 0..width - n {
                 line[n + c] += measure * b[c];

@@ -60,10 +60,11 @@
 //! it: nothing rubs there. Bonds are linear,
 //!
 //! ```text
-//! f = w Bᵀ(λ + ε e),   f_λ = w e,   e the whole way from the anchor           (E6)
+//! f = w Bᵀ(λ + E e),   f_λ = w e,   e the whole way from the anchor           (E6)
+//! E = k I + (ε − k) ννᵀ,   ν that at the start of the increment
 //! ```
 //!
-//! without ε where the multiplier is the traction. Tractions of a pair at a distance have a moment, `w (r − ρ) × t`: nothing
+//! without E where the multiplier is the traction, and with `k = ε` unless a stiffness within the tangent plane is given. Tractions of a pair at a distance have a moment, `w (r − ρ) × t`: nothing
 //! for what is frictionless, `w g ν × t` with friction, which vanishes with the gap. With multipliers, `∂f/∂λ` and
 //! `∂f_λ/∂d` of what sticks are each other's transposes where the anchor is the closest point; the rest of the
 //! tangent is unsymmetric, `(∂B/∂d)ᵀλ`.

@@ -59,6 +59,14 @@ pub struct Row {
     pub sliding: Sliding,
 }
 
+impl Row {
+    /// The part of a vector within the tangent plane.
+    #[must_use]
+    pub fn within(&self, v: Vec3) -> Vec3 {
+        v - self.normal * self.normal.dot(v)
+    }
+}
+
 /// The tangential part of a row. Vectors have one entry for each column.
 #[derive(Debug, Default)]
 pub struct Sliding {

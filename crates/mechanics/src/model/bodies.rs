@@ -196,6 +196,7 @@ impl Context<'_> {
                     integration,
                     locking,
                     linear_temperatures,
+                    at_nodes,
                     initial,
                     ..
                 } => {
@@ -211,6 +212,7 @@ impl Context<'_> {
                         locking,
                         temperature,
                         linear_temperatures,
+                        at_nodes,
                         initial: &initial,
                     })?;
                     for (step, material) in later {

@@ -36,7 +36,7 @@ pub use parts::{
     AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart,
     ContactChange, ContactPart, Enforcement, FrictionPart, Interference, LimitPart, Load, LoadPart,
     Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart,
-    StartPart, StepPart, StickPart, Target, TiePart, Unknown,
+    StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
 
 use crate::contact::{Interface, Measure};

@@ -76,5 +76,6 @@ mod tests;
 mod truss;
 
 pub use choice::{Integration, Locking};
+pub use report::AtNodes;
 pub use term::{AtStart, Solid, SolidError, SolidParts};
 pub use truss::{Truss, TrussParts};

@@ -8,18 +8,34 @@ use signorini_geometry::element::{self, ReferenceElement};
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::Sym3;
 
-/// The matrix that carries values at the points of a rule to the nodes, `nnode` rows of `npoint`: the field of the linear
+/// How values at points are carried to the nodes of an element.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AtNodes {
+    /// By the linear field that comes closest to them.
+    #[default]
+    Fitted,
+    /// By the field of as many terms as there are points, which has their values, where an element of the same shape has
+    /// one; else as fitted.
+    Interpolated,
+}
+
+/// The matrix that carries values at the points of a rule to the nodes, `nnode` rows of `npoint`: the field of an
 /// element of the same shape that comes closest to them (least squares), or their mean where there are too few points.
-pub(super) fn extrapolation(element: &dyn ReferenceElement, rule: &Rule) -> Vec<f64> {
+pub(super) fn extrapolation(
+    element: &dyn ReferenceElement,
+    rule: &Rule,
+    at_nodes: AtNodes,
+) -> Vec<f64> {
     let npoint = rule.npoint();
-    let fitted = linear(element).and_then(|linear| {
-        let n = linear.nnode();
+    let nterm = (at_nodes == AtNodes::Interpolated).then_some(npoint);
+    let fitted = field(element, nterm).and_then(|field| {
+        let n = field.nnode();
         if n > npoint {
             return None;
         }
         let mut shape = vec![0.0; n];
         let mut at = |xi| {
-            linear.shape(xi, &mut shape);
+            field.shape(xi, &mut shape);
             shape.clone()
         };
         // (AᵀA) X = Aᵀ, with row p of A the shape functions at point p
@@ -40,14 +56,15 @@ pub(super) fn extrapolation(element: &dyn ReferenceElement, rule: &Rule) -> Vec<
     fitted.unwrap_or_else(|| vec![1.0 / npoint as f64; element.nnode() * npoint])
 }
 
-/// The linear element of the same shape.
-fn linear(of: &dyn ReferenceElement) -> Option<element::Element> {
-    let same = |e: &&element::Element| {
+/// The element of the same shape with so many nodes; the linear one where there is none.
+fn field(of: &dyn ReferenceElement, nnode: Option<usize>) -> Option<element::Element> {
+    let same = |e: &element::Element| {
         let shape = e.dim() == of.dim() && e.sides().len() == of.sides().len();
-        shape && of.nodes().starts_with(e.nodes())
+        shape && (of.nodes().starts_with(e.nodes()) || e.nodes().starts_with(of.nodes()))
     };
-    let candidates = element::TABLE.iter().copied().filter(|e| same(&e));
-    candidates.min_by_key(|e| e.nnode())
+    let candidates = || element::TABLE.iter().copied().filter(same);
+    let wanted = nnode.and_then(|n| candidates().find(|e| e.nnode() == n));
+    wanted.or_else(|| candidates().min_by_key(|e| e.nnode()))
 }
 
 /// The means over a cell.
@@ -134,5 +151,43 @@ pub(super) fn add(
 fn put<T>(cells: Option<&mut Vec<T>>, cell: usize, value: T) {
     if let Some(to) = cells.and_then(|c| c.get_mut(cell)) {
         *to = value;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_geometry::tensor::Vec3;
+
+    /// The largest error at the nodes of a field that is known at the points.
+    fn error(name: &str, at_nodes: AtNodes, field: impl Fn(Vec3) -> f64) -> f64 {
+        let element = element::by_name(name).unwrap();
+        let rule = element.full_rule();
+        let matrix = extrapolation(element, rule, at_nodes);
+        let rows = matrix.chunks_exact(rule.npoint()).zip(element.nodes());
+        let error = |(row, xi): (&[f64], &Vec3)| {
+            let values = rule.points.iter().map(|p| field(*p));
+            let carried: f64 = row.iter().zip(values).map(|(w, value)| w * value).sum();
+            (carried - field(*xi)).abs()
+        };
+        rows.map(error).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn quadratic_fields_are_interpolated_and_linear_ones_are_kept() {
+        let linear = |x: Vec3| 2.0 + x.x - 3.0 * x.y + 0.5 * x.z;
+        let quadratic = |x: Vec3| linear(x) + x.x * x.x * x.y - 4.0 * x.y * x.y;
+        for name in ["quad8", "quad9", "hex20", "hex27"] {
+            assert!(
+                error(name, AtNodes::Interpolated, quadratic) < 1e-12,
+                "{name}"
+            );
+            assert!(error(name, AtNodes::Fitted, quadratic) > 0.1, "{name}");
+        }
+        for name in ["tri6", "tet10", "wedge15", "quad4", "hex8", "hex20"] {
+            for at_nodes in [AtNodes::Fitted, AtNodes::Interpolated] {
+                assert!(error(name, at_nodes, linear) < 1e-12, "{name}");
+            }
+        }
     }
 }

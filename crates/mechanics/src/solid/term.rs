@@ -1,7 +1,7 @@
 use super::choice::{Situation, keeps_volume};
 use super::kernel::{Element, Failure, Initial, Kernel, Output, Points, Remedy, Sample, kernel};
 use super::report;
-use super::{Integration, Locking};
+use super::{AtNodes, Integration, Locking};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Strain};
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink,
@@ -59,6 +59,8 @@ pub struct SolidParts<'a> {
     /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are: those at the points of
     /// reduced integration, continued.
     pub linear_temperatures: bool,
+    /// How values at points are carried to nodes.
+    pub at_nodes: AtNodes,
     /// Stress and strain at the start; zero at points that are not named.
     pub initial: &'a [AtStart],
 }
@@ -242,6 +244,7 @@ impl Solid {
             locking,
             temperature,
             linear_temperatures,
+            at_nodes,
             initial,
         } = parts;
         let material: Box<dyn Material> = match space {
@@ -265,7 +268,7 @@ impl Solid {
                         kinematics,
                         keeps_volume: keeps_volume[kinematics as usize],
                     };
-                    let cells = Cells::new(situation, locking, material.nhistory());
+                    let cells = Cells::new(situation, locking, material.nhistory(), at_nodes);
                     let cells = cells.filter(|_| element.dim() == layout.ndim);
                     let mut cells = cells.ok_or_else(|| SolidError::NotSolid {
                         body: name.to_string(),
@@ -488,6 +491,7 @@ impl Cells {
         situation: impl Fn(Kinematics) -> Situation,
         wish: Locking,
         nhistory: usize,
+        at_nodes: AtNodes,
     ) -> Option<Self> {
         let treatment = |kinematics| {
             let situation = situation(kinematics);
@@ -509,7 +513,7 @@ impl Cells {
         };
         Some(Self {
             element: element.name(),
-            extrapolation: report::extrapolation(element, rule),
+            extrapolation: report::extrapolation(element, rule, at_nodes),
             points: Points::new(element, rule),
             small,
             finite,

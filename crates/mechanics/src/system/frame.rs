@@ -1,6 +1,6 @@
 use super::Samples;
 use signorini_geometry::element::Element;
-use signorini_geometry::mesh::CellId;
+use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use std::sync::Arc;
 
@@ -49,6 +49,25 @@ pub struct Resultant {
     pub moment: Vec3,
 }
 
+/// What happened where a part of the secondary side touches.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactSample {
+    /// Its area.
+    pub area: f64,
+    /// The mean normal out of the primary side, of unit length.
+    pub normal: Vec3,
+    /// The mean gap.
+    pub gap: f64,
+    /// The mean pressure.
+    pub pressure: f64,
+    /// The mean traction on the secondary side.
+    pub traction: Vec3,
+    /// The mean slip, with what sticking has yielded.
+    pub slip: Vec3,
+    /// The energy in its springs.
+    pub energy: f64,
+}
+
 /// What happened at one contact interface.
 #[derive(Clone, Debug, Default)]
 pub struct ContactFrame {
@@ -80,6 +99,8 @@ pub struct ContactFrame {
     pub elastic_slip: Vec<Vec3>,
     /// Energy that springs of the contact law, and of sticking, hold at each node.
     pub energy: Vec<f64>,
+    /// The faces of the secondary side with points inside that touch; `None` where the points are its nodes.
+    pub faces: Option<Vec<(Face, ContactSample)>>,
     /// The part of the area of each node where there is contact.
     pub closed_area: Vec<f64>,
     /// Tributary area of each node: by mortar, the part that is covered, and none of a node that leans on another one.
@@ -133,6 +154,9 @@ impl ContactFrame {
         self.gap_min = self.gap_min.min(pass.gap_min);
         self.slip_max = self.slip_max.max(pass.slip_max);
         self.work_friction += pass.work_friction;
+        if let (Some(faces), Some(others)) = (&mut self.faces, &pass.faces) {
+            faces.extend(others);
+        }
     }
 
     /// The number of closed nodes.

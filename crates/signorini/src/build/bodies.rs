@@ -12,7 +12,7 @@ use signorini_mechanics::material::{
     Plasticity,
 };
 use signorini_mechanics::model::{BodyKind, BodyPart};
-use signorini_mechanics::solid::AtStart;
+use signorini_mechanics::solid::{AtNodes, AtStart};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The bodies of a case, in its order.
@@ -101,6 +101,10 @@ fn body_part(
             locking: body.locking.value,
             space: super::own_idealisation(&case.model, body),
             linear_temperatures: body.temperatures == Temperatures::Linear,
+            at_nodes: match body.at_nodes {
+                case::AtNodes::Fitted => AtNodes::Fitted,
+                case::AtNodes::Interpolated => AtNodes::Interpolated,
+            },
             initial: initial(case, names, &cells),
         },
         cells,

@@ -8,8 +8,8 @@ use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{
-    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Limit, Normals, Pairs, Per,
-    Sliding, Stick,
+    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Limit, Normals, Offset, Pairs,
+    Per, Sliding, Stick,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
@@ -17,7 +17,7 @@ use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
 use signorini_mechanics::contact::mortar::Basis;
 use signorini_mechanics::model::{
     self, AreaPart, ContactChange, ContactPart, ContactSummary, FrictionPart, LimitPart, Method,
-    PrimaryPart, SidePart, StartPart, StickPart, TiePart,
+    PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
 };
 
 /// The contacts that act in some step. Their places in this list are their numbers.
@@ -67,8 +67,13 @@ pub(super) fn contact(
             Sliding::Small => SlidingRange::Small,
         },
         tie: part.tied.map(|tied| TiePart {
-            close: tied.close,
+            offset: match tied.offset {
+                Offset::Keep => TieOffset::Keep,
+                Offset::Close => TieOffset::Close,
+                Offset::Pull => TieOffset::Pull,
+            },
             within: tied.within,
+            penalty_tangential: tied.penalty_tangential,
         }),
         start: start(&part.start, names, found),
         reach: part.reach,

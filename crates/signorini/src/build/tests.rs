@@ -9,8 +9,8 @@ use signorini_mechanics::contact::discretization::SlidingRange;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{
     self, AreaPart, BodyKind, Change, ConstraintKind, ContactChange, ContactPart, FrictionPart,
-    LimitPart, Load, PrimaryPart, SidePart, StartPart, StepPart, StickPart, Target, TiePart,
-    Unknown,
+    LimitPart, Load, PrimaryPart, SidePart, StartPart, StepPart, StickPart, Target, TieOffset,
+    TiePart, Unknown,
 };
 use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::Motion;
@@ -642,15 +642,35 @@ fn contacts_become_what_they_say() {
         part.sliding = SlidingRange::Small;
         part.reach = Some(0.5);
     });
-    for (tied, close, within) in [
-        ("true", false, None),
-        ("{ within = 0.1 }", false, Some(0.1)),
-        ("{ offset = 'close' }", true, None),
+    for (tied, offset, within) in [
+        ("true", TieOffset::Keep, None),
+        ("{ within = 0.1 }", TieOffset::Keep, Some(0.1)),
+        ("{ offset = 'close' }", TieOffset::Close, None),
     ] {
         changed(&format!("tied = {tied}"), &|part| {
-            part.tie = Some(TiePart { close, within });
+            part.tie = Some(TiePart {
+                offset,
+                within,
+                penalty_tangential: None,
+            });
         });
     }
+    let by_points = "method = 'gauss-point'\nenforcement = { penalty = 9 }";
+    changed(
+        &format!("{by_points}\ntied = {{ offset = 'pull', penalty_tangential = 2 }}"),
+        &|part| {
+            part.method = model::Method::GaussPoint(model::PointRule {
+                kind: model::PointKind::Gauss,
+                points: None,
+            });
+            part.enforcement = model::Enforcement::Penalty(Some(9.0));
+            part.tie = Some(TiePart {
+                offset: TieOffset::Pull,
+                within: None,
+                penalty_tangential: Some(2.0),
+            });
+        },
+    );
     changed(
         "start = { close_gaps_below = 0.1, clearance = 0, interference = 'strain-free' }",
         &|part| {

@@ -16,3 +16,21 @@ fn nodes_stick_and_slip_on_faces_as_in_calculix() {
 fn a_law_that_changes_takes_over_where_things_are() {
     agrees(&own("swap.inp"), "", Compat::Ccx, 1e-3);
 }
+
+/// What is TIED pulls a gap closed by its penalty; along the surface it has the slope of sticking, and no limit.
+#[test]
+fn what_is_tied_has_another_stiffness_along_the_surface() {
+    agrees(&own("tied.inp"), "", Compat::Ccx, 1e-6);
+}
+
+/// *TIE of quadratic elements in the plane.
+#[test]
+fn in_the_plane_only_corners_are_tied_as_in_calculix() {
+    agrees(&own("tied_plane.inp"), "", Compat::Ccx, 1e-6);
+}
+
+/// Gaps, tractions and energies of faces, which CalculiX prints at each of its points.
+#[test]
+fn what_happens_at_points_inside_faces_is_printed_of_faces() {
+    agrees(&own("faces.inp"), "", Compat::Ccx, 1e-6);
+}

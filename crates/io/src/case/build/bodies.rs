@@ -191,6 +191,7 @@ impl Builder {
             "space",
             "thickness",
             "temperatures",
+            "at_nodes",
             "area",
         ];
         let wrong = if rigid {
@@ -242,6 +243,10 @@ impl Builder {
             temperatures: match fields.text("temperatures").value.as_str() {
                 "linear" => Temperatures::Linear,
                 _ => Temperatures::Full,
+            },
+            at_nodes: match fields.text("at_nodes").value.as_str() {
+                "interpolated" => AtNodes::Interpolated,
+                _ => AtNodes::Fitted,
             },
             area: fields.number_if("area"),
             rigid,

@@ -221,6 +221,17 @@ impl Builder {
 
     fn what_goes_with_a_tie(&mut self, contact: &Contact, fields: Fields<'_>) {
         let one_sided = contact.enforcement.is_curve();
+        let by_points = matches!(contact.enforcement, Enforcement::Penalty(_))
+            && matches!(*contact.method, Method::NodeToSegment | Method::GaussPoint);
+        let pulls = |tied: &Tied| tied.offset == Offset::Pull || tied.penalty_tangential.is_some();
+        if contact.tied.as_ref().is_some_and(pulls) && !by_points {
+            self.error(
+                &codes::CONTRADICTION,
+                "`penalty_tangential` and `offset = \"pull\"` go with a penalty at points".to_owned(),
+                &fields.place("tied"),
+                "write a `penalty` as `enforcement`, and the `method` \"node-to-segment\" or \"gauss-point\"",
+            );
+        }
         for (key, wrong, remark) in [
             (
                 "friction",
@@ -467,8 +478,13 @@ fn tied(fields: Fields<'_>) -> Option<Tied> {
         .get("tied")
         .is_some_and(|value| value.get_ref().is_table());
     (is_table || fields.flag("tied")).then(|| Tied {
-        close: table.text("offset").value == "close",
+        offset: match table.text("offset").value.as_str() {
+            "close" => Offset::Close,
+            "pull" => Offset::Pull,
+            _ => Offset::Keep,
+        },
         within: table.number_if("within").map(|within| within.value),
+        penalty_tangential: table.number_if("penalty_tangential").map(|one| one.value),
     })
 }
 

@@ -114,6 +114,8 @@ pub struct Body {
     pub thickness: Option<Spanned<f64>>,
     /// How temperatures vary in an element.
     pub temperatures: Temperatures,
+    /// How stresses and strains at points are carried to nodes.
+    pub at_nodes: AtNodes,
     /// Cross-section of bars (area).
     pub area: Option<Spanned<f64>>,
     /// Whether it moves as a whole.
@@ -143,6 +145,16 @@ pub enum Temperatures {
     Full,
     /// Linearly in quad8 and hex20 with full integration: those at the points of reduced integration, continued.
     Linear,
+}
+
+/// How stresses and strains at the points of an element are carried to its nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AtNodes {
+    /// By the linear field that comes closest to them.
+    #[default]
+    Fitted,
+    /// By a field that has their values, where there are as many points as a quadratic element has nodes.
+    Interpolated,
 }
 
 /// Axes of a material: x, and y in the plane of both vectors. Of any length, not parallel.

@@ -226,13 +226,27 @@ pub enum Sliding {
     Small,
 }
 
+/// What becomes of distances at the start between sides that are joined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Offset {
+    /// They stay.
+    #[default]
+    Keep,
+    /// They are closed without strain.
+    Close,
+    /// The joint pulls the sides together.
+    Pull,
+}
+
 /// Sides that are joined.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tied {
-    /// Whether distances at the start are closed without strain, or stay.
-    pub close: bool,
+    /// What becomes of distances at the start.
+    pub offset: Offset,
     /// Points further away (length) are not joined; none: all within reach.
     pub within: Option<f64>,
+    /// Traction per way apart within the tangent plane, of joints by a penalty; none: as along the normal.
+    pub penalty_tangential: Option<f64>,
 }
 
 /// What is done about gaps and overlaps at the start.

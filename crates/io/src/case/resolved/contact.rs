@@ -162,9 +162,15 @@ fn friction(friction: Option<&Friction>) -> Value {
 }
 
 fn tied(tied: &Tied) -> Value {
-    let offset = if tied.close { "close" } else { "keep" };
+    let offset = match tied.offset {
+        Offset::Keep => "keep",
+        Offset::Close => "close",
+        Offset::Pull => "pull",
+    };
     let mut entries = vec![("offset", offset.into())];
     entries.extend(tied.within.map(|within| ("within", within.into())));
+    let tangential = tied.penalty_tangential;
+    entries.extend(tangential.map(|penalty| ("penalty_tangential", penalty.into())));
     Value::Table(entries)
 }
 

@@ -232,7 +232,14 @@ pub(super) fn body(body: &Body) -> Entries {
         Temperatures::Full => "full",
         Temperatures::Linear => "linear",
     };
-    entries.push(("temperatures", temperatures.into()));
+    let at_nodes = match body.at_nodes {
+        AtNodes::Fitted => "fitted",
+        AtNodes::Interpolated => "interpolated",
+    };
+    entries.extend([
+        ("temperatures", temperatures.into()),
+        ("at_nodes", at_nodes.into()),
+    ]);
     entries.extend(body.area.as_ref().map(|area| ("area", area.value.into())));
     entries.push(("rigid", false.into()));
     entries

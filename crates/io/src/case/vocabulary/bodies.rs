@@ -213,6 +213,13 @@ pub(super) static BODY: Table = Table {
             "how temperatures vary in an element; linear, as strains do: of quad8 and hex20 with full integration",
         )
         .or(Default::Text("full")),
+        key(
+            "at_nodes",
+            Shape::Choice(&[word("fitted"), word("interpolated")]),
+            "how stresses at points are carried to nodes: by the closest linear field, or the quadratic one through all points, \
+             where quad8, quad9, hex20 and hex27 have full integration",
+        )
+        .or(Default::Text("fitted")),
         key("area", POSITIVE, "cross-section of bars (area)").hints(&["section"]),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
         key(

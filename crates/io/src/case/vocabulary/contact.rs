@@ -275,14 +275,19 @@ static TIED: Table = Table {
     keys: &[
         key(
             "offset",
-            Shape::Choice(&[word("keep"), word("close")]),
-            "whether distances at the start stay, or are closed without strain",
+            Shape::Choice(&[word("keep"), word("close"), word("pull")]),
+            "whether distances at the start stay, are closed without strain, or pull, overlaps over the first step",
         )
         .or(Default::Text("keep")),
         key(
             "within",
             POSITIVE,
             "points further away are not joined (length); absent: all within reach",
+        ),
+        key(
+            "penalty_tangential",
+            NOT_NEGATIVE,
+            "traction per way apart within the tangent plane, with a penalty at points; absent: as along the normal",
         ),
     ],
     rules: &[],

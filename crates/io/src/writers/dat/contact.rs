@@ -8,10 +8,16 @@ use signorini_geometry::tensor::Vec3;
 pub enum ContactKind {
     /// Gap, negative in penetration, and slip along two tangents, of closed nodes.
     Gaps,
-    /// Pressure, and the traction against which they slip along two tangents.
+    /// The same, means over closed parts of faces.
+    FaceGaps,
+    /// Pressure, and the traction against which they slip along two tangents, of closed nodes.
     Tractions,
+    /// The same, means over closed parts of faces.
+    FaceTractions,
     /// Energy of closed nodes.
     Energies,
+    /// Energy of faces.
+    FaceEnergies,
     /// Its sum.
     TotalEnergy,
     /// The number of closed nodes.
@@ -26,6 +32,15 @@ impl ContactKind {
             }
             Self::Tractions => {
                 "contact stress (slave node,press,tang1,tang2) for all contact elements and time"
+            }
+            Self::FaceGaps => {
+                "relative contact displacement (slave element+face,normal,tang1,tang2) for all contact elements and time"
+            }
+            Self::FaceTractions => {
+                "contact stress (slave element+face,press,tang1,tang2) for all contact elements and time"
+            }
+            Self::FaceEnergies => {
+                "contact print energy (slave element+face,energy)for all contact elements and time"
             }
             // no blank: so it is written
             Self::Energies => {

@@ -16,7 +16,8 @@
 //! names are in capitals, as CalculiX has them. Tensors run xx, yy, zz, xy, xz, yz, shear strains being components of the
 //! tensor. What is printed where in an element, and in which order, is the matter of [`Points`].
 //!
-//! Contact is printed of nodes, in the way of node-to-face contact, whatever the method.
+//! Contact is printed of nodes, in the way of node-to-face contact. Of methods with points inside faces it is printed of
+//! faces: sums and means over the points that touch, where CalculiX has a row for each of its points.
 //!
 //! Bodies of revolution are printed as CalculiX's wedge of two degrees: forces, energies and volumes are [`WEDGE`] times
 //! those of the circumference.
@@ -101,6 +102,8 @@ pub enum Of {
     Local(u64),
     /// A point of an element, from 1.
     Point(u64, usize),
+    /// A side of an element, from 1.
+    Side(u64, usize),
     /// The whole set.
     All,
     /// Both sides of a contact.
@@ -142,6 +145,7 @@ impl Page {
         let _ = match of {
             Of::One(label) | Of::Local(label) => write!(self.text, "{label:10}"),
             Of::Point(label, point) => write!(self.text, "{label:10} {point:3}"),
+            Of::Side(label, side) => write!(self.text, "{label:10} {side:10}"),
             Of::All => write!(self.text, "{:6}", ""),
             Of::Both => write!(self.text, "{:2}", ""),
         };

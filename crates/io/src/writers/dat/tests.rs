@@ -318,6 +318,27 @@ fn a_page_of_contact_is_calculix_s_byte_for_byte() {
     assert_eq!(page.text(), CONTACT_BY_HAND);
 }
 
+#[test]
+fn faces_in_contact_are_named_by_element_and_side() {
+    let mut page = Page::new(1, 1, 1.0);
+    let start = page.text().len();
+    page.contact_table(ContactKind::FaceGaps);
+    page.row(Of::Side(2, 1), &[9.502_262e-4, 7.241_379e-3, 0.0]);
+    page.contact_table(ContactKind::FaceEnergies);
+    page.row(Of::Side(2, 1), &[5.489_104e-2]);
+    // the lines of CalculiX 2.20
+    let expected = "
+ relative contact displacement (slave element+face,normal,tang1,tang2) for all contact elements and time 0.1000000E+01
+
+         2          1  9.502262E-04  7.241379E-03  0.000000E+00
+
+ contact print energy (slave element+face,energy)for all contact elements and time 0.1000000E+01
+
+         2          1  5.489104E-02
+";
+    assert_eq!(&page.text()[start..], expected);
+}
+
 /// As CalculiX prints the same two blocks along three axes.
 #[test]
 fn tangents_follow_x_and_turn_right_about_the_normal() {

@@ -31,8 +31,7 @@
 //! The mesh is written once, then the frames, each with one write that also ends the file. The next frame takes that
 //! end away first: at any instant the file is the mesh with whole frames and at most one that is torn, and a resumed
 //! run cuts it back to the checkpoint's frames. Numbers of elements and nodes are those of the mesh, unless a reader
-//! with numbers of 32 bits could not hold them: then nodes or elements count from 1. Nodes of no element, such as those
-//! that rigid bodies are moved by, are left out, as CalculiX does: nothing is drawn there.
+//! with numbers of 32 bits could not hold them: then nodes or elements count from 1.
 //!
 //! Limits: six digits; exponents of two digits. Orders of nodes and what has no type are told in
 //! [`cells`](crate::frd::cells).
@@ -242,8 +241,8 @@ pub struct Mark {
 pub struct FrdFile {
     log: Box<dyn Log>,
     path: PathBuf,
-    /// The number of each node; of those that no element has, none.
-    labels: Vec<Option<u64>>,
+    /// The number of each node.
+    labels: Labels,
     at: Mark,
     /// The frame in the making, kept for its memory.
     draft: Vec<u8>,
@@ -258,7 +257,7 @@ impl FrdFile {
         let mut file = Self {
             log: fs.open_log(path, 0)?,
             path: path.to_path_buf(),
-            labels: node_numbers(mesh),
+            labels: Labels::new(mesh),
             at: Mark::default(),
             draft: Vec::new(),
         };
@@ -277,7 +276,7 @@ impl FrdFile {
         let mut file = Self {
             log: fs.open_log(path, mark.length)?,
             path: path.to_path_buf(),
-            labels: node_numbers(mesh),
+            labels: Labels::new(mesh),
             at: mark,
             draft: Vec::new(),
         };
@@ -297,12 +296,7 @@ impl FrdFile {
         let nframe = self.at.nframe + 1;
         for (number, dataset) in (self.at.ndataset + 1..).zip(datasets) {
             let out = &mut self.draft;
-            push_moment(
-                out,
-                moment,
-                [number, nframe],
-                written(&self.labels, dataset),
-            );
+            push_moment(out, moment, [number, nframe], self.labels.nrow(dataset));
             push_declaration(out, dataset);
             push_values(out, &self.labels, dataset);
         }
@@ -330,7 +324,7 @@ impl FrdFile {
             Dataset::Contact { nodes, .. } => Some(*nodes),
             _ => None,
         };
-        let expected = nodes.map_or(self.labels.len(), <[u32]>::len);
+        let expected = nodes.map_or(self.labels.all.len(), <[u32]>::len);
         let (path, name, got) = (&self.path, dataset.name(), dataset.len());
         if got != expected {
             return Err(FrdError::WrongLength {
@@ -341,7 +335,7 @@ impl FrdFile {
             });
         }
         let mut nodes = nodes.unwrap_or_default().iter();
-        match nodes.find(|&&node| node as usize >= self.labels.len()) {
+        match nodes.find(|&&node| node as usize >= self.labels.all.len()) {
             Some(&node) => Err(FrdError::NoSuchNode {
                 path: path.clone(),
                 name,
@@ -372,43 +366,58 @@ impl std::fmt::Debug for FrdFile {
     }
 }
 
+/// The numbers of the nodes in the file, and which of them have elements: the others are left out, as CalculiX does.
+#[derive(Debug)]
+struct Labels {
+    all: Vec<u64>,
+    has_elements: Vec<bool>,
+}
+
+impl Labels {
+    fn new(mesh: &Mesh) -> Self {
+        let mut has_elements = vec![false; mesh.node_labels.len()];
+        let cells = (1..=mesh.dim()).flat_map(|dim| mesh.cells(dim));
+        for &node in cells.flat_map(|cell| mesh.cell(cell)) {
+            if let Some(known) = has_elements.get_mut(node as usize) {
+                *known = true;
+            }
+        }
+        Self {
+            all: numbers(&mesh.node_labels),
+            has_elements,
+        }
+    }
+
+    fn of(&self, node: u32) -> u64 {
+        self.all.get(node as usize).copied().unwrap_or(0)
+    }
+
+    /// The rows that a data set has in the file.
+    fn nrow(&self, dataset: &Dataset<'_>) -> usize {
+        match dataset {
+            Dataset::Contact { nodes, .. } => nodes.len(),
+            _ => self.count(),
+        }
+    }
+
+    fn count(&self) -> usize {
+        self.has_elements.iter().filter(|has| **has).count()
+    }
+
+    /// Of values of all nodes those with elements, with the numbers of the nodes.
+    fn of_elements<T>(&self, values: impl Iterator<Item = T>) -> impl Iterator<Item = (u64, T)> {
+        let all = self.all.iter().zip(&self.has_elements).zip(values);
+        all.filter(|((_, has), _)| **has)
+            .map(|((&label, _), value)| (label, value))
+    }
+}
+
 /// The numbers that nodes or elements have in the file.
 fn numbers(labels: &[u64]) -> Vec<u64> {
     if labels.iter().all(|&label| i32::try_from(label).is_ok()) {
         labels.to_vec()
     } else {
         (1..=labels.len() as u64).collect()
-    }
-}
-
-/// The number of each node of an element in the file.
-fn node_numbers(mesh: &Mesh) -> Vec<Option<u64>> {
-    let mut labels = vec![None; mesh.nnode()];
-    let own = numbers(&mesh.node_labels);
-    for cell in (1..=mesh.dim()).flat_map(|dim| mesh.cells(dim)) {
-        for &node in mesh.cell(cell) {
-            let node = node as usize;
-            if let Some(label) = labels.get_mut(node) {
-                *label = own.get(node).copied();
-            }
-        }
-    }
-    labels
-}
-
-/// The number of a node, if it is in the file.
-fn number_of(labels: &[Option<u64>], node: u32) -> Option<u64> {
-    labels.get(node as usize).copied().flatten()
-}
-
-/// How many of a data set's nodes are in the file.
-fn written(labels: &[Option<u64>], dataset: &Dataset<'_>) -> usize {
-    match dataset {
-        Dataset::Contact { nodes, .. } => {
-            let known = |&&node: &&u32| number_of(labels, node).is_some();
-            nodes.iter().filter(known).count()
-        }
-        _ => labels.iter().flatten().count(),
     }
 }
 
@@ -438,14 +447,15 @@ fn push_count(out: &mut Vec<u8>, key: &[u8], count: usize) {
     out.extend_from_slice(b"                   1\n");
 }
 
-fn push_nodes(out: &mut Vec<u8>, labels: &[Option<u64>], points: &[Vec3]) {
-    let nnode = labels.iter().flatten().count();
-    push_count(out, b"    2C                  ", nnode);
-    push_rows(out, labels, points.iter().map(|x| x.to_array()));
+fn push_nodes(out: &mut Vec<u8>, labels: &Labels, points: &[Vec3]) {
+    push_count(out, b"    2C                  ", labels.count());
+    for (label, x) in labels.of_elements(points.iter()) {
+        push_row(out, label, &x.to_array());
+    }
     out.extend_from_slice(b" -3\n");
 }
 
-fn push_elements(out: &mut Vec<u8>, labels: &[Option<u64>], mesh: &Mesh) {
+fn push_elements(out: &mut Vec<u8>, labels: &Labels, mesh: &Mesh) {
     let known = |&cell: &CellId| mesh.element(cell).and_then(CellType::of_element).is_some();
     let cells: Vec<CellId> = mesh.cells(mesh.dim()).filter(known).collect();
     let own: Vec<u64> = cells
@@ -467,7 +477,7 @@ fn push_elements(out: &mut Vec<u8>, labels: &[Option<u64>], mesh: &Mesh) {
             if k % NODES_IN_LINE == 0 {
                 out.extend_from_slice(b"\n -2");
             }
-            push_whole(out, number_of(labels, node).unwrap_or(0), 10);
+            push_whole(out, labels.of(node), 10);
         }
         out.push(b'\n');
     }
@@ -508,7 +518,7 @@ fn push_declaration(out: &mut Vec<u8>, dataset: &Dataset<'_>) {
     }
 }
 
-fn push_values(out: &mut Vec<u8>, labels: &[Option<u64>], dataset: &Dataset<'_>) {
+fn push_values(out: &mut Vec<u8>, labels: &Labels, dataset: &Dataset<'_>) {
     match dataset {
         Dataset::Displacement(values) | Dataset::Force(values) => {
             push_rows(out, labels, values.iter().map(|v| v.to_array()));
@@ -522,9 +532,7 @@ fn push_values(out: &mut Vec<u8>, labels: &[Option<u64>], dataset: &Dataset<'_>)
         }
         Dataset::Contact { nodes, values } => {
             for (&node, row) in nodes.iter().zip(*values) {
-                if let Some(label) = number_of(labels, node) {
-                    push_row(out, label, row);
-                }
+                push_row(out, labels.of(node), row);
             }
         }
     }
@@ -533,14 +541,12 @@ fn push_values(out: &mut Vec<u8>, labels: &[Option<u64>], dataset: &Dataset<'_>)
 
 fn push_rows<const N: usize>(
     out: &mut Vec<u8>,
-    labels: &[Option<u64>],
-    rows: impl ExactSizeIterator<Item = [f64; N]>,
+    labels: &Labels,
+    rows: impl Iterator<Item = [f64; N]>,
 ) {
-    out.reserve(rows.len() * (14 + 12 * N));
-    for (label, row) in labels.iter().zip(rows) {
-        if let Some(label) = label {
-            push_row(out, *label, &row);
-        }
+    out.reserve(labels.count() * (14 + 12 * N));
+    for (label, row) in labels.of_elements(rows) {
+        push_row(out, label, &row);
     }
 }
 

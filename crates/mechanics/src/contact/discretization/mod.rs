@@ -137,6 +137,11 @@ pub trait Discretization: Send + Sync {
     /// The point of a row; what the search looks around.
     fn point(&self, row: usize) -> Point<'_>;
 
+    /// The facet of the secondary side that each row's point is inside of; `None` where points are nodes.
+    fn inside(&self) -> Option<&[u32]> {
+        None
+    }
+
     /// Makes all discrete choices at a configuration. `last` holds the choices of a moment ago, as hints.
     ///
     /// # Errors

@@ -32,6 +32,8 @@ pub struct PointToSegment {
     first: Vec<u32>,
     nodes: Vec<NodeId>,
     weights: Vec<f64>,
+    /// The facet that each point is inside of; `None` where points are nodes.
+    facets: Option<Vec<u32>>,
     /// On what closest points may lie.
     pub closest: Closest,
     /// How long points keep the tangent plane that they meet.
@@ -71,6 +73,7 @@ impl PointToSegment {
             ..Self::default()
         };
         let mut areas = Vec::new();
+        let mut of_facet = Vec::new();
         for facet in 0..facets.nfacet() as u32 {
             let rule = facets.element(facet).map_or_else(Vec::new, &rule);
             for (xi, weight) in rule {
@@ -85,8 +88,10 @@ impl PointToSegment {
                 points.weights.extend_from_slice(&shape[..nodes.len()]);
                 points.first.push(points.nodes.len() as u32);
                 areas.push(weight * area * extent(facet, at));
+                of_facet.push(facet);
             }
         }
+        points.facets = Some(of_facet);
         Ok((points, areas))
     }
 }
@@ -144,6 +149,10 @@ impl Discretization for PointToSegment {
             nodes: self.nodes.get(range.clone()).unwrap_or(&[]),
             weights: self.weights.get(range).unwrap_or(&[]),
         }
+    }
+
+    fn inside(&self) -> Option<&[u32]> {
+        self.facets.as_deref()
     }
 
     fn renews(&self) -> bool {

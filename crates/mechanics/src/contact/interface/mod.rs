@@ -75,6 +75,9 @@ pub struct InterfaceParts {
     pub phases: Vec<Phase>,
     /// Whether the sides are joined where they are at the start: each row sticks to its anchor, if it has one.
     pub bond: Option<Vec<Option<super::discretization::Anchored>>>,
+    /// The stiffness of such a bond within the tangent plane at the start of each increment, if the law is a penalty;
+    /// `None`: as along the normal.
+    pub bond_tangential: Option<f64>,
     /// What the law's pressure acts on.
     pub measure: Measure,
     /// Tributary area of each row; empty where the secondary side has none.
@@ -112,6 +115,7 @@ impl InterfaceParts {
             law: Box::new(Penalty),
             phases: Vec::new(),
             bond: None,
+            bond_tangential: None,
             measure: Measure::Node,
             area: Vec::new(),
             present_area: None,
@@ -261,6 +265,7 @@ impl Interface {
             stick: friction.map_or(Stick::Stiffness(0.0), |(_, stick)| *stick),
             scale: &self.parts.scale,
             bond: self.parts.bond.is_some(),
+            bond_tangential: self.parts.bond_tangential,
             vectors: self.parts.has_vectors(),
         }
     }
@@ -412,7 +417,7 @@ impl Term for Interface {
             self.sees_others = false;
             self.accepted.clone_from(&self.now);
         }
-        if self.parts.discretization.renews() {
+        if self.parts.discretization.renews() || self.parts.bond_tangential.is_some() {
             self.let_go();
             self.search(&at).map_err(|e| self.failed(&e))?;
         }

@@ -61,8 +61,7 @@ pub fn closest_points(
 impl Interface {
     pub(super) fn search(&mut self, at: &Placement) -> Result<(), SurfaceError> {
         if self.parts.bond.is_some() {
-            self.hold();
-            return Ok(());
+            return self.hold(at);
         }
         let pair = &self.parts.pair;
         let discretization = self.parts.discretization.as_ref();
@@ -87,16 +86,33 @@ impl Interface {
         }
     }
 
-    /// Bonds stay where they are, however far they stretch.
-    fn hold(&mut self) {
+    /// Bonds stay where they are, however far they stretch. Those that know normal and tangent hold the plane they meet.
+    fn hold(&mut self, at: &Placement) -> Result<(), SurfaceError> {
+        let surface = self.parts.pair.primary.as_ref();
+        let holds = self.parts.bond_tangential.is_some();
+        let mut jet = SurfaceJet::default();
         for (pair, anchor) in self.now.pairs.iter_mut().zip(self.history.anchors()) {
-            *pair = anchor.map(|a| Pair {
-                anchor: a.anchor,
+            let kept = pair.and_then(|p| p.held);
+            let Some(anchor) = anchor.map(|a| a.anchor) else {
+                *pair = None;
+                continue;
+            };
+            let held = match (holds, kept) {
+                (false, _) => None,
+                (true, Some(normal)) => Some(normal),
+                (true, None) => {
+                    surface.jet(at, &anchor, &mut jet)?;
+                    Some(jet.normal)
+                }
+            };
+            *pair = Some(Pair {
+                anchor,
                 feature: Feature::Face,
                 gap: 0.0,
-                held: None,
+                held,
             });
         }
+        Ok(())
     }
 
     /// Rows that touch, or may, and stick nowhere yet, stick where they are.

@@ -5,9 +5,9 @@ use super::{
 };
 use crate::contact::kernel::{Lambda, Traction};
 use crate::contact::row::Row;
-use crate::system::{ContactFrame, Frame, Resultant, Status};
+use crate::system::{ContactFrame, ContactSample, Frame, Resultant, Status};
 use signorini_geometry::element::Element;
-use signorini_geometry::mesh::NodeId;
+use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::{Carrier, ContactSurface, Facets, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
@@ -70,6 +70,19 @@ impl Means {
     }
 }
 
+impl ContactSample {
+    /// Sums become means.
+    fn divide(&mut self) {
+        if self.area > 0.0 {
+            self.gap /= self.area;
+            self.pressure /= self.area;
+            self.traction = self.traction / self.area;
+            self.slip = self.slip / self.area;
+        }
+        self.normal = self.normal.normalized().unwrap_or_default();
+    }
+}
+
 impl Interface {
     pub(super) fn describe(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let mut report = self.new_report(state);
@@ -102,7 +115,10 @@ impl Interface {
                 let lambda = self.lambda(row, state);
                 let traction = self.traction(filled, &lambda);
                 energy = self.measure(row) * self.stored(filled, &lambda, &traction);
-                elastic_slip = self.laws().elastic(&traction);
+                elastic_slip = match self.parts.bond {
+                    Some(_) => filled.within(filled.sliding.slip),
+                    None => self.laws().elastic(&traction),
+                };
                 let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
                 pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
@@ -170,6 +186,11 @@ impl Interface {
                     report.status[k] = status;
                 }
             }
+            if let (Some(faces), Some(of_row)) = (&mut report.faces, &of_row)
+                && status.is_closed()
+            {
+                self.add_inside(row, area, energy, of_row, faces);
+            }
             if let (Some(first), Some(of_row)) = (first, of_row) {
                 let nodes = &frame.contacts[first].nodes;
                 self.add_across(row, state, area, of_row, nodes, &mut across)?;
@@ -189,6 +210,9 @@ impl Interface {
                 report.slip[k] = mean.slip;
                 report.elastic_slip[k] = mean.elastic_slip;
             }
+        }
+        for (_, sum) in report.faces.iter_mut().flatten() {
+            sum.divide();
         }
         for k in hosted {
             // they are parts of those of its host
@@ -226,6 +250,38 @@ impl Interface {
         Ok(())
     }
 
+    /// Adds a point that touches to the sums over its face.
+    fn add_inside(
+        &self,
+        row: usize,
+        area: f64,
+        energy: f64,
+        of_row: &OfRow,
+        faces: &mut Vec<(Face, ContactSample)>,
+    ) {
+        let parts = &self.parts;
+        let inside = parts.discretization.inside();
+        let facet = inside.and_then(|facets| facets.get(row));
+        let secondary = parts.pair.secondary.as_ref();
+        let Some(face) = facet.and_then(|&facet| secondary?.face(facet)) else {
+            return;
+        };
+        // rows of a face follow one another
+        if faces.last().is_none_or(|(last, _)| *last != face) {
+            faces.push((face, ContactSample::default()));
+        }
+        let Some((_, sum)) = faces.last_mut() else {
+            return;
+        };
+        sum.area += area;
+        sum.normal += of_row.normal * area;
+        sum.gap += of_row.gap * area;
+        sum.pressure += of_row.pressure * area;
+        sum.traction += of_row.traction * area;
+        sum.slip += (of_row.slip + of_row.elastic_slip) * area;
+        sum.energy += energy;
+    }
+
     /// What a unit of pressure does to the secondary side; moment about the origin.
     fn pushed(&self, row: usize, rows: &Rows, filled: &Row, state: &State) -> Resultant {
         let secondary = self.parts.discretization.secondary(rows, row);
@@ -258,7 +314,7 @@ impl Interface {
     fn stored(&self, filled: &Row, lambda: &Lambda, traction: &Traction) -> f64 {
         let laws = self.laws();
         if laws.bond {
-            return 0.5 * laws.scale.penalty * filled.sliding.slip.norm_squared();
+            return laws.bond_energy(filled);
         }
         let along = match laws.friction {
             Some(_) => 0.5 * traction.tangential.dot(filled.sliding.slip),
@@ -337,6 +393,7 @@ impl Interface {
             slip: vec![Vec3::ZERO; n],
             elastic_slip: vec![Vec3::ZERO; n],
             energy: vec![0.0; n],
+            faces: self.parts.discretization.inside().map(|_| Vec::new()),
             area: vec![0.0; n],
             closed_area: vec![0.0; n],
             facet_size: self.parts.scale.length,

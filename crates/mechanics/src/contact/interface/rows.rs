@@ -9,6 +9,7 @@ use crate::contact::kernel::{Target, Traction};
 use crate::contact::row::Row;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::Feature;
+use signorini_geometry::tensor::Vec3;
 
 /// Rounding error of a gap over the coordinates it comes from.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -52,6 +53,9 @@ impl Interface {
         if let Some(row) = rows.rows_mut().first_mut() {
             row.gap += shift;
             row.sliding.held = held;
+            if laws.bond {
+                row.sliding.slip += row.normal * shift;
+            }
         }
         Ok(())
     }
@@ -268,9 +272,9 @@ impl Interface {
         let lambda = self.lambda(row, trial);
         if laws.bond {
             self.fill(row, trial, RowOrder::Gradient, rows)?;
-            let stretch = rows.rows().first().map(|r| r.sliding.slip);
-            let stretch = stretch.unwrap_or_default();
-            let stored = 0.5 * laws.scale.penalty * stretch.norm_squared();
+            let filled = rows.rows().first();
+            let stretch = filled.map_or(Vec3::ZERO, |r| r.sliding.slip);
+            let stored = filled.map_or(0.0, |r| laws.bond_energy(r));
             return Ok(Some(stored + lambda.vector.dot(stretch)));
         }
         let held = self.history.past(row).limit;

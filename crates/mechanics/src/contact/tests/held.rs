@@ -46,6 +46,7 @@ fn traction_is_the_slope_of_the_potential() {
             stick,
             scale: &scale,
             bond: false,
+            bond_tangential: None,
             vectors: vector != Vec3::ZERO,
         };
         let lambda = Lambda {
@@ -85,6 +86,7 @@ fn an_infinite_limit_is_sticking() {
         stick: Stick::Stiffness(5.0),
         scale: &scale,
         bond: false,
+        bond_tangential: None,
         vectors: false,
     };
     let slip = Vec3::new(3.0, 4.0, 0.0);

@@ -177,6 +177,7 @@ impl<'a> Case<'a> {
                 length: 1.0,
             },
             bond: false,
+            bond_tangential: None,
             vectors: true,
         };
         let rows = self.rows();

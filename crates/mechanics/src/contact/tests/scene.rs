@@ -86,6 +86,8 @@ pub(crate) struct Choice {
     pub law: Box<dyn ContactLaw>,
     pub friction: Option<(Arc<dyn FrictionLaw>, Stick)>,
     pub bond: bool,
+    /// The stiffness of a bond within the tangent plane.
+    pub tangential: Option<f64>,
 }
 
 pub(crate) struct Scene {
@@ -336,6 +338,7 @@ impl Scene {
                 friction: choice.friction,
             }],
             bond,
+            bond_tangential: choice.tangential,
             measure: Measure::Area,
             area,
             scale: Scale {

@@ -399,6 +399,7 @@ fn rub(law: Box<dyn ContactLaw>) -> Choice {
         law,
         friction: Some((coulomb(), Stick::Stiffness(3.0))),
         bond: false,
+        tangential: None,
     }
 }
 
@@ -468,6 +469,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
         law,
         friction: None,
         bond: true,
+        tangential: None,
     };
     let choices: [&dyn Fn() -> Choice; 6] = [
         &|| rub(Box::new(Penalty)),
@@ -536,6 +538,7 @@ fn planes_of_an_increment_are_those_at_its_start() {
             law: Box::new(Penalty),
             friction: None,
             bond: false,
+            tangential: None,
         };
         let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
         let mut random = Random::new(8);

@@ -6,7 +6,7 @@ use super::super::law::{
     Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
     Uzawa,
 };
-use super::scene::{Choice, Kind, Method, Scene};
+use super::scene::{Choice, Kind, Method, PENALTY, Scene};
 use super::{Random, largest};
 use crate::system::{Order, Term};
 use signorini_geometry::surface::Carrier;
@@ -190,7 +190,13 @@ fn on_one_facet(scene: &Scene) -> usize {
 }
 
 /// Tries a combination with a few seeds until all states occurred that can.
-fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool) -> Worst {
+fn check(
+    kind: Kind,
+    method: Method,
+    law: usize,
+    friction: &Friction,
+    (bond, tangential): (bool, Option<f64>),
+) -> Worst {
     let (mut worst, mut seen) = (Worst::default(), Seen::default());
     let mut name = String::new();
     for seed in 1..=12 {
@@ -198,13 +204,16 @@ fn check(kind: Kind, method: Method, law: usize, friction: &Friction, bond: bool
             law: laws().swap_remove(law),
             friction: friction.clone(),
             bond,
+            tangential,
         };
         let multiplier = choice.law.multiplier();
         let rubs = friction.is_some();
         let how = friction
             .as_ref()
             .map(|(law, stick)| (law.limit(&Default::default()), *stick));
-        name = format!("{kind:?} {method:?} law {law} {multiplier:?} {how:?} bond {bond} {seed}");
+        name = format!(
+            "{kind:?} {method:?} law {law} {multiplier:?} {how:?} bond {bond} {tangential:?} {seed}"
+        );
         let mut scene = Scene::with_past(kind, method, choice, seed);
         let found = tangent_error(&mut scene, seed);
         assert!(
@@ -262,11 +271,17 @@ fn walk(kind: Kind) {
         let every = if method.is_mortar() { 3 } else { 1 };
         for law in 0..laws().len() {
             for friction in frictions().iter().step_by(every) {
-                worst.add(&check(kind, method, law, friction, false));
+                worst.add(&check(kind, method, law, friction, (false, None)));
             }
             // curves join nothing
             if law == 0 || laws()[law].multiplier() != Multiplier::None {
-                worst.add(&check(kind, method, law, &None, true));
+                worst.add(&check(kind, method, law, &None, (true, None)));
+            }
+            // points that hold a tangent plane know what is along it
+            let on_points = !method.is_mortar() && !method.is_between_nodes();
+            if law == 0 && on_points {
+                let tangential = Some(0.3 * PENALTY);
+                worst.add(&check(kind, method, law, &None, (true, tangential)));
             }
         }
         println!(
@@ -328,6 +343,7 @@ fn multipliers_that_stick_act_as_they_hold() {
                     law,
                     friction: Some((Arc::new(Tresca(1e3)), Stick::Stiffness(1.0))),
                     bond: false,
+                    tangential: None,
                 };
                 let mut scene = Scene::new(Kind::Elements(kind), method, choice, 3);
                 let pressed = scene.further(&mut Random::new(4));
@@ -366,6 +382,7 @@ fn a_pressure_that_acts_at_a_distance_is_coupled() {
         }),
         friction: None,
         bond: false,
+        tangential: None,
     };
     let kind = Kind::Elements("quad4");
     let mut scene = Scene::new(kind, Method::NodeToSegment, choice, 1);

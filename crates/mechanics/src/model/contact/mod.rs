@@ -209,6 +209,7 @@ impl Context<'_> {
             law: sides.law,
             phases: steps.phases(sides.contact, part, penalty),
             bond,
+            bond_tangential: part.tie.and_then(|tie| tie.penalty_tangential),
             measure,
             area: sides.area,
             present_area: sides.areas,

@@ -3,7 +3,7 @@
 use super::{ContactPart, ModelError, Sides, Source};
 use crate::contact::Shift;
 use crate::contact::discretization::{Anchored, Pairing};
-use crate::model::{Interference, Method, StartSummary, TiePart};
+use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Placement, Pose, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -23,9 +23,22 @@ impl StartSummary {
 /// What is added to the gaps.
 pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
     let start = &part.start;
+    let overlap_of = |gap: f64| (-gap).max(0.0);
+    let rows = found.pairs.iter();
+    if let Some(tie) = part.tie {
+        let pulls = tie.offset == TieOffset::Pull;
+        let shift = |gap: f64| Shift {
+            constant: 0.0,
+            fading: overlap_of(gap),
+        };
+        let rows = rows.filter(|_| pulls);
+        return rows
+            .map(|p| p.map_or(Shift::default(), |p| shift(p.gap)))
+            .collect();
+    }
     let overlap = found.pairs.iter().flatten().any(|p| p.gap < 0.0);
     let leaves = start.interference == Interference::AtOnce || !overlap;
-    if part.tie.is_some() || (start.clearance.is_none() && leaves) {
+    if start.clearance.is_none() && leaves {
         return Vec::new();
     }
     let shift = |gap: f64| {
@@ -35,7 +48,7 @@ pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
                 fading: 0.0,
             };
         }
-        let overlap = (-gap).max(0.0);
+        let overlap = overlap_of(gap);
         match start.interference {
             Interference::Ramped => Shift {
                 constant: 0.0,
@@ -48,7 +61,6 @@ pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
             Interference::AtOnce => Shift::default(),
         }
     };
-    let rows = found.pairs.iter();
     rows.map(|p| p.map_or(Shift::default(), |p| shift(p.gap)))
         .collect()
 }
@@ -73,7 +85,9 @@ pub(super) fn bonds(
             .anchor(row, &sides.pair, at, &pair, Vec3::ZERO)?;
         // these anchors know their own way
         let whole = matches!(sides.method, Method::NodeToNode { .. } | Method::Mortar(_));
-        let offset = if sides.facets.is_some() && !whole {
+        let offset = if tie.offset == TieOffset::Pull {
+            Vec3::ZERO
+        } else if sides.facets.is_some() && !whole {
             sides.pair.primary.jet(at, &anchor.anchor, &mut jet)?;
             sides.discretization.point(row).position(at) - jet.position
         } else {
@@ -93,7 +107,7 @@ pub(in crate::model) fn closed(
 ) -> Result<Vec<Vec3>, ModelError> {
     let mut x = source.reference.to_vec();
     for (contact, part) in parts.iter().enumerate() {
-        let closes = part.tie.is_some_and(|t| t.close);
+        let closes = part.tie.is_some_and(|t| t.offset == TieOffset::Close);
         let mut below = part.start.close_below;
         if closes {
             let within = part.tie.and_then(|t| t.within);

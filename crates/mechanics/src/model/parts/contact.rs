@@ -204,13 +204,27 @@ pub enum StickPart {
     Slip(f64),
 }
 
+/// What becomes of distances at the start between sides that are joined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TieOffset {
+    /// They stay.
+    #[default]
+    Keep,
+    /// They are closed without strain.
+    Close,
+    /// The joint pulls the sides together; overlaps are resolved over the first step in which it acts.
+    Pull,
+}
+
 /// Sides that are joined.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TiePart {
-    /// Whether distances at the start are closed, without strain, or kept.
-    pub close: bool,
+    /// What becomes of distances at the start.
+    pub offset: TieOffset,
     /// Points further away than this are not joined; `None`: all within reach.
     pub within: Option<f64>,
+    /// Traction per way apart within the tangent plane, of joints by a penalty at points; `None`: as along the normal.
+    pub penalty_tangential: Option<f64>,
 }
 
 /// What is done about gaps and overlaps at the start.

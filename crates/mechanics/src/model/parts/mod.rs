@@ -7,7 +7,7 @@ pub use contact::*;
 use crate::connector::SpringLaw;
 use crate::load::Course;
 use crate::material::Material;
-use crate::solid::{AtStart, Integration, Locking};
+use crate::solid::{AtNodes, AtStart, Integration, Locking};
 use crate::solve::{Increments, Motion};
 use crate::system::Idealisation;
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
@@ -96,6 +96,8 @@ pub enum BodyKind {
         space: Option<Idealisation>,
         /// Whether temperatures are linear in quad8 and hex20 with full integration, as strains are.
         linear_temperatures: bool,
+        /// How stresses and strains at points are carried to nodes.
+        at_nodes: AtNodes,
         /// Stress and strain at the start.
         initial: Vec<AtStart>,
     },
@@ -124,6 +126,7 @@ impl BodyKind {
             locking: Locking::default(),
             space: None,
             linear_temperatures: false,
+            at_nodes: AtNodes::default(),
             initial: Vec::new(),
         }
     }

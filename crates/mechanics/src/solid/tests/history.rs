@@ -98,6 +98,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         locking: Locking::None,
         temperature: Some(Arc::new(field)),
         linear_temperatures: false,
+        at_nodes: Default::default(),
         initial: &[],
     })
     .unwrap();

@@ -127,6 +127,7 @@ fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, S
         locking: wish.locking,
         temperature: None,
         linear_temperatures: false,
+        at_nodes: Default::default(),
         initial: &[],
     })?;
     solid.locking(wish.kinematics)?;

@@ -155,6 +155,7 @@ fn thermal_growth_is_no_mechanical_strain() {
                 ends: vec![row.clone(), row],
             })),
             linear_temperatures: false,
+            at_nodes: Default::default(),
             initial: &[],
         })
         .unwrap();

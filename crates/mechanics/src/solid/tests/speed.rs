@@ -61,6 +61,7 @@ fn hexahedra_assembled_per_second() {
             locking,
             temperature: None,
             linear_temperatures: false,
+            at_nodes: Default::default(),
             initial: &[],
         });
         let mut solid = solid.unwrap();

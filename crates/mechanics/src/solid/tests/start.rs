@@ -29,6 +29,7 @@ fn with(
         locking: wish.locking,
         temperature: heat.map(|(row, _)| Arc::new(field(row))),
         linear_temperatures: heat.is_some_and(|(_, linear)| linear),
+        at_nodes: Default::default(),
         initial,
     })?;
     solid.set_kinematics(wish.kinematics);

@@ -16,7 +16,7 @@ use signorini_io::writers::dat::{
 };
 use signorini_mechanics::solve::IncrementRecord;
 use signorini_mechanics::system::{
-    ContactFrame, Frame, PointSample, Resultant, RigidBody, SpinFrame,
+    ContactFrame, ContactSample, Frame, PointSample, Resultant, RigidBody, SpinFrame,
 };
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -139,6 +139,12 @@ impl Tables {
     fn share(&self) -> f64 {
         if self.revolved { WEDGE } else { 1.0 }
     }
+}
+
+/// A number along a normal, and a vector along the tangents that belong to it.
+fn along(across: f64, vector: Vec3, normal: Vec3) -> [f64; 3] {
+    let [first, second] = tangents(normal);
+    [across, vector.dot(first), vector.dot(second)]
 }
 
 /// The nodes of the mesh that stand for references, or for their rotations.
@@ -398,19 +404,20 @@ impl Writer<'_> {
         let frame = |part: &&PrintedContact| frames.iter().find(|c| c.name == part.name);
         let acting: Vec<&ContactFrame> = contacts.iter().filter_map(|c| frame(&c)).collect();
         match quantity {
-            ContactQuantity::Gap => self.closed(ContactKind::Gaps, &acting, |c, k| {
-                let [first, second] = tangents(c.normal[k]);
-                let along = c.slip[k] + c.elastic_slip[k];
-                [c.gap[k], along.dot(first), along.dot(second)]
-            }),
-            ContactQuantity::Traction => self.closed(ContactKind::Tractions, &acting, |c, k| {
-                let [first, second] = tangents(c.normal[k]);
-                let against = -c.traction[k];
-                [c.pressure[k], against.dot(first), against.dot(second)]
-            }),
+            ContactQuantity::Gap => {
+                let kinds = [ContactKind::Gaps, ContactKind::FaceGaps];
+                self.closed(kinds, &acting, |at| along(at.gap, at.slip, at.normal));
+            }
+            ContactQuantity::Traction => {
+                let kinds = [ContactKind::Tractions, ContactKind::FaceTractions];
+                self.closed(kinds, &acting, |at| {
+                    along(at.pressure, -at.traction, at.normal)
+                });
+            }
             ContactQuantity::Energy => {
                 if one.totals != Totals::Only {
-                    self.closed(ContactKind::Energies, &acting, |c, k| [c.energy[k] * share]);
+                    let kinds = [ContactKind::Energies, ContactKind::FaceEnergies];
+                    self.closed(kinds, &acting, |at| [at.energy * share]);
                 }
                 if one.totals != Totals::No {
                     let total: f64 = acting.iter().flat_map(|c| &c.energy).sum();
@@ -434,19 +441,39 @@ impl Writer<'_> {
         }
     }
 
-    /// A table of the closed nodes of contacts.
+    /// A table of the closed nodes of contacts, and one of faces of those that have their points inside.
     fn closed<const N: usize>(
         &mut self,
-        kind: ContactKind,
+        [of_nodes, of_faces]: [ContactKind; 2],
         contacts: &[&ContactFrame],
-        numbers: impl Fn(&ContactFrame, usize) -> [f64; N],
+        numbers: impl Fn(&ContactSample) -> [f64; N],
     ) {
-        self.page.contact_table(kind);
-        for contact in contacts {
+        let (inside, at_nodes): (Vec<&ContactFrame>, Vec<_>) =
+            contacts.iter().partition(|c| c.faces.is_some());
+        if !at_nodes.is_empty() || inside.is_empty() {
+            self.page.contact_table(of_nodes);
+        }
+        for contact in at_nodes {
             let nodes = contact.nodes.iter().zip(&contact.status).enumerate();
             for (k, (&node, _)) in nodes.filter(|(_, (_, status))| status.is_closed()) {
-                self.page.row(self.node(node), &numbers(contact, k));
+                let sample = ContactSample {
+                    normal: contact.normal[k],
+                    gap: contact.gap[k],
+                    pressure: contact.pressure[k],
+                    traction: contact.traction[k],
+                    slip: contact.slip[k] + contact.elastic_slip[k],
+                    energy: contact.energy[k],
+                    ..ContactSample::default()
+                };
+                self.page.row(self.node(node), &numbers(&sample));
             }
+        }
+        if !inside.is_empty() {
+            self.page.contact_table(of_faces);
+        }
+        for (face, one) in inside.iter().flat_map(|c| c.faces.iter().flatten()) {
+            let of = Of::Side(self.label(face.cell), face.side as usize + 1);
+            self.page.row(of, &numbers(one));
         }
     }
 
