@@ -149,6 +149,7 @@ impl Interface {
                 if let (Ok(k), Some(of_row)) = (parts.pair.points.binary_search(node), &of_row) {
                     means.add(k, area, of_row);
                     report.status[k] = status;
+                    report.acts[k] = status.is_closed();
                     hosted.push(k);
                 }
             }
@@ -173,6 +174,8 @@ impl Interface {
                 if status.number() > report.status[k].number() {
                     report.status[k] = status;
                 }
+                // a multiplier acts where it is zero, too
+                report.acts[k] |= status.is_closed() || acts && self.nmultiplier() == 0;
             }
             if let (Some(first), Some(of_row)) = (first, of_row) {
                 let nodes = &frame.contacts[first].nodes;
@@ -336,6 +339,7 @@ impl Interface {
             gap: vec![f64::NAN; n],
             pressure: vec![0.0; n],
             status: vec![Status::Absent; n],
+            acts: vec![false; n],
             force: vec![Vec3::ZERO; n],
             traction: vec![Vec3::ZERO; n],
             slip: vec![Vec3::ZERO; n],

@@ -16,7 +16,7 @@ use signorini_io::writers::dat::{
 };
 use signorini_mechanics::solve::IncrementRecord;
 use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Resultant, RigidBody};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// The tables of a run.
@@ -142,8 +142,19 @@ impl Tables {
     }
 }
 
-/// The nodes of the mesh that stand for references, or for their rotations.
+/// The nodes of the mesh that stand for references, or for their rotations. A node of a solid speaks for itself, unless
+/// its reference carries something: a motion along axes of its own has a reference where it is, too.
 fn references(model: &Model) -> HashMap<NodeId, Stand> {
+    let mesh = &model.mesh;
+    let solid: HashSet<NodeId> = mesh
+        .cells(mesh.dim())
+        .flat_map(|cell| mesh.cell(cell).iter().copied())
+        .collect();
+    let bodies = model.system.elimination.bodies();
+    let carries = |rigid: RigidId| {
+        let body = bodies.get(rigid as usize);
+        body.is_some_and(|body| !body.nodes.is_empty())
+    };
     let mut all = HashMap::new();
     for reference in &model.case.references {
         let mut known = model.references.iter();
@@ -157,6 +168,7 @@ fn references(model: &Model) -> HashMap<NodeId, Stand> {
         let rotations = reference.rotations.and_then(|label| model.node(label));
         for (node, turns) in [(place, false), (rotations, true)] {
             let rigid = known.rigid;
+            let node = node.filter(|node| carries(rigid) || !solid.contains(node));
             all.extend(node.map(|node| (node, Stand { rigid, turns })));
         }
     }
@@ -396,7 +408,8 @@ impl Writer<'_> {
             }
             ContactQuantity::Count => {
                 self.page.contact_table(ContactKind::Count);
-                self.page.count(acting.iter().map(|c| c.nclosed()).sum());
+                let of = |c: &&ContactFrame| c.acts.iter().filter(|acts| **acts).count();
+                self.page.count(acting.iter().map(of).sum());
             }
             ContactQuantity::Force => self.resultants(contacts, |c| c.secondary),
             ContactQuantity::NormalForce => self.resultants(contacts, |c| Resultant {
@@ -410,7 +423,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A table of the closed nodes of contacts.
+    /// A table of the nodes of contacts at which something acts.
     fn closed<const N: usize>(
         &mut self,
         kind: ContactKind,
@@ -419,8 +432,8 @@ impl Writer<'_> {
     ) {
         self.page.contact_table(kind);
         for contact in contacts {
-            let nodes = contact.nodes.iter().zip(&contact.status).enumerate();
-            for (k, (&node, _)) in nodes.filter(|(_, (_, status))| status.is_closed()) {
+            let nodes = contact.nodes.iter().zip(&contact.acts).enumerate();
+            for (k, (&node, _)) in nodes.filter(|(_, (_, acts))| **acts) {
                 self.page.row(self.node(node), &numbers(contact, k));
             }
         }
