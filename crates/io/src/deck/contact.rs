@@ -8,6 +8,7 @@
 //! | \*TIE | sides that are joined | the same, node to segment by multipliers; in the plane, corner nodes alone |
 //! | TYPE | the best method | node to segment, points inside facets, mortar |
 //! | friction | μ | μ and the slope of sticking, or E/2 |
+//! | overlaps | resolved over the first step | likewise, measured anew in every increment, or in the first one only |
 //! | GAPUNI | no penetration | as LINEAR at nodes: K, or 1e12, and σ∞, or 1e-3 |
 //! | a surface of nodes | the outer faces between them | the nodes, with their parts of all outer faces around |
 //!
@@ -77,7 +78,7 @@ pub(super) struct Pair {
 
 /// Where a pair is said to be.
 #[derive(Clone, Debug)]
-struct Sides {
+pub(super) struct Sides {
     secondary: Name,
     primary: Name,
 }
@@ -226,7 +227,7 @@ impl Translation<'_> {
             }
         }
         for row in card.rows() {
-            let Some(sides) = self.sides(card, &row) else {
+            let Some(sides) = self.sides(card, &row, method == Method::NodeToSegment) else {
                 continue;
             };
             let mut contact = self.contact(sides, &card.place);
@@ -248,8 +249,8 @@ impl Translation<'_> {
         }
     }
 
-    /// The secondary and the primary side that a line names.
-    fn sides(&mut self, card: &Statement, row: &[Field<'_>]) -> Option<Sides> {
+    /// The secondary and the primary side that a line names; `at_nodes`: of contact at nodes.
+    fn sides(&mut self, card: &Statement, row: &[Field<'_>], at_nodes: bool) -> Option<Sides> {
         let [secondary, primary] = row
             .get(..2)
             .and_then(|two| <&[_; 2]>::try_from(two).ok())
@@ -258,8 +259,27 @@ impl Translation<'_> {
                 self.error(&codes::MISSING, text, &card.place, "");
                 None
             })?;
-        let secondary = self.set(card, secondary.text, &secondary.place(), Kind::Surface);
-        let primary = self.set(card, primary.text, &primary.place(), Kind::Surface);
+        let both = [secondary, primary].map(|side| (side.text, side.place()));
+        self.sides_of(card, both, at_nodes)
+    }
+
+    /// The same, of two names. A name may be that of a surface of faces and of one of nodes: contact at nodes takes the
+    /// nodes, as CalculiX does, whichever comes first; all other contact the faces.
+    pub fn sides_of(
+        &mut self,
+        card: &Statement,
+        [secondary, primary]: [(&str, Place); 2],
+        at_nodes: bool,
+    ) -> Option<Sides> {
+        let primary = self.set(card, primary.0, &primary.1, Kind::Surface);
+        let nodes = self.set_if(card, secondary.0, &secondary.1, Kind::SurfaceOfNodes);
+        if self.compat == Compat::Ccx
+            && let (Some(secondary), Some(primary)) = (nodes, primary.clone())
+            && (at_nodes || self.between(&secondary, &primary).is_some())
+        {
+            return Some(Sides { secondary, primary });
+        }
+        let secondary = self.set(card, secondary.0, &secondary.1, Kind::Surface);
         Some(Sides {
             secondary: self.faced(secondary?),
             primary: primary?,
@@ -433,16 +453,15 @@ impl Translation<'_> {
             let (Some(slave), Some(master)) = (slave, master) else {
                 continue;
             };
-            let secondary = self.set(card, slave, &card.place, Kind::Surface);
-            let secondary = secondary.map(|side| self.faced(side));
-            let primary = self.set(card, master, &card.place, Kind::Surface);
+            let both = [slave, master].map(|name| (name, card.place.clone()));
+            let sides = self.sides_of(card, both, false);
             let value = card.get("VALUE").and_then(number);
             let Some(value) = value else {
                 let text = "*CLEARANCE without a number for VALUE is not supported";
                 self.error(&codes::NOT_BUILT, text, &card.place, "");
                 continue;
             };
-            let (Some(secondary), Some(primary)) = (secondary, primary) else {
+            let Some(Sides { secondary, primary }) = sides else {
                 continue;
             };
             let Some(at) = self.pair_of(card, &secondary, &primary) else {
@@ -463,7 +482,7 @@ impl Translation<'_> {
             })
         });
         for row in card.rows() {
-            let Some(sides) = self.sides(card, &row) else {
+            let Some(sides) = self.sides(card, &row, false) else {
                 continue;
             };
             let near = TIE * self.size_of(&sides.primary);
@@ -603,6 +622,32 @@ impl Translation<'_> {
         }
     }
 
+    /// What becomes of overlaps, as CalculiX has it: surfaces that may touch from the first step on allow for those that
+    /// every increment of it begins with, and those that come to act later for those of their first increment; nodes do
+    /// so in the first increment of the first step. All found by decks that overlap by known amounts.
+    pub fn overlaps(&mut self) {
+        if self.compat != Compat::Ccx {
+            return;
+        }
+        for pair in &self.pairs {
+            let Some(contact) = self.case.contacts.get_mut(pair.contact) else {
+                continue;
+            };
+            let first = self.case.steps.first();
+            let mut changes = first.into_iter().flat_map(|step| &step.contacts);
+            let change = changes.find(|change| change.name == contact.name);
+            let acts = change.and_then(|c| c.active).unwrap_or(contact.active);
+            contact.start.interference = match (pair.method, acts) {
+                (Method::GaussPoint, true) => Interference::Increments,
+                (Method::GaussPoint, false) | (Method::NodeToSegment, true) => {
+                    Interference::Increment
+                }
+                (Method::NodeToSegment, false) => Interference::Now,
+                _ => continue,
+            };
+        }
+    }
+
     /// *MODEL CHANGE within a step.
     pub fn model_change(&mut self, card: &Statement, step: &mut Step) {
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
@@ -618,7 +663,7 @@ impl Translation<'_> {
         }
         let active = !card.has("REMOVE");
         for row in card.rows() {
-            let Some(sides) = self.sides(card, &row) else {
+            let Some(sides) = self.sides(card, &row, false) else {
                 continue;
             };
             let Some(at) = self.pair_of(card, &sides.secondary, &sides.primary) else {
@@ -759,9 +804,10 @@ impl Translation<'_> {
         step.contacts.get_mut(at)
     }
 
-    /// The contact of two surfaces, for printed tables.
-    pub fn contact_of(&self, secondary: &Name, primary: &Name) -> Option<Name> {
-        let found = self.case.contacts.get(self.between(secondary, primary)?);
+    /// The contact of two sides, for printed tables.
+    pub fn contact_of(&self, sides: &Sides) -> Option<Name> {
+        let at = self.between(&sides.secondary, &sides.primary)?;
+        let found = self.case.contacts.get(at);
         found.map(|contact| contact.name.clone())
     }
 }

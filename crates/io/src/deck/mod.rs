@@ -77,6 +77,7 @@ pub fn read(fs: &dyn Fs, name: &str, bytes: &[u8], compat: Compat) -> Result<Rea
     translation.springs();
     translation.contacts();
     translation.steps();
+    translation.overlaps();
     translation.judge();
     let (case, mut found) = (translation.case, translation.found);
     if found.has_errors() {

@@ -46,10 +46,9 @@ impl Translation<'_> {
         let on = if of == PrintOf::Contact {
             let sides = card.get("SLAVE").zip(card.get("MASTER"));
             sides.and_then(|(slave, master)| {
-                let slave = self.set(card, slave, &card.place, kind)?;
-                let slave = self.faced(slave);
-                let master = self.set(card, master, &card.place, kind)?;
-                self.contact_of(&slave, &master)
+                let both = [slave, master].map(|name| (name, card.place.clone()));
+                let sides = self.sides_of(card, both, false)?;
+                self.contact_of(&sides)
             })
         } else {
             let Some(name) = self.need(card, parameter) else {

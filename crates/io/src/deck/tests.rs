@@ -159,6 +159,7 @@ fn laws_of_contact_are_ours_or_those_of_the_deck() {
         .contacts
         .remove(0);
     assert_eq!(theirs.method.value, Method::GaussPoint);
+    assert_eq!(theirs.start.interference, Interference::Increments);
     assert_eq!(theirs.enforcement, Enforcement::Penalty(Some(1e6.into())));
     assert_eq!(
         theirs.friction.unwrap().stick,
@@ -653,6 +654,48 @@ fn cylindrical_axes_have_a_radius_on_their_axis_too() {
         on.map(Vec3::to_array),
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     );
+    // along which ccx 2.20 moves a node on these axes that is moved along its first local axis
+    let printed = [
+        ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
+        ([0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
+        ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+        ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]),
+        ([1.0, 1.0, 1.0], [-0.70711, 0.70711, 0.0]),
+        ([1.0, 2.0, 3.0], [-0.89443, 0.44721, 0.0]),
+        ([1.0, 1.0, 0.0], [-0.70711, 0.70711, 0.0]),
+        ([1.0, 3.0, 2.0], [-0.94868, 0.31623, 0.0]),
+    ];
+    for (to, radial) in printed {
+        let from = [0.0; 3];
+        let system = AxesSystem::Cylindrical { from, to };
+        let [first, ..] = system.at(Vec3::ZERO).unwrap();
+        let off = (first - Vec3::from(radial)).norm();
+        assert!(off < 1e-5, "{to:?}: {first:?}");
+    }
+}
+
+#[test]
+fn a_name_may_be_that_of_a_surface_of_faces_and_of_one_of_nodes() {
+    let nodes = "*SURFACE, NAME=LOWER, TYPE=NODE\nBASE\n";
+    let faces = "*SURFACE, NAME=LOWER\n1, S1\n";
+    for (first, second) in [(nodes, faces), (faces, nodes)] {
+        for (kind, compat, by_nodes) in [
+            ("NODE TO SURFACE", Compat::Ccx, true),
+            ("SURFACE TO SURFACE", Compat::Ccx, false),
+            ("NODE TO SURFACE", Compat::None, false),
+        ] {
+            let pair = format!("*CONTACT PAIR, INTERACTION=I, TYPE={kind}\nLOWER, LID\n");
+            let text = cube(
+                "C3D8",
+                &format!("{first}{second}*SURFACE INTERACTION, NAME=I\n{pair}{STEP}"),
+            );
+            let read = translated(&text, compat).unwrap();
+            let side = &read.case.contacts[0].secondary.value;
+            let set = &read.mesh.sets[side];
+            assert_eq!(set.is_bare(), by_nodes, "{kind} {compat:?}: {side}");
+            assert_eq!(set.faces.len(), usize::from(!by_nodes));
+        }
+    }
 }
 
 #[test]

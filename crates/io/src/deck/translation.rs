@@ -235,14 +235,19 @@ impl<'d> Translation<'d> {
 
     /// The set that a parameter or field names, where it stands for one thing.
     pub fn set(&mut self, card: &Statement, name: &str, place: &Place, kind: Kind) -> Option<Name> {
-        let directory = &self.deck.directory;
-        let found = (directory.spaces(card.scope).iter())
-            .find_map(|&space| directory.set(space, kind, name));
-        if let Some(name) = found {
-            return Some(Spanned::new(name.to_owned(), place.clone()));
+        let found = self.set_if(card, name, place, kind);
+        if found.is_none() {
+            self.undefined(card, name, place, kind);
         }
-        self.undefined(card, name, place, kind);
-        None
+        found
+    }
+
+    /// The same, where there may be none.
+    pub fn set_if(&self, card: &Statement, name: &str, place: &Place, kind: Kind) -> Option<Name> {
+        let directory = &self.deck.directory;
+        let mut spaces = directory.spaces(card.scope).iter();
+        let found = spaces.find_map(|&space| directory.set(space, kind, name))?;
+        Some(Spanned::new(found.to_owned(), place.clone()))
     }
 
     fn unknown(&mut self, card: &Statement, field: &Field<'_>, kind: Kind) {
@@ -264,6 +269,7 @@ impl<'d> Translation<'d> {
             Kind::Nodes => "node set",
             Kind::Elements => "element set",
             Kind::Surface => "surface",
+            Kind::SurfaceOfNodes => "surface of nodes",
         };
         let directory = &self.deck.directory;
         let spaces = directory.spaces(card.scope).iter();

@@ -58,8 +58,7 @@ pub(super) struct Past {
 
 impl Past {
     fn limit_of(&self, row: &Row, friction: &dyn FrictionLaw, pressure: f64) -> Limit {
-        // where a law pulls, nothing rubs
-        if row.sliding.free || pressure < 0.0 {
+        if row.sliding.free {
             return Limit::default();
         }
         let held = self.limit.map(|value| Limit {
@@ -67,10 +66,15 @@ impl Past {
             dpressure: 0.0,
         });
         held.unwrap_or_else(|| {
-            friction.limit(&Sliding {
-                pressure,
+            // where a law pulls, it rubs as much as where it pushes: CalculiX prints such tractions
+            let limit = friction.limit(&Sliding {
+                pressure: pressure.abs(),
                 path: self.path,
-            })
+            });
+            Limit {
+                dpressure: limit.dpressure.copysign(pressure * limit.dpressure),
+                ..limit
+            }
         })
     }
 }

@@ -88,6 +88,6 @@ mod row;
 pub(crate) mod tests;
 
 pub use interface::{
-    Areas, Interface, InterfaceParts, Measure, Phase, Shift, closest_points, nmultiplier,
+    Allowance, Areas, Interface, InterfaceParts, Measure, Phase, Shift, closest_points, nmultiplier,
 };
 pub use row::{Participant, Row, RowOrder, Rows, Wanted};

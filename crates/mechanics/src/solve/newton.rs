@@ -18,10 +18,17 @@ pub enum LineSearch {
     Off,
 }
 
+/// How many times its iterations an increment may take in all, as long as the residual falls: contact over many nodes that
+/// opens from its rim inwards takes an iteration for every row of them.
+const PATIENCE: usize = 3;
+
+/// Iterations over which the smallest residual has to fall to this part of the smallest before them.
+const FALLS: (usize, f64) = (5, 0.7);
+
 /// The numbers of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonSettings {
-    /// Linear solves after which an increment is given up.
+    /// Linear solves after which an increment is given up; three times as many while the residual falls.
     pub max_iterations: usize,
     /// Largest residual over the mean force, condition (a).
     pub force_tol: f64,
@@ -100,6 +107,16 @@ const BORNE: f64 = 1e-6;
 
 /// ... or its motion, by rounding, below this part of the largest one.
 const STILL: f64 = 1e-9;
+/// Whether residuals, one for each iteration, still fall.
+fn falls(residuals: &[f64]) -> bool {
+    let (window, part) = FALLS;
+    let smallest = |some: &[f64]| some.iter().copied().fold(f64::INFINITY, f64::min);
+    let Some(at) = residuals.len().checked_sub(window).filter(|&at| at > 0) else {
+        return false;
+    };
+    let (before, since) = residuals.split_at(at);
+    smallest(since) < part * smallest(before)
+}
 
 /// What counts as small: residuals are judged against the mean force, separately for forces, moments, multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -320,6 +337,7 @@ impl Newton {
         let mut augmentations = 0;
         let nmotion = system.layout.nmotion();
         let mut iterations = 0;
+        let mut residuals = Vec::with_capacity(last + 1);
         loop {
             self.prepare(system)?;
             let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
@@ -347,6 +365,7 @@ impl Newton {
                 flips,
             });
             let settled = repeat.is_none() || iterations == 0;
+            residuals.push(judgement.residual);
             unsettled = repeat.or(unsettled);
             if !motion && judgement.small && settled && (judgement.round_off || little) {
                 match self.release(system)? {
@@ -361,6 +380,7 @@ impl Newton {
                         unsettled = Some(changed);
                         augmentations += 1;
                         last = iterations + self.settings.max_iterations;
+                        residuals.clear();
                         correction = 0.0;
                         solved = false;
                         continue;
@@ -383,7 +403,9 @@ impl Newton {
                     worst: judgement.worst,
                 });
             }
-            if iterations >= last {
+            let longest = last + (PATIENCE - 1) * self.settings.max_iterations;
+            let goes_on = iterations < longest && falls(&residuals);
+            if iterations >= last && !goes_on {
                 return Err(Failure::TooManyIterations {
                     iterations,
                     residual: judgement.residual,

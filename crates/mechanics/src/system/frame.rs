@@ -89,6 +89,8 @@ pub struct ContactFrame {
     pub pressure: Vec<f64>,
     /// Status at each node.
     pub status: Vec<Status>,
+    /// Whether something acts at each node: it is closed, or so near that a law acts that pulls at a distance.
+    pub acts: Vec<bool>,
     /// Contact force on each secondary node.
     pub force: Vec<Vec3>,
     /// Traction on the secondary side at each node, the mean over the points around it.

@@ -342,6 +342,8 @@ fn start(part: &case::Start, names: &Names<'_>, found: &mut Diagnostics) -> Star
         clearance: part.clearance,
         interference: match part.interference {
             case::Interference::Step => model::Interference::Ramped,
+            case::Interference::Increment => model::Interference::Increment,
+            case::Interference::Increments => model::Interference::Increments,
             case::Interference::Now => model::Interference::AtOnce,
             case::Interference::StrainFree => model::Interference::StrainFree,
         },

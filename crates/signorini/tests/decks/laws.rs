@@ -34,3 +34,17 @@ fn in_the_plane_only_corners_are_tied_as_in_calculix() {
 fn what_happens_at_points_inside_faces_is_printed_of_faces() {
     agrees(&own("faces.inp"), "", Compat::Ccx, 1e-6);
 }
+
+/// What overlaps, and what closes within the first step, is allowed for anew in every increment of that step, in the frames
+/// between, too; then the foot slides over the plane that each increment begins with, turns back and sticks.
+#[test]
+fn overlaps_fade_and_feet_turn_back_as_in_calculix() {
+    agrees(&own("overlaps.inp"), "", Compat::Ccx, 1e-3);
+}
+
+/// Contact at nodes takes the surface of nodes where one of faces has the same name; open nodes that feel a tension are
+/// printed and counted, and rub.
+#[test]
+fn nodes_near_a_surface_are_printed_as_in_calculix() {
+    agrees(&own("names.inp"), "", Compat::Ccx, 1e-3);
+}

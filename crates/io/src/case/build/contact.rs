@@ -494,6 +494,8 @@ fn start(fields: Fields<'_>) -> Start {
         close_gaps_of: fields.text_if("close_gaps_of"),
         clearance: fields.number_if("clearance").map(|gap| gap.value),
         interference: match fields.text("interference").value.as_str() {
+            "increment" => Interference::Increment,
+            "increments" => Interference::Increments,
             "now" => Interference::Now,
             "strain-free" => Interference::StrainFree,
             _ => Interference::Step,

@@ -268,6 +268,10 @@ pub enum Interference {
     /// They are resolved over the first step in which the contact acts.
     #[default]
     Step,
+    /// The first increment in which the contact acts resolves its part of the step of them, the second the rest.
+    Increment,
+    /// What overlaps at the start of an increment of that step is resolved over what is left of the step.
+    Increments,
     /// They are resolved at once.
     Now,
     /// They stay, without pressure.

@@ -203,7 +203,9 @@ const ON_AXIS: f64 = 1e-10;
 
 impl AxesSystem {
     /// Three unit vectors at right angles at a place; none where vectors are parallel or points coincide. On the axis of a
-    /// cylindrical system any direction is radial: that of the first global axis off it is taken.
+    /// cylindrical system any direction is radial. Taken is the one that CalculiX takes, as nodes there show: of global
+    /// axes in their order, let the first that the axis is not square to be k; the direction is square to the axis and
+    /// lies in the plane of k and the axis after k, along which it goes forward.
     #[must_use]
     pub fn at(&self, place: Vec3) -> Option<[Vec3; 3]> {
         let (first, third) = match *self {
@@ -221,10 +223,9 @@ impl AxesSystem {
                 let radial = if radial.norm() > near {
                     radial
                 } else {
-                    let axes = (0..3).map(|k| across(Vec3::unit(k)));
-                    let further =
-                        |a: Vec3, b: Vec3| if b.norm() > a.norm() + ON_AXIS { b } else { a };
-                    axes.reduce(further)?
+                    let k = (0..3).find(|&k| along[k].abs() > ON_AXIS)?;
+                    let next = (k + 1) % 3;
+                    Vec3::unit(next) - Vec3::unit(k) * (along[next] / along[k])
                 };
                 (radial.normalized()?, along)
             }

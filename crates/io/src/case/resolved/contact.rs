@@ -177,6 +177,8 @@ fn tied(tied: &Tied) -> Value {
 fn start(start: &Start) -> Value {
     let interference = match start.interference {
         Interference::Step => "step",
+        Interference::Increment => "increment",
+        Interference::Increments => "increments",
         Interference::Now => "now",
         Interference::StrainFree => "strain-free",
     };

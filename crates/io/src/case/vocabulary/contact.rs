@@ -317,8 +317,15 @@ static START: Table = Table {
         .or(Default::Text("measured")),
         key(
             "interference",
-            Shape::Choice(&[word("step"), word("now"), word("strain-free")]),
-            "overlaps are resolved over the first step, at once, or stay without pressure",
+            Shape::Choice(&[
+                word("step"),
+                word("increment"),
+                word("increments"),
+                word("now"),
+                word("strain-free"),
+            ]),
+            "overlaps are resolved over the first step; their part of it in its first increment and the rest at once; \
+             over what is left of it, measured anew in every increment; at once; or stay without pressure",
         )
         .or(Default::Text("step"))
         .hints(&["overlap", "shrink"]),

@@ -53,7 +53,7 @@ pub(super) static NEWTON: Table = Table {
         key(
             "max_iterations",
             COUNT,
-            "iterations of an increment at most",
+            "iterations of an increment at most, and three times as many while its force error falls",
         )
         .or(Default::Integer(20)),
         key(

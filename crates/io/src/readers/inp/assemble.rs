@@ -38,6 +38,7 @@ struct Space {
     node_sets: Names,
     cell_sets: Names,
     surfaces: Names,
+    surfaces_of_nodes: Names,
     /// What numbers of nodes and elements are more than in the deck.
     shift: [u64; 2],
     /// Numbers in the mesh of elements that are no cells, by their places.
@@ -52,6 +53,7 @@ impl Space {
             Family::Nodes => &mut self.node_sets,
             Family::Cells => &mut self.cell_sets,
             Family::Faces => &mut self.surfaces,
+            Family::Points => &mut self.surfaces_of_nodes,
         }
     }
 
@@ -60,6 +62,7 @@ impl Space {
             Family::Nodes => &self.node_sets,
             Family::Cells => &self.cell_sets,
             Family::Faces => &self.surfaces,
+            Family::Points => &self.surfaces_of_nodes,
         };
         names.get(key).map(|named| &named.set)
     }
@@ -100,7 +103,7 @@ pub(super) fn assemble(files: &Files<'_>, deck: Deck, whole: bool) -> Result<Ass
         });
     }
     assembly.judge_kinds(whole)?;
-    for family in [Family::Cells, Family::Nodes, Family::Faces] {
+    for family in [Family::Cells, Family::Nodes, Family::Faces, Family::Points] {
         assembly.define_all(family)?;
     }
     assembly.note_missing();
@@ -220,6 +223,7 @@ impl Assembly<'_> {
             node_sets: Names::new(),
             cell_sets: Names::new(),
             surfaces: Names::new(),
+            surfaces_of_nodes: Names::new(),
             shift: [node_shift, element_shift],
             special: BTreeMap::new(),
             special_sets: BTreeMap::new(),
@@ -417,9 +421,8 @@ impl Assembly<'_> {
         let mut found = Set::default();
         match definition.family {
             Family::Cells => self.cells(target, definition, &mut found)?,
-            Family::Nodes => self.nodes(target, definition, &mut found)?,
+            Family::Nodes | Family::Points => self.nodes(target, definition, &mut found)?,
             Family::Faces => {
-                self.nodes(target, definition, &mut found)?;
                 for (region, side) in &definition.sides {
                     self.side(target, definition, region, *side, &mut found)?;
                 }
@@ -455,6 +458,7 @@ impl Assembly<'_> {
                 Family::Nodes => space.node_sets.values(),
                 Family::Cells => space.cell_sets.values(),
                 Family::Faces => space.surfaces.values(),
+                Family::Points => space.surfaces_of_nodes.values(),
             });
             named.map(|named| named.name.as_str()).take(11)
         };
@@ -699,8 +703,8 @@ impl Assembly<'_> {
 
     /// Gives every set its name in the mesh.
     ///
-    /// Where several kinds have one name, the first of element set, surface and node set has it alone; the others are
-    /// `name.faces` and `name.nodes`, unless they mean the same nodes.
+    /// Where several kinds have one name, the first of element set, surface, surface of nodes and node set has it alone;
+    /// the others are `name.faces`, `name.points` and `name.nodes`, unless they mean the same nodes.
     fn name_sets(&mut self) {
         let prefixes: Vec<String> = std::iter::once(String::new())
             .chain(self.deck.instances.iter().map(|i| format!("{}.", i.name)))
@@ -711,7 +715,7 @@ impl Assembly<'_> {
                 special: take(&mut space.special_sets),
                 ..Known::default()
             };
-            for family in [Family::Cells, Family::Faces, Family::Nodes] {
+            for family in [Family::Cells, Family::Faces, Family::Points, Family::Nodes] {
                 for (compared, named) in take(space.names(family)) {
                     let name = format!("{prefix}{}", named.name);
                     let name = self.name_set(family, name, named.set);
@@ -759,6 +763,7 @@ impl Assembly<'_> {
             Family::Nodes => "nodes",
             Family::Cells => "elements",
             Family::Faces => "faces",
+            Family::Points => "points",
         };
         let other = format!("{name}.{suffix}");
         self.notes.push(format!(

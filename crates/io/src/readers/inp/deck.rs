@@ -37,6 +37,8 @@ pub(super) enum Family {
     Nodes,
     Cells,
     Faces,
+    /// A surface of nodes.
+    Points,
 }
 
 impl Family {
@@ -45,6 +47,7 @@ impl Family {
             Self::Nodes => "node set",
             Self::Cells => "element set",
             Self::Faces => "surface",
+            Self::Points => "surface of nodes",
         }
     }
 }
@@ -469,9 +472,13 @@ impl Reader<'_> {
 
     fn surface(&mut self, card: &Card) -> Result<()> {
         let name = card.need("NAME", &self.lines)?;
-        let mut surface = Definition::new(name, Family::Faces, card.spot);
-        surface.instance = card.get("INSTANCE").map(str::to_owned);
         let kind = card.get("TYPE").map(key).unwrap_or_default();
+        let family = match kind.as_str() {
+            "NODE" => Family::Points,
+            _ => Family::Faces,
+        };
+        let mut surface = Definition::new(name, family, card.spot);
+        surface.instance = card.get("INSTANCE").map(str::to_owned);
         let combined = card.get("COMBINE").or(card.get("CROP")).is_some();
         if combined || !["", "ELEMENT", "NODE"].contains(&kind.as_str()) {
             let how = if combined { "of surfaces" } else { &kind };

@@ -11,16 +11,20 @@ pub enum Kind {
     Nodes,
     /// A set of elements.
     Elements,
-    /// A surface.
+    /// A surface: of faces, else of nodes.
     Surface,
+    /// A surface of nodes: their names are their own.
+    SurfaceOfNodes,
 }
 
-impl From<Kind> for Family {
-    fn from(kind: Kind) -> Self {
-        match kind {
-            Kind::Nodes => Self::Nodes,
-            Kind::Elements => Self::Cells,
-            Kind::Surface => Self::Faces,
+impl Kind {
+    /// The families of sets that it may be, best first.
+    const fn families(self) -> &'static [Family] {
+        match self {
+            Self::Nodes => &[Family::Nodes],
+            Self::Elements => &[Family::Cells],
+            Self::Surface => &[Family::Faces, Family::Points],
+            Self::SurfaceOfNodes => &[Family::Points],
         }
     }
 }
@@ -31,7 +35,7 @@ pub(super) struct Names {
     /// What numbers of nodes and of elements are more than in the deck.
     pub shift: [u64; 2],
     /// Names of sets in the mesh, by what they are compared by.
-    pub sets: [BTreeMap<String, String>; 3],
+    pub sets: [BTreeMap<String, String>; 4],
     /// Numbers of elements that are no cells, by the element sets that hold them.
     pub special: BTreeMap<String, Vec<u64>>,
 }
@@ -92,12 +96,9 @@ impl Directory {
     pub fn set(&self, space: usize, kind: Kind, name: &str) -> Option<&str> {
         let name = name.trim_matches('"');
         let of = |space: usize, name: &str| {
-            let sets = self
-                .spaces
-                .get(space)?
-                .sets
-                .get(Family::from(kind) as usize)?;
-            sets.get(&key(name)).map(String::as_str)
+            let (sets, name) = (&self.spaces.get(space)?.sets, key(name));
+            let mut families = kind.families().iter();
+            families.find_map(|family| sets.get(*family as usize)?.get(&name).map(String::as_str))
         };
         of(space, name).or_else(|| {
             let (within, rest) = self.qualified(space, name)?;
@@ -108,10 +109,12 @@ impl Directory {
     /// The names in the mesh of all sets of a kind that a space knows, for messages.
     #[must_use]
     pub fn known(&self, space: usize, kind: Kind) -> Vec<&str> {
-        let sets = (self.spaces.get(space)).and_then(|s| s.sets.get(Family::from(kind) as usize));
-        sets.map_or(Vec::new(), |sets| {
-            sets.values().map(String::as_str).collect()
-        })
+        let sets = self.spaces.get(space).map(|space| &space.sets);
+        let of = |family: &Family| sets.and_then(|sets| sets.get(*family as usize));
+        let named = kind.families().iter().filter_map(of);
+        named
+            .flat_map(|sets| sets.values().map(String::as_str))
+            .collect()
     }
 
     /// The number in the mesh of a node or an element that a space calls so: `12`, or `part-1.12`.

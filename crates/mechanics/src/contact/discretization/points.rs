@@ -237,10 +237,11 @@ impl Discretization for PointToSegment {
         place.fill(row, wanted, out)
     }
 
-    /// The closest point of `ρ − slip`, on the continuation of the facet.
+    /// The closest point of `ρ − slip`, on the continuation of the facet. Where the tangent plane is held, the point has
+    /// moved along it since: by what of its distance to `ρ` is not along the normal.
     fn anchor(
         &self,
-        _: usize,
+        row: usize,
         pair: &SurfacePair,
         at: &Placement,
         found: &Pair,
@@ -253,10 +254,15 @@ impl Discretization for PointToSegment {
             anchor: found.anchor,
             offset: Vec3::ZERO,
         };
-        if slip == Vec3::ZERO {
+        let moved = found.held.map_or(Vec3::ZERO, |normal| {
+            let away = self.point(row).position(at) - jet.position;
+            away - normal * away.dot(normal)
+        });
+        let yielded = slip - moved;
+        if yielded == Vec3::ZERO {
             return Ok(stays);
         }
-        let back = jet.position - slip;
+        let back = jet.position - yielded;
         let facet = found.anchor.facet;
         let anchor = if surface.domain(facet).is_some() {
             extended_face(surface, at, found.anchor, back, FAR, &mut jet)?

@@ -58,6 +58,19 @@ pub struct Shift {
     pub fading: f64,
 }
 
+/// Which increments of the first step in which a contact acts allow for what overlaps at their start: that fades to
+/// nothing over what is left of the step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Allowance {
+    /// None does: what is allowed for is in [`Shift`].
+    #[default]
+    Never,
+    /// The first; what is left at its end is resolved at once.
+    First,
+    /// Every one.
+    Every,
+}
+
 /// Tributary areas of all rows, from the positions of all nodes.
 pub type Areas = Box<dyn Fn(&[Vec3]) -> Result<Vec<f64>, SurfaceError> + Send + Sync>;
 
@@ -88,6 +101,8 @@ pub struct InterfaceParts {
     pub scale: Scale,
     /// What is added to the gap of each row; empty where nothing is.
     pub shifts: Vec<Shift>,
+    /// Which increments allow for what overlaps at their start.
+    pub allowance: Allowance,
     /// The first multiplier, where the law solves for them: one for each row, and with friction, or joined, one for each
     /// row and direction.
     pub first_multiplier: usize,
@@ -124,6 +139,7 @@ impl InterfaceParts {
                 length: 1.0,
             },
             shifts: Vec::new(),
+            allowance: Allowance::default(),
             first_multiplier: 0,
             gap_tolerance: 1e-6,
             traction_tolerance: 1e-7,
@@ -184,8 +200,19 @@ pub struct Interface {
     held: Vec<bool>,
     /// The step in which it acts first.
     first_step: Option<StepContext>,
+    /// What overlaps at the start of the increment and is allowed for; empty where nothing is.
+    allowed: Allowed,
     /// Rows that went to and fro between facets keep the one they are on, for the rest of the increment.
     changes: Vec<u8>,
+}
+
+/// Overlaps that an increment allows for.
+#[derive(Debug, Default)]
+struct Allowed {
+    /// Of each row, at the start of the increment; empty where none is.
+    overlaps: Vec<f64>,
+    /// How much of them is left at a time, over the part of the step that was left when they were measured.
+    of_step: f64,
 }
 
 /// What a verdict compares.
@@ -232,6 +259,7 @@ impl Interface {
             step: StepContext::default(),
             held: Vec::new(),
             first_step: None,
+            allowed: Allowed::default(),
             changes: vec![0; nrow],
         }
     }
@@ -333,13 +361,59 @@ impl Interface {
 
     /// What is added to the gap of a row.
     fn shift(&self, row: usize, time: f64) -> f64 {
-        let Some(shift) = self.parts.shifts.get(row) else {
-            return 0.0;
+        let of_start = self.parts.shifts.get(row).copied().unwrap_or_default();
+        let allowed = self.allowed.overlaps.get(row).copied().unwrap_or_default();
+        if of_start.fading == 0.0 && allowed == 0.0 {
+            return of_start.constant;
+        }
+        let left = self.left_of_first_step(time);
+        let of_increment = match allowed {
+            0.0 => 0.0,
+            overlap => overlap * left / self.allowed.of_step,
         };
-        let left = self.first_step.map_or(1.0, |step| {
+        of_start.constant + of_start.fading * left + of_increment
+    }
+
+    /// How much is left of the first step in which it acts, as a part of it.
+    fn left_of_first_step(&self, time: f64) -> f64 {
+        self.first_step.map_or(1.0, |step| {
             (1.0 - (time - step.start) / step.duration).clamp(0.0, 1.0)
-        });
-        shift.constant + shift.fading * left
+        })
+    }
+
+    /// Measures the overlaps that an increment allows for, where it does; `seen` says whether the choices are those of
+    /// its start.
+    fn allow_for_overlaps(&mut self, from: &State, seen: bool) -> Result<(), TermError> {
+        self.allowed.overlaps.clear();
+        let left = self.left_of_first_step(from.time);
+        let in_first_step = self
+            .first_step
+            .is_some_and(|s| s.number == self.step.number);
+        let allows = match self.parts.allowance {
+            Allowance::Never => false,
+            Allowance::First => left >= 1.0,
+            Allowance::Every => left > 0.0,
+        };
+        if !(allows && in_first_step && self.is_active()) {
+            return Ok(());
+        }
+        let kept = (!seen).then(|| self.now.clone());
+        if !seen {
+            self.search(&from.placement())
+                .map_err(|e| self.failed(&e))?;
+        }
+        let overlap = |row: usize, gap: f64| {
+            let constant = self.parts.shifts.get(row).map_or(0.0, |s| s.constant);
+            (-gap - constant).max(0.0)
+        };
+        let pairs = self.now.pairs.iter().enumerate();
+        let overlaps = pairs.map(|(row, pair)| pair.map_or(0.0, |p| overlap(row, p.gap)));
+        self.allowed.overlaps.extend(overlaps);
+        self.allowed.of_step = left;
+        if let Some(kept) = kept {
+            self.now = kept;
+        }
+        Ok(())
     }
 
     /// Makes the choices that hold while an iteration goes on; says whether they are others.
@@ -402,13 +476,13 @@ impl Term for Interface {
 
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
         let at = from.placement();
-        if !self.started {
+        let renews = self.parts.discretization.renews();
+        let first = !self.started;
+        if first {
             self.search(&at).map_err(|e| self.failed(&e))?;
             self.settle(&at)?;
             self.accepted.clone_from(&self.now);
             self.started = true;
-            self.judge(from)?;
-            self.accepted_judged.clone_from(&self.judged);
         }
         if std::mem::take(&mut self.resumed) && self.parts.discretization.meets_many() {
             // weights are those of where the run stopped, and what they couple is known
@@ -417,9 +491,14 @@ impl Term for Interface {
             self.sees_others = false;
             self.accepted.clone_from(&self.now);
         }
-        if self.parts.discretization.renews() || self.parts.bond_tangential.is_some() {
+        if renews || self.parts.bond_tangential.is_some() {
             self.let_go();
             self.search(&at).map_err(|e| self.failed(&e))?;
+        }
+        self.allow_for_overlaps(from, renews || first)?;
+        if first {
+            self.judge(from)?;
+            self.accepted_judged.clone_from(&self.judged);
         }
         self.before.clone_from(&self.accepted);
         self.settled = 0;

@@ -161,6 +161,7 @@ impl Interface {
                 if let (Ok(k), Some(of_row)) = (parts.pair.points.binary_search(node), &of_row) {
                     means.add(k, area, of_row);
                     report.status[k] = status;
+                    report.acts[k] = status.is_closed();
                     hosted.push(k);
                 }
             }
@@ -185,6 +186,8 @@ impl Interface {
                 if status.number() > report.status[k].number() {
                     report.status[k] = status;
                 }
+                // a multiplier acts where it is zero, too
+                report.acts[k] |= status.is_closed() || acts && self.nmultiplier() == 0;
             }
             if let (Some(faces), Some(of_row)) = (&mut report.faces, &of_row)
                 && status.is_closed()
@@ -388,6 +391,7 @@ impl Interface {
             gap: vec![f64::NAN; n],
             pressure: vec![0.0; n],
             status: vec![Status::Absent; n],
+            acts: vec![false; n],
             force: vec![Vec3::ZERO; n],
             traction: vec![Vec3::ZERO; n],
             slip: vec![Vec3::ZERO; n],

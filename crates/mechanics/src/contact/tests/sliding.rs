@@ -1,10 +1,10 @@
 //! What a contact remembers: a point that is led over a flat surface against a return written down by hand, frames that
 //! turn, and checkpoints.
 
-use super::super::discretization::{PointToSegment, SurfacePair};
+use super::super::discretization::{PointToSegment, SlidingRange, SurfacePair};
 use super::super::friction::{Coulomb, Falling, FrictionLaw, Sliding, Stick, Tresca};
 use super::super::law::{AugmentedNewton, ContactLaw, Lagrange, Multiplier, Penalty, Uzawa};
-use super::super::{Interface, InterfaceParts, Phase};
+use super::super::{Allowance, Interface, InterfaceParts, Phase};
 use super::scene::{Choice, Kind, Method, Scene};
 use super::{Random, facets, largest};
 use crate::system::{
@@ -33,6 +33,8 @@ struct Slider {
     reference: Vec<Vec3>,
     state: State,
     node: NodeId,
+    /// The time of the next states.
+    time: f64,
 }
 
 /// Forces of a whole system.
@@ -48,6 +50,17 @@ impl Sink for Forces {
 
 impl Slider {
     fn new(
+        ndim: usize,
+        at: Vec3,
+        law: Box<dyn ContactLaw>,
+        friction: Option<(Arc<dyn FrictionLaw>, Stick)>,
+    ) -> Self {
+        Self::held_for(SlidingRange::Finite, ndim, at, law, friction)
+    }
+
+    /// Whose point keeps its tangent plane for as long.
+    fn held_for(
+        sliding: SlidingRange,
         ndim: usize,
         at: Vec3,
         law: Box<dyn ContactLaw>,
@@ -79,7 +92,8 @@ impl Slider {
             nmultiplier: vectors * ndim,
         };
         let pair = SurfacePair::new(vec![node], primary, 1.0);
-        let method = Box::new(PointToSegment::at_nodes(&[node]));
+        let mut method = Box::new(PointToSegment::at_nodes(&[node]));
+        method.sliding = sliding;
         let parts = InterfaceParts {
             law,
             phases: vec![Phase {
@@ -96,6 +110,7 @@ impl Slider {
             reference: x,
             state,
             node,
+            time: 0.0,
         }
     }
 
@@ -109,6 +124,7 @@ impl Slider {
         let (base, nothing) = (self.state.clone(), Elimination::default());
         let mut state = base.clone();
         state.advance_from(&base, &du, 1.0, &self.layout, &self.reference, &nothing);
+        state.time = self.time;
         self.interface.prepare(&state).unwrap();
         let mut forces = Forces(vec![0.0; self.layout.ndof()]);
         self.interface
@@ -208,20 +224,29 @@ fn a_point_that_is_led_follows_the_return() {
         transition: 1.0,
     };
     let laws: [Arc<dyn FrictionLaw>; 3] = [coulomb(), Arc::new(Tresca(0.7)), Arc::new(falling)];
+    // the surface is flat: a tangent plane that is held is everybody's
+    let ranges = [
+        SlidingRange::Finite,
+        SlidingRange::Increment,
+        SlidingRange::Small,
+    ];
     for ndim in [2, 3] {
         for law in &laws {
             for stick in [Stick::Stiffness(STIFFNESS), Stick::Slip(0.02)] {
-                follow(ndim, law, stick);
+                for sliding in ranges {
+                    follow(sliding, ndim, law, stick);
+                }
             }
         }
     }
 }
 
-fn follow(ndim: usize, law: &Arc<dyn FrictionLaw>, stick: Stick) {
+fn follow(sliding: SlidingRange, ndim: usize, law: &Arc<dyn FrictionLaw>, stick: Stick) {
     let course = course(ndim);
     let normal = ndim - 1;
     let penalty = Box::new(Penalty);
-    let mut slider = Slider::new(ndim, course[0], penalty, Some((law.clone(), stick)));
+    let friction = Some((law.clone(), stick));
+    let mut slider = Slider::held_for(sliding, ndim, course[0], penalty, friction);
     let mut by_hand = Return::default();
     let (mut sticks, mut reversals) = (0, 0);
     let mut slipped = false;
@@ -235,7 +260,7 @@ fn follow(ndim: usize, law: &Arc<dyn FrictionLaw>, stick: Stick) {
         expected[normal] = -pressure;
         assert!(
             (force - expected).max_abs() < 1e-11,
-            "{force:?} {expected:?}"
+            "{sliding:?}: {force:?} {expected:?}"
         );
         assert_eq!(
             report.status[0],
@@ -253,6 +278,63 @@ fn follow(ndim: usize, law: &Arc<dyn FrictionLaw>, stick: Stick) {
         "{sticks} {reversals}"
     );
     assert!(by_hand.path > 10.0 && by_hand.work > 1.0);
+}
+
+#[test]
+fn increments_allow_for_what_overlaps_at_their_start() {
+    // the times at the ends of increments, and the depths there
+    let course = [(0.25, 0.05), (0.5, 0.06), (0.8, 0.02), (1.0, 0.07)];
+    let deep = |depth: f64| Vec3::new(2.5, -depth, 0.0);
+    let left = |from: f64, to: f64| (1.0 - to) / (1.0 - from);
+    let cases = [
+        (Allowance::Never, [0.0; 4]),
+        (Allowance::First, [0.04 * left(0.0, 0.25), 0.0, 0.0, 0.0]),
+        (
+            Allowance::Every,
+            [
+                0.04 * left(0.0, 0.25),
+                0.05 * left(0.25, 0.5),
+                0.06 * left(0.5, 0.8),
+                0.02 * left(0.8, 1.0),
+            ],
+        ),
+    ];
+    for (allowance, allowed) in cases {
+        for sliding in [SlidingRange::Finite, SlidingRange::Increment] {
+            let mut slider = Slider::held_for(sliding, 2, deep(0.04), Box::new(Penalty), None);
+            slider.interface = {
+                let (primary, node) = (slider.interface.parts().pair.primary.clone(), slider.node);
+                let mut method = Box::new(PointToSegment::at_nodes(&[node]));
+                method.sliding = sliding;
+                let pair = SurfacePair::new(vec![node], primary, 1.0);
+                let parts = InterfaceParts {
+                    allowance,
+                    ..InterfaceParts::new("led", pair, method, PENALTY)
+                };
+                Interface::new(parts, slider.layout, Arc::new(Elimination::default()))
+            };
+            // nothing is left to allow for in the second step
+            for number in [0, 1] {
+                let step = crate::system::StepContext {
+                    number,
+                    start: number as f64,
+                    duration: 1.0,
+                    ..Default::default()
+                };
+                slider.interface.begin_step(&step, &slider.state).unwrap();
+                for ((time, depth), allowed) in course.into_iter().zip(allowed) {
+                    slider.time = step.start + time;
+                    let (force, _) = slider.go(deep(depth));
+                    let allowed = if number == 0 { allowed } else { 0.0 };
+                    let expected = -PENALTY * (depth - allowed).max(0.0);
+                    assert!(
+                        (force.y - expected).abs() < 1e-12,
+                        "{allowance:?} {time}: {force:?} {expected}"
+                    );
+                }
+            }
+        }
+    }
 }
 
 #[test]

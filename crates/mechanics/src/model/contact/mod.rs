@@ -204,6 +204,7 @@ impl Context<'_> {
         let parts = InterfaceParts {
             name: part.name.clone(),
             shifts: start::shifts(&found, part),
+            allowance: start::allowance(part),
             discretization: sides.discretization,
             pair: sides.pair,
             law: sides.law,

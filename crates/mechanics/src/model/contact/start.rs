@@ -1,8 +1,8 @@
 //! Gaps and overlaps at the start, and what is done about them.
 
 use super::{ContactPart, ModelError, Sides, Source};
-use crate::contact::Shift;
 use crate::contact::discretization::{Anchored, Pairing};
+use crate::contact::{Allowance, Shift};
 use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Placement, Pose, SurfaceError, SurfaceJet};
@@ -37,7 +37,10 @@ pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
             .collect();
     }
     let overlap = found.pairs.iter().flatten().any(|p| p.gap < 0.0);
-    let leaves = start.interference == Interference::AtOnce || !overlap;
+    let leaves = match start.interference {
+        Interference::Ramped | Interference::StrainFree => !overlap,
+        Interference::AtOnce | Interference::Increment | Interference::Increments => true,
+    };
     if start.clearance.is_none() && leaves {
         return Vec::new();
     }
@@ -58,11 +61,25 @@ pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
                 constant: overlap,
                 fading: 0.0,
             },
-            Interference::AtOnce => Shift::default(),
+            Interference::AtOnce | Interference::Increment | Interference::Increments => {
+                Shift::default()
+            }
         }
     };
     rows.map(|p| p.map_or(Shift::default(), |p| shift(p.gap)))
         .collect()
+}
+
+/// Which increments allow for what overlaps at their start. Gaps that are given have no overlaps.
+pub(super) fn allowance(part: &ContactPart) -> Allowance {
+    if part.tie.is_some() || part.start.clearance.is_some() {
+        return Allowance::Never;
+    }
+    match part.start.interference {
+        Interference::Increment => Allowance::First,
+        Interference::Increments => Allowance::Every,
+        Interference::Ramped | Interference::StrainFree | Interference::AtOnce => Allowance::Never,
+    }
 }
 
 /// Where the rows of a bond stick.

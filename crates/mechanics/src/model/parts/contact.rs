@@ -246,6 +246,12 @@ pub enum Interference {
     /// They are resolved over the first step in which the contact is active.
     #[default]
     Ramped,
+    /// The first increment resolves its part of the step of them, the second the rest. They are measured when the contact
+    /// begins to act.
+    Increment,
+    /// What overlaps at the start of an increment of that step is resolved over what is left of the step, and measured
+    /// anew at the start of the next.
+    Increments,
     /// They are resolved in the first increment.
     AtOnce,
     /// They are taken for contact without pressure.

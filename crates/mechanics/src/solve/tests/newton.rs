@@ -116,6 +116,29 @@ fn a_term_that_never_settles_is_quoted_in_the_failure() {
 }
 
 #[test]
+fn an_iteration_that_gets_somewhere_takes_longer() {
+    // towards the top of 1 - (1 - e)^3 every step leaves 2/3 of the way, and (2/3)^3 of the residual
+    fn crest(e: f64) -> [f64; 3] {
+        let left = 1.0 - e;
+        [
+            e + (left.powi(4) - 1.0) / 4.0,
+            1.0 - left.powi(3),
+            3.0 * left * left,
+        ]
+    }
+    let told = run_with(
+        pulled(crest, 1.0),
+        &once(),
+        settings(1e-12, LineSearch::Off),
+    );
+    told.assert_finished();
+    // (8/27)^k is half of what is allowed of a mean force of 1 after 22 or 23 of them
+    let taken = told.increments[0].iterations;
+    assert!((22..=24).contains(&taken), "{taken}");
+    assert!((told.state.u[0] - 1.0).abs() < 2e-4);
+}
+
+#[test]
 fn condition_d_goes_on_where_a_soft_direction_still_moves() {
     // beside forces of a million, a residual of a hundredth is nothing: but it moves the soft node by a tenth
     fn stiff(e: f64) -> [f64; 3] {

@@ -18,7 +18,7 @@ use signorini_mechanics::solve::IncrementRecord;
 use signorini_mechanics::system::{
     ContactFrame, ContactSample, Frame, PointSample, Resultant, RigidBody, SpinFrame,
 };
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 /// The tables of a run.
@@ -147,8 +147,19 @@ fn along(across: f64, vector: Vec3, normal: Vec3) -> [f64; 3] {
     [across, vector.dot(first), vector.dot(second)]
 }
 
-/// The nodes of the mesh that stand for references, or for their rotations.
+/// The nodes of the mesh that stand for references, or for their rotations. A node of a solid speaks for itself, unless
+/// its reference carries something: a motion along axes of its own has a reference where it is, too.
 fn references(model: &Model) -> HashMap<NodeId, Stand> {
+    let mesh = &model.mesh;
+    let solid: HashSet<NodeId> = mesh
+        .cells(mesh.dim())
+        .flat_map(|cell| mesh.cell(cell).iter().copied())
+        .collect();
+    let bodies = model.system.elimination.bodies();
+    let carries = |rigid: RigidId| {
+        let body = bodies.get(rigid as usize);
+        body.is_some_and(|body| !body.nodes.is_empty())
+    };
     let mut all = HashMap::new();
     for reference in &model.case.references {
         let mut known = model.references.iter();
@@ -162,6 +173,7 @@ fn references(model: &Model) -> HashMap<NodeId, Stand> {
         let rotations = reference.rotations.and_then(|label| model.node(label));
         for (node, turns) in [(place, false), (rotations, true)] {
             let rigid = known.rigid;
+            let node = node.filter(|node| carries(rigid) || !solid.contains(node));
             all.extend(node.map(|node| (node, Stand { rigid, turns })));
         }
     }
@@ -427,7 +439,8 @@ impl Writer<'_> {
             }
             ContactQuantity::Count => {
                 self.page.contact_table(ContactKind::Count);
-                self.page.count(acting.iter().map(|c| c.nclosed()).sum());
+                let of = |c: &&ContactFrame| c.acts.iter().filter(|acts| **acts).count();
+                self.page.count(acting.iter().map(of).sum());
             }
             ContactQuantity::Force => self.resultants(contacts, |c| c.secondary),
             ContactQuantity::NormalForce => self.resultants(contacts, |c| Resultant {
@@ -441,7 +454,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A table of the closed nodes of contacts, and one of faces of those that have their points inside.
+    /// A table of the nodes of contacts at which something acts, and one of faces of those that have their points inside.
     fn closed<const N: usize>(
         &mut self,
         [of_nodes, of_faces]: [ContactKind; 2],
@@ -454,8 +467,8 @@ impl Writer<'_> {
             self.page.contact_table(of_nodes);
         }
         for contact in at_nodes {
-            let nodes = contact.nodes.iter().zip(&contact.status).enumerate();
-            for (k, (&node, _)) in nodes.filter(|(_, (_, status))| status.is_closed()) {
+            let nodes = contact.nodes.iter().zip(&contact.acts).enumerate();
+            for (k, (&node, _)) in nodes.filter(|(_, (_, acts))| **acts) {
                 let sample = ContactSample {
                     normal: contact.normal[k],
                     gap: contact.gap[k],
