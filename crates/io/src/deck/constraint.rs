@@ -182,6 +182,7 @@ impl Translation<'_> {
             thickness: None,
             temperatures: Temperatures::default(),
             area: None,
+            small_strain: false,
             rigid: true,
             reference: Some(reference),
             place: place.clone(),

@@ -16,8 +16,8 @@
 use super::Compat;
 use super::translation::Translation;
 use crate::case::{
-    Area, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
-    Normals, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
+    Area, Contact, ContactChange, Enforcement, Features, Friction, Interference, Limit, Method,
+    Name, Normals, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -232,7 +232,7 @@ impl Translation<'_> {
             let mut contact = self.contact(sides, &card.place);
             if card.has("SMALLSLIDING") {
                 contact.sliding = match self.compat {
-                    Compat::None => Sliding::Small,
+                    Compat::None | Compat::Oofem => Sliding::Small,
                     Compat::Ccx => Sliding::Increment,
                 };
             }
@@ -320,7 +320,9 @@ impl Translation<'_> {
             enforcement: Enforcement::Auto,
             per: None,
             friction: None,
+            remembers_traction: false,
             sliding: Sliding::Finite,
+            features: Features::default(),
             tied: None,
             start: Start {
                 interference: Interference::Step,
@@ -391,7 +393,7 @@ impl Translation<'_> {
     /// Friction; none where its coefficient is zero.
     fn rubbing(&self, [mu, slope]: [f64; 2]) -> Option<Friction> {
         let stick = match self.compat {
-            Compat::None => None,
+            Compat::None | Compat::Oofem => None,
             Compat::Ccx if slope > 0.0 => Some(Stick::Stiffness(slope)),
             Compat::Ccx => Some(Stick::Stiffness(STICK * self.first_modulus())),
         };
@@ -522,7 +524,7 @@ impl Translation<'_> {
             contact.start.clearance = Some(clearance);
             contact.per = Some(Per::Node);
             contact.enforcement = match self.compat {
-                Compat::None => Enforcement::Lagrange,
+                Compat::None | Compat::Oofem => Enforcement::Lagrange,
                 Compat::Ccx => Enforcement::Arctangent {
                     stiffness: given(stiffness, GAP[0]),
                     tension: given(tension, GAP[1]),

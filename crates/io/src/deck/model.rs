@@ -398,6 +398,7 @@ impl Translation<'_> {
                     Temperatures::Full
                 },
                 area: None,
+                small_strain: false,
                 rigid: false,
                 reference: None,
                 place: place.clone(),

@@ -162,7 +162,12 @@ impl Context<'_> {
                     }
                     terms.push(Box::new(solid));
                 }
-                BodyKind::Truss { material, area, .. } => {
+                BodyKind::Truss {
+                    material,
+                    area,
+                    small,
+                    ..
+                } => {
                     terms.push(Box::new(Truss::new(TrussParts {
                         name,
                         mesh,
@@ -172,6 +177,7 @@ impl Context<'_> {
                         space,
                         material,
                         area,
+                        small,
                         temperature,
                     })?));
                 }

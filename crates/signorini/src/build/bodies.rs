@@ -66,6 +66,7 @@ fn body_part(
                 material,
                 density,
                 area,
+                small: body.small_strain,
             },
         });
     }

@@ -26,7 +26,7 @@ fn of_others(name: &str) -> PathBuf {
 
 fn read(path: &Path, compat: Compat) -> Loaded {
     let reading = Reading {
-        compat,
+        compat: Some(compat),
         ..Reading::default()
     };
     load(path, &reading).unwrap_or_else(|found| panic!("{}", found.plain()))
@@ -152,7 +152,7 @@ fn decks_of_the_suite_print_what_the_page_says() {
 /// Runs a deck, and compares what it prints with the reference beside it: iterations, and all tables of either.
 fn printed(path: &Path, compat: Compat) -> Result<(u64, Vec<Finding>), Diagnostics> {
     let reading = Reading {
-        compat,
+        compat: Some(compat),
         ..Reading::default()
     };
     let loaded = load(path, &reading)?;

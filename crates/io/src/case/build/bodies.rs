@@ -193,6 +193,7 @@ impl Builder {
             "thickness",
             "temperatures",
             "area",
+            "strain",
         ];
         let wrong = if rigid {
             &of_solids[..]
@@ -247,6 +248,7 @@ impl Builder {
                 _ => Temperatures::Full,
             },
             area: fields.number_if("area"),
+            small_strain: fields.text("strain").value == "small",
             rigid,
             reference: fields.text_if("reference"),
             groups,

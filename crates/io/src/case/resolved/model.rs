@@ -224,7 +224,8 @@ pub(super) fn body(body: &Body) -> Entries {
     };
     entries.push(("temperatures", temperatures.into()));
     entries.extend(body.area.as_ref().map(|area| ("area", area.value.into())));
-    entries.push(("rigid", false.into()));
+    let strain = if body.small_strain { "small" } else { "auto" };
+    entries.extend([("strain", strain.into()), ("rigid", false.into())]);
     entries
 }
 

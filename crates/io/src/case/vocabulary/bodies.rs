@@ -107,6 +107,7 @@ const MATERIALS: &[Choice] = &[
     word("saint-venant-kirchhoff"),
     word("neo-hookean"),
     word("mooney-rivlin"),
+    word("mooney-rivlin-logarithmic"),
     word("ogden"),
     word("orthotropic"),
     word("hyperfoam"),
@@ -208,7 +209,18 @@ pub(super) static BODY: Table = Table {
             "how temperatures vary in an element; linear, as strains do: of quad8 and hex20 with full integration",
         )
         .or(Default::Text("full")),
-        key("area", POSITIVE, "cross-section of bars (area)").hints(&["section"]),
+        key(
+            "area",
+            NOT_NEGATIVE,
+            "cross-section of bars (area); those of none carry no force",
+        )
+        .hints(&["section"]),
+        key(
+            "strain",
+            Shape::Choice(&[word("auto"), word("small")]),
+            "of bars: as large as their step has them, or small in all steps",
+        )
+        .or(Default::Text("auto")),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
         key(
             "reference",

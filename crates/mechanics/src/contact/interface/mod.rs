@@ -73,6 +73,9 @@ pub struct InterfaceParts {
     pub law: Box<dyn ContactLaw>,
     /// What becomes of it in each step; the last goes on.
     pub phases: Vec<Phase>,
+    /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
+    /// increment has ended.
+    pub remembers_traction: bool,
     /// Whether the sides are joined where they are at the start: each row sticks to its anchor, if it has one.
     pub bond: Option<Vec<Option<super::discretization::Anchored>>>,
     /// What the law's pressure acts on.
@@ -111,6 +114,7 @@ impl InterfaceParts {
             discretization,
             law: Box::new(Penalty),
             phases: Vec::new(),
+            remembers_traction: false,
             bond: None,
             measure: Measure::Node,
             area: Vec::new(),

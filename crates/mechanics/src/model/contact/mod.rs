@@ -201,6 +201,7 @@ impl Context<'_> {
             pair: sides.pair,
             law: sides.law,
             phases: steps.phases(sides.contact, part, penalty),
+            remembers_traction: part.remembers_traction,
             bond,
             measure,
             area: sides.area,
