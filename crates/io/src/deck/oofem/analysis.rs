@@ -197,7 +197,7 @@ impl Translation {
         earlier: f64,
         place: &Place,
     ) -> Option<Vec<[f64; 2]>> {
-        if !(length > 0.0) {
+        if length <= 0.0 {
             let text = format!("the length of steps is {length}");
             self.error(&codes::OUT_OF_RANGE, text, place, "it must be positive");
             return None;

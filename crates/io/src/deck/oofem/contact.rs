@@ -111,7 +111,7 @@ impl Translation {
             }
         };
         let wrong = match &shape {
-            Shape::Sphere { radius, .. } if !(*radius > 0.0) => Some("the radius is not positive"),
+            Shape::Sphere { radius, .. } if *radius <= 0.0 => Some("the radius is not positive"),
             Shape::Polynomial { coefficients, .. } if coefficients.is_empty() => {
                 Some("the polynomial has no coefficients")
             }
@@ -306,7 +306,7 @@ impl Translation {
         }
         let penalty = record.need_real("penalty")?;
         let place = record.place_of_field("penalty");
-        if !(penalty > 0.0) {
+        if penalty <= 0.0 {
             let text = format!("the penalty is {penalty}");
             self.error(&codes::OUT_OF_RANGE, text, &place, "it must be positive");
         }
@@ -474,7 +474,7 @@ impl Translation {
         let at = record.place_of_field("pn");
         let tangential = record.real("pt")?;
         let mu = record.real("friction")?.unwrap_or(0.0);
-        if !(penalty > 0.0) {
+        if penalty <= 0.0 {
             let text = format!("the penalty is {penalty}");
             self.error(&codes::OUT_OF_RANGE, text, &at, "it must be positive");
         }

@@ -6,8 +6,10 @@ use std::str::Chars;
 /// How deep parentheses may stand in each other.
 const DEPTH: usize = 64;
 
-/// Functions of one number.
-const FUNCTIONS: [(&str, fn(f64) -> f64); 10] = [
+/// A function of one number, with its name.
+type Function = (&'static str, fn(f64) -> f64);
+
+const FUNCTIONS: [Function; 10] = [
     ("sin", f64::sin),
     ("cos", f64::cos),
     ("tan", f64::tan),
