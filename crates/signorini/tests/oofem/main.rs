@@ -124,6 +124,65 @@ fn the_block_of_the_edge_deck_is_of_forces_on_the_opposite_edge() {
     );
 }
 
+/// A tip goes down one per cent beside the end of a block: it rests on the continuation of its top, on nothing where only
+/// faces count, and on the corner where edges do, which then pushes it aside, too.
+#[test]
+fn points_beside_a_surface_rest_on_what_counts() {
+    let force = |features: &str| {
+        let case = format!(
+            r#"
+            [mesh]
+            nodes = [
+              [1, 0, 0], [2, 1, 0], [3, 1, 1], [4, 0, 1],
+              [5, 1.01, 1.0], [6, 1.2, 1.4], [7, 0.9, 1.4],
+            ]
+            elements = [
+              {{ id = 1, type = "quad4", group = "block", nodes = [1, 2, 3, 4] }},
+              {{ id = 2, type = "tri3", group = "tool", nodes = [5, 6, 7] }},
+            ]
+            [model]
+            space = "plane-strain"
+            [sets]
+            base = {{ nodes = [1, 2] }}
+            tip = {{ nodes = [5] }}
+            top = {{ faces = [[1, "S3"]] }}
+            [material.soft]
+            model = "linear-elastic"
+            E = 100.0
+            nu = 0.0
+            [[body]]
+            group = "block"
+            material = "soft"
+            [[body]]
+            group = "tool"
+            rigid = true
+            [[contact]]
+            name = "tip"
+            secondary = "tip"
+            primary = "top"
+            method = "node-to-segment"
+            features = "{features}"
+            enforcement = {{ penalty = 1e3, per = "node" }}
+            [[step]]
+            name = "press"
+            increments = 2
+            [[step.fix]]
+            on = "base"
+            u = "all"
+            [[step.move]]
+            on = "tool"
+            uy = -0.01
+            "#
+        );
+        let done = run(&mut common::model("tip.toml", &case, &[]));
+        done.frames.last().unwrap().contacts[0].secondary.force
+    };
+    let (auto, faces, edges) = (force("auto"), force("faces"), force("edges"));
+    assert!(auto.y > 0.1, "{auto:?}");
+    assert_eq!(faces.norm(), 0.0);
+    assert!(edges.y > 0.1 && edges.x < -0.1, "{edges:?}");
+}
+
 /// Runs a deck by the command; its exit code and what it told.
 fn by_command(arguments: &[&str], folder: &Path) -> (i32, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
