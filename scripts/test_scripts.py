@@ -611,6 +611,65 @@ class Refinements(unittest.TestCase):
             self.assertAlmostEqual(forces[x], force)
 
 
+class RunOofem(InFolder):
+    """run_oofem.py with a program that only pretends: what it does depends on the name of the deck."""
+
+    def setUp(self):
+        super().setUp()
+        self.program = os.path.join(self.folder, "signorini")
+        with open(self.program, "w", encoding="utf-8") as file:
+            file.write(
+                f"""#!{sys.executable}
+import json, os, sys
+deck, out = sys.argv[2], sys.argv[sys.argv.index("-o") + 1]
+name = os.path.basename(deck)
+if name == "odd.in":
+    print("error[S0111]: the material 1 is not supported", file=sys.stderr)
+    sys.exit(3)
+if name == "stuck.in":
+    sys.exit(5)
+os.makedirs(out)
+value = 1.5 if name == "far.in" else 1.0
+checks = [{{"what": "u", "value": 1.0, "got": value, "ok": value == 1.0}}]
+checks = [] if name == "bare.in" else checks
+open(os.path.join(out, "summary.json"), "w").write(json.dumps({{"expectations": checks}}))
+sys.exit(int(value != 1.0))
+"""
+            )
+        os.chmod(self.program, 0o755)
+
+    def decks(self, *names):
+        folder = os.path.join(self.folder, "decks", "below")
+        os.makedirs(folder)
+        for name in names:
+            open(os.path.join(folder, name), "w", encoding="utf-8").close()
+        return os.path.dirname(folder)
+
+    def test_every_deck_has_a_line_and_is_counted(self):
+        decks = self.decks("good.in", "far.in", "odd.in", "stuck.in", "bare.in")
+        page = os.path.join(self.folder, "page.md")
+        code, said = run("run_oofem.py", decks, "--signorini", self.program, "--markdown", page)
+        self.assertEqual(code, 1, said)
+        rows = {line.split()[0]: line.split()[1] for line in said.splitlines() if line.startswith("below")}
+        names = ["bare", "far", "good", "odd", "stuck"]
+        states = ["solved", "differs", "passed", "refused", "fails"]
+        self.assertEqual(rows, {f"below/{n}.in": s for n, s in zip(names, states)})
+        self.assertIn("0 of 1 checks; u is 1.5, not 1.0", said)
+        self.assertIn("5 decks: 4 parsed, 3 run, 1 passed their checks", said)
+        self.assertIn("1 x the material N is not supported", said)
+        with open(page, encoding="utf-8") as file:
+            self.assertIn("| below/good.in | passed | 1 checks |", file.read())
+
+    def test_good_decks_are_a_success_and_no_decks_are_not(self):
+        decks = self.decks("good.in")
+        self.assertEqual(run("run_oofem.py", decks, "--signorini", self.program)[0], 0)
+        empty = os.path.join(self.folder, "empty")
+        os.makedirs(empty)
+        self.assertEqual(run("run_oofem.py", empty, "--signorini", self.program)[0], 2)
+        missing = os.path.join(self.folder, "none")
+        self.assertEqual(run("run_oofem.py", decks, "--signorini", missing)[0], 2)
+
+
 if __name__ == "__main__":
     strict = "--nothing-skipped" in sys.argv
     result = unittest.main(argv=[a for a in sys.argv if a != "--nothing-skipped"], verbosity=2, exit=False).result

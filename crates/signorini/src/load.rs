@@ -68,8 +68,8 @@ pub struct Loaded {
 pub struct Reading {
     /// What is changed in it: path and value.
     pub set: Vec<(String, String)>,
-    /// Whose laws hold in a deck.
-    pub compat: Compat,
+    /// Whose laws hold in a deck; none: the best ones in decks of Abaqus and CalculiX, its own in one of OOFEM.
+    pub compat: Option<Compat>,
 }
 
 /// A case, or a deck, whose mesh may still have to be read.
@@ -218,10 +218,17 @@ fn mesh_of(
     Ok((mesh, warnings))
 }
 
-/// Whether a file is a deck, by its extension.
+/// Whether a file is a deck of Abaqus or CalculiX, or one of OOFEM, by its extension.
 fn is_deck(path: &Path) -> bool {
+    is_of_oofem(path)
+        || path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("inp"))
+}
+
+fn is_of_oofem(path: &Path) -> bool {
     path.extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("inp"))
+        .is_some_and(|e| e.eq_ignore_ascii_case("in"))
 }
 
 /// A deck as a case, the text of that case, and the mesh unless the case has another one.
@@ -230,7 +237,13 @@ fn read_deck(
     bytes: &[u8],
     reading: &Reading,
 ) -> Result<(Case, Diagnostics, Vec<u8>, Option<DeckMesh>), Diagnostics> {
-    let read = deck::read(&RealFs, name, bytes, reading.compat)?;
+    let read = if is_of_oofem(name.as_ref()) {
+        // its checks hold for its own elements, unless somebody wants better ones
+        let compat = reading.compat.unwrap_or(Compat::Oofem);
+        deck::oofem::read(&RealFs, name, bytes, compat)?
+    } else {
+        deck::read(&RealFs, name, bytes, reading.compat.unwrap_or_default())?
+    };
     let text = case::resolved(&read.case).into_bytes();
     let mesh = DeckMesh {
         mesh: read.mesh,

@@ -184,6 +184,7 @@ impl Translation<'_> {
             temperatures: Temperatures::default(),
             at_nodes: AtNodes::default(),
             area: None,
+            small_strain: false,
             rigid: true,
             reference: Some(reference),
             place: place.clone(),

@@ -17,8 +17,8 @@
 use super::Compat;
 use super::translation::Translation;
 use crate::case::{
-    Area, Basis, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
-    Normals, Offset, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
+    Area, Basis, Contact, ContactChange, Enforcement, Features, Friction, Interference, Limit,
+    Method, Name, Normals, Offset, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -233,7 +233,7 @@ impl Translation<'_> {
             let mut contact = self.contact(sides, &card.place);
             if card.has("SMALLSLIDING") {
                 contact.sliding = match self.compat {
-                    Compat::None => Sliding::Small,
+                    Compat::None | Compat::Oofem => Sliding::Small,
                     Compat::Ccx => Sliding::Increment,
                 };
             }
@@ -340,7 +340,9 @@ impl Translation<'_> {
             enforcement: Enforcement::Auto,
             per: None,
             friction: None,
+            remembers_traction: false,
             sliding: Sliding::Finite,
+            features: Features::default(),
             tied: None,
             start: Start {
                 interference: Interference::Step,
@@ -440,7 +442,7 @@ impl Translation<'_> {
     fn rubbing(&self, given: [f64; 2]) -> Option<Friction> {
         let [mu, _] = given;
         let stick = match self.compat {
-            Compat::None => None,
+            Compat::None | Compat::Oofem => None,
             Compat::Ccx => Some(Stick::Stiffness(self.slope(given))),
         };
         let limit = Limit::Coulomb { mu, cap: None };
@@ -608,7 +610,7 @@ impl Translation<'_> {
             contact.start.clearance = Some(clearance);
             contact.per = Some(Per::Node);
             contact.enforcement = match self.compat {
-                Compat::None => Enforcement::Lagrange,
+                Compat::None | Compat::Oofem => Enforcement::Lagrange,
                 Compat::Ccx => Enforcement::Arctangent {
                     stiffness: given(stiffness, GAP[0]),
                     tension: given(tension, GAP[1]),

@@ -15,7 +15,7 @@
 //! a card says and the program does not know is an error with its line, never left out in silence; what does no harm is
 //! named once in a note. [`KEYWORDS`] tells which is which.
 //!
-//! Two programs, one deck: [`Compat`] says whose laws of contact hold.
+//! Two programs, one deck: [`Compat`] says whose laws of contact hold. Decks of OOFEM are another language: [`oofem`].
 //!
 //! Source: CalculiX CrunchiX User's Manual, chapter 7; Abaqus Keywords Reference Guide.
 //!
@@ -27,6 +27,7 @@ mod keywords;
 mod load;
 mod material;
 mod model;
+pub mod oofem;
 mod print;
 mod spring;
 mod step;
@@ -51,6 +52,8 @@ pub enum Compat {
     None,
     /// Those of CalculiX, as the deck states them.
     Ccx,
+    /// Those of OOFEM: its elements as it integrates them.
+    Oofem,
 }
 
 /// A deck that was read.

@@ -39,6 +39,7 @@ impl Section<'_> {
             thickness: None,
             temperatures: Temperatures::Full,
             area: None,
+            small_strain: false,
             rigid: false,
             reference: None,
             place: place.clone(),
@@ -548,7 +549,7 @@ impl Translation<'_> {
                     Temperatures::Full
                 },
                 at_nodes: match self.compat {
-                    Compat::None => AtNodes::Fitted,
+                    Compat::None | Compat::Oofem => AtNodes::Fitted,
                     Compat::Ccx => AtNodes::Interpolated,
                 },
                 ..section.made_of(group)

@@ -1,3 +1,4 @@
+use super::oofem::RecordError;
 use crate::vtk::VtuReadError;
 use std::fmt;
 use thiserror::Error;
@@ -477,6 +478,14 @@ pub enum MeshError {
         place: Place,
         /// What is wrong.
         what: &'static str,
+    },
+    /// A record of a deck of OOFEM that cannot be read.
+    #[error("{place}: {error}")]
+    Record {
+        /// Where.
+        place: Place,
+        /// Why.
+        error: Box<RecordError>,
     },
     /// Nodes alone.
     #[error(

@@ -22,6 +22,7 @@ pub mod gmsh;
 mod inline;
 pub mod inp;
 pub(crate) mod labels;
+pub mod oofem;
 mod side;
 pub mod stl;
 mod validate;
@@ -40,9 +41,10 @@ use signorini_geometry::mesh::Mesh;
 pub type Reader = fn(&str, &[u8]) -> Result<(Mesh, Vec<String>), MeshError>;
 
 /// Readers by extension, in lower case.
-pub const READERS: [(&str, Reader); 4] = [
+pub const READERS: [(&str, Reader); 5] = [
     ("msh", gmsh::read),
     ("inp", inp::read),
+    ("in", oofem::read),
     ("vtu", vtu::read),
     ("frd", frd::read),
 ];
@@ -72,7 +74,7 @@ mod tests {
         let error = read_mesh("part.stl", b"solid").unwrap_err();
         assert_eq!(
             error.to_string(),
-            "part.stl: no reader for this kind of file; meshes can be .msh, .inp, .vtu, .frd"
+            "part.stl: no reader for this kind of file; meshes can be .msh, .inp, .in, .vtu, .frd"
         );
         assert!(read_mesh("part", b"").is_err());
     }

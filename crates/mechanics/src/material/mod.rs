@@ -242,7 +242,7 @@ pub struct Law {
 
 /// Every law, by its name in a case. At finite strain `linear-elastic`, at one temperature or several, is the law of
 /// Saint Venant and Kirchhoff: rotations are exact, strains should stay small.
-pub static TABLE: [Law; 9] = [
+pub static TABLE: [Law; 10] = [
     Law {
         name: "linear-elastic",
         constants: &["E", "nu"],
@@ -271,6 +271,11 @@ pub static TABLE: [Law; 9] = [
         name: "mooney-rivlin",
         constants: &["c10", "c01", "bulk"],
         make: |c| Ok(Box::new(Ogden::mooney_rivlin(c)?)),
+    },
+    Law {
+        name: "mooney-rivlin-logarithmic",
+        constants: &["c10", "c01", "bulk"],
+        make: |c| Ok(Box::new(Ogden::mooney_rivlin_logarithmic(c)?)),
     },
     Law {
         name: "ogden",

@@ -19,7 +19,8 @@ use super::{Constants, ConstantsError, Lame};
 /// with the mean `x̄`. At small strain it is linear elasticity with `μ_0` and `K`.
 ///
 /// # Limits
-/// The volumetric energy stays finite as `J → 0`.
+/// The volumetric energy stays finite as `J → 0`; that of [`Ogden::mooney_rivlin_logarithmic`], `K/2 (ln J)²`, does not,
+/// and its pressure falls again beyond `J = e`.
 ///
 /// # Source
 /// Ogden, *Proc. R. Soc. Lond. A* 328 (1972) 567–583; Holzapfel, *Nonlinear Solid Mechanics* 2000, section 6.5.
@@ -27,7 +28,17 @@ use super::{Constants, ConstantsError, Lame};
 pub struct Ogden {
     terms: Vec<Term>,
     bulk: f64,
+    volume: Volume,
     lame: Lame,
+}
+
+/// The energy of a change of volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Volume {
+    /// K/2 (J − 1)².
+    Quadratic,
+    /// K/2 (ln J)².
+    Logarithmic,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -81,12 +92,24 @@ impl Ogden {
         ))
     }
 
+    /// Mooney and Rivlin's law with the volumetric energy `K/2 (ln J)²`.
+    ///
+    /// # Errors
+    /// Those of [`Ogden::mooney_rivlin`].
+    pub fn mooney_rivlin_logarithmic(constants: &Constants) -> Result<Self, ConstantsError> {
+        Ok(Self {
+            volume: Volume::Logarithmic,
+            ..Self::mooney_rivlin(constants)?
+        })
+    }
+
     fn from_terms(terms: Vec<Term>, bulk: f64) -> Self {
         let mu = terms.iter().map(|t| t.mu).sum();
         let lambda = bulk - 2.0 / 3.0 * mu;
         Self {
             terms,
             bulk,
+            volume: Volume::Quadratic,
             lame: Lame { lambda, mu },
         }
     }
@@ -101,9 +124,22 @@ impl InStretches for Ogden {
         let trace = strain[0] + strain[1] + strain[2];
         let dilation = trace.exp_m1(); // J − 1
         let ratio = 1.0 + dilation;
-        to.stress = [self.bulk * ratio * dilation; 3];
-        to.normal = [[self.bulk * ratio * (ratio + dilation); 3]; 3];
-        to.energy = 0.5 * self.bulk * dilation * dilation;
+        // τ of a change of volume, its derivative by the trace, its energy
+        let (pressure, slope, energy) = match self.volume {
+            Volume::Quadratic => (
+                self.bulk * ratio * dilation,
+                self.bulk * ratio * (ratio + dilation),
+                0.5 * self.bulk * dilation * dilation,
+            ),
+            Volume::Logarithmic => (
+                self.bulk * trace,
+                self.bulk,
+                0.5 * self.bulk * trace * trace,
+            ),
+        };
+        to.stress = [pressure; 3];
+        to.normal = [[slope; 3]; 3];
+        to.energy = energy;
         for &Term { mu, alpha } in &self.terms {
             let d = strain.map(|e| alpha * (e - trace / 3.0));
             let x = d.map(f64::exp_m1);

@@ -229,7 +229,12 @@ impl Context<'_> {
                     }
                     terms.push(Box::new(solid));
                 }
-                BodyKind::Truss { material, area, .. } => {
+                BodyKind::Truss {
+                    material,
+                    area,
+                    small,
+                    ..
+                } => {
                     terms.push(Box::new(Truss::new(TrussParts {
                         name,
                         mesh,
@@ -239,6 +244,7 @@ impl Context<'_> {
                         space,
                         material,
                         area,
+                        small,
                         temperature,
                     })?));
                 }

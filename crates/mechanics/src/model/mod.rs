@@ -34,9 +34,9 @@ pub use error::{LoadError, ModelError};
 pub use held::Unheld;
 pub use parts::{
     AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart,
-    ContactChange, ContactPart, Enforcement, FrictionPart, Interference, LimitPart, Load, LoadPart,
-    Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart,
-    StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
+    ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart, Interference, LimitPart,
+    Load, LoadPart, Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart,
+    SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
 
 use crate::contact::{Interface, Measure};

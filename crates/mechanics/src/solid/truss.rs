@@ -34,6 +34,7 @@ pub struct Truss {
     reference: Arc<[Vec3]>,
     material: Box<dyn Material>,
     area: f64,
+    small: bool,
     kinematics: Kinematics,
     temperature: Option<Arc<NodalField>>,
     step: StepContext,
@@ -58,8 +59,10 @@ pub struct TrussParts<'a> {
     pub space: Idealisation,
     /// What they are made of: the law for three dimensions. It is taken to be isotropic where the cross-section shrinks.
     pub material: Box<dyn Material>,
-    /// Cross-section at the start (area).
+    /// Cross-section at the start (area); bars of none carry no force.
     pub area: f64,
+    /// Whether strains are small in all steps.
+    pub small: bool,
     /// Temperatures, where there are any.
     pub temperature: Option<Arc<NodalField>>,
 }
@@ -103,7 +106,7 @@ impl Truss {
     /// The bars made of these parts.
     ///
     /// # Errors
-    /// A cell that is no line, or has no length; no cross-section; a body of revolution.
+    /// A cell that is no line, or has no length; a negative cross-section; a body of revolution.
     pub fn new(parts: TrussParts<'_>) -> Result<Self, SolidError> {
         let TrussParts {
             name,
@@ -114,6 +117,7 @@ impl Truss {
             space,
             material,
             area,
+            small,
             temperature,
         } = parts;
         let body = name.to_string();
@@ -126,6 +130,7 @@ impl Truss {
             layout,
             reference,
             area,
+            small,
             kinematics: Kinematics::Finite,
             temperature,
             step: StepContext::default(),
@@ -154,7 +159,7 @@ impl Truss {
             };
             let npoint = element.full_rule().npoint();
             let long = (0..npoint).all(|p| truss.tangent(&bar, p).is_some());
-            let what = if area.is_nan() || area <= 0.0 {
+            let what = if area.is_nan() || area < 0.0 {
                 "cross-section"
             } else {
                 "length"
@@ -389,7 +394,7 @@ impl Term for Truss {
     }
 
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.kinematics = if step.nonlinear {
+        self.kinematics = if step.nonlinear && !self.small {
             Kinematics::Finite
         } else {
             Kinematics::Small

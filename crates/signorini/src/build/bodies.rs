@@ -77,6 +77,7 @@ fn body_part(
                 material,
                 density,
                 area,
+                small: body.small_strain,
             },
         });
     }

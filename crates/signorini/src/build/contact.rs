@@ -16,8 +16,8 @@ use signorini_mechanics::contact::Measure;
 use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
 use signorini_mechanics::contact::mortar::Basis;
 use signorini_mechanics::model::{
-    self, AreaPart, ContactChange, ContactPart, ContactSummary, FrictionPart, LimitPart, Method,
-    PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
+    self, AreaPart, ContactChange, ContactPart, ContactSummary, FeaturesPart, FrictionPart,
+    LimitPart, Method, PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
 };
 
 /// The contacts that act in some step. Their places in this list are their numbers.
@@ -65,6 +65,12 @@ pub(super) fn contact(
             Sliding::Finite => SlidingRange::Finite,
             Sliding::Increment => SlidingRange::Increment,
             Sliding::Small => SlidingRange::Small,
+        },
+        remembers_traction: part.remembers_traction,
+        features: match part.features {
+            case::Features::Auto => None,
+            case::Features::Faces => Some(FeaturesPart::Faces),
+            case::Features::Edges => Some(FeaturesPart::Edges),
         },
         tie: part.tied.map(|tied| TiePart {
             offset: match tied.offset {

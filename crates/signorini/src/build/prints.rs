@@ -2,6 +2,7 @@
 
 use super::names::Names;
 use super::quoted;
+use crate::run::element_named;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, Case, Name, PrintOf, Space, Totals};
@@ -175,6 +176,19 @@ pub(super) fn wanted(
             }
             PrintedOf::Contacts(..) => {}
         }
+    }
+    let expected = case.expectations.iter();
+    let expected: BTreeSet<u64> = expected
+        .filter_map(|one| element_named(&one.what.value))
+        .map(|(label, _)| label)
+        .collect();
+    if !expected.is_empty() {
+        let is_meant = |cell: &CellId| {
+            let label = mesh.cell_label(*cell);
+            label.is_some_and(|label| expected.contains(&label))
+        };
+        let all = (1..=mesh.dim()).flat_map(|dim| mesh.cells(dim));
+        wanted.cells.extend(all.filter(is_meant));
     }
     if !revolved.is_empty() {
         let is_near = |cell: &CellId| mesh.cell(*cell).iter().any(|node| revolved.contains(node));

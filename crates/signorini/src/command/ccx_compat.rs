@@ -59,7 +59,7 @@ fn solve(deck: &Path, options: &SolveOptions) -> u8 {
     let clock = Instant::now();
     let reading = Reading {
         set: vec![("output.format".into(), "[\"frd\"]".into())],
-        compat: Compat::Ccx,
+        compat: Some(Compat::Ccx),
     };
     let loaded = match load(deck, &reading) {
         Ok(loaded) => loaded,

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Write a deck as a case with the same result. The mesh stays where it is: the case names the deck.
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// The deck, .inp
+    /// The deck, .inp or .in
     deck: PathBuf,
     /// The case to be written, .toml
     case: PathBuf,
@@ -26,8 +26,10 @@ impl Convert {
             path.extension()
                 .is_some_and(|e| e.eq_ignore_ascii_case(wanted))
         };
-        if !is(&self.deck, "inp") || !is(&self.case, "toml") {
-            Console::stderr().text("error: convert takes a deck, .inp, and writes a case, .toml\n");
+        let is_deck = is(&self.deck, "inp") || is(&self.deck, "in");
+        if !is_deck || !is(&self.case, "toml") {
+            Console::stderr()
+                .text("error: convert takes a deck, .inp or .in, and writes a case, .toml\n");
             return WRONG_COMMAND;
         }
         match self.convert() {

@@ -81,29 +81,31 @@ struct CaseOptions {
     /// Change a value of the case: --set material.steel.E=2000
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = assignment)]
     set: Vec<(String, String)>,
-    /// The laws of contact of a deck: the best there are, or those that CalculiX has
-    #[arg(long, value_name = "PROGRAM", default_value = "none")]
-    compat: CompatWord,
+    /// The laws of a deck: the best there are, or those of a program; by default oofem for .in, else none
+    #[arg(long, value_name = "PROGRAM")]
+    compat: Option<CompatWord>,
 }
 
 /// A word for [`Compat`].
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, ValueEnum)]
 enum CompatWord {
-    /// The best way to hold surfaces apart
-    #[default]
+    /// The best way to hold surfaces apart, the best elements
     None,
     /// Penalties and types as the deck says
     Ccx,
+    /// Elements as OOFEM integrates them
+    Oofem,
 }
 
 impl CaseOptions {
     fn reading(&self) -> Reading {
         Reading {
             set: self.set.clone(),
-            compat: match self.compat {
+            compat: self.compat.map(|word| match word {
                 CompatWord::None => Compat::None,
                 CompatWord::Ccx => Compat::Ccx,
-            },
+                CompatWord::Oofem => Compat::Oofem,
+            }),
         }
     }
 }

@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 /// Solve a case.
 #[derive(Debug, Args)]
 pub struct Run {
-    /// The case, a .toml file; or a deck, .inp
+    /// The case, a .toml file; or a deck, .inp or .in
     case: PathBuf,
     #[command(flatten)]
     folder: FolderOption,

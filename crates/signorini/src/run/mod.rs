@@ -41,6 +41,7 @@ pub use error::{OutputError, bad_checkpoint, cannot_resume};
 pub use fields::Fields;
 pub use limits::{Limits, Stop};
 pub use news::{Detail, Effort, Facts, Listener, News, Totals, event_of, tell};
+pub use probe::element_named;
 pub use start::{Start, begin, facts};
 pub use tree::{Owner, Tree, case_copy};
 pub use volume::Volume;

@@ -1,9 +1,10 @@
-//! Values of fields at nodes: `displacement.z @ node 5`, `reaction_force.x @ set base`.
+//! Values of fields at nodes: `displacement.z @ node 5`, `reaction_force.x @ set base`; and at integration points:
+//! `stress.yy @ element 7 point 3`.
 
 use crate::build::Model;
-use signorini_geometry::mesh::NodeId;
+use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
-use signorini_mechanics::system::Frame;
+use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Status};
 
 /// A number of a field at a node.
 type Read = fn(&Frame, usize) -> Option<f64>;
@@ -23,8 +24,31 @@ fn principal(frame: &Frame, node: usize, number: usize) -> Option<f64> {
     values.get(number).copied()
 }
 
+/// The contact that a node is on the secondary side of, and its place there; of several, the one that is closed.
+fn contact(frame: &Frame, node: usize) -> Option<(&ContactFrame, usize)> {
+    let of = |one: &ContactFrame| one.nodes.iter().position(|n| *n as usize == node);
+    let contacts = frame.contacts.iter();
+    let known = contacts.filter_map(|one| Some((one, of(one)?)));
+    known.max_by(|(a, i), (b, j)| {
+        let of = |one: &ContactFrame, at: usize| one.pressure.get(at).copied().unwrap_or(0.0);
+        of(a, *i).total_cmp(&of(b, *j))
+    })
+}
+
+/// 0 open, 1 closed without friction, 2 sticking or joined, 3 slipping.
+fn contact_status(frame: &Frame, node: usize) -> Option<f64> {
+    let (contact, at) = contact(frame, node)?;
+    let is_smooth = contact.force_shear == Vec3::ZERO;
+    Some(match contact.status.get(at)? {
+        Status::Absent | Status::Open => 0.0,
+        Status::Slip if is_smooth => 1.0,
+        Status::Stick | Status::Tied => 2.0,
+        Status::Slip => 3.0,
+    })
+}
+
 /// Every quantity with its name; those of forces are summed over a set, the others averaged.
-const QUANTITIES: [(&str, Read); 34] = [
+const QUANTITIES: [(&str, Read); 36] = [
     ("displacement.x", |f, n| vector(&f.displacement, n, 0)),
     ("displacement.y", |f, n| vector(&f.displacement, n, 1)),
     ("displacement.z", |f, n| vector(&f.displacement, n, 2)),
@@ -46,6 +70,10 @@ const QUANTITIES: [(&str, Read); 34] = [
     ("contact_pressure", |f, n| {
         f.contact_pressure.get(n).copied()
     }),
+    ("contact_gap", |f, n| {
+        contact(f, n).and_then(|(one, at)| one.gap.get(at).copied())
+    }),
+    ("contact_status", contact_status),
     ("stress.xx", |f, n| tensor(&f.stress, n, Sym3::xx)),
     ("stress.yy", |f, n| tensor(&f.stress, n, Sym3::yy)),
     ("stress.zz", |f, n| tensor(&f.stress, n, Sym3::zz)),
@@ -73,6 +101,42 @@ const QUANTITIES: [(&str, Read); 34] = [
     ("temperature", |f, n| f.temperature.get(n).copied()),
 ];
 
+/// A number of what is known at an integration point.
+type ReadPoint = fn(&PointSample) -> f64;
+
+/// Every quantity at integration points with its name.
+const POINT_QUANTITIES: [(&str, ReadPoint); 14] = [
+    ("stress.xx", |p| p.stress.xx()),
+    ("stress.yy", |p| p.stress.yy()),
+    ("stress.zz", |p| p.stress.zz()),
+    ("stress.xy", |p| p.stress.xy()),
+    ("stress.yz", |p| p.stress.yz()),
+    ("stress.xz", |p| p.stress.xz()),
+    ("strain.xx", |p| p.strain.xx()),
+    ("strain.yy", |p| p.strain.yy()),
+    ("strain.zz", |p| p.strain.zz()),
+    ("strain.xy", |p| p.strain.xy()),
+    ("strain.yz", |p| p.strain.yz()),
+    ("strain.xz", |p| p.strain.xz()),
+    ("von_mises", |p| p.stress.von_mises()),
+    ("plastic_strain", |p| p.plastic_strain),
+];
+
+/// The element and the point, from 1, that an expectation names: `stress.yy @ element 7 point 3`.
+#[must_use]
+pub fn element_named(what: &str) -> Option<(u64, u64)> {
+    let (_, place) = what.split_once('@')?;
+    let mut words = place.split_whitespace();
+    let element = words.next().filter(|word| *word == "element");
+    let label = element.and_then(|_| words.next()?.parse().ok())?;
+    let point = match (words.next(), words.next()) {
+        (None, _) => 1,
+        (Some("point"), Some(number)) => number.parse().ok()?,
+        _ => return None,
+    };
+    words.next().is_none().then_some((label, point))
+}
+
 /// How the values at several nodes become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Statistic {
@@ -82,12 +146,23 @@ enum Statistic {
     Max,
 }
 
-/// A quantity at nodes.
+/// A quantity at nodes, or at an integration point.
 #[derive(Clone, Debug)]
-pub struct Probe {
-    read: Read,
-    nodes: Vec<NodeId>,
-    statistic: Statistic,
+pub struct Probe(Place);
+
+#[derive(Clone, Debug)]
+enum Place {
+    Nodes {
+        read: Read,
+        nodes: Vec<NodeId>,
+        statistic: Statistic,
+    },
+    Point {
+        read: ReadPoint,
+        cell: CellId,
+        /// From 0.
+        point: usize,
+    },
 }
 
 /// Why a probe makes no sense.
@@ -105,6 +180,18 @@ pub enum ProbeError {
         /// Its number.
         label: u64,
     },
+    /// No such quantity at integration points.
+    #[error("there is no quantity \"{name}\" at integration points")]
+    PointQuantity {
+        /// What was asked for.
+        name: String,
+    },
+    /// No such element.
+    #[error("the mesh has no element {label} that deforms")]
+    Element {
+        /// Its number.
+        label: u64,
+    },
     /// No such set, or an empty one.
     #[error("there are no nodes in a set \"{name}\"")]
     Set {
@@ -112,7 +199,9 @@ pub enum ProbeError {
         name: String,
     },
     /// Words behind the `@` that are not understood.
-    #[error("\"{words}\" is not understood; write  @ node 5  or  @ set base max")]
+    #[error(
+        "\"{words}\" is not understood; write  @ node 5,  @ set base max  or  @ element 7 point 3"
+    )]
     Words {
         /// The words.
         words: String,
@@ -127,11 +216,11 @@ impl Probe {
     pub fn at_node(model: &Model, quantity: &str, label: u64) -> Result<Self, ProbeError> {
         let (read, _) = find(quantity)?;
         let node = model.node(label).ok_or(ProbeError::Node { label })?;
-        Ok(Self {
+        Ok(Self(Place::Nodes {
             read,
             nodes: vec![node],
             statistic: Statistic::Mean,
-        })
+        }))
     }
 
     /// A quantity on a set: the sum of forces, the mean of others.
@@ -142,11 +231,34 @@ impl Probe {
         let (read, statistic) = find(quantity)?;
         let nodes = model.nodes_of(set).filter(|nodes| !nodes.is_empty());
         let nodes = nodes.ok_or_else(|| ProbeError::Set { name: set.into() })?;
-        Ok(Self {
+        Ok(Self(Place::Nodes {
             read,
             nodes,
             statistic,
-        })
+        }))
+    }
+
+    /// A quantity at an integration point of the element of a number.
+    ///
+    /// # Errors
+    /// No such quantity, element or point.
+    pub fn at_point(
+        model: &Model,
+        quantity: &str,
+        (label, point): (u64, u64),
+    ) -> Result<Self, ProbeError> {
+        let known = POINT_QUANTITIES.iter().find(|(name, _)| *name == quantity);
+        let (_, read) = known.ok_or_else(|| ProbeError::PointQuantity {
+            name: quantity.into(),
+        })?;
+        let mut wanted = model.system.wanted.cells.iter();
+        let cell = wanted.find(|cell| model.mesh.cell_label(**cell) == Some(label));
+        let cell = *cell.ok_or(ProbeError::Element { label })?;
+        Ok(Self(Place::Point {
+            read: *read,
+            cell,
+            point: usize::try_from(point).map_or(0, |point| point.saturating_sub(1)),
+        }))
     }
 
     /// Reads `QUANTITY @ node N` or `QUANTITY @ set NAME [max|min|mean|sum]`; none without `@`.
@@ -162,6 +274,10 @@ impl Probe {
         let words = || ProbeError::Words {
             words: place.into(),
         };
+        if place.starts_with("element") {
+            let named = element_named(&format!("@ {place}"));
+            return Self::at_point(model, quantity, named.ok_or_else(words)?);
+        }
         let (kind, name) = place.split_once(char::is_whitespace).ok_or_else(words)?;
         let name = name.trim();
         match kind {
@@ -180,7 +296,9 @@ impl Probe {
                     _ => (name, None),
                 };
                 let mut probe = Self::on_set(model, quantity, name.trim())?;
-                probe.statistic = statistic.unwrap_or(probe.statistic);
+                if let (Place::Nodes { statistic, .. }, Some(wanted)) = (&mut probe.0, statistic) {
+                    *statistic = wanted;
+                }
                 Ok(probe)
             }
             _ => Err(words()),
@@ -190,11 +308,23 @@ impl Probe {
     /// The value in a frame.
     #[must_use]
     pub fn value(&self, frame: &Frame) -> f64 {
-        let values = self.nodes.iter();
-        let values = values.map(|&node| (self.read)(frame, node as usize).unwrap_or(f64::NAN));
-        match self.statistic {
+        let (read, nodes, statistic) = match &self.0 {
+            Place::Nodes {
+                read,
+                nodes,
+                statistic,
+            } => (read, nodes, statistic),
+            Place::Point { read, cell, point } => {
+                let samples = frame.samples.of(*cell);
+                let sample = samples.and_then(|(_, samples)| samples.get(*point));
+                return sample.map_or(f64::NAN, read);
+            }
+        };
+        let values = nodes.iter();
+        let values = values.map(|&node| read(frame, node as usize).unwrap_or(f64::NAN));
+        match statistic {
             Statistic::Sum => values.sum(),
-            Statistic::Mean => values.sum::<f64>() / self.nodes.len() as f64,
+            Statistic::Mean => values.sum::<f64>() / nodes.len() as f64,
             Statistic::Min => values.fold(f64::INFINITY, f64::min),
             Statistic::Max => values.fold(f64::NEG_INFINITY, f64::max),
         }

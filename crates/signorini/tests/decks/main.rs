@@ -26,7 +26,7 @@ fn of_others(name: &str) -> PathBuf {
 
 fn read(path: &Path, compat: Compat) -> Loaded {
     let reading = Reading {
-        compat,
+        compat: Some(compat),
         ..Reading::default()
     };
     load(path, &reading).unwrap_or_else(|found| panic!("{}", found.plain()))
@@ -166,7 +166,7 @@ fn iterations_of_calculix(deck: &str) -> String {
 /// nothing is printed, displacements and stresses of `.frd` files.
 fn printed(path: &Path, compat: Compat) -> Result<(u64, Vec<Finding>), Diagnostics> {
     let reading = Reading {
-        compat,
+        compat: Some(compat),
         ..Reading::default()
     };
     let mut loaded = load(path, &reading)?;

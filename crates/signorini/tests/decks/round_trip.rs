@@ -13,7 +13,7 @@ const SAME: f64 = 1e-12;
 /// increment.
 fn same_after_conversion(deck: &Path, compat: Compat, max_nnode: usize) -> Option<()> {
     let reading = Reading {
-        compat,
+        compat: Some(compat),
         ..Reading::default()
     };
     let loaded = load(deck, &reading).ok()?;

@@ -193,6 +193,7 @@ impl Builder {
             "temperatures",
             "at_nodes",
             "area",
+            "strain",
         ];
         let wrong = if rigid {
             &of_solids[..]
@@ -249,6 +250,7 @@ impl Builder {
                 _ => AtNodes::Fitted,
             },
             area: fields.number_if("area"),
+            small_strain: fields.text("strain").value == "small",
             rigid,
             reference: fields.text_if("reference"),
             groups,

@@ -42,10 +42,16 @@ impl Builder {
                 }
             }),
             friction: self.friction(fields),
+            remembers_traction: fields.text("friction_history").value == "traction",
             sliding: match fields.text("sliding").value.as_str() {
                 "increment" => Sliding::Increment,
                 "small" => Sliding::Small,
                 _ => Sliding::Finite,
+            },
+            features: match fields.text("features").value.as_str() {
+                "faces" => Features::Faces,
+                "edges" => Features::Edges,
+                _ => Features::Auto,
             },
             tied: tied(fields),
             start: start(fields.table("start")),
@@ -139,6 +145,12 @@ impl Builder {
             "sliding",
             contact.sliding == Sliding::Increment && method == Method::Mortar,
             "its cells are those of the first look, or of the present: write \"small\" or delete `sliding`",
+        );
+        only(
+            "features",
+            contact.features != Features::Auto
+                && !matches!(method, Method::NodeToSegment | Method::GaussPoint),
+            "it belongs to \"node-to-segment\" and \"gauss-point\"",
         );
         only(
             "enforcement",

@@ -118,6 +118,8 @@ pub struct Body {
     pub at_nodes: AtNodes,
     /// Cross-section of bars (area).
     pub area: Option<Spanned<f64>>,
+    /// Whether strains of bars are small in all steps.
+    pub small_strain: bool,
     /// Whether it moves as a whole.
     pub rigid: bool,
     /// The reference a rigid body moves with; none: a point of its own, in the mean of its nodes.

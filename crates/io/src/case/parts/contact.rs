@@ -29,8 +29,13 @@ pub struct Contact {
     pub per: Option<Per>,
     /// Friction; none: frictionless.
     pub friction: Option<Friction>,
+    /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
+    /// increment has ended.
+    pub remembers_traction: bool,
     /// How far points slide.
     pub sliding: Sliding,
+    /// On what of the primary side points may rest.
+    pub features: Features,
     /// Whether the sides are joined.
     pub tied: Option<Tied>,
     /// What is done about gaps and overlaps at the start; by default for sides that are joined.
@@ -236,6 +241,18 @@ pub enum Offset {
     Close,
     /// The joint pulls the sides together.
     Pull,
+}
+
+/// On what of the primary side points may rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Features {
+    /// On faces, edges and vertices, and a little beyond where it ends.
+    #[default]
+    Auto,
+    /// Within faces only.
+    Faces,
+    /// On faces, edges and vertices, those where it ends, too.
+    Edges,
 }
 
 /// Sides that are joined.

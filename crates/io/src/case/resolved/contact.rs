@@ -23,6 +23,16 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         Sliding::Increment => "increment",
         Sliding::Small => "small",
     };
+    let history = if contact.remembers_traction {
+        "traction"
+    } else {
+        "place"
+    };
+    let features = match contact.features {
+        Features::Auto => "auto",
+        Features::Faces => "faces",
+        Features::Edges => "edges",
+    };
     let passes: u64 = if contact.two_pass { 2 } else { 1 };
     let mut entries = vec![
         ("name", (&contact.name.value).into()),
@@ -33,7 +43,9 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         ("area", area.into()),
         ("enforcement", enforcement(contact)),
         ("friction", friction(contact.friction.as_ref())),
+        ("friction_history", history.into()),
         ("sliding", sliding.into()),
+        ("features", features.into()),
         ("tied", contact.tied.as_ref().map_or(false.into(), tied)),
         ("reach", auto(contact.reach)),
         ("active", contact.active.into()),

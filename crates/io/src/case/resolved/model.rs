@@ -241,7 +241,8 @@ pub(super) fn body(body: &Body) -> Entries {
         ("at_nodes", at_nodes.into()),
     ]);
     entries.extend(body.area.as_ref().map(|area| ("area", area.value.into())));
-    entries.push(("rigid", false.into()));
+    let strain = if body.small_strain { "small" } else { "auto" };
+    entries.extend([("strain", strain.into()), ("rigid", false.into())]);
     entries
 }
 

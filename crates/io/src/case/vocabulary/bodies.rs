@@ -107,6 +107,7 @@ const MATERIALS: &[Choice] = &[
     word("saint-venant-kirchhoff"),
     word("neo-hookean"),
     word("mooney-rivlin"),
+    word("mooney-rivlin-logarithmic"),
     word("ogden"),
     word("orthotropic"),
     word("hyperfoam"),
@@ -220,7 +221,18 @@ pub(super) static BODY: Table = Table {
              where quad8, quad9, hex20 and hex27 have full integration",
         )
         .or(Default::Text("fitted")),
-        key("area", POSITIVE, "cross-section of bars (area)").hints(&["section"]),
+        key(
+            "area",
+            NOT_NEGATIVE,
+            "cross-section of bars (area); those of none carry no force",
+        )
+        .hints(&["section"]),
+        key(
+            "strain",
+            Shape::Choice(&[word("auto"), word("small")]),
+            "of bars: as large as their step has them, or small in all steps",
+        )
+        .or(Default::Text("auto")),
         key("rigid", Shape::Flag, "whether it moves as a whole").or(Default::Flag(false)),
         key(
             "reference",

@@ -53,11 +53,23 @@ pub(super) static CONTACT: Table = Table {
         .or(Default::Text("auto")),
         FRICTION_KEY.or(Default::Number(0.0)),
         key(
+            "friction_history",
+            Shape::Choice(&[word("place"), word("traction")]),
+            "what sticking points remember: the place where they stick; or, as OOFEM has it, the traction of the last increment, without friction in the one in which they close",
+        )
+        .or(Default::Text("place")),
+        key(
             "sliding",
             Shape::Choice(&[word("finite"), word("increment"), word("small")]),
             "how far points slide; else each keeps the tangent plane it meets at the start of the increment, or first",
         )
         .or(Default::Text("finite")),
+        key(
+            "features",
+            Shape::Choice(&[word("auto"), word("faces"), word("edges")]),
+            "where points may rest: anywhere and a little beyond the rim, within faces only, or on the edges of the rim, too",
+        )
+        .or(Default::Text("auto")),
         key(
             "tied",
             Shape::Either(&[Shape::Flag, Shape::Table(&TIED)]),

@@ -79,6 +79,10 @@ pub enum Closest {
     Anywhere,
     /// On faces and their continuations only.
     Faces,
+    /// Within faces only: elsewhere nothing is near.
+    Within,
+    /// Anywhere; edges and vertices where the surface ends count as all others do.
+    Rims,
 }
 
 /// A point of the secondary side: its nodes, with their weights.
@@ -161,6 +165,9 @@ pub fn closest(
         let Some(found) = surface.project(at, facet, point, hint, &mut jet)? else {
             continue;
         };
+        if on == Closest::Within && found.feature != Feature::Face {
+            continue;
+        }
         let tie = TIE * (jet.metric[0].max(jet.metric[1])).sqrt();
         let better = best.as_ref().is_none_or(|(b, tie)| {
             let closer = b.distance - found.distance;
@@ -175,6 +182,7 @@ pub fn closest(
         return Ok(None);
     };
     let mut outward = surface.outward(at, &found)?;
+    outward.rim &= on != Closest::Rims;
     if outward.rim
         && found.feature == Feature::Vertex
         && let Some(edge) = extended_edge(surface, at, found.anchor, point, RIM, &mut jet)?

@@ -105,6 +105,10 @@ impl History {
 /// What may be left of a change of the limits of friction, over the largest.
 const LIMIT_TOLERANCE: f64 = 1e-7;
 
+/// Points that remember a traction have closed where they overlap by more than this part of a facet: what touches by
+/// rounding alone has not.
+const TOUCH: f64 = 1e-12;
+
 /// Numbers of a pair, of a memory and of a judgement, in a checkpoint.
 const PAIR: usize = 11;
 const MEMORY: usize = 15;
@@ -266,11 +270,21 @@ impl Interface {
             if self.laws().friction.is_some() {
                 memory.anchor = self.history.anchors[row];
                 // weights of a state hold until the next one only
-                let renewed = exact || found.anchor == NOWHERE;
+                let waited = memory.anchor.is_none();
+                if waited && filled.gap > -TOUCH * self.parts.scale.length {
+                    next.push(memory);
+                    continue;
+                }
+                let by_traction = self.parts.remembers_traction;
+                let renewed = exact || found.anchor == NOWHERE || waited || by_traction;
                 if traction.state == Contact::Slip || renewed {
                     let discretization = self.parts.discretization.as_ref();
-                    let anchor = discretization.anchor(row, &self.parts.pair, &at, found, elastic);
-                    memory.anchor = Some(anchor.map_err(|e| self.failed(&e))?);
+                    // what sticking yields goes on as a vector, or as a way back on the surface
+                    let back = if by_traction { Vec3::ZERO } else { elastic };
+                    let anchor = discretization.anchor(row, &self.parts.pair, &at, found, back);
+                    let mut anchor = anchor.map_err(|e| self.failed(&e))?;
+                    anchor.offset -= elastic - back;
+                    memory.anchor = Some(anchor);
                 }
                 if traction.state == Contact::Slip {
                     memory.slip += slipped;

@@ -86,6 +86,9 @@ pub struct InterfaceParts {
     pub law: Box<dyn ContactLaw>,
     /// What becomes of it in each step; the last goes on.
     pub phases: Vec<Phase>,
+    /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
+    /// increment has ended.
+    pub remembers_traction: bool,
     /// Whether the sides are joined where they are at the start: each row sticks to its anchor, if it has one.
     pub bond: Option<Vec<Option<super::discretization::Anchored>>>,
     /// The stiffness of such a bond within the tangent plane at the start of each increment, if the law is a penalty;
@@ -129,6 +132,7 @@ impl InterfaceParts {
             discretization,
             law: Box::new(Penalty),
             phases: Vec::new(),
+            remembers_traction: false,
             bond: None,
             bond_tangential: None,
             measure: Measure::Node,

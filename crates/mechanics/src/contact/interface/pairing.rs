@@ -117,7 +117,8 @@ impl Interface {
 
     /// Rows that touch, or may, and stick nowhere yet, stick where they are.
     pub(super) fn stick(&mut self, at: &Placement) -> Result<(), SurfaceError> {
-        if self.parts.bond.is_some() || self.laws().friction.is_none() {
+        let waits = self.parts.remembers_traction;
+        if self.parts.bond.is_some() || self.laws().friction.is_none() || waits {
             return Ok(());
         }
         let discretization = self.parts.discretization.as_ref();

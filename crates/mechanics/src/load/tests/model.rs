@@ -402,6 +402,7 @@ fn bars_weigh_their_cross_section_times_their_length() {
             material: Box::new(NeoHookean::new(E, NU)),
             density: Some(3.0),
             area: 0.2,
+            small: false,
         },
     };
     let parts = Parts {

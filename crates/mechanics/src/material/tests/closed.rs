@@ -174,6 +174,27 @@ fn mooney_rivlin_is_its_energy_by_invariants() {
     }
 }
 
+/// The law with (ln J)² has the shear of the other one, and K (ln J)²/2 besides.
+#[test]
+fn mooney_rivlin_logarithmic_differs_in_its_volume_alone() {
+    let [quadratic, logarithmic] = ["mooney-rivlin", "mooney-rivlin-logarithmic"].map(of_table);
+    for k in 0..5 {
+        let value = random(k, 0.3);
+        let ratio = (Sym3::IDENTITY + value * 2.0)
+            .to_mat3()
+            .determinant()
+            .sqrt();
+        let energies =
+            [&quadratic, &logarithmic].map(|law| fresh(law.as_ref(), &finite(value)).energy);
+        let expected = 350.0 * (ratio.ln().powi(2) - (ratio - 1.0).powi(2));
+        let found = energies[1] - energies[0];
+        assert!(
+            (found - expected).abs() < 1e-11 * energies[0],
+            "{found} {expected}"
+        );
+    }
+}
+
 type Rubber = (Box<dyn Material>, Vec<(f64, f64)>);
 
 /// The laws of Mooney and Rivlin and of Ogden, and their terms `(μ, α)`.

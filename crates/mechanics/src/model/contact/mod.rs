@@ -209,6 +209,7 @@ impl Context<'_> {
             pair: sides.pair,
             law: sides.law,
             phases: steps.phases(sides.contact, part, penalty),
+            remembers_traction: part.remembers_traction,
             bond,
             bond_tangential: part.tie.and_then(|tie| tie.penalty_tangential),
             measure,

@@ -11,8 +11,8 @@ use crate::contact::law::{
 use crate::contact::{Areas, Measure, closest_points, discretization, mortar};
 use crate::model::bodies::Spaces;
 use crate::model::{
-    AreaPart, ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind,
-    PointRule, PrimaryPart, SidePart, label,
+    AreaPart, ContactPart, Enforcement, FeaturesPart, Method, ModelError, Normals, PairOrder,
+    PointKind, PointRule, PrimaryPart, SidePart, label,
 };
 use crate::system::{Elimination, Idealisation};
 use signorini_geometry::element::{Element, quadrature};
@@ -146,10 +146,11 @@ impl Source<'_> {
         if let Some(primary) = primary.as_ref().filter(|_| !same) {
             self.not_glued(part, &points, primary)?;
         }
-        let closest = if law.multiplier().is_unknown() {
-            Closest::Faces
-        } else {
-            Closest::Anywhere
+        let closest = match part.features {
+            Some(FeaturesPart::Faces) => Closest::Within,
+            Some(FeaturesPart::Edges) => Closest::Rims,
+            None if law.multiplier().is_unknown() => Closest::Faces,
+            None => Closest::Anywhere,
         };
         let around = match part.area {
             AreaPart::Adjacent => Some(facets(&self.outer_faces_at(&points))?),
@@ -196,6 +197,9 @@ impl Source<'_> {
                     PointToSegment::inside(facets, points, self.reference, &across)
                         .map_err(surface_error)?;
                 inside.sliding = part.sliding;
+                if part.features.is_some() {
+                    inside.closest = closest;
+                }
                 if let Some(facets) = present {
                     areas = Some(Box::new(move |x| {
                         let points = |element: Element| on_facet(rule, element);

@@ -290,8 +290,13 @@ pub struct ContactPart {
     pub measure: Option<Measure>,
     /// Friction; `None`: none.
     pub friction: Option<FrictionPart>,
+    /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
+    /// increment has ended.
+    pub remembers_traction: bool,
     /// How far points slide, and so how long they keep the tangent plane that they meet.
     pub sliding: SlidingRange,
+    /// On what of the primary side points may rest; `None`: on all of it, and a little beyond its rim.
+    pub features: Option<FeaturesPart>,
     /// Whether the sides are joined.
     pub tie: Option<TiePart>,
     /// Gaps and overlaps at the start.
@@ -327,7 +332,9 @@ impl ContactPart {
             enforcement: Enforcement::Auto,
             measure: None,
             friction: None,
+            remembers_traction: false,
             sliding: SlidingRange::default(),
+            features: None,
             tie: None,
             start: StartPart::default(),
             reach: None,
@@ -345,4 +352,13 @@ pub struct ContactChange {
     pub active: Option<bool>,
     /// Its friction from now on; `None`: as before.
     pub friction: Option<Option<FrictionPart>>,
+}
+
+/// On what of the primary side points may rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeaturesPart {
+    /// Within its faces only.
+    Faces,
+    /// On faces, and on all edges and vertices, those where it ends, too.
+    Edges,
 }

@@ -109,6 +109,8 @@ pub enum BodyKind {
         density: Option<f64>,
         /// Cross-section (area).
         area: f64,
+        /// Whether strains are small in all steps.
+        small: bool,
     },
     /// A rigid body that moves with a carrier.
     Rigid(RigidId),

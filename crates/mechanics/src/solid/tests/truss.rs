@@ -30,6 +30,7 @@ fn bars(points: &[Vec3], element: &str, ndim: usize) -> (Truss, Layout, Arc<[Vec
         },
         material: elastic("neo-hookean", 0.3),
         area: 0.4,
+        small: false,
         temperature: None,
     });
     (truss.unwrap(), layout, reference)

@@ -1,0 +1,601 @@
+//! Contacts of either dialect.
+//!
+//! | record | here |
+//! |---|---|
+//! | `n2npenaltycontact`, `n2nlagrangianmultipliercontact` | node-to-node in the order of the sets, one for each direction of the pairs |
+//! | `n2spenaltycontact`, `n2slagrangianmultipliercontact` | node-to-segment on faces, a circle or a polynomial; one for each segment |
+//! | `structuralpenaltycontactbc` | gauss-point, penalty per area at the start |
+//!
+//! Points touch within facets only, `features = "faces"`, unless the record says `generalizedfeatures 1`.
+
+use super::Translation;
+use super::condition::CONTACTS;
+use crate::case::{
+    Area, Basis, Contact, Enforcement, Facing, Features, Friction, Interference, Limit, Method,
+    Name, Normals, Pairs, Per, PointKind, PointRule, Shape, Sliding, Space, Start, Stick, Surface,
+};
+use crate::deck::Compat;
+use crate::diagnostic::{Place, Spanned, codes};
+use crate::readers::oofem::{Family, Fault, Record};
+use signorini_geometry::mesh::{CellId, FaceIndex};
+use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeMap;
+
+/// Pairs of nodes this near to each other have no direction.
+const COINCIDENT: f64 = 1e-8;
+
+/// Directions that differ by less are one.
+const SAME: f64 = 1e-12;
+
+/// What nodes are pressed on.
+struct Segment {
+    name: String,
+    /// Whether it is faces of the mesh.
+    is_mesh: bool,
+    nside: usize,
+}
+
+/// A contact surface of elements.
+struct FacetSurface {
+    set: String,
+    rule: Option<PointRule>,
+    /// Whether its normals point into the body.
+    inward: bool,
+}
+
+impl Translation {
+    pub fn contacts(&mut self) {
+        let segments = self.segments();
+        let surfaces = self.surfaces();
+        for mut record in std::mem::take(&mut self.parts.conditions) {
+            let kind = record.kind();
+            if !CONTACTS.contains(&kind.as_str()) {
+                continue;
+            }
+            record.take_kind();
+            let done = match kind.as_str() {
+                "structuralpenaltycontactbc" => self.facet_contact(&mut record, &surfaces),
+                _ if kind.starts_with("n2n") => self.node_to_node(&mut record),
+                _ => self.node_to_segment(&mut record, &segments),
+            };
+            self.take(done);
+            self.finish(&record);
+        }
+    }
+
+    fn segments(&mut self) -> BTreeMap<u64, Segment> {
+        let mut segments = BTreeMap::new();
+        for mut record in std::mem::take(&mut self.parts.segments) {
+            record.take_kind();
+            let segment = self.segment(&mut record);
+            if let Some(Some((number, segment))) = self.take(segment)
+                && segments.insert(number, segment).is_some()
+            {
+                let text = format!("a second segment has the number {number}");
+                self.error(&codes::NAME_TWICE, text, &record.place(), "");
+            }
+            self.finish(&record);
+        }
+        segments
+    }
+
+    fn segment(&mut self, record: &mut Record) -> Result<Option<(u64, Segment)>, Fault> {
+        let number = record.number()?;
+        let place = record.place();
+        let shape = match record.kind().as_str() {
+            "linear2delementedgecontactsegment" | "linear3delementsurfacecontactsegment" => {
+                let segment = self.sides(record)?;
+                return Ok(segment.map(|segment| (number, segment)));
+            }
+            "circlecontactsegment" => {
+                let center = record.need_reals("centerpoint")?;
+                let radius = record.need_real("radius")?;
+                let at = |k: usize| center.get(k).copied().unwrap_or(0.0);
+                Shape::Sphere {
+                    center: [at(0), at(1), at(2)],
+                    radius,
+                    facing: Facing::Outside,
+                }
+            }
+            "polynomialcontactsegment" => Shape::Polynomial {
+                coefficients: record.need_reals("coeffs")?,
+                above: true,
+            },
+            other => {
+                let text = format!("the contact segment `{other}` is not supported");
+                let known =
+                    "linear2dElementEdge, linear3dElementSurface, circle and polynomial are";
+                self.not_built(text, &place, known);
+                record.ignore_all();
+                return Ok(None);
+            }
+        };
+        let wrong = match &shape {
+            Shape::Sphere { radius, .. } if *radius <= 0.0 => Some("the radius is not positive"),
+            Shape::Polynomial { coefficients, .. } if coefficients.is_empty() => {
+                Some("the polynomial has no coefficients")
+            }
+            Shape::Polynomial { .. } if self.ndim() != 2 => {
+                Some("polynomials are curves of plane models")
+            }
+            _ => None,
+        };
+        if let Some(wrong) = wrong {
+            self.error(&codes::OUT_OF_RANGE, wrong, &place, "");
+            return Ok(None);
+        }
+        let name = self.fresh(&format!("segment-{number}"));
+        self.case.surfaces.push(Surface {
+            name: Spanned::new(name.clone(), place.clone()),
+            shape,
+            reference: None,
+            triangles: None,
+            place,
+        });
+        let segment = Segment {
+            name,
+            is_mesh: false,
+            nside: 1,
+        };
+        Ok(Some((number, segment)))
+    }
+
+    /// A segment of sides of elements.
+    fn sides(&mut self, record: &mut Record) -> Result<Option<Segment>, Fault> {
+        let place = record.place();
+        let set = record.whole("edgeset")?;
+        let set = match set {
+            Some(set) => set,
+            None => record.need_whole("boundaryset")?,
+        };
+        if record.whole("normmode")?.is_some_and(|mode| mode != 0) {
+            let place = record.place_of_field("normmode");
+            self.not_built("`normmode` other than 0 is not supported", &place, "");
+        }
+        let update = record.whole("pairupdatemode")?;
+        let names = self.meshed.sets.get(&set);
+        let Some(name) = names.and_then(|names| names.sides.clone()) else {
+            let text = format!("set {set} has no sides of elements");
+            self.error(&codes::WRONG_KIND, text, &place, "");
+            return Ok(None);
+        };
+        let nside = self
+            .meshed
+            .mesh
+            .sets
+            .get(&name)
+            .map_or(0, |s| s.faces.len());
+        if nside > 1 && update.is_none_or(|mode| mode < 2) {
+            let text = "the nearest side of this segment is found anew all the time";
+            let remark = "OOFEM keeps it unless the record says  pairupdatemode 2";
+            self.warn(text, &place, remark);
+        }
+        Ok(Some(Segment {
+            name,
+            is_mesh: true,
+            nside,
+        }))
+    }
+
+    fn surfaces(&mut self) -> BTreeMap<u64, FacetSurface> {
+        let mut surfaces = BTreeMap::new();
+        for mut record in std::mem::take(&mut self.parts.surfaces) {
+            record.take_kind();
+            let surface = self.facet_surface(&mut record);
+            if let Some(Some((number, surface))) = self.take(surface)
+                && surfaces.insert(number, surface).is_some()
+            {
+                let text = format!("a second contact surface has the number {number}");
+                self.error(&codes::NAME_TWICE, text, &record.place(), "");
+            }
+            self.finish(&record);
+        }
+        surfaces
+    }
+
+    fn facet_surface(&mut self, record: &mut Record) -> Result<Option<(u64, FacetSurface)>, Fault> {
+        let number = record.number()?;
+        let place = record.place();
+        if record.kind() != "structuralfecontactsurface" {
+            let text = format!("the contact surface `{}` is not supported", record.kind());
+            self.not_built(text, &place, "StructuralFEContactSurface is");
+            record.ignore_all();
+            return Ok(None);
+        }
+        let set = record.need_whole("ce_set")?;
+        let names = self.meshed.sets.get(&set);
+        let Some(name) = names.and_then(|names| names.elements.clone()) else {
+            let text = format!("set {set} has no elements");
+            self.error(&codes::WRONG_KIND, text, &place, "");
+            return Ok(None);
+        };
+        let mesh = &self.meshed.mesh;
+        let cells = mesh
+            .sets
+            .get(&name)
+            .map_or(&[][..], |set| &set.cells)
+            .to_vec();
+        let mut rules = Vec::new();
+        for cell in &cells {
+            let label = self.meshed.mesh.cell_label(*cell).unwrap_or(0);
+            let at = self.meshed.elements.get(&label).copied();
+            let kind = at.and_then(|at| self.meshed.kinds.get(at).copied());
+            if kind.is_none_or(|kind| kind.family != Family::Contact) {
+                let text = format!("element {label} of set {set} is no contact element");
+                self.error(&codes::WRONG_KIND, text, &place, "");
+                return Ok(None);
+            }
+            let records = at.and_then(|at| self.parts.elements.get_mut(at));
+            let points = records.map_or(Ok(None), |record| record.whole("nip"))?;
+            let kind = kind.map_or("", |kind| kind.name);
+            rules.push(point_rule(kind, points));
+        }
+        let rule = rules.first().copied().flatten();
+        if rules.iter().any(|one| *one != rule) || rule.is_none() {
+            let text = "the integration points of this surface are not supported";
+            let why = "2 and 1 of lines, 4 and 1 of quadrilaterals, 3 of triangles are, of all facets the same";
+            self.not_built(text, &place, why);
+        }
+        let inward = self.points_inward(&cells);
+        Ok(Some((
+            number,
+            FacetSurface {
+                set: name,
+                rule,
+                inward,
+            },
+        )))
+    }
+
+    /// Whether the nodes of any facet run round so that its normal points into the body behind it.
+    fn points_inward(&self, facets: &[CellId]) -> bool {
+        let mesh = &self.meshed.mesh;
+        let index = FaceIndex::new(mesh, mesh.cells(mesh.dim()));
+        facets.iter().any(|&facet| {
+            let nodes = mesh.cell(facet);
+            let behind = mesh.element(facet).and_then(|e| index.find(e, nodes));
+            let outward = behind.and_then(|(face, _)| mesh.face(face));
+            outward.is_some_and(|(_, outward)| !runs_as(nodes, &outward))
+        })
+    }
+
+    fn contact(
+        &mut self,
+        wanted: String,
+        [secondary, primary]: [Name; 2],
+        place: &Place,
+    ) -> Contact {
+        Contact {
+            name: Spanned::new(self.fresh(&wanted), place.clone()),
+            secondary,
+            primary,
+            method: Method::NodeToSegment.into(),
+            two_pass: false,
+            rule: PointRule::default(),
+            area: Area::Reference,
+            features: Features::default(),
+            enforcement: Enforcement::Auto,
+            per: None,
+            friction: None,
+            remembers_traction: false,
+            sliding: Sliding::Finite,
+            tied: None,
+            start: Start {
+                interference: Interference::Step,
+                ..Start::default()
+            },
+            normals: Normals::Primary,
+            basis: Basis::Part,
+            pairs: Pairs::Nearest,
+            reach: None,
+            active: true,
+            place: place.clone(),
+        }
+    }
+
+    /// What the contacts of nodes have in common: their number, and how they prevent penetration.
+    fn of_nodes(&mut self, record: &mut Record) -> Result<(u64, Enforcement), Fault> {
+        let number = record.number()?;
+        record.ignore("loadtimefunction", 1);
+        record.flag("usetangent");
+        if !self.parts.analysis.flag("soldepextforces") {
+            let text = "the analysis has no `soldepextforces`: OOFEM leaves out this contact";
+            self.warn(text, &record.place(), "here it acts");
+        }
+        if record.kind().contains("lagrangianmultiplier") {
+            return Ok((number, Enforcement::Lagrange));
+        }
+        let penalty = record.need_real("penalty")?;
+        let place = record.place_of_field("penalty");
+        if penalty <= 0.0 {
+            let text = format!("the penalty is {penalty}");
+            self.error(&codes::OUT_OF_RANGE, text, &place, "it must be positive");
+        }
+        let penalty = Spanned::new(penalty, place);
+        Ok((number, Enforcement::Penalty(Some(penalty))))
+    }
+
+    /// A vector of a record, of any length but zero.
+    fn direction(&mut self, record: &mut Record) -> Result<Option<Vec3>, Fault> {
+        let Some(values) = record.reals("normal")? else {
+            return Ok(None);
+        };
+        let at = |k: usize| values.get(k).copied().unwrap_or(0.0);
+        let normal = Vec3::new(at(0), at(1), at(2)).normalized();
+        if normal.is_none() {
+            let place = record.place_of_field("normal");
+            self.error(&codes::OUT_OF_RANGE, "the normal has no length", &place, "");
+        }
+        Ok(normal)
+    }
+
+    fn node_to_node(&mut self, record: &mut Record) -> Result<(), Fault> {
+        let place = record.place();
+        let (number, enforcement) = self.of_nodes(record)?;
+        let masters = record.need_whole("masterset")?;
+        let slaves = record.need_whole("slaveset")?;
+        let given = self.direction(record)?;
+        let masters = self.labels_of_set(masters, &place);
+        let slaves = self.labels_of_set(slaves, &place);
+        let (Some(masters), Some(slaves)) = (masters, slaves) else {
+            return Ok(());
+        };
+        if masters.len() != slaves.len() {
+            let text = format!("{} nodes meet {}", slaves.len(), masters.len());
+            self.error(&codes::WRONG_LENGTH, text, &place, "they meet in pairs");
+            return Ok(());
+        }
+        let mut directions: Vec<(Vec3, Vec<u64>, Vec<u64>)> = Vec::new();
+        for (&master, &slave) in masters.iter().zip(&slaves) {
+            let apart = self.position(slave) - self.position(master);
+            let normal = match given {
+                Some(normal) => normal,
+                None if apart.norm() > COINCIDENT => apart * (1.0 / apart.norm()),
+                None => {
+                    let text = format!("nodes {master} and {slave} lie in one place");
+                    let remark = "their contact needs a `normal`";
+                    self.error(&codes::MISSING, text, &place, remark);
+                    return Ok(());
+                }
+            };
+            let same = |known: &Vec3| (*known - normal).norm() < SAME;
+            match directions.iter_mut().find(|(known, ..)| same(known)) {
+                Some((_, of_masters, of_slaves)) => {
+                    of_masters.push(master);
+                    of_slaves.push(slave);
+                }
+                None => directions.push((normal, vec![master], vec![slave])),
+            }
+        }
+        for (normal, masters, slaves) in directions {
+            let sides = [
+                self.nodes_named(slaves, &place),
+                self.nodes_named(masters, &place),
+            ];
+            let mut contact = self.contact(format!("contact-{number}"), sides, &place);
+            contact.method = Method::NodeToNode.into();
+            contact.enforcement = enforcement.clone();
+            contact.per = Some(Per::Node);
+            contact.normals = Normals::Given(normal.to_array());
+            contact.pairs = Pairs::Order;
+            self.case.contacts.push(contact);
+        }
+        Ok(())
+    }
+
+    fn position(&self, label: u64) -> Vec3 {
+        let mesh = &self.meshed.mesh;
+        let node = mesh.node_labels.iter().position(|known| *known == label);
+        let point = node.and_then(|node| mesh.points.get(node));
+        point.copied().unwrap_or_default()
+    }
+
+    fn node_to_segment(
+        &mut self,
+        record: &mut Record,
+        segments: &BTreeMap<u64, Segment>,
+    ) -> Result<(), Fault> {
+        let place = record.place();
+        let (number, enforcement) = self.of_nodes(record)?;
+        let nodes = record.need_wholes("nodeset")?;
+        let wanted = record.need_wholes("segmentset")?;
+        if record.reals("normal")?.is_some() {
+            let text = "a given `normal` of contact with segments is not supported";
+            let why = "normals are those of the segments";
+            self.not_built(text, &record.place_of_field("normal"), why);
+        }
+        for &node in &nodes {
+            if !self.meshed.mesh.node_labels.contains(&node) {
+                let text = format!("there is no node {node}");
+                let at = record.place_of_field("nodeset");
+                self.error(
+                    &codes::UNDEFINED,
+                    text,
+                    &at,
+                    "`nodeset` lists nodes, not sets",
+                );
+                return Ok(());
+            }
+        }
+        if nodes.is_empty() {
+            let text = "the contact has no nodes";
+            self.error(&codes::MISSING, text, &place, "");
+            return Ok(());
+        }
+        for segment in wanted {
+            let Some(segment) = segments.get(&segment) else {
+                let text = format!("there is no contact segment {segment}");
+                let at = record.place_of_field("segmentset");
+                self.error(&codes::UNDEFINED, text, &at, "");
+                continue;
+            };
+            let sides = [
+                self.nodes_named(nodes.clone(), &place),
+                Spanned::new(segment.name.clone(), place.clone()),
+            ];
+            let mut contact = self.contact(format!("contact-{number}"), sides, &place);
+            contact.enforcement = enforcement.clone();
+            contact.per = Some(Per::Node);
+            if segment.is_mesh {
+                contact.features = Features::Faces;
+                // normals and places are those of the start
+                if !self.nonlinear && segment.nside > 0 {
+                    contact.sliding = Sliding::Small;
+                }
+            }
+            self.case.contacts.push(contact);
+        }
+        Ok(())
+    }
+
+    fn facet_contact(
+        &mut self,
+        record: &mut Record,
+        surfaces: &BTreeMap<u64, FacetSurface>,
+    ) -> Result<(), Fault> {
+        let place = record.place();
+        let number = record.number()?;
+        // it acts at all times
+        record.ignore("loadtimefunction", 1);
+        record.wholes("dofs")?;
+        for (keyword, words) in [
+            ("algo", 1),
+            ("searchpadding", 1),
+            ("searchtol", 1),
+            ("tangentmode", 1),
+            ("fdcheck", 1),
+            ("fdperturbation", 1),
+            ("fdoutputprefix", 1),
+            ("fdtolerance", 1),
+            ("facethysteresis", 1),
+        ] {
+            record.ignore(keyword, words);
+        }
+        let penalty = record.need_real("pn")?;
+        let at = record.place_of_field("pn");
+        let tangential = record.real("pt")?;
+        let mu = record.real("friction")?.unwrap_or(0.0);
+        if penalty <= 0.0 {
+            let text = format!("the penalty is {penalty}");
+            self.error(&codes::OUT_OF_RANGE, text, &at, "it must be positive");
+        }
+        if mu < 0.0 {
+            let at = record.place_of_field("friction");
+            self.error(&codes::OUT_OF_RANGE, "the friction is negative", &at, "");
+        }
+        for (keyword, why) in [
+            (
+                "frictiontransition",
+                "sticking goes over into slipping sharply",
+            ),
+            ("frictionhardening", "the limit of friction does not harden"),
+            (
+                "directionalprojection",
+                "points are projected to the nearest place",
+            ),
+            ("autopenalty", "write the penalty in `pn`"),
+        ] {
+            if record.real(keyword)?.is_some_and(|value| value != 0.0) {
+                let at = record.place_of_field(keyword);
+                self.not_built(format!("`{keyword}` is not supported"), &at, why);
+            }
+        }
+        let space = record.whole("nsd")?.unwrap_or(self.ndim() as u64);
+        if space != self.ndim() as u64 {
+            let text = format!("`nsd` is {space} in a model of {} dimensions", self.ndim());
+            self.error(
+                &codes::CONTRADICTION,
+                text,
+                &record.place_of_field("nsd"),
+                "",
+            );
+        }
+        let features = match record.whole("generalizedfeatures")? {
+            Some(1..) => Features::Edges,
+            _ => Features::Faces,
+        };
+        let primary = record.need_whole("mastersurface")?;
+        let secondary = record.need_whole("slavesurface")?;
+        let mut side = |number: u64| {
+            let found = surfaces.get(&number);
+            if found.is_none() {
+                let text = format!("there is no contact surface {number}");
+                self.error(&codes::UNDEFINED, text, &place, "");
+            }
+            found
+        };
+        let (Some(primary), Some(secondary)) = (side(primary), side(secondary)) else {
+            return Ok(());
+        };
+        if *self.case.model.space == Space::Axisymmetric {
+            let text = "contact surfaces of bodies of revolution are not supported in decks";
+            self.not_built(
+                text,
+                &place,
+                "what their penalties refer to was not verified",
+            );
+        }
+        if primary.inward {
+            let text =
+                "the nodes of the master surface run round so that its normals point into the body";
+            self.warn(text, &place, "here normals point out of it");
+        }
+        let sides = [
+            Spanned::new(secondary.set.clone(), place.clone()),
+            Spanned::new(primary.set.clone(), place.clone()),
+        ];
+        let mut contact = self.contact(format!("contact-{number}"), sides, &place);
+        contact.method = Method::GaussPoint.into();
+        contact.rule = secondary.rule.unwrap_or_default();
+        contact.features = features;
+        contact.enforcement = Enforcement::Penalty(Some(Spanned::new(penalty, at)));
+        contact.per = Some(Per::Area);
+        contact.friction = (mu > 0.0).then(|| Friction {
+            limit: Limit::Coulomb { mu, cap: None },
+            stick: tangential.filter(|pt| *pt > 0.0).map(Stick::Stiffness),
+        });
+        contact.remembers_traction = contact.friction.is_some() && self.compat == Compat::Oofem;
+        self.case.contacts.push(contact);
+        Ok(())
+    }
+}
+
+/// The points of a facet.
+fn point_rule(kind: &str, points: Option<u64>) -> Option<PointRule> {
+    let rule = |kind, points| {
+        Some(PointRule {
+            kind,
+            points: Some(points),
+        })
+    };
+    let is_line = kind.contains("line");
+    let most = if is_line { 2 } else { 4 };
+    if kind.ends_with("trlin") {
+        return match points.unwrap_or(3) {
+            1 => rule(PointKind::Gauss, 1),
+            3 => rule(PointKind::Gauss, 2),
+            _ => None,
+        };
+    }
+    match points.unwrap_or(most) {
+        1 => rule(PointKind::Gauss, 1),
+        n if n == most && kind.ends_with("gauss") => rule(PointKind::Gauss, 2),
+        n if n == most => rule(PointKind::Lobatto, 2),
+        _ => None,
+    }
+}
+
+/// Whether nodes run round in the same sense as others do, which are the same corners.
+fn runs_as(nodes: &[u32], others: &[u32]) -> bool {
+    let Some(first) = nodes.first() else {
+        return true;
+    };
+    let Some(at) = others.iter().position(|node| node == first) else {
+        return true;
+    };
+    if nodes.len() == 2 {
+        return at == 0;
+    }
+    let next = others.get((at + 1) % others.len().max(1));
+    next == nodes.get(1)
+}
