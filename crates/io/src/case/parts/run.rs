@@ -51,6 +51,8 @@ pub enum LinearChoice {
     Auto,
     /// By factorization.
     Direct,
+    /// Multigrid over the bodies, where that suits.
+    Multigrid,
     /// By that of the library MUMPS, which not every build has.
     Mumps,
 }
@@ -62,6 +64,7 @@ impl LinearChoice {
         match self {
             Self::Auto => "auto",
             Self::Direct => "direct",
+            Self::Multigrid => "multigrid",
             Self::Mumps => "mumps",
         }
     }

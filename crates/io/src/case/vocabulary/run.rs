@@ -12,6 +12,7 @@ pub(super) static SOLVER: Table = Table {
             Shape::Choice(&[
                 word("auto"),
                 word("direct"),
+                word("multigrid"),
                 word("mumps"),
                 Choice::later("iterative", "direct"),
             ]),

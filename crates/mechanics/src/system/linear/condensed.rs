@@ -394,7 +394,7 @@ impl LinearSolver for Condensed {
 
 impl Kept {
     /// The problem again, without what tells where nodes are.
-    fn problem(&self) -> Problem<'_> {
+    pub(super) fn problem(&self) -> Problem<'_> {
         Problem {
             ndof: self.equation.len(),
             bulk: &self.bulk,

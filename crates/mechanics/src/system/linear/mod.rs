@@ -26,6 +26,7 @@ mod hosts;
 mod lu;
 mod matrix;
 mod metis;
+mod multigrid;
 #[cfg(feature = "mumps")]
 mod mumps;
 mod operator;
@@ -37,6 +38,7 @@ mod tests;
 pub use condensed::Condensed;
 pub use direct::Direct;
 pub use forecast::Forecast;
+pub use multigrid::Multigrid;
 #[cfg(feature = "mumps")]
 pub use mumps::Mumps;
 pub use operator::{apply, apply_absolute};
@@ -336,6 +338,8 @@ pub enum LinearKind {
     Direct,
     /// A sparse factorization with all multipliers.
     Saddle,
+    /// Multigrid over the bodies, with a sparse factorization at the interface.
+    Multigrid,
     /// That of the library MUMPS.
     #[cfg(feature = "mumps")]
     Mumps,
@@ -368,6 +372,11 @@ pub const SOLVERS: &[SolverEntry] = &[
         kind: LinearKind::Saddle,
         name: "saddle",
         build: || Box::new(Direct::reproducible()),
+    },
+    SolverEntry {
+        kind: LinearKind::Multigrid,
+        name: "multigrid",
+        build: || Box::new(Multigrid::new()),
     },
     #[cfg(feature = "mumps")]
     SolverEntry {
