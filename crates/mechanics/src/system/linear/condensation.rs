@@ -265,7 +265,7 @@ impl Condensation {
             nequation: self.sign.len(),
             symmetry,
             sign: &self.sign,
-            coordinates: &[],
+            coordinates: &kept.coordinates,
             body: &[],
         }
     }

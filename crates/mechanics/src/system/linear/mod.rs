@@ -179,6 +179,7 @@ struct Kept {
     equation: Vec<u32>,
     symmetry: Symmetry,
     sign: Vec<i8>,
+    coordinates: Vec<[f64; 3]>,
 }
 
 impl Kept {
@@ -189,6 +190,7 @@ impl Kept {
             equation: problem.equation.to_vec(),
             symmetry: problem.symmetry,
             sign: problem.sign.to_vec(),
+            coordinates: problem.coordinates.to_vec(),
         }
     }
 
@@ -376,7 +378,7 @@ pub const SOLVERS: &[SolverEntry] = &[
     SolverEntry {
         kind: LinearKind::Multigrid,
         name: "multigrid",
-        build: || Box::new(Multigrid::new()),
+        build: || Box::new(Condensed::new(Multigrid::new)),
     },
     #[cfg(feature = "mumps")]
     SolverEntry {

@@ -24,11 +24,13 @@ pub(super) struct Fine {
 }
 
 impl Fine {
-    /// Nodes with an equation, bisected by their places.
+    /// Nodes with an equation and a stiffness of their own, bisected by their places.
     pub fn new(kept: &Kept, coordinates: &[[f64; 3]]) -> Self {
         let is_free = |dof: usize| kept.equation.get(dof).is_some_and(|&e| e != NONE);
         let nnode = kept.bulk.nrow().min(coordinates.len());
-        let moves = |node: usize| (0..3).any(|axis| is_free(3 * node + axis));
+        let has_bulk = |node: u32| kept.bulk.position(node, node).is_some();
+        let moves =
+            |node: usize| (0..3).any(|axis| is_free(3 * node + axis)) && has_bulk(node as u32);
         let free: Vec<u32> = (0..nnode as u32).filter(|&n| moves(n as usize)).collect();
         let part = bisect(&free, coordinates, nnode);
         // a node with a neighbour in an earlier part is between parts

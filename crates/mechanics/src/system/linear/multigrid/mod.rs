@@ -30,8 +30,7 @@ mod tests;
 
 use super::residual::Residual;
 use super::{
-    Condensed, Direct, Kept, LinearError, LinearSolver, Problem, SolveReport, Symmetry, Values,
-    apply, largest,
+    Direct, Kept, LinearError, LinearSolver, Problem, SolveReport, Symmetry, Values, apply, largest,
 };
 use crate::system::sparsity::NONE;
 use block::InterfaceBlock;
@@ -50,7 +49,7 @@ const WORN: f64 = 1.6;
 
 /// Multigrid over direct solution.
 pub struct Multigrid {
-    direct: Condensed,
+    direct: Direct,
     kept: Option<Kept>,
     grid: Option<Grid>,
     /// What has the present values.
@@ -97,7 +96,7 @@ impl Multigrid {
     #[must_use]
     pub fn new() -> Self {
         Self {
-            direct: Condensed::new(Direct::reproducible),
+            direct: Direct::reproducible(),
             kept: None,
             grid: None,
             way: None,
@@ -135,7 +134,8 @@ impl LinearSolver for Multigrid {
             && problem.symmetry != Symmetry::Symmetric
             && problem.sign.iter().all(|&sign| sign > 0)
             && !has_shared(problem);
-        self.grid = suits.then(|| Grid::new(&kept, problem.coordinates));
+        let grid = suits.then(|| Grid::new(&kept, problem.coordinates));
+        self.grid = grid.filter(|grid| !grid.fine.node.is_empty());
         self.residual = Residual::new(problem.ndof, problem.nequation);
         self.kept = Some(kept);
         Ok(())

@@ -66,8 +66,14 @@ fn pressed(n: [usize; 3], penalty: f64, sticks: bool, floats: bool) -> Placed {
     }
 }
 
-/// Solves for a right-hand side that belongs to a known solution; whether multigrid did it, and the report.
+/// Solves; whether multigrid did it at last, and the report.
 fn solve(placed: &Placed, solver: &mut Multigrid) -> (bool, SolveReport, Vec<f64>) {
+    let (report, x) = compare(placed, solver);
+    (solver.is_multigrid(), report, x)
+}
+
+/// Solves, and compares with the direct solver.
+fn compare(placed: &Placed, solver: &mut dyn LinearSolver) -> (SolveReport, Vec<f64>) {
     let assembled = placed.system.assemble();
     let rhs = Random(3).vector(assembled.nequation);
     let mut x = vec![f64::NAN; rhs.len()];
@@ -88,7 +94,7 @@ fn solve(placed: &Placed, solver: &mut Multigrid) -> (bool, SolveReport, Vec<f64
     assert!(off < 1e-6, "off by {off:e}");
     // stiffnesses of a million leave more to rounding
     assert!(report.residual <= 1e-8, "{report:?}");
-    (solver.is_multigrid(), report, x)
+    (report, x)
 }
 
 #[test]
@@ -182,6 +188,22 @@ fn a_hierarchy_serves_changed_values_and_is_made_anew_where_it_is_worn() {
     assert!(
         counts[0] > counts[3] && counts[3] <= first + 4,
         "{first} {counts:?}"
+    );
+}
+
+#[test]
+fn multipliers_are_condensed_before() {
+    let n = [8, 8, 8];
+    let tied = Placed {
+        system: tied_blocks(n, [1.0, 5.0]),
+        coordinates: places(n, 2),
+    };
+    let mut solver = Condensed::new(Multigrid::new);
+    let (report, _) = compare(&tied, &mut solver);
+    println!("{report:?}");
+    assert!(
+        solver.inner().is_multigrid() && report.iterations <= 40,
+        "{report:?}"
     );
 }
 
