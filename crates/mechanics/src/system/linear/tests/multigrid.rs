@@ -194,10 +194,14 @@ fn a_hierarchy_serves_changed_values_and_is_made_anew_where_it_is_worn() {
 #[test]
 fn multipliers_are_condensed_before() {
     let n = [8, 8, 8];
-    let tied = Placed {
+    let mut tied = Placed {
         system: tied_blocks(n, [1.0, 5.0]),
         coordinates: places(n, 2),
     };
+    // the upper block hangs on them alone, or is held at its top as well
+    compare(&tied, &mut Condensed::new(Multigrid::new));
+    let end = 6 * nnode(n) as u32;
+    tied.system.held.extend(end - 3 * 81..end);
     let mut solver = Condensed::new(Multigrid::new);
     let (report, _) = compare(&tied, &mut solver);
     println!("{report:?}");
