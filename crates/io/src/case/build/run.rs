@@ -32,6 +32,7 @@ impl Builder {
             linear: Spanned {
                 value: match linear.value.as_str() {
                     "direct" => LinearChoice::Direct,
+                    "multigrid" => LinearChoice::Multigrid,
                     "mumps" => LinearChoice::Mumps,
                     _ => LinearChoice::Auto,
                 },

@@ -53,6 +53,8 @@ pub enum LinearChoice {
     Auto,
     /// By factorization.
     Direct,
+    /// Multigrid over the bodies, where that suits.
+    Multigrid,
     /// By that of the library MUMPS, which not every build has.
     Mumps,
 }
@@ -64,6 +66,7 @@ impl LinearChoice {
         match self {
             Self::Auto => "auto",
             Self::Direct => "direct",
+            Self::Multigrid => "multigrid",
             Self::Mumps => "mumps",
         }
     }

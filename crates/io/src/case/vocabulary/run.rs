@@ -12,10 +12,11 @@ pub(super) static SOLVER: Table = Table {
             Shape::Choice(&[
                 word("auto"),
                 word("direct"),
+                word("multigrid"),
                 word("mumps"),
                 Choice::later("iterative", "direct"),
             ]),
-            "how linear equations are solved; mumps where the program was built with it",
+            "how linear equations are solved: multigrid suits large models in space; mumps is there where the program was built with it",
         )
         .or(Default::Text("auto")),
         key(

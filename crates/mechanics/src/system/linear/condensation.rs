@@ -168,7 +168,7 @@ impl Lines {
 
 impl Kept {
     /// Raw columns of the row of a dof in the bulk, and where their values are.
-    fn bulk_row(&self, dof: u32) -> impl Iterator<Item = (u32, usize)> + '_ {
+    pub(super) fn bulk_row(&self, dof: u32) -> impl Iterator<Item = (u32, usize)> + '_ {
         let (bulk, block) = (&self.bulk, self.bulk.block);
         let (node, i) = (dof as usize / block, dof as usize % block);
         let blocks = if node < bulk.nrow() {
@@ -265,7 +265,7 @@ impl Condensation {
             nequation: self.sign.len(),
             symmetry,
             sign: &self.sign,
-            coordinates: &[],
+            coordinates: &kept.coordinates,
             body: &[],
         }
     }

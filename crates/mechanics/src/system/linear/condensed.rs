@@ -1,4 +1,4 @@
-//! Direct solution with multipliers condensed: only unknowns of the size of the displacements reach the factor.
+//! Solution with multipliers condensed: only unknowns of the size of the displacements reach the solver.
 //!
 //! ```text
 //!   no multipliers, or none that has a host  ──▶  the whole problem
@@ -23,15 +23,15 @@ const REFINEMENTS: usize = 3;
 /// What is asked of a correction.
 const CORRECTION: f64 = 1e-6;
 
-/// The direct solver on the condensed system.
+/// A solver of the condensed system, the direct one unless said.
 ///
 /// # Limits
 /// A multiplier that acts on very many dofs, on none that is free, or in a circle with others on each other's hosts stays
 /// an unknown.
-pub struct Condensed {
-    build: fn() -> Direct,
-    inner: Direct,
-    whole: Direct,
+pub struct Condensed<S = Direct> {
+    build: fn() -> S,
+    inner: S,
+    whole: S,
     kept: Option<Kept>,
     multipliers: Multipliers,
     condensation: Option<Condensation>,
@@ -57,9 +57,9 @@ pub struct Condensed {
     y: Vec<f64>,
 }
 
-impl Condensed {
-    /// A solver that has not seen a problem yet, over direct solvers that `build` makes.
-    pub fn new(build: fn() -> Direct) -> Self {
+impl<S: LinearSolver> Condensed<S> {
+    /// A solver that has not seen a problem yet, over solvers that `build` makes.
+    pub fn new(build: fn() -> S) -> Self {
         Self {
             build,
             inner: build(),
@@ -91,7 +91,7 @@ impl Condensed {
     }
 
     #[cfg(test)]
-    pub(super) fn inner(&self) -> &Direct {
+    pub(super) fn inner(&self) -> &S {
         &self.inner
     }
 
@@ -265,7 +265,7 @@ impl Condensed {
             let asked = if refinement == 0 { rtol } else { CORRECTION };
             let inner = self.correct(values, &right, x, asked)?;
             report.iterations += inner.iterations;
-            report.refinements = report.iterations - 1;
+            report.refinements += inner.refinements + usize::from(refinement > 0);
             report.negative_pivots = inner.negative_pivots;
             let Some(kept) = &self.kept else { break };
             self.residual.measure(kept, values, rhs, x);
@@ -302,7 +302,7 @@ impl Condensed {
     }
 }
 
-impl LinearSolver for Condensed {
+impl<S: LinearSolver> LinearSolver for Condensed<S> {
     fn analyze(&mut self, problem: &Problem) -> Result<(), LinearError> {
         let same = |kept: &Kept| kept.is(problem) && kept.equation.len() == problem.ndof;
         if self.kept.as_ref().is_some_and(same) {
@@ -331,6 +331,8 @@ impl LinearSolver for Condensed {
 
     fn forget(&mut self) {
         self.forgotten = true;
+        self.inner.forget();
+        self.whole.forget();
     }
 
     fn factorize(&mut self, values: &Values) -> Result<(), LinearError> {
@@ -393,8 +395,8 @@ impl LinearSolver for Condensed {
 }
 
 impl Kept {
-    /// The problem again, without what tells where nodes are.
-    fn problem(&self) -> Problem<'_> {
+    /// The problem again, but for the bodies.
+    pub(super) fn problem(&self) -> Problem<'_> {
         Problem {
             ndof: self.equation.len(),
             bulk: &self.bulk,
@@ -403,7 +405,7 @@ impl Kept {
             nequation: self.sign.len(),
             symmetry: self.symmetry,
             sign: &self.sign,
-            coordinates: &[],
+            coordinates: &self.coordinates,
             body: &[],
         }
     }

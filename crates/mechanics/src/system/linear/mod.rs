@@ -26,6 +26,7 @@ mod hosts;
 mod lu;
 mod matrix;
 mod metis;
+mod multigrid;
 #[cfg(feature = "mumps")]
 mod mumps;
 mod operator;
@@ -37,6 +38,7 @@ mod tests;
 pub use condensed::Condensed;
 pub use direct::Direct;
 pub use forecast::Forecast;
+pub use multigrid::Multigrid;
 #[cfg(feature = "mumps")]
 pub use mumps::Mumps;
 pub use operator::{apply, apply_absolute};
@@ -177,6 +179,7 @@ struct Kept {
     equation: Vec<u32>,
     symmetry: Symmetry,
     sign: Vec<i8>,
+    coordinates: Vec<[f64; 3]>,
 }
 
 impl Kept {
@@ -187,6 +190,7 @@ impl Kept {
             equation: problem.equation.to_vec(),
             symmetry: problem.symmetry,
             sign: problem.sign.to_vec(),
+            coordinates: problem.coordinates.to_vec(),
         }
     }
 
@@ -336,6 +340,8 @@ pub enum LinearKind {
     Direct,
     /// A sparse factorization with all multipliers.
     Saddle,
+    /// Multigrid over the bodies, with a sparse factorization at the interface.
+    Multigrid,
     /// That of the library MUMPS.
     #[cfg(feature = "mumps")]
     Mumps,
@@ -368,6 +374,11 @@ pub const SOLVERS: &[SolverEntry] = &[
         kind: LinearKind::Saddle,
         name: "saddle",
         build: || Box::new(Direct::reproducible()),
+    },
+    SolverEntry {
+        kind: LinearKind::Multigrid,
+        name: "multigrid",
+        build: || Box::new(Condensed::new(Multigrid::new)),
     },
     #[cfg(feature = "mumps")]
     SolverEntry {

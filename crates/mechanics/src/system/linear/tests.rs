@@ -1,6 +1,7 @@
 //! Solvers against a dense oracle, on systems as terms assemble them.
 
 mod condensed;
+mod multigrid;
 
 use super::ordering::Ordering;
 use super::*;

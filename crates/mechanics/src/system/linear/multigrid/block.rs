@@ -1,0 +1,296 @@
+//! The equations around the interface, solved directly.
+
+use super::super::{Direct, Kept, LinearError, LinearSolver, Problem, Values};
+use crate::system::sparsity::{BlockPattern, NONE, Pattern};
+
+/// What is asked of its solutions: they serve within a preconditioner.
+const TOLERANCE: f64 = 1e-6;
+
+/// The equations that interface values act on, with those of the nodes around.
+pub(super) struct InterfaceBlock {
+    direct: Direct,
+    /// The nodes in it, and the raw dofs beyond the nodes.
+    nodes: Vec<u32>,
+    extra: Vec<u32>,
+    bulk: BlockPattern,
+    interface: Pattern,
+    /// Where the values are in those of the whole.
+    bulk_at: Vec<usize>,
+    interface_at: Vec<usize>,
+    bulk_values: Vec<f64>,
+    interface_values: Vec<f64>,
+    equation: Vec<u32>,
+    /// The equation of the whole behind each.
+    pub whole: Vec<u32>,
+    sign: Vec<i8>,
+    rows: Rows,
+    right: Vec<f64>,
+    left: Vec<f64>,
+}
+
+/// The rows of the whole operator at these equations, over all equations.
+#[derive(Default)]
+struct Rows {
+    start: Vec<usize>,
+    column: Vec<u32>,
+    value: Vec<f64>,
+}
+
+impl InterfaceBlock {
+    pub fn new() -> Self {
+        Self {
+            direct: Direct::reproducible(),
+            nodes: Vec::new(),
+            extra: Vec::new(),
+            bulk: BlockPattern::empty(0, 3),
+            interface: Pattern::empty(0),
+            bulk_at: Vec::new(),
+            interface_at: Vec::new(),
+            bulk_values: Vec::new(),
+            interface_values: Vec::new(),
+            equation: Vec::new(),
+            whole: Vec::new(),
+            sign: Vec::new(),
+            rows: Rows::default(),
+            right: Vec::new(),
+            left: Vec::new(),
+        }
+    }
+
+    /// Takes the values of a tangent: chooses the equations, and factorizes.
+    ///
+    /// # Errors
+    /// Those of the direct solver.
+    pub fn update(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        layers: usize,
+    ) -> Result<(), LinearError> {
+        let (nodes, extra) = choose(kept, values, layers);
+        if nodes != self.nodes || extra != self.extra || self.equation.is_empty() {
+            self.nodes = nodes;
+            self.extra = extra;
+            self.number(kept);
+        }
+        if self.whole.is_empty() {
+            return Ok(());
+        }
+        self.gather(kept, values);
+        let problem = Problem {
+            ndof: self.equation.len(),
+            bulk: &self.bulk,
+            interface: &self.interface,
+            equation: &self.equation,
+            nequation: self.whole.len(),
+            symmetry: kept.symmetry,
+            sign: &self.sign,
+            coordinates: &[],
+            body: &[],
+        };
+        self.direct.analyze(&problem)?;
+        self.direct.factorize(&Values {
+            bulk: &self.bulk_values,
+            interface: &self.interface_values,
+        })
+    }
+
+    /// Numbers the equations and finds where their values are.
+    fn number(&mut self, kept: &Kept) {
+        let nlocal = self.nodes.len();
+        let nbulk = 3 * kept.bulk.nrow();
+        let mut local_node = vec![NONE; kept.bulk.nrow()];
+        for (k, &node) in self.nodes.iter().enumerate() {
+            local_node[node as usize] = k as u32;
+        }
+        let mut raw: Vec<u32> = Vec::with_capacity(3 * nlocal + self.extra.len());
+        raw.extend(
+            self.nodes
+                .iter()
+                .flat_map(|&node| (0..3).map(move |i| 3 * node + i)),
+        );
+        raw.extend(&self.extra);
+        let local = |dof: u32| -> Option<u32> {
+            if (dof as usize) < nbulk {
+                let node = local_node[dof as usize / 3];
+                (node != NONE).then(|| 3 * node + dof % 3)
+            } else {
+                let at = self.extra.binary_search(&dof).ok()?;
+                Some((3 * nlocal + at) as u32)
+            }
+        };
+        self.bulk = BlockPattern::empty(0, 3);
+        self.bulk_at.clear();
+        for &node in &self.nodes {
+            let of_row = kept.bulk.row_start[node as usize]..kept.bulk.row_start[node as usize + 1];
+            for at in of_row {
+                let column = local_node[kept.bulk.column[at] as usize];
+                if column != NONE {
+                    self.bulk.column.push(column);
+                    self.bulk_at.push(at);
+                }
+            }
+            self.bulk.row_start.push(self.bulk.column.len());
+        }
+        self.interface = Pattern::empty(raw.len());
+        self.interface_at.clear();
+        self.interface.row_start.truncate(1);
+        for &dof in &raw {
+            let of_row = kept.interface.row_start.get(dof as usize..dof as usize + 2);
+            for at in of_row.map_or(0..0, |ends| ends[0]..ends[1]) {
+                if let Some(column) = local(kept.interface.column[at]) {
+                    self.interface.column.push(column);
+                    self.interface_at.push(at);
+                }
+            }
+            self.interface.row_start.push(self.interface.column.len());
+        }
+        self.equation.clear();
+        self.whole.clear();
+        for &dof in &raw {
+            let whole = kept.equation[dof as usize];
+            if whole == NONE {
+                self.equation.push(NONE);
+            } else {
+                self.equation.push(self.whole.len() as u32);
+                self.whole.push(whole);
+            }
+        }
+        self.sign = vec![1; self.whole.len()];
+        self.right = vec![0.0; self.whole.len()];
+        self.left = vec![0.0; self.whole.len()];
+    }
+
+    fn gather(&mut self, kept: &Kept, values: &Values) {
+        self.bulk_values.clear();
+        for &at in &self.bulk_at {
+            let block = values.bulk.get(9 * at..9 * at + 9).unwrap_or(&[0.0; 9]);
+            self.bulk_values.extend_from_slice(block);
+        }
+        let interface = self.interface_at.iter();
+        self.interface_values.clear();
+        self.interface_values
+            .extend(interface.map(|&at| values.interface.get(at).copied().unwrap_or(0.0)));
+        let Rows {
+            start,
+            column,
+            value,
+        } = &mut self.rows;
+        start.clear();
+        column.clear();
+        value.clear();
+        start.push(0);
+        let nodes = self
+            .nodes
+            .iter()
+            .flat_map(|&node| (0..3).map(move |i| 3 * node + i));
+        for dof in nodes.chain(self.extra.iter().copied()) {
+            if kept.equation[dof as usize] == NONE {
+                continue;
+            }
+            for (other, at) in kept.bulk_row(dof) {
+                let e = kept.equation[other as usize];
+                if e != NONE {
+                    column.push(e);
+                    value.push(values.bulk[at]);
+                }
+            }
+            let of_row = kept.interface.row_start.get(dof as usize..dof as usize + 2);
+            for at in of_row.map_or(0..0, |ends| ends[0]..ends[1]) {
+                let e = kept.equation[kept.interface.column[at] as usize];
+                if e != NONE {
+                    column.push(e);
+                    value.push(values.interface[at]);
+                }
+            }
+            start.push(column.len());
+        }
+    }
+
+    /// `A_II⁻¹` times what `right` gives for each of the equations, into `left`.
+    fn apply(&mut self) -> Result<(), LinearError> {
+        let values = Values {
+            bulk: &self.bulk_values,
+            interface: &self.interface_values,
+        };
+        let outcome = self
+            .direct
+            .solve(&values, &self.right, &mut self.left, TOLERANCE);
+        outcome.map(|_| ())
+    }
+
+    /// `y = A_II⁻¹ r_I`, and `r −= A y`, which leaves nothing at the equations of the block.
+    ///
+    /// # Errors
+    /// Those of the direct solver.
+    pub fn before(&mut self, r: &mut [f64]) -> Result<(), LinearError> {
+        for (right, &e) in self.right.iter_mut().zip(&self.whole) {
+            *right = r[e as usize];
+        }
+        self.apply()?;
+        // outside of the block the operator is that of the bulk, which is symmetric
+        for (ends, y) in self.rows.start.windows(2).zip(&self.left) {
+            for at in ends[0]..ends[1] {
+                r[self.rows.column[at] as usize] -= self.rows.value[at] * y;
+            }
+        }
+        for &e in &self.whole {
+            r[e as usize] = 0.0;
+        }
+        Ok(())
+    }
+
+    /// Adds what [`InterfaceBlock::before`] found.
+    pub fn add(&self, x: &mut [f64]) {
+        for (left, &e) in self.left.iter().zip(&self.whole) {
+            x[e as usize] += left;
+        }
+    }
+
+    /// `x_I += A_II⁻¹ (r − A x)_I`
+    ///
+    /// # Errors
+    /// Those of the direct solver.
+    pub fn after(&mut self, r: &[f64], x: &mut [f64]) -> Result<(), LinearError> {
+        let rows = self.rows.start.windows(2).zip(&self.whole);
+        for ((ends, &e), right) in rows.zip(&mut self.right) {
+            let at = ends[0]..ends[1];
+            let parts = self.rows.column[at.clone()]
+                .iter()
+                .zip(&self.rows.value[at]);
+            let sum: f64 = parts.map(|(&c, a)| a * x[c as usize]).sum();
+            *right = r[e as usize] - sum;
+        }
+        self.apply()?;
+        self.add(x);
+        Ok(())
+    }
+}
+
+/// Nodes and other raw dofs that interface values act on, and so many layers of nodes around.
+fn choose(kept: &Kept, values: &Values, layers: usize) -> (Vec<u32>, Vec<u32>) {
+    let nnode = kept.bulk.nrow();
+    let mut inside = vec![false; nnode];
+    let mut extra = Vec::new();
+    for (dof, ends) in kept.interface.row_start.windows(2).enumerate() {
+        let of_row = values.interface.get(ends[0]..ends[1]).unwrap_or_default();
+        if dof >= 3 * nnode {
+            if kept.equation[dof] != NONE {
+                extra.push(dof as u32);
+            }
+        } else if of_row.iter().any(|v| *v != 0.0) {
+            inside[dof / 3] = true;
+        }
+    }
+    for _ in 0..layers {
+        let before = inside.clone();
+        for (node, _) in before.iter().enumerate().filter(|(_, inside)| **inside) {
+            let range = kept.bulk.row_start[node]..kept.bulk.row_start[node + 1];
+            for &other in &kept.bulk.column[range] {
+                inside[other as usize] = true;
+            }
+        }
+    }
+    let nodes = (0..nnode as u32).filter(|&node| inside[node as usize]);
+    (nodes.collect(), extra)
+}

@@ -1,0 +1,262 @@
+//! Sparse matrices of small dense blocks.
+
+use rayon::prelude::*;
+use std::ops::{AddAssign, Mul, Neg};
+
+/// Rows handled by one task; results do not depend on it.
+const ROWS_PER_TASK: usize = 1024;
+/// Stands for no place in a row.
+const NOWHERE: u32 = u32::MAX;
+
+/// What blocks are made of.
+pub(super) trait Number:
+    Copy + Default + AddAssign + Mul<Output = Self> + Neg<Output = Self> + Send + Sync + 'static
+{
+    /// The nearest number of this precision.
+    fn of(value: f64) -> Self;
+
+    /// The same number.
+    fn double(self) -> f64;
+}
+
+impl Number for f32 {
+    fn of(value: f64) -> Self {
+        value as Self
+    }
+
+    fn double(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+impl Number for f64 {
+    fn of(value: f64) -> Self {
+        value
+    }
+
+    fn double(self) -> f64 {
+        self
+    }
+}
+
+/// A matrix of blocks with `R` rows and `C` columns each, compressed by rows, columns sorted.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Blocks<T, const R: usize, const C: usize> {
+    /// Columns of blocks.
+    pub ncolumn: usize,
+    /// Where each row of blocks begins.
+    pub start: Vec<usize>,
+    pub column: Vec<u32>,
+    pub value: Vec<[[T; C]; R]>,
+}
+
+impl<T: Number, const R: usize, const C: usize> Blocks<T, R, C> {
+    /// Rows of blocks.
+    pub fn nrow(&self) -> usize {
+        self.start.len().saturating_sub(1)
+    }
+
+    /// Where the blocks of a row are.
+    pub fn range(&self, row: usize) -> std::ops::Range<usize> {
+        self.start[row]..self.start[row + 1]
+    }
+
+    /// The blocks of a row with their columns.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, &[[T; C]; R])> {
+        let range = self.range(row);
+        let columns = self.column[range.clone()].iter().map(|&c| c as usize);
+        columns.zip(&self.value[range])
+    }
+
+    /// `to += A x`, or `to -= A x`.
+    pub fn multiply<const SUBTRACT: bool>(&self, x: &[[T; C]], to: &mut [[T; R]]) {
+        let tasks = to.par_chunks_mut(ROWS_PER_TASK).enumerate();
+        tasks.for_each(|(task, to)| {
+            for (row, to) in (task * ROWS_PER_TASK..).zip(to) {
+                let mut sum = [T::default(); R];
+                for (column, block) in self.row(row) {
+                    add_product(block, &x[column], &mut sum);
+                }
+                for (to, sum) in to.iter_mut().zip(sum) {
+                    *to += if SUBTRACT { -sum } else { sum };
+                }
+            }
+        });
+    }
+
+    /// The transpose.
+    pub fn transpose(&self) -> Blocks<T, C, R> {
+        let mut start = vec![0usize; self.ncolumn + 1];
+        for &column in &self.column {
+            start[column as usize + 1] += 1;
+        }
+        for row in 0..self.ncolumn {
+            start[row + 1] += start[row];
+        }
+        let mut next = start.clone();
+        let mut column = vec![0; self.column.len()];
+        let mut value = vec![[[T::default(); R]; C]; self.value.len()];
+        for row in 0..self.nrow() {
+            for (to, block) in self.row(row) {
+                let at = next[to];
+                next[to] += 1;
+                column[at] = row as u32;
+                value[at] = std::array::from_fn(|c| std::array::from_fn(|r| block[r][c]));
+            }
+        }
+        Blocks {
+            ncolumn: self.nrow(),
+            start,
+            column,
+            value,
+        }
+    }
+
+    /// The product with another matrix.
+    pub fn times<const D: usize>(&self, other: &Blocks<T, C, D>) -> Blocks<T, R, D> {
+        let nrow = self.nrow();
+        let ntask = nrow.div_ceil(ROWS_PER_TASK);
+        type Part<T, const R: usize, const D: usize> = (Vec<usize>, Vec<u32>, Vec<[[T; D]; R]>);
+        let parts: Vec<Part<T, R, D>> = (0..ntask)
+            .into_par_iter()
+            .map_init(
+                || (vec![NOWHERE; other.ncolumn], Vec::new(), Vec::new()),
+                |(place, columns, sums), task| {
+                    let (mut length, mut column, mut value) = (Vec::new(), Vec::new(), Vec::new());
+                    for row in task * ROWS_PER_TASK..nrow.min((task + 1) * ROWS_PER_TASK) {
+                        self.product_row(row, other, place, columns, sums);
+                        // sorted, and the places free again
+                        let mut sorted: Vec<(u32, u32)> = Vec::with_capacity(columns.len());
+                        for (at, &c) in columns.iter().enumerate() {
+                            sorted.push((c, at as u32));
+                            place[c as usize] = NOWHERE;
+                        }
+                        sorted.sort_unstable();
+                        length.push(sorted.len());
+                        for (c, at) in sorted {
+                            column.push(c);
+                            value.push(sums[at as usize]);
+                        }
+                    }
+                    (length, column, value)
+                },
+            )
+            .collect();
+        let total = parts.iter().map(|part| part.1.len()).sum();
+        let mut product = Blocks {
+            ncolumn: other.ncolumn,
+            start: Vec::with_capacity(nrow + 1),
+            column: Vec::with_capacity(total),
+            value: Vec::with_capacity(total),
+        };
+        let mut end = 0;
+        product.start.push(end);
+        for (length, column, value) in parts {
+            for n in length {
+                end += n;
+                product.start.push(end);
+            }
+            product.column.extend(column);
+            product.value.extend(value);
+        }
+        product
+    }
+
+    /// One row of a product: its columns in the order they are met, with their sums.
+    fn product_row<const D: usize>(
+        &self,
+        row: usize,
+        other: &Blocks<T, C, D>,
+        place: &mut [u32],
+        columns: &mut Vec<u32>,
+        sums: &mut Vec<[[T; D]; R]>,
+    ) {
+        columns.clear();
+        sums.clear();
+        for (k, a) in self.row(row) {
+            for (column, b) in other.row(k) {
+                if place[column] == NOWHERE {
+                    place[column] = columns.len() as u32;
+                    columns.push(column as u32);
+                    sums.push([[T::default(); D]; R]);
+                }
+                let sum = &mut sums[place[column] as usize];
+                for (sum, a) in sum.iter_mut().zip(a) {
+                    for (a, b) in a.iter().zip(b) {
+                        for (sum, b) in sum.iter_mut().zip(b) {
+                            *sum += *a * *b;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<const R: usize, const C: usize> Blocks<f64, R, C> {
+    /// The same in single precision.
+    pub fn to_single(&self) -> Blocks<f32, R, C> {
+        let single = |block: &[[f64; C]; R]| block.map(|row| row.map(|v| v as f32));
+        Blocks {
+            ncolumn: self.ncolumn,
+            start: self.start.clone(),
+            column: self.column.clone(),
+            value: self.value.par_iter().map(single).collect(),
+        }
+    }
+}
+
+impl<const N: usize> Blocks<f64, N, N> {
+    /// The block on the diagonal of a row, which every row has.
+    pub fn diagonal(&self, row: usize) -> &[[f64; N]; N] {
+        let range = self.range(row);
+        let columns = &self.column[range.clone()];
+        let at = columns.binary_search(&(row as u32)).unwrap_or(0);
+        &self.value[range.start + at]
+    }
+}
+
+/// `sum += block x`
+#[inline]
+pub(super) fn add_product<T: Number, const R: usize, const C: usize>(
+    block: &[[T; C]; R],
+    x: &[T; C],
+    sum: &mut [T; R],
+) {
+    for (sum, row) in sum.iter_mut().zip(block) {
+        for (a, x) in row.iter().zip(x) {
+            *sum += *a * *x;
+        }
+    }
+}
+
+/// The inverse of a positive definite block; `None` where it is none to round-off.
+pub(super) fn inverse<const N: usize>(block: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    // L Lᵀ, then the inverse of L, then L⁻ᵀ L⁻¹
+    let mut l = [[0.0; N]; N];
+    for i in 0..N {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
+            let left = block[i][j] - known;
+            if i != j {
+                l[i][j] = left / l[j][j];
+            } else if left > f64::EPSILON * block[i][i].abs() && left.is_finite() {
+                l[i][i] = left.sqrt();
+            } else {
+                return None;
+            }
+        }
+    }
+    let mut inverse = [[0.0; N]; N];
+    for i in 0..N {
+        inverse[i][i] = l[i][i].recip();
+        let (above, own) = inverse.split_at_mut(i);
+        for (j, to) in own[0][..i].iter_mut().enumerate() {
+            let sum: f64 = (j..i).map(|k| l[i][k] * above[k][j]).sum();
+            *to = -sum / l[i][i];
+        }
+    }
+    Some(std::array::from_fn(|i| {
+        std::array::from_fn(|j| (i.max(j)..N).map(|k| inverse[k][i] * inverse[k][j]).sum())
+    }))
+}

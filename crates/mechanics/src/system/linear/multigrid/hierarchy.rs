@@ -1,0 +1,169 @@
+//! A hierarchy of levels, from all nodes of a structure to a few motions.
+
+use super::aggregation::MODES;
+use super::blocks::Blocks;
+use super::level::Level;
+use std::ops::Range;
+
+/// Unknowns of the coarsest level, at most, unless it stops becoming coarser.
+const COARSEST: usize = 600;
+/// Levels, at most.
+const LEVELS: usize = 12;
+/// Unknowns of the last level above which there is no hierarchy.
+const TOO_MANY: usize = 3000;
+/// A level has at most this part of the rows of the finer one, or there is none.
+const COARSER: f64 = 0.7;
+
+/// Levels with the solution on the coarsest one.
+pub(super) struct Hierarchy {
+    fine: Level<3>,
+    coarse: Vec<Level<MODES>>,
+    last: Dense,
+    /// Right sides and solutions of all levels but the finest.
+    vectors: Vec<[Vec<[f32; MODES]>; 2]>,
+}
+
+impl Hierarchy {
+    /// The hierarchy of a matrix; `None` where it is not positive definite.
+    ///
+    /// # Shapes
+    /// `modes`: motions of a rigid body at each row. `parts`: see [`super::incomplete::Incomplete`].
+    pub fn new(
+        matrix: &Blocks<f64, 3, 3>,
+        modes: &[[[f64; MODES]; 3]],
+        parts: &[Range<usize>],
+    ) -> Option<Self> {
+        let (fine, (mut matrix, mut modes)) = Level::new(matrix, modes, parts)?;
+        let mut coarse: Vec<Level<MODES>> = Vec::new();
+        let mut vectors = Vec::new();
+        loop {
+            let nrow = matrix.nrow();
+            vectors.push([vec![[0.0; MODES]; nrow], vec![[0.0; MODES]; nrow]]);
+            if nrow * MODES <= COARSEST || coarse.len() == LEVELS {
+                break;
+            }
+            let (level, (next, next_modes)) = Level::new(&matrix, &modes, &[])?;
+            if next.nrow() as f64 > COARSER * nrow as f64 {
+                break;
+            }
+            coarse.push(level);
+            (matrix, modes) = (next, next_modes);
+        }
+        if matrix.nrow() * MODES > TOO_MANY {
+            return None;
+        }
+        Some(Self {
+            fine,
+            coarse,
+            last: Dense::new(&matrix),
+            vectors,
+        })
+    }
+
+    /// One V-cycle from zero.
+    pub fn cycle(&mut self, b: &[[f32; 3]], x: &mut [[f32; 3]]) {
+        let Self {
+            fine,
+            coarse,
+            last,
+            vectors,
+        } = self;
+        if let [[coarse_b, coarse_x], rest @ ..] = vectors.as_mut_slice() {
+            fine.cycle(b, x, coarse_b, coarse_x, |b, x| {
+                descend(coarse, last, rest, b, x);
+            });
+        }
+    }
+}
+
+fn descend(
+    levels: &mut [Level<MODES>],
+    last: &mut Dense,
+    vectors: &mut [[Vec<[f32; MODES]>; 2]],
+    b: &[[f32; MODES]],
+    x: &mut [[f32; MODES]],
+) {
+    match (levels, vectors) {
+        ([level, levels @ ..], [[coarse_b, coarse_x], vectors @ ..]) => {
+            level.cycle(b, x, coarse_b, coarse_x, |b, x| {
+                descend(levels, last, vectors, b, x);
+            });
+        }
+        _ => last.solve(b, x),
+    }
+}
+
+/// A small matrix with its factor; motions that cost nothing stay zero.
+struct Dense {
+    y: Vec<f64>,
+    /// L D Lᵀ, row-major, the unit diagonal of L not stored.
+    factor: Vec<f64>,
+    n: usize,
+}
+
+/// A pivot that is nothing beside the largest.
+const FREE: f64 = 1e-12;
+
+impl Dense {
+    fn new(matrix: &Blocks<f64, MODES, MODES>) -> Self {
+        let n = matrix.nrow() * MODES;
+        let mut factor = vec![0.0; n * n];
+        for row in 0..matrix.nrow() {
+            for (column, block) in matrix.row(row) {
+                for (i, line) in block.iter().enumerate() {
+                    let at = (row * MODES + i) * n + column * MODES;
+                    factor[at..at + MODES].copy_from_slice(line);
+                }
+            }
+        }
+        let most = (0..n).fold(0.0f64, |m, i| m.max(factor[i * n + i]));
+        let mut scaled = vec![0.0; n];
+        for i in 0..n {
+            let (above, rest) = factor.split_at_mut(i * n);
+            let own = &mut rest[..n];
+            let mut pivot = own[i];
+            for j in 0..i {
+                let of_j = &above[j * n..j * n + j];
+                let known: f64 = of_j.iter().zip(&scaled[..j]).map(|(l, s)| l * s).sum();
+                // L_ij D_j, then L_ij
+                scaled[j] = own[j] - known;
+                let d = above[j * n + j];
+                own[j] = if d == 0.0 { 0.0 } else { scaled[j] / d };
+                if d == 0.0 {
+                    scaled[j] = 0.0;
+                }
+                pivot -= own[j] * scaled[j];
+            }
+            own[i] = if pivot > FREE * most { pivot } else { 0.0 };
+        }
+        Self {
+            y: vec![0.0; n],
+            factor,
+            n,
+        }
+    }
+
+    fn solve(&mut self, b: &[[f32; MODES]], x: &mut [[f32; MODES]]) {
+        let (n, y) = (self.n, &mut self.y);
+        y.clear();
+        y.extend(b.iter().flatten().map(|&b| f64::from(b)));
+        for i in 0..n {
+            let row = &self.factor[i * n..i * n + i];
+            let known: f64 = row.iter().zip(y.iter()).map(|(l, y)| l * y).sum();
+            y[i] -= known;
+        }
+        for (y, d) in y.iter_mut().zip(self.factor.iter().step_by(n + 1)) {
+            *y = if *d == 0.0 { 0.0 } else { *y / d };
+        }
+        for i in (0..n).rev() {
+            let own = y[i];
+            let row = &self.factor[i * n..i * n + i];
+            for (y, l) in y.iter_mut().zip(row) {
+                *y -= l * own;
+            }
+        }
+        for (x, y) in x.iter_mut().flatten().zip(y) {
+            *x = *y as f32;
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! Incomplete factorization by blocks, without fill.
+
+use super::blocks::{Blocks, add_product, inverse};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// `A ≈ (L + D) D⁻¹ (L + D)ᵀ`, with `L` below the diagonal where `A` has blocks.
+///
+/// Rows come in parts that do not couple, and last those between the parts: parts are worked on in parallel, and the
+/// same way for any number of threads.
+///
+/// Source: Meijerink, van der Vorst, *Math. Comp.* 31 (1977) 148–162; by blocks: Axelsson, *Iterative Solution Methods*
+/// 1994, chapter 7.
+pub(super) struct Incomplete<const N: usize> {
+    parts: Vec<Range<usize>>,
+    lower: Blocks<f32, N, N>,
+    /// D⁻¹
+    inverse: Vec<[[f32; N]; N]>,
+}
+
+/// What a factor is worked out with: `L` and `D⁻¹` in full precision.
+struct Factor<'a, const N: usize> {
+    first: usize,
+    lower: &'a mut [[[f64; N]; N]],
+    inverse: &'a mut [[[f64; N]; N]],
+    /// W_ik = L_ik D_k⁻¹ of the row at hand.
+    scaled: Vec<[[f64; N]; N]>,
+}
+
+impl<const N: usize> Incomplete<N> {
+    /// The factor of a matrix whose diagonal is made larger by this share; `None` where it is not positive.
+    ///
+    /// `parts` are ranges of rows from the first one on; rows after the last part are worked on one after the other.
+    pub fn new(matrix: &Blocks<f64, N, N>, parts: &[Range<usize>], shift: f64) -> Option<Self> {
+        let nrow = matrix.nrow();
+        let mut start = Vec::with_capacity(nrow + 1);
+        start.push(0);
+        let below = |row: usize| {
+            let range = matrix.range(row);
+            let columns = &matrix.column[range.clone()];
+            range.start..range.start + columns.partition_point(|&c| (c as usize) < row)
+        };
+        let mut column = Vec::with_capacity(matrix.column.len() / 2);
+        let mut value = Vec::with_capacity(matrix.column.len() / 2);
+        for row in 0..nrow {
+            let range = below(row);
+            column.extend_from_slice(&matrix.column[range.clone()]);
+            value.extend_from_slice(&matrix.value[range]);
+            start.push(column.len());
+        }
+        let mut lower = Blocks {
+            ncolumn: nrow,
+            start,
+            column,
+            value,
+        };
+        let mut inverse = vec![[[0.0; N]; N]; nrow];
+        let held = lower.value.as_mut_slice();
+        let mut factors = Vec::with_capacity(parts.len());
+        let (mut values, mut inverses, mut row) = (held, inverse.as_mut_slice(), 0);
+        for part in parts {
+            let (own, rest) = values.split_at_mut(lower.start[part.end] - lower.start[row]);
+            let (own_inverses, rest_inverses) = inverses.split_at_mut(part.end - row);
+            (values, inverses, row) = (rest, rest_inverses, part.end);
+            factors.push((
+                part.clone(),
+                Factor {
+                    first: part.start,
+                    lower: own,
+                    inverse: own_inverses,
+                    scaled: Vec::new(),
+                },
+            ));
+        }
+        let (start, column) = (&lower.start, &lower.column);
+        let complete = factors.into_par_iter().map(|(rows, mut factor)| {
+            rows.clone()
+                .try_for_each(|row| factor.eliminate(row, matrix, start, column, shift))
+        });
+        complete.collect::<Option<Vec<()>>>()?;
+        let mut whole = Factor {
+            first: 0,
+            lower: &mut lower.value,
+            inverse: &mut inverse,
+            scaled: Vec::new(),
+        };
+        (row..nrow).try_for_each(|row| whole.eliminate(row, matrix, start, column, shift))?;
+        let single = |block: &[[f64; N]; N]| block.map(|row| row.map(|v| v as f32));
+        Some(Self {
+            parts: parts.to_vec(),
+            inverse: inverse.iter().map(single).collect(),
+            lower: lower.to_single(),
+        })
+    }
+
+    /// Solves with the factor, in place; `sum` is as long as the vector.
+    pub fn solve(&self, x: &mut [[f32; N]], sum: &mut [[f32; N]]) {
+        let last = self.parts.last().map_or(0, |part| part.end);
+        let (interior, between) = x.split_at_mut(last);
+        let pieces = self.pieces(interior);
+        pieces
+            .into_par_iter()
+            .for_each(|(rows, x)| self.forward(rows, x));
+        self.forward_between(last, interior, between);
+        sum.fill([0.0; N]);
+        let nrow = between.len() + last;
+        for row in (last..nrow).rev() {
+            let z = self.settle(row, &mut x[row], &sum[row]);
+            self.scatter(row, z, 0, sum);
+        }
+        let (interior, _) = x.split_at_mut(last);
+        let (sums, _) = sum.split_at_mut(last);
+        let pieces: Vec<_> = self
+            .pieces(interior)
+            .into_iter()
+            .zip(self.pieces(sums))
+            .collect();
+        pieces.into_par_iter().for_each(|((rows, x), (_, sum))| {
+            for row in rows.clone().rev() {
+                let at = row - rows.start;
+                let z = self.settle(row, &mut x[at], &sum[at]);
+                self.scatter(row, z, rows.start, sum);
+            }
+        });
+    }
+
+    /// The part of a vector that belongs to each part.
+    fn pieces<'v>(&self, mut x: &'v mut [[f32; N]]) -> Vec<(Range<usize>, &'v mut [[f32; N]])> {
+        let mut pieces = Vec::with_capacity(self.parts.len());
+        for part in &self.parts {
+            let (own, rest) = x.split_at_mut(part.len());
+            x = rest;
+            pieces.push((part.clone(), own));
+        }
+        pieces
+    }
+
+    fn forward(&self, rows: Range<usize>, x: &mut [[f32; N]]) {
+        let first = rows.start;
+        for row in rows {
+            let mut sum = [0.0; N];
+            for (column, block) in self.lower.row(row) {
+                add_product(block, &x[column - first], &mut sum);
+            }
+            self.reduce(row, &mut x[row - first], &sum);
+        }
+    }
+
+    fn forward_between(&self, last: usize, interior: &[[f32; N]], between: &mut [[f32; N]]) {
+        for row in last..last + between.len() {
+            let mut sum = [0.0; N];
+            for (column, block) in self.lower.row(row) {
+                let x = match column.checked_sub(last) {
+                    Some(at) => &between[at],
+                    None => &interior[column],
+                };
+                add_product(block, x, &mut sum);
+            }
+            self.reduce(row, &mut between[row - last], &sum);
+        }
+    }
+
+    /// `x = D⁻¹ (x − sum)`
+    fn reduce(&self, row: usize, x: &mut [f32; N], sum: &[f32; N]) {
+        let left = std::array::from_fn(|i| x[i] - sum[i]);
+        *x = [0.0; N];
+        add_product(&self.inverse[row], &left, x);
+    }
+
+    /// `x −= D⁻¹ sum`
+    fn settle(&self, row: usize, x: &mut [f32; N], sum: &[f32; N]) -> [f32; N] {
+        let mut change = [0.0; N];
+        add_product(&self.inverse[row], sum, &mut change);
+        for (x, change) in x.iter_mut().zip(change) {
+            *x -= change;
+        }
+        *x
+    }
+
+    /// `sum += Lᵀ z` of one row.
+    fn scatter(&self, row: usize, z: [f32; N], first: usize, sum: &mut [[f32; N]]) {
+        for (column, block) in self.lower.row(row) {
+            let sum = &mut sum[column - first];
+            for (row, z) in block.iter().zip(z) {
+                for (sum, a) in sum.iter_mut().zip(row) {
+                    *sum += a * z;
+                }
+            }
+        }
+    }
+}
+
+impl<const N: usize> Factor<'_, N> {
+    /// One row of L and D.
+    fn eliminate(
+        &mut self,
+        row: usize,
+        matrix: &Blocks<f64, N, N>,
+        start: &[usize],
+        column: &[u32],
+        shift: f64,
+    ) -> Option<()> {
+        let offset = start[self.first];
+        let (before, own) = self.lower.split_at_mut(start[row] - offset);
+        let columns = &column[start[row]..start[row + 1]];
+        let mut diagonal = *matrix.diagonal(row);
+        for (k, line) in diagonal.iter_mut().enumerate() {
+            line[k] *= 1.0 + shift;
+        }
+        self.scaled.clear();
+        for (at, &j) in columns.iter().enumerate() {
+            // L_ij −= Σ W_ik L_jkᵀ over what both rows have
+            let j = j as usize;
+            let of_j = start[j]..start[j + 1];
+            let (mut p, mut q) = (0, of_j.start);
+            while p < at && q < of_j.end {
+                let order = columns[p].cmp(&column[q]);
+                if order.is_eq() {
+                    subtract_transposed(&self.scaled[p], &before[q - offset], &mut own[at]);
+                }
+                p += usize::from(order.is_le());
+                q += usize::from(order.is_ge());
+            }
+            let scaled = product(&own[at], &self.inverse[j - self.first]);
+            subtract_transposed(&scaled, &own[at], &mut diagonal);
+            self.scaled.push(scaled);
+        }
+        self.inverse[row - self.first] = inverse(&diagonal)?;
+        Some(())
+    }
+}
+
+fn product<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> [[f64; N]; N] {
+    let mut product = [[0.0; N]; N];
+    for (row, a) in product.iter_mut().zip(a) {
+        for (a, b) in a.iter().zip(b) {
+            for (sum, b) in row.iter_mut().zip(b) {
+                *sum += a * b;
+            }
+        }
+    }
+    product
+}
+
+/// `to −= a bᵀ`
+fn subtract_transposed<const N: usize>(
+    a: &[[f64; N]; N],
+    b: &[[f64; N]; N],
+    to: &mut [[f64; N]; N],
+) {
+    for (to, a) in to.iter_mut().zip(a) {
+        for (to, b) in to.iter_mut().zip(b) {
+            *to -= a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Iterations with a preconditioner: conjugate gradients, and generalized minimal residuals.
+
+use super::super::{LinearError, largest};
+use rayon::prelude::*;
+
+/// Vectors of the flexible iteration before it starts again.
+const RESTART: usize = 50;
+
+/// What the iterations do with vectors.
+pub(super) trait Operators {
+    /// `y = A x`
+    fn apply(&mut self, x: &[f64], y: &mut [f64]);
+
+    /// `z = M⁻¹ r`
+    ///
+    /// # Errors
+    /// Those of solvers in it.
+    fn precondition(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError>;
+}
+
+/// How an iteration ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// The residual is small, by the iteration's own account.
+    Small,
+    /// Too many iterations, or too slow.
+    Slow,
+    /// The matrix or the preconditioner is not positive definite.
+    Indefinite,
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    // chunks of one size, added up in their order: the same for any number of threads
+    const CHUNK: usize = 16_384;
+    let parts: Vec<f64> = a
+        .par_chunks(CHUNK)
+        .zip(b.par_chunks(CHUNK))
+        .map(|(a, b)| a.iter().zip(b).map(|(a, b)| a * b).sum())
+        .collect();
+    parts.iter().sum()
+}
+
+/// `to += factor x`
+fn add(factor: f64, x: &[f64], to: &mut [f64]) {
+    for (to, x) in to.iter_mut().zip(x) {
+        *to += factor * x;
+    }
+}
+
+/// `x` such that `|r| <= goal` in the largest entry, from the residual `r` of the `x` at hand; both are kept up.
+/// Returns the number of applications of the preconditioner.
+///
+/// Source: Hestenes, Stiefel, *J. Res. Nat. Bur. Standards* 49 (1952) 409–436.
+///
+/// # Errors
+/// Those of the preconditioner.
+pub(super) fn conjugate_gradients(
+    of: &mut impl Operators,
+    r: &mut [f64],
+    x: &mut [f64],
+    goal: f64,
+    most: usize,
+) -> Result<(End, usize), LinearError> {
+    let n = r.len();
+    let (mut z, mut p, mut q) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    let mut before = 0.0;
+    for iteration in 0..most {
+        if largest(r) <= goal {
+            return Ok((End::Small, iteration));
+        }
+        of.precondition(r, &mut z)?;
+        let product = dot(r, &z);
+        if product.is_nan() || product <= 0.0 {
+            return Ok((End::Indefinite, iteration + 1));
+        }
+        let beta = if iteration == 0 {
+            0.0
+        } else {
+            product / before
+        };
+        before = product;
+        for (p, z) in p.iter_mut().zip(&z) {
+            *p = z + beta * *p;
+        }
+        of.apply(&p, &mut q);
+        let curvature = dot(&p, &q);
+        if curvature.is_nan() || curvature <= 0.0 {
+            return Ok((End::Indefinite, iteration + 1));
+        }
+        let alpha = product / curvature;
+        add(alpha, &p, x);
+        add(-alpha, &q, r);
+    }
+    Ok((End::Slow, most))
+}
+
+/// The same for matrices that are not symmetric.
+///
+/// Source: Saad, *SIAM J. Sci. Comput.* 14 (1993) 461–469.
+///
+/// # Errors
+/// Those of the preconditioner.
+pub(super) fn minimal_residuals(
+    of: &mut impl Operators,
+    r: &mut [f64],
+    x: &mut [f64],
+    goal: f64,
+    most: usize,
+) -> Result<(End, usize), LinearError> {
+    let n = r.len();
+    let mut total = 0;
+    while total < most {
+        if largest(r) <= goal {
+            return Ok((End::Small, total));
+        }
+        let size = dot(r, r).sqrt();
+        let mut basis = vec![r.iter().map(|r| r / size).collect::<Vec<f64>>()];
+        let mut directions: Vec<Vec<f64>> = Vec::new();
+        // columns of the triangle, rotations, and the right side
+        let mut triangle: Vec<Vec<f64>> = Vec::new();
+        let mut turns: Vec<(f64, f64)> = Vec::new();
+        let mut right = vec![size];
+        while directions.len() < RESTART && total < most {
+            let k = directions.len();
+            let mut z = vec![0.0; n];
+            of.precondition(&basis[k], &mut z)?;
+            let mut w = vec![0.0; n];
+            of.apply(&z, &mut w);
+            directions.push(z);
+            total += 1;
+            let mut column = vec![0.0; k + 2];
+            for _ in 0..2 {
+                for (h, v) in column.iter_mut().zip(&basis) {
+                    let part = dot(&w, v);
+                    *h += part;
+                    add(-part, v, &mut w);
+                }
+            }
+            let left = dot(&w, &w).sqrt();
+            column[k + 1] = left;
+            for (i, &(c, s)) in turns.iter().enumerate() {
+                let (a, b) = (column[i], column[i + 1]);
+                column[i] = c * a + s * b;
+                column[i + 1] = c * b - s * a;
+            }
+            let radius = column[k].hypot(column[k + 1]);
+            let (c, s) = if radius > 0.0 {
+                (column[k] / radius, column[k + 1] / radius)
+            } else {
+                (1.0, 0.0)
+            };
+            column[k] = radius;
+            turns.push((c, s));
+            let last = right[k];
+            right[k] = c * last;
+            right.push(-s * last);
+            triangle.push(column);
+            // the norm is never below the largest entry
+            if right[k + 1].abs() <= goal || left == 0.0 {
+                break;
+            }
+            w.iter_mut().for_each(|w| *w /= left);
+            basis.push(w);
+        }
+        let m = directions.len();
+        let mut y = vec![0.0; m];
+        for i in (0..m).rev() {
+            let known: f64 = (i + 1..m).map(|j| triangle[j][i] * y[j]).sum();
+            let pivot = triangle[i][i];
+            y[i] = if pivot == 0.0 {
+                0.0
+            } else {
+                (right[i] - known) / pivot
+            };
+        }
+        let mut sum = vec![0.0; n];
+        for (y, direction) in y.iter().zip(&directions) {
+            add(*y, direction, &mut sum);
+        }
+        let mut change = vec![0.0; n];
+        of.apply(&sum, &mut change);
+        add(1.0, &sum, x);
+        add(-1.0, &change, r);
+    }
+    Ok((End::Slow, total))
+}

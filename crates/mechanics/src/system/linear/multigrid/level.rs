@@ -1,0 +1,199 @@
+//! One level of a hierarchy: its matrix, its smoother, and the way to the next coarser one.
+
+use super::aggregation::{Aggregates, MODES};
+use super::blocks::{Blocks, Number, add_product, inverse};
+use super::incomplete::Incomplete;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Shares by which diagonals are made larger until an incomplete factor exists.
+const SHIFTS: [f64; 3] = [0.01, 0.04, 0.16];
+/// Steps of the power method.
+const STEPS: usize = 10;
+/// The power method's value is below the largest one by about this factor.
+const SAFETY: f64 = 1.1;
+/// The largest eigenvalue of the smoothed operator above which the smoother is damped.
+const DAMPED_ABOVE: f64 = 1.7;
+
+/// A level of a hierarchy with blocks of `N`.
+pub(super) struct Level<const N: usize> {
+    matrix: Blocks<f32, N, N>,
+    smoother: Incomplete<N>,
+    damping: f32,
+    /// From the next level, and to it.
+    prolong: Blocks<f32, N, MODES>,
+    restrict: Blocks<f32, MODES, N>,
+    residual: Vec<[f32; N]>,
+    change: Vec<[f32; N]>,
+    sum: Vec<[f32; N]>,
+}
+
+/// The next level: its matrix and the modes there.
+pub(super) type Coarser = (Blocks<f64, MODES, MODES>, Vec<[[f64; MODES]; MODES]>);
+
+impl<const N: usize> Level<N> {
+    /// A level, and the matrix of the next one; `None` where the matrix is not positive definite.
+    ///
+    /// Prolongation is smoothed once by Jacobi's method with blocks, `P = (1 − 4/(3λ) D⁻¹ A) T`.
+    pub fn new(
+        matrix: &Blocks<f64, N, N>,
+        modes: &[[[f64; MODES]; N]],
+        parts: &[Range<usize>],
+    ) -> Option<(Self, Coarser)> {
+        let mut shifts = SHIFTS.iter();
+        let smoother = shifts.find_map(|&shift| Incomplete::new(matrix, parts, shift))?;
+        let rows = (0..matrix.nrow()).into_par_iter();
+        let inverses: Option<Vec<[[f64; N]; N]>> =
+            rows.map(|row| inverse(matrix.diagonal(row))).collect();
+        let inverses = inverses?;
+        let largest = SAFETY
+            * largest(matrix, |r| {
+                r.par_iter_mut().zip(&inverses).for_each(|(r, inverse)| {
+                    let right = *r;
+                    *r = [0.0; N];
+                    add_product(inverse, &right, r);
+                });
+            });
+        let (motions, coarse_modes) = Aggregates::new(matrix).motions(modes);
+        let mut prolong = matrix.times(&motions);
+        let weight = 4.0 / (3.0 * largest);
+        smooth(&mut prolong, &motions, &inverses, weight);
+        let restrict = prolong.transpose();
+        let mut coarse = restrict.times(&matrix.times(&prolong));
+        settle(&mut coarse);
+        let single = matrix.to_single();
+        let nrow = matrix.nrow();
+        let mut level = Self {
+            matrix: single,
+            smoother,
+            damping: 1.0,
+            prolong: prolong.to_single(),
+            restrict: restrict.to_single(),
+            residual: vec![[0.0; N]; nrow],
+            change: vec![[0.0; N]; nrow],
+            sum: vec![[0.0; N]; nrow],
+        };
+        level.damp();
+        Some((level, (coarse, coarse_modes)))
+    }
+
+    /// Damps the smoother where it overshoots.
+    fn damp(&mut self) {
+        let Self {
+            matrix,
+            smoother,
+            sum,
+            ..
+        } = self;
+        let value = SAFETY * largest(matrix, |r| smoother.solve(r, sum));
+        self.damping = (DAMPED_ABOVE / value).min(1.0) as f32;
+    }
+
+    /// `x = V b`: smooths, lets `coarse` turn the coarse residual into the coarse solution, and smooths again.
+    pub fn cycle(
+        &mut self,
+        b: &[[f32; N]],
+        x: &mut [[f32; N]],
+        coarse_b: &mut [[f32; MODES]],
+        coarse_x: &mut [[f32; MODES]],
+        coarse: impl FnOnce(&[[f32; MODES]], &mut [[f32; MODES]]),
+    ) {
+        x.copy_from_slice(b);
+        self.smoother.solve(x, &mut self.sum);
+        for x in x.iter_mut().flatten() {
+            *x *= self.damping;
+        }
+        self.residual.copy_from_slice(b);
+        self.matrix.multiply::<true>(x, &mut self.residual);
+        coarse_b.fill([0.0; MODES]);
+        self.restrict.multiply::<false>(&self.residual, coarse_b);
+        coarse(coarse_b, coarse_x);
+        self.prolong.multiply::<false>(coarse_x, x);
+        self.change.copy_from_slice(b);
+        self.matrix.multiply::<true>(x, &mut self.change);
+        self.smoother.solve(&mut self.change, &mut self.sum);
+        for (x, change) in x.iter_mut().flatten().zip(self.change.iter().flatten()) {
+            *x += self.damping * change;
+        }
+    }
+}
+
+/// `P = T − weight D⁻¹ (A T)`, where P holds A T.
+fn smooth<const N: usize>(
+    prolong: &mut Blocks<f64, N, MODES>,
+    motions: &Blocks<f64, N, MODES>,
+    inverses: &[[[f64; N]; N]],
+    weight: f64,
+) {
+    for (row, inverse) in inverses.iter().enumerate() {
+        let own = motions.column[row];
+        for at in prolong.range(row) {
+            let block = &mut prolong.value[at];
+            let right = *block;
+            *block = if prolong.column[at] == own {
+                motions.value[row]
+            } else {
+                [[0.0; MODES]; N]
+            };
+            for (to, inverse) in block.iter_mut().zip(inverse) {
+                for (a, right) in inverse.iter().zip(&right) {
+                    for (to, b) in to.iter_mut().zip(right) {
+                        *to -= weight * a * b;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Gives motions that are none a stiffness, so that they stay zero.
+fn settle(matrix: &mut Blocks<f64, MODES, MODES>) {
+    for row in 0..matrix.nrow() {
+        let range = matrix.range(row);
+        let Ok(at) = matrix.column[range.clone()].binary_search(&(row as u32)) else {
+            continue;
+        };
+        let block = &mut matrix.value[range.start + at];
+        let largest = (0..MODES).fold(0.0f64, |m, k| m.max(block[k][k]));
+        for (k, line) in block.iter_mut().enumerate() {
+            if line[k] <= NOTHING * largest {
+                line[k] = if largest > 0.0 { largest } else { 1.0 };
+            }
+        }
+    }
+}
+
+/// A stiffness that is nothing beside the largest of its aggregate.
+const NOTHING: f64 = 1e-14;
+
+/// The largest eigenvalue of `M⁻¹ A`, from below.
+fn largest<T: Number, const N: usize>(
+    matrix: &Blocks<T, N, N>,
+    mut precondition: impl FnMut(&mut [[T; N]]),
+) -> f64 {
+    let nrow = matrix.nrow();
+    // the same numbers in every run, of all wave lengths
+    let mut state = 1u32;
+    let mut next = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        T::of(f64::from(state >> 8) / f64::from(1u32 << 24) - 0.5)
+    };
+    let mut x: Vec<[T; N]> = (0..nrow).map(|_| std::array::from_fn(|_| next())).collect();
+    let mut y = vec![[T::default(); N]; nrow];
+    let norm = |v: &[[T; N]]| -> f64 {
+        let squares = v.iter().flatten().map(|v| v.double() * v.double());
+        squares.sum::<f64>().sqrt()
+    };
+    let mut value = 1.0;
+    for _ in 0..STEPS {
+        y.fill([T::default(); N]);
+        matrix.multiply::<false>(&x, &mut y);
+        precondition(&mut y);
+        value = (norm(&y) / norm(&x).max(f64::MIN_POSITIVE)).max(f64::MIN_POSITIVE);
+        let scale = T::of(value.recip());
+        for (x, y) in x.iter_mut().flatten().zip(y.iter().flatten()) {
+            *x = *y * scale;
+        }
+    }
+    value
+}

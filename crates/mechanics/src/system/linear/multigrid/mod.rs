@@ -1,0 +1,392 @@
+//! Multigrid on the stiffness of the bodies, and a small direct solution at the interface.
+//!
+//! ```text
+//!   K     stiffness of the bodies     ──aggregate, smooth──▶ hierarchy        kept while it serves
+//!   A = K + contact, couplings        ──rows at the interface──▶ block A_II   anew with every tangent
+//!
+//!   M⁻¹ r:   y = A_II⁻¹ r_I    x = V (r − A y) + y    x_I += A_II⁻¹ (r − A x)_I
+//! ```
+//!
+//! Contact never enters the hierarchy, so that no change of contact costs a new one, and no stiffness of contact makes
+//! iterations more. The smoother is an incomplete factor by blocks of nodes, in single precision. Iterations are by
+//! conjugate gradients, and by minimal residuals where the operator is not symmetric.
+//!
+//! Where it does not serve (multipliers, the plane, few unknowns, a matrix that is not positive definite, iterations that
+//! stay slow), the direct solver takes over, and says of singular systems what it knows.
+//!
+//! Sources: Vaněk, Mandel, Brezina, *Computing* 56 (1996) 179–196 (smoothed aggregation); Kothari, Krause, *Comput.
+//! Methods Appl. Mech. Engrg.* 2022 (multigrid and contact); the interface apart: Nataf and others, AMG with filtering.
+
+mod aggregation;
+mod block;
+mod blocks;
+mod fine;
+mod hierarchy;
+mod incomplete;
+mod krylov;
+mod level;
+#[cfg(test)]
+mod tests;
+
+use super::residual::Residual;
+use super::{
+    Direct, Kept, LinearError, LinearSolver, Problem, SolveReport, Symmetry, Values, apply, largest,
+};
+use crate::system::sparsity::NONE;
+use block::InterfaceBlock;
+use fine::Fine;
+use hierarchy::Hierarchy;
+use krylov::{End, Operators};
+
+/// Iterations of one solution, at most.
+const ITERATIONS: usize = 200;
+/// Layers of nodes around the interface in its block.
+const LAYERS: usize = 1;
+/// Equations of the interface above which an unsymmetric block has no layers.
+const LARGE: usize = 2000;
+/// A hierarchy is made anew where it takes so many times the iterations that it took when it was new, twice running.
+const WORN: f64 = 1.6;
+
+/// Multigrid over direct solution.
+pub struct Multigrid {
+    direct: Direct,
+    kept: Option<Kept>,
+    grid: Option<Grid>,
+    /// What has the present values.
+    way: Option<Way>,
+    residual: Residual,
+}
+
+/// What solves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    Grid,
+    Direct,
+}
+
+/// What serves one problem.
+struct Grid {
+    fine: Fine,
+    hierarchy: Option<Hierarchy>,
+    block: InterfaceBlock,
+    work: Work,
+    /// Iterations of the first solution with the hierarchy, and how often it took too many since.
+    base: Option<usize>,
+    worn: usize,
+}
+
+/// Vectors.
+#[derive(Default)]
+struct Work {
+    raw_x: Vec<f64>,
+    raw_y: Vec<f64>,
+    right: Vec<f64>,
+    b: Vec<[f32; 3]>,
+    x: Vec<[f32; 3]>,
+}
+
+impl Default for Multigrid {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Multigrid {
+    /// A solver that has not seen a problem yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            direct: Direct::reproducible(),
+            kept: None,
+            grid: None,
+            way: None,
+            residual: Residual::new(0, 0),
+        }
+    }
+
+    /// Whether the hierarchy is in use.
+    #[cfg(test)]
+    pub(super) fn is_multigrid(&self) -> bool {
+        self.way == Some(Way::Grid)
+    }
+
+    fn go_direct(&mut self, values: &Values) -> Result<(), LinearError> {
+        let kept = self.kept.as_ref();
+        let kept = kept.ok_or(LinearError::Order { before: "analyze" })?;
+        self.way = None;
+        self.direct.analyze(&kept.problem())?;
+        self.direct.factorize(values)?;
+        self.way = Some(Way::Direct);
+        Ok(())
+    }
+}
+
+impl LinearSolver for Multigrid {
+    fn analyze(&mut self, problem: &Problem) -> Result<(), LinearError> {
+        if self.kept.as_ref().is_some_and(|kept| kept.is(problem)) {
+            return Ok(());
+        }
+        (self.way, self.kept) = (None, None);
+        problem.check()?;
+        let kept = Kept::new(problem);
+        let suits = problem.bulk.block == 3
+            && problem.coordinates.len() == problem.bulk.nrow()
+            && problem.symmetry != Symmetry::Symmetric
+            && problem.sign.iter().all(|&sign| sign > 0)
+            && !has_shared(problem);
+        let grid = suits.then(|| Grid::new(&kept, problem.coordinates));
+        self.grid = grid.filter(|grid| !grid.fine.node.is_empty());
+        self.residual = Residual::new(problem.ndof, problem.nequation);
+        self.kept = Some(kept);
+        Ok(())
+    }
+
+    fn factorize(&mut self, values: &Values) -> Result<(), LinearError> {
+        let kept = self.kept.as_ref();
+        let kept = kept.ok_or(LinearError::Order { before: "analyze" })?;
+        self.way = None;
+        kept.check(values)?;
+        if values
+            .bulk
+            .iter()
+            .chain(values.interface)
+            .any(|v| !v.is_finite())
+        {
+            return Err(LinearError::NotFinite);
+        }
+        let serves = match &mut self.grid {
+            Some(grid) => grid.update(kept, values)?,
+            None => false,
+        };
+        if !serves {
+            return self.go_direct(values);
+        }
+        self.way = Some(Way::Grid);
+        Ok(())
+    }
+
+    fn forget(&mut self) {
+        self.direct.forget();
+        if let Some(grid) = &mut self.grid {
+            grid.hierarchy = None;
+        }
+    }
+
+    fn solve(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        rtol: f64,
+    ) -> Result<SolveReport, LinearError> {
+        let kept = self.kept.as_ref();
+        let kept = kept.ok_or(LinearError::Order { before: "analyze" })?;
+        kept.check_solution(values, rhs, x)?;
+        match (&mut self.grid, self.way) {
+            (_, None) => Err(LinearError::Order {
+                before: "factorize",
+            }),
+            (Some(grid), Some(Way::Grid)) => {
+                let outcome = grid.solve(kept, values, rhs, x, rtol, &mut self.residual)?;
+                if let Some(report) = outcome {
+                    return Ok(report);
+                }
+                self.go_direct(values)?;
+                self.direct.solve(values, rhs, x, rtol)
+            }
+            _ => self.direct.solve(values, rhs, x, rtol),
+        }
+    }
+}
+
+impl Grid {
+    fn new(kept: &Kept, coordinates: &[[f64; 3]]) -> Self {
+        let fine = Fine::new(kept, coordinates);
+        let nrow = fine.node.len();
+        Self {
+            fine,
+            hierarchy: None,
+            block: InterfaceBlock::new(),
+            work: Work {
+                raw_x: vec![0.0; kept.equation.len()],
+                raw_y: vec![0.0; kept.equation.len()],
+                right: vec![0.0; kept.sign.len()],
+                b: vec![[0.0; 3]; nrow],
+                x: vec![[0.0; 3]; nrow],
+            },
+            base: None,
+            worn: 0,
+        }
+    }
+
+    /// Takes the values of a tangent; false where they do not suit.
+    fn update(&mut self, kept: &Kept, values: &Values) -> Result<bool, LinearError> {
+        if self.hierarchy.is_none() || self.worn > 1 {
+            let matrix = self.fine.matrix(kept, values);
+            let new = Hierarchy::new(&matrix, &self.fine.modes, &self.fine.parts);
+            (self.base, self.worn) = (None, 0);
+            self.hierarchy = new.or(self.hierarchy.take());
+        }
+        if self.hierarchy.is_none() {
+            return Ok(false);
+        }
+        let unsymmetric = kept.symmetry == Symmetry::Unsymmetric;
+        let many = self.block.whole.len() > LARGE;
+        let layers = if unsymmetric && many { 0 } else { LAYERS };
+        match self.block.update(kept, values, layers) {
+            Ok(()) => Ok(true),
+            Err(LinearError::Singular { .. }) => Ok(false),
+            Err(other) => Err(other),
+        }
+    }
+
+    /// Solves; `None` where iterations are not the way.
+    fn solve(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        rtol: f64,
+        residual: &mut Residual,
+    ) -> Result<Option<SolveReport>, LinearError> {
+        let size = largest(rhs);
+        if !size.is_finite() {
+            return Err(LinearError::NotFinite);
+        }
+        x.fill(0.0);
+        let mut report = SolveReport::default();
+        if size == 0.0 {
+            return Ok(Some(report));
+        }
+        let symmetric = kept.symmetry != Symmetry::Unsymmetric;
+        residual.value.copy_from_slice(rhs);
+        for attempt in 0..3 {
+            let most = ITERATIONS.saturating_sub(report.iterations);
+            let mut operators = OneGrid {
+                grid: self,
+                kept,
+                values,
+                symmetric,
+            };
+            let iterate = if symmetric {
+                krylov::conjugate_gradients
+            } else {
+                krylov::minimal_residuals
+            };
+            let (end, count) = iterate(
+                &mut operators,
+                &mut residual.value,
+                x,
+                0.5 * rtol * size,
+                most,
+            )?;
+            report.iterations += count;
+            if end != End::Small {
+                return Ok(None);
+            }
+            residual.measure(kept, values, rhs, x);
+            let left = largest(&residual.value);
+            report.residual = left / size;
+            report.refinements = attempt;
+            if report.residual <= rtol || left <= residual.round_off(kept, values, x) {
+                self.judge(report.iterations);
+                return Ok(Some(report));
+            }
+            residual.measure(kept, values, rhs, x);
+        }
+        Ok(None)
+    }
+
+    /// Keeps count of how well the hierarchy serves.
+    fn judge(&mut self, iterations: usize) {
+        let base = *self.base.get_or_insert(iterations);
+        if iterations as f64 > WORN * base as f64 {
+            self.worn += 1;
+        } else {
+            self.worn = 0;
+        }
+    }
+}
+
+/// Whether dofs share an equation.
+fn has_shared(problem: &Problem) -> bool {
+    let used = problem.equation.iter().filter(|&&e| e != NONE);
+    used.count() > problem.nequation
+}
+
+/// The operators of one solution.
+struct OneGrid<'a> {
+    grid: &'a mut Grid,
+    kept: &'a Kept,
+    values: &'a Values<'a>,
+    symmetric: bool,
+}
+
+impl Operators for OneGrid<'_> {
+    fn apply(&mut self, x: &[f64], y: &mut [f64]) {
+        let Work { raw_x, raw_y, .. } = &mut self.grid.work;
+        for (&e, raw) in self.kept.equation.iter().zip(raw_x.iter_mut()) {
+            *raw = if e == NONE { 0.0 } else { x[e as usize] };
+        }
+        apply(
+            &self.kept.bulk,
+            &self.kept.interface,
+            self.values,
+            raw_x,
+            raw_y,
+        );
+        let equations = self.kept.equation.iter().zip(raw_y);
+        for (&e, raw) in equations.filter(|(e, _)| **e != NONE) {
+            y[e as usize] = *raw;
+        }
+    }
+
+    fn precondition(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError> {
+        let Grid {
+            fine,
+            hierarchy,
+            block,
+            work,
+            ..
+        } = &mut *self.grid;
+        let Some(hierarchy) = hierarchy else {
+            return Err(LinearError::Order {
+                before: "factorize",
+            });
+        };
+        let has_block = !block.whole.is_empty();
+        work.right.copy_from_slice(r);
+        if has_block && self.symmetric {
+            block.before(&mut work.right)?;
+        }
+        // single precision has few powers of ten
+        let size = largest(&work.right);
+        let scale = if size > 0.0 { size } else { 1.0 };
+        let equation = |node: u32, axis: usize| {
+            let e = self.kept.equation[3 * node as usize + axis];
+            (e != NONE).then_some(e as usize)
+        };
+        for (b, &node) in work.b.iter_mut().zip(&fine.node) {
+            for (axis, b) in b.iter_mut().enumerate() {
+                *b = equation(node, axis).map_or(0.0, |e| (work.right[e] / scale) as f32);
+            }
+        }
+        hierarchy.cycle(&work.b, &mut work.x);
+        z.fill(0.0);
+        for (x, &node) in work.x.iter().zip(&fine.node) {
+            for (axis, &x) in x.iter().enumerate() {
+                if let Some(e) = equation(node, axis) {
+                    z[e] = f64::from(x) * scale;
+                }
+            }
+        }
+        if has_block {
+            if self.symmetric {
+                block.add(z);
+            }
+            block.after(r, z)?;
+        }
+        Ok(())
+    }
+}
