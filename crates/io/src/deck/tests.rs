@@ -6,6 +6,7 @@ use crate::case::{
 };
 use crate::fs::RealFs;
 use signorini_geometry::tensor::Vec3;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// A cube with an element of this type, and more cards.
 fn cube(kind: &str, cards: &str) -> String {
@@ -660,9 +661,9 @@ fn cylindrical_axes_have_a_radius_on_their_axis_too() {
         ([0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
         ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
         ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]),
-        ([1.0, 1.0, 1.0], [-0.70711, 0.70711, 0.0]),
+        ([1.0, 1.0, 1.0], [-FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.0]),
         ([1.0, 2.0, 3.0], [-0.89443, 0.44721, 0.0]),
-        ([1.0, 1.0, 0.0], [-0.70711, 0.70711, 0.0]),
+        ([1.0, 1.0, 0.0], [-FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.0]),
         ([1.0, 3.0, 2.0], [-0.94868, 0.31623, 0.0]),
     ];
     for (to, radial) in printed {
