@@ -392,10 +392,14 @@ impl Labels {
         self.all.get(node as usize).copied().unwrap_or(0)
     }
 
+    fn has(&self, node: u32) -> bool {
+        self.has_elements.get(node as usize) == Some(&true)
+    }
+
     /// The rows that a data set has in the file.
     fn nrow(&self, dataset: &Dataset<'_>) -> usize {
         match dataset {
-            Dataset::Contact { nodes, .. } => nodes.len(),
+            Dataset::Contact { nodes, .. } => nodes.iter().filter(|&&n| self.has(n)).count(),
             _ => self.count(),
         }
     }
@@ -531,7 +535,11 @@ fn push_values(out: &mut Vec<u8>, labels: &Labels, dataset: &Dataset<'_>) {
             push_rows(out, labels, values.iter().map(in_order));
         }
         Dataset::Contact { nodes, values } => {
-            for (&node, row) in nodes.iter().zip(*values) {
+            let known = nodes
+                .iter()
+                .zip(*values)
+                .filter(|(node, _)| labels.has(**node));
+            for (&node, row) in known {
                 push_row(out, labels.of(node), row);
             }
         }

@@ -135,24 +135,6 @@ fn frames_are_read_back_by_value() {
 }
 
 #[test]
-fn nodes_without_elements_are_left_out() {
-    let mut mesh = zoo(3);
-    let count = mesh.nnode();
-    mesh.points.insert(0, Vec3::unit(0));
-    mesh.node_labels.insert(0, 5);
-    for block in &mut mesh.blocks {
-        block.nodes.iter_mut().for_each(|node| *node += 1);
-    }
-    let displacement = vectors(&mesh, 1.0);
-    let frames = [(at(1.0, 1, 1), vec![Dataset::Displacement(&displacement)])];
-    let (_, frd) = written(&mesh, &frames);
-    assert_eq!(frd.node_labels, &mesh.node_labels[1..]);
-    assert_eq!(frd.datasets[0].nodes, &mesh.node_labels[1..]);
-    assert_eq!(frd.datasets[0].values.len(), 3 * count);
-    assert_eq!(frd.datasets[0].values[0], displacement[1].x);
-}
-
-#[test]
 fn columns_are_those_of_calculix() {
     let mesh = zoo(2);
     let u = vectors(&mesh, 1.0);
