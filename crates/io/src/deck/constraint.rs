@@ -437,15 +437,14 @@ impl Translation<'_> {
                 continue;
             }
             let row = tie.rows().next().unwrap_or_default();
-            let side = |this: &mut Self, at: usize| {
-                let field = row.get(at)?;
-                this.set(tie, field.text, &field.place(), Kind::Surface)
+            let Some(two) = self.two_surfaces(tie, &row) else {
+                continue;
             };
-            let (Some(on), Some(with)) = (side(self, 0), side(self, 1)) else {
-                if row.len() < 2 {
-                    let text = "a line of *TIE needs two surfaces";
-                    self.error(&codes::MISSING, text, &tie.place, "");
-                }
+            let sides = two.each_ref().map(|side| {
+                let place = side.place();
+                self.set(tie, side.text, &place, Kind::Surface)
+            });
+            let [Some(on), Some(with)] = sides else {
                 continue;
             };
             let kind = ConstraintKind::Cyclic {

@@ -17,8 +17,8 @@
 use super::Compat;
 use super::translation::Translation;
 use crate::case::{
-    Area, Basis, Contact, ContactChange, Enforcement, Features, Friction, Interference, Limit,
-    Method, Name, Normals, Offset, Pairs, Per, PointRule, Sliding, Start, Step, Stick, Tied,
+    Area, Basis, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
+    Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -216,10 +216,7 @@ impl Translation<'_> {
                 return;
             }
         };
-        let mut start = Start {
-            interference: Interference::Step,
-            ..Start::default()
-        };
+        let mut start = Start::default();
         if let Some(text) = card.get("ADJUST") {
             match number(text) {
                 Some(within) => start.close_gaps_below = within,
@@ -251,14 +248,7 @@ impl Translation<'_> {
 
     /// The secondary and the primary side that a line names; `at_nodes`: of contact at nodes.
     fn sides(&mut self, card: &Statement, row: &[Field<'_>], at_nodes: bool) -> Option<Sides> {
-        let [secondary, primary] = row
-            .get(..2)
-            .and_then(|two| <&[_; 2]>::try_from(two).ok())
-            .or_else(|| {
-                let text = format!("a line of *{} needs two surfaces", card.keyword);
-                self.error(&codes::MISSING, text, &card.place, "");
-                None
-            })?;
+        let [secondary, primary] = self.two_surfaces(card, row)?;
         let both = [secondary, primary].map(|side| (side.text, side.place()));
         self.sides_of(card, both, at_nodes)
     }
@@ -329,47 +319,25 @@ impl Translation<'_> {
     /// A contact with nothing but defaults.
     fn contact(&mut self, sides: Sides, place: &Place) -> Contact {
         let name = format!("{}-{}", sides.secondary.value, sides.primary.value);
-        Contact {
-            name: Spanned::new(self.fresh(&name), place.clone()),
-            secondary: sides.secondary,
-            primary: sides.primary,
-            method: Method::Auto.into(),
-            two_pass: false,
-            rule: PointRule::default(),
-            area: Area::Reference,
-            enforcement: Enforcement::Auto,
-            per: None,
-            friction: None,
-            remembers_traction: false,
-            sliding: Sliding::Finite,
-            features: Features::default(),
-            tied: None,
-            start: Start {
-                interference: Interference::Step,
-                ..Start::default()
-            },
-            normals: Normals::Primary,
-            basis: Basis::Part,
-            pairs: Pairs::Nearest,
-            reach: None,
-            active: true,
-            place: place.clone(),
-        }
+        let name = Spanned::new(self.fresh(&name), place.clone());
+        Contact::new(name, sides.secondary, sides.primary, place.clone())
     }
 
     /// The law of a contact.
-    fn obey(&self, contact: &mut Contact, by: &Interaction, method: Method) {
+    fn obey(&self, contact: &mut Contact, to: &Interaction, method: Method) {
         let exact = self.compat == Compat::Ccx;
+        let place = contact.place.clone();
+        let by = |stiffness| Enforcement::Penalty(Some(Spanned::new(stiffness, place.clone())));
         let penalty = |[stiffness, tension, within]: [f64; 3]| match method {
             Method::NodeToSegment => Enforcement::Arctangent {
                 stiffness,
                 tension: given(tension, self.first_modulus() / TENSION),
                 within: Some(given(within, WITHIN)),
             },
-            _ => Enforcement::Penalty(Some(Spanned::new(stiffness, contact.place.clone()))),
+            _ => by(stiffness),
         };
         let hard = PENALTY * self.first_modulus();
-        contact.enforcement = match &by.law {
+        contact.enforcement = match &to.law {
             Law::Hard if exact && method != Method::Mortar => penalty([hard, 0.0, 0.0]),
             Law::Linear(numbers) if exact => penalty(*numbers),
             Law::Hard | Law::Linear(_) => Enforcement::Auto,
@@ -394,13 +362,10 @@ impl Translation<'_> {
                         false => Offset::Keep,
                     },
                     within: None,
-                    penalty_tangential: by.friction.filter(|_| by_penalty).map(|f| self.slope(f)),
+                    penalty_tangential: to.friction.filter(|_| by_penalty).map(|f| self.slope(f)),
                 });
                 match by_penalty {
-                    true => {
-                        let stiffness = given(*stiffness, hard);
-                        Enforcement::Penalty(Some(Spanned::new(stiffness, contact.place.clone())))
-                    }
+                    true => by(given(*stiffness, hard)),
                     false => Enforcement::Auto,
                 }
             }
@@ -429,7 +394,7 @@ impl Translation<'_> {
             }
         }
         // what is tied does not slide
-        let rubs = by.friction.filter(|_| contact.tied.is_none());
+        let rubs = to.friction.filter(|_| contact.tied.is_none());
         contact.friction = rubs.and_then(|given| self.rubbing(given));
     }
 
@@ -476,13 +441,7 @@ impl Translation<'_> {
     }
 
     fn tie(&mut self, card: &Statement) {
-        let given = card.get("POSITIONTOLERANCE").map(|text| {
-            number(text).unwrap_or_else(|| {
-                let text = "POSITION TOLERANCE is no number";
-                self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
-                0.0
-            })
-        });
+        let given = self.parameter(card, "POSITIONTOLERANCE", "POSITION TOLERANCE");
         for row in card.rows() {
             let Some(sides) = self.sides(card, &row, false) else {
                 continue;
@@ -741,7 +700,8 @@ impl Translation<'_> {
                 ..before.clone()
             };
             self.obey(&mut after, &pair.interaction, pair.method);
-            let acts = self.acts(&before, step);
+            let steps = self.case.steps.iter().chain(std::iter::once(&*step));
+            let acts = before.acting(steps).last() == Some(true);
             let old = std::mem::replace(&mut pair.contact, self.case.contacts.len());
             self.case.contacts.push(after);
             for (contact, active) in [(old, false), (pair.contact, true)] {
@@ -771,17 +731,6 @@ impl Translation<'_> {
             self.error(&codes::UNDEFINED, text, &card.place, "");
         }
         of
-    }
-
-    /// Whether a contact acts so far in a step.
-    fn acts(&self, contact: &Contact, step: &Step) -> bool {
-        let steps = self.case.steps.iter().chain(std::iter::once(step));
-        let changes = steps.flat_map(|step| &step.contacts);
-        changes
-            .filter(|change| change.name == contact.name)
-            .filter_map(|change| change.active)
-            .next_back()
-            .unwrap_or(contact.active)
     }
 
     /// The change of a contact, by its place, in a step.

@@ -3,7 +3,7 @@
 use super::translation::Translation;
 use crate::case::{Constant, Expansion, Hardening, Material, Name, Plasticity, Unstrained};
 use crate::diagnostic::{Place, Spanned, codes};
-use crate::readers::inp::{Field, Statement, compared, number};
+use crate::readers::inp::{Field, Statement, compared};
 
 /// Constants of a law, by their names in a case.
 type Constants = Vec<(&'static str, Vec<f64>)>;
@@ -137,8 +137,7 @@ impl Translation<'_> {
         card: &Statement,
         rows: &[Vec<Field<'_>>],
     ) -> Option<(&'static str, Constants)> {
-        let order = card.get("N").map_or(Some(1), |n| n.parse::<usize>().ok());
-        let Some(order) = order.filter(|order| (1..=3).contains(order)) else {
+        let Some(order) = terms(card, 3) else {
             let text = "*HYPERFOAM has one to three terms, N";
             self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
             return None;
@@ -218,13 +217,7 @@ impl Translation<'_> {
             self.error(&codes::NOT_BUILT, text, &card.place, "");
             return None;
         }
-        let zero = card.get("ZERO").map(|text| {
-            number(text).unwrap_or_else(|| {
-                let text = "ZERO is no number";
-                self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
-                0.0
-            })
-        });
+        let zero = self.parameter(card, "ZERO", "ZERO");
         let reference = zero.unwrap_or(0.0);
         let mut alpha: Vec<[f64; 2]> = Vec::new();
         for row in rows {
@@ -249,12 +242,10 @@ impl Translation<'_> {
         card: &Statement,
         rows: &[Vec<Field<'_>>],
     ) -> Option<(&'static str, Constants)> {
-        let order = card.get("N").map_or(Some(1), |n| n.parse::<usize>().ok());
-        let order = order.filter(|order| (1..=4).contains(order));
         let all: Vec<_> = rows.iter().flatten().cloned().collect();
         let mut numbers = all.iter().map(|field| self.real(Some(field)));
         let mut next = || numbers.next().unwrap_or(0.0);
-        let (law, mut constants, shear): (_, Constants, f64) = match order {
+        let (law, mut constants, shear): (_, Constants, f64) = match terms(card, 4) {
             Some(1) if card.has("NEOHOOKE") || card.has("REDUCEDPOLYNOMIAL") => {
                 let c10 = next();
                 (
@@ -354,4 +345,10 @@ fn engineering(d: [f64; 9]) -> Option<[f64; 9]> {
         g23,
     ];
     all.iter().all(|x| x.is_finite()).then_some(all)
+}
+
+/// The number of terms of a law, one unless N says otherwise; none where there are more than so many.
+fn terms(card: &Statement, most: usize) -> Option<usize> {
+    let order = card.get("N").map_or(Some(1), |n| n.parse().ok());
+    order.filter(|order| (1..=most).contains(order))
 }

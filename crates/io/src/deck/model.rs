@@ -7,7 +7,7 @@ use crate::case::{
     Name, Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
 };
 use crate::diagnostic::{Place, Spanned, codes};
-use crate::readers::inp::{Field, Kind, Statement, compared, number};
+use crate::readers::inp::{Field, Kind, Statement, compared};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -262,12 +262,7 @@ impl Translation<'_> {
 
     /// The amplitude that is this one later, where a card has a TIME DELAY.
     fn delayed(&mut self, card: &Statement, name: String) -> String {
-        let Some(text) = card.get("TIMEDELAY") else {
-            return name;
-        };
-        let Some(delay) = number(text) else {
-            let text = "TIME DELAY is no number";
-            self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
+        let Some(delay) = self.parameter(card, "TIMEDELAY", "TIME DELAY") else {
             return name;
         };
         let mut all = self.case.amplitudes.iter();

@@ -5,7 +5,7 @@ use super::{Compat, constraint, contact, material};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
-use crate::readers::inp::{Deck, Field, Kind, Statement};
+use crate::readers::inp::{Deck, Field, Kind, Statement, number};
 use crate::readers::labels::Lookup;
 use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::Vec3;
@@ -167,6 +167,17 @@ impl<'d> Translation<'d> {
         value
     }
 
+    /// The number that a parameter has; none where it is not there, or is no number, which is told.
+    pub fn parameter(&mut self, card: &Statement, parameter: &str, shown: &str) -> Option<f64> {
+        let text = card.get(parameter)?;
+        let found = number(text);
+        if found.is_none() {
+            let text = format!("{shown} is no number");
+            self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
+        }
+        found
+    }
+
     /// A number in a field; zero where the field is empty.
     pub fn real(&mut self, field: Option<&Field<'_>>) -> f64 {
         let Some(field) = field.filter(|field| !field.text.is_empty()) else {
@@ -198,6 +209,20 @@ impl<'d> Translation<'d> {
     /// As many numbers as there are fields, `N` at most; zero for those that are not there.
     pub fn reals<const N: usize>(&mut self, fields: &[Field<'_>]) -> [f64; N] {
         std::array::from_fn(|i| self.real(fields.get(i)))
+    }
+
+    /// The fields of a line that names two surfaces.
+    pub fn two_surfaces<'f, 't>(
+        &mut self,
+        card: &Statement,
+        row: &'f [Field<'t>],
+    ) -> Option<&'f [Field<'t>; 2]> {
+        let two = row.first_chunk();
+        if two.is_none() {
+            let text = format!("a line of *{} needs two surfaces", card.keyword);
+            self.error(&codes::MISSING, text, &card.place, "");
+        }
+        two
     }
 
     /// What a field names, in all spaces that the card speaks of.

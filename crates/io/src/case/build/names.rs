@@ -362,7 +362,7 @@ impl Builder {
                 seen.insert(sides, contact);
                 continue;
             };
-            let [one, other] = [first, contact].map(|contact| acting(case, contact));
+            let [one, other] = [first, contact].map(|contact| contact.acting(case.steps.iter()));
             if !one.zip(other).any(|(one, other)| one && other) {
                 continue;
             }
@@ -448,15 +448,4 @@ fn plural(kind: &str) -> String {
         Some(stem) => format!("{stem}ies"),
         None => format!("{kind}s"),
     }
-}
-
-/// Whether a contact acts, step by step.
-fn acting<'c>(case: &'c Case, contact: &'c Contact) -> impl Iterator<Item = bool> {
-    let mut acts = contact.active;
-    case.steps.iter().map(move |step| {
-        let mut changes = step.contacts.iter();
-        let change = changes.find(|change| change.name.value == contact.name.value);
-        acts = change.and_then(|change| change.active).unwrap_or(acts);
-        acts
-    })
 }

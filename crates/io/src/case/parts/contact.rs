@@ -1,6 +1,6 @@
 //! Contacts, and their changes in a step.
 
-use super::Name;
+use super::{Name, Step};
 use crate::diagnostic::{Place, Spanned};
 
 /// The word for the secondary side itself, as `primary`.
@@ -55,6 +55,47 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// A contact with nothing but defaults.
+    pub fn new(name: Name, secondary: Name, primary: Name, place: Place) -> Self {
+        Self {
+            name,
+            secondary,
+            primary,
+            method: Method::Auto.into(),
+            two_pass: false,
+            rule: PointRule::default(),
+            area: Area::Reference,
+            enforcement: Enforcement::Auto,
+            per: None,
+            friction: None,
+            remembers_traction: false,
+            sliding: Sliding::Finite,
+            features: Features::default(),
+            tied: None,
+            start: Start::default(),
+            normals: Normals::Primary,
+            basis: Basis::Part,
+            pairs: Pairs::Nearest,
+            reach: None,
+            active: true,
+            place,
+        }
+    }
+
+    /// Whether it acts, step by step.
+    pub fn acting<'c>(
+        &'c self,
+        steps: impl Iterator<Item = &'c Step>,
+    ) -> impl Iterator<Item = bool> {
+        let mut acts = self.active;
+        steps.map(move |step| {
+            let mut changes = step.contacts.iter();
+            let change = changes.find(|change| change.name.value == self.name.value);
+            acts = change.and_then(|change| change.active).unwrap_or(acts);
+            acts
+        })
+    }
+
     /// Whether it is a contact of a surface with itself.
     pub fn is_with_itself(&self) -> bool {
         self.primary.value == SELF

@@ -11,8 +11,8 @@
 use super::Translation;
 use super::condition::CONTACTS;
 use crate::case::{
-    Area, Basis, Contact, Enforcement, Facing, Features, Friction, Interference, Limit, Method,
-    Name, Normals, Pairs, Per, PointKind, PointRule, Shape, Sliding, Space, Start, Stick, Surface,
+    Contact, Enforcement, Facing, Features, Friction, Limit, Method, Name, Normals, Pairs, Per,
+    PointKind, PointRule, Shape, Sliding, Space, Stick, Surface,
 };
 use crate::deck::Compat;
 use crate::diagnostic::{Place, Spanned, codes};
@@ -265,32 +265,10 @@ impl Translation {
         [secondary, primary]: [Name; 2],
         place: &Place,
     ) -> Contact {
-        Contact {
-            name: Spanned::new(self.fresh(&wanted), place.clone()),
-            secondary,
-            primary,
-            method: Method::NodeToSegment.into(),
-            two_pass: false,
-            rule: PointRule::default(),
-            area: Area::Reference,
-            features: Features::default(),
-            enforcement: Enforcement::Auto,
-            per: None,
-            friction: None,
-            remembers_traction: false,
-            sliding: Sliding::Finite,
-            tied: None,
-            start: Start {
-                interference: Interference::Step,
-                ..Start::default()
-            },
-            normals: Normals::Primary,
-            basis: Basis::Part,
-            pairs: Pairs::Nearest,
-            reach: None,
-            active: true,
-            place: place.clone(),
-        }
+        let name = Spanned::new(self.fresh(&wanted), place.clone());
+        let mut contact = Contact::new(name, secondary, primary, place.clone());
+        contact.method = Method::NodeToSegment.into();
+        contact
     }
 
     /// What the contacts of nodes have in common: their number, and how they prevent penetration.
