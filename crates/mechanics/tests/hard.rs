@@ -221,6 +221,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
             contact.method = Method::GaussPoint(PointRule {
                 kind: PointKind::Gauss,
                 points: None,
+                cut: false,
             });
         }
         Way::Lagrange => {

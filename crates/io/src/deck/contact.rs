@@ -17,8 +17,8 @@
 use super::Compat;
 use super::translation::Translation;
 use crate::case::{
-    Area, Basis, Contact, ContactChange, Enforcement, Friction, Interference, Limit, Method, Name,
-    Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
+    Area, Basis, Contact, ContactChange, Enforcement, Features, Friction, Interference, Limit,
+    Method, Name, Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
@@ -235,6 +235,11 @@ impl Translation<'_> {
                 };
             }
             self.obey(&mut contact, interaction, method);
+            let stays = card.has("SMALLSLIDING") || !self.is_large();
+            if self.compat == Compat::Ccx && method == Method::GaussPoint && stays {
+                contact.rule.cut = true;
+                contact.features = Features::Faces;
+            }
             contact.start = start.clone();
             self.pairs.push(Pair {
                 named: named.clone(),
@@ -273,6 +278,15 @@ impl Translation<'_> {
         Some(Sides {
             secondary: self.faced(secondary?),
             primary: primary?,
+        })
+    }
+
+    /// Whether displacements are large in some step: then facets slide over those of the other side. CalculiX cuts them
+    /// anew in every increment, here they are cut once.
+    fn is_large(&self) -> bool {
+        let mut steps = self.deck.statements.iter().filter(|c| c.keyword == "STEP");
+        steps.any(|step| {
+            step.has("NLGEOM") && step.get("NLGEOM").map(compared).as_deref() != Some("NO")
         })
     }
 

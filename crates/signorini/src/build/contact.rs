@@ -233,6 +233,7 @@ fn method(part: &Contact) -> Method {
                 case::PointKind::Lobatto => model::PointKind::Lobatto,
             },
             points: part.rule.points.map(|points| points as usize),
+            cut: part.rule.cut,
         }),
     }
 }

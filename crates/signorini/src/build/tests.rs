@@ -564,6 +564,7 @@ fn contacts_become_what_they_say() {
         part.method = model::Method::GaussPoint(model::PointRule {
             kind: model::PointKind::Gauss,
             points: None,
+            cut: false,
         });
     });
     changed(
@@ -572,6 +573,7 @@ fn contacts_become_what_they_say() {
             part.method = model::Method::GaussPoint(model::PointRule {
                 kind: model::PointKind::Lobatto,
                 points: Some(4),
+                cut: false,
             });
             part.area = AreaPart::Present;
         },
@@ -662,6 +664,7 @@ fn contacts_become_what_they_say() {
             part.method = model::Method::GaussPoint(model::PointRule {
                 kind: model::PointKind::Gauss,
                 points: None,
+                cut: false,
             });
             part.enforcement = model::Enforcement::Penalty(Some(9.0));
             part.tie = Some(TiePart {

@@ -293,6 +293,7 @@ impl Builder {
         PointRule {
             kind,
             points: points.map(|points| points.value),
+            cut: rule.flag("cut"),
         }
     }
 

@@ -125,6 +125,8 @@ pub struct PointRule {
     pub kind: PointKind,
     /// How many; none: one more than the degree of the facet.
     pub points: Option<u64>,
+    /// Whether facets are cut where those of the other side end.
+    pub cut: bool,
 }
 
 /// A family of points.

@@ -84,7 +84,8 @@ fn rule(rule: PointRule) -> Value {
         PointKind::Lobatto => "lobatto",
     };
     let points = rule.points.map_or("auto".into(), Value::Count);
-    Value::Table(vec![("kind", kind.into()), ("points", points)])
+    let cut = ("cut", rule.cut.into());
+    Value::Table(vec![("kind", kind.into()), ("points", points), cut])
 }
 
 fn normals(normals: &Normals) -> Value {

@@ -147,6 +147,12 @@ static RULE: Table = Table {
             "how many; auto: one more than the degree of the facet",
         )
         .or(Default::Text("auto")),
+        key(
+            "cut",
+            Shape::Flag,
+            "whether facets are cut at the start where facets of the other side end; what both share has points of its own",
+        )
+        .or(Default::Flag(false)),
     ],
     rules: &[],
 };

@@ -544,6 +544,7 @@ fn point_rule(kind: &str, points: Option<u64>) -> Option<PointRule> {
         Some(PointRule {
             kind,
             points: Some(points),
+            cut: false,
         })
     };
     let is_line = kind.contains("line");

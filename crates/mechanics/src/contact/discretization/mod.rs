@@ -9,11 +9,13 @@
 //! To add a discretization: one file that implements [`Discretization`], one line where models are built. It fills rows
 //! and never sees a law, a penalty or an unknown.
 
+mod cut;
 pub mod mortar;
 pub mod nodes;
 pub mod points;
 pub mod projected;
 
+pub use cut::cut;
 pub use mortar::Mortar;
 pub use nodes::{NodeNormals, NodeToNode};
 pub use points::{PointToSegment, SlidingRange};

@@ -1,6 +1,7 @@
 //! Points of the secondary side, its nodes or points inside its facets, against segments of the primary side. They
 //! differ in nothing but the points.
 
+use super::cut::FacetPoints;
 use super::projected::{Closest, Place, Point, closest};
 use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
 use crate::contact::row::{Rows, Wanted};
@@ -57,14 +58,14 @@ impl PointToSegment {
         }
     }
 
-    /// Points inside the facets, `rule` gives those of an element with their weights; and the area of each point at the
+    /// Points inside the facets, `rule` gives those of a facet with their weights; and the area of each point at the
     /// positions `x`, times the `extent` across its facet.
     ///
     /// # Errors
     /// A facet that has no normal.
     pub fn inside(
         facets: &Facets,
-        rule: impl Fn(Element) -> Vec<(Vec3, f64)>,
+        rule: impl Fn(u32, Element) -> FacetPoints,
         x: &[Vec3],
         extent: &dyn Fn(u32, Vec3) -> f64,
     ) -> Result<(Self, Vec<f64>), SurfaceError> {
@@ -75,7 +76,8 @@ impl PointToSegment {
         let mut areas = Vec::new();
         let mut of_facet = Vec::new();
         for facet in 0..facets.nfacet() as u32 {
-            let rule = facets.element(facet).map_or_else(Vec::new, &rule);
+            let element = facets.element(facet);
+            let rule = element.map_or_else(Vec::new, |element| rule(facet, element));
             for (xi, weight) in rule {
                 let (shape, area) = facets.sample(x, facet, xi)?;
                 let nodes = facets.nodes(facet);

@@ -288,7 +288,7 @@ impl Scene {
                     lobatto(3)
                 };
                 let facets = second.as_ref().unwrap();
-                let rule = |e| on_facet(e, &rule);
+                let rule = |_, e| on_facet(e, &rule);
                 let (mut inside, areas) =
                     PointToSegment::inside(facets, rule, &x, &|_, _| 1.0).unwrap();
                 inside.closest = closest;

@@ -191,10 +191,18 @@ impl Source<'_> {
                     });
                 };
                 let spaces = self.spaces.behind(facets);
-                let points = |element: Element| on_facet(rule, element);
+                let pieces = primary.as_ref().filter(|_| rule.cut);
+                let pieces = pieces.map(|primary| {
+                    let rule = |element: Element| on_facet(rule, element);
+                    discretization::cut(facets, primary, self.reference, rule)
+                });
+                let points = move |facet: u32, element: Element| match &pieces {
+                    Some(pieces) => pieces.get(facet as usize).cloned().unwrap_or_default(),
+                    None => on_facet(rule, element),
+                };
                 let across = |facet, x| extent(&spaces, facet, x);
                 let (mut inside, area) =
-                    PointToSegment::inside(facets, points, self.reference, &across)
+                    PointToSegment::inside(facets, &points, self.reference, &across)
                         .map_err(surface_error)?;
                 inside.sliding = part.sliding;
                 if part.features.is_some() {
@@ -202,9 +210,8 @@ impl Source<'_> {
                 }
                 if let Some(facets) = present {
                     areas = Some(Box::new(move |x| {
-                        let points = |element: Element| on_facet(rule, element);
                         let across = |facet, x| extent(&spaces, facet, x);
-                        Ok(PointToSegment::inside(&facets, points, x, &across)?.1)
+                        Ok(PointToSegment::inside(&facets, &points, x, &across)?.1)
                     }));
                 }
                 (Box::new(inside), area)
@@ -317,6 +324,7 @@ impl Source<'_> {
                 Method::GaussPoint(PointRule {
                     kind: PointKind::Gauss,
                     points: None,
+                    cut: false,
                 })
             }
             (Method::Auto, _) => Method::NodeToSegment,

@@ -99,6 +99,8 @@ pub struct PointRule {
     pub kind: PointKind,
     /// How many, along each direction; `None`: one more than the degree of the facet.
     pub points: Option<usize>,
+    /// Whether facets are cut where those of the primary side end, at the start.
+    pub cut: bool,
 }
 
 /// The family of a rule.
