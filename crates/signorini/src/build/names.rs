@@ -408,8 +408,8 @@ impl<'a> Names<'a> {
             sided &= side.is_some();
             faces.extend(side);
         }
-        faces.sort_unstable();
-        faces.dedup();
+        let mut seen = BTreeSet::new();
+        faces.retain(|face| seen.insert(*face));
         if faces.is_empty() || !sided {
             let (what, help) = if normal.is_none() && !sided {
                 (

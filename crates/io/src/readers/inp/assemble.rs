@@ -10,7 +10,7 @@ use crate::readers::labels::Lookup;
 use signorini_geometry::element::MAX_NODES;
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId, Set, boundary};
 use signorini_geometry::tensor::{Mat3, Vec3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::mem::take;
 
 type Result<T> = std::result::Result<T, MeshError>;
@@ -746,8 +746,9 @@ impl Assembly<'_> {
         set.nodes.dedup();
         set.cells.sort_unstable();
         set.cells.dedup();
-        set.faces.sort_unstable();
-        set.faces.dedup();
+        // in the order of their lines: what is made from them is numbered by it
+        let mut seen = HashSet::new();
+        set.faces.retain(|face| seen.insert(*face));
         if set.is_empty() {
             self.notes
                 .push(format!("{} `{name}` is empty", family.word()));
