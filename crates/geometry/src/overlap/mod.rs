@@ -318,6 +318,38 @@ impl<T: Real> Cell<'_, T> {
         Ok(())
     }
 
+    /// Gives `each` the places of points in the parameters of the secondary facet, and their weights, without
+    /// derivatives: over triangles around the centre of the corners, as symmetric as the cell is. `factor` as in
+    /// [`Cell::points`].
+    ///
+    /// # Errors
+    /// A map has no inverse at a point. Then some points have been given already.
+    pub fn points_around_centre(
+        &self,
+        factor: usize,
+        mut each: impl FnMut(Pair<f64>, f64),
+    ) -> Result<(), OverlapError> {
+        let n = self.corners.len();
+        if n <= 3 {
+            return self.points(factor, |point| each(point.secondary.xi, point.weight));
+        }
+        let place = |k: usize| self.corners[k % n].map(|c| c.value());
+        let sum = |c: usize| (0..n).map(|k| place(k)[c]).sum::<f64>() / n as f64;
+        let centre = [sum(0), sum(1)];
+        for k in 0..n {
+            let corners = [centre, place(k), place(k + 1)];
+            let [u, v] = [minus(corners[1], centre), minus(corners[2], centre)];
+            let degree = self.facets.degree(&corners) + factor;
+            for &(s, w) in of_degree(2, degree) {
+                let at = [0, 1].map(|c| centre[c] + u[c] * s.x + v[c] * s.y);
+                let found = locate::parameters(self.facets.secondary, at);
+                let xi = found.ok_or(OverlapError::Folded)?.xi;
+                each(xi, w * self.sign * cross2(u, v));
+            }
+        }
+        Ok(())
+    }
+
     fn point(
         &self,
         at: Pair<f64>,

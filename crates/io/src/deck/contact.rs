@@ -235,8 +235,7 @@ impl Translation<'_> {
                 };
             }
             self.obey(&mut contact, interaction, method);
-            let stays = card.has("SMALLSLIDING") || !self.is_large();
-            if self.compat == Compat::Ccx && method == Method::GaussPoint && stays {
+            if self.compat == Compat::Ccx && method == Method::GaussPoint {
                 contact.rule.cut = true;
                 contact.features = Features::Faces;
             }
@@ -278,15 +277,6 @@ impl Translation<'_> {
         Some(Sides {
             secondary: self.faced(secondary?),
             primary: primary?,
-        })
-    }
-
-    /// Whether displacements are large in some step: then facets slide over those of the other side. CalculiX cuts them
-    /// anew in every increment, here they are cut once.
-    fn is_large(&self) -> bool {
-        let mut steps = self.deck.statements.iter().filter(|c| c.keyword == "STEP");
-        steps.any(|step| {
-            step.has("NLGEOM") && step.get("NLGEOM").map(compared).as_deref() != Some("NO")
         })
     }
 

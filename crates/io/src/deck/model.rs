@@ -35,7 +35,7 @@ impl Section<'_> {
             locking: Spanned::new(Locking::Auto, place.clone()),
             orientation: None,
             space: None,
-            at_nodes: AtNodes::Fitted,
+            at_nodes: AtNodes::Linear,
             thickness: None,
             temperatures: Temperatures::Full,
             area: None,
@@ -544,8 +544,8 @@ impl Translation<'_> {
                     Temperatures::Full
                 },
                 at_nodes: match self.compat {
-                    Compat::None | Compat::Oofem => AtNodes::Fitted,
-                    Compat::Ccx => AtNodes::Interpolated,
+                    Compat::None | Compat::Oofem => AtNodes::Linear,
+                    Compat::Ccx => AtNodes::Element,
                 },
                 ..section.made_of(group)
             });

@@ -325,6 +325,7 @@ impl Newton {
         for term in &mut system.terms {
             term.begin_increment(base)?;
         }
+        self.assembler.begin_increment(&system.terms);
         self.equations.forget();
         let mut motion = self.start(system, base, goal);
         let mut correction = 0.0;

@@ -153,16 +153,7 @@ impl Assembler {
             slots: Vec::new(),
             expanded: Expanded::default(),
         };
-        for (number, term) in terms.iter().enumerate() {
-            assembler.tasks.extend((0..term.nchunk()).map(|chunk| Task {
-                term: number,
-                chunk,
-                part: term.part(),
-                positions: Vec::new(),
-            }));
-        }
-        let wave = WAVE.min(assembler.tasks.len());
-        assembler.slots.resize_with(wave, Slot::default);
+        assembler.begin_increment(terms);
         let cliques = collect(layout, elimination, terms);
         assembler.bulk = BlockPattern::from_cliques(
             layout.nnode,
@@ -176,6 +167,26 @@ impl Assembler {
             &cliques.interface_offsets,
         );
         assembler
+    }
+
+    /// Takes up the chunks of the terms, whose numbers may be others in each increment.
+    pub fn begin_increment(&mut self, terms: &[Box<dyn Term>]) {
+        let mut before = std::mem::take(&mut self.tasks).into_iter().peekable();
+        for (number, term) in terms.iter().enumerate() {
+            let mut chunks = 0..term.nchunk();
+            while let Some(task) = before.next_if(|task| task.term == number) {
+                // what is left over is dropped
+                self.tasks.extend(chunks.next().map(|_| task));
+            }
+            self.tasks.extend(chunks.map(|chunk| Task {
+                term: number,
+                chunk,
+                part: term.part(),
+                positions: Vec::new(),
+            }));
+        }
+        let wave = WAVE.min(self.tasks.len());
+        self.slots.resize_with(wave, Slot::default);
     }
 
     /// The pattern of the bulk.

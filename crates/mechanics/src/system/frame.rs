@@ -68,6 +68,17 @@ pub struct ContactSample {
     pub energy: f64,
 }
 
+/// The part of the secondary side that touches.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Footprint {
+    /// Its area.
+    pub area: f64,
+    /// The centre of its area.
+    pub center: Vec3,
+    /// The mean normal out of the primary side, of unit length.
+    pub normal: Vec3,
+}
+
 /// What happened at one contact interface.
 #[derive(Clone, Debug, Default)]
 pub struct ContactFrame {
@@ -103,8 +114,8 @@ pub struct ContactFrame {
     pub energy: Vec<f64>,
     /// The faces of the secondary side with points inside that touch; `None` where the points are its nodes.
     pub faces: Option<Vec<(Face, ContactSample)>>,
-    /// The part of the area of each node where there is contact.
-    pub closed_area: Vec<f64>,
+    /// What touches.
+    pub footprint: Footprint,
     /// Tributary area of each node: by mortar, the part that is covered, and none of a node that leans on another one.
     pub area: Vec<f64>,
     /// What the primary side exerts on the secondary; moment about the origin.

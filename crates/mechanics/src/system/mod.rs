@@ -50,7 +50,9 @@ mod whole;
 pub use assembly::{Assembler, Assembly};
 pub use course::{NodalField, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
-pub use frame::{ContactFrame, ContactSample, Frame, Resultant, RigidFrame, SpinFrame, Status};
+pub use frame::{
+    ContactFrame, ContactSample, Footprint, Frame, Resultant, RigidFrame, SpinFrame, Status,
+};
 pub use idealisation::Idealisation;
 pub use layout::{Dof, DofName, Layout, NO_DOF};
 pub use linear::Symmetry;

@@ -257,7 +257,7 @@ pub trait Term: Send + Sync {
         Ok(false)
     }
 
-    /// The number of chunks, independent of the number of threads.
+    /// The number of chunks, independent of the number of threads; another one from [`Term::begin_increment`] on, at most.
     fn nchunk(&self) -> usize;
 
     /// Adds the forces and stiffness of one chunk. Pure: the same trial gives the same bits.

@@ -412,6 +412,34 @@ fn one_thread_and_two_threads_give_the_same_bits() {
 }
 
 #[test]
+fn terms_may_have_more_or_fewer_chunks_in_an_increment() {
+    let scene = Scene::new(3, Part::Interface, 12);
+    let layout = scene.layout;
+    let springs = |n: NodeId| -> Vec<Box<dyn Term>> {
+        let ends = |first: NodeId| (first..n).map(|k| [k, k + 1]).collect();
+        let term = |first| Springs::new(Part::Interface, layout, &scene.reference, ends(first));
+        vec![Box::new(term(0)), Box::new(term(1))]
+    };
+    let many = springs(11);
+    let mut assembler = Assembler::new(&layout, &scene.elimination, &many);
+    for n in [11, 4, 7, 11] {
+        let terms = springs(n);
+        let residual = |assembler: &mut Assembler| {
+            let mut out = Assembly::default();
+            let (e, order) = (&scene.elimination, Order::Residual);
+            let done = assembler.assemble(&layout, e, &terms, &scene.state, order, &mut out);
+            done.unwrap();
+            out.residual
+        };
+        assembler.begin_increment(&terms);
+        let mut fresh = Assembler::new(&layout, &scene.elimination, &terms);
+        let wanted = residual(&mut fresh);
+        assert!(wanted.iter().any(|r| r.abs() > 0.1));
+        assert_eq!(residual(&mut assembler), wanted, "{n}");
+    }
+}
+
+#[test]
 fn three_full_turns_bring_the_nodes_back() {
     for (ndim, axis) in [
         (2, Vec3::unit(2)),

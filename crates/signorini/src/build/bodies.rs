@@ -103,8 +103,8 @@ fn body_part(
             space: super::own_idealisation(&case.model, body),
             linear_temperatures: body.temperatures == Temperatures::Linear,
             at_nodes: match body.at_nodes {
-                case::AtNodes::Fitted => AtNodes::Fitted,
-                case::AtNodes::Interpolated => AtNodes::Interpolated,
+                case::AtNodes::Linear => AtNodes::Linear,
+                case::AtNodes::Element => AtNodes::Element,
             },
             initial: initial(case, names, &cells),
         },

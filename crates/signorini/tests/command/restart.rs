@@ -68,13 +68,62 @@ fn assert_same(reference: &[(String, Vec<u8>)], folder: &TempDir, why: &str) {
     }
 }
 
+/// A block that slides over another with friction, its facets cut in every increment.
+fn sliding() -> String {
+    let mut nodes = String::new();
+    for (first, [x, y, z], l) in [(1, [0.0, 0.0, 0.0], 2.0), (28, [0.3, 0.2, 2.0], 1.0)] {
+        for k in 0..27 {
+            let at = |from: f64, i: i32| from + 0.5 * l * f64::from(i);
+            let (x, y, z) = (at(x, k % 3), at(y, k / 3 % 3), at(z, k / 9));
+            nodes += &format!("[{}, {x:?}, {y:?}, {z:?}], ", first + k);
+        }
+    }
+    let mut elements = String::new();
+    for (first, group) in [(1, "lower"), (28, "upper")] {
+        for k in 0..8 {
+            let corner = first + k % 2 + 3 * (k / 2 % 2) + 9 * (k / 4);
+            let around = [0, 1, 4, 3, 9, 10, 13, 12].map(|n: i32| corner + n);
+            elements += &format!(
+                "{{ id = {}, type = \"hex8\", group = \"{group}\", nodes = {around:?} }}, ",
+                (first / 28) * 8 + k + 1
+            );
+        }
+    }
+    let faces =
+        |cells: [i32; 4], side: &str| cells.map(|c| format!("[{c}, \"{side}\"]")).join(", ");
+    let (foot, top) = (faces([9, 10, 11, 12], "-z"), faces([5, 6, 7, 8], "+z"));
+    format!(
+        "format = 1\nunits = \"m-MN-MPa\"\n[mesh]\nnodes = [{nodes}]\nelements = [{elements}]\n\
+         [sets]\nbase = {{ nodes = [1, 2, 3, 4, 5, 6, 7, 8, 9] }}\n\
+         head = {{ nodes = [46, 47, 48, 49, 50, 51, 52, 53, 54] }}\n\
+         foot = {{ faces = [{foot}] }}\ntop = {{ faces = [{top}] }}\n\
+         [material.soft]\nmodel = \"saint-venant-kirchhoff\"\nE = 500.0\nnu = 0.3\n\
+         [[body]]\ngroup = \"lower\"\nmaterial = \"soft\"\n\
+         [[body]]\ngroup = \"upper\"\nmaterial = \"soft\"\n\
+         [[contact]]\nname = \"foot\"\nsecondary = \"foot\"\nprimary = \"top\"\n\
+         method = \"gauss-point\"\nrule = {{ cut = true }}\nsliding = \"increment\"\n\
+         enforcement = {{ penalty = 1e4, per = \"area\" }}\nfriction = 0.2\n\
+         [output]\nformat = [\"vtu\", \"frd\"]\n[checkpoint]\nevery = {{ increments = 7 }}\n\
+         [[step]]\nname = \"slide\"\ngeometry = \"nonlinear\"\nincrements = {{ fixed = {INCREMENTS} }}\n\
+         [[step.fix]]\non = \"base\"\nu = \"all\"\n\
+         [[step.move]]\non = \"head\"\nuz = {{ table = [[0, 0], [0.2, -0.02], [1, -0.02]] }}\n\
+         ux = {{ table = [[0, 0], [0.2, 0], [1, 0.7]] }}\nuy = 0.0\n"
+    )
+}
+
 #[test]
 fn f64_a_run_killed_at_any_moment_and_resumed_is_the_same_run_bit_by_bit() {
-    let whole = folder_with(&case());
+    is_the_same(&case(), &[vec![2], vec![9], vec![30], vec![45, 52]]);
+    is_the_same(&sliding(), &[vec![9], vec![30, 45]]);
+}
+
+/// Runs a case whole, and killed at each of these moments.
+fn is_the_same(case: &str, all_moments: &[Vec<usize>]) {
+    let whole = folder_with(case);
     run(whole.path(), &["run", "case.toml", "-q"]).says(0, &[]);
     let reference = results(&whole);
-    for moments in [vec![2], vec![9], vec![30], vec![45, 52]] {
-        let folder = folder_with(&case());
+    for moments in all_moments {
+        let folder = folder_with(case);
         let mut child = start(&folder);
         for (number, &moment) in moments.iter().enumerate() {
             wait_for(&folder, moment, &mut child);

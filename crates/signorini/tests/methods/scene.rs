@@ -21,7 +21,7 @@ pub const SLIDE: f64 = 0.2;
 /// A way to compare two sides: its name, its keys.
 pub type Choice = (&'static str, &'static str);
 
-pub const METHODS: [Choice; 13] = [
+pub const METHODS: [Choice; 14] = [
     ("auto", "method = \"auto\""),
     ("node-to-node", "method = \"node-to-node\""),
     (
@@ -53,6 +53,10 @@ pub const METHODS: [Choice; 13] = [
     (
         "gauss-point, small sliding",
         "method = \"gauss-point\"\nsliding = \"small\"",
+    ),
+    (
+        "gauss-point, facets cut in every increment",
+        "method = \"gauss-point\"\nrule = { cut = true }\nsliding = \"increment\"",
     ),
     ("mortar", "method = \"mortar\""),
     (

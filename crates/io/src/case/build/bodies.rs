@@ -246,8 +246,8 @@ impl Builder {
                 _ => Temperatures::Full,
             },
             at_nodes: match fields.text("at_nodes").value.as_str() {
-                "interpolated" => AtNodes::Interpolated,
-                _ => AtNodes::Fitted,
+                "element" => AtNodes::Element,
+                _ => AtNodes::Linear,
             },
             area: fields.number_if("area"),
             small_strain: fields.text("strain").value == "small",

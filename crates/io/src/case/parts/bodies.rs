@@ -154,9 +154,9 @@ pub enum Temperatures {
 pub enum AtNodes {
     /// By the linear field that comes closest to them.
     #[default]
-    Fitted,
-    /// By a field that has their values, where there are as many points as a quadratic element has nodes.
-    Interpolated,
+    Linear,
+    /// By the field of its own shape functions that comes closest to them, where it has as many points as nodes.
+    Element,
 }
 
 /// Axes of a material: x, and y in the plane of both vectors. Of any length, not parallel.

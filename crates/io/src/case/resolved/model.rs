@@ -233,8 +233,8 @@ pub(super) fn body(body: &Body) -> Entries {
         Temperatures::Linear => "linear",
     };
     let at_nodes = match body.at_nodes {
-        AtNodes::Fitted => "fitted",
-        AtNodes::Interpolated => "interpolated",
+        AtNodes::Linear => "linear",
+        AtNodes::Element => "element",
     };
     entries.extend([
         ("temperatures", temperatures.into()),

@@ -216,11 +216,11 @@ pub(super) static BODY: Table = Table {
         .or(Default::Text("full")),
         key(
             "at_nodes",
-            Shape::Choice(&[word("fitted"), word("interpolated")]),
-            "how stresses at points are carried to nodes: by the closest linear field, or the quadratic one through all points, \
-             where quad8, quad9, hex20 and hex27 have full integration",
+            Shape::Choice(&[word("linear"), word("element")]),
+            "how stresses at points are carried to nodes: by the closest linear field, or that of the element's own shape \
+             functions, where it has as many points: quad8, quad9, hex20 and hex27 with full integration",
         )
-        .or(Default::Text("fitted")),
+        .or(Default::Text("linear")),
         key(
             "area",
             NOT_NEGATIVE,

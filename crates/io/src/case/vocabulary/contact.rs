@@ -150,7 +150,8 @@ static RULE: Table = Table {
         key(
             "cut",
             Shape::Flag,
-            "whether facets are cut at the start where facets of the other side end; what both share has points of its own",
+            "whether facets are cut where facets of the other side end; what both share has points of its own; with \
+             sliding = \"increment\" in every increment, else at the start",
         )
         .or(Default::Flag(false)),
     ],

@@ -355,7 +355,7 @@ impl Translation {
                 space: None,
                 thickness,
                 temperatures: Temperatures::Full,
-                at_nodes: AtNodes::Fitted,
+                at_nodes: AtNodes::Linear,
                 area: is_bar.then(|| Spanned::from(section.area)),
                 small_strain: small,
                 rigid: false,

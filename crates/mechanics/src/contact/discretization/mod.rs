@@ -15,10 +15,10 @@ pub mod nodes;
 pub mod points;
 pub mod projected;
 
-pub use cut::cut;
+pub use cut::{Cutter, FacetPoints};
 pub use mortar::Mortar;
 pub use nodes::{NodeNormals, NodeToNode};
-pub use points::{PointToSegment, SlidingRange};
+pub use points::{OnFacet, PointToSegment, SlidingRange, areas_inside};
 
 use super::mortar::Weights;
 use super::row::{Rows, Wanted};
@@ -133,15 +133,31 @@ pub struct Anchored {
 
 /// A way to compare two sides.
 pub trait Discretization: Send + Sync {
-    /// The number of rows, fixed: the key of history and multipliers.
+    /// The number of rows, the key of history and multipliers; fixed but for [`Discretization::renew`].
     fn nrow(&self) -> usize;
 
     /// The point of a row; what the search looks around.
     fn point(&self, row: usize) -> Point<'_>;
 
-    /// The facet of the secondary side that each row's point is inside of; `None` where points are nodes.
-    fn inside(&self) -> Option<&[u32]> {
+    /// Where each row's point is inside a facet of the secondary side; `None` where points are nodes.
+    fn inside(&self) -> Option<&[OnFacet]> {
         None
+    }
+
+    /// Makes its rows anew for an increment that begins at the positions `x`; tells of each the row before that it
+    /// continues, if there is one. `None` where they stay as they are.
+    fn renew(&mut self, _pair: &SurfacePair, _x: &[Vec3]) -> Option<Vec<Option<u32>>> {
+        None
+    }
+
+    /// What renewed rows are made of, for a checkpoint; empty where rows stay.
+    fn store(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Makes the rows that were stored; says whether these numbers are such.
+    fn restore(&mut self, _pair: &SurfacePair, stored: &[f64]) -> bool {
+        stored.is_empty()
     }
 
     /// Makes all discrete choices at a configuration. `last` holds the choices of a moment ago, as hints.

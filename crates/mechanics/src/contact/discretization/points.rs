@@ -1,12 +1,12 @@
 //! Points of the secondary side, its nodes or points inside its facets, against segments of the primary side. They
 //! differ in nothing but the points.
 
-use super::cut::FacetPoints;
+use super::cut::{Cutter, FacetPoints};
 use super::projected::{Closest, Place, Point, closest};
 use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
 use crate::contact::row::{Rows, Wanted};
 use rayon::prelude::*;
-use signorini_geometry::element::Element;
+use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{
@@ -26,15 +26,76 @@ pub enum SlidingRange {
     Small,
 }
 
+/// A point inside a facet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OnFacet {
+    /// The facet.
+    pub facet: u32,
+    /// Where on it, in its parameters.
+    pub xi: Vec3,
+    /// Its weight: of the facet's measure in its parameters.
+    pub weight: f64,
+    /// Whether no facet of the other side is opposite, for the increment that it is made for.
+    pub apart: bool,
+}
+
+impl OnFacet {
+    const fn new(facet: u32, (xi, weight): (Vec3, f64), apart: bool) -> Self {
+        Self {
+            facet,
+            xi,
+            weight,
+            apart,
+        }
+    }
+}
+
+/// The points of all facets, cut at these positions, facet after facet.
+fn pieces(cutter: &Cutter, facets: &Facets, x: &[Vec3]) -> Vec<OnFacet> {
+    let mut points = Vec::new();
+    for (cut, facet) in cutter.points(facets, x).into_iter().zip(0..) {
+        let of = |apart| move |point| OnFacet::new(facet, point, apart);
+        points.extend(cut.met.into_iter().map(of(false)));
+        points.extend(cut.apart.into_iter().map(of(true)));
+    }
+    points
+}
+
+/// Numbers of a point inside a facet, in a checkpoint.
+const STORED: usize = 6;
+
+/// The area of each point inside facets at the positions `x`, times the `extent` across its facet.
+///
+/// # Errors
+/// A facet that has no normal.
+pub fn areas_inside(
+    facets: &Facets,
+    points: &[OnFacet],
+    x: &[Vec3],
+    extent: &dyn Fn(u32, Vec3) -> f64,
+) -> Result<Vec<f64>, SurfaceError> {
+    let area = |point: &OnFacet| {
+        let (shape, area) = facets.sample(x, point.facet, point.xi)?;
+        let nodes = facets.nodes(point.facet).iter().zip(shape);
+        let at: Vec3 = nodes
+            .map(|(&n, w)| x.get(n as usize).copied().unwrap_or_default() * w)
+            .sum();
+        Ok(point.weight * area * extent(point.facet, at))
+    };
+    points.iter().map(area).collect()
+}
+
 /// Every point of the secondary side against the closest facet.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub struct PointToSegment {
     // nodes of point k: nodes[first[k]..first[k + 1]]
     first: Vec<u32>,
     nodes: Vec<NodeId>,
     weights: Vec<f64>,
-    /// The facet that each point is inside of; `None` where points are nodes.
-    facets: Option<Vec<u32>>,
+    /// Where each point is inside a facet; `None` where points are nodes.
+    inside: Option<Vec<OnFacet>>,
+    /// Makes the points of each increment anew.
+    cutter: Option<Cutter>,
     /// On what closest points may lie.
     pub closest: Closest,
     /// How long points keep the tangent plane that they meet.
@@ -58,43 +119,48 @@ impl PointToSegment {
         }
     }
 
-    /// Points inside the facets, `rule` gives those of a facet with their weights; and the area of each point at the
-    /// positions `x`, times the `extent` across its facet.
-    ///
-    /// # Errors
-    /// A facet that has no normal.
-    pub fn inside(
-        facets: &Facets,
-        rule: impl Fn(u32, Element) -> FacetPoints,
-        x: &[Vec3],
-        extent: &dyn Fn(u32, Vec3) -> f64,
-    ) -> Result<(Self, Vec<f64>), SurfaceError> {
-        let mut points = Self {
-            first: vec![0],
-            ..Self::default()
-        };
-        let mut areas = Vec::new();
-        let mut of_facet = Vec::new();
+    /// Points inside the facets; `points` gives those of each.
+    #[must_use]
+    pub fn inside(facets: &Facets, points: impl Fn(u32, Element) -> FacetPoints) -> Self {
+        let mut found = Vec::new();
         for facet in 0..facets.nfacet() as u32 {
-            let element = facets.element(facet);
-            let rule = element.map_or_else(Vec::new, |element| rule(facet, element));
-            for (xi, weight) in rule {
-                let (shape, area) = facets.sample(x, facet, xi)?;
-                let nodes = facets.nodes(facet);
-                let at: Vec3 = nodes
-                    .iter()
-                    .zip(shape)
-                    .map(|(&n, w)| x.get(n as usize).copied().unwrap_or_default() * w)
-                    .sum();
-                points.nodes.extend_from_slice(nodes);
-                points.weights.extend_from_slice(&shape[..nodes.len()]);
-                points.first.push(points.nodes.len() as u32);
-                areas.push(weight * area * extent(facet, at));
-                of_facet.push(facet);
-            }
+            let of_facet = facets.element(facet).map(|element| points(facet, element));
+            let inside = of_facet.into_iter().flatten();
+            found.extend(inside.map(|point| OnFacet::new(facet, point, false)));
         }
-        points.facets = Some(of_facet);
-        Ok((points, areas))
+        let mut rows = Self::default();
+        rows.place(facets, found);
+        rows
+    }
+
+    /// Points inside facets that are cut, those of each increment where its tangent planes are those at its start.
+    #[must_use]
+    pub fn pieces(facets: &Facets, cutter: Cutter, x: &[Vec3]) -> Self {
+        let mut rows = Self::default();
+        rows.place(facets, pieces(&cutter, facets, x));
+        rows.cutter = Some(cutter);
+        rows
+    }
+
+    /// Has these points inside facets from now on.
+    fn place(&mut self, facets: &Facets, inside: Vec<OnFacet>) {
+        self.first.clear();
+        self.first.push(0);
+        self.nodes.clear();
+        self.weights.clear();
+        for point in &inside {
+            let nodes = facets.nodes(point.facet);
+            let mut shape = [0.0; MAX_FACET_NODES];
+            if let (Some(element), Some(shape)) =
+                (facets.element(point.facet), shape.get_mut(..nodes.len()))
+            {
+                element.shape(&point.xi, shape);
+                self.nodes.extend_from_slice(nodes);
+                self.weights.extend_from_slice(shape);
+            }
+            self.first.push(self.nodes.len() as u32);
+        }
+        self.inside = Some(inside);
     }
 }
 
@@ -153,8 +219,56 @@ impl Discretization for PointToSegment {
         }
     }
 
-    fn inside(&self) -> Option<&[u32]> {
-        self.facets.as_deref()
+    fn inside(&self) -> Option<&[OnFacet]> {
+        self.inside.as_deref()
+    }
+
+    fn renew(&mut self, pair: &SurfacePair, x: &[Vec3]) -> Option<Vec<Option<u32>>> {
+        let cutter = self.cutter.as_ref().filter(|_| self.renews())?;
+        let facets = pair.secondary.as_ref()?;
+        let points = pieces(cutter, facets, x);
+        let before = self.inside.as_deref().unwrap_or(&[]);
+        if points == before {
+            return None;
+        }
+        let closest = |point: &OnFacet| {
+            let first = before.partition_point(|p| p.facet < point.facet);
+            let of_facet = before[first..]
+                .iter()
+                .zip(first as u32..)
+                .take_while(|(p, _)| p.facet == point.facet);
+            let away = |p: &OnFacet| (p.xi - point.xi).norm_squared();
+            let closest = of_facet.min_by(|(a, _), (b, _)| away(a).total_cmp(&away(b)));
+            closest.map(|(_, row)| row)
+        };
+        let origins = points.iter().map(closest).collect();
+        self.place(facets, points);
+        Some(origins)
+    }
+
+    fn store(&self) -> Vec<f64> {
+        let inside = self.inside.iter().filter(|_| self.cutter.is_some());
+        let numbers = |p: &OnFacet| {
+            let apart = f64::from(u8::from(p.apart));
+            [f64::from(p.facet), p.xi.x, p.xi.y, p.xi.z, p.weight, apart]
+        };
+        inside.flatten().flat_map(numbers).collect()
+    }
+
+    fn restore(&mut self, pair: &SurfacePair, stored: &[f64]) -> bool {
+        let Some(facets) = pair.secondary.as_ref().filter(|_| self.cutter.is_some()) else {
+            return stored.is_empty();
+        };
+        let (points, rest) = stored.as_chunks::<STORED>();
+        let nfacet = facets.nfacet() as f64;
+        if !rest.is_empty() || points.iter().any(|p| !(0.0..nfacet).contains(&p[0])) {
+            return false;
+        }
+        let point = |&[facet, x, y, z, weight, apart]: &[f64; STORED]| {
+            OnFacet::new(facet as u32, (Vec3::new(x, y, z), weight), apart != 0.0)
+        };
+        self.place(facets, points.iter().map(point).collect());
+        true
     }
 
     fn renews(&self) -> bool {
@@ -171,7 +285,15 @@ impl Discretization for PointToSegment {
     ) -> Result<(), SurfaceError> {
         out.pairs.resize(self.nrow(), None);
         let surface = pair.primary.as_ref();
+        let apart = |row: usize| {
+            let inside = self.inside.as_ref().and_then(|points| points.get(row));
+            self.renews() && inside.is_some_and(|point| point.apart)
+        };
         let choose = |row: usize, found: &mut Option<Pair>| {
+            if apart(row) {
+                *found = None;
+                return Ok(());
+            }
             let before = last.pairs.get(row).copied().flatten();
             let point = self.point(row).position(at);
             let mut jet = SurfaceJet::default();

@@ -2,10 +2,10 @@
 
 use super::pairing::Coupled;
 use super::{
-    Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, State, TermError,
-    Verdict,
+    Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, Shift, State,
+    TermError, Verdict,
 };
-use crate::contact::discretization::{Anchored, NOWHERE, Pair};
+use crate::contact::discretization::{Anchored, NOWHERE, Pair, Pairing};
 use crate::contact::friction::Stick;
 use crate::contact::kernel::Past;
 use crate::contact::row::{Row, RowOrder};
@@ -117,10 +117,92 @@ const JUDGED: usize = 3;
 impl Interface {
     /// Areas at this configuration.
     pub(super) fn measure_again(&mut self, at: &Placement) -> Result<(), SurfaceError> {
-        if let Some(areas) = &self.parts.present_area {
-            self.parts.area = areas(at.x)?;
+        if let Some(areas) = &self.parts.areas {
+            self.parts.area = areas(self.parts.discretization.as_ref(), at.x)?;
         }
         Ok(())
+    }
+
+    /// Has so many rows, of which nothing is known.
+    fn resize(&mut self, nrow: usize) {
+        let nothing = Pairing::nothing(nrow);
+        for pairing in [
+            &mut self.now,
+            &mut self.next,
+            &mut self.accepted,
+            &mut self.before,
+        ] {
+            pairing.clone_from(&nothing);
+        }
+        self.judged = vec![Judged::default(); nrow];
+        self.accepted_judged.clone_from(&self.judged);
+        self.changes = vec![0; nrow];
+        self.near.search.forget();
+    }
+
+    /// Rows that are made anew for each increment: they go on with what those before them remember, and meet what is
+    /// near now.
+    pub(super) fn renew_rows(&mut self, from: &State) -> Result<(), TermError> {
+        if self.parts.bond.is_some() {
+            return Ok(());
+        }
+        let at = from.placement();
+        self.history.begin();
+        let stretched = self.stretched(from)?;
+        let parts = &mut self.parts;
+        let Some(origins) = parts.discretization.renew(&parts.pair, at.x) else {
+            return Ok(());
+        };
+        self.resize(origins.len());
+        self.search(&at).map_err(|e| self.failed(&e))?;
+        self.accepted.clone_from(&self.now);
+        // what is coupled is known from these rows alone, in a run that was resumed, too
+        self.sees_others = true;
+        let of = |origin: &Option<u32>| origin.map(|row| row as usize);
+        if !self.parts.shifts.is_empty() {
+            let shift = |o| of(o).and_then(|row| self.parts.shifts.get(row).copied());
+            self.parts.shifts = origins
+                .iter()
+                .map(|o| shift(o).unwrap_or_default())
+                .collect();
+        }
+        let mut accepted = Vec::with_capacity(origins.len());
+        for (row, origin) in origins.iter().enumerate() {
+            let before = of(origin).and_then(|k| self.history.accepted.get(k).copied());
+            let mut memory = before.unwrap_or_default();
+            memory.anchor = match (memory.anchor, &self.now.pairs[row]) {
+                (Some(_), Some(found)) => {
+                    let slip = of(origin).and_then(|k| stretched.get(k).copied());
+                    let discretization = self.parts.discretization.as_ref();
+                    let pair = &self.parts.pair;
+                    let sticks =
+                        discretization.anchor(row, pair, &at, found, slip.unwrap_or_default());
+                    Some(sticks.map_err(|e| self.failed(&e))?)
+                }
+                _ => None,
+            };
+            accepted.push(memory);
+        }
+        self.history.accepted = accepted;
+        self.history.begin();
+        self.measure_again(&at).map_err(|e| self.failed(&e))?;
+        self.judge(from)?;
+        self.accepted_judged.clone_from(&self.judged);
+        Ok(())
+    }
+
+    /// How far each row is from where it sticks; empty without friction.
+    fn stretched(&self, from: &State) -> Result<Vec<Vec3>, TermError> {
+        if self.laws().friction.is_none() {
+            return Ok(Vec::new());
+        }
+        let mut rows = Rows::default();
+        let mut slips = Vec::with_capacity(self.now.pairs.len());
+        for row in 0..self.now.pairs.len() {
+            self.fill(row, from, RowOrder::Gradient, &mut rows)?;
+            slips.push(rows.rows().first().map_or(Vec3::ZERO, |r| r.sliding.slip));
+        }
+        Ok(slips)
     }
 
     /// Multipliers that are frozen become the tractions of the solution found with them.
@@ -318,12 +400,27 @@ impl Interface {
             &[self.history.work, started, first[0], first[1], first[2]],
         );
         out.put(name("area"), &self.parts.area);
+        out.put(name("points"), &self.parts.discretization.store());
+        let shifts = self.parts.shifts.iter();
+        let shifts: Vec<f64> = shifts.flat_map(|s| [s.constant, s.fading]).collect();
+        out.put(name("shifts"), &shifts);
     }
 
     pub(super) fn restore(&mut self, from: &Archive) -> Result<(), ArchiveError> {
         let stored = self.stored_name();
         let name = |what: &str| format!("contact.{stored}.{what}");
-        let nrow = self.accepted.pairs.len();
+        let mut points = vec![0.0; from.length(&name("points"))?];
+        from.get(&name("points"), &mut points)?;
+        let parts = &mut self.parts;
+        if !parts.discretization.restore(&parts.pair, &points) {
+            return Err(ArchiveError::Length {
+                name: name("points"),
+                found: points.len(),
+                expected: parts.discretization.store().len(),
+            });
+        }
+        let nrow = parts.discretization.nrow();
+        self.resize(nrow);
         let mut values = vec![0.0; nrow * PAIR];
         from.get(&name("pairs"), &mut values)?;
         let pairs = values.chunks_exact(PAIR).map(pair_from_numbers);
@@ -356,8 +453,14 @@ impl Interface {
             ..self.step
         });
         let mut area = std::mem::take(&mut self.parts.area);
+        area.resize(if area.is_empty() { 0 } else { nrow }, 0.0);
         from.get(&name("area"), &mut area)?;
         self.parts.area = area;
+        let mut shifts = vec![0.0; from.length(&name("shifts"))?];
+        from.get(&name("shifts"), &mut shifts)?;
+        let (shifts, _) = shifts.as_chunks();
+        let shift = |&[constant, fading]: &[f64; 2]| Shift { constant, fading };
+        self.parts.shifts = shifts.iter().map(shift).collect();
         self.now.pairs.clone_from(&self.accepted.pairs);
         self.resumed = self.started;
         self.history.begin();

@@ -72,7 +72,8 @@ pub enum Allowance {
 }
 
 /// Tributary areas of all rows, from the positions of all nodes.
-pub type Areas = Box<dyn Fn(&[Vec3]) -> Result<Vec<f64>, SurfaceError> + Send + Sync>;
+pub type Areas =
+    Box<dyn Fn(&dyn Discretization, &[Vec3]) -> Result<Vec<f64>, SurfaceError> + Send + Sync>;
 
 /// What an interface is made of.
 pub struct InterfaceParts {
@@ -98,8 +99,8 @@ pub struct InterfaceParts {
     pub measure: Measure,
     /// Tributary area of each row; empty where the secondary side has none.
     pub area: Vec<f64>,
-    /// Areas from the positions of all nodes, where they are those of the last accepted state.
-    pub present_area: Option<Areas>,
+    /// Tributary areas at the start of each increment, where they change.
+    pub areas: Option<Areas>,
     /// The numbers the law scales with.
     pub scale: Scale,
     /// What is added to the gap of each row; empty where nothing is.
@@ -137,7 +138,7 @@ impl InterfaceParts {
             bond_tangential: None,
             measure: Measure::Node,
             area: Vec::new(),
-            present_area: None,
+            areas: None,
             scale: Scale {
                 penalty,
                 length: 1.0,
@@ -495,6 +496,7 @@ impl Term for Interface {
             self.sees_others = false;
             self.accepted.clone_from(&self.now);
         }
+        self.renew_rows(from)?;
         if renews || self.parts.bond_tangential.is_some() {
             self.let_go();
             self.search(&at).map_err(|e| self.failed(&e))?;

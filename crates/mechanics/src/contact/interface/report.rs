@@ -5,7 +5,7 @@ use super::{
 };
 use crate::contact::kernel::{Lambda, Traction};
 use crate::contact::row::Row;
-use crate::system::{ContactFrame, ContactSample, Frame, Resultant, Status};
+use crate::system::{ContactFrame, ContactSample, Footprint, Frame, Resultant, Status};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::{Carrier, ContactSurface, Facets, SurfaceJet};
@@ -78,6 +78,16 @@ impl ContactSample {
             self.pressure /= self.area;
             self.traction = self.traction / self.area;
             self.slip = self.slip / self.area;
+        }
+        self.normal = self.normal.normalized().unwrap_or_default();
+    }
+}
+
+impl Footprint {
+    /// Sums become means.
+    fn divide(&mut self) {
+        if self.area > 0.0 {
+            self.center = self.center / self.area;
         }
         self.normal = self.normal.normalized().unwrap_or_default();
     }
@@ -168,17 +178,20 @@ impl Interface {
             // shares of a point's area: those of a lumped mass
             let squares: f64 = point.weights.iter().map(|w| w * w).sum();
             let weight = pressure * area;
-            centre.0 += point.position(&state.placement()) * weight;
+            let place = point.position(&state.placement());
+            centre.0 += place * weight;
             centre.1 += weight;
+            if let Some(of_row) = of_row.as_ref().filter(|_| status.is_closed()) {
+                report.footprint.area += area;
+                report.footprint.center += place * area;
+                report.footprint.normal += of_row.normal * area;
+            }
             for (node, shape) in point.nodes.iter().zip(point.weights) {
                 let Ok(k) = self.parts.pair.points.binary_search(node) else {
                     continue;
                 };
                 let share = area * shape * shape / squares;
                 report.area[k] += share;
-                if status.is_closed() {
-                    report.closed_area[k] += share;
-                }
                 report.energy[k] += energy * shape * shape / squares;
                 if let Some(of_row) = &of_row {
                     means.add(k, area * shape * shape, of_row);
@@ -220,7 +233,6 @@ impl Interface {
         for k in hosted {
             // they are parts of those of its host
             report.area[k] = 0.0;
-            report.closed_area[k] = 0.0;
         }
         if let Some(first) = first.and_then(|c| frame.contacts.get_mut(c)) {
             for k in 0..first.nodes.len() {
@@ -233,6 +245,7 @@ impl Interface {
         if centre.1 > 0.0 {
             report.center = centre.0 / centre.1;
         }
+        report.footprint.divide();
         report.gap_min = gap_min.unwrap_or(0.0);
         report.work_friction = self.history.work;
         match first.and_then(|c| frame.contacts.get_mut(c)) {
@@ -264,9 +277,9 @@ impl Interface {
     ) {
         let parts = &self.parts;
         let inside = parts.discretization.inside();
-        let facet = inside.and_then(|facets| facets.get(row));
+        let point = inside.and_then(|points| points.get(row));
         let secondary = parts.pair.secondary.as_ref();
-        let Some(face) = facet.and_then(|&facet| secondary?.face(facet)) else {
+        let Some(face) = point.and_then(|point| secondary?.face(point.facet)) else {
             return;
         };
         // rows of a face follow one another
@@ -399,7 +412,6 @@ impl Interface {
             energy: vec![0.0; n],
             faces: self.parts.discretization.inside().map(|_| Vec::new()),
             area: vec![0.0; n],
-            closed_area: vec![0.0; n],
             facet_size: self.parts.scale.length,
             ..ContactFrame::default()
         }

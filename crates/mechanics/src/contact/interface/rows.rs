@@ -21,7 +21,7 @@ impl Interface {
     }
 
     /// Fills a row; its gap is what the law sees.
-    fn fill(
+    pub(super) fn fill(
         &self,
         row: usize,
         trial: &State,

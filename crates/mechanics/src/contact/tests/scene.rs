@@ -4,7 +4,7 @@
 use super::super::discretization::projected::Closest;
 use super::super::discretization::{
     Anchored, Discretization, Mortar, NodeNormals, NodeToNode, PointToSegment, SlidingRange,
-    SurfacePair, mortar,
+    SurfacePair, areas_inside, mortar,
 };
 use super::super::friction::{FrictionLaw, Stick};
 use super::super::law::{ContactLaw, Scale};
@@ -289,10 +289,10 @@ impl Scene {
                 };
                 let facets = second.as_ref().unwrap();
                 let rule = |_, e| on_facet(e, &rule);
-                let (mut inside, areas) =
-                    PointToSegment::inside(facets, rule, &x, &|_, _| 1.0).unwrap();
+                let mut inside = PointToSegment::inside(facets, rule);
                 inside.closest = closest;
-                area = areas;
+                let points = Discretization::inside(&inside).unwrap();
+                area = areas_inside(facets, points, &x, &|_, _| 1.0).unwrap();
                 Box::new(inside)
             }
             _ => {

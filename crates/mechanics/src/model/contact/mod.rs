@@ -214,7 +214,7 @@ impl Context<'_> {
             bond_tangential: part.tie.and_then(|tie| tie.penalty_tangential),
             measure,
             area: sides.area,
-            present_area: sides.areas,
+            areas: sides.areas,
             scale: Scale { penalty, length },
             first_multiplier,
             gap_tolerance: steps.gap_tol * length,

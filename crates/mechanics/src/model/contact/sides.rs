@@ -2,7 +2,8 @@
 
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
-    Discretization, Mortar, NodeNormals, NodeToNode, Pair, Pairing, PointToSegment, SurfacePair,
+    Cutter, Discretization, Mortar, NodeNormals, NodeToNode, Pair, Pairing, PointToSegment,
+    SurfacePair, areas_inside,
 };
 use crate::contact::law::{
     Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
@@ -191,29 +192,32 @@ impl Source<'_> {
                     });
                 };
                 let spaces = self.spaces.behind(facets);
-                let pieces = primary.as_ref().filter(|_| rule.cut);
-                let pieces = pieces.map(|primary| {
-                    let rule = |element: Element| on_facet(rule, element);
-                    discretization::cut(facets, primary, self.reference, rule)
+                let points = move |element| on_facet(rule, element);
+                let cutter = primary.clone().filter(|_| rule.cut);
+                let cutter = cutter.map(|primary| Cutter {
+                    primary,
+                    rule: Box::new(points),
                 });
-                let points = move |facet: u32, element: Element| match &pieces {
-                    Some(pieces) => pieces.get(facet as usize).cloned().unwrap_or_default(),
-                    None => on_facet(rule, element),
+                let mut inside = match cutter {
+                    Some(cutter) => PointToSegment::pieces(facets, cutter, self.reference),
+                    None => PointToSegment::inside(facets, |_, element| points(element)),
                 };
-                let across = |facet, x| extent(&spaces, facet, x);
-                let (mut inside, area) =
-                    PointToSegment::inside(facets, &points, self.reference, &across)
-                        .map_err(surface_error)?;
                 inside.sliding = part.sliding;
                 if part.features.is_some() {
                     inside.closest = closest;
                 }
-                if let Some(facets) = present {
-                    areas = Some(Box::new(move |x| {
+                // pieces change, and so do areas where they are those of the start, too
+                let start = (rule.cut && present.is_none()).then(|| self.reference.to_vec());
+                let of_points: Areas = {
+                    let facets = facets.clone();
+                    Box::new(move |inside, x| {
                         let across = |facet, x| extent(&spaces, facet, x);
-                        Ok(PointToSegment::inside(&facets, &points, x, &across)?.1)
-                    }));
-                }
+                        let points = inside.inside().unwrap_or(&[]);
+                        areas_inside(&facets, points, start.as_deref().unwrap_or(x), &across)
+                    })
+                };
+                let area = of_points(&inside, self.reference).map_err(surface_error)?;
+                areas = Some(of_points).filter(|_| present.is_some() || rule.cut);
                 (Box::new(inside), area)
             }
             Method::Mortar(form) => {
@@ -273,7 +277,7 @@ impl Source<'_> {
     /// The areas of some nodes of these facets, wherever they are.
     fn present_areas(&self, facets: Facets, points: Vec<NodeId>) -> Areas {
         let spaces = self.spaces.behind(&facets);
-        Box::new(move |x| {
+        Box::new(move |_, x| {
             let areas = facets.lumped_areas(x, &|facet, x| extent(&spaces, facet, x))?;
             Ok(of_points(&points, &areas))
         })

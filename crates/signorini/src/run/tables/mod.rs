@@ -16,7 +16,7 @@ use signorini_io::writers::dat::{
 };
 use signorini_mechanics::solve::IncrementRecord;
 use signorini_mechanics::system::{
-    ContactFrame, ContactSample, Frame, PointSample, Resultant, RigidBody, SpinFrame,
+    ContactFrame, ContactSample, Footprint, Frame, PointSample, Resultant, RigidBody, SpinFrame,
 };
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
@@ -498,22 +498,18 @@ impl Writer<'_> {
                 continue;
             };
             let Resultant { force, moment } = of(contact);
-            let mut statistics = Statistics {
+            let Footprint {
+                area,
+                center,
+                normal,
+            } = contact.footprint;
+            let statistics = Statistics {
                 force: force * share,
                 moment: moment * share,
-                ..Statistics::default()
+                center,
+                normal: -normal,
+                area: area * share,
             };
-            let places = contact.points.iter().zip(&contact.normal);
-            for (&area, (x, normal)) in contact.closed_area.iter().zip(places) {
-                statistics.area += area;
-                statistics.center += *x * area;
-                statistics.normal -= *normal * area;
-            }
-            if statistics.area > 0.0 {
-                statistics.center = statistics.center / statistics.area;
-            }
-            statistics.normal = statistics.normal.normalized().unwrap_or_default();
-            statistics.area *= share;
             let (page, secondary) = (&mut self.page, &part.secondary);
             page.statistics(secondary, &part.primary, &statistics);
         }
