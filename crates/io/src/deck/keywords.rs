@@ -184,7 +184,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "reduced integration needs no controls here",
     ),
     ignored("SECTION FILE", "all fields are written anyway"),
-    refused("SECTION PRINT", "resultants of sections are not built"),
+    read("SECTION PRINT", "SURFACE; SOF, SOM, SOAREA"),
     refused("SHELL SECTION", "shells are not built"),
     read(
         "SOLID SECTION",

@@ -32,6 +32,8 @@ fn quantities(of: PrintOf) -> &'static [(&'static str, &'static str)] {
             ("CFN", "normal-force"),
             ("CFS", "shear-force"),
         ],
+        // one table has all of them
+        PrintOf::Faces => &[("SOF", "force"), ("SOM", "force"), ("SOAR", "force")],
     }
 }
 
@@ -41,6 +43,7 @@ impl Translation<'_> {
         let (of, parameter, kind) = match card.keyword.as_str() {
             "NODEPRINT" => (PrintOf::Nodes, "NSET", Kind::Nodes),
             "ELPRINT" => (PrintOf::Elements, "ELSET", Kind::Elements),
+            "SECTIONPRINT" => (PrintOf::Faces, "SURFACE", Kind::Surface),
             _ => (PrintOf::Contact, "SLAVE", Kind::Surface),
         };
         let on = if of == PrintOf::Contact {
@@ -66,6 +69,7 @@ impl Translation<'_> {
                 // four letters count: CDISP is CDIS
                 let letters: String = field.key().chars().take(4).collect();
                 match known.iter().find(|(name, _)| *name == letters) {
+                    Some(_) if of == PrintOf::Faces && !wanted.is_empty() => {}
                     Some((_, word)) => wanted.push(Spanned::new((*word).to_owned(), field.place())),
                     None => self.note(
                         format!("`{}` of *{} is not printed", field.text, card.keyword),

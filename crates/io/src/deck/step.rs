@@ -149,7 +149,9 @@ impl Translation<'_> {
                         self.change_behavior(of, card, &mut step);
                     }
                 }
-                "NODEPRINT" | "ELPRINT" | "CONTACTPRINT" => self.print(card, &mut step),
+                "NODEPRINT" | "ELPRINT" | "CONTACTPRINT" | "SECTIONPRINT" => {
+                    self.print(card, &mut step)
+                }
                 _ => {}
             }
         }

@@ -44,6 +44,7 @@ mod following_pressure;
 mod local;
 mod nodal_forces;
 mod region;
+mod section;
 pub mod spread;
 #[cfg(test)]
 mod tests;
@@ -53,3 +54,4 @@ pub use course::{Course, Schedule};
 pub use following_pressure::FollowingPressure;
 pub use nodal_forces::NodalForces;
 pub use region::Region;
+pub use section::Section;

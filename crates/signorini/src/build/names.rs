@@ -383,6 +383,17 @@ impl<'a> Names<'a> {
         }
     }
 
+    /// The faces of a section: those that the set names, which may lie inside a body; else as of [`Names::faces`].
+    pub fn section(&self, name: &Name, found: &mut Diagnostics) -> Option<Vec<Face>> {
+        let set = self.get(name, found)?;
+        if set.faces.is_empty() || !set.cells.is_empty() {
+            return self.faces(name, "a section", found);
+        }
+        let mut seen = BTreeSet::new();
+        let faces = set.faces.iter().copied();
+        Some(faces.filter(|face| seen.insert(*face)).collect())
+    }
+
     /// The faces of a cut through a body, which lie inside it: those of the set as it names them, and those under its
     /// surface elements on the side that a normal points away from.
     pub fn cut(

@@ -3,7 +3,7 @@
 use super::names::Names;
 use super::quoted;
 use crate::run::element_named;
-use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{self, Case, Name, PrintOf, Space, Totals};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
@@ -34,6 +34,8 @@ pub enum PrintedOf {
     Elements(Vec<CellId>, Vec<ElementQuantity>),
     /// Of contacts.
     Contacts(Vec<PrintedContact>, Vec<ContactQuantity>),
+    /// Of faces, with what the plane stands for at each: the resultant of stresses on all of them.
+    Faces(Vec<(Face, Idealisation)>),
 }
 
 /// A contact that is printed.
@@ -174,7 +176,7 @@ pub(super) fn wanted(
                     }
                 }
             }
-            PrintedOf::Contacts(..) => {}
+            PrintedOf::Contacts(..) | PrintedOf::Faces(_) => {}
         }
     }
     let expected = case.expectations.iter();
@@ -222,6 +224,10 @@ fn printed(
         PrintOf::Contact => {
             let quantities = quantities(&one.quantities, &OF_CONTACTS, found);
             PrintedOf::Contacts(contacts(on, case, found)?, quantities)
+        }
+        PrintOf::Faces => {
+            let faces = names.section(on?, found)?;
+            PrintedOf::Faces(faces.iter().map(|f| (*f, names.plane(f.cell))).collect())
         }
     };
     let axes = match &what {

@@ -48,3 +48,9 @@ fn overlaps_fade_and_feet_turn_back_as_in_calculix() {
 fn nodes_near_a_surface_are_printed_as_in_calculix() {
     agrees(&own("names.inp"), "", Compat::Ccx, 1e-3);
 }
+
+/// Resultants of stresses on faces inside a body, from either side.
+#[test]
+fn sections_are_printed_as_in_calculix() {
+    agrees(&own("section.inp"), "", Compat::Ccx, 1e-4);
+}

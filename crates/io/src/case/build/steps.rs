@@ -298,7 +298,12 @@ impl Builder {
 }
 
 fn print(fields: Fields<'_>, place: Place) -> Print {
-    let kinds = [PrintOf::Nodes, PrintOf::Elements, PrintOf::Contact];
+    let kinds = [
+        PrintOf::Nodes,
+        PrintOf::Elements,
+        PrintOf::Contact,
+        PrintOf::Faces,
+    ];
     let given = kinds.into_iter().find(|of| fields.has(of.key()));
     let of = given.unwrap_or(PrintOf::Nodes);
     Print {

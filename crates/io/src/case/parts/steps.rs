@@ -301,6 +301,8 @@ pub enum PrintOf {
     /// Contact: `gap`, `traction` and `energy` at the points of the secondary side, the `count` of closed ones;
     /// `force`, `normal-force`, `shear-force` of a whole contact.
     Contact,
+    /// Faces, inside a body or around it: the `force` of stresses on all of them.
+    Faces,
 }
 
 impl PrintOf {
@@ -310,6 +312,7 @@ impl PrintOf {
             Self::Nodes => "nodes",
             Self::Elements => "elements",
             Self::Contact => "contact",
+            Self::Faces => "faces",
         }
     }
 }

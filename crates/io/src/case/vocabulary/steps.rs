@@ -312,7 +312,7 @@ static PRINT: Table = Table {
         key(
             "on",
             Shape::Text,
-            "the set or group of nodes or elements, or the contact; absent: every contact",
+            "the set or group of nodes, elements or faces, or the contact; absent: every contact",
         )
         .hints(&["set", "group", "name"]),
         key(
@@ -332,6 +332,12 @@ static PRINT: Table = Table {
             Shape::List(&Shape::Choice(OF_CONTACTS), 1, MANY),
             "quantities of contact, at the points of its secondary side or in all",
         ),
+        key(
+            "faces",
+            Shape::List(&Shape::Choice(OF_FACES), 1, MANY),
+            "quantities of faces, inside a body or around it: force and moment of the stresses at their nodes",
+        )
+        .hints(&["section", "face"]),
         key(
             "totals",
             Shape::Choice(&[word("no"), word("yes"), word("only")]),
@@ -353,9 +359,10 @@ static PRINT: Table = Table {
         .hints(&["frequency"]),
     ],
     rules: &[
-        Rule::ExactlyOne(&["nodes", "elements", "contact"]),
+        Rule::ExactlyOne(&["nodes", "elements", "contact", "faces"]),
         Rule::Needs("nodes", "on"),
         Rule::Needs("elements", "on"),
+        Rule::Needs("faces", "on"),
     ],
 };
 
@@ -370,6 +377,7 @@ const OF_ELEMENTS: &[Choice] = &[
     word("volume"),
     word("spin-squared"),
 ];
+const OF_FACES: &[Choice] = &[word("force")];
 const OF_CONTACTS: &[Choice] = &[
     word("gap"),
     word("traction"),

@@ -52,19 +52,25 @@ impl ContactKind {
     }
 }
 
-/// What one side of a contact feels.
+/// What the secondary side of a contact feels, or faces of a section.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Force on the secondary side.
+    /// Force on it.
     pub force: Vec3,
     /// Its moment about the origin.
     pub moment: Vec3,
-    /// Centre of the closed area.
+    /// Centre of the area.
     pub center: Vec3,
-    /// Mean normal out of the secondary side.
+    /// Mean normal out of the body.
     pub normal: Vec3,
-    /// Closed area.
+    /// Area: of a contact, what is closed.
     pub area: f64,
+}
+
+impl Statistics {
+    fn about_center(&self) -> Vec3 {
+        self.moment - self.center.cross(self.force)
+    }
 }
 
 impl Page {
@@ -82,35 +88,63 @@ impl Page {
 
     /// Adds the resultants of a contact between these two sides.
     pub fn statistics(&mut self, secondary: &str, primary: &str, of: &Statistics) {
-        let time = std::mem::take(&mut self.time);
         let [secondary, primary] = [secondary, primary].map(str::to_ascii_uppercase);
-        self.line(format_args!(
-            "\n\n statistics for slave set {secondary}, master set {primary} and time {time}"
-        ));
-        self.time = time;
-        let along = of.force.dot(of.normal);
-        let lines: [(&str, &[Vec3]); 4] = [
-            (
-                "total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)",
-                &[of.force, of.moment],
-            ),
-            ("center of gravity and mean normal", &[of.center, of.normal]),
-            (
-                "moment about the center of gravity(mx,my,mz)",
-                &[of.moment - of.center.cross(of.force)],
-            ),
+        let sides = format!("slave set {secondary}, master set {primary}");
+        self.resultants(
+            &sides,
+            of,
+            "total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)",
             (
                 "area,  normal force (+ = tension) and shear force (size)",
-                &[Vec3::new(
-                    of.area,
-                    along,
-                    (of.force - of.normal * along).norm(),
-                )],
+                &[],
             ),
+        );
+    }
+
+    /// Adds the resultants of stresses on these faces.
+    pub fn section(&mut self, faces: &str, of: &Statistics) {
+        let faces = format!("surface set {}", faces.to_ascii_uppercase());
+        let moment = of.about_center();
+        let torque = moment.dot(of.normal);
+        let bending = (moment - of.normal * torque).norm();
+        self.resultants(
+            &faces,
+            of,
+            "total surface force (fx,fy,fz) and moment about the origin(mx,my,mz)",
+            (
+                "area, normal force (+ = tension), shear force (size), torque and bending moment (size)",
+                &[torque, bending],
+            ),
+        );
+    }
+
+    fn resultants(
+        &mut self,
+        on: &str,
+        of: &Statistics,
+        force: &str,
+        (sizes, more): (&str, &[f64]),
+    ) {
+        let time = std::mem::take(&mut self.time);
+        self.line(format_args!("\n\n statistics for {on} and time {time}"));
+        self.time = time;
+        let both = |a: Vec3, b: Vec3| [a.to_array(), b.to_array()].concat();
+        let along = of.force.dot(of.normal);
+        let across = (of.force - of.normal * along).norm();
+        let lines = [
+            (force, both(of.force, of.moment)),
+            (
+                "center of gravity and mean normal",
+                both(of.center, of.normal),
+            ),
+            (
+                "moment about the center of gravity(mx,my,mz)",
+                of.about_center().to_array().to_vec(),
+            ),
+            (sizes, [&[of.area, along, across], more].concat()),
         ];
-        for (caption, vectors) in lines {
+        for (caption, numbers) in lines {
             self.line(format_args!("\n   {caption}\n"));
-            let numbers: Vec<f64> = vectors.iter().flat_map(|v| v.to_array()).collect();
             self.row(Of::Both, &numbers);
         }
     }

@@ -11,9 +11,11 @@ use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::{Carrier, ContactSurface, Facets, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
-/// Sums over the rows around each node, with their areas and the squares of their shape functions as weights.
+/// Sums over the rows around each node, with its shares of their areas as weights.
 struct Means {
+    /// Of rows that meet something, and of all: pressures are means over these, too, so that they add up to the force.
     weight: Vec<f64>,
+    whole: Vec<f64>,
     normal: Vec<Vec3>,
     gap: Vec<f64>,
     pressure: Vec<f64>,
@@ -37,6 +39,7 @@ impl Means {
     fn new(n: usize) -> Self {
         Self {
             weight: vec![0.0; n],
+            whole: vec![0.0; n],
             normal: vec![Vec3::ZERO; n],
             gap: vec![0.0; n],
             pressure: vec![0.0; n],
@@ -48,6 +51,7 @@ impl Means {
 
     fn add(&mut self, k: usize, weight: f64, row: &OfRow) {
         self.weight[k] += weight;
+        self.whole[k] += weight;
         self.normal[k] += row.normal * weight;
         self.gap[k] += weight * row.gap;
         self.pressure[k] += weight * row.pressure;
@@ -56,14 +60,20 @@ impl Means {
         self.elastic_slip[k] += row.elastic_slip * weight;
     }
 
+    /// A row that meets nothing.
+    fn add_nothing(&mut self, k: usize, weight: f64) {
+        self.whole[k] += weight;
+    }
+
     /// The means themselves, where there are any.
     fn of(&self, k: usize) -> Option<OfRow> {
         let weight = self.weight.get(k).copied().filter(|w| *w > 0.0)?;
+        let whole = self.whole[k];
         Some(OfRow {
             normal: self.normal[k].normalized().unwrap_or_default(),
             gap: self.gap[k] / weight,
-            pressure: self.pressure[k] / weight,
-            traction: self.traction[k] / weight,
+            pressure: self.pressure[k] / whole,
+            traction: self.traction[k] / whole,
             slip: self.slip[k] / weight,
             elastic_slip: self.elastic_slip[k] / weight,
         })
@@ -105,6 +115,7 @@ impl Interface {
         let mut centre = (Vec3::ZERO, 0.0);
         let mut gap_min: Option<f64> = None;
         let (mut guests, mut hosted) = (Vec::new(), Vec::new());
+        let inside = self.parts.discretization.inside().is_some();
         for row in 0..self.parts.discretization.nrow() {
             let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
             let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
@@ -193,8 +204,11 @@ impl Interface {
                 let share = area * shape * shape / squares;
                 report.area[k] += share;
                 report.energy[k] += energy * shape * shape / squares;
-                if let Some(of_row) = &of_row {
-                    means.add(k, area * shape * shape, of_row);
+                match &of_row {
+                    Some(of_row) => means.add(k, share, of_row),
+                    // a node that meets nothing may still lean on another one
+                    None if inside => means.add_nothing(k, share),
+                    None => {}
                 }
                 if status.number() > report.status[k].number() {
                     report.status[k] = status;

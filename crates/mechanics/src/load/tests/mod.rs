@@ -6,13 +6,15 @@ mod model;
 mod resultants;
 mod rigid;
 
-use super::{Centrifugal, Course, FollowingPressure, NodalForces, Region, Schedule, Spin, spread};
+use super::{
+    Centrifugal, Course, FollowingPressure, NodalForces, Region, Schedule, Section, Spin, spread,
+};
 use crate::system::{
     Dof, Elimination, Idealisation, Layout, Order, Sink, State, StepContext, Symmetry, Term, Work,
 };
 use signorini_geometry::element::{self, Element};
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
-use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
 
 /// Numbers in [-1, 1] that look random and are the same in every run.

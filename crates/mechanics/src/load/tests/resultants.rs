@@ -284,3 +284,66 @@ fn a_moment_on_nodes_is_exact_and_has_no_force() {
     let couple = spread::moment(&[0, 1], &pair, Vec3::unit(2) * PI).unwrap();
     assert_near(couple[&1], Vec3::unit(1) * (PI / 2.0), 1e-15, "couple");
 }
+
+/// The divergence theorem over all sides of an element, of stresses that are linear in the place, and of moments of
+/// those that are constant; area, centre and normal of one side.
+#[test]
+fn stresses_on_faces_have_the_resultant_of_what_is_inside() {
+    let stress = |x: Vec3| Sym3::new(1.0 + x.x, 2.0 - 0.5 * x.y, 0.7, 0.3 + x.y, 0.0, 0.0);
+    for (element, space) in cases().filter(|(e, _)| e.nnode() == e.ncorner()) {
+        let single = Single::new(element, space, 0.0);
+        let (area, centre) = measure(&single);
+        let at_nodes: Vec<Sym3> = single.reference.iter().map(|x| stress(*x)).collect();
+        let section = Section::new(&single.surface(), &single.reference, &at_nodes);
+        let what = format!("{} {space:?}", element.name());
+        // ∂σ_xx/∂x + ∂σ_xy/∂y = 2, ∂σ_yy/∂y = −1/2
+        let (along_x, along_y) = match space {
+            // ∮ σn 2πr ds = 2π ∫ (r div σ + σ·e_r) dA
+            Idealisation::Axisymmetric => {
+                let at = stress(centre);
+                let [x, y] = [at.xx(), at.xy()];
+                (
+                    TAU * (2.0 * centre.x + x) * area,
+                    TAU * (-0.5 * centre.x + y) * area,
+                )
+            }
+            _ => (
+                2.0 * area * space.extent(centre),
+                -0.5 * area * space.extent(centre),
+            ),
+        };
+        let wanted = Vec3::new(along_x, along_y, 0.0);
+        assert!(
+            (section.force - wanted).norm() < 1e-12 * TAU * area.max(1.0) * 9.0,
+            "{what}: {section:?}"
+        );
+        assert!(section.normal.norm() < 1.0 + 1e-12);
+    }
+    // a bent and twisted section: one side of a brick, x = 3
+    let brick = element::by_name("hex8").unwrap();
+    let single = Single::new(brick, Idealisation::Space, 0.0);
+    let mut side = Region::default();
+    let quad = element::by_name("quad4").unwrap();
+    let at = |y: f64, z: f64| {
+        let here = |x: &Vec3| (*x - Vec3::new(3.0, y, z)).norm() < 1e-12;
+        single.reference.iter().position(here).unwrap() as NodeId
+    };
+    side.push(
+        quad,
+        Idealisation::Space,
+        &[at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)],
+        1.0,
+    );
+    // σ_xx = 1 + 3y, σ_xy = −2z: M_z = −3 ∫ y² dA, M_x about the centre = 2 ∫ z² dA
+    let at_nodes: Vec<Sym3> = (single.reference.iter())
+        .map(|x| Sym3::new(1.0 + 3.0 * x.y, 0.0, 0.0, -2.0 * x.z, 0.0, 0.0))
+        .collect();
+    let section = Section::new(&side, &single.reference, &at_nodes);
+    let square = 4.0 / 3.0;
+    let close = |a: Vec3, b: Vec3| assert!((a - b).norm() < 1e-13, "{a:?} {b:?}");
+    assert!((section.area - 4.0).abs() < 1e-13);
+    close(section.center, Vec3::unit(0) * 3.0);
+    close(section.normal, Vec3::unit(0));
+    close(section.force, Vec3::unit(0) * 4.0);
+    close(section.moment, Vec3::new(2.0 * square, 0.0, -3.0 * square));
+}

@@ -7,16 +7,18 @@ use crate::build::{
     ContactQuantity, ElementQuantity, Model, NodeQuantity, Printed, PrintedContact, PrintedOf,
 };
 use signorini_geometry::element::quadrature::Rule;
-use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::{Position, Space, Totals};
 use signorini_io::writers::dat::{
     ContactKind, Kind, Of, Page, Points, Statistics, WEDGE, tangents, tensor,
 };
+use signorini_mechanics::load::{Region, Section};
 use signorini_mechanics::solve::IncrementRecord;
 use signorini_mechanics::system::{
-    ContactFrame, ContactSample, Footprint, Frame, PointSample, Resultant, RigidBody, SpinFrame,
+    ContactFrame, ContactSample, Footprint, Frame, Idealisation, PointSample, Resultant, RigidBody,
+    SpinFrame,
 };
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
@@ -96,6 +98,10 @@ impl Tables {
                 PrintedOf::Contacts(contacts, quantities) => {
                     let quantities = quantities.iter();
                     quantities.for_each(|q| writer.contacts(one, contacts, *q));
+                }
+                PrintedOf::Faces(faces) => {
+                    let nonlinear = self.nonlinear.get(record.step).is_some_and(|is| *is);
+                    writer.section(&one.set, faces, nonlinear);
                 }
             }
         }
@@ -513,6 +519,31 @@ impl Writer<'_> {
             let (page, secondary) = (&mut self.page, &part.secondary);
             page.statistics(secondary, &part.primary, &statistics);
         }
+    }
+
+    /// What stresses do on faces: in their present places where displacements are large.
+    fn section(&mut self, set: &str, faces: &[(Face, Idealisation)], nonlinear: bool) {
+        let (mesh, share) = (&self.tables.mesh, self.tables.share());
+        let mut region = Region::default();
+        for &(face, space) in faces {
+            if let Some((element, nodes)) = mesh.face(face) {
+                region.push(element, space, &nodes, 1.0);
+            }
+        }
+        let mut places = mesh.points.clone();
+        if nonlinear {
+            let moves = places.iter_mut().zip(&self.frame.displacement);
+            moves.for_each(|(x, u)| *x += *u);
+        }
+        let section = Section::new(&region, &places, &self.frame.stress);
+        let statistics = Statistics {
+            force: section.force * share,
+            moment: section.moment * share,
+            center: section.center,
+            normal: section.normal,
+            area: section.area * share,
+        };
+        self.page.section(set, &statistics);
     }
 
     fn node(&self, node: NodeId) -> Of {
