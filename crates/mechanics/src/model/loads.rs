@@ -339,7 +339,7 @@ impl Context<'_> {
             let factor = density * body.section.unwrap_or(1.0);
             // by the rule of the element: reduced integration makes another mass of bent elements
             let rule = match body.integration {
-                Integration::Full => element.surface_rule(),
+                Integration::Full | Integration::Raised => element.surface_rule(),
                 Integration::Reduced => element.reduced_rule(),
             };
             region.push_by((element, rule), body.space, self.mesh.cell(cell), factor);

@@ -14,6 +14,8 @@ pub enum Integration {
     Full,
     /// One order less, for quad8 and hex20, of masses too; elements of lower order keep the full rule.
     Reduced,
+    /// One order more along the axis of wedge6: nine points; other elements keep the full rule.
+    Raised,
 }
 
 /// What is done against locking in bending and of nearly incompressible materials.
@@ -30,6 +32,8 @@ pub enum Locking {
     FBar,
     /// Incompatible modes, condensed; small strain only, for they are unstable in compression at finite strain.
     Incompatible,
+    /// The shear strain of the centre at all points of quad4; small strain.
+    Shear,
 }
 
 impl fmt::Display for Locking {
@@ -40,6 +44,7 @@ impl fmt::Display for Locking {
             Self::BBar => "b-bar",
             Self::FBar => "f-bar",
             Self::Incompatible => "incompatible",
+            Self::Shear => "selective-shear",
         })
     }
 }
@@ -50,6 +55,7 @@ impl Locking {
             Self::Auto | Self::None => Remedy::None,
             Self::BBar | Self::FBar => Remedy::Dilatation,
             Self::Incompatible => Remedy::Modes,
+            Self::Shear => Remedy::Shear,
         }
     }
 }
@@ -135,6 +141,10 @@ impl Situation {
             Locking::Incompatible if !self.takes_modes() => {
                 "incompatible modes exist for quad4 and hex8"
             }
+            Locking::Shear if finite => "the shear strain of the centre is for small strain",
+            Locking::Shear if self.element.name() != "quad4" => {
+                "the shear strain of the centre exists for quad4"
+            }
             _ => return Ok(wish),
         };
         Err(reason)
@@ -165,7 +175,8 @@ impl Situation {
             ("tri3", _) if revolved => &quadrature::TRI_3,
             ("tri6", _) if revolved => &quadrature::TRI_6,
             ("tet10", _) if projected => &quadrature::TET_14,
-            (_, Integration::Full) => self.element.full_rule(),
+            ("wedge6", Integration::Raised) => &quadrature::WEDGE_9,
+            (_, Integration::Full | Integration::Raised) => self.element.full_rule(),
             (_, Integration::Reduced) => self.element.reduced_rule(),
         }
     }

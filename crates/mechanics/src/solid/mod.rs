@@ -29,6 +29,7 @@
 //! |---|---|---|---|
 //! | B-bar, F-bar | `b-bar`, `f-bar` | the dilatation projected, [`kernel`]`::dilatation` (E5) to (E10) | not in plane stress |
 //! | incompatible modes | `incompatible` | condensed, [`kernel`]`::modes` (E11), (E12) | quad4, hex8; small strain |
+//! | shear of the centre | `selective-shear` | selective reduced integration, [`kernel`]`::shear` (E13); never by `auto` | quad4; small strain |
 //! | reduced integration | | fewer points | quad8, hex20 |
 //!
 //! B-bar is for small strain and F-bar, its counterpart, for finite strain; both keep an energy and with it a symmetric

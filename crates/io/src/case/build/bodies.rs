@@ -224,6 +224,7 @@ impl Builder {
             material: fields.text_if("material"),
             integration: match fields.text("integration").value.as_str() {
                 "reduced" => Integration::Reduced,
+                "raised" => Integration::Raised,
                 _ => Integration::Full,
             },
             locking: Spanned::new(
@@ -232,6 +233,7 @@ impl Builder {
                     "b-bar" => Locking::BBar,
                     "f-bar" => Locking::FBar,
                     "incompatible" => Locking::Incompatible,
+                    "selective-shear" => Locking::Shear,
                     _ => Locking::Auto,
                 },
                 locking.place,

@@ -208,6 +208,7 @@ pub(super) fn body(body: &Body) -> Entries {
     let integration = match body.integration {
         Integration::Full => "full",
         Integration::Reduced => "reduced",
+        Integration::Raised => "raised",
     };
     let locking = match *body.locking {
         Locking::Auto => "auto",
@@ -215,6 +216,7 @@ pub(super) fn body(body: &Body) -> Entries {
         Locking::BBar => "b-bar",
         Locking::FBar => "f-bar",
         Locking::Incompatible => "incompatible",
+        Locking::Shear => "selective-shear",
     };
     entries.extend([
         ("integration", integration.into()),

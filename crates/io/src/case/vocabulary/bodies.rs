@@ -181,8 +181,8 @@ pub(super) static BODY: Table = Table {
         ),
         key(
             "integration",
-            Shape::Choice(&[word("full"), word("reduced")]),
-            "quadrature points of an element; reduced: one order less, of quadratic elements",
+            Shape::Choice(&[word("full"), word("reduced"), word("raised")]),
+            "quadrature points of an element; reduced: one order less, of quadratic elements; raised: nine of wedge6",
         )
         .or(Default::Text("full")),
         key(
@@ -193,6 +193,7 @@ pub(super) static BODY: Table = Table {
                 word("b-bar"),
                 word("f-bar"),
                 word("incompatible"),
+                word("selective-shear"),
             ]),
             "what is done against locking",
         )

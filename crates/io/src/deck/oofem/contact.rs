@@ -12,7 +12,7 @@ use super::Translation;
 use super::condition::CONTACTS;
 use crate::case::{
     Contact, Enforcement, Facing, Features, Friction, Limit, Method, Name, Normals, Pairs, Per,
-    PointKind, PointRule, Shape, Sliding, Space, Stick, Surface,
+    PointKind, PointRule, Set, SetContent, Shape, Sliding, Space, Stick, Surface,
 };
 use crate::deck::Compat;
 use crate::diagnostic::{Place, Spanned, codes};
@@ -20,6 +20,9 @@ use crate::readers::oofem::{Family, Fault, Record};
 use signorini_geometry::mesh::{CellId, FaceIndex};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
+
+/// Penalties that `autopenalty` may make for one surface.
+const MOST_PENALTIES: usize = 64;
 
 /// Pairs of nodes this near to each other have no direction.
 const COINCIDENT: f64 = 1e-8;
@@ -449,11 +452,15 @@ impl Translation {
         ] {
             record.ignore(keyword, words);
         }
-        let penalty = record.need_real("pn")?;
-        let at = record.place_of_field("pn");
-        let tangential = record.real("pt")?;
+        let automatic = record.whole("autopenalty")?.is_some_and(|value| value != 0);
+        let (penalty, mut tangential) = match automatic {
+            // what the record says is not taken
+            true => (record.real("pn")?.unwrap_or(1.0), record.real("pt")?),
+            false => (record.need_real("pn")?, record.real("pt")?),
+        };
+        let at = record.place_of_field(if automatic { "autopenalty" } else { "pn" });
         let mu = record.real("friction")?.unwrap_or(0.0);
-        if penalty <= 0.0 {
+        if penalty <= 0.0 && !automatic {
             let text = format!("the penalty is {penalty}");
             self.error(&codes::OUT_OF_RANGE, text, &at, "it must be positive");
         }
@@ -471,7 +478,6 @@ impl Translation {
                 "directionalprojection",
                 "points are projected to the nearest place",
             ),
-            ("autopenalty", "write the penalty in `pn`"),
         ] {
             if record.real(keyword)?.is_some_and(|value| value != 0.0) {
                 let at = record.place_of_field(keyword);
@@ -518,23 +524,66 @@ impl Translation {
                 "the nodes of the master surface run round so that its normals point into the body";
             self.warn(text, &place, "here normals point out of it");
         }
-        let sides = [
-            Spanned::new(secondary.set.clone(), place.clone()),
-            Spanned::new(primary.set.clone(), place.clone()),
-        ];
-        let mut contact = self.contact(format!("contact-{number}"), sides, &place);
-        contact.method = Method::GaussPoint.into();
-        contact.rule = secondary.rule.unwrap_or_default();
-        contact.features = features;
-        contact.enforcement = Enforcement::Penalty(Some(Spanned::new(penalty, at)));
-        contact.per = Some(Per::Area);
-        contact.friction = (mu > 0.0).then(|| Friction {
-            limit: Limit::Coulomb { mu, cap: None },
-            stick: tangential.filter(|pt| *pt > 0.0).map(Stick::Stiffness),
-        });
-        contact.remembers_traction = contact.friction.is_some() && self.compat == Compat::Oofem;
-        self.case.contacts.push(contact);
+        let mut passes = vec![(penalty, secondary.set.clone())];
+        if automatic {
+            passes = self.automatic_passes(&secondary.set, &at);
+        }
+        for (penalty, set) in passes {
+            if automatic {
+                tangential = Some(penalty);
+            }
+            let sides = [
+                Spanned::new(set, place.clone()),
+                Spanned::new(primary.set.clone(), place.clone()),
+            ];
+            let mut contact = self.contact(format!("contact-{number}"), sides, &place);
+            contact.method = Method::GaussPoint.into();
+            contact.rule = secondary.rule.unwrap_or_default();
+            contact.features = features;
+            contact.enforcement = Enforcement::Penalty(Some(Spanned::new(penalty, at.clone())));
+            contact.per = Some(Per::Area);
+            contact.friction = (mu > 0.0).then(|| Friction {
+                limit: Limit::Coulomb { mu, cap: None },
+                stick: tangential.filter(|pt| *pt > 0.0).map(Stick::Stiffness),
+            });
+            contact.remembers_traction = contact.friction.is_some() && self.compat == Compat::Oofem;
+            self.case.contacts.push(contact);
+        }
         Ok(())
+    }
+
+    /// Penalties made from the elements behind the facets of a set, each with the set of those that have it: one contact
+    /// has one.
+    fn automatic_passes(&mut self, set: &str, at: &Place) -> Vec<(f64, String)> {
+        let alike = match self.automatic_penalties(set) {
+            Ok(alike) if alike.len() <= MOST_PENALTIES => alike,
+            Ok(alike) => {
+                let text = format!(
+                    "`autopenalty` makes {} penalties, more than {MOST_PENALTIES}",
+                    alike.len()
+                );
+                self.not_built(text, at, "write one in `pn`");
+                return Vec::new();
+            }
+            Err(why) => {
+                self.not_built("`autopenalty` is not possible here", at, &why);
+                return Vec::new();
+            }
+        };
+        if let [one] = &alike[..] {
+            return vec![(one.penalty, set.to_owned())];
+        }
+        let mut passes = Vec::with_capacity(alike.len());
+        for one in alike {
+            let name = Spanned::new(self.fresh(set), at.clone());
+            passes.push((one.penalty, name.value.clone()));
+            self.case.sets.push(Set {
+                name,
+                content: SetContent::Elements(one.facets),
+                place: at.clone(),
+            });
+        }
+        passes
     }
 }
 

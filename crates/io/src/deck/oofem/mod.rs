@@ -22,6 +22,7 @@
 //! To add a record: its translation in the stage where it belongs, and its line in `docs/oofem.md`.
 
 mod analysis;
+mod autopenalty;
 mod check;
 mod condition;
 mod contact;

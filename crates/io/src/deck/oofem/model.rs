@@ -23,6 +23,10 @@ const DOMAINS: [(&str, &[u64]); 6] = [
 /// Elements whose shear strain OOFEM takes from their centre.
 const SELECTIVE: [&str; 2] = ["planestress2d", "l4axisymm"];
 
+fn takes_shear_of_centre(group: &Group) -> bool {
+    SELECTIVE.contains(&group.kind.name) && group.points.is_none()
+}
+
 /// A cross-section.
 #[derive(Clone, Copy, Debug, Default)]
 struct Section {
@@ -388,6 +392,7 @@ impl Translation {
 
     fn locking(&self, group: &Group) -> Locking {
         match self.compat {
+            Compat::Oofem if group.nlgeo == 0 && takes_shear_of_centre(group) => Locking::Shear,
             Compat::Oofem => Locking::None,
             _ if group.kind.family == Family::Bar => Locking::None,
             _ => Locking::Auto,
@@ -399,13 +404,14 @@ impl Translation {
         let kind = group.kind;
         let wanted = group.points.unwrap_or(kind.points);
         let rule = match (kind.element, wanted) {
-            ("quad8", 4) | ("hex20", 8) | ("hex8" | "quad4", 1) => Integration::Reduced,
+            ("quad8", 4) | ("hex20", 8) => Integration::Reduced,
+            ("wedge6", 9) => Integration::Raised,
             ("line2" | "tri3" | "tet4", 1)
             | ("quad4" | "tet10", 4)
             | ("quad8", 9)
             | ("hex8", 8)
             | ("hex20", 27)
-            | ("wedge6", 6 | 9)
+            | ("wedge6", 6)
             | ("wedge15", 9)
             | ("tri6", 3 | 4) => Integration::Full,
             _ => {
@@ -417,12 +423,11 @@ impl Translation {
                 Integration::Full
             }
         };
-        if self.compat == Compat::Oofem && SELECTIVE.contains(&kind.name) && group.points.is_none()
-        {
+        if self.compat == Compat::Oofem && group.nlgeo == 1 && takes_shear_of_centre(group) {
             self.warn(
                 format!("the shear strain of {} is taken at all points", kind.name),
                 &Place::nowhere(),
-                "OOFEM takes that of the centre: results differ where it varies in an element",
+                "with  nlgeo 0  it is that of the centre, as in OOFEM; of  nlgeo 1  this was not verified",
             );
         }
         rule
@@ -508,7 +513,7 @@ impl Translation {
     }
 }
 
-fn material_name(number: u64) -> String {
+pub(super) fn material_name(number: u64) -> String {
     format!("material-{number}")
 }
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::case::{
     ConstraintKind, Enforcement, Features, Geometry, LoadKind, Locking, Method, Moment, Motion,
-    Normals, PointKind, Shape, Sliding, Space, Tolerance,
+    Normals, PointKind, Shape, Sliding, Space, Stick, Tolerance,
 };
 use crate::fs::RealFs;
 
@@ -339,6 +339,75 @@ fn surfaces_of_contact_elements_meet_at_their_points() {
     assert_eq!(contact.features, Features::Edges);
     assert!(contact.friction.is_some());
     assert!(read.found.plain().is_empty(), "{}", read.found.plain());
+}
+
+#[test]
+fn penalties_are_made_from_the_elements_behind() {
+    // one by two: E A/V is 500 below, 1000 at the sides
+    let read = |slaves: &str, penalty: &str| {
+        let text = (DECK.text())
+            .replace("coords 2 1 1", "coords 2 1 2")
+            .replace("coords 2 0 1", "coords 2 0 2")
+            .replace("nelem 1", "nelem 5")
+            .replace("nset 3", "nset 5 ncontactsurf 2")
+            .replace("nbc 1", "nbc 2")
+            .replace(
+                "crosssect 1 mat 1\n",
+                concat!(
+                    "crosssect 1 mat 1\n",
+                    "StructuralContactElement_LineLin 2 nodes 2 3 4 crosssect 1 mat 1\n",
+                    "StructuralContactElement_LineLin 3 nodes 2 1 2 crosssect 1 mat 1\n",
+                    "StructuralContactElement_LineLin 4 nodes 2 2 3 crosssect 1 mat 1\n",
+                    "StructuralContactElement_LineLin 5 nodes 2 4 1 crosssect 1 mat 1\n",
+                    "StructuralFEContactSurface 1 ce_set 4\nStructuralFEContactSurface 2 ce_set 5\n",
+                ),
+            )
+            .replace(
+                "ConstantFunction",
+                &format!(
+                    "structuralpenaltycontactbc 2 loadTimeFunction 1 dofs 2 1 2 {penalty} friction 0.3 \
+                     mastersurface 1 slavesurface 2\nConstantFunction"
+                ),
+            );
+        let text =
+            format!("{text}set 4 elements 1 2\nset 5 elements {slaves}\n").replace("\n\n", "\n");
+        let read = read(&RealFs, "job.in", text.as_bytes(), Compat::Oofem);
+        read.unwrap_or_else(|found| panic!("{}", found.plain()))
+            .case
+    };
+    let told = |case: &Case| -> Vec<(f64, Option<Vec<u64>>)> {
+        let of = |contact: &crate::case::Contact| {
+            let Enforcement::Penalty(Some(penalty)) = &contact.enforcement else {
+                panic!()
+            };
+            let friction = contact.friction.as_ref().unwrap();
+            assert_eq!(friction.stick, Some(Stick::Stiffness(penalty.value)));
+            let mut sets = case.sets.iter();
+            let set = sets.find(|set| set.name.value == contact.secondary.value);
+            let elements = set.map(|set| match &set.content {
+                SetContent::Elements(elements) => elements.clone(),
+                other => panic!("{other:?}"),
+            });
+            (penalty.value, elements)
+        };
+        case.contacts.iter().map(of).collect()
+    };
+    let about = |found: &[(f64, Option<Vec<u64>>)], wanted: &[(f64, Option<Vec<u64>>)]| {
+        assert_eq!(found.len(), wanted.len(), "{found:?}");
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found.0 / wanted.0 - 1.0).abs() < 1e-12, "{found:?}");
+            assert_eq!(found.1, wanted.1);
+        }
+    };
+    about(&told(&read("1 3", "autopenalty 1")), &[(500.0, None)]);
+    about(
+        &told(&read("3 3 4 5", "autopenalty 1 pn 7.")),
+        &[(500.0, Some(vec![3])), (1000.0, Some(vec![4, 5]))],
+    );
+    about(
+        &told(&read("1 3", "autopenalty 0 pn 7. pt 7.")),
+        &[(7.0, None)],
+    );
 }
 
 #[test]

@@ -141,17 +141,17 @@ impl Interface {
     }
 
     /// Rows that are made anew for each increment: they go on with what those before them remember, and meet what is
-    /// near now.
-    pub(super) fn renew_rows(&mut self, from: &State) -> Result<(), TermError> {
+    /// near now. Says whether they are others.
+    pub(super) fn renew_rows(&mut self, from: &State) -> Result<bool, TermError> {
         if self.parts.bond.is_some() {
-            return Ok(());
+            return Ok(false);
         }
         let at = from.placement();
         self.history.begin();
         let stretched = self.stretched(from)?;
         let parts = &mut self.parts;
         let Some(origins) = parts.discretization.renew(&parts.pair, at.x) else {
-            return Ok(());
+            return Ok(false);
         };
         self.resize(origins.len());
         self.search(&at).map_err(|e| self.failed(&e))?;
@@ -185,10 +185,7 @@ impl Interface {
         }
         self.history.accepted = accepted;
         self.history.begin();
-        self.measure_again(&at).map_err(|e| self.failed(&e))?;
-        self.judge(from)?;
-        self.accepted_judged.clone_from(&self.judged);
-        Ok(())
+        Ok(true)
     }
 
     /// How far each row is from where it sticks; empty without friction.

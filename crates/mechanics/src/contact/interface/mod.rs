@@ -496,19 +496,19 @@ impl Term for Interface {
             self.sees_others = false;
             self.accepted.clone_from(&self.now);
         }
-        self.renew_rows(from)?;
-        if renews || self.parts.bond_tangential.is_some() {
+        let others = self.renew_rows(from)?;
+        if !others && (renews || self.parts.bond_tangential.is_some()) {
             self.let_go();
             self.search(&at).map_err(|e| self.failed(&e))?;
         }
+        self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.allow_for_overlaps(from, renews || first)?;
-        if first {
+        if first || others {
             self.judge(from)?;
             self.accepted_judged.clone_from(&self.judged);
         }
         self.before.clone_from(&self.accepted);
         self.settled = 0;
-        self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.changes.fill(0);
         self.history.begin();
         self.stick(&at).map_err(|e| self.failed(&e))

@@ -12,6 +12,7 @@ mod dilatation;
 mod gradient;
 mod modes;
 mod plain;
+mod shear;
 mod stiffness;
 
 use super::dense;
@@ -209,14 +210,17 @@ pub(super) enum Remedy {
     None,
     Dilatation,
     Modes,
+    Shear,
 }
 
-/// The kernels of an element: without remedy, with a projected dilatation, with incompatible modes.
+/// The kernels of an element: without remedy, with a projected dilatation, with incompatible modes, with the shear strain
+/// of the centre.
 struct Kernels {
     name: &'static str,
     plain: Kernel,
     dilatation: Option<Kernel>,
     modes: Option<Kernel>,
+    shear: Option<Kernel>,
 }
 
 const fn kernels<const NN: usize, const ND: usize, const NG: usize>(name: &'static str) -> Kernels {
@@ -225,6 +229,7 @@ const fn kernels<const NN: usize, const ND: usize, const NG: usize>(name: &'stat
         plain: plain::respond::<NN, ND, NG>,
         dilatation: Some(dilatation::respond::<NN, ND, NG>),
         modes: None,
+        shear: None,
     }
 }
 
@@ -235,6 +240,7 @@ const fn bare<const NN: usize, const ND: usize, const NG: usize>(name: &'static 
         plain: plain::respond::<NN, ND, NG>,
         dilatation: None,
         modes: None,
+        shear: None,
     }
 }
 
@@ -248,9 +254,17 @@ const fn with_modes<const NN: usize, const NT: usize, const ND: usize, const NG:
     }
 }
 
+/// The quadrilateral of four nodes, which has all remedies.
+const fn quad4<const NG: usize>() -> Kernels {
+    Kernels {
+        shear: Some(shear::respond::<4, 2, NG>),
+        ..with_modes::<4, 6, 2, NG>("quad4")
+    }
+}
+
 static PLANE: [Kernels; 5] = [
     bare::<3, 2, 2>("tri3"),
-    with_modes::<4, 6, 2, 2>("quad4"),
+    quad4::<2>(),
     kernels::<6, 2, 2>("tri6"),
     kernels::<8, 2, 2>("quad8"),
     kernels::<9, 2, 2>("quad9"),
@@ -258,7 +272,7 @@ static PLANE: [Kernels; 5] = [
 
 static AXISYMMETRIC: [Kernels; 5] = [
     bare::<3, 2, 3>("tri3"),
-    with_modes::<4, 6, 2, 3>("quad4"),
+    quad4::<3>(),
     kernels::<6, 2, 3>("tri6"),
     kernels::<8, 2, 3>("quad8"),
     kernels::<9, 2, 3>("quad9"),
@@ -286,6 +300,7 @@ pub(super) fn kernel(name: &str, space: Idealisation, remedy: Remedy) -> Option<
         Remedy::None => Some(found.plain),
         Remedy::Dilatation => found.dilatation,
         Remedy::Modes => found.modes,
+        Remedy::Shear => found.shear,
     }
 }
 

@@ -160,6 +160,7 @@ fn allowed(element: &str, wish: &Wish) -> bool {
         Locking::BBar => !finite && !sheet && !bare && !reduced,
         Locking::FBar => finite && !sheet && !bare && !reduced,
         Locking::Incompatible => !finite && ["quad4", "hex8"].contains(&element),
+        Locking::Shear => !finite && element == "quad4",
     }
 }
 

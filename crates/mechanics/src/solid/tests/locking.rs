@@ -364,3 +364,66 @@ fn orders_of_convergence() {
         }
     }
 }
+
+/// A rectangle bent by `u = xy`, with `ν = 0`: its energy is that of `ε_xx = y`, and with the shear strains at all points
+/// that of `ε_xy = x/2`, too.
+#[test]
+fn a_rectangle_bends_without_shear_where_that_is_the_one_of_the_centre() {
+    let quad4 = element::by_name("quad4").unwrap();
+    let (a, b, young) = (2.0, 0.5, 500.0);
+    let mesh = grid(quad4, [1, 1, 1], |x| {
+        Vec3::new(a * (2.0 * x.x - 1.0), b * (2.0 * x.y - 1.0), 0.0)
+    });
+    let energy = |locking| {
+        let wish = Wish {
+            locking,
+            ..Wish::plain(
+                Idealisation::PlaneStress { thickness: 1.0 },
+                Kinematics::Small,
+            )
+        };
+        let body = body(&mesh, elastic("linear-elastic", 0.0), &wish).unwrap();
+        let u = body.field(|x| Vec3::new(x.x * x.y, 0.0, 0.0));
+        body.energy(&u, &mut Work::default())
+    };
+    // ½ E ∫ y² dA, and ½ G ∫ x² dA
+    let (bending, shear) = (
+        0.5 * young * 2.0 * a * 2.0 * b * b * b / 3.0,
+        0.25 * young * 2.0 * b * 2.0 * a * a * a / 3.0,
+    );
+    let close =
+        |energy: f64, wanted: f64| assert!((energy / wanted - 1.0).abs() < 1e-12, "{energy}");
+    close(energy(Locking::Shear), bending);
+    close(energy(Locking::None), bending + shear);
+}
+
+#[test]
+fn nine_points_of_a_wedge_are_those_of_six_where_it_is_a_prism() {
+    let wedge6 = element::by_name("wedge6").unwrap();
+    let stiffness = |twist: f64, integration| {
+        let mut mesh = Mesh::default();
+        for (k, xi) in wedge6.nodes().iter().enumerate() {
+            let (sin, cos) = (twist * xi.z).sin_cos();
+            let x = Vec3::new(cos * xi.x - sin * xi.y, sin * xi.x + cos * xi.y, xi.z);
+            mesh.points.push(x);
+            mesh.node_labels.push(k as u64 + 1);
+        }
+        mesh.push_cell(wedge6, &[0, 1, 2, 3, 4, 5], 1);
+        let wish = Wish {
+            integration,
+            ..Wish::plain(Idealisation::Space, Kinematics::Small)
+        };
+        let body = body(&mesh, elastic("linear-elastic", 0.3), &wish).unwrap();
+        let u = vec![0.0; body.layout.ndof()];
+        body.assemble(&u, Order::Tangent, &mut Work::default())
+            .stiffness
+    };
+    let apart = |twist: f64| {
+        let [six, nine] = [Integration::Full, Integration::Raised].map(|i| stiffness(twist, i));
+        let largest = six.iter().fold(0.0f64, |m, k| m.max(k.abs()));
+        let differences = six.iter().zip(&nine).map(|(a, b)| (a - b).abs());
+        differences.fold(0.0, f64::max) / largest
+    };
+    assert!(apart(0.0) < 1e-13);
+    assert!(apart(0.3) > 1e-4);
+}

@@ -27,12 +27,13 @@ const PLANE: [&str; 5] = ["tri3", "quad4", "tri6", "quad8", "quad9"];
 const SPACE: [&str; 7] = [
     "tet4", "wedge6", "hex8", "tet10", "wedge15", "hex20", "hex27",
 ];
-const LOCKINGS: [Locking; 5] = [
+const LOCKINGS: [Locking; 6] = [
     Locking::Auto,
     Locking::None,
     Locking::BBar,
     Locking::FBar,
     Locking::Incompatible,
+    Locking::Shear,
 ];
 
 /// Every element in every idealisation that has it.
