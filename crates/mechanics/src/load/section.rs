@@ -1,5 +1,5 @@
 use super::Region;
-use super::local::gather;
+use super::spread::each_area;
 use signorini_geometry::tensor::{Sym3, Vec3};
 
 /// What stresses do on faces, which may lie inside a body.
@@ -22,25 +22,19 @@ impl Section {
     #[must_use]
     pub fn new(faces: &Region, x: &[Vec3], stress: &[Sym3]) -> Self {
         let mut sum = Self::default();
-        let mut places = Vec::new();
-        for (patch, nodes, factor) in faces.pieces() {
-            gather(x, nodes, &mut places);
-            for sample in patch.samples() {
-                let at = sample.position(&places);
-                let (t1, t2) = sample.tangents(patch.space(), &places);
-                let directed = t1.cross(t2) * (factor * sample.weight);
-                let of_nodes = nodes.iter().zip(sample.shape);
-                let stress = of_nodes.fold(Sym3::ZERO, |sum, (&node, shape)| {
-                    sum + stress.get(node as usize).copied().unwrap_or_default() * *shape
-                });
-                let force = stress.to_mat3() * directed;
-                sum.area += directed.norm();
-                sum.center += at * directed.norm();
-                sum.normal += directed;
-                sum.force += force;
-                sum.moment += at.cross(force);
+        each_area(faces, x, |nodes, shape, directed| {
+            let (mut at, mut here) = (Vec3::ZERO, Sym3::ZERO);
+            for (&node, n) in nodes.iter().zip(shape) {
+                at += x.get(node as usize).copied().unwrap_or_default() * *n;
+                here = here + stress.get(node as usize).copied().unwrap_or_default() * *n;
             }
-        }
+            let force = here.to_mat3() * directed;
+            sum.area += directed.norm();
+            sum.center += at * directed.norm();
+            sum.normal += directed;
+            sum.force += force;
+            sum.moment += at.cross(force);
+        });
         if sum.area > 0.0 {
             sum.center = sum.center / sum.area;
         }

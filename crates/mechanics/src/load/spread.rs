@@ -79,10 +79,14 @@ pub fn moment(nodes: &[NodeId], reference: &[Vec3], moment: Vec3) -> Option<Noda
 }
 
 /// Hands the nodes, the shape functions and the directed area of every quadrature point of faces to `take`.
-fn each_area(faces: &Region, reference: &[Vec3], mut take: impl FnMut(&[NodeId], &[f64], Vec3)) {
+pub(super) fn each_area(
+    faces: &Region,
+    places: &[Vec3],
+    mut take: impl FnMut(&[NodeId], &[f64], Vec3),
+) {
     let mut x = Vec::new();
     for (patch, nodes, factor) in faces.pieces() {
-        gather(reference, nodes, &mut x);
+        gather(places, nodes, &mut x);
         for sample in patch.samples() {
             let (t1, t2) = sample.tangents(patch.space(), &x);
             take(nodes, sample.shape, t1.cross(t2) * (factor * sample.weight));

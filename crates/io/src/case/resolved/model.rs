@@ -210,17 +210,9 @@ pub(super) fn body(body: &Body) -> Entries {
         Integration::Reduced => "reduced",
         Integration::Raised => "raised",
     };
-    let locking = match *body.locking {
-        Locking::Auto => "auto",
-        Locking::None => "none",
-        Locking::BBar => "b-bar",
-        Locking::FBar => "f-bar",
-        Locking::Incompatible => "incompatible",
-        Locking::Shear => "selective-shear",
-    };
     entries.extend([
         ("integration", integration.into()),
-        ("locking", locking.into()),
+        ("locking", (&body.locking.to_string()).into()),
     ]);
     entries.extend(body.orientation.as_ref().map(|one| {
         let entries = vec![("x", one.x.into()), ("y", one.y.into())];

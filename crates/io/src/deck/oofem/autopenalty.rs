@@ -5,6 +5,7 @@ use super::Translation;
 use super::model::material_name;
 use signorini_geometry::mesh::{CellId, FaceIndex, Mesh};
 use signorini_geometry::tensor::Vec3;
+use std::collections::HashMap;
 
 /// How much penalties of one contact may differ: what rounding makes of equal elements.
 const SAME: f64 = 1e-9;
@@ -23,6 +24,7 @@ impl Translation {
     pub(super) fn automatic_penalties(&self, set: &str) -> Result<Vec<Alike>, String> {
         let mesh = &self.meshed.mesh;
         let index = FaceIndex::new(mesh, mesh.cells(mesh.dim()));
+        let moduli = self.moduli();
         let facets = mesh.sets.get(set).map_or(&[][..], |set| &set.cells);
         let mut penalties = Vec::with_capacity(facets.len());
         for &facet in facets {
@@ -32,8 +34,8 @@ impl Translation {
                 .and_then(|e| index.find(e, mesh.cell(facet)));
             let (face, _) =
                 behind.ok_or_else(|| format!("no element is behind contact element {label}"))?;
-            let modulus = self
-                .modulus(face.cell)
+            let modulus = moduli
+                .get(&face.cell)
                 .ok_or("it takes the modulus E of IsoLE")?;
             let ratio = measure(mesh, facet) / measure(mesh, face.cell);
             let penalty = modulus * ratio;
@@ -58,16 +60,24 @@ impl Translation {
         Ok(alike)
     }
 
-    /// Young's modulus of a cell.
-    fn modulus(&self, cell: CellId) -> Option<f64> {
-        let sets = &self.meshed.mesh.sets;
-        let holds = |name: &str| sets.get(name).is_some_and(|set| set.cells.contains(&cell));
-        let group = self.meshed.groups.iter().find(|group| holds(&group.name))?;
-        let name = material_name(group.material);
-        let mut materials = self.case.materials.iter();
-        let material = materials.find(|material| material.name.value == name)?;
-        let constant = material.constants.iter().find(|one| one.name == "E")?;
-        constant.values.first().copied()
+    /// Young's moduli of the cells whose materials have one.
+    fn moduli(&self) -> HashMap<CellId, f64> {
+        let mut moduli = HashMap::new();
+        for group in &self.meshed.groups {
+            let name = material_name(group.material);
+            let mut materials = self.case.materials.iter();
+            let material = materials.find(|material| material.name.value == name);
+            let mut constants = material
+                .into_iter()
+                .flat_map(|material| &material.constants);
+            let modulus = constants.find(|one| one.name == "E");
+            let modulus = modulus.and_then(|one| one.values.first().copied());
+            let cells = self.meshed.mesh.sets.get(&group.name);
+            if let (Some(modulus), Some(set)) = (modulus, cells) {
+                moduli.extend(set.cells.iter().map(|&cell| (cell, modulus)));
+            }
+        }
+        moduli
     }
 }
 

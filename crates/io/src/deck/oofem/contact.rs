@@ -453,14 +453,15 @@ impl Translation {
             record.ignore(keyword, words);
         }
         let automatic = record.whole("autopenalty")?.is_some_and(|value| value != 0);
-        let (penalty, mut tangential) = match automatic {
+        let given = match automatic {
             // what the record says is not taken
-            true => (record.real("pn")?.unwrap_or(1.0), record.real("pt")?),
-            false => (record.need_real("pn")?, record.real("pt")?),
+            true => record.real("pn")?.and(None),
+            false => Some(record.need_real("pn")?),
         };
+        let tangential = record.real("pt")?;
         let at = record.place_of_field(if automatic { "autopenalty" } else { "pn" });
         let mu = record.real("friction")?.unwrap_or(0.0);
-        if penalty <= 0.0 && !automatic {
+        if let Some(penalty) = given.filter(|penalty| *penalty <= 0.0) {
             let text = format!("the penalty is {penalty}");
             self.error(&codes::OUT_OF_RANGE, text, &at, "it must be positive");
         }
@@ -524,14 +525,12 @@ impl Translation {
                 "the nodes of the master surface run round so that its normals point into the body";
             self.warn(text, &place, "here normals point out of it");
         }
-        let mut passes = vec![(penalty, secondary.set.clone())];
-        if automatic {
-            passes = self.automatic_passes(&secondary.set, &at);
-        }
+        let passes = match given {
+            Some(penalty) => vec![(penalty, secondary.set.clone())],
+            None => self.automatic_passes(&secondary.set, &at),
+        };
         for (penalty, set) in passes {
-            if automatic {
-                tangential = Some(penalty);
-            }
+            let along = if automatic { Some(penalty) } else { tangential };
             let sides = [
                 Spanned::new(set, place.clone()),
                 Spanned::new(primary.set.clone(), place.clone()),
@@ -544,7 +543,7 @@ impl Translation {
             contact.per = Some(Per::Area);
             contact.friction = (mu > 0.0).then(|| Friction {
                 limit: Limit::Coulomb { mu, cap: None },
-                stick: tangential.filter(|pt| *pt > 0.0).map(Stick::Stiffness),
+                stick: along.filter(|pt| *pt > 0.0).map(Stick::Stiffness),
             });
             contact.remembers_traction = contact.friction.is_some() && self.compat == Compat::Oofem;
             self.case.contacts.push(contact);

@@ -1,8 +1,7 @@
 //! Points inside facets that are cut where facets of the other side end, at some positions of the nodes.
 
 use rayon::prelude::*;
-use signorini_geometry::element::Element;
-use signorini_geometry::element::MAX_FACET_NODES;
+use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::overlap::{Facing, Flat, Pair, Plane, integrate};
 use signorini_geometry::proximity::{Aabb, Bvh};
@@ -46,11 +45,11 @@ impl Cutter {
         let place = |n: &NodeId| x.get(*n as usize).copied().unwrap_or_default();
         let places = |facets: &Facets, f| facets.nodes(f).iter().map(place).collect::<Vec<_>>();
         let primary = 0..self.primary.nfacet() as u32;
-        let others: Vec<Option<Other>> = primary
-            .map(|f| Other::new(self.primary.element(f)?, places(&self.primary, f)))
+        let others: Vec<Option<Placed>> = primary
+            .map(|f| Placed::new(self.primary.element(f)?, places(&self.primary, f)))
             .collect();
         let boxes = others.iter().map(|other| {
-            let around = |o: &Other| Aabb::around([o.middle]).inflated(o.radius);
+            let around = |o: &Placed| Aabb::around([o.middle]).inflated(o.radius);
             other.as_ref().map_or_else(|| Aabb::around([]), around)
         });
         let tree = Bvh::build(&boxes.collect::<Vec<_>>());
@@ -59,7 +58,7 @@ impl Cutter {
                 return Cut::default();
             };
             let regular = (self.rule)(element);
-            let own = Other::new(element, places(secondary, f));
+            let own = Placed::new(element, places(secondary, f));
             let cut = own.and_then(|own| {
                 let mut near = Vec::new();
                 tree.overlaps(&Aabb::around([own.middle]).inflated(own.radius), &mut near);
@@ -80,14 +79,14 @@ impl Cutter {
 }
 
 /// A facet with the places of its nodes.
-struct Other {
+struct Placed {
     element: Element,
     x: Vec<Vec3>,
     middle: Vec3,
     radius: f64,
 }
 
-impl Other {
+impl Placed {
     fn new(element: Element, x: Vec<Vec3>) -> Option<Self> {
         let middle = x.iter().copied().sum::<Vec3>() / x.len() as f64;
         let radius = x.iter().fold(0.0f64, |r, x| r.max((*x - middle).norm()));

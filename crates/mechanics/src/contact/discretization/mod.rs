@@ -144,8 +144,13 @@ pub trait Discretization: Send + Sync {
         None
     }
 
-    /// Makes its rows anew for an increment that begins at the positions `x`; tells of each the row before that it
-    /// continues, if there is one. `None` where they stay as they are.
+    /// Whether its rows may be others in each increment.
+    fn remakes(&self) -> bool {
+        false
+    }
+
+    /// Makes its rows anew for an increment that begins at the positions `x`, where it [remakes](Self::remakes) them;
+    /// tells of each the row before that it continues, if there is one. `None` where they stay as they are.
     fn renew(&mut self, _pair: &SurfacePair, _x: &[Vec3]) -> Option<Vec<Option<u32>>> {
         None
     }

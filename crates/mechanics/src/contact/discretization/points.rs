@@ -119,12 +119,12 @@ impl PointToSegment {
         }
     }
 
-    /// Points inside the facets; `points` gives those of each.
+    /// Points inside the facets; `points` gives those of an element.
     #[must_use]
-    pub fn inside(facets: &Facets, points: impl Fn(u32, Element) -> FacetPoints) -> Self {
+    pub fn inside(facets: &Facets, points: impl Fn(Element) -> FacetPoints) -> Self {
         let mut found = Vec::new();
         for facet in 0..facets.nfacet() as u32 {
-            let of_facet = facets.element(facet).map(|element| points(facet, element));
+            let of_facet = facets.element(facet).map(&points);
             let inside = of_facet.into_iter().flatten();
             found.extend(inside.map(|point| OnFacet::new(facet, point, false)));
         }
@@ -223,8 +223,12 @@ impl Discretization for PointToSegment {
         self.inside.as_deref()
     }
 
+    fn remakes(&self) -> bool {
+        self.cutter.is_some() && self.renews()
+    }
+
     fn renew(&mut self, pair: &SurfacePair, x: &[Vec3]) -> Option<Vec<Option<u32>>> {
-        let cutter = self.cutter.as_ref().filter(|_| self.renews())?;
+        let cutter = self.cutter.as_ref().filter(|_| self.remakes())?;
         let facets = pair.secondary.as_ref()?;
         let points = pieces(cutter, facets, x);
         let before = self.inside.as_deref().unwrap_or(&[]);

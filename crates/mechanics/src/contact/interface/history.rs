@@ -143,7 +143,7 @@ impl Interface {
     /// Rows that are made anew for each increment: they go on with what those before them remember, and meet what is
     /// near now. Says whether they are others.
     pub(super) fn renew_rows(&mut self, from: &State) -> Result<bool, TermError> {
-        if self.parts.bond.is_some() {
+        if self.parts.bond.is_some() || !self.parts.discretization.remakes() {
             return Ok(false);
         }
         let at = from.placement();

@@ -288,7 +288,7 @@ impl Scene {
                     lobatto(3)
                 };
                 let facets = second.as_ref().unwrap();
-                let rule = |_, e| on_facet(e, &rule);
+                let rule = |e| on_facet(e, &rule);
                 let mut inside = PointToSegment::inside(facets, rule);
                 inside.closest = closest;
                 let points = Discretization::inside(&inside).unwrap();

@@ -200,7 +200,7 @@ impl Source<'_> {
                 });
                 let mut inside = match cutter {
                     Some(cutter) => PointToSegment::pieces(facets, cutter, self.reference),
-                    None => PointToSegment::inside(facets, |_, element| points(element)),
+                    None => PointToSegment::inside(facets, points),
                 };
                 inside.sliding = part.sliding;
                 if part.features.is_some() {

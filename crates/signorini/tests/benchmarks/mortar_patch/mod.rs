@@ -160,7 +160,7 @@ fn in_the_plane_overhang_passes() {
 
 #[test]
 fn in_space_overhang_passes() {
-    for elements in FACES.map(|e| [e, e]) {
+    for elements in pairings(FACES) {
         overhang(elements, 1e-11);
     }
 }
