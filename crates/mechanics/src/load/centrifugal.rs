@@ -135,6 +135,10 @@ impl Term for Centrifugal {
         Part::Bulk
     }
 
+    fn has_constant_stiffness(&self) -> bool {
+        true
+    }
+
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
         self.clock.begin_step(step);
         Ok(())

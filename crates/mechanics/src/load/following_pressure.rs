@@ -109,6 +109,10 @@ impl Term for FollowingPressure {
         Part::Bulk
     }
 
+    fn has_constant_stiffness(&self) -> bool {
+        !self.follows()
+    }
+
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
         self.clock.begin_step(step);
         Ok(())

@@ -16,6 +16,8 @@ use thiserror::Error;
 
 /// Cells evaluated together: enough to be worth a task, few enough to stay in cache.
 const CHUNK: usize = 16;
+/// Chunks whose points are sampled before their nodes take them: bounds the memory.
+const SAMPLED: usize = 256;
 
 /// The cells of one material.
 pub struct Solid {
@@ -675,6 +677,10 @@ impl Term for Solid {
         Part::Bulk
     }
 
+    fn has_constant_stiffness(&self) -> bool {
+        self.kinematics == Kinematics::Small && self.material().is_linear()
+    }
+
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
         let kinematics = if step.nonlinear {
             Kinematics::Finite
@@ -808,13 +814,27 @@ impl Term for Solid {
     }
 
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
-        let mut scratch = Scratch::default();
-        for chunk in 0..self.chunks.len() {
-            let wanted = Wanted::Samples;
-            self.each(chunk, state, wanted, &mut scratch, |block, cell, _, s| {
-                let (id, nodes) = (block.ids[cell], block.nodes_of(cell));
-                report::add(frame, id, nodes, &block.extrapolation, &s.samples);
-            })?;
+        // points in parallel, nodes in the order of cells
+        let chunks: Vec<usize> = (0..self.chunks.len()).collect();
+        for wave in chunks.chunks(SAMPLED) {
+            let sample = |scratch: &mut Scratch, &chunk: &usize| {
+                let mut samples = Vec::new();
+                self.each(chunk, state, Wanted::Samples, scratch, |_, _, _, s| {
+                    samples.extend_from_slice(&s.samples);
+                })?;
+                Ok(samples)
+            };
+            let sampled = wave.par_iter().map_init(Scratch::default, sample);
+            let sampled: Vec<Result<Vec<Sample>, TermError>> = sampled.collect();
+            for (&chunk, samples) in wave.iter().zip(sampled) {
+                let (number, first, last) = self.chunks[chunk];
+                let (block, samples) = (&self.blocks[number], samples?);
+                let npoint = block.points.rule.npoint();
+                for (cell, samples) in (first..last).zip(samples.chunks_exact(npoint)) {
+                    let (id, nodes) = (block.ids[cell], block.nodes_of(cell));
+                    report::add(frame, id, nodes, &block.extrapolation, samples);
+                }
+            }
         }
         if let Some(field) = &self.temperature {
             frame.temperature.resize(frame.stress.len(), 0.0);

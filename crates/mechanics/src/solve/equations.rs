@@ -47,6 +47,15 @@ pub(super) enum Factor {
     Kept,
 }
 
+/// How exact a solution is to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Accuracy {
+    /// So far that this part of the error is left.
+    Part(f64),
+    /// The relative residual.
+    Residual(f64),
+}
+
 impl Equations {
     pub fn new(solver: Box<dyn LinearSolver>) -> Self {
         Self {
@@ -64,6 +73,11 @@ impl Equations {
     /// The raw dofs that are solved for.
     pub fn dofs(&self) -> &[Dof] {
         &self.dofs
+    }
+
+    /// Whether solutions that are less exact are less work.
+    pub fn is_iterative(&self) -> bool {
+        self.solver.is_iterative()
     }
 
     /// Lets the solver forget what it has learned.
@@ -151,6 +165,7 @@ impl Equations {
         assembly: &Assembly,
         with_motion: bool,
         factor: Factor,
+        accuracy: Accuracy,
         du: &mut [f64],
     ) -> Result<SolveReport, LinearError> {
         let values = assembly.values();
@@ -180,9 +195,11 @@ impl Equations {
             outcome?;
         }
         let start = Instant::now();
-        let outcome = self
-            .solver
-            .solve(&values, &self.right, &mut self.left, SOLVE_TOLERANCE);
+        let (solver, left) = (&mut self.solver, &mut self.left);
+        let outcome = match accuracy {
+            Accuracy::Part(part) => solver.solve_roughly(&values, &self.right, left, part),
+            Accuracy::Residual(rtol) => solver.solve(&values, &self.right, left, rtol),
+        };
         self.seconds.solve += start.elapsed().as_secs_f64();
         let report = outcome?;
         for (x, &dof) in self.left.iter().zip(&self.dofs) {
@@ -196,6 +213,3 @@ impl Equations {
         equation.and_then(|e| self.dofs.get(e)).copied()
     }
 }
-
-/// Relative residual asked of a linear solve: far below what Newton's tail needs.
-const SOLVE_TOLERANCE: f64 = 1e-10;

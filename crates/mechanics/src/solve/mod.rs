@@ -29,6 +29,7 @@
 //!
 //! This room knows nothing of solids or contact: all it sees is [`crate::system::Term`].
 
+mod economy;
 mod equations;
 mod event;
 mod forecast;

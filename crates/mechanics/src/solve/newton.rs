@@ -1,9 +1,10 @@
 //! One increment by Newton's method.
 
-use super::equations::{Equations, Factor};
+use super::economy::Economy;
+use super::equations::{Accuracy, Equations, Factor};
 use super::event::IterationRecord;
 use super::line_search;
-use crate::system::linear::LinearError;
+use crate::system::linear::{EXACT, LinearError};
 use crate::system::{
     Assembler, Assembly, Dof, DofName, NodeId, Order, State, System, TermError, Verdict,
 };
@@ -285,6 +286,8 @@ pub(super) struct Newton {
     pub coupled_more: bool,
     /// Whether all terms have looked at the trial state as it is.
     looked: bool,
+    /// How far the trial state is assembled as it is.
+    assembled: Option<Order>,
     /// The state of the iterate.
     pub trial: State,
     before: State,
@@ -306,6 +309,7 @@ impl Newton {
             analyzed: false,
             coupled_more: false,
             looked: false,
+            assembled: None,
             trial: state.clone(),
             before: state,
             du: Vec::new(),
@@ -334,6 +338,7 @@ impl Newton {
         let mut alpha = 1.0;
         let mut decrement = 0.0;
         let mut unsettled = None;
+        let mut economy = Economy::new(self.settings.force_tol);
         let mut last = self.settings.max_iterations;
         let mut augmentations = 0;
         let nmotion = system.layout.nmotion();
@@ -349,7 +354,9 @@ impl Newton {
             } else {
                 Order::Tangent
             };
-            self.assemble(system, first)?;
+            if self.assembled < Some(first) {
+                self.assemble(system, first)?;
+            }
             let judgement = self.judge(system);
             let Verdicts { flips, repeat, .. } = verdicts(system, &self.trial);
             report(&IterationRecord {
@@ -415,14 +422,27 @@ impl Newton {
                     unsettled,
                 });
             }
-            if first == Order::Residual {
+            if self.assembled < Some(Order::Tangent) {
                 self.assemble(system, Order::Tangent)?;
             }
             // where only the size of the next correction is left to show, the last factor tells it
             let nearly = iterations > 0 && !motion && judgement.small && settled;
-            self.solve_linear(motion, nearly)?;
+            let accuracy = if self.equations.is_iterative() {
+                let changes = motion || iterations == 0 || !settled || flips > 0;
+                economy.accuracy(judgement.residual, changes || nearly)
+            } else {
+                Accuracy::Residual(EXACT)
+            };
+            let left = self.solve_linear(motion, nearly, accuracy)?;
+            economy.solved(judgement.residual, left);
             decrement = self.slope().abs().sqrt();
-            alpha = self.advance(system, motion, iterations + 1, judgement.worst)?;
+            let is_last = largest(&self.du[..nmotion]) <= CORRECTION * moved;
+            let next = if is_last {
+                Order::Residual
+            } else {
+                Order::Tangent
+            };
+            alpha = self.advance(system, motion, next, iterations + 1, judgement.worst)?;
             correction = alpha * largest(&self.du[..nmotion]);
             motion = false;
             solved = true;
@@ -431,7 +451,8 @@ impl Newton {
     }
 
     /// Lets terms change what they kept frozen; what the first one says that did, so that the iteration goes on.
-    fn release(&self, system: &mut System) -> Result<Option<(String, Vec<NodeId>)>, TermError> {
+    fn release(&mut self, system: &mut System) -> Result<Option<(String, Vec<NodeId>)>, TermError> {
+        self.assembled = None;
         let mut first = None;
         for term in &mut system.terms {
             if let Verdict::Repeat { why, nodes, .. } = term.converged(&self.trial)? {
@@ -473,12 +494,17 @@ impl Newton {
         motion && !better
     }
 
+    /// What was found out about the trial state holds no more.
+    const fn moved(&mut self) {
+        (self.looked, self.assembled) = (false, None);
+    }
+
     /// Takes all terms back to their accepted history.
     fn forget(&mut self, system: &mut System) {
         for term in &mut system.terms {
             term.reject();
         }
-        self.looked = false;
+        self.moved();
     }
 
     /// The largest residual over the mean force at the trial state; `None` where it cannot be evaluated.
@@ -498,7 +524,7 @@ impl Newton {
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
         self.trial.time = goal.time;
-        self.looked = false;
+        self.moved();
     }
 
     /// Sets up the trial state and the motion of prescribed dofs; says whether nodes have to be moved in the first
@@ -513,7 +539,7 @@ impl Newton {
         }
         system.advance(&mut self.trial, base, &self.du, 1.0);
         self.trial.time = goal.time;
-        self.looked = false;
+        self.moved();
         self.du.fill(0.0);
         let mut motion = false;
         for &(dof, to) in goal.targets.iter().filter(|(d, _)| is_felt(*d)) {
@@ -535,6 +561,8 @@ impl Newton {
                 .update_interface(layout, elimination, &system.terms);
             self.analyzed &= !changed;
             self.coupled_more = false;
+            // what has no place yet was left out
+            self.assembled = self.assembled.map(|_| Order::Residual);
         }
         if !self.analyzed {
             self.equations
@@ -550,11 +578,12 @@ impl Newton {
         for term in &mut system.terms {
             self.coupled_more |= term.prepare(&self.trial)?;
         }
-        self.looked = true;
+        (self.looked, self.assembled) = (true, None);
         Ok(())
     }
 
     fn assemble(&mut self, system: &System, order: Order) -> Result<(), TermError> {
+        self.assembled = None;
         if order == Order::Tangent {
             self.held.clear();
         }
@@ -565,7 +594,9 @@ impl Newton {
             &self.trial,
             order,
             &mut self.assembly,
-        )
+        )?;
+        self.assembled = Some(order);
+        Ok(())
     }
 
     fn judge(&self, system: &System) -> Judgement {
@@ -574,7 +605,13 @@ impl Newton {
             .judge(system, dofs, &self.assembly, self.settings.force_tol)
     }
 
-    fn solve_linear(&mut self, motion: bool, keep_factor: bool) -> Result<(), Failure> {
+    /// Solves for the step; returns the relative residual that is left.
+    fn solve_linear(
+        &mut self,
+        motion: bool,
+        keep_factor: bool,
+        accuracy: Accuracy,
+    ) -> Result<f64, Failure> {
         if !motion {
             self.du.fill(0.0);
         }
@@ -584,15 +621,15 @@ impl Newton {
         });
         if keep_factor {
             let kept = Factor::Kept;
-            outcome = self
-                .equations
-                .solve(assembler, assembly, motion, kept, &mut self.du);
+            outcome =
+                self.equations
+                    .solve(assembler, assembly, motion, kept, accuracy, &mut self.du);
         }
         if outcome.is_err() {
             let new = Factor::New;
-            outcome = self
-                .equations
-                .solve(assembler, assembly, motion, new, &mut self.du);
+            outcome =
+                self.equations
+                    .solve(assembler, assembly, motion, new, accuracy, &mut self.du);
         }
         while self.settings.hold_free
             && let Err(LinearError::Singular { equation }) = &outcome
@@ -603,12 +640,13 @@ impl Newton {
             self.held.push((dof, stiffness));
             let (assembler, assembly) = (&self.assembler, &self.assembly);
             let new = Factor::New;
-            outcome = self
-                .equations
-                .solve(assembler, assembly, motion, new, &mut self.du);
+            outcome =
+                self.equations
+                    .solve(assembler, assembly, motion, new, accuracy, &mut self.du);
         }
-        outcome.map_err(|source| self.linear_failure(source))?;
-        self.judge_held()
+        let report = outcome.map_err(|source| self.linear_failure(source))?;
+        self.judge_held()?;
+        Ok(report.residual)
     }
 
     /// Where a free motion is held at one dof for each, the equations have a solution exactly where no load acts on it:
@@ -647,11 +685,13 @@ impl Newton {
         }
     }
 
-    /// Moves the trial state along `du`, as far as the line search says, and returns how far.
+    /// Moves the trial state along `du`, as far as the line search says, and returns how far. `next` is what will be
+    /// wanted there.
     fn advance(
         &mut self,
         system: &mut System,
         motion: bool,
+        next: Order,
         iterations: usize,
         worst: Option<Dof>,
     ) -> Result<f64, Failure> {
@@ -666,7 +706,7 @@ impl Newton {
             return Ok(alpha);
         }
         if system.terms.iter().any(|t| t.has_saddle()) {
-            return self.shorten(system, first);
+            return self.shorten(system, first, next);
         }
         let slope = self.slope();
         let start = self.assembler.energy(&system.terms, &self.before)?;
@@ -700,12 +740,13 @@ impl Newton {
 
     /// Places the trial state at the first of `first`, `first`/2, … that can be evaluated: at a saddle point neither
     /// energy nor slope say how far to go.
-    fn shorten(&mut self, system: &mut System, first: f64) -> Result<f64, Failure> {
+    fn shorten(&mut self, system: &mut System, first: f64, next: Order) -> Result<f64, Failure> {
         let mut alpha = first;
         for _ in 0..SHORTENINGS {
-            let tried = self
-                .try_step(system, alpha)
-                .and_then(|()| self.assemble(system, Order::Residual));
+            let tried = self.try_step(system, alpha).and_then(|()| {
+                let has_place = !self.coupled_more;
+                self.assemble(system, if has_place { next } else { Order::Residual })
+            });
             if tried.is_ok() {
                 return Ok(alpha);
             }
@@ -732,7 +773,7 @@ impl Newton {
     fn place(&mut self, system: &System, alpha: f64) {
         system.advance(&mut self.trial, &self.before, &self.du, alpha);
         self.trial.time = self.before.time;
-        self.looked = false;
+        self.moved();
     }
 
     /// s = du·r over the unknowns.

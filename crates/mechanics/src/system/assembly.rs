@@ -32,6 +32,8 @@ pub struct Assembly {
     pub uncertainty: Vec<f64>,
     bulk: Vec<f64>,
     interface: Vec<f64>,
+    /// The increment of which the bulk is, where it holds for all states in it.
+    bulk_of: Option<u64>,
 }
 
 impl Assembly {
@@ -52,6 +54,10 @@ pub struct Assembler {
     interface: Pattern,
     slots: Vec<Slot>,
     expanded: Expanded,
+    /// Counts increments.
+    increment: u64,
+    /// Whether the stiffness of the bulk is the same at all states of the increment.
+    is_constant: bool,
 }
 
 struct Task {
@@ -152,6 +158,8 @@ impl Assembler {
             interface: Pattern::empty(layout.ndof()),
             slots: Vec::new(),
             expanded: Expanded::default(),
+            increment: 0,
+            is_constant: false,
         };
         assembler.begin_increment(terms);
         let cliques = collect(layout, elimination, terms);
@@ -185,6 +193,9 @@ impl Assembler {
                 positions: Vec::new(),
             }));
         }
+        let mut bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
+        self.is_constant = bulk.all(|term| term.has_constant_stiffness());
+        self.increment += 1;
         let wave = WAVE.min(self.tasks.len());
         self.slots.resize_with(wave, Slot::default);
     }
@@ -237,6 +248,7 @@ impl Assembler {
             }
         };
         *to? += stiffness;
+        out.bulk_of = None;
         Some(stiffness)
     }
 
@@ -256,16 +268,31 @@ impl Assembler {
         reset(&mut out.residual, layout.ndof());
         reset(&mut out.magnitude, layout.ndof());
         reset(&mut out.uncertainty, layout.ndof());
+        let is_kept = out.bulk_of == Some(self.increment);
         if order == Order::Tangent {
-            reset(&mut out.bulk, self.bulk.nvalue());
+            if !is_kept {
+                out.bulk_of = None;
+                reset(&mut out.bulk, self.bulk.nvalue());
+            }
             reset(&mut out.interface, self.interface.nentry());
         }
+        // unknowns that follow others put stiffness of the bulk into the interface
+        let mut stays = self.is_constant && order == Order::Tangent;
+        let order_of = |task: &Task| {
+            if is_kept && task.part == Part::Bulk {
+                Order::Residual
+            } else {
+                order
+            }
+        };
         let Self {
             tasks,
             bulk,
             interface,
             slots,
             expanded,
+            increment,
+            ..
         } = self;
         for wave in tasks.chunks_mut(wave()) {
             let evaluate = |(slot, task): (&mut Slot, &mut Task)| {
@@ -273,7 +300,7 @@ impl Assembler {
                 let outcome = terms[task.term].evaluate(
                     task.chunk,
                     trial,
-                    order,
+                    order_of(task),
                     &mut slot.work,
                     &mut slot.buffer,
                 );
@@ -299,8 +326,11 @@ impl Assembler {
                     expanded: &mut *expanded,
                     out: &mut *out,
                 };
-                scatter.add(&slot.buffer, task);
+                stays &= scatter.add(&slot.buffer, task);
             }
+        }
+        if stays {
+            out.bulk_of = Some(*increment);
         }
         if let Some(magnitude) = elimination
             .course()
@@ -362,7 +392,8 @@ struct Scatter<'a> {
 }
 
 impl Scatter<'_> {
-    fn add(&mut self, buffer: &Buffer, task: &mut Task) {
+    /// Adds a chunk; false where stiffness of the bulk went into the interface.
+    fn add(&mut self, buffer: &Buffer, task: &mut Task) -> bool {
         for &(dof, error) in &buffer.errors {
             if self.elimination.depends(dof, self.layout) {
                 let out = &mut self.out.uncertainty;
@@ -373,6 +404,7 @@ impl Scatter<'_> {
             }
         }
         let (mut at, mut at_stiffness, mut at_position) = (0, 0, 0);
+        let mut is_apart = true;
         let first_time = task.positions.is_empty();
         for (&n, &nk) in buffer.sizes.iter().zip(&buffer.stiffness_sizes) {
             let dofs = &buffer.dofs[at..at + n];
@@ -397,6 +429,7 @@ impl Scatter<'_> {
                 self.force(&expanded.dofs, &expanded.force);
                 self.scalar(&expanded.dofs, &expanded.stiffness);
                 *self.expanded = expanded;
+                is_apart &= task.part == Part::Interface;
                 continue;
             }
             self.force(dofs, force);
@@ -419,6 +452,7 @@ impl Scatter<'_> {
             }
             at_position = end;
         }
+        is_apart
     }
 
     fn force(&mut self, dofs: &[Dof], force: &[f64]) {

@@ -230,6 +230,11 @@ pub trait Term: Send + Sync {
     /// Where its stiffness belongs.
     fn part(&self) -> Part;
 
+    /// Whether its stiffness is the same at all states of the increment that has begun.
+    fn has_constant_stiffness(&self) -> bool {
+        false
+    }
+
     /// A step begins at this accepted state.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ impl Aggregates {
     /// Neighbourhoods that do not touch; what is between them joins the one it hangs on most.
     ///
     /// Source: Vaněk, Mandel, Brezina, *Computing* 56 (1996) 179–196, algorithm 5.1 without a threshold.
-    pub fn new<const N: usize>(matrix: &Blocks<f64, N, N>) -> Self {
+    pub fn new<const N: usize>(matrix: &Blocks<N, N>) -> Self {
         let nrow = matrix.nrow();
         let mut of = vec![NONE; nrow];
         let mut count = 0;
@@ -72,7 +72,7 @@ impl Aggregates {
     pub fn motions<const N: usize>(
         &self,
         modes: &[[[f64; MODES]; N]],
-    ) -> (Blocks<f64, N, MODES>, Vec<[[f64; MODES]; MODES]>) {
+    ) -> (Blocks<N, MODES>, Vec<[[f64; MODES]; MODES]>) {
         let mut start = vec![0usize; self.count + 1];
         for &aggregate in &self.of {
             start[aggregate as usize + 1] += 1;

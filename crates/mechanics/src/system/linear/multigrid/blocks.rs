@@ -1,56 +1,24 @@
 //! Sparse matrices of small dense blocks.
 
 use rayon::prelude::*;
-use std::ops::{AddAssign, Mul, Neg};
 
 /// Rows handled by one task; results do not depend on it.
 const ROWS_PER_TASK: usize = 1024;
 /// Stands for no place in a row.
 const NOWHERE: u32 = u32::MAX;
 
-/// What blocks are made of.
-pub(super) trait Number:
-    Copy + Default + AddAssign + Mul<Output = Self> + Neg<Output = Self> + Send + Sync + 'static
-{
-    /// The nearest number of this precision.
-    fn of(value: f64) -> Self;
-
-    /// The same number.
-    fn double(self) -> f64;
-}
-
-impl Number for f32 {
-    fn of(value: f64) -> Self {
-        value as Self
-    }
-
-    fn double(self) -> f64 {
-        f64::from(self)
-    }
-}
-
-impl Number for f64 {
-    fn of(value: f64) -> Self {
-        value
-    }
-
-    fn double(self) -> f64 {
-        self
-    }
-}
-
 /// A matrix of blocks with `R` rows and `C` columns each, compressed by rows, columns sorted.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Blocks<T, const R: usize, const C: usize> {
+pub(super) struct Blocks<const R: usize, const C: usize> {
     /// Columns of blocks.
     pub ncolumn: usize,
     /// Where each row of blocks begins.
     pub start: Vec<usize>,
     pub column: Vec<u32>,
-    pub value: Vec<[[T; C]; R]>,
+    pub value: Vec<[[f64; C]; R]>,
 }
 
-impl<T: Number, const R: usize, const C: usize> Blocks<T, R, C> {
+impl<const R: usize, const C: usize> Blocks<R, C> {
     /// Rows of blocks.
     pub fn nrow(&self) -> usize {
         self.start.len().saturating_sub(1)
@@ -62,30 +30,14 @@ impl<T: Number, const R: usize, const C: usize> Blocks<T, R, C> {
     }
 
     /// The blocks of a row with their columns.
-    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, &[[T; C]; R])> {
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, &[[f64; C]; R])> {
         let range = self.range(row);
         let columns = self.column[range.clone()].iter().map(|&c| c as usize);
         columns.zip(&self.value[range])
     }
 
-    /// `to += A x`, or `to -= A x`.
-    pub fn multiply<const SUBTRACT: bool>(&self, x: &[[T; C]], to: &mut [[T; R]]) {
-        let tasks = to.par_chunks_mut(ROWS_PER_TASK).enumerate();
-        tasks.for_each(|(task, to)| {
-            for (row, to) in (task * ROWS_PER_TASK..).zip(to) {
-                let mut sum = [T::default(); R];
-                for (column, block) in self.row(row) {
-                    add_product(block, &x[column], &mut sum);
-                }
-                for (to, sum) in to.iter_mut().zip(sum) {
-                    *to += if SUBTRACT { -sum } else { sum };
-                }
-            }
-        });
-    }
-
     /// The transpose.
-    pub fn transpose(&self) -> Blocks<T, C, R> {
+    pub fn transpose(&self) -> Blocks<C, R> {
         let mut start = vec![0usize; self.ncolumn + 1];
         for &column in &self.column {
             start[column as usize + 1] += 1;
@@ -95,7 +47,7 @@ impl<T: Number, const R: usize, const C: usize> Blocks<T, R, C> {
         }
         let mut next = start.clone();
         let mut column = vec![0; self.column.len()];
-        let mut value = vec![[[T::default(); R]; C]; self.value.len()];
+        let mut value = vec![[[0.0; R]; C]; self.value.len()];
         for row in 0..self.nrow() {
             for (to, block) in self.row(row) {
                 let at = next[to];
@@ -113,11 +65,11 @@ impl<T: Number, const R: usize, const C: usize> Blocks<T, R, C> {
     }
 
     /// The product with another matrix.
-    pub fn times<const D: usize>(&self, other: &Blocks<T, C, D>) -> Blocks<T, R, D> {
+    pub fn times<const D: usize>(&self, other: &Blocks<C, D>) -> Blocks<R, D> {
         let nrow = self.nrow();
         let ntask = nrow.div_ceil(ROWS_PER_TASK);
-        type Part<T, const R: usize, const D: usize> = (Vec<usize>, Vec<u32>, Vec<[[T; D]; R]>);
-        let parts: Vec<Part<T, R, D>> = (0..ntask)
+        type Part<const R: usize, const D: usize> = (Vec<usize>, Vec<u32>, Vec<[[f64; D]; R]>);
+        let parts: Vec<Part<R, D>> = (0..ntask)
             .into_par_iter()
             .map_init(
                 || (vec![NOWHERE; other.ncolumn], Vec::new(), Vec::new()),
@@ -166,10 +118,10 @@ impl<T: Number, const R: usize, const C: usize> Blocks<T, R, C> {
     fn product_row<const D: usize>(
         &self,
         row: usize,
-        other: &Blocks<T, C, D>,
+        other: &Blocks<C, D>,
         place: &mut [u32],
         columns: &mut Vec<u32>,
-        sums: &mut Vec<[[T; D]; R]>,
+        sums: &mut Vec<[[f64; D]; R]>,
     ) {
         columns.clear();
         sums.clear();
@@ -178,13 +130,13 @@ impl<T: Number, const R: usize, const C: usize> Blocks<T, R, C> {
                 if place[column] == NOWHERE {
                     place[column] = columns.len() as u32;
                     columns.push(column as u32);
-                    sums.push([[T::default(); D]; R]);
+                    sums.push([[0.0; D]; R]);
                 }
                 let sum = &mut sums[place[column] as usize];
                 for (sum, a) in sum.iter_mut().zip(a) {
                     for (a, b) in a.iter().zip(b) {
                         for (sum, b) in sum.iter_mut().zip(b) {
-                            *sum += *a * *b;
+                            *sum += a * b;
                         }
                     }
                 }
@@ -193,20 +145,7 @@ impl<T: Number, const R: usize, const C: usize> Blocks<T, R, C> {
     }
 }
 
-impl<const R: usize, const C: usize> Blocks<f64, R, C> {
-    /// The same in single precision.
-    pub fn to_single(&self) -> Blocks<f32, R, C> {
-        let single = |block: &[[f64; C]; R]| block.map(|row| row.map(|v| v as f32));
-        Blocks {
-            ncolumn: self.ncolumn,
-            start: self.start.clone(),
-            column: self.column.clone(),
-            value: self.value.par_iter().map(single).collect(),
-        }
-    }
-}
-
-impl<const N: usize> Blocks<f64, N, N> {
+impl<const N: usize> Blocks<N, N> {
     /// The block on the diagonal of a row, which every row has.
     pub fn diagonal(&self, row: usize) -> &[[f64; N]; N] {
         let range = self.range(row);
@@ -218,10 +157,10 @@ impl<const N: usize> Blocks<f64, N, N> {
 
 /// `sum += block x`
 #[inline]
-pub(super) fn add_product<T: Number, const R: usize, const C: usize>(
-    block: &[[T; C]; R],
-    x: &[T; C],
-    sum: &mut [T; R],
+pub(super) fn add_product<const R: usize, const C: usize>(
+    block: &[[f64; C]; R],
+    x: &[f64; C],
+    sum: &mut [f64; R],
 ) {
     for (sum, row) in sum.iter_mut().zip(block) {
         for (a, x) in row.iter().zip(x) {

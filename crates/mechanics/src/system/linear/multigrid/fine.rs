@@ -3,7 +3,7 @@
 use super::super::{Kept, Values};
 use super::aggregation::MODES;
 use super::blocks::Blocks;
-use crate::system::sparsity::NONE;
+use crate::system::sparsity::{BlockPattern, NONE};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -21,11 +21,15 @@ pub(super) struct Fine {
     pub parts: Vec<Range<usize>>,
     /// Motions of a rigid body at each row; nothing where a node is held.
     pub modes: Vec<[[f64; MODES]; 3]>,
+    /// What it was made of: bodies, and which of their dofs can move.
+    bulk: BlockPattern,
+    is_free: Vec<bool>,
 }
 
 impl Fine {
     /// Nodes with an equation and a stiffness of their own, bisected by their places.
-    pub fn new(kept: &Kept, coordinates: &[[f64; 3]]) -> Self {
+    pub fn new(kept: &Kept) -> Self {
+        let coordinates = kept.coordinates.as_slice();
         let is_free = |dof: usize| kept.equation.get(dof).is_some_and(|&e| e != NONE);
         let nnode = kept.bulk.nrow().min(coordinates.len());
         let has_bulk = |node: u32| kept.bulk.position(node, node).is_some();
@@ -72,11 +76,18 @@ impl Fine {
             row,
             parts,
             modes,
+            bulk: kept.bulk.clone(),
+            is_free: freedom(kept).collect(),
         }
     }
 
+    /// Whether it is that of a problem, whatever its interface.
+    pub fn is_of(&self, kept: &Kept) -> bool {
+        self.bulk == kept.bulk && freedom(kept).eq(self.is_free.iter().copied())
+    }
+
     /// The stiffness over the rows: what is held has its own diagonal and no more.
-    pub fn matrix(&self, kept: &Kept, values: &Values) -> Blocks<f64, 3, 3> {
+    pub fn matrix(&self, kept: &Kept, values: &Values) -> Blocks<3, 3> {
         let is_free = |dof: usize| kept.equation.get(dof).is_some_and(|&e| e != NONE);
         let bulk = &kept.bulk;
         let range = |node: u32| bulk.row_start[node as usize]..bulk.row_start[node as usize + 1];
@@ -137,6 +148,12 @@ impl Fine {
             value,
         }
     }
+}
+
+/// Whether the dofs of the bulk can move.
+fn freedom(kept: &Kept) -> impl Iterator<Item = bool> + '_ {
+    let dofs = kept.equation.iter().take(3 * kept.bulk.nrow());
+    dofs.map(|&e| e != NONE)
 }
 
 /// The part of each node, or `NONE`: halves of halves by the longest extent, as many for any number of threads.

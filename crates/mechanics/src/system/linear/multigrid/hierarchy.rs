@@ -29,7 +29,7 @@ impl Hierarchy {
     /// # Shapes
     /// `modes`: motions of a rigid body at each row. `parts`: see [`super::incomplete::Incomplete`].
     pub fn new(
-        matrix: &Blocks<f64, 3, 3>,
+        matrix: &Blocks<3, 3>,
         modes: &[[[f64; MODES]; 3]],
         parts: &[Range<usize>],
     ) -> Option<Self> {
@@ -105,7 +105,7 @@ struct Dense {
 const FREE: f64 = 1e-12;
 
 impl Dense {
-    fn new(matrix: &Blocks<f64, MODES, MODES>) -> Self {
+    fn new(matrix: &Blocks<MODES, MODES>) -> Self {
         let n = matrix.nrow() * MODES;
         let mut factor = vec![0.0; n * n];
         for row in 0..matrix.nrow() {

@@ -1,6 +1,7 @@
 //! Incomplete factorization by blocks, without fill.
 
-use super::blocks::{Blocks, add_product, inverse};
+use super::blocks::{Blocks, inverse};
+use super::packed::{Packed, Sums};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -13,7 +14,9 @@ use std::ops::Range;
 /// 1994, chapter 7.
 pub(super) struct Incomplete<const N: usize> {
     parts: Vec<Range<usize>>,
-    lower: Blocks<f32, N, N>,
+    lower: Packed<N, N>,
+    /// Lᵀ
+    upper: Packed<N, N>,
     /// D⁻¹
     inverse: Vec<[[f32; N]; N]>,
 }
@@ -31,7 +34,7 @@ impl<const N: usize> Incomplete<N> {
     /// The factor of a matrix whose diagonal is made larger by this share; `None` where it is not positive.
     ///
     /// `parts` are ranges of rows from the first one on; rows after the last part are worked on one after the other.
-    pub fn new(matrix: &Blocks<f64, N, N>, parts: &[Range<usize>], shift: f64) -> Option<Self> {
+    pub fn new(matrix: &Blocks<N, N>, parts: &[Range<usize>], shift: f64) -> Option<Self> {
         let nrow = matrix.nrow();
         let mut start = Vec::with_capacity(nrow + 1);
         start.push(0);
@@ -89,39 +92,38 @@ impl<const N: usize> Incomplete<N> {
         Some(Self {
             parts: parts.to_vec(),
             inverse: inverse.iter().map(single).collect(),
-            lower: lower.to_single(),
+            upper: Packed::new(&lower.transpose()),
+            lower: Packed::new(&lower),
         })
     }
 
-    /// Solves with the factor, in place; `sum` is as long as the vector.
-    pub fn solve(&self, x: &mut [[f32; N]], sum: &mut [[f32; N]]) {
+    /// Solves with the factor, in place.
+    pub fn solve(&self, x: &mut [[f32; N]]) {
         let last = self.parts.last().map_or(0, |part| part.end);
         let (interior, between) = x.split_at_mut(last);
         let pieces = self.pieces(interior);
         pieces
             .into_par_iter()
             .for_each(|(rows, x)| self.forward(rows, x));
-        self.forward_between(last, interior, between);
-        sum.fill([0.0; N]);
-        let nrow = between.len() + last;
-        for row in (last..nrow).rev() {
-            let z = self.settle(row, &mut x[row], &sum[row]);
-            self.scatter(row, z, 0, sum);
+        for row in last..last + between.len() {
+            let mut sums = Sums::default();
+            self.lower
+                .add_row(row, &mut sums, |column| match column.checked_sub(last) {
+                    Some(at) => &between[at],
+                    None => &interior[column],
+                });
+            self.reduce(row, &mut between[row - last], &sums);
         }
-        let (interior, _) = x.split_at_mut(last);
-        let (sums, _) = sum.split_at_mut(last);
-        let pieces: Vec<_> = self
-            .pieces(interior)
-            .into_iter()
-            .zip(self.pieces(sums))
-            .collect();
-        pieces.into_par_iter().for_each(|((rows, x), (_, sum))| {
-            for row in rows.clone().rev() {
-                let at = row - rows.start;
-                let z = self.settle(row, &mut x[at], &sum[at]);
-                self.scatter(row, z, rows.start, sum);
-            }
-        });
+        for row in (last..last + between.len()).rev() {
+            let mut sums = Sums::default();
+            let near = |column: usize| &between[column - last];
+            self.upper.add_row(row, &mut sums, near);
+            self.settle(row, &mut between[row - last], &sums);
+        }
+        let (pieces, between) = (self.pieces(interior), &*between);
+        pieces
+            .into_par_iter()
+            .for_each(|(rows, x)| self.backward(rows, x, last, between));
     }
 
     /// The part of a vector that belongs to each part.
@@ -138,55 +140,52 @@ impl<const N: usize> Incomplete<N> {
     fn forward(&self, rows: Range<usize>, x: &mut [[f32; N]]) {
         let first = rows.start;
         for row in rows {
-            let mut sum = [0.0; N];
-            for (column, block) in self.lower.row(row) {
-                add_product(block, &x[column - first], &mut sum);
-            }
-            self.reduce(row, &mut x[row - first], &sum);
+            let mut sums = Sums::default();
+            self.lower
+                .add_row(row, &mut sums, |column| &x[column - first]);
+            self.reduce(row, &mut x[row - first], &sums);
         }
     }
 
-    fn forward_between(&self, last: usize, interior: &[[f32; N]], between: &mut [[f32; N]]) {
-        for row in last..last + between.len() {
-            let mut sum = [0.0; N];
-            for (column, block) in self.lower.row(row) {
-                let x = match column.checked_sub(last) {
+    fn backward(&self, rows: Range<usize>, x: &mut [[f32; N]], last: usize, between: &[[f32; N]]) {
+        let first = rows.start;
+        for row in rows.rev() {
+            let mut sums = Sums::default();
+            self.upper
+                .add_row(row, &mut sums, |column| match column.checked_sub(last) {
                     Some(at) => &between[at],
-                    None => &interior[column],
-                };
-                add_product(block, x, &mut sum);
-            }
-            self.reduce(row, &mut between[row - last], &sum);
+                    None => &x[column - first],
+                });
+            self.settle(row, &mut x[row - first], &sums);
         }
     }
 
     /// `x = D⁻¹ (x − sum)`
-    fn reduce(&self, row: usize, x: &mut [f32; N], sum: &[f32; N]) {
-        let left = std::array::from_fn(|i| x[i] - sum[i]);
-        *x = [0.0; N];
-        add_product(&self.inverse[row], &left, x);
+    #[inline(always)]
+    fn reduce(&self, row: usize, x: &mut [f32; N], sums: &Sums) {
+        let left = std::array::from_fn(|i| x[i] - sums[i]);
+        *x = self.scaled(row, left);
     }
 
     /// `x −= D⁻¹ sum`
-    fn settle(&self, row: usize, x: &mut [f32; N], sum: &[f32; N]) -> [f32; N] {
-        let mut change = [0.0; N];
-        add_product(&self.inverse[row], sum, &mut change);
+    #[inline(always)]
+    fn settle(&self, row: usize, x: &mut [f32; N], sums: &Sums) {
+        let change = self.scaled(row, std::array::from_fn(|i| sums[i]));
         for (x, change) in x.iter_mut().zip(change) {
             *x -= change;
         }
-        *x
     }
 
-    /// `sum += Lᵀ z` of one row.
-    fn scatter(&self, row: usize, z: [f32; N], first: usize, sum: &mut [[f32; N]]) {
-        for (column, block) in self.lower.row(row) {
-            let sum = &mut sum[column - first];
-            for (row, z) in block.iter().zip(z) {
-                for (sum, a) in sum.iter_mut().zip(row) {
-                    *sum += a * z;
-                }
+    /// `D⁻¹ x` of a row; the block is symmetric.
+    #[inline(always)]
+    fn scaled(&self, row: usize, x: [f32; N]) -> [f32; N] {
+        let mut scaled = [0.0; N];
+        for (column, x) in self.inverse[row].iter().zip(x) {
+            for (sum, a) in scaled.iter_mut().zip(column) {
+                *sum += a * x;
             }
         }
+        scaled
     }
 }
 
@@ -195,7 +194,7 @@ impl<const N: usize> Factor<'_, N> {
     fn eliminate(
         &mut self,
         row: usize,
-        matrix: &Blocks<f64, N, N>,
+        matrix: &Blocks<N, N>,
         start: &[usize],
         column: &[u32],
         shift: f64,

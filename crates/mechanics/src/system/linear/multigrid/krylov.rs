@@ -29,6 +29,25 @@ pub(super) enum End {
     Indefinite,
 }
 
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Stop {
+    /// At a residual whose largest entry is not above this.
+    Largest(f64),
+    /// At this part of the error: in the norm of the energy, or of the residual where there is none.
+    Part(f64),
+}
+
+impl Stop {
+    fn is_reached(self, r: &[f64]) -> bool {
+        let small = |goal: f64| largest(r) <= goal;
+        match self {
+            Self::Largest(goal) => small(goal),
+            Self::Part(_) => small(0.0),
+        }
+    }
+}
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     // chunks of one size, added up in their order: the same for any number of threads
     const CHUNK: usize = 16_384;
@@ -47,7 +66,7 @@ fn add(factor: f64, x: &[f64], to: &mut [f64]) {
     }
 }
 
-/// `x` such that `|r| <= goal` in the largest entry, from the residual `r` of the `x` at hand; both are kept up.
+/// `x` such that `stop` is reached, from the residual `r` of the `x` at hand; both are kept up.
 /// Returns the number of applications of the preconditioner.
 ///
 /// Source: Hestenes, Stiefel, *J. Res. Nat. Bur. Standards* 49 (1952) 409–436.
@@ -58,20 +77,27 @@ pub(super) fn conjugate_gradients(
     of: &mut impl Operators,
     r: &mut [f64],
     x: &mut [f64],
-    goal: f64,
+    stop: Stop,
     most: usize,
 ) -> Result<(End, usize), LinearError> {
     let n = r.len();
     let (mut z, mut p, mut q) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    let mut before = 0.0;
+    let (mut before, mut first) = (0.0, None);
     for iteration in 0..most {
-        if largest(r) <= goal {
+        if stop.is_reached(r) {
             return Ok((End::Small, iteration));
         }
         of.precondition(r, &mut z)?;
         let product = dot(r, &z);
         if product.is_nan() || product <= 0.0 {
             return Ok((End::Indefinite, iteration + 1));
+        }
+        // r·M⁻¹r is the square of the energy of the error, about
+        let start: f64 = *first.get_or_insert(product);
+        if let Stop::Part(part) = stop
+            && product <= part * part * start
+        {
+            return Ok((End::Small, iteration + 1));
         }
         let beta = if iteration == 0 {
             0.0
@@ -104,16 +130,23 @@ pub(super) fn minimal_residuals(
     of: &mut impl Operators,
     r: &mut [f64],
     x: &mut [f64],
-    goal: f64,
+    stop: Stop,
     most: usize,
 ) -> Result<(End, usize), LinearError> {
     let n = r.len();
     let mut total = 0;
+    let start = dot(r, r).sqrt();
     while total < most {
-        if largest(r) <= goal {
+        let size = dot(r, r).sqrt();
+        // the norm at which the largest entry is about small enough
+        let goal = match stop {
+            Stop::Largest(goal) => 0.5 * goal * size / largest(r),
+            Stop::Part(part) => part * start,
+        };
+        let is_small = matches!(stop, Stop::Part(_)) && size <= goal;
+        if is_small || stop.is_reached(r) {
             return Ok((End::Small, total));
         }
-        let size = dot(r, r).sqrt();
         let mut basis = vec![r.iter().map(|r| r / size).collect::<Vec<f64>>()];
         let mut directions: Vec<Vec<f64>> = Vec::new();
         // columns of the triangle, rotations, and the right side
@@ -155,7 +188,6 @@ pub(super) fn minimal_residuals(
             right[k] = c * last;
             right.push(-s * last);
             triangle.push(column);
-            // the norm is never below the largest entry
             if right[k + 1].abs() <= goal || left == 0.0 {
                 break;
             }

@@ -1,8 +1,9 @@
 //! One level of a hierarchy: its matrix, its smoother, and the way to the next coarser one.
 
 use super::aggregation::{Aggregates, MODES};
-use super::blocks::{Blocks, Number, add_product, inverse};
+use super::blocks::{Blocks, add_product, inverse};
 use super::incomplete::Incomplete;
+use super::packed::Packed;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -17,26 +18,25 @@ const DAMPED_ABOVE: f64 = 1.7;
 
 /// A level of a hierarchy with blocks of `N`.
 pub(super) struct Level<const N: usize> {
-    matrix: Blocks<f32, N, N>,
+    matrix: Packed<N, N>,
     smoother: Incomplete<N>,
     damping: f32,
     /// From the next level, and to it.
-    prolong: Blocks<f32, N, MODES>,
-    restrict: Blocks<f32, MODES, N>,
+    prolong: Packed<N, MODES>,
+    restrict: Packed<MODES, N>,
     residual: Vec<[f32; N]>,
     change: Vec<[f32; N]>,
-    sum: Vec<[f32; N]>,
 }
 
 /// The next level: its matrix and the modes there.
-pub(super) type Coarser = (Blocks<f64, MODES, MODES>, Vec<[[f64; MODES]; MODES]>);
+pub(super) type Coarser = (Blocks<MODES, MODES>, Vec<[[f64; MODES]; MODES]>);
 
 impl<const N: usize> Level<N> {
     /// A level, and the matrix of the next one; `None` where the matrix is not positive definite.
     ///
     /// Prolongation is smoothed once by Jacobi's method with blocks, `P = (1 − 4/(3λ) D⁻¹ A) T`.
     pub fn new(
-        matrix: &Blocks<f64, N, N>,
+        matrix: &Blocks<N, N>,
         modes: &[[[f64; MODES]; N]],
         parts: &[Range<usize>],
     ) -> Option<(Self, Coarser)> {
@@ -46,12 +46,14 @@ impl<const N: usize> Level<N> {
         let inverses: Option<Vec<[[f64; N]; N]>> =
             rows.map(|row| inverse(matrix.diagonal(row))).collect();
         let inverses = inverses?;
+        let single = Packed::new(matrix);
         let largest = SAFETY
-            * largest(matrix, |r| {
+            * largest(&single, matrix.nrow(), |r| {
                 r.par_iter_mut().zip(&inverses).for_each(|(r, inverse)| {
-                    let right = *r;
-                    *r = [0.0; N];
-                    add_product(inverse, &right, r);
+                    let right = r.map(f64::from);
+                    let mut product = [0.0; N];
+                    add_product(inverse, &right, &mut product);
+                    *r = product.map(|v| v as f32);
                 });
             });
         let (motions, coarse_modes) = Aggregates::new(matrix).motions(modes);
@@ -61,17 +63,15 @@ impl<const N: usize> Level<N> {
         let restrict = prolong.transpose();
         let mut coarse = restrict.times(&matrix.times(&prolong));
         settle(&mut coarse);
-        let single = matrix.to_single();
         let nrow = matrix.nrow();
         let mut level = Self {
             matrix: single,
             smoother,
             damping: 1.0,
-            prolong: prolong.to_single(),
-            restrict: restrict.to_single(),
+            prolong: Packed::new(&prolong),
+            restrict: Packed::new(&restrict),
             residual: vec![[0.0; N]; nrow],
             change: vec![[0.0; N]; nrow],
-            sum: vec![[0.0; N]; nrow],
         };
         level.damp();
         Some((level, (coarse, coarse_modes)))
@@ -79,13 +79,8 @@ impl<const N: usize> Level<N> {
 
     /// Damps the smoother where it overshoots.
     fn damp(&mut self) {
-        let Self {
-            matrix,
-            smoother,
-            sum,
-            ..
-        } = self;
-        let value = SAFETY * largest(matrix, |r| smoother.solve(r, sum));
+        let (matrix, smoother) = (&self.matrix, &self.smoother);
+        let value = SAFETY * largest(matrix, self.residual.len(), |r| smoother.solve(r));
         self.damping = (DAMPED_ABOVE / value).min(1.0) as f32;
     }
 
@@ -99,7 +94,7 @@ impl<const N: usize> Level<N> {
         coarse: impl FnOnce(&[[f32; MODES]], &mut [[f32; MODES]]),
     ) {
         x.copy_from_slice(b);
-        self.smoother.solve(x, &mut self.sum);
+        self.smoother.solve(x);
         for x in x.iter_mut().flatten() {
             *x *= self.damping;
         }
@@ -111,7 +106,7 @@ impl<const N: usize> Level<N> {
         self.prolong.multiply::<false>(coarse_x, x);
         self.change.copy_from_slice(b);
         self.matrix.multiply::<true>(x, &mut self.change);
-        self.smoother.solve(&mut self.change, &mut self.sum);
+        self.smoother.solve(&mut self.change);
         for (x, change) in x.iter_mut().flatten().zip(self.change.iter().flatten()) {
             *x += self.damping * change;
         }
@@ -120,8 +115,8 @@ impl<const N: usize> Level<N> {
 
 /// `P = T − weight D⁻¹ (A T)`, where P holds A T.
 fn smooth<const N: usize>(
-    prolong: &mut Blocks<f64, N, MODES>,
-    motions: &Blocks<f64, N, MODES>,
+    prolong: &mut Blocks<N, MODES>,
+    motions: &Blocks<N, MODES>,
     inverses: &[[[f64; N]; N]],
     weight: f64,
 ) {
@@ -147,7 +142,7 @@ fn smooth<const N: usize>(
 }
 
 /// Gives motions that are none a stiffness, so that they stay zero.
-fn settle(matrix: &mut Blocks<f64, MODES, MODES>) {
+fn settle(matrix: &mut Blocks<MODES, MODES>) {
     for row in 0..matrix.nrow() {
         let range = matrix.range(row);
         let Ok(at) = matrix.column[range.clone()].binary_search(&(row as u32)) else {
@@ -167,30 +162,30 @@ fn settle(matrix: &mut Blocks<f64, MODES, MODES>) {
 const NOTHING: f64 = 1e-14;
 
 /// The largest eigenvalue of `M⁻¹ A`, from below.
-fn largest<T: Number, const N: usize>(
-    matrix: &Blocks<T, N, N>,
-    mut precondition: impl FnMut(&mut [[T; N]]),
+fn largest<const N: usize>(
+    matrix: &Packed<N, N>,
+    nrow: usize,
+    mut precondition: impl FnMut(&mut [[f32; N]]),
 ) -> f64 {
-    let nrow = matrix.nrow();
     // the same numbers in every run, of all wave lengths
     let mut state = 1u32;
     let mut next = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        T::of(f64::from(state >> 8) / f64::from(1u32 << 24) - 0.5)
+        (state >> 8) as f32 / (1u32 << 24) as f32 - 0.5
     };
-    let mut x: Vec<[T; N]> = (0..nrow).map(|_| std::array::from_fn(|_| next())).collect();
-    let mut y = vec![[T::default(); N]; nrow];
-    let norm = |v: &[[T; N]]| -> f64 {
-        let squares = v.iter().flatten().map(|v| v.double() * v.double());
+    let mut x: Vec<[f32; N]> = (0..nrow).map(|_| std::array::from_fn(|_| next())).collect();
+    let mut y = vec![[0.0; N]; nrow];
+    let norm = |v: &[[f32; N]]| -> f64 {
+        let squares = v.iter().flatten().map(|&v| f64::from(v) * f64::from(v));
         squares.sum::<f64>().sqrt()
     };
     let mut value = 1.0;
     for _ in 0..STEPS {
-        y.fill([T::default(); N]);
+        y.fill([0.0; N]);
         matrix.multiply::<false>(&x, &mut y);
         precondition(&mut y);
         value = (norm(&y) / norm(&x).max(f64::MIN_POSITIVE)).max(f64::MIN_POSITIVE);
-        let scale = T::of(value.recip());
+        let scale = value.recip() as f32;
         for (x, y) in x.iter_mut().flatten().zip(y.iter().flatten()) {
             *x = *y * scale;
         }

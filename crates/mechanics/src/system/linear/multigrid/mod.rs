@@ -8,11 +8,15 @@
 //! ```
 //!
 //! Contact never enters the hierarchy, so that no change of contact costs a new one, and no stiffness of contact makes
-//! iterations more. The smoother is an incomplete factor by blocks of nodes, in single precision. Iterations are by
-//! conjugate gradients, and by minimal residuals where the operator is not symmetric.
+//! iterations more. The smoother is an incomplete factor by blocks of nodes, in single precision. It outlives patterns:
+//! nothing but the stiffness of the bodies, and what is held of them, makes it anew.
 //!
-//! Where it does not serve (multipliers, the plane, few unknowns, a matrix that is not positive definite, iterations that
-//! stay slow), the direct solver takes over, and says of singular systems what it knows.
+//! Multipliers are in the block with all they act on. Where operator and block are positive definite, iterations are by
+//! conjugate gradients; elsewhere by minimal residuals, from a start that leaves nothing at the equations of the block,
+//! nor does what follows: gaps close exactly, and what is measured are forces away from the interface.
+//!
+//! Where it does not serve (the plane, a matrix that is not positive definite, iterations that stay slow), the direct
+//! solver takes over, and says of singular systems what it knows.
 //!
 //! Sources: Vaněk, Mandel, Brezina, *Computing* 56 (1996) 179–196 (smoothed aggregation); Kothari, Krause, *Comput.
 //! Methods Appl. Mech. Engrg.* 2022 (multigrid and contact); the interface apart: Nataf and others, AMG with filtering.
@@ -25,18 +29,21 @@ mod hierarchy;
 mod incomplete;
 mod krylov;
 mod level;
+mod packed;
 #[cfg(test)]
 mod tests;
 
 use super::residual::Residual;
 use super::{
-    Direct, Kept, LinearError, LinearSolver, Problem, SolveReport, Symmetry, Values, apply, largest,
+    Condensed, Direct, EXACT, Kept, LinearError, LinearSolver, Problem, SolveReport, Symmetry,
+    Values, apply, largest,
 };
 use crate::system::sparsity::NONE;
 use block::InterfaceBlock;
 use fine::Fine;
 use hierarchy::Hierarchy;
-use krylov::{End, Operators};
+use krylov::{End, Operators, Stop};
+use rayon::prelude::*;
 
 /// Iterations of one solution, at most.
 const ITERATIONS: usize = 200;
@@ -46,10 +53,12 @@ const LAYERS: usize = 1;
 const LARGE: usize = 2000;
 /// A hierarchy is made anew where it takes so many times the iterations that it took when it was new, twice running.
 const WORN: f64 = 1.6;
+/// Iterations to a power of ten that are never too many.
+const LEAST: f64 = 4.0;
 
 /// Multigrid over direct solution.
 pub struct Multigrid {
-    direct: Direct,
+    direct: Condensed<Direct>,
     kept: Option<Kept>,
     grid: Option<Grid>,
     /// What has the present values.
@@ -68,10 +77,13 @@ enum Way {
 struct Grid {
     fine: Fine,
     hierarchy: Option<Hierarchy>,
+    /// The fingerprint of the stiffness that the hierarchy was made of, and whether it is that of this increment.
+    source: u64,
+    is_proven: bool,
     block: InterfaceBlock,
     work: Work,
-    /// Iterations of the first solution with the hierarchy, and how often it took too many since.
-    base: Option<usize>,
+    /// Iterations to a power of ten of the first solution with the hierarchy, and how often it took too many since.
+    base: Option<f64>,
     worn: usize,
 }
 
@@ -96,7 +108,7 @@ impl Multigrid {
     #[must_use]
     pub fn new() -> Self {
         Self {
-            direct: Direct::reproducible(),
+            direct: Condensed::new(Direct::reproducible),
             kept: None,
             grid: None,
             way: None,
@@ -131,11 +143,16 @@ impl LinearSolver for Multigrid {
         let kept = Kept::new(problem);
         let suits = problem.bulk.block == 3
             && problem.coordinates.len() == problem.bulk.nrow()
-            && problem.symmetry != Symmetry::Symmetric
-            && problem.sign.iter().all(|&sign| sign > 0)
             && !has_shared(problem);
-        let grid = suits.then(|| Grid::new(&kept, problem.coordinates));
-        self.grid = grid.filter(|grid| !grid.fine.node.is_empty());
+        let grid = self.grid.take().filter(|_| suits);
+        self.grid = match grid {
+            Some(mut grid) if grid.fine.is_of(&kept) => {
+                grid.follow(&kept);
+                Some(grid)
+            }
+            _ if suits => Some(Grid::new(&kept)).filter(|grid| !grid.fine.node.is_empty()),
+            _ => None,
+        };
         self.residual = Residual::new(problem.ndof, problem.nequation);
         self.kept = Some(kept);
         Ok(())
@@ -168,8 +185,22 @@ impl LinearSolver for Multigrid {
     fn forget(&mut self) {
         self.direct.forget();
         if let Some(grid) = &mut self.grid {
-            grid.hierarchy = None;
+            (grid.is_proven, grid.base, grid.worn) = (false, None, 0);
         }
+    }
+
+    fn is_iterative(&self) -> bool {
+        self.grid.is_some()
+    }
+
+    fn solve_roughly(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        part: f64,
+    ) -> Result<SolveReport, LinearError> {
+        self.solve_by(values, rhs, x, Wanted::Part(part))
     }
 
     fn solve(
@@ -179,15 +210,40 @@ impl LinearSolver for Multigrid {
         x: &mut [f64],
         rtol: f64,
     ) -> Result<SolveReport, LinearError> {
+        self.solve_by(values, rhs, x, Wanted::Residual(rtol))
+    }
+}
+
+/// When a solution is good enough.
+#[derive(Clone, Copy, Debug)]
+enum Wanted {
+    /// The true relative residual.
+    Residual(f64),
+    /// The part of the error that may stay, in the norm of the energy or, where there is none, of the residual.
+    Part(f64),
+}
+
+impl Multigrid {
+    fn solve_by(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        wanted: Wanted,
+    ) -> Result<SolveReport, LinearError> {
         let kept = self.kept.as_ref();
         let kept = kept.ok_or(LinearError::Order { before: "analyze" })?;
         kept.check_solution(values, rhs, x)?;
+        let rtol = match wanted {
+            Wanted::Residual(rtol) => rtol,
+            Wanted::Part(_) => EXACT,
+        };
         match (&mut self.grid, self.way) {
             (_, None) => Err(LinearError::Order {
                 before: "factorize",
             }),
             (Some(grid), Some(Way::Grid)) => {
-                let outcome = grid.solve(kept, values, rhs, x, rtol, &mut self.residual)?;
+                let outcome = grid.solve(kept, values, rhs, x, wanted, &mut self.residual)?;
                 if let Some(report) = outcome {
                     return Ok(report);
                 }
@@ -199,34 +255,69 @@ impl LinearSolver for Multigrid {
     }
 }
 
+/// A number that two lists of values share where they are the same, bit by bit, and hardly otherwise.
+fn fingerprint(values: &[f64]) -> u64 {
+    const CHUNK: usize = 1 << 16;
+    const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mix = |sum: u64, bits: u64| (sum.rotate_left(23) ^ bits).wrapping_mul(FACTOR);
+    let chunks = values.par_chunks(CHUNK);
+    let of_chunk = |chunk: &[f64]| chunk.iter().fold(FACTOR, |sum, v| mix(sum, v.to_bits()));
+    let sums: Vec<u64> = chunks.map(of_chunk).collect();
+    sums.into_iter().fold(values.len() as u64, mix)
+}
+
 impl Grid {
-    fn new(kept: &Kept, coordinates: &[[f64; 3]]) -> Self {
-        let fine = Fine::new(kept, coordinates);
+    fn new(kept: &Kept) -> Self {
+        let fine = Fine::new(kept);
         let nrow = fine.node.len();
-        Self {
+        let mut grid = Self {
             fine,
             hierarchy: None,
+            source: 0,
+            is_proven: false,
             block: InterfaceBlock::new(),
             work: Work {
-                raw_x: vec![0.0; kept.equation.len()],
-                raw_y: vec![0.0; kept.equation.len()],
-                right: vec![0.0; kept.sign.len()],
                 b: vec![[0.0; 3]; nrow],
                 x: vec![[0.0; 3]; nrow],
+                ..Work::default()
             },
             base: None,
             worn: 0,
+        };
+        grid.follow(kept);
+        grid
+    }
+
+    /// Takes note of another interface, with other equations.
+    fn follow(&mut self, kept: &Kept) {
+        self.block = InterfaceBlock::new();
+        self.work.raw_x = vec![0.0; kept.equation.len()];
+        self.work.raw_y = vec![0.0; kept.equation.len()];
+        self.work.right = vec![0.0; kept.sign.len()];
+    }
+
+    /// Makes a hierarchy where there is none, where it is worn, and where that of another increment is not what this
+    /// one would have made.
+    fn renew(&mut self, kept: &Kept, values: &Values) {
+        let serves = self.hierarchy.is_some() && self.is_proven && self.worn <= 1;
+        if serves {
+            return;
         }
+        let source = fingerprint(values.bulk);
+        let same = self.source == source && self.hierarchy.is_some();
+        (self.source, self.is_proven) = (source, true);
+        (self.base, self.worn) = (None, 0);
+        if same {
+            return;
+        }
+        let matrix = self.fine.matrix(kept, values);
+        let new = Hierarchy::new(&matrix, &self.fine.modes, &self.fine.parts);
+        self.hierarchy = new.or(self.hierarchy.take());
     }
 
     /// Takes the values of a tangent; false where they do not suit.
     fn update(&mut self, kept: &Kept, values: &Values) -> Result<bool, LinearError> {
-        if self.hierarchy.is_none() || self.worn > 1 {
-            let matrix = self.fine.matrix(kept, values);
-            let new = Hierarchy::new(&matrix, &self.fine.modes, &self.fine.parts);
-            (self.base, self.worn) = (None, 0);
-            self.hierarchy = new.or(self.hierarchy.take());
-        }
+        self.renew(kept, values);
         if self.hierarchy.is_none() {
             return Ok(false);
         }
@@ -247,22 +338,32 @@ impl Grid {
         values: &Values,
         rhs: &[f64],
         x: &mut [f64],
-        rtol: f64,
+        wanted: Wanted,
         residual: &mut Residual,
     ) -> Result<Option<SolveReport>, LinearError> {
-        let size = largest(rhs);
-        if !size.is_finite() {
+        if !largest(rhs).is_finite() {
             return Err(LinearError::NotFinite);
         }
         x.fill(0.0);
         let mut report = SolveReport::default();
-        if size == 0.0 {
+        if largest(rhs) == 0.0 {
             return Ok(Some(report));
         }
-        let symmetric = kept.symmetry != Symmetry::Unsymmetric;
-        residual.value.copy_from_slice(rhs);
+        let symmetric = kept.is_definite();
+        let mut size = kept.largest_force(rhs);
+        if symmetric {
+            residual.value.copy_from_slice(rhs);
+        } else {
+            self.block.after(rhs, x)?;
+            residual.measure(kept, values, rhs, x);
+            size = size.max(kept.largest_force(&residual.value));
+        }
         for attempt in 0..3 {
             let most = ITERATIONS.saturating_sub(report.iterations);
+            let stop = match wanted {
+                Wanted::Residual(rtol) => Stop::Largest(0.5 * rtol * size),
+                Wanted::Part(part) => Stop::Part(part),
+            };
             let mut operators = OneGrid {
                 grid: self,
                 kept,
@@ -274,13 +375,7 @@ impl Grid {
             } else {
                 krylov::minimal_residuals
             };
-            let (end, count) = iterate(
-                &mut operators,
-                &mut residual.value,
-                x,
-                0.5 * rtol * size,
-                most,
-            )?;
+            let (end, count) = iterate(&mut operators, &mut residual.value, x, stop, most)?;
             report.iterations += count;
             if end != End::Small {
                 return Ok(None);
@@ -289,8 +384,14 @@ impl Grid {
             let left = largest(&residual.value);
             report.residual = left / size;
             report.refinements = attempt;
-            if report.residual <= rtol || left <= residual.round_off(kept, values, x) {
-                self.judge(report.iterations);
+            let done = match wanted {
+                Wanted::Residual(rtol) => {
+                    report.residual <= rtol || left <= residual.round_off(kept, values, x)
+                }
+                Wanted::Part(_) => true,
+            };
+            if done {
+                self.judge(wanted, report.iterations);
                 return Ok(Some(report));
             }
             residual.measure(kept, values, rhs, x);
@@ -299,13 +400,32 @@ impl Grid {
     }
 
     /// Keeps count of how well the hierarchy serves.
-    fn judge(&mut self, iterations: usize) {
-        let base = *self.base.get_or_insert(iterations);
-        if iterations as f64 > WORN * base as f64 {
+    fn judge(&mut self, wanted: Wanted, iterations: usize) {
+        // iterations to one power of ten
+        let powers = match wanted {
+            Wanted::Residual(rtol) => -rtol.log10(),
+            Wanted::Part(part) => -part.log10(),
+        };
+        let rate = iterations as f64 / powers.max(1.0);
+        let base = *self.base.get_or_insert(rate.max(LEAST));
+        if rate > WORN * base {
             self.worn += 1;
         } else {
             self.worn = 0;
         }
+    }
+}
+
+impl Kept {
+    /// Whether operator and block are symmetric and positive definite in a stable state.
+    fn is_definite(&self) -> bool {
+        self.symmetry == Symmetry::Definite && self.sign.iter().all(|&sign| sign > 0)
+    }
+
+    /// The largest value at equations of displacements.
+    fn largest_force(&self, values: &[f64]) -> f64 {
+        let forces = values.iter().zip(&self.sign).filter(|(_, s)| **s > 0);
+        forces.fold(0.0, |largest: f64, (v, _)| largest.max(v.abs()))
     }
 }
 

@@ -192,7 +192,7 @@ fn a_hierarchy_serves_changed_values_and_is_made_anew_where_it_is_worn() {
 }
 
 #[test]
-fn multipliers_are_condensed_before() {
+fn multipliers_are_condensed_or_in_the_block() {
     let n = [8, 8, 8];
     let mut tied = Placed {
         system: tied_blocks(n, [1.0, 5.0]),
@@ -204,21 +204,34 @@ fn multipliers_are_condensed_before() {
     tied.system.held.extend(end - 3 * 81..end);
     let mut solver = Condensed::new(Multigrid::new);
     let (report, _) = compare(&tied, &mut solver);
-    println!("{report:?}");
+    println!("condensed: {report:?}");
     assert!(
         solver.inner().is_multigrid() && report.iterations <= 40,
         "{report:?}"
     );
+    let (multigrid, report, _) = solve(&tied, &mut Multigrid::new());
+    println!("in the block: {report:?}");
+    assert!(multigrid && report.iterations <= 40, "{report:?}");
 }
 
 #[test]
 fn what_does_not_suit_is_solved_directly() {
-    let n = [4, 4, 4];
-    let tied = Placed {
-        system: tied_blocks(n, [1.0, 5.0]),
-        coordinates: places(n, 2),
+    // in the plane
+    let n = [6, 6, 0];
+    let mut plane = Placed {
+        system: System::new(nnode(n), 2, 0, Symmetry::Definite),
+        coordinates: places(n, 1),
     };
-    assert!(!solve(&tied, &mut Multigrid::new()).0);
+    let spring = |row: usize, column: usize| match (row % 2 == column % 2, row == column) {
+        (true, true) => 1.0,
+        (true, false) => -1.0,
+        _ => 0.0,
+    };
+    let matrix: Vec<f64> = (0..16).map(|k| spring(k / 4, k % 4)).collect();
+    let bars = (1..nnode(n) as u32).map(|node| (vec![node - 1, node], matrix.clone()));
+    plane.system.bulk.extend(bars);
+    plane.system.held = vec![0, 1];
+    assert!(!solve(&plane, &mut Multigrid::new()).0);
     // a tangent that is indefinite
     let mut buckled = pressed([6, 6, 6], 10.0, false, false);
     let ndof = buckled.system.ndof as u32;
