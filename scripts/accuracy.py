@@ -134,7 +134,7 @@ def beside_hertz(force, radius, modulus, at, pressure):
     exact = p0 * np.sqrt(np.maximum(0.0, 1.0 - (at / a) ** 2))
     counts = (at < a) | (pressure > NO_PRESSURE * p0)
     return {
-        "force": float(force),
+        "force": force,
         "largest": float(pressure.max()) / p0 - 1.0,
         "centre": float(pressure[at.argmin()]) / p0 - 1.0,
         "rms": float(np.sqrt(np.mean((pressure[counts] - exact[counts]) ** 2))) / p0,
@@ -144,11 +144,10 @@ def beside_hertz(force, radius, modulus, at, pressure):
 
 def errors(deck, results):
     """Errors of the results that begin with this path, by name."""
-    force = reaction(f"{results}.dat", deck.first("NODEPRINT", "NSET"))
+    along, _, down = (float(abs(one)) for one in reaction(f"{results}.dat", deck.first("NODEPRINT", "NSET")))
     if deck.radius is None:
-        friction = abs(force[0] / force[2]) / deck.friction - 1.0
-        return {"force": float(abs(force[2])), "friction": float(friction)}
+        return {"force": down, "friction": along / down / deck.friction - 1.0}
     found = pressures(f"{results}.frd")
     at = np.array([math.hypot(x, y) for x, y, _ in deck.slave.values()])
     pressure = np.array([found.get(node, 0.0) for node in deck.slave])
-    return beside_hertz(QUARTERS * abs(force[2]), deck.radius, deck.modulus(), at, pressure)
+    return beside_hertz(QUARTERS * down, deck.radius, deck.modulus(), at, pressure)

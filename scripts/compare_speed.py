@@ -321,7 +321,7 @@ def counts(outcome, of):
 
 
 def cost_cells(outcome, of, form):
-    return [*both(outcome, lambda one: form(of(one.cost))), number(outcome.ratio(of), ".1f")]
+    return [*both(outcome, lambda one: form(of(one.cost))), number(outcome.ratio(of), ".2f")]
 
 
 def table(headings, rows):
@@ -452,7 +452,7 @@ def said(outcome):
         if one is not None:
             parts.append(f"{name} {one.cost.wall:.2f} s" if one.cost else f"{name} failed: {one.failure}")
     ratio = outcome.ratio(wall)
-    return f"{outcome.row.name}: {', '.join(parts)}" + (f", ratio {ratio:.1f}" if ratio else "")
+    return f"{outcome.row.name}: {', '.join(parts)}" + (f", ratio {ratio:.2f}" if ratio else "")
 
 
 def arguments():
