@@ -17,23 +17,16 @@ import shutil
 import sys
 import tempfile
 
-import compare_ccx
+from jobs import iterations_of_ccx, run, version
 
 TABLE = pathlib.Path(__file__).resolve().parent.parent / "crates/signorini/tests/decks/ccx_iterations.txt"
 HEAD = "# Iterations of CalculiX {version} for the decks of its suite, by scripts/ccx_iterations.py.\n"
 
 
-def version(ccx):
-    """What ccx calls itself, as in 2.20."""
-    _, said, _ = compare_ccx.run([ccx, "-v"], ".", 60.0)
-    words = said.split()
-    return words[-1] if words else "of an unknown version"
-
-
 def count(ccx, deck, folder):
     """Iterations of one deck; none where ccx does not solve it."""
-    code, _, _ = compare_ccx.run([ccx, "-i", deck.stem], folder, 600.0)
-    return compare_ccx.iterations_of_ccx(folder, deck.stem) if code == 0 else None
+    code, _, _ = run([ccx, "-i", deck.stem], folder, 600.0)
+    return iterations_of_ccx(folder, deck.stem) if code == 0 else None
 
 
 def main():

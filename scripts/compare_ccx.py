@@ -34,11 +34,11 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
-import time
 from dataclasses import dataclass, field
+
+from jobs import events, iterations_of_ccx, iterations_of_ours, keywords, run
 
 DEBIAN = "/usr/share/doc/calculix-ccx-test/examples/test"
 # blank-free beginnings of the keywords of procedures, as CalculiX knows them
@@ -104,13 +104,6 @@ class Blocks:
     lacking: list[str] = field(default_factory=list)
 
 
-def keywords(text):
-    """The keywords of a deck, without blanks, in capitals, without their parameters."""
-    lines = (line.strip() for line in text.splitlines())
-    cards = (line for line in lines if line.startswith("*") and not line.startswith("**"))
-    return [re.sub(r"\s", "", card[1:].split(",")[0]).upper() for card in cards]
-
-
 def begins(keyword, names):
     return any(keyword.startswith(name) for name in names)
 
@@ -172,39 +165,6 @@ def chosen(folder, only_contact):
     return decks
 
 
-def run(command, folder, timeout):
-    """Exit code (None: out of time), output, seconds."""
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "CCX_NPROC_EQUATION_SOLVER": "1"}
-    began = time.monotonic()
-    try:
-        done = subprocess.run(
-            command,
-            cwd=folder,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            timeout=timeout,
-        )
-        code, said = done.returncode, done.stdout.decode("utf-8", "replace")
-    except subprocess.TimeoutExpired:
-        code, said = None, ""
-    return code, said, time.monotonic() - began
-
-
-def events(said):
-    """The lines of JSON in an output."""
-    found = []
-    for line in said.splitlines():
-        try:
-            event = json.loads(line)
-        except json.JSONDecodeError:
-            continue
-        if isinstance(event, dict):
-            found.append(event)
-    return found
-
-
 def first_error(said):
     """The message of the first error in a run's events."""
     of_errors = (e for e in events(said) if e.get("ev") == "diagnostic" and e.get("severity") == "error")
@@ -244,25 +204,6 @@ def judge(said, names=None):
             last[name] = (at, outcome)
     blocks.lacking = [name for name, (_, outcome) in last.items() if outcome != "compared"]
     return blocks
-
-
-def iterations_of_ccx(folder, deck):
-    """The sum over the column ITRS of a .sta file."""
-    try:
-        lines = pathlib.Path(folder, f"{deck}.sta").read_text(encoding="ascii", errors="replace").splitlines()
-    except OSError:
-        return None
-    rows = [line.split() for line in lines[2:]]
-    counts = [int(row[3]) for row in rows if len(row) == 7 and row[3].isdigit()]
-    return sum(counts) if counts else None
-
-
-def iterations_of_ours(results):
-    try:
-        with open(os.path.join(results, "summary.json"), encoding="utf-8") as file:
-            return sum(step["iterations"] for step in json.load(file)["steps"])
-    except (OSError, ValueError, KeyError):
-        return None
 
 
 def holds_something(path):

@@ -27,12 +27,12 @@ import argparse
 import itertools
 import os
 import pathlib
-import re
 import shutil
 import sys
 import tempfile
 
-import compare_ccx
+from compare_ccx import CONVERGED
+from jobs import cards, fields, keywords, parameter, run
 
 # corners and middles of edges in the order of the deck, on [-1, 1]
 HEX20 = [
@@ -66,28 +66,6 @@ def shape(kind, at):
     return values
 
 
-def cards(text):
-    """Keyword lines with their data lines, comments left out."""
-    found = []
-    for line in text.splitlines():
-        if line.startswith("**") or not line.strip():
-            continue
-        if line.startswith("*"):
-            found.append((line, []))
-        elif found:
-            found[-1][1].append(line)
-    return found
-
-
-def fields(lines):
-    return [field.strip() for line in lines for field in line.split(",") if field.strip()]
-
-
-def parameter(card, name):
-    match = re.search(rf"{name}\s*=\s*([^,\s]+)", card, re.IGNORECASE)
-    return match.group(1).upper() if match else None
-
-
 class Mesh:
     """A deck and its refinement."""
 
@@ -98,7 +76,7 @@ class Mesh:
         # of the refinement: places, nodes by place, nodes of new elements, and the new elements of an old one
         self.place, self.known, self.new, self.parts = {}, {}, {}, {}
         for card, lines in self.cards:
-            key = compare_ccx.keywords(card)[0]
+            key = keywords(card)[0]
             if key == "NODE":
                 for line in lines:
                     label, *x = line.split(",")
@@ -204,7 +182,7 @@ class Mesh:
         """The refined deck; of a sheet, thinner and under as much less force."""
         out, elements_done = [], False
         for card, lines in self.cards:
-            key = compare_ccx.keywords(card)[0]
+            key = keywords(card)[0]
             if key == "NODE":
                 lines = [f"{label},{x!r},{y!r},{z!r}" for label, (x, y, z) in sorted(self.place.items())]
             elif key == "ELEMENT":
@@ -233,7 +211,7 @@ class Mesh:
                 out.append("*NODE PRINT, NSET=ORIGINALNODES\nU\n")
                 if thinner != 1.0 or any(kind.startswith("CPS") for kind in self.kinds.values()):
                     out.append("*EL PRINT, ELSET=ALLPARTS\nS\n")
-                out.append(compare_ccx.CONVERGED)
+                out.append(CONVERGED)
             elif key == "STEP":
                 out.append("*NSET, NSET=ORIGINALNODES\n" + "".join(f"{n},\n" for n in sorted(self.old)))
                 out.append("*ELSET, ELSET=ALLPARTS\n" + "".join(f"{n},\n" for n in sorted(self.new)))
@@ -250,7 +228,7 @@ class Mesh:
         if name.isdigit():
             return [int(name)]
         for card, lines in self.cards:
-            if compare_ccx.keywords(card)[0] == "ELSET" and parameter(card, "ELSET") == name.upper():
+            if keywords(card)[0] == "ELSET" and parameter(card, "ELSET") == name.upper():
                 return [int(one) for one in fields(lines)]
         raise SystemExit(f"no element set {name}")
 
@@ -293,7 +271,7 @@ def solved(programs, text, name):
         pathlib.Path(folder, f"{name}.inp").write_text(text, encoding="ascii")
         command = [signorini, "run", f"{name}.inp", "--compat", "ccx", "--quiet"]
         for program in ([ccx, "-i", name], command):
-            code, _, _ = compare_ccx.run(program, folder, 1800.0)
+            code, _, _ = run(program, folder, 1800.0)
             if code != 0:
                 raise SystemExit(f"{name}: {program[0]} ended with {code}")
         files = os.path.join(folder, f"{name}.dat"), os.path.join(folder, f"{name}.out", f"{name}.dat")

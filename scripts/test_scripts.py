@@ -112,6 +112,15 @@ def run(script, *arguments, program=sys.executable):
     return done.returncode, done.stdout
 
 
+def pretending(folder, name, text):
+    """A program of this text, in place of one that solves."""
+    path = os.path.join(folder, name)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(f"#!{sys.executable}\n{text}")
+    os.chmod(path, 0o755)
+    return path
+
+
 class InFolder(unittest.TestCase):
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
@@ -458,14 +467,6 @@ class CompareCcx(unittest.TestCase):
         found = self.judge(block(0.5, "compared"), block(1.0, "only in the reference"))
         self.assertEqual(found.lacking, ["U"])
 
-    def program(self, name, text):
-        """A program of this text, in place of one that solves."""
-        path = os.path.join(self.folder, name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(f"#!{sys.executable}\n{text}")
-        os.chmod(path, 0o755)
-        return path
-
     def compare(self, *more):
         """A folder of five decks and what is no deck, run through programs that pretend."""
         decks = os.path.join(self.folder, "decks")
@@ -474,7 +475,8 @@ class CompareCcx(unittest.TestCase):
         for name, text in (("near", contact), ("far", ""), ("loose", ""), ("odd", contact), ("modes", "*FREQUENCY\n")):
             with gzip.open(os.path.join(decks, f"{name}.inp.gz"), "wt", encoding="utf-8") as file:
                 file.write(f"{text}*STEP\n*STATIC\n*END STEP\n")
-        ccx = self.program(
+        ccx = pretending(
+            self.folder,
             "ccx",
             """import sys
 name = sys.argv[2]
@@ -482,7 +484,8 @@ open(name + ".dat", "w").write("table")
 open(name + ".sta", "w").write("head\\nhead\\n 1 1 1 4 1. 1. 1.\\n 1 2 1 3 1. 1. 1.\\n")
 """,
         )
-        signorini = self.program(
+        signorini = pretending(
+            self.folder,
             "signorini",
             """import json, os, sys
 if sys.argv[1] == "diff":
@@ -528,6 +531,271 @@ open(f"{name}.out/summary.json", "w").write(json.dumps({"steps": [{"iterations":
         code, said = run("compare_ccx.py", self.folder, "--ccx", os.path.join(self.folder, "none"))
         self.assertEqual(code, 2, said)
         self.assertIn("there is no program", said)
+
+
+BALL = """*HEADING
+Hertz quarter paraboloid R=100.0 on elastic block; C3D8
+*NODE,NSET=NUP
+1,0,0,0
+2,2,0,0
+3,2,2,0
+4,0,2,0
+5,0,0,9
+6,2,0,9
+7,2,2,9
+8,0,2,9
+*ELEMENT,TYPE=C3D8,ELSET=EUP
+7,1,2,3,4,5,6,7,8
+*SURFACE,NAME=SSLAVE,TYPE=ELEMENT
+7,S1
+*MATERIAL,NAME=EL
+*ELASTIC
+210000.,0.3
+*MATERIAL,NAME=STIFF
+*ELASTIC
+2.1e8,0.3
+*SOLID SECTION,ELSET=EUP,MATERIAL=EL
+*SOLID SECTION,ELSET=ELO,MATERIAL=STIFF
+*CONTACT PAIR,INTERACTION=SI,TYPE=SURFACE TO SURFACE
+sslave,SMASTER
+*STEP,INC=200
+*STATIC,SOLVER=SPOOLES
+1.0,1.
+*NODE PRINT,NSET=NTOP,TOTALS=ONLY
+RF
+*END STEP
+"""
+TOTALS = """
+ total force (fx,fy,fz) for set NTOP and time  0.2500000E+00
+
+        1.000000E+00  0.000000E+00 -1.000000E+00
+
+ total force (fx,fy,fz) for set NBOT and time  0.1000000E+01
+
+        7.000000E+00  7.000000E+00  7.000000E+00
+
+ total force (fx,fy,fz) for set NTOP and time  0.1000000E+01
+
+        3.030000E+00  0.000000E+00 {force:.6E}
+"""
+TABLES = """ -4  CONTACT     6    1
+ -5  COPEN       1    4    1    1
+ -5  CSLIP1      1    4    2    2
+ -5  CSLIP2      1    4    3    3
+ -5  CPRESS      1    4    1    2
+{rows} -3
+ -4  ERROR       1    1
+ -1         1 9.00000E+09
+ -3
+"""
+
+
+class CompareSpeed(unittest.TestCase):
+    """Pieces of compare_speed.py and of what it stands on, and all of it with programs that only pretend."""
+
+    def setUp(self):
+        sys.path.insert(0, HERE)
+        self.script, self.accuracy, self.jobs = map(__import__, ("compare_speed", "accuracy", "jobs"))
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = holder.name
+
+    def write(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="ascii") as file:
+            file.write(text)
+        return path
+
+    def results(self, name, force, pressures):
+        """A .dat and an .frd file with a force, and pressures by node in the last of two tables."""
+        self.write(f"{name}.dat", TOTALS.format(force=force))
+        tables = ""
+        for scale in (0.5, 1.0):
+            rows = "".join(
+                f" -1{node:10}-1.00000E-03 0.00000E+00 0.00000E+00{scale * pressure:12.5E}\n"
+                for node, pressure in pressures.items()
+            )
+            tables += TABLES.format(rows=rows)
+        self.write(f"{name}.frd", tables)
+        return os.path.join(self.folder, name)
+
+    def test_forces_and_pressures_are_the_last_ones(self):
+        results = self.results("deck", -10.1, {1: 512.5, 12: -3.25})
+        self.assertEqual(list(self.accuracy.reaction(f"{results}.dat", "NTOP")), [3.03, 0.0, -10.1])
+        self.assertEqual(self.accuracy.pressures(f"{results}.frd"), {1: 512.5, 12: -3.25})
+        for wrong, name in ((self.accuracy.reaction, "NONE"), (self.accuracy.pressures, None)):
+            with self.assertRaises(ValueError):
+                wrong(f"{results}.dat", *([name] if name else []))
+
+    def test_a_deck_tells_its_exact_solution_and_its_slave_surface(self):
+        deck = self.accuracy.Deck(BALL)
+        self.assertEqual((deck.dof, deck.radius), (24, 100.0))
+        self.assertAlmostEqual(deck.modulus() / (210000.0 / 0.91 / 1.001), 1.0, places=12)
+        self.assertEqual(deck.slave, {1: [0, 0, 0], 2: [2, 0, 0], 3: [2, 2, 0], 4: [0, 2, 0]})
+
+    def test_sides_of_quadratic_tetrahedra_have_the_middles_of_their_edges(self):
+        edges = {(0, 1): 4, (1, 2): 5, (0, 2): 6, (0, 3): 7, (1, 3): 8, (2, 3): 9}
+        count, sides = self.accuracy.SIDES["C3D10"]
+        self.assertEqual(count, 10)
+        for corners, side in zip(self.accuracy.TET, sides):
+            wanted = {node for edge, node in edges.items() if set(edge) <= set(corners)}
+            self.assertEqual((side[:3], set(side[3:])), (corners, wanted))
+
+    def exact(self, force, deck):
+        """Pressures of Hertz at the nodes of the slave surface."""
+        p0, a = self.accuracy.hertz(4.0 * force, deck.radius, deck.modulus())
+        at = {node: np.hypot(x, y) for node, (x, y, _) in deck.slave.items()}
+        return p0, {node: p0 * np.sqrt(max(0.0, 1.0 - (r / a) ** 2)) for node, r in at.items()}
+
+    def test_the_pressures_of_hertz_are_without_error_and_others_are_not(self):
+        deck, force = self.accuracy.Deck(BALL), 5e4
+        p0, exact = self.exact(force, deck)
+        _, a = self.accuracy.hertz(4.0 * force, deck.radius, deck.modulus())
+        # p0 is 3/2 of the mean pressure
+        self.assertAlmostEqual(p0 * np.pi * a**2 / (1.5 * 4.0 * force), 1.0, places=12)
+        found = self.accuracy.errors(deck, self.results("deck", -force, exact))
+        self.assertEqual((found["force"], found["nodes"]), (4.0 * force, 4))
+        for name in ("largest", "centre", "rms"):
+            self.assertLess(abs(found[name]), 1e-5, name)
+        off = {**exact, 1: 0.8 * exact[1], 3: exact[3] + 0.3 * p0}
+        found = self.accuracy.errors(deck, self.results("deck", -force, off))
+        self.assertAlmostEqual(found["centre"], -0.2, places=4)
+        self.assertAlmostEqual(found["largest"], max(off.values()) / p0 - 1.0, places=4)
+        self.assertAlmostEqual(found["rms"], np.sqrt((0.2**2 + 0.3**2) / 4.0), places=4)
+
+    def test_nodes_outside_count_where_they_have_pressure(self):
+        at, pressure = np.array([0.0, 2.0, 2.0]), np.array([1.0, 0.0, 0.5])
+        p0, a = self.accuracy.hertz(1e-3, 100.0, 1e3)
+        self.assertLess(a, 2.0)
+        found = self.accuracy.beside_hertz(1e-3, 100.0, 1e3, at, pressure * p0)
+        self.assertEqual(found["nodes"], 2)
+        self.assertAlmostEqual(found["rms"], 0.5 / np.sqrt(2.0), places=12)
+
+    def test_friction_is_judged_by_the_ratio_of_the_reactions(self):
+        deck = self.accuracy.Deck(BALL.replace("R=100.0", "mu=0.3").replace("*STEP", "*FRICTION\n0.3,1e6\n*STEP"))
+        found = self.accuracy.errors(deck, self.results("deck", -10.0, {}))
+        self.assertAlmostEqual(found["friction"], 0.01, places=9)
+
+    def test_a_solver_takes_the_place_of_another_one(self):
+        found = self.script.with_solver("*STEP\n*Static, Solver=PARDISO, DIRECT\n1.,1.\n*STATIC\n", "SPOOLES")
+        self.assertEqual(found, "*STEP\n*Static, DIRECT,SOLVER=SPOOLES\n1.,1.\n*STATIC,SOLVER=SPOOLES\n")
+
+    def test_exponents_are_those_of_powers(self):
+        costs = {n: self.jobs.Cost(3e-6 * n**1.25, 1e-6 * n**1.1, round(100.0 * n)) for n in (50_000, 150_000, 900_000)}
+        found = self.script.exponents(costs)
+        self.assertEqual((found["from"], found["to"]), (50_000, 900_000))
+        for name, power in (("wall", 1.25), ("processors", 1.1), ("memory", 1.0)):
+            self.assertAlmostEqual(found[name], power, places=9)
+        self.assertIsNone(self.script.exponents({50_000: costs[50_000]}))
+
+    def test_costs_are_those_of_the_program_and_not_of_who_asks(self):
+        ballast = b"x" * 300_000_000
+        code, said, cost = self.jobs.measured(["echo", "done"], self.folder, 60.0, 1)
+        self.assertEqual((code, said), (0, "done\n"))
+        self.assertLess(cost.memory, len(ballast) / 3)
+        hold = [sys.executable, "-c", "import sys, time; held = b'x' * 200_000_000; sys.exit(3)"]
+        code, _, cost = self.jobs.measured(hold, self.folder, 60.0, 1)
+        self.assertEqual(code, 3)
+        self.assertGreater(cost.memory, 200_000_000)
+        self.assertGreater(cost.processors, 0.0)
+        code, _, cost = self.jobs.measured(["sleep", "60"], self.folder, 0.2, 1)
+        self.assertIsNone(code)
+        self.assertLess(cost.wall, 30.0)
+
+    def compare(self, *more):
+        """A row through programs that pretend; CalculiX has two solvers, and the second one is faster."""
+        generator = self.write("generator.py", f"import sys\nopen(sys.argv[2], 'w').write({BALL!r})\n")
+        deck, force = self.accuracy.Deck(BALL), 5e4
+        p0, exact = self.exact(force, deck)
+        self.results("good", -force, {**exact, 1: 1.015 * p0})
+        self.results("bad", -force, {**exact, 1: 1.25 * p0})
+        ccx = pretending(
+            self.folder,
+            "ccx",
+            f"""import shutil, sys, time
+job = sys.argv[2]
+if job == "-v":
+    sys.exit("")
+text = open(job + ".inp").read()
+if "SOLVER=PASTIX" in text:
+    print(" *ERROR in nonlingeo: the PASTIX library is not linked")
+    sys.exit(201)
+time.sleep(1.5 if "SOLVER=SPOOLES" in text else 0.5)
+open(job + ".sta", "w").write("head\\nhead\\n 1 1 1 4 1. 1. 1.\\n 1 2 1 3 1. 1. 1.\\n")
+for end in (".dat", ".frd"):
+    shutil.copyfile({self.folder!r} + "/bad" + end, job + end)
+""",
+        )
+        signorini = pretending(
+            self.folder,
+            "signorini",
+            f"""import json, os, shutil, sys
+if sys.argv[1] == "--version":
+    print("signorini 1.2.3")
+    sys.exit(0)
+if "x=2" in sys.argv:
+    print("error: there is no x")
+    sys.exit(3)
+out = sys.argv[sys.argv.index("--output") + 1]
+os.makedirs(out)
+for end in (".dat", ".frd"):
+    shutil.copyfile({self.folder!r} + "/good" + end, out + "/deck" + end)
+open(out + "/case.resolved.toml", "w").write("force_tol = 1e-7   # largest\\n")
+summary = {{"steps": [{{"iterations": 5, "increments": 2}}], "time": {{"solve": 0.25}}}}
+open(out + "/summary.json", "w").write(json.dumps(summary))
+""",
+        )
+        command = ["--generator", generator, "--ccx", ccx, "--signorini", signorini, "--rows", "hertz-C3D8-10000"]
+        solvers = ["--ccx-solvers", "SPOOLES", "ITERATIVESCALING", "PASTIX"]
+        return run("compare_speed.py", *command, *solvers, *more)
+
+    def test_costs_and_errors_stand_side_by_side(self):
+        page, numbers = os.path.join(self.folder, "page.md"), os.path.join(self.folder, "numbers.json")
+        self.write("page.md", f"before\n{self.script.BEGIN}\nold\n{self.script.END}\nafter\n")
+        code, said = self.compare("--markdown", page, "--json", numbers)
+        self.assertEqual(code, 0, said)
+        self.assertIn("This ccx has no PASTIX", said)
+        with open(page, encoding="utf-8") as file:
+            text = file.read()
+        self.assertTrue(text.startswith("before\n") and text.endswith("after\n"), text)
+        self.assertNotIn("old", text)
+        rows = [line.strip("| \n").split(" | ") for line in text.splitlines() if line.startswith("| hertz-C3D8-10000")]
+        speed, errors, phases = rows
+        self.assertEqual(speed[1:4] + speed[-1:], ["24", "2 / 2", "7 / 5", "iterativescaling"])
+        self.assertAlmostEqual(float(speed[6]), float(speed[4]) / float(speed[5]), delta=0.3 * float(speed[6]))
+        self.assertEqual(errors[1:5], ["5e-03", "1e-07", "+25.00%", "+1.50%"])
+        self.assertEqual(phases[1:], ["0.25"])
+        with open(numbers, encoding="utf-8") as file:
+            (row,) = json.load(file)["rows"]
+        self.assertEqual((row["ours"]["iterations"], row["ccx"]["solver"]), (5, "ITERATIVESCALING"))
+
+    def test_a_slower_solver_is_stopped(self):
+        code, said = self.compare("--ccx-solvers", "ITERATIVESCALING", "SPOOLES")
+        self.assertEqual(code, 0, said)
+        self.assertIn("ccx: SPOOLES stopped after", said)
+
+    def test_what_is_not_solved_is_a_failure_that_is_told(self):
+        code, said = self.compare("--set", "x=2")
+        self.assertEqual(code, 1, said)
+        self.assertIn("signorini: exit code 3, error: there is no x", said)
+
+    def test_without_a_generator_it_says_that_it_is_skipped(self):
+        program = pretending(self.folder, "signorini", "")
+        code, said = run("compare_speed.py", "--signorini", program)
+        self.assertEqual(code, 0, said)
+        self.assertIn("skipped", said)
+
+    def test_what_the_command_line_lacks_is_named(self):
+        program = pretending(self.folder, "signorini", "")
+        page = self.write("page.md", "no markers")
+        for arguments, word in (
+            (["--rows", "odd"], "no row is called odd"),
+            (["--markdown", page], "has no lines"),
+            (["--signorini", os.path.join(self.folder, "none")], "there is no program"),
+        ):
+            code, said = run("compare_speed.py", "--signorini", program, *arguments)
+            self.assertEqual(code, 2, said)
+            self.assertIn(word, said)
 
 
 HEX = """*NODE, NSET=ALL
