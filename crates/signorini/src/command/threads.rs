@@ -14,9 +14,11 @@ pub fn make(command_line: Option<u64>, case: Option<u64>) -> usize {
         .filter(|n| *n > 0)
         .unwrap_or_else(machine);
     let wanted = usize::try_from(wanted.min(4096)).unwrap_or(1);
-    // a second pool is refused: then the first one is what there is
+    // a second pool is refused: then the first one is what there is; the calling thread works, too, so that nothing is
+    // handed over where there is only one
     let _ = rayon::ThreadPoolBuilder::new()
         .num_threads(wanted)
+        .use_current_thread()
         .stack_size(STACK)
         .build_global();
     rayon::current_num_threads()

@@ -357,7 +357,7 @@ pub enum LinearError {
 /// Which solver to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearKind {
-    /// The one that suits the problem.
+    /// The one that suits the problem: multigrid in space from 15,000 equations on, the direct one else.
     #[default]
     Auto,
     /// A sparse factorization, with multipliers condensed where they can be.
@@ -382,12 +382,15 @@ pub struct SolverEntry {
     pub build: fn() -> Box<dyn LinearSolver>,
 }
 
+/// Equations from which on multigrid is faster than a direct solution, in space. Measured: `docs/speed.md`.
+const MULTIGRID_FROM: usize = 15_000;
+
 /// The table of solvers.
 pub const SOLVERS: &[SolverEntry] = &[
     SolverEntry {
         kind: LinearKind::Auto,
         name: "auto",
-        build: || Box::new(Condensed::new(Direct::reproducible)),
+        build: || Box::new(Multigrid::from_size(MULTIGRID_FROM)),
     },
     SolverEntry {
         kind: LinearKind::Direct,

@@ -60,7 +60,8 @@ fn rows<const N: usize>(
         .for_each(|(task, y)| {
             let first = task * ROWS_PER_TASK;
             for (row, y) in (first..).zip(y.chunks_mut(N)) {
-                let mut sum = [0.0; N];
+                // entries of a block have sums of their own, which do not wait for one another
+                let mut parts = [[0.0; N]; N];
                 if let Some(&[begin, end]) = bulk.row_start.get(row..row + 2) {
                     for (k, &column) in (begin..end).zip(&bulk.column[begin..end]) {
                         let (Some(x), Some(block)) = (
@@ -69,15 +70,15 @@ fn rows<const N: usize>(
                         ) else {
                             continue;
                         };
-                        for (sum, entries) in sum.iter_mut().zip(block) {
-                            for (a, x) in entries.iter().zip(x) {
-                                *sum += of(*a) * of(*x);
+                        for (parts, entries) in parts.iter_mut().zip(block) {
+                            for ((part, a), x) in parts.iter_mut().zip(entries).zip(x) {
+                                *part += of(*a) * of(*x);
                             }
                         }
                     }
                 }
-                for ((dof, y), sum) in (row * N..).zip(y).zip(sum) {
-                    *y = sum;
+                for ((dof, y), parts) in (row * N..).zip(y).zip(parts) {
+                    *y = parts.iter().sum();
                     if let Some(&[begin, end]) = interface.row_start.get(dof..dof + 2) {
                         let entries = interface.column[begin..end]
                             .iter()

@@ -106,18 +106,16 @@ impl<const N: usize> Incomplete<N> {
             .into_par_iter()
             .for_each(|(rows, x)| self.forward(rows, x));
         for row in last..last + between.len() {
-            let mut sums = Sums::default();
-            self.lower
-                .add_row(row, &mut sums, |column| match column.checked_sub(last) {
+            let sums = self
+                .lower
+                .row(row, |column| match column.checked_sub(last) {
                     Some(at) => &between[at],
                     None => &interior[column],
                 });
             self.reduce(row, &mut between[row - last], &sums);
         }
         for row in (last..last + between.len()).rev() {
-            let mut sums = Sums::default();
-            let near = |column: usize| &between[column - last];
-            self.upper.add_row(row, &mut sums, near);
+            let sums = self.upper.row(row, |column| &between[column - last]);
             self.settle(row, &mut between[row - last], &sums);
         }
         let (pieces, between) = (self.pieces(interior), &*between);
@@ -140,9 +138,7 @@ impl<const N: usize> Incomplete<N> {
     fn forward(&self, rows: Range<usize>, x: &mut [[f32; N]]) {
         let first = rows.start;
         for row in rows {
-            let mut sums = Sums::default();
-            self.lower
-                .add_row(row, &mut sums, |column| &x[column - first]);
+            let sums = self.lower.row(row, |column| &x[column - first]);
             self.reduce(row, &mut x[row - first], &sums);
         }
     }
@@ -150,9 +146,9 @@ impl<const N: usize> Incomplete<N> {
     fn backward(&self, rows: Range<usize>, x: &mut [[f32; N]], last: usize, between: &[[f32; N]]) {
         let first = rows.start;
         for row in rows.rev() {
-            let mut sums = Sums::default();
-            self.upper
-                .add_row(row, &mut sums, |column| match column.checked_sub(last) {
+            let sums = self
+                .upper
+                .row(row, |column| match column.checked_sub(last) {
                     Some(at) => &between[at],
                     None => &x[column - first],
                 });

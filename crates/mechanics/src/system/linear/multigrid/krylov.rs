@@ -48,9 +48,10 @@ impl Stop {
     }
 }
 
+/// Entries handled by one task; sums of tasks are added up in their order.
+const CHUNK: usize = 16_384;
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    // chunks of one size, added up in their order: the same for any number of threads
-    const CHUNK: usize = 16_384;
     let parts: Vec<f64> = a
         .par_chunks(CHUNK)
         .zip(b.par_chunks(CHUNK))
@@ -61,8 +62,26 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// `to += factor x`
 fn add(factor: f64, x: &[f64], to: &mut [f64]) {
-    for (to, x) in to.iter_mut().zip(x) {
-        *to += factor * x;
+    let chunks = to.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK));
+    chunks.for_each(|(to, x)| {
+        for (to, x) in to.iter_mut().zip(x) {
+            *to += factor * x;
+        }
+    });
+}
+
+/// The residual of minimal residuals, from the last entry of the right side turned back.
+fn residual_of(basis: &[Vec<f64>], turns: &[(f64, f64)], last: f64, r: &mut [f64]) {
+    r.fill(0.0);
+    let mut entry = last;
+    for (k, &(c, s)) in turns.iter().enumerate().rev() {
+        if let Some(v) = basis.get(k + 1) {
+            add(c * entry, v, r);
+        }
+        entry *= -s;
+    }
+    if let Some(v) = basis.first() {
+        add(entry, v, r);
     }
 }
 
@@ -136,11 +155,12 @@ pub(super) fn minimal_residuals(
     let n = r.len();
     let mut total = 0;
     let start = dot(r, r).sqrt();
+    let (mut sum, mut change) = (vec![0.0; n], vec![0.0; n]);
     while total < most {
         let size = dot(r, r).sqrt();
-        // the norm at which the largest entry is about small enough
+        // the largest entry is looked at where the norm says that it may be small enough
         let goal = match stop {
-            Stop::Largest(goal) => 0.5 * goal * size / largest(r),
+            Stop::Largest(goal) => goal * (n as f64).sqrt(),
             Stop::Part(part) => part * start,
         };
         let is_small = matches!(stop, Stop::Part(_)) && size <= goal;
@@ -188,11 +208,23 @@ pub(super) fn minimal_residuals(
             right[k] = c * last;
             right.push(-s * last);
             triangle.push(column);
-            if right[k + 1].abs() <= goal || left == 0.0 {
+            if left == 0.0 {
                 break;
             }
             w.iter_mut().for_each(|w| *w /= left);
             basis.push(w);
+            if right[k + 1].abs() <= goal {
+                let is_reached = match stop {
+                    Stop::Largest(goal) => {
+                        residual_of(&basis, &turns, right[k + 1], &mut change);
+                        largest(&change) <= goal
+                    }
+                    Stop::Part(_) => true,
+                };
+                if is_reached {
+                    break;
+                }
+            }
         }
         let m = directions.len();
         let mut y = vec![0.0; m];
@@ -205,11 +237,10 @@ pub(super) fn minimal_residuals(
                 (right[i] - known) / pivot
             };
         }
-        let mut sum = vec![0.0; n];
+        sum.fill(0.0);
         for (y, direction) in y.iter().zip(&directions) {
             add(*y, direction, &mut sum);
         }
-        let mut change = vec![0.0; n];
         of.apply(&sum, &mut change);
         add(1.0, &sum, x);
         add(-1.0, &change, r);

@@ -58,6 +58,8 @@ const LEAST: f64 = 4.0;
 
 /// Multigrid over direct solution.
 pub struct Multigrid {
+    /// Equations below which the direct solver is used.
+    least: usize,
     direct: Condensed<Direct>,
     kept: Option<Kept>,
     grid: Option<Grid>,
@@ -80,6 +82,8 @@ struct Grid {
     /// The fingerprint of the stiffness that the hierarchy was made of, and whether it is that of this increment.
     source: u64,
     is_proven: bool,
+    /// Whether iterations did not come to an end in this increment: the next ones would not, either.
+    has_failed: bool,
     block: InterfaceBlock,
     work: Work,
     /// Iterations to a power of ten of the first solution with the hierarchy, and how often it took too many since.
@@ -107,7 +111,14 @@ impl Multigrid {
     /// A solver that has not seen a problem yet.
     #[must_use]
     pub fn new() -> Self {
+        Self::from_size(0)
+    }
+
+    /// The same, which leaves problems with fewer equations to the direct solver.
+    #[must_use]
+    pub fn from_size(least: usize) -> Self {
         Self {
+            least,
             direct: Condensed::new(Direct::reproducible),
             kept: None,
             grid: None,
@@ -142,6 +153,7 @@ impl LinearSolver for Multigrid {
         problem.check()?;
         let kept = Kept::new(problem);
         let suits = problem.bulk.block == 3
+            && problem.nequation >= self.least
             && problem.coordinates.len() == problem.bulk.nrow()
             && !has_shared(problem);
         let grid = self.grid.take().filter(|_| suits);
@@ -172,8 +184,8 @@ impl LinearSolver for Multigrid {
             return Err(LinearError::NotFinite);
         }
         let serves = match &mut self.grid {
-            Some(grid) => grid.update(kept, values)?,
-            None => false,
+            Some(grid) if !grid.has_failed => grid.update(kept, values)?,
+            _ => false,
         };
         if !serves {
             return self.go_direct(values);
@@ -185,12 +197,13 @@ impl LinearSolver for Multigrid {
     fn forget(&mut self) {
         self.direct.forget();
         if let Some(grid) = &mut self.grid {
-            (grid.is_proven, grid.base, grid.worn) = (false, None, 0);
+            (grid.is_proven, grid.has_failed) = (false, false);
+            (grid.base, grid.worn) = (None, 0);
         }
     }
 
     fn is_iterative(&self) -> bool {
-        self.grid.is_some()
+        self.grid.as_ref().is_some_and(|grid| !grid.has_failed)
     }
 
     fn solve_roughly(
@@ -247,6 +260,7 @@ impl Multigrid {
                 if let Some(report) = outcome {
                     return Ok(report);
                 }
+                grid.has_failed = true;
                 self.go_direct(values)?;
                 self.direct.solve(values, rhs, x, rtol)
             }
@@ -275,6 +289,7 @@ impl Grid {
             hierarchy: None,
             source: 0,
             is_proven: false,
+            has_failed: false,
             block: InterfaceBlock::new(),
             work: Work {
                 b: vec![[0.0; 3]; nrow],

@@ -3,6 +3,7 @@
 use super::blocks::Blocks;
 use rayon::prelude::*;
 use std::ops::Range;
+use wide::{f32x4, f32x8};
 
 /// Rows handled by one task; results do not depend on it.
 const ROWS_PER_TASK: usize = 1024;
@@ -49,50 +50,59 @@ impl<const R: usize, const C: usize> Packed<R, C> {
         self.start[row]..self.start[row + 1]
     }
 
-    /// `sums += A x` of one row of blocks, where `x(column)` is the part of the vector that meets the block.
+    /// `A x` of one row of blocks, where `x(column)` is the part of the vector that meets the block. Columns have sums of
+    /// their own, which do not wait for one another.
     #[inline(always)]
-    pub fn add_row<'x>(&self, row: usize, sums: &mut Sums, x: impl Fn(usize) -> &'x [f32; C]) {
+    pub fn row<'x>(&self, row: usize, x: impl Fn(usize) -> &'x [f32; C]) -> Sums {
         let range = self.range(row);
         let values = &self.value[range.start * R * C..range.end * R * C + LANES];
-        for (k, &column) in self.column[range].iter().enumerate() {
-            let x = x(column as usize);
-            if R <= FEW {
-                let block = &values[k * R * C..k * R * C + (R * C + FEW - R)];
-                add_columns::<R, C, FEW>(block, x, sums);
-            } else {
-                let block = &values[k * R * C..k * R * C + (R * C + LANES - R)];
-                add_columns::<R, C, LANES>(block, x, sums);
+        let columns = self.column[range].iter().map(|&c| c as usize);
+        let blocks = columns.enumerate().map(|(k, column)| {
+            // as long as what is read of it
+            let block = &values[k * R * C..k * R * C + (C - 1) * R + Self::WIDTH];
+            (block, x(column))
+        });
+        let mut sums = Sums::default();
+        if R <= FEW {
+            let mut by_column = [f32x4::ZERO; C];
+            for (block, x) in blocks {
+                for (c, (sum, &x)) in by_column.iter_mut().zip(x).enumerate() {
+                    if let Some(&column) = block[c * R..].first_chunk::<FEW>() {
+                        *sum += f32x4::new(column) * f32x4::splat(x);
+                    }
+                }
             }
+            let sum = by_column.into_iter().fold(f32x4::ZERO, |sum, c| sum + c);
+            sums[..FEW].copy_from_slice(&sum.to_array());
+        } else {
+            let mut by_column = [f32x8::ZERO; C];
+            for (block, x) in blocks {
+                for (c, (sum, &x)) in by_column.iter_mut().zip(x).enumerate() {
+                    if let Some(&column) = block[c * R..].first_chunk::<LANES>() {
+                        *sum += f32x8::new(column) * f32x8::splat(x);
+                    }
+                }
+            }
+            let sum = by_column.into_iter().fold(f32x8::ZERO, |sum, c| sum + c);
+            sums = sum.to_array();
         }
+        sums
     }
+
+    /// Numbers that are read where a column of a block begins.
+    const WIDTH: usize = if R <= FEW { FEW } else { LANES };
 
     /// `to += A x`, or `to -= A x`.
     pub fn multiply<const SUBTRACT: bool>(&self, x: &[[f32; C]], to: &mut [[f32; R]]) {
         let tasks = to.par_chunks_mut(ROWS_PER_TASK).enumerate();
         tasks.for_each(|(task, to)| {
             for (row, to) in (task * ROWS_PER_TASK..).zip(to) {
-                let mut sums = Sums::default();
-                self.add_row(row, &mut sums, |column| &x[column]);
+                let sums = self.row(row, |column| &x[column]);
                 for (to, sum) in to.iter_mut().zip(sums) {
                     *to += if SUBTRACT { -sum } else { sum };
                 }
             }
         });
-    }
-}
-
-/// Adds what the columns of a block make of `x`, `L` rows at once.
-#[inline(always)]
-fn add_columns<const R: usize, const C: usize, const L: usize>(
-    block: &[f32],
-    x: &[f32; C],
-    sums: &mut Sums,
-) {
-    for (c, x) in x.iter().enumerate() {
-        let column = &block[c * R..c * R + L];
-        for (sum, a) in sums[..L].iter_mut().zip(column) {
-            *sum += a * x;
-        }
     }
 }
 
