@@ -121,6 +121,15 @@ pub enum Event {
         /// Where, in words.
         at: Vec<String>,
     },
+    /// The linear solver has decided something for itself.
+    Solver {
+        /// The step.
+        step: String,
+        /// The increment.
+        inc: u64,
+        /// What, in words.
+        note: String,
+    },
     /// A frame is complete and listed.
     Frame {
         /// Its number.
@@ -561,6 +570,14 @@ mod tests {
                     at: vec![text()],
                 },
                 "held",
+            ),
+            (
+                Event::Solver {
+                    step: text(),
+                    inc: 1,
+                    note: text(),
+                },
+                "solver",
             ),
             (
                 Event::Frame {

@@ -1,6 +1,6 @@
 //! Which raw dofs are solved for, and the linear system over them.
 
-use crate::system::linear::{LinearError, LinearSolver, Problem, SolveReport};
+use crate::system::linear::{LinearError, LinearSolver, Note, Problem, SolveReport};
 use crate::system::sparsity::NONE;
 use crate::system::{Assembler, Assembly, Dof, DofName, Symmetry, System};
 use std::time::Instant;
@@ -78,6 +78,11 @@ impl Equations {
     /// Whether solutions that are less exact are less work.
     pub fn is_iterative(&self) -> bool {
         self.solver.is_iterative()
+    }
+
+    /// What the solver has decided since it was asked last.
+    pub fn notes(&mut self) -> Vec<Note> {
+        self.solver.notes()
     }
 
     /// Lets the solver forget what it has learned.

@@ -1,6 +1,7 @@
 //! What happens in a run, as one stream: the terminal, the files and Python are all fed from it.
 
 use super::Failure;
+use crate::system::linear::Note;
 use crate::system::{Dof, Frame};
 
 /// One linear solve.
@@ -103,6 +104,15 @@ pub enum Event<'a> {
         step: usize,
         /// Where: a dof for each motion.
         dofs: &'a [Dof],
+    },
+    /// The linear solver has decided something for itself.
+    Solver {
+        /// Number of the step, from 0.
+        step: usize,
+        /// Increment within the step, from 1.
+        increment: usize,
+        /// What.
+        note: &'a Note,
     },
     /// An increment was accepted.
     Increment {

@@ -427,13 +427,21 @@ impl Stepper {
             targets,
             guess: extrapolated.then_some(&self.guess[..]),
         };
-        let converged = self
+        let outcome = self
             .newton
             .solve(system, &self.state, &goal, place, &mut |record| {
                 if observer.notice(&Event::Iteration(record)) == Flow::Stop {
                     flow = Flow::Stop;
                 }
-            })?;
+            });
+        for note in self.newton.equations.notes() {
+            observer.notice(&Event::Solver {
+                step: place.step,
+                increment: place.increment,
+                note: &note,
+            });
+        }
+        let converged = outcome?;
         self.newton.scale.accept(converged.q);
         let change = self.newton.trial.u.iter().zip(&self.state.u);
         let rate = change.map(|(now, before)| (now - before) / dt);

@@ -125,6 +125,9 @@ impl Narrator {
                 ));
                 lines
             }
+            (Event::Solver { note, .. }, _) => {
+                vec![line(format!("   {note}"), Level::Verbose)]
+            }
             (Event::Checkpoint { file, .. }, _) => {
                 vec![line(format!("   saved to {file}"), Level::Verbose)]
             }

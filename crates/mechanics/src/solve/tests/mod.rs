@@ -314,7 +314,10 @@ fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> To
                 reactions.push(frame.reaction_force.iter().map(|f| f.x).collect());
             }
             Event::Cutback { cause, next, .. } => cuts.push([cause.dt, *next]),
-            Event::Step { .. } | Event::Stabilized { .. } | Event::Held { .. } => {}
+            Event::Step { .. }
+            | Event::Stabilized { .. }
+            | Event::Held { .. }
+            | Event::Solver { .. } => {}
         }
         Flow::Continue
     });

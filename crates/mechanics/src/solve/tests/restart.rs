@@ -111,7 +111,10 @@ fn advance(model: &mut Model, stepper: &mut Stepper) -> Option<Leg> {
                 increment = Some((*record).clone());
                 return Flow::Stop;
             }
-            Event::Step { .. } | Event::Stabilized { .. } | Event::Held { .. } => {}
+            Event::Step { .. }
+            | Event::Stabilized { .. }
+            | Event::Held { .. }
+            | Event::Solver { .. } => {}
         }
         Flow::Continue
     });

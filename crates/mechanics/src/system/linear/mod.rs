@@ -252,6 +252,11 @@ pub trait LinearSolver: Send {
         rtol: f64,
     ) -> Result<SolveReport, LinearError>;
 
+    /// What the solver has decided since it was asked last.
+    fn notes(&mut self) -> Vec<Note> {
+        Vec::new()
+    }
+
     /// Whether less accuracy is less work.
     fn is_iterative(&self) -> bool {
         false
@@ -272,6 +277,50 @@ pub trait LinearSolver: Send {
         let _ = part;
         self.solve(values, rhs, x, EXACT)
     }
+}
+
+/// What a solver has decided for itself.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Note {
+    /// Multigrid has made a hierarchy.
+    #[error("multigrid: {levels} levels over {unknowns} unknowns{}",
+        .worn.map(|[now, before]| format!(
+            ", made anew: {now:.1} iterations to a power of ten were {before:.1} when the last one was new"
+        )).unwrap_or_default())]
+    Hierarchy {
+        /// Unknowns of the finest level.
+        unknowns: usize,
+        /// Levels, the last of which is solved directly.
+        levels: usize,
+        /// Iterations to a power of ten with the one before, at last and at first, where it was worn.
+        worn: Option<[f64; 2]>,
+    },
+    /// The direct solver takes over until the increment ends.
+    #[error("multigrid gives way to the direct solver: {why}")]
+    Direct {
+        /// Why.
+        why: Why,
+    },
+}
+
+/// Why multigrid does not serve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Why {
+    /// The stiffness of the bodies is not positive definite, even with more on its diagonal.
+    #[error("the stiffness of the bodies is not positive definite")]
+    NotPositive,
+    /// The equations of the interface have no solution of their own.
+    #[error("the equations around the interface are singular by themselves")]
+    Interface,
+    /// Too many iterations.
+    #[error("{iterations} iterations did not suffice")]
+    Slow {
+        /// How many were made.
+        iterations: usize,
+    },
+    /// Conjugate gradients met a direction without stiffness.
+    #[error("the tangent is not positive definite")]
+    Indefinite,
 }
 
 /// A relative residual far below what Newton's tail needs.
@@ -357,7 +406,8 @@ pub enum LinearError {
 /// Which solver to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearKind {
-    /// The one that suits the problem: multigrid in space from 15,000 equations on, the direct one else.
+    /// The one that suits the problem: multigrid in space, from 15,000 equations on, or 3,000 where the matrix is not
+    /// symmetric; the direct one else.
     #[default]
     Auto,
     /// A sparse factorization, with multipliers condensed where they can be.
@@ -382,15 +432,16 @@ pub struct SolverEntry {
     pub build: fn() -> Box<dyn LinearSolver>,
 }
 
-/// Equations from which on multigrid is faster than a direct solution, in space. Measured: `docs/speed.md`.
-const MULTIGRID_FROM: usize = 15_000;
+/// Equations from which on multigrid is faster than a direct solution in space: by Cholesky's factor where the matrix is
+/// symmetric, by LU where it is not.
+const MULTIGRID_FROM: [usize; 2] = [15_000, 3_000];
 
 /// The table of solvers.
 pub const SOLVERS: &[SolverEntry] = &[
     SolverEntry {
         kind: LinearKind::Auto,
         name: "auto",
-        build: || Box::new(Multigrid::from_size(MULTIGRID_FROM)),
+        build: || Box::new(Multigrid::from_sizes(MULTIGRID_FROM)),
     },
     SolverEntry {
         kind: LinearKind::Direct,

@@ -305,6 +305,11 @@ impl Observer for Recorder<'_> {
                 stages,
             } => self.stabilized([*step, *increment, *attempt], *stages),
             Happening::Held { step, dofs } => self.held(*step, dofs),
+            Happening::Solver {
+                step,
+                increment,
+                note,
+            } => self.solver(*step, *increment, note),
             Happening::Increment { record, frame } => {
                 self.increment(record, frame);
                 if self.is_due() {

@@ -7,6 +7,7 @@ use signorini_io::writers::csv::Cell;
 use signorini_io::writers::json::{ContactState, ContactSummary, Event};
 use signorini_io::writers::sta::Attempt;
 use signorini_mechanics::solve::{Cause, IncrementRecord, IterationRecord, RunError};
+use signorini_mechanics::system::linear::Note;
 use signorini_mechanics::system::{ContactFrame, Dof, DofName, Frame};
 
 impl Recorder<'_> {
@@ -92,6 +93,15 @@ impl Recorder<'_> {
             att: attempt as u64,
             time: self.time,
             stages: stages as u64,
+        };
+        self.tell(&event, Detail::None);
+    }
+
+    pub(super) fn solver(&mut self, step: usize, increment: usize, note: &Note) {
+        let event = Event::Solver {
+            step: self.step_name(step),
+            inc: increment as u64,
+            note: note.to_string(),
         };
         self.tell(&event, Detail::None);
     }

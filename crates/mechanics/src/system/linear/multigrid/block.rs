@@ -1,10 +1,14 @@
 //! The equations around the interface, solved directly.
 
-use super::super::{Direct, Kept, LinearError, LinearSolver, Problem, Values};
+use super::super::{Direct, Kept, LinearError, LinearSolver, Problem, Symmetry, Values};
 use crate::system::sparsity::{BlockPattern, NONE, Pattern};
 
 /// What is asked of its solutions: they serve within a preconditioner.
 const TOLERANCE: f64 = 1e-6;
+/// Layers of nodes around the interface.
+const LAYERS: usize = 1;
+/// Equations of the interface above which a block that is not symmetric has no layers: its factor fills fast.
+const LARGE: usize = 2000;
 
 /// The equations that interface values act on, with those of the nodes around.
 pub(super) struct InterfaceBlock {
@@ -61,13 +65,8 @@ impl InterfaceBlock {
     ///
     /// # Errors
     /// Those of the direct solver.
-    pub fn update(
-        &mut self,
-        kept: &Kept,
-        values: &Values,
-        layers: usize,
-    ) -> Result<(), LinearError> {
-        let (nodes, extra) = choose(kept, values, layers);
+    pub fn update(&mut self, kept: &Kept, values: &Values) -> Result<(), LinearError> {
+        let (nodes, extra) = choose(kept, values);
         if nodes != self.nodes || extra != self.extra || self.equation.is_empty() {
             self.nodes = nodes;
             self.extra = extra;
@@ -267,8 +266,9 @@ impl InterfaceBlock {
     }
 }
 
-/// Nodes and other raw dofs that interface values act on, and so many layers of nodes around.
-fn choose(kept: &Kept, values: &Values, layers: usize) -> (Vec<u32>, Vec<u32>) {
+/// Nodes and other raw dofs that interface values act on, and the nodes around, where they are not too many for a factor
+/// that is not symmetric.
+fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
     let nnode = kept.bulk.nrow();
     let mut inside = vec![false; nnode];
     let mut extra = Vec::new();
@@ -282,7 +282,9 @@ fn choose(kept: &Kept, values: &Values, layers: usize) -> (Vec<u32>, Vec<u32>) {
             inside[dof / 3] = true;
         }
     }
-    for _ in 0..layers {
+    let count = 3 * inside.iter().filter(|inside| **inside).count() + extra.len();
+    let is_large = kept.symmetry == Symmetry::Unsymmetric && count > LARGE;
+    for _ in 0..if is_large { 0 } else { LAYERS } {
         let before = inside.clone();
         for (node, _) in before.iter().enumerate().filter(|(_, inside)| **inside) {
             let range = kept.bulk.row_start[node]..kept.bulk.row_start[node + 1];

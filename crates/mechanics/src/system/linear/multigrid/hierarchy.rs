@@ -60,6 +60,11 @@ impl Hierarchy {
         })
     }
 
+    /// The number of levels, with the last one.
+    pub const fn nlevel(&self) -> usize {
+        self.coarse.len() + 2
+    }
+
     /// One V-cycle from zero.
     pub fn cycle(&mut self, b: &[[f32; 3]], x: &mut [[f32; 3]]) {
         let Self {

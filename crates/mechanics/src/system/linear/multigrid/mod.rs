@@ -35,8 +35,8 @@ mod tests;
 
 use super::residual::Residual;
 use super::{
-    Condensed, Direct, EXACT, Kept, LinearError, LinearSolver, Problem, SolveReport, Symmetry,
-    Values, apply, largest,
+    Condensed, Direct, EXACT, Kept, LinearError, LinearSolver, Note, Problem, SolveReport,
+    Symmetry, Values, Why, apply, largest,
 };
 use crate::system::sparsity::NONE;
 use block::InterfaceBlock;
@@ -47,10 +47,9 @@ use rayon::prelude::*;
 
 /// Iterations of one solution, at most.
 const ITERATIONS: usize = 200;
-/// Layers of nodes around the interface in its block.
-const LAYERS: usize = 1;
-/// Equations of the interface above which an unsymmetric block has no layers.
-const LARGE: usize = 2000;
+/// The norm of the residual says less of the error than that of the energy: Newton's method takes fewer steps to find out
+/// what touches where it is this much smaller.
+const STRICTER: f64 = 0.1;
 /// A hierarchy is made anew where it takes so many times the iterations that it took when it was new, twice running.
 const WORN: f64 = 1.6;
 /// Iterations to a power of ten that are never too many.
@@ -58,14 +57,15 @@ const LEAST: f64 = 4.0;
 
 /// Multigrid over direct solution.
 pub struct Multigrid {
-    /// Equations below which the direct solver is used.
-    least: usize,
+    /// Equations below which the direct solver is used, where the matrix is symmetric and where it is not.
+    least: [usize; 2],
     direct: Condensed<Direct>,
     kept: Option<Kept>,
     grid: Option<Grid>,
     /// What has the present values.
     way: Option<Way>,
     residual: Residual,
+    notes: Vec<Note>,
 }
 
 /// What solves.
@@ -88,6 +88,8 @@ struct Grid {
     work: Work,
     /// Iterations to a power of ten of the first solution with the hierarchy, and how often it took too many since.
     base: Option<f64>,
+    /// That of the last solution.
+    rate: f64,
     worn: usize,
 }
 
@@ -111,12 +113,12 @@ impl Multigrid {
     /// A solver that has not seen a problem yet.
     #[must_use]
     pub fn new() -> Self {
-        Self::from_size(0)
+        Self::from_sizes([0; 2])
     }
 
-    /// The same, which leaves problems with fewer equations to the direct solver.
+    /// The same, which leaves problems with fewer equations to the direct solver: symmetric ones, and those that are not.
     #[must_use]
-    pub fn from_size(least: usize) -> Self {
+    pub fn from_sizes(least: [usize; 2]) -> Self {
         Self {
             least,
             direct: Condensed::new(Direct::reproducible),
@@ -124,6 +126,7 @@ impl Multigrid {
             grid: None,
             way: None,
             residual: Residual::new(0, 0),
+            notes: Vec::new(),
         }
     }
 
@@ -152,8 +155,13 @@ impl LinearSolver for Multigrid {
         (self.way, self.kept) = (None, None);
         problem.check()?;
         let kept = Kept::new(problem);
+        let [symmetric, unsymmetric] = self.least;
+        let least = match problem.symmetry {
+            Symmetry::Unsymmetric => unsymmetric,
+            Symmetry::Definite | Symmetry::Symmetric => symmetric,
+        };
         let suits = problem.bulk.block == 3
-            && problem.nequation >= self.least
+            && problem.nequation >= least
             && problem.coordinates.len() == problem.bulk.nrow()
             && !has_shared(problem);
         let grid = self.grid.take().filter(|_| suits);
@@ -184,7 +192,7 @@ impl LinearSolver for Multigrid {
             return Err(LinearError::NotFinite);
         }
         let serves = match &mut self.grid {
-            Some(grid) if !grid.has_failed => grid.update(kept, values)?,
+            Some(grid) if !grid.has_failed => grid.update(kept, values, &mut self.notes)?,
             _ => false,
         };
         if !serves {
@@ -200,6 +208,10 @@ impl LinearSolver for Multigrid {
             (grid.is_proven, grid.has_failed) = (false, false);
             (grid.base, grid.worn) = (None, 0);
         }
+    }
+
+    fn notes(&mut self) -> Vec<Note> {
+        std::mem::take(&mut self.notes)
     }
 
     fn is_iterative(&self) -> bool {
@@ -256,10 +268,11 @@ impl Multigrid {
                 before: "factorize",
             }),
             (Some(grid), Some(Way::Grid)) => {
-                let outcome = grid.solve(kept, values, rhs, x, wanted, &mut self.residual)?;
-                if let Some(report) = outcome {
-                    return Ok(report);
-                }
+                let why = match grid.solve(kept, values, rhs, x, wanted, &mut self.residual)? {
+                    Ok(report) => return Ok(report),
+                    Err(why) => why,
+                };
+                self.notes.push(Note::Direct { why });
                 grid.has_failed = true;
                 self.go_direct(values)?;
                 self.direct.solve(values, rhs, x, rtol)
@@ -297,6 +310,7 @@ impl Grid {
                 ..Work::default()
             },
             base: None,
+            rate: 0.0,
             worn: 0,
         };
         grid.follow(kept);
@@ -313,40 +327,53 @@ impl Grid {
 
     /// Makes a hierarchy where there is none, where it is worn, and where that of another increment is not what this
     /// one would have made.
-    fn renew(&mut self, kept: &Kept, values: &Values) {
-        let serves = self.hierarchy.is_some() && self.is_proven && self.worn <= 1;
-        if serves {
-            return;
+    fn renew(&mut self, kept: &Kept, values: &Values) -> Option<Note> {
+        let is_worn = self.worn > 1;
+        if self.hierarchy.is_some() && self.is_proven && !is_worn {
+            return None;
         }
         let source = fingerprint(values.bulk);
         let same = self.source == source && self.hierarchy.is_some();
+        let worn = self.base.filter(|_| is_worn).map(|base| [self.rate, base]);
         (self.source, self.is_proven) = (source, true);
         (self.base, self.worn) = (None, 0);
         if same {
-            return;
+            return None;
         }
         let matrix = self.fine.matrix(kept, values);
         let new = Hierarchy::new(&matrix, &self.fine.modes, &self.fine.parts);
+        let note = new.as_ref().map(|new| Note::Hierarchy {
+            unknowns: 3 * self.fine.node.len(),
+            levels: new.nlevel(),
+            worn,
+        });
         self.hierarchy = new.or(self.hierarchy.take());
+        note
     }
 
     /// Takes the values of a tangent; false where they do not suit.
-    fn update(&mut self, kept: &Kept, values: &Values) -> Result<bool, LinearError> {
-        self.renew(kept, values);
-        if self.hierarchy.is_none() {
-            return Ok(false);
-        }
-        let unsymmetric = kept.symmetry == Symmetry::Unsymmetric;
-        let many = self.block.whole.len() > LARGE;
-        let layers = if unsymmetric && many { 0 } else { LAYERS };
-        match self.block.update(kept, values, layers) {
-            Ok(()) => Ok(true),
-            Err(LinearError::Singular { .. }) => Ok(false),
-            Err(other) => Err(other),
-        }
+    fn update(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        notes: &mut Vec<Note>,
+    ) -> Result<bool, LinearError> {
+        notes.extend(self.renew(kept, values));
+        let why = if self.hierarchy.is_none() {
+            Why::NotPositive
+        } else {
+            match self.block.update(kept, values) {
+                Ok(()) => return Ok(true),
+                Err(LinearError::Singular { .. }) => Why::Interface,
+                Err(other) => return Err(other),
+            }
+        };
+        self.has_failed = true;
+        notes.push(Note::Direct { why });
+        Ok(false)
     }
 
-    /// Solves; `None` where iterations are not the way.
+    /// Solves, or says why iterations are not the way.
     fn solve(
         &mut self,
         kept: &Kept,
@@ -355,14 +382,14 @@ impl Grid {
         x: &mut [f64],
         wanted: Wanted,
         residual: &mut Residual,
-    ) -> Result<Option<SolveReport>, LinearError> {
+    ) -> Result<Result<SolveReport, Why>, LinearError> {
         if !largest(rhs).is_finite() {
             return Err(LinearError::NotFinite);
         }
         x.fill(0.0);
         let mut report = SolveReport::default();
         if largest(rhs) == 0.0 {
-            return Ok(Some(report));
+            return Ok(Ok(report));
         }
         let symmetric = kept.is_definite();
         let mut size = kept.largest_force(rhs);
@@ -377,7 +404,8 @@ impl Grid {
             let most = ITERATIONS.saturating_sub(report.iterations);
             let stop = match wanted {
                 Wanted::Residual(rtol) => Stop::Largest(0.5 * rtol * size),
-                Wanted::Part(part) => Stop::Part(part),
+                Wanted::Part(part) if symmetric => Stop::Part(part),
+                Wanted::Part(part) => Stop::Part(STRICTER * part),
             };
             let mut operators = OneGrid {
                 grid: self,
@@ -392,8 +420,11 @@ impl Grid {
             };
             let (end, count) = iterate(&mut operators, &mut residual.value, x, stop, most)?;
             report.iterations += count;
-            if end != End::Small {
-                return Ok(None);
+            let iterations = report.iterations;
+            match end {
+                End::Small => {}
+                End::Slow => return Ok(Err(Why::Slow { iterations })),
+                End::Indefinite => return Ok(Err(Why::Indefinite)),
             }
             residual.measure(kept, values, rhs, x);
             let left = largest(&residual.value);
@@ -407,11 +438,12 @@ impl Grid {
             };
             if done {
                 self.judge(wanted, report.iterations);
-                return Ok(Some(report));
+                return Ok(Ok(report));
             }
             residual.measure(kept, values, rhs, x);
         }
-        Ok(None)
+        let iterations = report.iterations;
+        Ok(Err(Why::Slow { iterations }))
     }
 
     /// Keeps count of how well the hierarchy serves.
@@ -422,6 +454,7 @@ impl Grid {
             Wanted::Part(part) => -part.log10(),
         };
         let rate = iterations as f64 / powers.max(1.0);
+        self.rate = rate;
         let base = *self.base.get_or_insert(rate.max(LEAST));
         if rate > WORN * base {
             self.worn += 1;
