@@ -322,7 +322,10 @@ impl Source<'_> {
                 pairs: PairOrder::default(),
             },
             (Method::Auto, PrimaryPart::Faces(_)) if open && self.suits_mortar(part, secondary) => {
-                Method::Mortar(discretization::mortar::Form::default())
+                Method::Mortar(discretization::mortar::Form {
+                    joined: part.tie.is_some(),
+                    ..Default::default()
+                })
             }
             (Method::Auto, _) if self.is_quadratic(part) && !exact => {
                 Method::GaussPoint(PointRule {
@@ -332,6 +335,10 @@ impl Source<'_> {
                 })
             }
             (Method::Auto, _) => Method::NodeToSegment,
+            (Method::Mortar(form), _) => Method::Mortar(discretization::mortar::Form {
+                joined: form.joined || part.tie.is_some(),
+                ..*form
+            }),
             (method, _) => method.clone(),
         }
     }
