@@ -215,6 +215,7 @@ fn method(part: &Contact) -> Method {
                 case::Basis::Part => Basis::Part,
                 case::Basis::Whole => Basis::Whole,
             },
+            ..mortar::Form::default()
         }),
         case::Method::NodeToNode => Method::NodeToNode {
             normals: match part.normals {

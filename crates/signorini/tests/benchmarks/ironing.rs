@@ -1,8 +1,9 @@
 //! Shallow ironing: a stiff indenter with a round foot is pressed into a slab and dragged along it, with friction.
 //!
 //! SOURCE      Fischer and Wriggers 2006; Poulios and Renard 2015; geometry and materials as in code_aster's SSNP153
-//! GOAL        with nothing but defaults the run goes to the end, whatever nodes snap over corners on the way
-//! MESH        slab 12 x 4 of 24 and 36 quad4 along it, indenter of a sixth as many; foot of radius 0.75
+//! GOAL        with nothing but defaults, which take mortar, the run goes to the end, with friction, and without, where
+//!             nothing drags; by nodes as well, whatever of them snap over corners on the way
+//! MESH        slab 12 x 4 of 24 to 48 quad4 along it, indenter of a sixth as many; foot of radius 0.75
 //! CONDITIONS  plane strain, neo-Hookean, nu = 0.32, E = 68.96e7 and ten times that, mu = 0.3; -1 in 10, +10 in 100
 //! EXPECTED    the press of an independent program with quad8 and the same law: 3.143e8 when pressed, 3.965e8 on the
 //!             plateau; by work, Fx/Fy = mu ∫ p |v| / (V Fy) = 0.332 (examples/ironing_2d_gauss_point)
@@ -11,8 +12,8 @@ use crate::common::Run;
 use crate::scene::{Scene, Side, equal, finished};
 use signorini::build::Model;
 
-/// The case on a mesh with so many cells along the slab.
-fn ironing(along: usize) -> Model {
+/// The case on a mesh with so many cells along the slab, and what is said of its contact.
+fn ironing(along: usize, keys: &str) -> Model {
     let mut scene = Scene::default();
     let slab = scene.grid(
         "slab",
@@ -51,7 +52,7 @@ fn ironing(along: usize) -> Model {
         .case_of("[model]\nspace = \"plane-strain\"")
         .also(&solid("slab", 68.96e7))
         .also(&solid("indenter", 68.96e8))
-        .contact("foot", "top", "friction = 0.3")
+        .contact("foot", "top", keys)
         .also(&step("press", 0.1))
         .fix("base", "xy")
         .displace("head", "ux = 0.0\nuy = -1.0")
@@ -79,31 +80,56 @@ fn mean(run: &Run, from: f64, to: f64) -> [f64; 3] {
     sums.map(|s| s / all)
 }
 
-#[test]
-#[ignore = "takes half a minute: run by .ci/run"]
-fn ironing_goes_to_the_end_with_nothing_but_defaults() {
-    let mut presses = Vec::new();
-    for along in [24, 36] {
-        let run = finished(&mut ironing(along));
-        let pressed = run.frames.iter().find(|f| f.time > 0.999).unwrap();
-        let at_rest = pressed.contacts[0].secondary.force.y;
-        let [press, drag, work] = mean(&run, 1.3, 1.6);
-        let last = run.frames.last().unwrap();
-        println!(
-            "{along} cells: pressed {at_rest:.4e}, plateau {press:.4e}, Fx/Fy {:.4}, by work {:.4}, viscous work {:.2e} \
-             of {:.2e} by friction, {} iterations",
-            drag / press,
-            work / press,
-            last.work_stabilization,
-            last.contacts[0].work_friction,
-            run.iterations.len()
-        );
-        assert!((last.time - 2.0).abs() < 1e-12);
+/// Runs the case: press at the end of the first step, press and drag of the plateau, drag by work.
+fn drag(along: usize, keys: &str) -> [f64; 4] {
+    let run = finished(&mut ironing(along, keys));
+    let pressed = run.frames.iter().find(|f| f.time > 0.999).unwrap();
+    let at_rest = pressed.contacts[0].secondary.force.y;
+    let [press, drag, work] = mean(&run, 1.3, 1.6);
+    let last = run.frames.last().unwrap();
+    println!(
+        "{keys}, {along} cells: pressed {at_rest:.4e}, plateau {press:.4e}, Fx/Fy {:.4}, by work {:.4}, viscous work {:.2e} \
+         of {:.2e} by friction, {} iterations",
+        drag / press,
+        work / press,
+        last.work_stabilization,
+        last.contacts[0].work_friction,
+        run.iterations.len()
+    );
+    assert!((last.time - 2.0).abs() < 1e-12);
+    [at_rest, press, drag, work]
+}
+
+/// Whether press and drag are those of others, and hardly depend on the mesh.
+fn is_right(meshes: [usize; 2], keys: &str) {
+    let presses = meshes.map(|along| {
+        let [at_rest, press, drag, work] = drag(along, keys);
         assert!((at_rest / 3.143e8 - 1.0).abs() < 0.05);
         assert!((press / 3.965e8 - 1.0).abs() < 0.05);
         assert!((drag / press - 0.332).abs() < 0.02);
         assert!((work / press - 0.332).abs() < 0.02);
-        presses.push(press);
-    }
+        press
+    });
     assert!((presses[1] / presses[0] - 1.0).abs() < 0.03);
+}
+
+#[test]
+fn ironing_goes_to_the_end_with_nothing_but_defaults() {
+    is_right([36, 48], "friction = 0.3");
+}
+
+#[test]
+#[ignore = "takes half a minute: run by .ci/run"]
+fn ironing_goes_to_the_end_by_nodes() {
+    is_right([24, 36], "method = \"node-to-segment\"\nfriction = 0.3");
+}
+
+#[test]
+fn without_friction_nothing_drags_whatever_the_flanks_see() {
+    for along in [24, 40] {
+        let [_, press, drag, work] = drag(along, "");
+        assert!((press / 3.965e8 - 1.0).abs() < 0.05);
+        assert!((drag / press).abs() < 0.005, "{drag:e} of {press:e}");
+        assert_eq!(work, 0.0);
+    }
 }

@@ -133,6 +133,17 @@ impl Covered {
         self.lumped
     }
 
+    /// The cosine of the angle by which primary facets fail to face it, in the mean over what they cover.
+    #[must_use]
+    pub fn facing(&self) -> f64 {
+        let area = |pair: &Pair| (0..self.nnode).map(|j| pair.n(j)).sum::<f64>();
+        let parts = self.pairs().iter().map(|pair| (area(pair), pair.cosine()));
+        let [all, facing] = parts.fold([0.0; 2], |[all, facing], (area, cosine)| {
+            [all + area, facing + area * cosine]
+        });
+        if all > 0.0 { facing / all } else { 0.0 }
+    }
+
     /// ν.
     #[must_use]
     pub fn normal(&self) -> Vec3 {

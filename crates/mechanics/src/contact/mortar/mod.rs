@@ -72,18 +72,29 @@
 //! acts on primary nodes at a gap is the force of the secondary circumference, not the traction of it.
 //!
 //! *What is compared.* A primary facet counts where its projection onto the plane is one to one and turned towards the
-//! secondary facet, however obliquely. Others, by the angle between `−n0` and their normal at the centre:
+//! secondary facet. All integrals of two facets have the weight
+//!
+//! ```text
+//! w(c) = s² (3 − 2s),  s = (c − cos 80°)/(cos 60° − cos 80°) within [0, 1],  c = −n0·n^m              (E6)
+//! ```
+//!
+//! with the normal `n^m` of the primary facet at its centre. A facet seen edge-on has much gap over a small part of the
+//! plane, which says nothing about contact there: it fades out instead. One weight for all integrals of two facets keeps
+//! `Σ_l M_jl = D_j`, all bases and the balance of momentum, and is 1 where surfaces touch flush. By the angle between `−n0`
+//! and `n^m`:
 //!
 //! | projection | angle | |
 //! |---|---|---|
-//! | one to one, facing | < 90° | compared |
+//! | one to one, facing | ≤ 60° | compared |
+//! | one to one, facing | 60° to 80° | compared, with the weight (E6) |
+//! | any | ≥ 80° | passed over: a flank, seen edge-on |
 //! | turned round | > 90° | passed over |
-//! | folded, or without an inverse at a point | > 60° | passed over: a flank, seen edge-on |
+//! | folded, or without an inverse at a point | > 60° | passed over |
 //! | folded, or without an inverse at a point | ≤ 60° | [`MortarError::Folded`]: the increment is cut |
 //!
-//! A facet that passes from the first row to the second or third takes with it what it still covers. This is continuous
-//! for affine facets, which vanish at 90°; a curved one is lost with the cosine of its angle times its area. Facets whose
-//! projections have no box in common are never compared, whatever they look like.
+//! All is continuous and has continuous first derivatives where facets are affine; a curved one that is folded while it
+//! still has a weight is lost with it. Facets whose projections have no box in common are never compared, whatever they
+//! look like.
 //!
 //! *Normal.* With one normal for each facet, `ν D` and `ν M` are the operators by which a pressure acts, linear and angular
 //! momentum are exact without friction, and nodes of the secondary side do not couple.

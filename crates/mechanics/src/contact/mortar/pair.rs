@@ -7,9 +7,21 @@ use signorini_geometry::scalar::{Dual, Real};
 use signorini_geometry::tensor::Vec3;
 use std::f64::consts::TAU;
 
-/// A primary facet that is folded in the projection is passed over where its normal at the centre deviates by more than
-/// 60 degrees from facing: half of it could be bent by as many as the rest, so that it is only seen edge-on.
+/// From 60 degrees on, as a cosine, the weight (E6) of two facets falls, and a primary facet that is folded in the projection
+/// is passed over: half of it could be bent by as many as the rest, so that it is only seen edge-on.
 const FACING: f64 = 0.5;
+
+/// At 80 degrees two facets do not see one another.
+const EDGE_ON: f64 = 0.173_648_177_666_930_33;
+
+/// The weight (E6) of facets with this cosine of the angle by which they fail to face one another, and its derivative.
+pub(super) fn facing(cosine: f64) -> (f64, f64) {
+    let s = ((cosine - EDGE_ON) / (FACING - EDGE_ON)).clamp(0.0, 1.0);
+    (
+        s * s * (3.0 - 2.0 * s),
+        6.0 * s * (1.0 - s) / (FACING - EDGE_ON),
+    )
+}
 
 /// What is left of an overlap that is none, relative to its cells.
 const NOTHING: f64 = 1e-13;
@@ -216,6 +228,8 @@ pub struct Pair {
     nsecondary: usize,
     nprimary: usize,
     dim: usize,
+    /// Of the angle by which the two fail to face one another.
+    cosine: f64,
     /// All integrals, one kind after the other; above the diagonal of `∫N_j N_k` there is nothing.
     values: Vec<f64>,
     /// The derivatives of each.
@@ -250,6 +264,10 @@ impl Pair {
         if frame.apart(&places[..self.nprimary]) {
             return Ok(false);
         }
+        self.cosine = frame.faces(primary);
+        if self.cosine <= EDGE_ON {
+            return Ok(false);
+        }
         let elements = [frame.element, primary.element];
         let places = [frame.places, places];
         let factor = frame.factor();
@@ -269,6 +287,9 @@ impl Pair {
         };
         if found && derivatives {
             self.chain(frame, primary);
+        }
+        if found && self.cosine < FACING {
+            self.fade(frame, primary, derivatives)?;
         }
         Ok(found)
     }
@@ -490,6 +511,39 @@ impl Pair {
         }
     }
 
+    /// Multiplies all integrals with the weight (E6).
+    fn fade(
+        &mut self,
+        frame: &Frame,
+        primary: &Facet,
+        derivatives: bool,
+    ) -> Result<(), MortarError> {
+        let (weight, slope) = facing(self.cosine);
+        if derivatives {
+            let other = Frame::of(primary)?;
+            let (own, ncolumn) = (3 * self.nsecondary, self.ncolumn());
+            let mut change = [0.0; 2 * COORDINATES];
+            for a in 0..3 {
+                let of_own = frame.dnormal(a).map(|d| d * other.normal[a]);
+                let of_other = other.dnormal(a).map(|d| d * frame.normal[a]);
+                let (first, rest) = change.split_at_mut(own);
+                let each = first
+                    .iter_mut()
+                    .zip(of_own)
+                    .chain(rest.iter_mut().zip(of_other));
+                each.for_each(|(to, d)| *to += slope * d);
+            }
+            let rows = self.slopes.chunks_exact_mut(ncolumn);
+            for (row, value) in rows.zip(&self.values) {
+                for (to, change) in row.iter_mut().zip(&change) {
+                    *to = weight * *to + value * change;
+                }
+            }
+        }
+        self.values.iter_mut().for_each(|value| *value *= weight);
+        Ok(())
+    }
+
     /// The number of nodes of the secondary and of the primary facet.
     #[must_use]
     pub fn nnode(&self) -> [usize; 2] {
@@ -500,6 +554,12 @@ impl Pair {
     #[must_use]
     pub fn ncolumn(&self) -> usize {
         3 * (self.nsecondary + self.nprimary)
+    }
+
+    /// The cosine of the angle by which the two fail to face one another.
+    #[must_use]
+    pub fn cosine(&self) -> f64 {
+        self.cosine
     }
 
     /// `∫N_j`.

@@ -1,5 +1,6 @@
 //! Bases and integrals against reference values, differences and balance, over all pairings.
 
+use super::pair::facing;
 use super::*;
 use crate::contact::tests::Random;
 use serde_json::Value;
@@ -797,6 +798,69 @@ fn derivatives_match_differences() {
         }
     }
     println!("largest error of derivatives: {worst:.1e}");
+}
+
+#[test]
+fn facets_seen_almost_edge_on_fade_out_and_their_derivatives_match_differences() {
+    let cosine = |degrees: f64| degrees.to_radians().cos();
+    assert_eq!(facing(cosine(59.9)).0, 1.0);
+    assert_eq!(facing(cosine(80.1)).0, 0.0);
+    for limit in [60.0, 80.0] {
+        let [inside, outside] = [-1e-4, 1e-4].map(|d| facing(cosine(limit + d)));
+        assert!((inside.0 - outside.0).abs() < 1e-9 && (inside.1 - outside.1).abs() < 1e-3);
+    }
+    let mut random = Random::new(5);
+    let (mut worst, mut compared) = (0.0f64, 0);
+    for elements in pairings() {
+        for degrees in [62.0, 70.0, 77.0] {
+            let axis = Vec3::unit(if elements[0].dim() == 1 { 2 } else { 1 });
+            let turn = Mat3::rotation(axis * f64::to_radians(degrees));
+            let [over, _] = primaries(elements[1], 0.02, &mut random);
+            let flank: Vec<Vec3> = over.iter().map(|x| turn * *x).collect();
+            let mut x = vec![facet(elements[0], 0.02, &mut random), flank];
+            let exact = evaluate(elements, &x, true);
+            if exact.met().is_empty() {
+                continue; // curved beyond what can be seen of it
+            }
+            compared += 1;
+            balanced(&exact, "almost edge-on");
+            assert!((exact.facing() - cosine(degrees)).abs() < 0.1);
+            for (k, element) in elements.into_iter().enumerate() {
+                for v in 0..3 * element.nnode() {
+                    if element.dim() == 1 && v % 3 == 2 {
+                        continue;
+                    }
+                    let h = 1e-5;
+                    let mut moved = |h: f64| {
+                        let before = x[k][v / 3][v % 3];
+                        x[k][v / 3][v % 3] += h;
+                        let found = evaluate(elements, &x, false);
+                        x[k][v / 3][v % 3] = before;
+                        found
+                    };
+                    let [low, high] = [-h, h].map(&mut moved);
+                    let column = 3 * elements[0].nnode() * k + v;
+                    let mut compare = |of: &dyn Fn(&Covered) -> f64, ours: f64| {
+                        let slope = (of(&high) - of(&low)) / (2.0 * h);
+                        let error = (slope - ours).abs() / (1.0 + slope.abs());
+                        worst = worst.max(error);
+                        assert!(
+                            error < 1e-5,
+                            "{elements:?} {degrees} {column}: {slope} {ours}"
+                        );
+                    };
+                    for j in 0..exact.nnode() {
+                        compare(&|c| c.d()[j], exact.dd(j)[column]);
+                        for l in 0..exact.nprimary() {
+                            compare(&|c| c.m(j)[l], exact.dm(j, l)[column]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!("{compared} pairs, largest error of derivatives: {worst:.1e}");
+    assert!(compared > 40, "{compared}");
 }
 
 #[test]

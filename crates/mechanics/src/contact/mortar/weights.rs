@@ -64,6 +64,8 @@ pub struct OfFacet {
     pub met: Vec<u32>,
     /// ν_e.
     pub normal: Vec3,
+    /// The cosine of the angle by which these fail to face it, in the mean over what they cover.
+    pub facing: f64,
     /// D_j.
     pub d: [f64; MAX_FACET_NODES],
     /// D⁰_j.

@@ -100,6 +100,7 @@ impl Integrator {
         to.met.clear();
         to.met.extend(covered.met().iter().map(|&k| self.near[k]));
         to.normal = covered.normal();
+        to.facing = covered.facing();
         to.m.clear();
         for (j, (d, full)) in covered.d().iter().zip(covered.full()).enumerate() {
             (to.d[j], to.full[j]) = (*d, *full);

@@ -38,6 +38,11 @@
 //! Σ_a s_ab ψ_a with shares s_ab of each facet that add up to 1: pressures are even there, nothing is dropped, and node a
 //! has no row. Who is whose guest is settled at convergence ([`Discretization::settle`]).
 //!
+//! *Edges.* A mean over both sides of an edge says little about either: where the lower face of a block is pressed and
+//! what it rests on rises away from its flank, one row would press on half of the flank, too. A node of an edge is the node
+//! of one side of it, that which is covered and faces best what it meets, and keeps it until another one does so twice as
+//! well. What its function is on facets of other sides goes to the nodes beside it there (`edges`).
+//!
 //! *Held weights.* For small sliding and for what is joined, c and n are those of the start: all is linear, the tangent
 //! symmetric with `A_j = D_j`, and the slip is `e = P(w/D_j − o)` with the way `o` at the start of the increment.
 //!
@@ -46,6 +51,7 @@
 //! Sources: Popp, Gitterle, Gee and Wall, IJNME 83, 2010; Gitterle, Popp, Gee and Wall, IJNME 84, 2010 (friction); Yang,
 //! Laursen and Meng, IJNME 62, 2005 (objective slip).
 
+mod edges;
 mod integrals;
 mod place;
 
@@ -55,6 +61,7 @@ use crate::contact::mortar::{
     Basis, Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights,
 };
 use crate::contact::row::{Participant, RowOrder, Rows, Wanted};
+use edges::{Part, parts};
 use integrals::Integrator;
 use place::{Place, Workspace};
 use rayon::prelude::*;
@@ -65,7 +72,6 @@ use signorini_geometry::surface::{
     Anchor, Carrier, ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet,
 };
 use signorini_geometry::tensor::Vec3;
-use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -74,6 +80,9 @@ const WEAK: f64 = 0.5;
 
 /// How much better others must be covered to take it over where none is covered well.
 const BETTER: f64 = 4.0;
+
+/// How much better another side of an edge must face what it meets for a node to change over to it.
+const STAYS: f64 = 2.0;
 
 /// Facets integrated by one task.
 const TASK: usize = 16;
@@ -95,14 +104,17 @@ pub struct Form {
     pub normals: Normals,
     /// The weights of nodes of quadratic facets.
     pub basis: Basis,
+    /// Whether nodes of edges have one row, which joints want: several would hold them more than once.
+    pub joined: bool,
 }
 
 /// Rows of the nodes of a surface made of facets.
 pub struct Mortar {
     nodes: Vec<NodeId>,
-    row_of: HashMap<NodeId, usize>,
-    /// Facets around each node, and its place in them.
-    around: Vec<Vec<(u32, usize)>>,
+    /// The row of each node of each facet.
+    rows: Vec<[usize; MAX_FACET_NODES]>,
+    /// Facets around the node of each row on its side of edges, and its place in them.
+    around: Vec<Part>,
     /// Nodes of those facets, its own first.
     near: Vec<Vec<NodeId>>,
     /// `T⁻ᵀ` of every kind of facet, and the kind of each.
@@ -129,13 +141,22 @@ impl Mortar {
         measure: Measure,
         x: &[Vec3],
     ) -> Result<Self, SurfaceError> {
-        let nodes = along_a_curve(facets.all_nodes(), x);
+        let sorted = along_a_curve(facets.all_nodes(), x);
+        let (nodes, around) = parts(facets, &sorted, form.joined, x)?;
+        let mut rows = vec![[0; MAX_FACET_NODES]; facets.nfacet()];
+        let mut near: Vec<Vec<NodeId>> = nodes.iter().map(|&n| vec![n]).collect();
+        for (row, (near, around)) in near.iter_mut().zip(&around).enumerate() {
+            for &(facet, place) in around {
+                rows[facet as usize][place] = row;
+                for other in facets.nodes(facet) {
+                    if !near.contains(other) {
+                        near.push(*other);
+                    }
+                }
+            }
+        }
         let mut kinds: Vec<(Element, Inverse)> = Vec::new();
         let mut kind = Vec::new();
-        let rows = nodes.iter().enumerate();
-        let row_of: HashMap<NodeId, usize> = rows.map(|(row, &node)| (node, row)).collect();
-        let mut around = vec![Vec::new(); nodes.len()];
-        let mut near: Vec<Vec<NodeId>> = nodes.iter().map(|&n| vec![n]).collect();
         let mut area = vec![0.0; nodes.len()];
         let mut integrator = Integrator::new(measure, form.basis);
         for facet in 0..facets.nfacet() as u32 {
@@ -155,23 +176,13 @@ impl Mortar {
             covered
                 .evaluate(&own, &[], false)
                 .map_err(|_| SurfaceError::Degenerate { facet })?;
-            let of_facet = facets.nodes(facet);
-            for (k, (node, full)) in of_facet.iter().zip(covered.full()).enumerate() {
-                let Some(&row) = row_of.get(node) else {
-                    continue;
-                };
-                around[row].push((facet, k));
+            for (&row, full) in rows[facet as usize].iter().zip(covered.full()) {
                 area[row] += full;
-                for other in of_facet {
-                    if !near[row].contains(other) {
-                        near[row].push(*other);
-                    }
-                }
             }
         }
         Ok(Self {
             nodes,
-            row_of,
+            rows,
             around,
             near,
             kinds,
@@ -233,6 +244,11 @@ impl Mortar {
         weights.guests = guests;
         self.add_up_all(facets, pair, at, weights)?;
         Ok(true)
+    }
+
+    /// Whether nodes of edges have several rows.
+    fn has_edges(&self) -> bool {
+        self.nodes.windows(2).any(|two| two[0] == two[1])
     }
 
     fn weights<'a>(&'a self, pairing: &'a Pairing) -> &'a Weights {
@@ -309,23 +325,32 @@ impl Mortar {
             left: vec![false; n],
             taken: vec![Vec::new(); n],
         };
+        let aside = self.choose_sides(weights, &mut found);
         let mut weak: Vec<usize> = (0..n)
-            .filter(|&r| parts[r] > 0.0 && parts[r] < WEAK)
+            .filter(|&r| parts[r] > 0.0 && parts[r] < WEAK && !found.left[r])
             .collect();
         weak.sort_by(|&a, &b| parts[b].total_cmp(&parts[a]).then(a.cmp(&b)));
         for row in weak {
-            let is_host = |node: &NodeId| {
-                let other = self.row_of.get(node).copied();
-                let much = WEAK.min(BETTER * parts[row]);
-                other.filter(|&other| other != row && !found.left[other] && parts[other] >= much)
+            let much = WEAK.min(BETTER * parts[row]);
+            let hosts_on = |&(facet, _): &(u32, usize)| {
+                let on = &self.rows[facet as usize][..facets.nodes(facet).len()];
+                let covered = |&other: &usize| !found.left[other] && parts[other] >= much;
+                on.iter()
+                    .copied()
+                    .filter(move |other| *other != row && covered(other))
             };
-            let near: Vec<usize> = self.near[row].iter().filter_map(is_host).collect();
+            let mut near: Vec<usize> = Vec::new();
+            for host in self.around[row].iter().flat_map(hosts_on) {
+                if !near.contains(&host) {
+                    near.push(host);
+                }
+            }
             if near.is_empty() {
                 continue;
             }
             let mut taken = Vec::new();
-            for &(facet, place) in self.around[row].iter().filter(|(f, _)| met(*f).is_some()) {
-                let beside: Vec<usize> = facets.nodes(facet).iter().filter_map(is_host).collect();
+            for at @ &(facet, place) in self.around[row].iter().filter(|(f, _)| met(*f).is_some()) {
+                let beside: Vec<usize> = hosts_on(at).collect();
                 let hosts = if beside.is_empty() { &near } else { &beside };
                 let share = 1.0 / hosts.len() as f64;
                 taken.extend(hosts.iter().map(|&host| (host, (facet, place, share))));
@@ -335,7 +360,63 @@ impl Mortar {
                 found.taken[host].push(function);
             }
         }
+        for row in aside {
+            self.set_aside(row, facets, &mut found);
+        }
         found
+    }
+
+    /// A node of an edge has the row of the side that is covered and faces what it meets best, unless another one has it.
+    /// Answers the rows that it has not.
+    fn choose_sides(&self, weights: &Weights, found: &mut Guests) -> Vec<usize> {
+        let faces = |row: usize| {
+            let of = self.around[row].iter().filter_map(|&(facet, place)| {
+                let of = weights.facets.get(facet as usize)?;
+                Some(of.facing * of.d[place] / of.full[place])
+            });
+            let factor = match weights.guests.left.get(row) {
+                Some(false) => STAYS,
+                _ => 1.0,
+            };
+            factor * of.fold(0.0, f64::max)
+        };
+        let mut aside = Vec::new();
+        let mut first = 0;
+        for of_node in self.nodes.chunk_by(|a, b| a == b) {
+            let rows = first..first + of_node.len();
+            first = rows.end;
+            let better = |a: &usize, b: &usize| faces(*a).total_cmp(&faces(*b)).then(b.cmp(a));
+            let own = rows.clone().max_by(better);
+            for row in rows.filter(|row| Some(*row) != own) {
+                found.left[row] = true;
+                aside.push(row);
+            }
+        }
+        aside
+    }
+
+    /// What a row would carry goes to those beside it on the same side of the edge, or across it where there are none.
+    fn set_aside(&self, row: usize, facets: &Facets, found: &mut Guests) {
+        for &(facet, place) in &self.around[row] {
+            let on = &self.rows[facet as usize][..facets.nodes(facet).len()];
+            let stays = |r: &usize| !found.left[*r];
+            let mut hosts: Vec<usize> = on.iter().copied().filter(stays).collect();
+            if hosts.is_empty() {
+                hosts = self.of_same_node(row).filter(stays).collect();
+            }
+            let share = 1.0 / hosts.len() as f64;
+            for host in hosts {
+                found.taken[host].push((facet, place, share));
+            }
+        }
+    }
+
+    /// The rows of the node of a row: one for each side of the edge it is on.
+    fn of_same_node(&self, row: usize) -> Range<usize> {
+        let node = self.nodes[row];
+        let first = self.nodes[..row].iter().rev().take_while(|n| **n == node);
+        let last = self.nodes[row..].iter().take_while(|n| **n == node);
+        row - first.count()..row + last.count()
     }
 
     /// The sums of a row.
@@ -504,6 +585,9 @@ impl Discretization for Mortar {
         if self.held.is_none() {
             out.weights.guests.clone_from(&last.weights.guests);
             self.weigh(pair, at, near, &mut out.weights)?;
+            if out.weights.guests.left.is_empty() && self.has_edges() {
+                self.rest(pair, at, &mut out.weights)?;
+            }
         }
         self.choose(at, out);
         Ok(())
@@ -614,14 +698,14 @@ impl Discretization for Mortar {
         let Some(facets) = &pair.secondary else {
             return;
         };
-        for &(facet, place, _) in self
-            .weights(pairing)
-            .guests
-            .taken
-            .get(row)
-            .into_iter()
-            .flatten()
-        {
+        let Guests { left, taken } = &self.weights(pairing).guests;
+        for &(facet, place, _) in taken.get(row).into_iter().flatten() {
+            // a node of an edge may have a row of its own on another side
+            let own = self.rows.get(facet as usize).map_or(0, |rows| rows[place]);
+            let has = |row: usize| left.get(row) == Some(&false);
+            if self.of_same_node(own).any(has) {
+                continue;
+            }
             let node = facets.nodes(facet).get(place);
             out.extend(node.filter(|n| !out.contains(n)).copied());
         }
