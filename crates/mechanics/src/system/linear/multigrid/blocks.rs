@@ -1,9 +1,12 @@
 //! Sparse matrices of small dense blocks.
 
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Rows handled by one task; results do not depend on it.
 const ROWS_PER_TASK: usize = 1024;
+/// Rows of a matrix that are projected at once; sums are in this order.
+const ROWS_PER_STRIP: usize = 16_384;
 /// Stands for no place in a row.
 const NOWHERE: u32 = u32::MAX;
 
@@ -25,7 +28,7 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
     }
 
     /// Where the blocks of a row are.
-    pub fn range(&self, row: usize) -> std::ops::Range<usize> {
+    pub fn range(&self, row: usize) -> Range<usize> {
         self.start[row]..self.start[row + 1]
     }
 
@@ -62,6 +65,51 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
             column,
             value,
         }
+    }
+
+    /// Some of its rows.
+    fn rows(&self, rows: Range<usize>) -> Self {
+        let (begin, end) = (self.start[rows.start], self.start[rows.end]);
+        let starts = self.start[rows.start..=rows.end].iter();
+        Self {
+            ncolumn: self.ncolumn,
+            start: starts.map(|start| start - begin).collect(),
+            column: self.column[begin..end].to_vec(),
+            value: self.value[begin..end].to_vec(),
+        }
+    }
+
+    /// The sum with another matrix of the same size.
+    fn plus(&self, other: &Self) -> Self {
+        let nrow = self.nrow();
+        let mut sum = Self {
+            ncolumn: self.ncolumn,
+            start: Vec::with_capacity(nrow + 1),
+            column: Vec::with_capacity(self.column.len()),
+            value: Vec::with_capacity(self.column.len()),
+        };
+        sum.start.push(0);
+        for row in 0..nrow {
+            let (mut one, mut two) = (self.row(row).peekable(), other.row(row).peekable());
+            while let Some(column) = match (one.peek(), two.peek()) {
+                (Some(a), Some(b)) => Some(a.0.min(b.0)),
+                (a, b) => a.or(b).map(|entry| entry.0),
+            } {
+                let mut block = [[0.0; C]; R];
+                let of_one = one.next_if(|entry| entry.0 == column);
+                let of_two = two.next_if(|entry| entry.0 == column);
+                for (_, part) in of_one.into_iter().chain(of_two) {
+                    let entries = block.as_flattened_mut().iter_mut();
+                    entries
+                        .zip(part.as_flattened())
+                        .for_each(|(to, from)| *to += from);
+                }
+                sum.column.push(column as u32);
+                sum.value.push(block);
+            }
+            sum.start.push(sum.column.len());
+        }
+        sum
     }
 
     /// The product with another matrix.
@@ -146,6 +194,26 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
 }
 
 impl<const N: usize> Blocks<N, N> {
+    /// `Pᵀ A P`, strip by strip of the rows: what is in between never stands there as a whole, for it is larger than A.
+    pub fn projected<const D: usize>(&self, onto: &Blocks<N, D>) -> Blocks<D, D> {
+        let mut sum: Option<Blocks<D, D>> = None;
+        for begin in (0..self.nrow()).step_by(ROWS_PER_STRIP) {
+            let strip = begin..self.nrow().min(begin + ROWS_PER_STRIP);
+            let product = self.rows(strip.clone()).times(onto);
+            let part = onto.rows(strip).transpose().times(&product);
+            sum = Some(match sum {
+                Some(sum) => sum.plus(&part),
+                None => part,
+            });
+        }
+        sum.unwrap_or_else(|| Blocks {
+            ncolumn: onto.ncolumn,
+            start: vec![0; onto.ncolumn + 1],
+            column: Vec::new(),
+            value: Vec::new(),
+        })
+    }
+
     /// The block on the diagonal of a row, which every row has.
     pub fn diagonal(&self, row: usize) -> &[[f64; N]; N] {
         let range = self.range(row);

@@ -60,8 +60,7 @@ impl<const N: usize> Level<N> {
         let mut prolong = matrix.times(&motions);
         let weight = 4.0 / (3.0 * largest);
         smooth(&mut prolong, &motions, &inverses, weight);
-        let restrict = prolong.transpose();
-        let mut coarse = restrict.times(&matrix.times(&prolong));
+        let mut coarse = matrix.projected(&prolong);
         settle(&mut coarse);
         let nrow = matrix.nrow();
         let mut level = Self {
@@ -69,7 +68,7 @@ impl<const N: usize> Level<N> {
             smoother,
             damping: 1.0,
             prolong: Packed::new(&prolong),
-            restrict: Packed::new(&restrict),
+            restrict: Packed::new(&prolong.transpose()),
             residual: vec![[0.0; N]; nrow],
             change: vec![[0.0; N]; nrow],
         };

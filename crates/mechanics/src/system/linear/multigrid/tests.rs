@@ -106,6 +106,33 @@ fn products_and_transposes_are_those_of_dense_matrices() {
 }
 
 #[test]
+fn projections_are_products() {
+    // more rows than a strip has
+    let n = 20_000;
+    let chain: Vec<(usize, usize)> = (1..n).map(|k| (k - 1, k)).collect();
+    let a = definite::<3>(&chain, n);
+    let motions: Vec<[[f64; 6]; 3]> = (0..n)
+        .map(|k| std::array::from_fn(|i| std::array::from_fn(|j| ((k + 7 * i + j) % 5) as f64)))
+        .collect();
+    let onto = Blocks {
+        ncolumn: n / 100,
+        start: (0..=n).collect(),
+        column: (0..n).map(|k| (k / 100) as u32).collect(),
+        value: motions,
+    };
+    let found = a.projected(&onto);
+    let expected = onto.transpose().times(&a.times(&onto));
+    assert_eq!(
+        (&found.start, &found.column),
+        (&expected.start, &expected.column)
+    );
+    let pairs = found.value.iter().zip(&expected.value);
+    for (x, y) in pairs.flat_map(|(x, y)| x.as_flattened().iter().zip(y.as_flattened())) {
+        assert!((x - y).abs() <= 1e-12 * (1.0 + y.abs()), "{x} {y}");
+    }
+}
+
+#[test]
 fn a_factor_without_fill_to_leave_out_is_exact() {
     // a chain, whole and in two parts with a row between them
     let chain: Vec<(usize, usize)> = (0..8).map(|k| (k, k + 1)).collect();
