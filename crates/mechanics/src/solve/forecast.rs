@@ -2,20 +2,22 @@
 
 use super::equations::Equations;
 use super::stepping::Step;
-use crate::system::linear::{Forecast, LinearError, LinearSolver, Problem, SolveReport, Values};
+use crate::system::linear::{
+    Forecast, LinearError, LinearKind, LinearSolver, Problem, SolveReport, Values,
+};
 use crate::system::{Assembler, Assembly, Order, State, System, TermError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// Looks at a problem and solves nothing.
-#[derive(Default)]
 struct Scout {
+    kind: LinearKind,
     seen: Arc<Mutex<Option<Forecast>>>,
 }
 
 impl LinearSolver for Scout {
     fn analyze(&mut self, problem: &Problem) -> Result<(), LinearError> {
-        let forecast = Forecast::new(problem)?;
+        let forecast = Forecast::new(problem, self.kind)?;
         *self.seen.lock().unwrap_or_else(PoisonError::into_inner) = forecast;
         Ok(())
     }
@@ -44,11 +46,16 @@ pub struct Cost {
     pub assembly: f64,
 }
 
-/// What an iteration of a step costs at a state that the terms have looked at.
+/// What an iteration of a step costs by this solver at a state that the terms have looked at.
 ///
 /// # Errors
 /// A term that cannot be evaluated.
-pub fn forecast(system: &System, step: &Step, state: &State) -> Result<Cost, TermError> {
+pub fn forecast(
+    system: &System,
+    step: &Step,
+    state: &State,
+    kind: LinearKind,
+) -> Result<Cost, TermError> {
     let System {
         layout,
         elimination,
@@ -63,7 +70,10 @@ pub fn forecast(system: &System, step: &Step, state: &State) -> Result<Cost, Ter
     }
     let mut assembler = Assembler::new(layout, elimination, terms);
     assembler.update_interface(layout, elimination, terms);
-    let scout = Scout::default();
+    let scout = Scout {
+        kind,
+        seen: Arc::default(),
+    };
     let seen = scout.seen.clone();
     let mut equations = Equations::new(Box::new(scout));
     // what cannot be analyzed has no forecast; a run says why

@@ -13,7 +13,8 @@ const PER_CELL: f64 = 2_500.0;
 pub fn line(model: &Model) -> Option<String> {
     let first = model.steps.first()?;
     let state = model.system.initial_state();
-    let Cost { linear, assembly } = forecast(&model.system, first, &state).ok()?;
+    let Cost { linear, assembly } =
+        forecast(&model.system, first, &state, model.settings.linear).ok()?;
     let linear = linear?;
     let mesh = PER_NODE * model.mesh.nnode() as f64 + PER_CELL * model.mesh.ncell() as f64;
     let memory = PROGRAM + mesh + linear.bytes();

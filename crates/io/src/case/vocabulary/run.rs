@@ -16,7 +16,7 @@ pub(super) static SOLVER: Table = Table {
                 word("mumps"),
                 Choice::later("iterative", "direct"),
             ]),
-            "how linear equations are solved: multigrid suits large models in space; mumps is there where the program was built with it",
+            "how linear equations are solved: auto takes multigrid for large models in space and the direct solver for others; mumps is there where the program was built with it",
         )
         .or(Default::Text("auto")),
         key(

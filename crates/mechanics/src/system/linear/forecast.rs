@@ -1,14 +1,16 @@
-//! What a direct solution costs, told from the pattern alone.
+//! What a solution costs, told from the pattern alone.
 
 use super::condensation::Condensation;
 use super::matrix::Matrix;
 use super::ordering::{self, Ordering};
-use super::{Kept, LinearError, Problem, Symmetry, cholesky};
+use super::{
+    Kept, LinearError, LinearKind, MULTIGRID_FROM, Problem, Symmetry, cholesky, multigrid,
+};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use std::time::Instant;
 
-/// The size of a direct solution.
+/// The size of a solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forecast {
     /// Equations.
@@ -21,18 +23,35 @@ pub struct Forecast {
     pub nfactor: usize,
     /// Multiplications and additions of a factorization.
     pub work: f64,
+    /// Whether there is no factor, but multigrid.
+    pub is_multigrid: bool,
 }
 
 impl Forecast {
-    /// Orders and analyzes a problem, as its solution would.
+    /// Orders and analyzes a problem, as its solution by a solver of this kind would.
     ///
     /// # Errors
     /// Those of [`super::LinearSolver::analyze`].
     ///
     /// # Limits
-    /// `None` for a matrix that is not symmetric: the fill of its factor depends on its values.
-    pub fn new(problem: &Problem) -> Result<Option<Self>, LinearError> {
+    /// `None` for the factor of a matrix that is not symmetric: its fill depends on its values. That multigrid will serve
+    /// is taken for granted.
+    pub fn new(problem: &Problem, kind: LinearKind) -> Result<Option<Self>, LinearError> {
         problem.check()?;
+        let least = match kind {
+            LinearKind::Auto => Some(MULTIGRID_FROM),
+            LinearKind::Multigrid => Some([0; 2]),
+            _ => None,
+        };
+        if least.is_some_and(|least| multigrid::suits(problem, least)) {
+            return Ok(Some(Self {
+                nequation: problem.nequation,
+                noperator: problem.bulk.nvalue() + problem.interface.nentry(),
+                nmatrix: problem.bulk.nvalue(),
+                is_multigrid: true,
+                ..Self::default()
+            }));
+        }
         if problem.symmetry == Symmetry::Unsymmetric {
             return Ok(None);
         }
@@ -62,9 +81,13 @@ impl Forecast {
         Ok(Some(forecast))
     }
 
-    /// Seconds of a factorization on this machine, measured on a small dense product.
+    /// Seconds of a factorization on this machine, measured on a small dense product; or of the cycles of multigrid in an
+    /// iteration of Newton's method, about.
     #[must_use]
     pub fn seconds(&self) -> f64 {
+        if self.is_multigrid {
+            return SECONDS_PER_NUMBER * self.nmatrix as f64;
+        }
         self.work / (rate() * EFFICIENCY)
     }
 
@@ -73,11 +96,19 @@ impl Forecast {
     pub fn bytes(&self) -> f64 {
         // patterns and permutations have a small number for each large one, and are kept twice
         let (number, pattern) = (8.0, 4.0);
+        if self.is_multigrid {
+            return BYTES_PER_NUMBER * self.nmatrix as f64;
+        }
         let operator = (number + pattern) * self.noperator as f64;
         let matrix = (number + 2.0 * pattern) * self.nmatrix as f64;
         operator + matrix + number * self.nfactor as f64
     }
 }
+
+/// What a number of the stiffness of bodies costs multigrid, with everything that is made of it: measured on hex8 from
+/// 40,000 to 300,000 unknowns, `docs/speed.md`.
+const BYTES_PER_NUMBER: f64 = 40.0;
+const SECONDS_PER_NUMBER: f64 = 2e-8;
 
 /// What a sparse factorization reaches of the speed of a dense product.
 const EFFICIENCY: f64 = 0.6;

@@ -155,15 +155,7 @@ impl LinearSolver for Multigrid {
         (self.way, self.kept) = (None, None);
         problem.check()?;
         let kept = Kept::new(problem);
-        let [symmetric, unsymmetric] = self.least;
-        let least = match problem.symmetry {
-            Symmetry::Unsymmetric => unsymmetric,
-            Symmetry::Definite | Symmetry::Symmetric => symmetric,
-        };
-        let suits = problem.bulk.block == 3
-            && problem.nequation >= least
-            && problem.coordinates.len() == problem.bulk.nrow()
-            && !has_shared(problem);
+        let suits = suits(problem, self.least);
         let grid = self.grid.take().filter(|_| suits);
         self.grid = match grid {
             Some(mut grid) if grid.fine.is_of(&kept) => {
@@ -475,6 +467,19 @@ impl Kept {
         let forces = values.iter().zip(&self.sign).filter(|(_, s)| **s > 0);
         forces.fold(0.0, |largest: f64, (v, _)| largest.max(v.abs()))
     }
+}
+
+/// Whether multigrid is tried on a problem, where it is for no fewer equations: symmetric ones, and those that are not.
+pub(super) fn suits(problem: &Problem, least: [usize; 2]) -> bool {
+    let [symmetric, unsymmetric] = least;
+    let least = match problem.symmetry {
+        Symmetry::Unsymmetric => unsymmetric,
+        Symmetry::Definite | Symmetry::Symmetric => symmetric,
+    };
+    problem.bulk.block == 3
+        && problem.nequation >= least
+        && problem.coordinates.len() == problem.bulk.nrow()
+        && !has_shared(problem)
 }
 
 /// Whether dofs share an equation.
