@@ -590,6 +590,23 @@ TABLES = """ -4  CONTACT     6    1
 """
 
 
+class SpeedFigure(unittest.TestCase):
+    """What speed_figure.py reads of a page."""
+
+    def test_the_exponent_is_that_of_the_rows_in_one_increment(self):
+        sys.path.insert(0, HERE)
+        script = __import__("speed_figure")
+        head = "| row | unknowns | increments | iterations | ccx | ours |\n| --- | --- | --- | --- | --- | --- |\n"
+        row = "| {} | {} | 1 / 1 | 9 / 8 | {} | {} |\n"
+        sizes = [50_000, 100_000, 400_000]
+        rows = [row.format(f"hertz-C3D8-{n}-once", n, 2e-4 * n**1.25, 1e-5 * n) for n in sizes]
+        others = row.format("hertz-C3D8-1000000-once", 10**6, "–", 10.0) + row.format("slide-C3D8-50000", 50_000, 1.0, 9.0)
+        found = script.read("words\n| another | table |\n\n" + head + "".join(rows) + others)
+        self.assertEqual([len(points) for points in found.values()], [3, 4])
+        self.assertAlmostEqual(script.exponent(found["CalculiX"]), 1.25, places=9)
+        self.assertAlmostEqual(script.exponent(found["signorini"]), 1.0, places=9)
+
+
 class CompareSpeed(unittest.TestCase):
     """Pieces of compare_speed.py and of what it stands on, and all of it with programs that only pretend."""
 

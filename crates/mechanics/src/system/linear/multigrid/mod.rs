@@ -327,7 +327,9 @@ impl Grid {
         let source = fingerprint(values.bulk);
         let same = self.source == source && self.hierarchy.is_some();
         let worn = self.base.filter(|_| is_worn).map(|base| [self.rate, base]);
-        (self.source, self.is_proven) = (source, true);
+        // that of an increment before is not known to a run that is resumed here
+        let of_increment = std::mem::replace(&mut self.is_proven, true);
+        self.source = source;
         (self.base, self.worn) = (None, 0);
         if same {
             return None;
@@ -339,7 +341,8 @@ impl Grid {
             levels: new.nlevel(),
             worn,
         });
-        self.hierarchy = new.or(self.hierarchy.take());
+        let before = self.hierarchy.take().filter(|_| of_increment);
+        self.hierarchy = new.or(before);
         note
     }
 
@@ -420,7 +423,7 @@ impl Grid {
             }
             residual.measure(kept, values, rhs, x);
             let left = largest(&residual.value);
-            report.residual = left / size;
+            report.residual = if left > 0.0 { left / size } else { 0.0 };
             report.refinements = attempt;
             let done = match wanted {
                 Wanted::Residual(rtol) => {

@@ -107,10 +107,23 @@ fn products_and_transposes_are_those_of_dense_matrices() {
 
 #[test]
 fn projections_are_products() {
-    // more rows than a strip has
+    // a chain of more rows than a strip has
     let n = 20_000;
-    let chain: Vec<(usize, usize)> = (1..n).map(|k| (k - 1, k)).collect();
-    let a = definite::<3>(&chain, n);
+    let near = |row: usize| row.saturating_sub(1)..(row + 2).min(n);
+    let block = |row: usize, column: usize| -> [[f64; 3]; 3] {
+        std::array::from_fn(|i| std::array::from_fn(|j| ((row + column) % 7 + i + j) as f64 - 3.0))
+    };
+    let mut a = Blocks {
+        ncolumn: n,
+        start: vec![0],
+        column: Vec::new(),
+        value: Vec::new(),
+    };
+    for row in 0..n {
+        a.column.extend(near(row).map(|column| column as u32));
+        a.value.extend(near(row).map(|column| block(row, column)));
+        a.start.push(a.column.len());
+    }
     let motions: Vec<[[f64; 6]; 3]> = (0..n)
         .map(|k| std::array::from_fn(|i| std::array::from_fn(|j| ((k + 7 * i + j) % 5) as f64)))
         .collect();

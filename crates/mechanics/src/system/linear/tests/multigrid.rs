@@ -192,6 +192,65 @@ fn a_hierarchy_serves_changed_values_and_is_made_anew_where_it_is_worn() {
 }
 
 #[test]
+fn hierarchies_outlive_contact_and_increments_but_not_the_bodies() {
+    let mut solver = Multigrid::new();
+    let mut made = |placed: &Placed, forget: bool| {
+        if forget {
+            solver.forget();
+        }
+        assert!(solve(placed, &mut solver).0);
+        let notes = solver.notes();
+        let is_hierarchy = |note: &&Note| matches!(note, Note::Hierarchy { worn: None, .. });
+        assert_eq!(notes.iter().filter(is_hierarchy).count(), notes.len());
+        notes.len()
+    };
+    let placed = pressed([8, 8, 8], 10.0, false, false);
+    assert_eq!(made(&placed, false), 1);
+    assert_eq!(made(&placed, false), 0);
+    // contact of another pattern, another increment
+    let sticks = pressed([8, 8, 8], 10.0, true, false);
+    assert_eq!(made(&sticks, false), 0);
+    assert_eq!(made(&sticks, true), 0);
+    // other bodies: as long as the increment lasts, the hierarchy serves
+    let mut stiffer = pressed([8, 8, 8], 10.0, true, false);
+    for (_, matrix) in &mut stiffer.system.bulk {
+        matrix.iter_mut().for_each(|v| *v *= 1.1);
+    }
+    assert_eq!(made(&stiffer, false), 0);
+    assert_eq!(made(&stiffer, true), 1);
+}
+
+#[test]
+fn a_rough_solution_is_less_work() {
+    for mu in [0.0, 0.5] {
+        let n = [9, 8, 7];
+        let system = if mu > 0.0 {
+            slipping_blocks(n, 100.0, mu)
+        } else {
+            pressed(n, 100.0, false, false).system
+        };
+        let placed = Placed {
+            system,
+            coordinates: places(n, 2),
+        };
+        let assembled = placed.system.assemble();
+        let rhs = Random(3).vector(assembled.nequation);
+        let (mut x, mut exact) = (rhs.clone(), rhs.clone());
+        let mut solver = Multigrid::new();
+        solver.analyze(&placed.problem(&assembled)).unwrap();
+        solver.factorize(&assembled.values()).unwrap();
+        let rough = solver.solve_roughly(&assembled.values(), &rhs, &mut x, 0.1);
+        let full = solver.solve(&assembled.values(), &rhs, &mut exact, 1e-12);
+        let (rough, full) = (rough.unwrap(), full.unwrap());
+        println!("{mu}: {} and {}", rough.iterations, full.iterations);
+        assert!(0 < rough.iterations && 3 * rough.iterations <= full.iterations);
+        let off = x.iter().zip(&exact).map(|(x, y)| (x - y).abs());
+        let off = off.fold(0.0, f64::max) / largest(&exact);
+        assert!(off > 1e-9 && off < 0.3, "{off:e}");
+    }
+}
+
+#[test]
 fn multipliers_are_condensed_or_in_the_block() {
     let n = [8, 8, 8];
     let mut tied = Placed {
