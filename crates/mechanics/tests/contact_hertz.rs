@@ -18,10 +18,9 @@ use signorini_mechanics::contact::discretization::SlidingRange;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::material::SaintVenantKirchhoff;
 use signorini_mechanics::model::{
-    BodyKind, BodyPart, Change, ContactPart, Load, LoadPart, Method, Model, Parts, PrimaryPart,
-    SidePart, StepPart, Target,
+    Change, ContactPart, Load, LoadPart, Method, Model, Parts, PrimaryPart, SidePart, StepPart,
+    Target,
 };
-use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
 };
@@ -115,20 +114,8 @@ fn pressed(facets: f64) -> ContactFrame {
         },
         course: Course::Ramp,
     };
-    let solid = |name: &str, cells: &[CellId]| BodyPart {
-        name: name.into(),
-        cells: cells.to_vec(),
-        kind: BodyKind::Solid {
-            material: Box::new(SaintVenantKirchhoff::new(MODULUS, POISSON)),
-            later: Vec::new(),
-            density: None,
-            integration: Integration::Full,
-            locking: Locking::Auto,
-            space: None,
-            linear_temperatures: false,
-            at_nodes: Default::default(),
-            initial: Vec::new(),
-        },
+    let solid = |name: &str, cells: &[CellId]| {
+        common::solid(name, cells, SaintVenantKirchhoff::new(MODULUS, POISSON))
     };
     let mut contact = ContactPart::new(
         "circle",

@@ -18,10 +18,9 @@ use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
-    BodyKind, BodyPart, Change, ContactPart, Enforcement, FrictionPart, LimitPart, Load, LoadPart,
-    Method, Model, Parts, PointKind, PointRule, PrimaryPart, SidePart, StepPart, StickPart, Target,
+    Change, ContactPart, Enforcement, FrictionPart, LimitPart, Load, LoadPart, Method, Model,
+    Parts, PointKind, PointRule, PrimaryPart, SidePart, StepPart, StickPart, Target,
 };
-use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
 };
@@ -187,20 +186,8 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
         let slide = Change::Prescribe(Target::Nodes(head), along);
         steps.push(step("slide", vec![slide], Vec::new(), s.slid_in));
     }
-    let solid = |name: &str, cells: &[CellId], modulus| BodyPart {
-        name: name.into(),
-        cells: cells.to_vec(),
-        kind: BodyKind::Solid {
-            material: Box::new(NeoHookean::new(modulus, 0.3)),
-            later: Vec::new(),
-            density: None,
-            integration: Integration::Full,
-            locking: Locking::Auto,
-            space: None,
-            linear_temperatures: false,
-            at_nodes: Default::default(),
-            initial: Vec::new(),
-        },
+    let solid = |name: &str, cells: &[CellId], modulus| {
+        common::solid(name, cells, NeoHookean::new(modulus, 0.3))
     };
     let mut contact = ContactPart::new(
         "touch",

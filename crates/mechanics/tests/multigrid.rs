@@ -17,10 +17,9 @@ use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
-    BodyKind, BodyPart, Change, ConstraintKind, ConstraintPart, ContactPart, FrictionPart,
-    LimitPart, Load, LoadPart, Model, Parts, PrimaryPart, SidePart, StepPart, Target, TiePart,
+    Change, ConstraintKind, ConstraintPart, ContactPart, FrictionPart, LimitPart, Load, LoadPart,
+    Model, Parts, PrimaryPart, SidePart, StepPart, Target, TiePart,
 };
-use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
 };
@@ -140,20 +139,12 @@ fn solved(s: &Situation, linear: LinearKind) -> Found {
         of_top.collect::<Vec<_>>()
     };
     let head = bodies.last().unwrap();
-    let solid = |number: usize, part: &Part| BodyPart {
-        name: format!("body {number}"),
-        cells: part.cells.clone(),
-        kind: BodyKind::Solid {
-            material: Box::new(NeoHookean::new(s.moduli[number.min(1)], s.poisson)),
-            later: Vec::new(),
-            density: None,
-            integration: Integration::Full,
-            locking: Locking::Auto,
-            space: None,
-            linear_temperatures: false,
-            at_nodes: Default::default(),
-            initial: Vec::new(),
-        },
+    let solid = |number: usize, part: &Part| {
+        common::solid(
+            &format!("body {number}"),
+            &part.cells,
+            NeoHookean::new(s.moduli[number.min(1)], s.poisson),
+        )
     };
     let contact = |(number, pair): (usize, &[Part])| {
         let primary = if number == 0 {

@@ -5,6 +5,9 @@
 use signorini_geometry::element::{Element, by_name};
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId, boundary};
 use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_mechanics::material::Material;
+use signorini_mechanics::model::{BodyKind, BodyPart};
+use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::system::Idealisation;
 use std::collections::HashMap;
 
@@ -237,6 +240,25 @@ impl Part {
         let places = self.places.iter().enumerate();
         let found = places.filter(|(_, x)| wanted(**x));
         found.map(|(n, _)| self.first + n as NodeId).collect()
+    }
+}
+
+/// A solid with nothing but defaults.
+pub fn solid(name: &str, cells: &[CellId], material: impl Material + 'static) -> BodyPart {
+    BodyPart {
+        name: name.into(),
+        cells: cells.to_vec(),
+        kind: BodyKind::Solid {
+            material: Box::new(material),
+            later: Vec::new(),
+            density: None,
+            integration: Integration::Full,
+            locking: Locking::Auto,
+            space: None,
+            linear_temperatures: false,
+            at_nodes: Default::default(),
+            initial: Vec::new(),
+        },
     }
 }
 

@@ -435,7 +435,6 @@ impl Grid {
                 self.judge(wanted, report.iterations);
                 return Ok(Ok(report));
             }
-            residual.measure(kept, values, rhs, x);
         }
         let iterations = report.iterations;
         Ok(Err(Why::Slow { iterations }))
