@@ -18,15 +18,10 @@ use crate::model::{
 use crate::system::{Elimination, Idealisation};
 use signorini_geometry::element::{Element, quadrature};
 use signorini_geometry::mesh::{Face, Mesh, NodeId, boundary};
-use signorini_geometry::surface::{
-    Anchor, ContactSurface, Facets, Placement, SurfaceError, SurfaceJet,
-};
+use signorini_geometry::surface::{Anchor, ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-
-/// The cosine of the largest angle between facets of a surface without edges: 40 degrees.
-const SMOOTH: f64 = 0.766;
 
 /// How often the reach is doubled to find what is near at the start.
 const DOUBLINGS: usize = 6;
@@ -355,37 +350,8 @@ impl Source<'_> {
         let follows = |facets: &Facets| {
             (0..facets.nfacet() as u32).all(|f| !facets.nodes(f).iter().all(given))
         };
-        let suits = |facets: &Facets| {
-            follows(facets) && self.spaces.alike(facets).is_some() && self.is_smooth(facets)
-        };
+        let suits = |facets: &Facets| follows(facets) && self.spaces.alike(facets).is_some();
         plain && secondary.is_some_and(suits)
-    }
-
-    /// Whether a surface has no edges: a mean over both of its sides would say little about either.
-    fn is_smooth(&self, facets: &Facets) -> bool {
-        let at = Placement {
-            x: self.reference,
-            poses: &[],
-        };
-        let mut jet = SurfaceJet::default();
-        let normals: Vec<Vec3> = (0..facets.nfacet() as u32)
-            .map(|facet| {
-                let local = facets.domain(facet).map_or(Vec3::ZERO, |e| e.centre());
-                let there = facets.jet(&at, &Anchor { facet, local }, &mut jet);
-                there.map_or(Vec3::ZERO, |()| jet.normal)
-            })
-            .collect();
-        let edge = self.space.ndim() - 1;
-        (0..facets.nfacet() as u32).all(|facet| {
-            let own = facets.nodes(facet);
-            let along = |other: &&u32| {
-                let shared = facets.nodes(**other).iter().filter(|n| own.contains(n));
-                shared.count() >= edge
-            };
-            let mut beside = facets.neighbours(facet).iter().filter(along);
-            let normal = normals[facet as usize];
-            beside.all(|&other| normal.dot(normals[other as usize]) >= SMOOTH)
-        })
     }
 
     /// Whether the nodal forces of an even pressure on the secondary side are not all positive: nodes alone cannot carry

@@ -41,7 +41,7 @@
 //! *Edges.* A mean over both sides of an edge says little about either: where the lower face of a block is pressed and
 //! what it rests on rises away from its flank, one row would press on half of the flank, too. A node of an edge is the node
 //! of one side of it, that which is covered and faces best what it meets, and keeps it until another one does so twice as
-//! well. What its function is on facets of other sides goes to the nodes beside it there ([`edges`]).
+//! well. What its function is on facets of other sides goes to the nodes beside it there (`edges`).
 //!
 //! *Held weights.* For small sliding and for what is joined, c and n are those of the start: all is linear, the tangent
 //! symmetric with `A_j = D_j`, and the slip is `e = P(w/D_j − o)` with the way `o` at the start of the increment.
