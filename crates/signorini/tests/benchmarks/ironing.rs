@@ -11,6 +11,8 @@
 use crate::common::Run;
 use crate::scene::{Scene, Side, equal, finished};
 use signorini::build::Model;
+use signorini_geometry::tensor::Vec3;
+use signorini_mechanics::system::Frame;
 
 /// The case on a mesh with so many cells along the slab, and what is said of its contact.
 fn ironing(along: usize, keys: &str) -> Model {
@@ -80,6 +82,16 @@ fn mean(run: &Run, from: f64, to: f64) -> [f64; 3] {
     sums.map(|s| s / all)
 }
 
+/// Tractions times areas are the forces, at edges of the foot, too.
+fn tractions_add_up(frame: &Frame) {
+    let contact = &frame.contacts[0];
+    let spread = contact.traction.iter().zip(&contact.area);
+    let sum = spread.fold(Vec3::ZERO, |sum, (t, a)| sum + *t * *a);
+    let force = contact.secondary.force;
+    let off = (sum - force).norm();
+    assert!(off <= 1e-9 * force.norm(), "{sum:?} {force:?}");
+}
+
 /// Runs the case: press at the end of the first step, press and drag of the plateau, drag by work.
 fn drag(along: usize, keys: &str) -> [f64; 4] {
     let run = finished(&mut ironing(along, keys));
@@ -97,6 +109,7 @@ fn drag(along: usize, keys: &str) -> [f64; 4] {
         run.iterations.len()
     );
     assert!((last.time - 2.0).abs() < 1e-12);
+    run.frames.iter().for_each(tractions_add_up);
     [at_rest, press, drag, work]
 }
 

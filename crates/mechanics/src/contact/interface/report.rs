@@ -142,8 +142,10 @@ impl Interface {
                 };
                 let measure = self.measure(row) * coverage;
                 pressure = traction.pressure * per_area;
-                pull = (filled.normal * traction.pressure - traction.tangential) * per_area;
                 let pushed = self.pushed(row, &scratch.rows, filled, state);
+                // facets that do not lie in one plane push in several directions
+                let direction = pushed.force / filled.coverage;
+                pull = (direction * traction.pressure - traction.tangential) * per_area;
                 let push = traction.pressure * self.measure(row);
                 report.force_normal += pushed.force * push;
                 report.moment_normal += pushed.moment * push;
@@ -239,6 +241,8 @@ impl Interface {
                 report.traction[k] = mean.traction;
                 report.slip[k] = mean.slip;
                 report.elastic_slip[k] = mean.elastic_slip;
+                // rows of its node that meet nothing, as on another side of an edge, have no part in the means
+                report.area[k] = means.whole[k];
             }
         }
         for (_, sum) in report.faces.iter_mut().flatten() {
