@@ -14,6 +14,7 @@
 
 use super::LinearError;
 use super::matrix::Matrix;
+use super::registers::clear_upper_halves_everywhere;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::perm::PermRef;
@@ -162,6 +163,7 @@ impl Cholesky {
             MemStack::new(&mut self.memory),
             Default::default(),
         );
+        clear_upper_halves_everywhere();
         let definite = result.is_ok();
         if definite {
             self.judge(matrix);
@@ -194,6 +196,7 @@ impl Cholesky {
             MemStack::new(&mut self.memory),
             Default::default(),
         );
+        clear_upper_halves_everywhere();
         let result = result.map(|_| ());
         for &(at, value) in &self.shifted {
             matrix.value[at] = value;

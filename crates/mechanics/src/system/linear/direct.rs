@@ -3,7 +3,7 @@
 //! ```text
 //!   Definite   ──▶ L Lᵀ ──pivot ≤ 0──▶ L D Lᵀ ──residual stays──▶ LU
 //!   Symmetric  ──────────────────────▶ L D Lᵀ ──residual stays──▶ LU
-//!   Unsymmetric ─────────────────────────────────────────────────▶ LU
+//!   Unsymmetric ──▶ LU by fronts ──no pivot, or residual stays───▶ LU
 //! ```
 //!
 //! The order and the symbolic factor serve both L Lᵀ and L D Lᵀ: a tangent that turns indefinite under compression
@@ -12,6 +12,7 @@
 //! A matrix with a nearly cancelled pivot, and every LU, is examined for free motions.
 
 use super::cholesky::Cholesky;
+use super::fronts::Fronts;
 use super::gathered::{Breakdown, Gathered, NAMING_SHIFT};
 use super::lu::Lu;
 use super::ordering::{self, Ordering};
@@ -38,15 +39,17 @@ pub struct Direct {
 struct Analysis {
     gathered: Gathered,
     factors: Factors,
+    ordering: Ordering,
     par: Par,
     /// The last factor had negative pivots.
     indefinite: bool,
-    /// L D Lᵀ failed on this pattern.
+    /// Factors without free choice of pivots failed on this pattern.
     prefer_lu: bool,
 }
 
 struct Factors {
     cholesky: Option<Cholesky>,
+    fronts: Option<Fronts>,
     lu: Option<Lu>,
     active: Active,
 }
@@ -56,6 +59,7 @@ struct Factors {
 enum Active {
     None,
     Cholesky,
+    Fronts,
     Lu,
 }
 
@@ -176,20 +180,20 @@ impl Analysis {
         };
         let gathered = Gathered::new(problem)?;
         let matrix = &gathered.matrix;
-        let (mut cholesky, mut lu) = (None, None);
+        let mut cholesky = None;
         if n > 0 && matrix.symmetric {
             let order = ordering::order(problem, matrix, ordering)?;
             cholesky = Some(Cholesky::new(matrix, &order, problem.sign, par)?);
-        } else if n > 0 {
-            lu = Some(Lu::new(matrix, par)?);
         }
         Ok(Self {
             gathered,
             factors: Factors {
                 cholesky,
-                lu,
+                fronts: None,
+                lu: None,
                 active: Active::None,
             },
+            ordering,
             par,
             indefinite: false,
             prefer_lu: false,
@@ -202,23 +206,58 @@ impl Analysis {
         if self.gathered.matrix.nequation() == 0 {
             return Ok(());
         }
-        let matrix = &mut self.gathered.matrix;
-        match &mut self.factors.cholesky {
-            Some(cholesky) if !self.prefer_lu => {
-                let hopeful = self.gathered.kept.symmetry == Symmetry::Definite && !self.indefinite;
-                if !(hopeful && cholesky.factorize_definite(matrix)) {
-                    cholesky.factorize_indefinite(matrix)?;
-                }
-                self.indefinite = cholesky.negative_pivots > 0;
-                self.factors.active = Active::Cholesky;
-                if cholesky.is_suspicious() {
-                    self.examine()
-                } else {
-                    Ok(())
-                }
-            }
-            _ => self.factorize_lu(),
+        if self.prefer_lu {
+            return self.factorize_lu();
         }
+        let matrix = &mut self.gathered.matrix;
+        let Factors {
+            cholesky, active, ..
+        } = &mut self.factors;
+        let is_suspicious = if let Some(cholesky) = cholesky {
+            let hopeful = self.gathered.kept.symmetry == Symmetry::Definite && !self.indefinite;
+            if !(hopeful && cholesky.factorize_definite(matrix)) {
+                cholesky.factorize_indefinite(matrix)?;
+            }
+            self.indefinite = cholesky.negative_pivots > 0;
+            *active = Active::Cholesky;
+            cholesky.is_suspicious()
+        } else if let Some(is_suspicious) = self.factorize_fronts()? {
+            self.factors.active = Active::Fronts;
+            is_suspicious
+        } else {
+            return self.factorize_lu();
+        };
+        if is_suspicious {
+            self.examine()
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Factorizes by fronts, if need be in an order that suits the values at hand better. Answers whether some pivot was
+    /// all but cancelled; nothing where one was not there.
+    fn factorize_fronts(&mut self) -> Result<Option<bool>, LinearError> {
+        let Gathered { kept, matrix, .. } = &self.gathered;
+        for _ in 0..2 {
+            let known = self.factors.fronts.take();
+            let is_new = known.is_none();
+            let mut fronts = match known {
+                Some(fronts) => fronts,
+                None => {
+                    let order = ordering::order(&kept.problem(), matrix, self.ordering)?;
+                    Fronts::new(matrix, &order)?
+                }
+            };
+            if fronts.factorize(matrix) {
+                let is_suspicious = fronts.is_suspicious();
+                self.factors.fronts = Some(fronts);
+                return Ok(Some(is_suspicious));
+            }
+            if is_new {
+                break;
+            }
+        }
+        Ok(None)
     }
 
     fn factorize_lu(&mut self) -> Result<(), LinearError> {
@@ -240,6 +279,7 @@ impl Analysis {
         let equation = match gathered.free_motion(|x| factors.solve(x)) {
             Ok(None) => return Ok(()),
             Ok(equation) => equation,
+            Err(Breakdown) if factors.active == Active::Fronts => return self.factorize_lu(),
             Err(Breakdown) => {
                 // the factor broke down at a zero pivot: a nearby matrix shows the motion
                 let lu = factors.lu.as_mut().filter(|_| factors.active == Active::Lu);
@@ -285,10 +325,10 @@ impl Analysis {
 
     /// Whether pivoting might do better than the factor at hand.
     fn may_escalate(&self) -> bool {
-        self.factors
-            .active_cholesky()
-            .is_some_and(|c| !c.is_definite())
-            && self.gathered.matrix.nequation() <= LU_UP_TO
+        let cholesky = self.factors.active_cholesky();
+        let is_indefinite = cholesky.is_some_and(|c| !c.is_definite());
+        self.factors.active == Active::Fronts
+            || is_indefinite && self.gathered.matrix.nequation() <= LU_UP_TO
     }
 
     fn refine(
@@ -322,10 +362,11 @@ impl Factors {
 
     /// Solves with the current factor.
     fn solve(&mut self, x: &mut [f64]) {
-        match (self.active, &mut self.cholesky, &mut self.lu) {
-            (Active::Cholesky, Some(cholesky), _) => cholesky.solve(x),
-            (Active::Lu, _, Some(lu)) => lu.solve(x),
-            _ => {}
+        match self.active {
+            Active::Cholesky => self.cholesky.iter_mut().for_each(|c| c.solve(x)),
+            Active::Fronts => self.fronts.iter_mut().for_each(|f| f.solve(x)),
+            Active::Lu => self.lu.iter_mut().for_each(|lu| lu.solve(x)),
+            Active::None => {}
         }
     }
 }

@@ -4,6 +4,7 @@
 
 use super::LinearError;
 use super::matrix::Matrix;
+use super::registers::clear_upper_halves_everywhere;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::LuError;
 use faer::sparse::linalg::lu::{
@@ -127,6 +128,7 @@ impl Lu {
             MemStack::new(&mut self.memory),
             Default::default(),
         );
+        clear_upper_halves_everywhere();
         let result = result.map(|_| ()).map_err(|error| match error {
             LuError::SymbolicSingular { index } => {
                 let column = self

@@ -171,6 +171,11 @@ impl Matrix {
         &self.row[self.range(column)]
     }
 
+    /// The values of the entries of one column.
+    pub fn values(&self, column: usize) -> &[f64] {
+        &self.value[self.range(column)]
+    }
+
     fn range(&self, column: usize) -> std::ops::Range<usize> {
         self.start[column] as usize..self.start[column + 1] as usize
     }

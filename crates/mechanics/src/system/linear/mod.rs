@@ -21,6 +21,7 @@ mod condensation;
 mod condensed;
 mod direct;
 mod forecast;
+mod fronts;
 mod gathered;
 mod hosts;
 mod lu;
@@ -31,6 +32,7 @@ mod multigrid;
 mod mumps;
 mod operator;
 mod ordering;
+mod registers;
 mod residual;
 #[cfg(test)]
 mod tests;

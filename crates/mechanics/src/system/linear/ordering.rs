@@ -95,6 +95,8 @@ pub(super) enum Ordering {
 }
 
 /// Orders the equations of a problem and its matrix: `order[new] = old`. What is not symmetric is ordered as A + Aᵀ.
+///
+/// Values, where the matrix has them already, tell which node a multiplier acts on most.
 pub(super) fn order(
     problem: &Problem,
     matrix: &Matrix,
@@ -172,31 +174,42 @@ fn groups(matrix: &Matrix, node: &[u32], sign: &[i8]) -> Vec<u32> {
         return group;
     }
 
-    // each multiplier joins the neighbouring group that has the fewest multipliers per unknown so far: the columns of
-    // the half matrix name each pair once, so both its ends are visited
+    // each multiplier joins the neighbouring group that it acts on most of those with fewer multipliers than unknowns;
+    // without values, that with the fewest multipliers per unknown so far: the columns of the half matrix name each pair
+    // once, so both its ends are visited
     let mut load = vec![0u32; ngroup as usize];
     let mut size = vec![0u32; ngroup as usize];
     for &g in group.iter().filter(|&&g| g != NONE) {
         size[g as usize] += 1;
     }
-    let mut pairs: Vec<(u32, u32)> = Vec::new();
+    let mut pairs: Vec<(u32, u32, f64)> = Vec::new();
     for column in 0..nequation {
-        for &row in matrix.column(column) {
+        for (&row, value) in matrix.column(column).iter().zip(matrix.values(column)) {
             for (multiplier, other) in [(column as u32, row), (row, column as u32)] {
                 if sign[multiplier as usize] < 0 && sign[other as usize] >= 0 {
-                    pairs.push((multiplier, group[other as usize]));
+                    pairs.push((multiplier, group[other as usize], value.abs()));
                 }
             }
         }
     }
-    pairs.sort_unstable();
+    pairs.sort_by_key(|&(multiplier, group, _)| (multiplier, group));
     let mut pairs = pairs.as_slice();
+    let mut near: Vec<(u32, f64)> = Vec::new();
     for equation in (0..nequation as u32).filter(|&e| sign[e as usize] < 0) {
         let (mine, rest) =
-            pairs.split_at(pairs.partition_point(|&(multiplier, _)| multiplier <= equation));
+            pairs.split_at(pairs.partition_point(|&(multiplier, ..)| multiplier <= equation));
         pairs = rest;
+        near.clear();
+        let sums = mine.chunk_by(|a, b| a.1 == b.1);
+        near.extend(sums.map(|of| (of[0].1, of.iter().map(|(.., value)| value).sum::<f64>())));
         let free = |g: u32| load[g as usize] * 8 / size[g as usize].max(1);
-        match mine.iter().map(|&(_, g)| g).min_by_key(|&g| (free(g), g)) {
+        let is_full = |g: u32| load[g as usize] >= size[g as usize];
+        let better = |a: &&(u32, f64), b: &&(u32, f64)| {
+            let by_value = b.1.total_cmp(&a.1);
+            let by_load = free(a.0).cmp(&free(b.0)).then(a.0.cmp(&b.0));
+            is_full(a.0).cmp(&is_full(b.0)).then(by_value).then(by_load)
+        };
+        match near.iter().min_by(better).map(|&(g, _)| g) {
             Some(g) => {
                 load[g as usize] += 1;
                 group[equation as usize] = g;

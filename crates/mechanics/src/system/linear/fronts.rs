@@ -1,0 +1,607 @@
+//! LU factors of a matrix whose pattern is symmetric though its values are not: the multifrontal method.
+//!
+//! Elimination goes up a tree of supernodes. Each assembles a small dense matrix, its front: what the matrix has in its
+//! rows and columns, and what is left over of its children.
+//!
+//! ```text
+//!            w    r
+//!        ┌─────┬─────┐
+//!      w │ L∖U │  U  │     P F₁₁ = L₁₁ U₁₁,  U₁₂ = L₁₁⁻¹ P F₁₂,  L₂₁ = F₂₁ U₁₁⁻¹
+//!        ├─────┼─────┤
+//!      r │  L  │  C  │     C = F₂₂ − L₂₁ U₁₂  goes to the parent
+//!        └─────┴─────┘
+//! ```
+//!
+//! Pivots are chosen in the block w × w alone, so that order and storage are known beforehand; with the order of
+//! [`super::ordering`], which puts a multiplier after a node that it couples with, these blocks are regular in practice.
+//! Where one is not, [`Fronts::factorize`] says so, and factors with free choice of pivots take over.
+//!
+//! Subtrees without much work are tasks of their own; sums are formed in an order that does not depend on threads.
+//!
+//! Source: I. S. Duff and J. K. Reid, The multifrontal solution of unsymmetric sets of linear equations, SIAM J. Sci.
+//! Stat. Comput. 5 (1984) 633–641.
+
+use super::LinearError;
+use super::matrix::Matrix;
+use super::registers::clear_upper_halves;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place,
+};
+use faer::perm::PermRef;
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
+use faer::{Accum, MatMut, Par, Side};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// A pivot below it, in units of the largest entry of its row, is none.
+const VANISHING: f64 = 1e-14;
+/// A pivot below it gives reason to look for free motions.
+const SUSPICIOUS: f64 = 1e-8;
+/// A subtree with no more than this part of all work is one task.
+const PART: f64 = 1.0 / 32.0;
+/// Columns of what goes to the parent that are worked on together.
+const COLUMNS: usize = 96;
+/// Multiplications below which nothing is shared among threads.
+const LITTLE: f64 = 2e6;
+/// Supernodes are merged where they have at most so many columns, and at most this part of their entries is zero.
+const RELAX: [(usize, f64); 3] = [(8, 0.9), (24, 0.4), (64, 0.15)];
+
+/// The factors, and the tree that they are made along.
+pub(super) struct Fronts {
+    /// `order[new] = old`
+    order: Vec<u32>,
+    nodes: Vec<Node>,
+    panels: Vec<Panel>,
+    /// Ranges of nodes that are subtrees with little work; what is not in one is above them all.
+    tasks: Vec<Range<usize>>,
+    /// The place of each entry of the matrix in its panel, node by node.
+    from: Vec<u32>,
+    to: Vec<u32>,
+    /// The smallest pivot of the last factorization, in units of the largest entry of its row.
+    smallest: f64,
+    work: Vec<f64>,
+}
+
+/// A supernode.
+struct Node {
+    /// Its columns.
+    columns: Range<usize>,
+    /// The rows below them, in the new order.
+    rows: Vec<u32>,
+    children: Vec<u32>,
+    /// The place of each of its rows in the front of its parent.
+    place: Vec<u32>,
+    /// Its entries among those of the matrix.
+    entries: Range<usize>,
+}
+
+/// What a supernode keeps: `L₁₁∖U₁₁` over `L₂₁`, column by column, then `U₁₂`, column by column.
+struct Panel {
+    value: Vec<f64>,
+    /// Row `pivot[k]` of the block came to place k.
+    pivot: Vec<u32>,
+}
+
+/// A pivot that is none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct NoPivot;
+
+impl Node {
+    fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Multiplications of its elimination.
+    fn effort(&self) -> f64 {
+        let (w, r) = (self.width() as f64, self.rows.len() as f64);
+        w * (w * w / 3.0 + w * r + r * r)
+    }
+}
+
+impl Fronts {
+    /// The tree for this order of elimination, `order[new] = old`.
+    ///
+    /// # Errors
+    /// `TooLarge`.
+    pub fn new(matrix: &Matrix, order: &[u32]) -> Result<Self, LinearError> {
+        let n = matrix.nequation();
+        let too_large = || LinearError::TooLarge {
+            nequation: n,
+            nentry: matrix.row.len(),
+        };
+        let (start, row) = lower_half(matrix);
+        let mut place = vec![0u32; n];
+        for (new, &old) in order.iter().enumerate() {
+            place[old as usize] = new as u32;
+        }
+        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &start, None, &row);
+        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(order, &place, n));
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            supernodal_params: SymbolicSupernodalParams {
+                relax: Some(&RELAX),
+            },
+            ..CholeskySymbolicParams::default()
+        };
+        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, ordering, parameters)
+            .map_err(|_| too_large())?;
+        let SymbolicCholeskyRaw::Supernodal(raw) = symbolic.raw() else {
+            return Err(too_large());
+        };
+        let order = match symbolic.perm() {
+            Some(perm) => perm.arrays().0.to_vec(),
+            None => (0..n as u32).collect(),
+        };
+        let mut node_of = vec![0u32; n];
+        let mut nodes: Vec<Node> = Vec::with_capacity(raw.n_supernodes());
+        for s in 0..raw.n_supernodes() {
+            let columns = raw.supernode_begin()[s] as usize..raw.supernode_end()[s] as usize;
+            node_of[columns.clone()].fill(s as u32);
+            let mut rows = raw.supernode(s).pattern().to_vec();
+            rows.sort_unstable();
+            nodes.push(Node {
+                columns,
+                rows,
+                children: Vec::new(),
+                place: Vec::new(),
+                entries: 0..0,
+            });
+        }
+        // children, and where they add to
+        for s in 0..nodes.len() {
+            let Some(&first) = nodes[s].rows.first() else {
+                continue;
+            };
+            let parent = node_of[first as usize] as usize;
+            let above = &nodes[parent];
+            let places = nodes[s].rows.iter().map(|&row| above.place_of(row));
+            let places: Option<Vec<u32>> = places.collect();
+            nodes[s].place = places.ok_or_else(too_large)?;
+            nodes[parent].children.push(s as u32);
+        }
+        let tasks = tasks(&nodes);
+        let mut fronts = Self {
+            panels: nodes.iter().map(|_| Panel::default()).collect(),
+            order,
+            nodes,
+            tasks,
+            from: Vec::new(),
+            to: Vec::new(),
+            smallest: 0.0,
+            work: vec![0.0; n],
+        };
+        fronts
+            .place_entries(matrix, &node_of)
+            .ok_or_else(too_large)?;
+        for (panel, node) in fronts.panels.iter_mut().zip(&fronts.nodes) {
+            let (w, r) = (node.width(), node.rows.len());
+            let size = w * (w + 2 * r);
+            if panel.value.try_reserve_exact(size).is_err() {
+                return Err(too_large());
+            }
+            panel.value.resize(size, 0.0);
+            panel.pivot.resize(w, 0);
+        }
+        Ok(fronts)
+    }
+
+    /// Finds the place of every entry; column e of the matrix holds row e of the operator.
+    fn place_entries(&mut self, matrix: &Matrix, node_of: &[u32]) -> Option<()> {
+        let n = matrix.nequation();
+        let mut place = vec![0u32; n];
+        for (new, &old) in self.order.iter().enumerate() {
+            place[old as usize] = new as u32;
+        }
+        let node_at = |e: usize, f: u32| node_of[place[e].min(place[f as usize]) as usize] as usize;
+        let mut count = vec![0usize; self.nodes.len() + 1];
+        for e in 0..n {
+            for &f in matrix.column(e) {
+                count[node_at(e, f) + 1] += 1;
+            }
+        }
+        for s in 0..self.nodes.len() {
+            count[s + 1] += count[s];
+            self.nodes[s].entries = count[s]..count[s + 1];
+        }
+        self.from = vec![0; matrix.row.len()];
+        self.to = vec![0; matrix.row.len()];
+        for e in 0..n {
+            for (at, &f) in (matrix.start[e]..).zip(matrix.column(e)) {
+                let (i, j) = (place[e], place[f as usize]);
+                let s = node_at(e, f);
+                let node = &self.nodes[s];
+                let (w, r) = (node.width(), node.rows.len());
+                let (i, j) = (node.place_of(i)? as usize, node.place_of(j)? as usize);
+                let to = if j < w {
+                    i + j * (w + r)
+                } else {
+                    w * (w + r) + i + (j - w) * w
+                };
+                self.from[count[s]] = at;
+                self.to[count[s]] = u32::try_from(to).ok()?;
+                count[s] += 1;
+            }
+        }
+        Some(())
+    }
+
+    /// The numbers that the factors store.
+    #[cfg(test)]
+    pub fn nentry(&self) -> usize {
+        self.panels.iter().map(|panel| panel.value.len()).sum()
+    }
+
+    /// Whether some pivot was all but cancelled, so that the matrix may be singular.
+    pub fn is_suspicious(&self) -> bool {
+        self.smallest < SUSPICIOUS
+    }
+
+    /// Factorizes; false where a block has no pivots.
+    pub fn factorize(&mut self, matrix: &Matrix) -> bool {
+        let Self {
+            nodes,
+            panels,
+            tasks,
+            from,
+            to,
+            ..
+        } = self;
+        let tree = Tree {
+            nodes,
+            from,
+            to,
+            value: &matrix.value,
+        };
+        // what every node leaves to its parent
+        let mut left: Vec<Vec<f64>> = nodes.iter().map(|_| Vec::new()).collect();
+        let mut jobs = Vec::with_capacity(tasks.len());
+        let (mut rest, mut rest_left, mut begin) = (panels.as_mut_slice(), &mut left[..], 0);
+        for task in tasks.iter() {
+            let (_, after) = rest.split_at_mut(task.start - begin);
+            let (_, after_left) = rest_left.split_at_mut(task.start - begin);
+            let (own, after) = after.split_at_mut(task.len());
+            let (own_left, after_left) = after_left.split_at_mut(task.len());
+            jobs.push((task.clone(), own, own_left));
+            (rest, rest_left, begin) = (after, after_left, task.end);
+        }
+        let done = jobs.into_par_iter().map(|(task, panels, left)| {
+            let mut memory = Memory::default();
+            let mut smallest = f64::INFINITY;
+            for s in task.clone() {
+                let (children, own) = left.split_at_mut(s - task.start);
+                let pivot = tree.eliminate(
+                    s,
+                    (children, task.start),
+                    &mut panels[s - task.start],
+                    &mut own[0],
+                    &mut memory,
+                )?;
+                smallest = smallest.min(pivot);
+            }
+            Ok(smallest)
+        });
+        let done: Result<Vec<f64>, NoPivot> = done.collect();
+        let Ok(smallest) = done else {
+            return false;
+        };
+        let mut smallest = smallest.into_iter().fold(f64::INFINITY, f64::min);
+        let mut memory = Memory::default();
+        let mut tasks = tasks.iter().peekable();
+        let mut s = 0;
+        while s < nodes.len() {
+            if let Some(task) = tasks.next_if(|task| task.start == s) {
+                s = task.end;
+                continue;
+            }
+            let (children, own) = left.split_at_mut(s);
+            let pivot = tree.eliminate(s, (children, 0), &mut panels[s], &mut own[0], &mut memory);
+            match pivot {
+                Ok(pivot) => smallest = smallest.min(pivot),
+                Err(NoPivot) => return false,
+            }
+            s += 1;
+        }
+        self.smallest = smallest;
+        true
+    }
+
+    /// Solves with the factors, in equilibrated unknowns.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let y = &mut self.work;
+        for (y, &old) in y.iter_mut().zip(&self.order) {
+            *y = x[old as usize];
+        }
+        let mut own = Vec::new();
+        for (node, panel) in self.nodes.iter().zip(&self.panels) {
+            let (w, m) = (node.width(), node.width() + node.rows.len());
+            own.clear();
+            own.extend(
+                panel
+                    .pivot
+                    .iter()
+                    .map(|&k| y[node.columns.start + k as usize]),
+            );
+            for k in 0..w {
+                let column = &panel.value[k * m..(k + 1) * m];
+                let known = own[k];
+                for (x, l) in own[k + 1..].iter_mut().zip(&column[k + 1..w]) {
+                    *x -= l * known;
+                }
+                for (&row, l) in node.rows.iter().zip(&column[w..]) {
+                    y[row as usize] -= l * known;
+                }
+            }
+            y[node.columns.clone()].copy_from_slice(&own);
+        }
+        for (node, panel) in self.nodes.iter().zip(&self.panels).rev() {
+            let (w, m) = (node.width(), node.width() + node.rows.len());
+            own.clear();
+            own.extend_from_slice(&y[node.columns.clone()]);
+            for (&row, column) in node.rows.iter().zip(panel.value[w * m..].chunks_exact(w)) {
+                let known = y[row as usize];
+                for (x, u) in own.iter_mut().zip(column) {
+                    *x -= u * known;
+                }
+            }
+            for k in (0..w).rev() {
+                let column = &panel.value[k * m..k * m + k + 1];
+                let known = own[k] / column[k];
+                own[k] = known;
+                for (x, u) in own[..k].iter_mut().zip(column) {
+                    *x -= u * known;
+                }
+            }
+            y[node.columns.clone()].copy_from_slice(&own);
+        }
+        for (y, &old) in y.iter().zip(&self.order) {
+            x[old as usize] = *y;
+        }
+    }
+}
+
+impl Default for Panel {
+    fn default() -> Self {
+        Self {
+            value: Vec::new(),
+            pivot: Vec::new(),
+        }
+    }
+}
+
+impl Node {
+    /// The place of a row or column in its front.
+    fn place_of(&self, row: u32) -> Option<u32> {
+        let own = (row as usize).checked_sub(self.columns.start)?;
+        if own < self.width() {
+            return Some(own as u32);
+        }
+        let below = self.rows.binary_search(&row).ok()?;
+        Some((self.width() + below) as u32)
+    }
+}
+
+/// Memory for pivots.
+#[derive(Default)]
+struct Memory {
+    buffer: Option<MemBuffer>,
+    width: usize,
+    inverse: Vec<u32>,
+    column: Vec<f64>,
+}
+
+/// What all nodes share.
+#[derive(Clone, Copy)]
+struct Tree<'a> {
+    nodes: &'a [Node],
+    from: &'a [u32],
+    to: &'a [u32],
+    value: &'a [f64],
+}
+
+impl Tree<'_> {
+    /// Eliminates the columns of a node; `children` holds what the nodes from its number on leave, and `left` gets what
+    /// this one does. Returns the smallest pivot.
+    fn eliminate(
+        self,
+        s: usize,
+        (children, first): (&mut [Vec<f64>], usize),
+        panel: &mut Panel,
+        left: &mut Vec<f64>,
+        memory: &mut Memory,
+    ) -> Result<f64, NoPivot> {
+        let node = &self.nodes[s];
+        let (w, r) = (node.width(), node.rows.len());
+        let m = w + r;
+        panel.value.fill(0.0);
+        left.clear();
+        left.resize(r * r, 0.0);
+        let entries = self.from[node.entries.clone()].iter();
+        for (&from, &to) in entries.zip(&self.to[node.entries.clone()]) {
+            panel.value[to as usize] += self.value[from as usize];
+        }
+        let (lower, upper) = panel.value.split_at_mut(w * m);
+        for &child in &node.children {
+            let part = std::mem::take(&mut children[child as usize - first]);
+            let place = &self.nodes[child as usize].place;
+            let split = place.partition_point(|&p| (p as usize) < w);
+            let (own, below) = place.split_at(split);
+            for (&column, part) in place.iter().zip(part.chunks_exact(place.len().max(1))) {
+                let column = column as usize;
+                if column < w {
+                    let to = &mut lower[column * m..(column + 1) * m];
+                    for (&row, v) in place.iter().zip(part) {
+                        to[row as usize] += v;
+                    }
+                } else {
+                    let (above, part) = part.split_at(split);
+                    let to = &mut upper[(column - w) * w..(column - w + 1) * w];
+                    for (&row, v) in own.iter().zip(above) {
+                        to[row as usize] += v;
+                    }
+                    let to = &mut left[(column - w) * r..(column - w + 1) * r];
+                    for (&row, v) in below.iter().zip(part) {
+                        to[row as usize - w] += v;
+                    }
+                }
+            }
+        }
+        let smallest = pivots(lower, upper, (w, r), &mut panel.pivot, memory)?;
+        if r > 0 {
+            let is_little = node.effort() < LITTLE;
+            let (block, below) =
+                MatMut::from_column_major_slice_mut(lower, m, w).split_at_row_mut(w);
+            let (block, mut below) = (block.as_ref(), below);
+            solve_lower_triangular_in_place(
+                block.transpose(),
+                below.as_mut().transpose_mut(),
+                Par::Seq,
+            );
+            let below = below.as_ref();
+            let strip = |(upper, left): (&mut [f64], &mut [f64])| {
+                let n = left.len() / r;
+                let mut upper = MatMut::from_column_major_slice_mut(upper, w, n);
+                solve_unit_lower_triangular_in_place(block, upper.as_mut(), Par::Seq);
+                let left = MatMut::from_column_major_slice_mut(left, r, n);
+                matmul(left, Accum::Add, below, upper.as_ref(), -1.0, Par::Seq);
+                clear_upper_halves();
+            };
+            if is_little {
+                upper
+                    .chunks_mut(w * COLUMNS)
+                    .zip(left.chunks_mut(r * COLUMNS))
+                    .for_each(strip);
+            } else {
+                upper
+                    .par_chunks_mut(w * COLUMNS)
+                    .zip(left.par_chunks_mut(r * COLUMNS))
+                    .for_each(strip);
+            }
+        }
+        Ok(smallest)
+    }
+}
+
+/// Factorizes the block of pivots, and exchanges the rows beside it. Returns the smallest pivot.
+fn pivots(
+    lower: &mut [f64],
+    upper: &mut [f64],
+    (w, r): (usize, usize),
+    pivot: &mut [u32],
+    memory: &mut Memory,
+) -> Result<f64, NoPivot> {
+    let m = w + r;
+    let mut block = MatMut::from_column_major_slice_mut(lower, m, w)
+        .split_at_row_mut(w)
+        .0;
+    if memory.width < w {
+        let scratch = lu_in_place_scratch::<u32, f64>(w, w, Par::Seq, Default::default());
+        memory.buffer = MemBuffer::try_new(scratch).ok();
+        memory.width = w;
+    }
+    let buffer = memory.buffer.as_mut().ok_or(NoPivot)?;
+    memory.inverse.resize(w, 0);
+    lu_in_place(
+        block.as_mut(),
+        pivot,
+        &mut memory.inverse,
+        Par::Seq,
+        MemStack::new(buffer),
+        Default::default(),
+    );
+    let mut smallest = f64::INFINITY;
+    for k in 0..w {
+        let size = block[(k, k)].abs();
+        if size.is_nan() || size < VANISHING {
+            return Err(NoPivot);
+        }
+        smallest = smallest.min(size);
+    }
+    if pivot.iter().enumerate().any(|(k, &p)| k != p as usize) {
+        for column in upper.chunks_exact_mut(w) {
+            memory.column.clear();
+            memory.column.extend_from_slice(column);
+            for (to, &p) in column.iter_mut().zip(pivot.iter()) {
+                *to = memory.column[p as usize];
+            }
+        }
+    }
+    Ok(smallest)
+}
+
+/// The lower half of the pattern of A + Aᵀ.
+fn lower_half(matrix: &Matrix) -> (Vec<u32>, Vec<u32>) {
+    let n = matrix.nequation();
+    let mut start = vec![0u32; n + 1];
+    let pairs = |e: usize| {
+        let of_column = matrix.column(e).iter();
+        of_column.map(move |&f| ((e as u32).min(f), (e as u32).max(f)))
+    };
+    for e in 0..n {
+        for (column, _) in pairs(e) {
+            start[column as usize + 1] += 1;
+        }
+    }
+    for e in 0..n {
+        start[e + 1] += start[e];
+    }
+    let mut next = start.clone();
+    let mut all = vec![0u32; start[n] as usize];
+    for e in 0..n {
+        for (column, row) in pairs(e) {
+            all[next[column as usize] as usize] = row;
+            next[column as usize] += 1;
+        }
+    }
+    let mut row = Vec::with_capacity(all.len());
+    let mut begin = Vec::with_capacity(n + 1);
+    begin.push(0);
+    for ends in start.windows(2) {
+        let of_column = &mut all[ends[0] as usize..ends[1] as usize];
+        of_column.sort_unstable();
+        let first = row.len();
+        for &r in of_column.iter() {
+            if row.len() == first || row.last() != Some(&r) {
+                row.push(r);
+            }
+        }
+        begin.push(row.len() as u32);
+    }
+    (begin, row)
+}
+
+/// The largest subtrees with little work: ranges of nodes, for children come right before their parents.
+fn tasks(nodes: &[Node]) -> Vec<Range<usize>> {
+    let mut effort: Vec<f64> = nodes.iter().map(Node::effort).collect();
+    let mut first: Vec<usize> = (0..nodes.len()).collect();
+    let mut is_child = vec![false; nodes.len()];
+    for (s, node) in nodes.iter().enumerate() {
+        for &child in &node.children {
+            effort[s] += effort[child as usize];
+            first[s] = first[s].min(first[child as usize]);
+            is_child[child as usize] = true;
+        }
+    }
+    let roots = effort.iter().zip(&is_child).filter(|(_, child)| !**child);
+    let all: f64 = roots.map(|(effort, _)| effort).sum();
+    let most = (PART * all).max(LITTLE);
+    let mut tasks: Vec<Range<usize>> = Vec::new();
+    let mut s = nodes.len();
+    while s > 0 {
+        let last = s - 1;
+        if effort[last] <= most {
+            tasks.push(first[last]..s);
+            s = first[last];
+        } else {
+            s = last;
+        }
+    }
+    tasks.reverse();
+    tasks
+}
