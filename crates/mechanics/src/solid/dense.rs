@@ -50,15 +50,22 @@ pub(super) fn subtract(from: &mut [f64], factor: f64, row: &[f64]) {
 pub(super) fn half_logarithm(e: Sym3) -> Sym3 {
     let mut a = e.to_mat3().rows;
     let mut axes = [Vec3::unit(0), Vec3::unit(1), Vec3::unit(2)];
-    // three sweeps leave round-off of a cubic process; a few more cost nothing
+    // what is nothing beside all of it
+    let nothing = 1e-18
+        * a.iter()
+            .flat_map(|row| row.to_array())
+            .fold(0.0, |m: f64, v| m.max(v.abs()));
+    // three sweeps leave round-off of a cubic process
     for _ in 0..8 {
+        let mut is_done = true;
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            if a[p][q] == 0.0 {
+            if a[p][q].abs() <= nothing {
                 continue;
             }
+            is_done = false;
             let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-            let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-            let c = 1.0 / t.hypot(1.0);
+            let t = theta.signum() / (theta.abs() + (1.0 + theta * theta).sqrt());
+            let c = 1.0 / (1.0 + t * t).sqrt();
             let s = t * c;
             for row in &mut a {
                 (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
@@ -67,6 +74,9 @@ pub(super) fn half_logarithm(e: Sym3) -> Sym3 {
             (axes[p], axes[q]) = (axes[p] * c - axes[q] * s, axes[p] * s + axes[q] * c);
             a[p][q] = 0.0;
             a[q][p] = 0.0;
+        }
+        if is_done {
+            break;
         }
     }
     let principal = axes.into_iter().enumerate().map(|(k, n)| {

@@ -9,15 +9,16 @@ use super::{
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
 
-/// Chunks that several threads evaluate before they are added: bounds the memory, and nothing else.
+/// Chunks of a wave for each thread: the fewer, the more of what is added is still in cache.
+const PER_THREAD: usize = 4;
+/// Chunks of a wave, at most: bounds the memory, and nothing else.
 const WAVE: usize = 64;
 
-/// A single thread adds every chunk while it is in cache.
+/// Chunks that are evaluated before they are added. A single thread adds every chunk while it is in cache.
 fn wave() -> usize {
-    if rayon::current_num_threads() == 1 {
-        1
-    } else {
-        WAVE
+    match rayon::current_num_threads() {
+        1 => 1,
+        threads => (PER_THREAD * threads).min(WAVE),
     }
 }
 
@@ -196,8 +197,11 @@ impl Assembler {
         let mut bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
         self.is_constant = bulk.all(|term| term.has_constant_stiffness());
         self.increment += 1;
-        let wave = WAVE.min(self.tasks.len());
-        self.slots.resize_with(wave, Slot::default);
+        // one wave is evaluated while another one is added
+        let two = 2 * wave().min(self.tasks.len());
+        if self.slots.len() < two {
+            self.slots.resize_with(two, Slot::default);
+        }
     }
 
     /// The pattern of the bulk.
@@ -294,8 +298,8 @@ impl Assembler {
             increment,
             ..
         } = self;
-        for wave in tasks.chunks_mut(wave()) {
-            let evaluate = |(slot, task): (&mut Slot, &mut Task)| {
+        let evaluate = |wave: &[Task], slots: &mut [Slot]| {
+            let one = |(slot, task): (&mut Slot, &Task)| {
                 slot.buffer.clear();
                 let outcome = terms[task.term].evaluate(
                     task.chunk,
@@ -306,12 +310,12 @@ impl Assembler {
                 );
                 slot.failure = outcome.err();
             };
-            if wave.len() == 1 {
-                slots.iter_mut().zip(&mut *wave).for_each(evaluate);
-            } else {
-                let pairs = slots.par_iter_mut().zip(&mut *wave);
-                pairs.for_each(evaluate);
+            match wave {
+                [_] => slots.iter_mut().zip(wave).for_each(one),
+                _ => slots.par_iter_mut().zip(wave).for_each(one),
             }
+        };
+        let mut add = |wave: &mut [Task], slots: &mut [Slot]| {
             for (slot, task) in slots.iter_mut().zip(wave) {
                 if let Some(failure) = slot.failure.take() {
                     return Err(failure);
@@ -327,6 +331,30 @@ impl Assembler {
                     out: &mut *out,
                 };
                 stays &= scatter.add(&slot.buffer, task);
+            }
+            Ok(())
+        };
+        let half = slots.len() / 2;
+        let (mut now, mut next) = slots.split_at_mut(half);
+        let size = wave().min(half).max(1);
+        let mut waves = tasks.chunks_mut(size);
+        let mut wave = waves.next();
+        if let Some(first) = &wave {
+            evaluate(first, now);
+        }
+        while let Some(tasks) = wave {
+            wave = waves.next();
+            match &wave {
+                // a single thread has no use for two at once
+                Some(after) if size > 1 => {
+                    rayon::join(|| add(tasks, now), || evaluate(after, next)).0?;
+                    std::mem::swap(&mut now, &mut next);
+                }
+                Some(after) => {
+                    add(tasks, now)?;
+                    evaluate(after, now);
+                }
+                None => add(tasks, now)?,
             }
         }
         if stays {
@@ -351,7 +379,8 @@ impl Assembler {
         trial: &State,
     ) -> Result<Option<f64>, TermError> {
         let mut total = 0.0;
-        for wave in self.tasks.chunks(wave()) {
+        let size = wave().min(self.slots.len()).max(1);
+        for wave in self.tasks.chunks(size) {
             let evaluate = |(slot, task): (&mut Slot, &Task)| match terms[task.term].energy(
                 task.chunk,
                 trial,

@@ -95,6 +95,33 @@ impl Direct {
         }
     }
 
+    /// Solves with the factor at hand, and does not look at the residual.
+    ///
+    /// # Errors
+    /// `Order`.
+    pub(super) fn solve_unchecked(
+        &mut self,
+        rhs: &[f64],
+        x: &mut [f64],
+    ) -> Result<(), LinearError> {
+        let known = self.analysis.as_mut();
+        let known = known.filter(|a| rhs.is_empty() || a.factors.active != Active::None);
+        let Analysis {
+            gathered, factors, ..
+        } = known.ok_or(LinearError::Order {
+            before: "factorize",
+        })?;
+        let matrix = &gathered.matrix;
+        for ((x, b), scale) in x.iter_mut().zip(rhs).zip(&matrix.row_scale) {
+            *x = b * scale;
+        }
+        factors.solve(x);
+        for (x, scale) in x.iter_mut().zip(&matrix.column_scale) {
+            *x *= scale;
+        }
+        Ok(())
+    }
+
     /// Whether the current factor is an LU.
     #[cfg(test)]
     pub(super) fn uses_lu(&self) -> bool {

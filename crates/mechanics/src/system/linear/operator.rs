@@ -5,7 +5,7 @@ use crate::system::sparsity::{BlockPattern, Pattern};
 use rayon::prelude::*;
 
 /// Rows handled by one task; results do not depend on it.
-const ROWS_PER_TASK: usize = 4096;
+const ROWS_PER_TASK: usize = 1024;
 
 /// Multiplies the two-part operator with a vector over raw degrees of freedom: `y = A x`.
 ///

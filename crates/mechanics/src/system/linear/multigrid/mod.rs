@@ -85,6 +85,7 @@ struct Grid {
     /// Whether iterations did not come to an end in this increment: the next ones would not, either.
     has_failed: bool,
     block: InterfaceBlock,
+    numbers: Numbers,
     work: Work,
     /// Iterations to a power of ten of the first solution with the hierarchy, and how often it took too many since.
     base: Option<f64>,
@@ -101,6 +102,57 @@ struct Work {
     right: Vec<f64>,
     b: Vec<[f32; 3]>,
     x: Vec<[f32; 3]>,
+}
+
+/// Where equations are elsewhere.
+#[derive(Default)]
+struct Numbers {
+    /// The raw dof of each equation.
+    raw: Vec<u32>,
+    /// The unknown of the finest level that is each equation, or `NONE`.
+    fine: Vec<u32>,
+    /// The equations of each row of the finest level, or `NONE`.
+    of_row: Vec<[u32; 3]>,
+}
+
+impl Numbers {
+    fn new(kept: &Kept, fine: &Fine) -> Self {
+        let nequation = kept.sign.len();
+        let (mut raw, mut unknown) = (vec![NONE; nequation], vec![NONE; nequation]);
+        for (dof, &e) in kept
+            .equation
+            .iter()
+            .enumerate()
+            .filter(|(_, e)| **e != NONE)
+        {
+            raw[e as usize] = dof as u32;
+        }
+        let of_node = |node: &u32| [0, 1, 2].map(|axis| kept.equation[3 * *node as usize + axis]);
+        let of_row: Vec<[u32; 3]> = fine.node.iter().map(of_node).collect();
+        for (k, &e) in of_row.as_flattened().iter().enumerate() {
+            if e != NONE {
+                unknown[e as usize] = k as u32;
+            }
+        }
+        Self {
+            raw,
+            fine: unknown,
+            of_row,
+        }
+    }
+}
+
+/// Entries handled by one task.
+const CHUNK: usize = 8192;
+
+/// Sets all entries of a vector, in parallel.
+fn fill<T: Send, U: Sync>(to: &mut [T], from: &[U], value: impl Fn(&U) -> T + Sync) {
+    let chunks = to.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK));
+    chunks.for_each(|(to, from)| {
+        for (to, from) in to.iter_mut().zip(from) {
+            *to = value(from);
+        }
+    });
 }
 
 impl Default for Multigrid {
@@ -296,6 +348,7 @@ impl Grid {
             is_proven: false,
             has_failed: false,
             block: InterfaceBlock::new(),
+            numbers: Numbers::default(),
             work: Work {
                 b: vec![[0.0; 3]; nrow],
                 x: vec![[0.0; 3]; nrow],
@@ -312,6 +365,7 @@ impl Grid {
     /// Takes note of another interface, with other equations.
     fn follow(&mut self, kept: &Kept) {
         self.block = InterfaceBlock::new();
+        self.numbers = Numbers::new(kept, &self.fine);
         self.work.raw_x = vec![0.0; kept.equation.len()];
         self.work.raw_y = vec![0.0; kept.equation.len()];
         self.work.right = vec![0.0; kept.sign.len()];
@@ -500,10 +554,11 @@ struct OneGrid<'a> {
 
 impl Operators for OneGrid<'_> {
     fn apply(&mut self, x: &[f64], y: &mut [f64]) {
-        let Work { raw_x, raw_y, .. } = &mut self.grid.work;
-        for (&e, raw) in self.kept.equation.iter().zip(raw_x.iter_mut()) {
-            *raw = if e == NONE { 0.0 } else { x[e as usize] };
-        }
+        let Grid { work, numbers, .. } = &mut *self.grid;
+        let Work { raw_x, raw_y, .. } = work;
+        fill(raw_x, &self.kept.equation, |&e| {
+            x.get(e as usize).copied().unwrap_or(0.0)
+        });
         apply(
             &self.kept.bulk,
             &self.kept.interface,
@@ -511,17 +566,14 @@ impl Operators for OneGrid<'_> {
             raw_x,
             raw_y,
         );
-        let equations = self.kept.equation.iter().zip(raw_y);
-        for (&e, raw) in equations.filter(|(e, _)| **e != NONE) {
-            y[e as usize] = *raw;
-        }
+        fill(y, &numbers.raw, |&dof| raw_y[dof as usize]);
     }
 
     fn precondition(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError> {
         let Grid {
-            fine,
             hierarchy,
             block,
+            numbers,
             work,
             ..
         } = &mut *self.grid;
@@ -531,33 +583,25 @@ impl Operators for OneGrid<'_> {
             });
         };
         let has_block = !block.whole.is_empty();
-        work.right.copy_from_slice(r);
-        if has_block && self.symmetric {
+        let two_sided = has_block && self.symmetric;
+        if two_sided {
+            work.right.copy_from_slice(r);
             block.before(&mut work.right)?;
         }
+        let right = if two_sided { &work.right } else { r };
         // single precision has few powers of ten
-        let size = largest(&work.right);
+        let size = largest(right);
         let scale = if size > 0.0 { size } else { 1.0 };
-        let equation = |node: u32, axis: usize| {
-            let e = self.kept.equation[3 * node as usize + axis];
-            (e != NONE).then_some(e as usize)
-        };
-        for (b, &node) in work.b.iter_mut().zip(&fine.node) {
-            for (axis, b) in b.iter_mut().enumerate() {
-                *b = equation(node, axis).map_or(0.0, |e| (work.right[e] / scale) as f32);
-            }
-        }
+        fill(&mut work.b, &numbers.of_row, |row| {
+            row.map(|e| (right.get(e as usize).copied().unwrap_or(0.0) / scale) as f32)
+        });
         hierarchy.cycle(&work.b, &mut work.x);
-        z.fill(0.0);
-        for (x, &node) in work.x.iter().zip(&fine.node) {
-            for (axis, &x) in x.iter().enumerate() {
-                if let Some(e) = equation(node, axis) {
-                    z[e] = f64::from(x) * scale;
-                }
-            }
-        }
+        let x = work.x.as_flattened();
+        fill(z, &numbers.fine, |&unknown| {
+            f64::from(x.get(unknown as usize).copied().unwrap_or(0.0)) * scale
+        });
         if has_block {
-            if self.symmetric {
+            if two_sided {
                 block.add(z);
             }
             block.after(r, z)?;
