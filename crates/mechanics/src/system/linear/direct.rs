@@ -34,6 +34,8 @@ pub struct Direct {
     ordering: Ordering,
     threads: bool,
     analysis: Option<Analysis>,
+    /// Whether what earlier values taught is to be forgotten with the next ones.
+    forgotten: bool,
 }
 
 struct Analysis {
@@ -76,6 +78,7 @@ impl Direct {
             ordering: Ordering::Auto,
             threads: true,
             analysis: None,
+            forgotten: false,
         }
     }
 
@@ -179,7 +182,14 @@ impl LinearSolver for Direct {
             .analysis
             .as_mut()
             .ok_or(LinearError::Order { before: "analyze" })?;
+        if std::mem::take(&mut self.forgotten) {
+            analysis.forget();
+        }
         analysis.factorize(values)
+    }
+
+    fn forget(&mut self) {
+        self.forgotten = true;
     }
 
     fn solve(
@@ -225,6 +235,14 @@ impl Analysis {
             indefinite: false,
             prefer_lu: false,
         })
+    }
+
+    /// Forgets what values taught: which factor serves, and the order of multipliers.
+    fn forget(&mut self) {
+        (self.indefinite, self.prefer_lu) = (false, false);
+        if self.gathered.kept.sign.iter().any(|&sign| sign < 0) {
+            self.factors.fronts = None;
+        }
     }
 
     fn factorize(&mut self, values: &Values) -> Result<(), LinearError> {
@@ -340,9 +358,12 @@ impl Analysis {
             });
         }
         match self.refine(values, rhs, x, rtol) {
-            Err(LinearError::Inaccurate { .. }) if self.may_escalate() => {
+            Err(error @ LinearError::Inaccurate { .. }) if self.may_escalate() => {
+                // an old factor may just be too far off
+                if !self.gathered.has(values)? {
+                    return Err(error);
+                }
                 self.prefer_lu = true;
-                self.gathered.gather(values)?;
                 self.factorize_lu()?;
                 self.refine(values, rhs, x, rtol)
             }

@@ -34,7 +34,7 @@ impl Forecast {
     /// Those of [`super::LinearSolver::analyze`].
     ///
     /// # Limits
-    /// `None` for the factor of a matrix that is not symmetric: its fill depends on its values. That multigrid will serve
+    /// `None` for the factor of a matrix that is not symmetric: its order depends on its values. That multigrid will serve
     /// is taken for granted.
     pub fn new(problem: &Problem, kind: LinearKind) -> Result<Option<Self>, LinearError> {
         problem.check()?;

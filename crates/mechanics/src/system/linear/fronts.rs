@@ -83,6 +83,7 @@ struct Node {
 }
 
 /// What a supernode keeps: `L₁₁∖U₁₁` over `L₂₁`, column by column, then `U₁₂`, column by column.
+#[derive(Default)]
 struct Panel {
     value: Vec<f64>,
     /// Row `pivot[k]` of the block came to place k.
@@ -232,12 +233,6 @@ impl Fronts {
         Some(())
     }
 
-    /// The numbers that the factors store.
-    #[cfg(test)]
-    pub fn nentry(&self) -> usize {
-        self.panels.iter().map(|panel| panel.value.len()).sum()
-    }
-
     /// Whether some pivot was all but cancelled, so that the matrix may be singular.
     pub fn is_suspicious(&self) -> bool {
         self.smallest < SUSPICIOUS
@@ -362,15 +357,6 @@ impl Fronts {
         }
         for (y, &old) in y.iter().zip(&self.order) {
             x[old as usize] = *y;
-        }
-    }
-}
-
-impl Default for Panel {
-    fn default() -> Self {
-        Self {
-            value: Vec::new(),
-            pivot: Vec::new(),
         }
     }
 }

@@ -65,6 +65,21 @@ impl Gathered {
         self.matrix.gather(&self.kept, values)
     }
 
+    /// Whether the matrix has these values already.
+    ///
+    /// # Errors
+    /// Those of [`Gathered::gather`].
+    pub fn has(&mut self, values: &Values) -> Result<bool, LinearError> {
+        let matrix = &mut self.matrix;
+        let value = matrix.value.clone();
+        let scales = (matrix.row_scale.clone(), matrix.column_scale.clone());
+        matrix.gather(&self.kept, values)?;
+        let is_same = matrix.value == value;
+        matrix.value = value;
+        (matrix.row_scale, matrix.column_scale) = scales;
+        Ok(is_same)
+    }
+
     /// The equation that moves most in a free motion, if there is one; found by inverse iteration from a scattered start.
     pub fn free_motion(
         &self,

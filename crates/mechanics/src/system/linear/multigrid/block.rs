@@ -66,6 +66,11 @@ impl InterfaceBlock {
         }
     }
 
+    /// Forgets what earlier values taught.
+    pub fn forget(&mut self) {
+        self.direct.forget();
+    }
+
     /// Takes the values of a tangent: chooses the equations, and factorizes.
     ///
     /// # Errors
@@ -287,21 +292,26 @@ impl InterfaceBlock {
     }
 }
 
+/// Whether interface values act on each node.
+pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
+    let mut touched = vec![false; kept.bulk.nrow()];
+    let rows = kept.interface.row_start.windows(2);
+    for (dof, ends) in rows.enumerate().take(3 * touched.len()) {
+        let of_row = values.interface.get(ends[0]..ends[1]).unwrap_or_default();
+        touched[dof / 3] |= of_row.iter().any(|v| *v != 0.0);
+    }
+    touched
+}
+
 /// Nodes and other raw dofs that interface values act on, and layers of nodes around, where they are not too many.
 fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
     let nnode = kept.bulk.nrow();
-    let mut inside = vec![false; nnode];
-    let mut extra = Vec::new();
-    for (dof, ends) in kept.interface.row_start.windows(2).enumerate() {
-        let of_row = values.interface.get(ends[0]..ends[1]).unwrap_or_default();
-        if dof >= 3 * nnode {
-            if kept.equation[dof] != NONE {
-                extra.push(dof as u32);
-            }
-        } else if of_row.iter().any(|v| *v != 0.0) {
-            inside[dof / 3] = true;
-        }
-    }
+    let mut inside = touched(kept, values);
+    let beyond = 3 * nnode..kept.equation.len();
+    let extra: Vec<u32> = beyond
+        .filter(|&dof| kept.equation[dof] != NONE)
+        .map(|dof| dof as u32)
+        .collect();
     let mut nodes: Vec<u32> = (0..nnode as u32)
         .filter(|&node| inside[node as usize])
         .collect();

@@ -39,8 +39,8 @@ use super::{
     Symmetry, Values, Why, apply, largest,
 };
 use crate::system::sparsity::NONE;
-use block::InterfaceBlock;
-use fine::Fine;
+use block::{InterfaceBlock, touched};
+use fine::{Fine, hold};
 use hierarchy::Hierarchy;
 use krylov::{End, Operators, Stop};
 use rayon::prelude::*;
@@ -52,6 +52,8 @@ const ITERATIONS: usize = 200;
 const STRICTER: f64 = 0.1;
 /// A hierarchy is made anew where it takes so many times the iterations that it took when it was new, twice running.
 const WORN: f64 = 1.6;
+/// A hierarchy is made anew where contact holds bodies that float at so many times as many nodes, or the fewer.
+const GROWN: usize = 2;
 /// Iterations to a power of ten that are never too many.
 const LEAST: f64 = 4.0;
 
@@ -82,6 +84,8 @@ struct Grid {
     /// The fingerprint of the stiffness that the hierarchy was made of, and whether it is that of this increment.
     source: u64,
     is_proven: bool,
+    /// Rows of bodies that float which are held by springs in the hierarchy.
+    springs: Vec<u32>,
     /// Whether iterations did not come to an end in this increment: the next ones would not, either.
     has_failed: bool,
     block: InterfaceBlock,
@@ -251,6 +255,7 @@ impl LinearSolver for Multigrid {
         if let Some(grid) = &mut self.grid {
             (grid.is_proven, grid.has_failed) = (false, false);
             (grid.base, grid.worn) = (None, 0);
+            grid.block.forget();
         }
     }
 
@@ -346,6 +351,7 @@ impl Grid {
             hierarchy: None,
             source: 0,
             is_proven: false,
+            springs: Vec::new(),
             has_failed: false,
             block: InterfaceBlock::new(),
             numbers: Numbers::default(),
@@ -371,24 +377,43 @@ impl Grid {
         self.work.right = vec![0.0; kept.sign.len()];
     }
 
+    /// Where contact holds what nothing else does.
+    fn springs(&self, kept: &Kept, values: &Values) -> Vec<u32> {
+        if self.fine.floating.is_empty() {
+            return Vec::new();
+        }
+        let touched = touched(kept, values);
+        let is_touched = |&row: &u32| touched[self.fine.node[row as usize] as usize];
+        self.fine
+            .floating
+            .iter()
+            .copied()
+            .filter(is_touched)
+            .collect()
+    }
+
     /// Makes a hierarchy where there is none, where it is worn, and where that of another increment is not what this
     /// one would have made.
     fn renew(&mut self, kept: &Kept, values: &Values) -> Option<Note> {
         let is_worn = self.worn > 1;
-        if self.hierarchy.is_some() && self.is_proven && !is_worn {
+        let springs = self.springs(kept, values);
+        let [few, many] = [&springs, &self.springs].map(Vec::len);
+        let (few, many) = (few.min(many), few.max(many));
+        if self.hierarchy.is_some() && self.is_proven && !is_worn && many <= GROWN * few {
             return None;
         }
         let source = fingerprint(values.bulk);
-        let same = self.source == source && self.hierarchy.is_some();
+        let is_same = self.source == source && self.springs == springs;
         let worn = self.base.filter(|_| is_worn).map(|base| [self.rate, base]);
         // that of an increment before is not known to a run that is resumed here
         let of_increment = std::mem::replace(&mut self.is_proven, true);
-        self.source = source;
+        (self.source, self.springs) = (source, springs);
         (self.base, self.worn) = (None, 0);
-        if same {
+        if is_same && self.hierarchy.is_some() {
             return None;
         }
-        let matrix = self.fine.matrix(kept, values);
+        let mut matrix = self.fine.matrix(kept, values);
+        hold(&mut matrix, &self.springs);
         let new = Hierarchy::new(&matrix, &self.fine.modes, &self.fine.parts);
         let note = new.as_ref().map(|new| Note::Hierarchy {
             unknowns: 3 * self.fine.node.len(),

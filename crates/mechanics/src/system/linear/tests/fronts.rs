@@ -1,0 +1,117 @@
+//! LU by fronts: that it is what solves, that its bits do not depend on threads, and what it leaves to others.
+
+use super::*;
+
+/// Solves; whether fronts did it, and the solution.
+fn solve(system: &System, tolerance: f64) -> (bool, Vec<f64>) {
+    let assembled = system.assemble();
+    let rhs = Random(3).vector(assembled.nequation);
+    let mut x = vec![f64::NAN; rhs.len()];
+    let mut solver = Direct::reproducible();
+    solver.analyze(&assembled.problem()).unwrap();
+    solver.factorize(&assembled.values()).unwrap();
+    let report = solver.solve(&assembled.values(), &rhs, &mut x, 1e-12);
+    let report = report.unwrap();
+    assert!(report.residual <= tolerance, "{report:?}");
+    (!solver.uses_lu(), x)
+}
+
+#[test]
+fn friction_and_multipliers_are_solved_by_fronts() {
+    let mut tied = tied_blocks([7, 6, 5], [1.0, 50.0]);
+    tied.symmetry = Symmetry::Unsymmetric;
+    let slipping = slipping_blocks([7, 6, 5], 100.0, 0.9);
+    for system in [&tied, &slipping] {
+        assert!(solve(system, 1e-12).0);
+    }
+    // multipliers whose pattern names nodes that they do not act on, some of them first
+    let n = nnode([7, 6, 5]) as u32;
+    for (dofs, row) in &mut tied.interface {
+        let k = dofs.len();
+        let wide: Vec<u32> = [0, 3, 6].map(|d| d + dofs[1] % 3).into();
+        let value = |at: usize| {
+            let (i, j) = (at / (k + 3), at % (k + 3));
+            if i < 3 || j < 3 {
+                0.0
+            } else {
+                row[(i - 3) * k + j - 3]
+            }
+        };
+        let values: Vec<f64> = (0..(k + 3) * (k + 3)).map(value).collect();
+        assert!(wide.iter().all(|d| d / 3 < n));
+        *dofs = [wide, std::mem::take(dofs)].concat();
+        *row = values;
+    }
+    assert!(solve(&tied, 1e-12).0);
+}
+
+#[test]
+fn bits_of_fronts_do_not_depend_on_threads() {
+    // enough for subtrees of their own and for strips of a front
+    let system = slipping_blocks([15, 14, 9], 100.0, 0.5);
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| solve(&system, 1e-12))
+    };
+    let one = run(1);
+    assert!(one.0);
+    for threads in [2, 5] {
+        assert!(run(threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn another_order_is_found_where_values_change() {
+    // one multiplier, tied to one of two springs at a time
+    let system = |first: f64| {
+        let mut system = System::new(2, 3, 1, Symmetry::Unsymmetric);
+        system.multiplier_from = 6;
+        system.held = vec![1, 2, 4, 5];
+        system
+            .bulk
+            .push((vec![0], vec![1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]));
+        system
+            .bulk
+            .push((vec![1], vec![2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]));
+        let [a, b] = [first, 1.0 - first];
+        let row = vec![0.0, 0.0, a, 0.0, 0.0, b, a, b, 0.0];
+        system.interface.push((vec![0, 3, 6], row));
+        system
+    };
+    let mut solver = Direct::reproducible();
+    for first in [1.0, 0.0, 1.0] {
+        let assembled = system(first).assemble();
+        let mut x = vec![0.0; assembled.nequation];
+        let rhs = [1.0, 3.0, 0.5];
+        solver.analyze(&assembled.problem()).unwrap();
+        solver.factorize(&assembled.values()).unwrap();
+        solver
+            .solve(&assembled.values(), &rhs, &mut x, 1e-14)
+            .unwrap();
+        // the tied one moves by ½ and carries the rest, the other one has its spring
+        let expected = if first > 0.5 {
+            [0.5, 1.5, 0.5]
+        } else {
+            [1.0, 0.5, 2.0]
+        };
+        assert!(!solver.uses_lu());
+        for (x, expected) in x.iter().zip(expected) {
+            assert!((x - expected).abs() < 1e-14, "{first}: {x} {expected}");
+        }
+    }
+}
+
+#[test]
+fn blocks_without_pivots_are_left_to_free_choice() {
+    // pairs of unknowns, each in the equation of the other one's
+    let n = 40;
+    let mut system = System::new(n, 1, 0, Symmetry::Unsymmetric);
+    for i in 0..n as u32 {
+        let other = (i + n as u32 / 2) % n as u32;
+        system
+            .interface
+            .push((vec![i, other], vec![0.0, 1.0 + f64::from(i), 0.0, 0.0]));
+    }
+    let (_, x) = solve(&system, 1e-12);
+    assert!(x.iter().all(|x| x.is_finite()));
+}
