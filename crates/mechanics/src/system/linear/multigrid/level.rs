@@ -9,6 +9,8 @@ use std::ops::Range;
 
 /// Shares by which diagonals are made larger until an incomplete factor exists.
 const SHIFTS: [f64; 3] = [0.01, 0.04, 0.16];
+/// Rows of a vector handled by one task.
+const CHUNK: usize = 4096;
 /// Steps of the power method.
 const STEPS: usize = 10;
 /// The power method's value is below the largest one by about this factor.
@@ -92,23 +94,32 @@ impl<const N: usize> Level<N> {
         coarse_x: &mut [[f32; MODES]],
         coarse: impl FnOnce(&[[f32; MODES]], &mut [[f32; MODES]]),
     ) {
-        x.copy_from_slice(b);
+        let damping = self.damping;
+        let both = x
+            .par_chunks_mut(CHUNK)
+            .zip(self.residual.par_chunks_mut(CHUNK));
+        both.zip(b.par_chunks(CHUNK)).for_each(|((x, r), b)| {
+            r.copy_from_slice(b);
+            for (x, b) in x.iter_mut().zip(b) {
+                *x = b.map(|b| damping * b);
+            }
+        });
         self.smoother.solve(x);
-        for x in x.iter_mut().flatten() {
-            *x *= self.damping;
-        }
-        self.residual.copy_from_slice(b);
         self.matrix.multiply::<true>(x, &mut self.residual);
         coarse_b.fill([0.0; MODES]);
         self.restrict.multiply::<false>(&self.residual, coarse_b);
         coarse(coarse_b, coarse_x);
         self.prolong.multiply::<false>(coarse_x, x);
-        self.change.copy_from_slice(b);
+        let chunks = self.change.par_chunks_mut(CHUNK).zip(b.par_chunks(CHUNK));
+        chunks.for_each(|(change, b)| change.copy_from_slice(b));
         self.matrix.multiply::<true>(x, &mut self.change);
         self.smoother.solve(&mut self.change);
-        for (x, change) in x.iter_mut().flatten().zip(self.change.iter().flatten()) {
-            *x += self.damping * change;
-        }
+        let chunks = x.par_chunks_mut(CHUNK).zip(self.change.par_chunks(CHUNK));
+        chunks.for_each(|(x, change)| {
+            for (x, change) in x.as_flattened_mut().iter_mut().zip(change.as_flattened()) {
+                *x += damping * change;
+            }
+        });
     }
 }
 
