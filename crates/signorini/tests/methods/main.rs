@@ -95,11 +95,17 @@ fn rubs(scene: &Scene, outcome: &Outcome) {
     let contact = &outcome.slid.contacts[0];
     let ratio = contact.force_shear.norm() / contact.force_normal.norm();
     let mu = if scene.keys == ROUGH { MU } else { 0.0 };
-    assert!((ratio - mu).abs() < 3e-3, "{scene:?}: {ratio}");
-    let force = contact.secondary.force;
-    let global = -force.x / force.y;
     let is_flat =
         matches!(scene.below, Below::Surface(n) if ["plane", "stl"].contains(&SURFACES[n].0));
+    // no more than every point at its limit in one direction; where faces bend, points slip sideways as well, and which way
+    // they turn may hang on rounding: there is more than one equilibrium
+    let sideways = if is_flat { 3e-3 } else { 5e-3 };
+    assert!(
+        ratio < mu + 3e-3 && ratio > mu - sideways,
+        "{scene:?}: {ratio}"
+    );
+    let force = contact.secondary.force;
+    let global = -force.x / force.y;
     let bound = if is_flat { 3e-3 } else { 0.05 };
     assert!((global - mu).abs() < bound, "{scene:?}: {global}");
 }
