@@ -97,9 +97,11 @@ fn rubs(scene: &Scene, outcome: &Outcome) {
     let mu = if scene.keys == ROUGH { MU } else { 0.0 };
     let is_flat =
         matches!(scene.below, Below::Surface(n) if ["plane", "stl"].contains(&SURFACES[n].0));
-    // no more than every point at its limit in one direction; where faces bend, points slip sideways as well, and which way
-    // they turn may hang on rounding: there is more than one equilibrium
-    let sideways = if is_flat { 3e-3 } else { 5e-3 };
+    // no more than every point at its limit in one direction; in two passes points of both sides turn one another sideways
+    // on faces that bend, and which way they turn hangs on rounding where an increment begins: there is more than one
+    // equilibrium
+    let is_twofold = scene.method.contains("passes = 2") && !is_flat;
+    let sideways = if is_twofold { 1e-2 } else { 3e-3 };
     assert!(
         ratio < mu + 3e-3 && ratio > mu - sideways,
         "{scene:?}: {ratio}"
