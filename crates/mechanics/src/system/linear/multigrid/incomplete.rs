@@ -15,7 +15,7 @@ use std::ops::Range;
 pub(super) struct Incomplete<const N: usize> {
     parts: Vec<Range<usize>>,
     lower: Packed<N, N>,
-    /// Lᵀ
+    /// Lᵀ, its last row first: memory is read in the order in which it is held.
     upper: Packed<N, N>,
     /// D⁻¹
     inverse: Vec<[[f32; N]; N]>,
@@ -92,7 +92,7 @@ impl<const N: usize> Incomplete<N> {
         Some(Self {
             parts: parts.to_vec(),
             inverse: inverse.iter().map(single).collect(),
-            upper: Packed::new(&lower.transpose()),
+            upper: Packed::transposed_upside_down(&lower),
             lower: Packed::new(&lower),
         })
     }
@@ -115,7 +115,7 @@ impl<const N: usize> Incomplete<N> {
             self.reduce(row, &mut between[row - last], &sums);
         }
         for row in (last..last + between.len()).rev() {
-            let sums = self.upper.row(row, |column| &between[column - last]);
+            let sums = self.above(row, |column| &between[column - last]);
             self.settle(row, &mut between[row - last], &sums);
         }
         let (pieces, between) = (self.pieces(interior), &*between);
@@ -146,14 +146,18 @@ impl<const N: usize> Incomplete<N> {
     fn backward(&self, rows: Range<usize>, x: &mut [[f32; N]], last: usize, between: &[[f32; N]]) {
         let first = rows.start;
         for row in rows.rev() {
-            let sums = self
-                .upper
-                .row(row, |column| match column.checked_sub(last) {
-                    Some(at) => &between[at],
-                    None => &x[column - first],
-                });
+            let sums = self.above(row, |column| match column.checked_sub(last) {
+                Some(at) => &between[at],
+                None => &x[column - first],
+            });
             self.settle(row, &mut x[row - first], &sums);
         }
+    }
+
+    /// `Lᵀ x` of one row.
+    #[inline(always)]
+    fn above<'x>(&self, row: usize, x: impl Fn(usize) -> &'x [f32; N]) -> Sums {
+        self.upper.row(self.inverse.len() - 1 - row, x)
     }
 
     /// `x = D⁻¹ (x − sum)`

@@ -182,12 +182,9 @@ pub(super) fn minimal_residuals(
             directions.push(z);
             total += 1;
             let mut column = vec![0.0; k + 2];
-            for _ in 0..2 {
-                for (h, v) in column.iter_mut().zip(&basis) {
-                    let part = dot(&w, v);
-                    *h += part;
-                    add(-part, v, &mut w);
-                }
+            for (h, v) in column.iter_mut().zip(&basis) {
+                *h = dot(&w, v);
+                add(-*h, v, &mut w);
             }
             let left = dot(&w, &w).sqrt();
             column[k + 1] = left;

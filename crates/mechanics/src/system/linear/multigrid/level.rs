@@ -70,7 +70,7 @@ impl<const N: usize> Level<N> {
             smoother,
             damping: 1.0,
             prolong: Packed::new(&prolong),
-            restrict: Packed::new(&prolong.transpose()),
+            restrict: Packed::transposed(&prolong),
             residual: vec![[0.0; N]; nrow],
             change: vec![[0.0; N]; nrow],
         };

@@ -46,6 +46,67 @@ impl<const R: usize, const C: usize> Packed<R, C> {
         }
     }
 
+    /// The transpose of a matrix.
+    pub fn transposed(of: &Blocks<C, R>) -> Self {
+        Self::transposed_to(of, |row| row)
+    }
+
+    /// The transpose of a matrix, its last row first.
+    pub fn transposed_upside_down(of: &Blocks<C, R>) -> Self {
+        Self::transposed_to(of, |row| of.ncolumn - 1 - row)
+    }
+
+    /// The transpose of a matrix with its rows where `place` tells.
+    fn transposed_to(of: &Blocks<C, R>, place: impl Fn(usize) -> usize + Sync) -> Self {
+        let nrow = of.ncolumn;
+        let mut start = vec![0usize; nrow + 1];
+        for &column in &of.column {
+            start[place(column as usize) + 1] += 1;
+        }
+        for row in 0..nrow {
+            start[row + 1] += start[row];
+        }
+        let mut column = vec![0; of.column.len()];
+        let mut value = vec![0.0; of.value.len() * R * C + LANES];
+        // each task looks at all blocks and takes those of its rows
+        let ntask = rayon::current_num_threads();
+        let ends = (0..=ntask).map(|task| task * nrow / ntask);
+        let ends: Vec<usize> = ends.collect();
+        let mut tasks = Vec::with_capacity(ntask);
+        let (mut columns, mut values) = (column.as_mut_slice(), value.as_mut_slice());
+        for ends in ends.windows(2) {
+            let nblock = start[ends[1]] - start[ends[0]];
+            let (own_columns, other_columns) = columns.split_at_mut(nblock);
+            let (own_values, other_values) = values.split_at_mut(nblock * R * C);
+            (columns, values) = (other_columns, other_values);
+            tasks.push((ends[0]..ends[1], own_columns, own_values));
+        }
+        tasks.into_par_iter().for_each(|(rows, columns, values)| {
+            let first = start[rows.start];
+            let mut next: Vec<usize> = start[rows.clone()].iter().map(|at| at - first).collect();
+            for from in 0..of.nrow() {
+                for (to, block) in of.row(from) {
+                    let row = place(to);
+                    if !rows.contains(&row) {
+                        continue;
+                    }
+                    let at = next[row - rows.start];
+                    next[row - rows.start] += 1;
+                    columns[at] = from as u32;
+                    let to = &mut values[at * R * C..(at + 1) * R * C];
+                    for (to, from) in to.iter_mut().zip(block.as_flattened()) {
+                        *to = *from as f32;
+                    }
+                }
+            }
+        });
+        Self {
+            start,
+            column,
+            value,
+        }
+    }
+
     fn range(&self, row: usize) -> Range<usize> {
         self.start[row]..self.start[row + 1]
     }
@@ -142,6 +203,30 @@ mod tests {
                 assert_eq!(f64::from(*to), expected);
             }
         }
+    }
+
+    /// Aᵀ x, with its rows in their order and upside down.
+    fn transposes_agree<const R: usize, const C: usize>() {
+        let matrix = matrix::<R, C>();
+        let x: Vec<[f32; R]> = (0..3)
+            .map(|k| std::array::from_fn(|j| (1 + 3 * k + j) as f32))
+            .collect();
+        let mut expected = vec![[0.0; C]; 3];
+        Packed::new(&matrix.transpose()).multiply::<false>(&x, &mut expected);
+        let mut to = vec![[0.0; C]; 3];
+        Packed::transposed(&matrix).multiply::<false>(&x, &mut to);
+        assert_eq!(to, expected);
+        to.fill([0.0; C]);
+        Packed::transposed_upside_down(&matrix).multiply::<false>(&x, &mut to);
+        to.reverse();
+        assert_eq!(to, expected);
+    }
+
+    #[test]
+    fn transposes_are_those_of_the_blocks() {
+        transposes_agree::<3, 3>();
+        transposes_agree::<3, 6>();
+        transposes_agree::<6, 6>();
     }
 
     #[test]
