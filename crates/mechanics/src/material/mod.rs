@@ -178,6 +178,11 @@ pub trait Material: Send + Sync {
         false
     }
 
+    /// Lamé's constants of a law that is `λ tr(ε) I + 2μ ε` at every strain and temperature, and nothing else.
+    fn lame(&self) -> Option<Lame> {
+        None
+    }
+
     /// The part of a strain that the law answers with stress: all of it, but for thermal expansion.
     fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
         strain.value

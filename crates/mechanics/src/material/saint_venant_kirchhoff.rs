@@ -39,4 +39,8 @@ impl Material for SaintVenantKirchhoff {
     fn is_linear(&self) -> bool {
         true
     }
+
+    fn lame(&self) -> Option<Lame> {
+        Some(self.lame)
+    }
 }

@@ -1,5 +1,8 @@
 use super::choice::{Situation, keeps_volume};
-use super::kernel::{Element, Failure, Initial, Kernel, Output, Points, Remedy, Sample, kernel};
+use super::kernel::{
+    Batch, BatchKernel, Element, Failure, Initial, Kernel, Output, Points, Remedy, Results, Sample,
+    batch_kernel, kernel, width,
+};
 use super::report;
 use super::{AtNodes, Integration, Locking};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Strain};
@@ -11,6 +14,7 @@ use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -85,6 +89,8 @@ struct Treatment {
     /// What became of the wish; why it cannot be had.
     locking: Result<Locking, &'static str>,
     kernel: Kernel,
+    /// For several cells at once.
+    batch: Option<BatchKernel>,
 }
 
 /// Cells of one element.
@@ -217,6 +223,19 @@ struct Scratch {
     samples: Vec<Sample>,
     new: Vec<f64>,
     inner: Vec<f64>,
+    /// Where the stiffness is symmetric: see [`Sink::add_symmetric`].
+    blocks: Vec<f64>,
+    lanes: InLanes,
+}
+
+/// The same of several cells, lane by lane.
+#[derive(Default)]
+struct InLanes {
+    x: Vec<f64>,
+    u: Vec<f64>,
+    force: Vec<f64>,
+    blocks: Vec<f64>,
+    energy: Vec<f64>,
 }
 
 /// What is wanted of the cells.
@@ -225,6 +244,15 @@ enum Wanted {
     Forces,
     Stiffness,
     Samples,
+}
+
+impl Wanted {
+    const fn order(self) -> MaterialOrder {
+        match self {
+            Self::Stiffness => MaterialOrder::Tangent,
+            Self::Forces | Self::Samples => MaterialOrder::Stress,
+        }
+    }
 }
 
 impl Solid {
@@ -392,11 +420,157 @@ impl Solid {
         };
         let block = &self.blocks[number];
         scratch.size(block, self.layout.ndim, wanted);
-        for cell in first..last {
-            let energy = self.cell(block, cell, trial, wanted, scratch)?;
-            take(block, cell, energy, scratch);
+        let is_symmetric = self.material().is_symmetric();
+        let batch = block.treatment(self.kinematics).batch;
+        let batch = batch.filter(|_| wanted != Wanted::Samples && is_symmetric);
+        let width = if batch.is_some() { width() } else { 1 };
+        for begin in (first..last).step_by(width) {
+            let cells = begin..last.min(begin + width);
+            let is_done =
+                batch.is_some_and(|b| self.batch(block, b, cells.clone(), trial, wanted, scratch));
+            for (lane, cell) in cells.enumerate() {
+                let energy = if is_done {
+                    self.pick(block, cell, trial, (lane, width), scratch)
+                } else {
+                    let energy = self.cell(block, cell, trial, wanted, scratch)?;
+                    if is_symmetric {
+                        scratch.pack(block.nnode, self.layout.ndim);
+                    }
+                    energy
+                };
+                take(block, cell, energy, scratch);
+            }
         }
         Ok(())
+    }
+
+    /// Runs the kernel over several cells at once; false where that is not possible for all of them.
+    fn batch(
+        &self,
+        block: &Cells,
+        kernel: BatchKernel,
+        cells: Range<usize>,
+        trial: &State,
+        wanted: Wanted,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let width = width();
+        let n = block.nnode * self.layout.ndim;
+        let nblocks = scratch.blocks.len();
+        let Scratch {
+            lanes,
+            new,
+            temperature,
+            temperature_at_start,
+            ..
+        } = scratch;
+        lanes.x.resize(n * width, 0.0);
+        lanes.u.resize(n * width, 0.0);
+        lanes.force.resize(n * width, 0.0);
+        lanes.blocks.resize(nblocks * width, 0.0);
+        lanes.energy.resize(width, 0.0);
+        // lanes without a cell repeat the last one
+        let cell_of = |lane: usize| cells.end.min(cells.start + lane + 1) - 1;
+        temperature.clear();
+        temperature_at_start.clear();
+        for lane in 0..width {
+            let nodes = block.nodes_of(cell_of(lane));
+            for (k, &node) in nodes.iter().enumerate() {
+                let x = self.reference[node as usize].to_array();
+                for axis in 0..self.layout.ndim {
+                    let at = (k * self.layout.ndim + axis) * width + lane;
+                    lanes.x[at] = x[axis];
+                    lanes.u[at] = trial.u[self.layout.node(node, axis) as usize];
+                }
+            }
+            self.heat(nodes, trial, temperature, temperature_at_start);
+        }
+        let of_lane = |values: &'_ [f64], lane: usize| -> Range<usize> {
+            let at = lane * block.nnode..(lane + 1) * block.nnode;
+            if values.is_empty() { 0..0 } else { at }
+        };
+        let (temperature, temperature_at_start) = (&temperature[..], &temperature_at_start[..]);
+        let cell = |lane: usize| Element {
+            temperature: &temperature[of_lane(temperature, lane)],
+            temperature_at_start: &temperature_at_start[of_lane(temperature_at_start, lane)],
+            ..self.element(block, cell_of(lane))
+        };
+        let batch = Batch {
+            reference: &block.points,
+            is_finite: self.kinematics == Kinematics::Finite,
+            x: &lanes.x,
+            u: &lanes.u,
+            lame: self.material().lame().filter(|_| block.initial.is_empty()),
+            cell: &cell,
+        };
+        let mut out = Results {
+            energy: &mut lanes.energy,
+            force: &mut lanes.force,
+            blocks: &mut lanes.blocks,
+            new,
+        };
+        kernel(&batch, wanted.order(), &mut out)
+            && lanes.energy.iter().all(|e| e.is_finite())
+            && lanes.force.iter().all(|f| f.is_finite())
+    }
+
+    /// Takes the results of one lane into the scratch; the energy comes back.
+    fn pick(
+        &self,
+        block: &Cells,
+        cell: usize,
+        trial: &State,
+        (lane, width): (usize, usize),
+        scratch: &mut Scratch,
+    ) -> f64 {
+        self.locate(block, cell, trial, scratch);
+        let of_lane = |to: &mut [f64], from: &[f64]| {
+            for (to, from) in to.iter_mut().zip(from.iter().skip(lane).step_by(width)) {
+                *to = *from;
+            }
+        };
+        of_lane(&mut scratch.force, &scratch.lanes.force);
+        of_lane(&mut scratch.blocks, &scratch.lanes.blocks);
+        scratch.lanes.energy[lane]
+    }
+
+    /// Where a cell is, and where its nodes go.
+    fn locate(&self, block: &Cells, cell: usize, trial: &State, scratch: &mut Scratch) {
+        scratch.u.clear();
+        scratch.dofs.clear();
+        for &node in block.nodes_of(cell) {
+            for axis in 0..self.layout.ndim {
+                let dof = self.layout.node(node, axis);
+                scratch.dofs.push(dof);
+                scratch.u.push(trial.u[dof as usize]);
+            }
+        }
+    }
+
+    /// Adds the temperatures of nodes, where there are any.
+    fn heat(&self, nodes: &[NodeId], trial: &State, now: &mut Vec<f64>, at_start: &mut Vec<f64>) {
+        if let Some(field) = &self.temperature {
+            let at = |&node: &NodeId| field.at(&self.step, trial.time, node);
+            now.extend(nodes.iter().map(at));
+            at_start.extend(nodes.iter().map(|&node| field.at_start(node)));
+        }
+    }
+
+    /// A cell without places and temperatures.
+    fn element<'a>(&'a self, block: &'a Cells, cell: usize) -> Element<'a> {
+        Element {
+            reference: &block.points,
+            x: &[],
+            u: &[],
+            material: self.material(),
+            kinematics: self.kinematics,
+            space: self.space,
+            temperature: &[],
+            temperature_at_start: &[],
+            ndilatation: block.ndilatation,
+            old: &block.history[cell * block.nhistory..(cell + 1) * block.nhistory],
+            initial: block.initial_of(cell),
+        }
     }
 
     /// Runs the kernel over one cell: results are in the scratch, the energy comes back.
@@ -409,37 +583,20 @@ impl Solid {
         scratch: &mut Scratch,
     ) -> Result<f64, TermError> {
         let nodes = block.nodes_of(cell);
+        self.locate(block, cell, trial, scratch);
         scratch.x.clear();
-        scratch.u.clear();
-        scratch.dofs.clear();
+        let places = nodes.iter().map(|&node| self.reference[node as usize]);
+        scratch.x.extend(places);
         scratch.temperature.clear();
         scratch.temperature_at_start.clear();
-        for &node in nodes {
-            scratch.x.push(self.reference[node as usize]);
-            for axis in 0..self.layout.ndim {
-                let dof = self.layout.node(node, axis);
-                scratch.dofs.push(dof);
-                scratch.u.push(trial.u[dof as usize]);
-            }
-        }
-        if let Some(field) = &self.temperature {
-            let at = |&node: &NodeId| field.at(&self.step, trial.time, node);
-            scratch.temperature.extend(nodes.iter().map(at));
-            let at_start = nodes.iter().map(|&node| field.at_start(node));
-            scratch.temperature_at_start.extend(at_start);
-        }
+        let (now, at_start) = (&mut scratch.temperature, &mut scratch.temperature_at_start);
+        self.heat(nodes, trial, now, at_start);
         let element = Element {
-            reference: &block.points,
             x: &scratch.x,
             u: &scratch.u,
-            material: self.material(),
-            kinematics: self.kinematics,
-            space: self.space,
             temperature: &scratch.temperature,
             temperature_at_start: &scratch.temperature_at_start,
-            ndilatation: block.ndilatation,
-            old: &block.history[cell * block.nhistory..(cell + 1) * block.nhistory],
-            initial: block.initial_of(cell),
+            ..self.element(block, cell)
         };
         let mut out = Output {
             force: &mut scratch.force,
@@ -449,12 +606,8 @@ impl Solid {
             samples: &mut scratch.samples,
             scratch: &mut scratch.inner,
         };
-        let order = match wanted {
-            Wanted::Stiffness => MaterialOrder::Tangent,
-            Wanted::Forces | Wanted::Samples => MaterialOrder::Stress,
-        };
         let kernel = block.treatment(self.kinematics).kernel;
-        let outcome = kernel(&element, order, &mut out);
+        let outcome = kernel(&element, wanted.order(), &mut out);
         let energy = out.energy;
         let label = block.labels[cell];
         outcome.map_err(|failure| self.failure(label, failure))?;
@@ -499,8 +652,12 @@ impl Cells {
             let situation = situation(kinematics);
             let locking = situation.choose(wish);
             let remedy = locking.map_or(Remedy::None, Locking::remedy);
-            let kernel = kernel(situation.element.name(), situation.space, remedy)?;
-            Some(Treatment { locking, kernel })
+            let (name, space) = (situation.element.name(), situation.space);
+            Some(Treatment {
+                locking,
+                kernel: kernel(name, space, remedy)?,
+                batch: batch_kernel(name, space, remedy),
+            })
         };
         let (small, finite) = (
             treatment(Kinematics::Small)?,
@@ -643,10 +800,25 @@ impl Scratch {
         let npoint = block.points.rule.npoint();
         self.force.resize(n, 0.0);
         self.stiffness.resize(if stiff { n * n } else { 0 }, 0.0);
+        let npair = block.nnode * (block.nnode + 1) / 2;
+        let nblocks = if stiff { npair * ndim * ndim } else { 0 };
+        self.blocks.resize(nblocks, 0.0);
         self.new.resize(block.nhistory, 0.0);
         let sampled = wanted == Wanted::Samples;
         self.samples
             .resize(if sampled { npoint } else { 0 }, Sample::default());
+    }
+
+    /// Takes the blocks of a stiffness that is symmetric.
+    fn pack(&mut self, nnode: usize, ndim: usize) {
+        let n = nnode * ndim;
+        let pairs = (0..nnode).flat_map(|j| (0..=j).map(move |i| (i, j)));
+        for ((i, j), block) in pairs.zip(self.blocks.chunks_exact_mut(ndim * ndim)) {
+            for (k, row) in block.chunks_exact_mut(ndim).enumerate() {
+                let at = (i * ndim + k) * n + j * ndim;
+                row.copy_from_slice(&self.stiffness[at..at + ndim]);
+            }
+        }
     }
 }
 
@@ -712,8 +884,13 @@ impl Term for Solid {
             Order::Tangent => Wanted::Stiffness,
         };
         let scratch = work.of::<Scratch>();
+        let is_symmetric = self.material().is_symmetric();
         self.each(chunk, trial, wanted, scratch, |block, cell, _, s| {
-            out.add(&s.dofs, &s.force, &s.stiffness);
+            if is_symmetric {
+                out.add_symmetric(&s.dofs, &s.force, &s.blocks, self.layout.ndim);
+            } else {
+                out.add(&s.dofs, &s.force, &s.stiffness);
+            }
             // strains are sums of as many products as there are nodes
             let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
             let sum = block.rigidity[cell] * block.nnode as f64;

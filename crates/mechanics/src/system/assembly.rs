@@ -9,16 +9,19 @@ use super::{
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
 
-/// Chunks of a wave for each thread: the fewer, the more of what is added is still in cache.
+/// Chunks of a wave for each thread, of which stiffness is wanted: the fewer, the more of what is added is in cache.
 const PER_THREAD: usize = 4;
 /// Chunks of a wave, at most: bounds the memory, and nothing else.
 const WAVE: usize = 64;
+/// Entries that are set to zero by one task.
+const ENTRIES: usize = 1 << 16;
 
 /// Chunks that are evaluated before they are added. A single thread adds every chunk while it is in cache.
-fn wave() -> usize {
-    match rayon::current_num_threads() {
-        1 => 1,
-        threads => (PER_THREAD * threads).min(WAVE),
+fn wave(order: Order) -> usize {
+    match (rayon::current_num_threads(), order) {
+        (1, _) => 1,
+        (threads, Order::Tangent) => (PER_THREAD * threads).min(WAVE),
+        (_, Order::Residual) => WAVE,
     }
 }
 
@@ -80,38 +83,96 @@ struct Slot {
 /// What a chunk added, one contribution after the other.
 #[derive(Default)]
 struct Buffer {
+    contributions: Vec<Contribution>,
     dofs: Vec<Dof>,
-    sizes: Vec<usize>,
     force: Vec<f64>,
     stiffness: Vec<f64>,
-    stiffness_sizes: Vec<usize>,
+    /// Errors at other dofs than those of a contribution.
     errors: Vec<(Dof, f64)>,
+    /// Whether unknowns in it follow others.
+    has_dependent: bool,
 }
 
-impl Sink for Buffer {
-    fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]) {
+/// One contribution: how much of the lists is its own.
+struct Contribution {
+    ndof: usize,
+    nstiffness: usize,
+    /// Whether the stiffness is in blocks as [`Sink::add_symmetric`] has them.
+    is_symmetric: bool,
+    /// The uncertainty of its forces.
+    error: f64,
+}
+
+impl Contribution {
+    /// Takes the places of its blocks in the bulk off a list.
+    fn positions<'p>(&self, ndim: usize, all: &mut &'p [u32]) -> &'p [u32] {
+        let nblock = if self.nstiffness > 0 {
+            self.ndof / ndim.max(1)
+        } else {
+            0
+        };
+        all.split_off(..nblock * nblock).unwrap_or_default()
+    }
+}
+
+impl Buffer {
+    fn push(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64], is_symmetric: bool) {
         debug_assert_eq!(dofs.len(), force.len());
-        debug_assert!(stiffness.is_empty() || stiffness.len() == dofs.len() * dofs.len());
-        self.sizes.push(dofs.len());
-        self.stiffness_sizes.push(stiffness.len());
+        self.contributions.push(Contribution {
+            ndof: dofs.len(),
+            nstiffness: stiffness.len(),
+            is_symmetric,
+            error: 0.0,
+        });
         self.dofs.extend_from_slice(dofs);
         self.force.extend_from_slice(force);
         self.stiffness.extend_from_slice(stiffness);
     }
 
-    fn uncertain(&mut self, dofs: &[Dof], error: f64) {
-        self.errors.extend(dofs.iter().map(|&d| (d, error)));
+    fn clear(&mut self) {
+        self.contributions.clear();
+        self.dofs.clear();
+        self.force.clear();
+        self.stiffness.clear();
+        self.errors.clear();
+    }
+
+    /// Each contribution with its dofs, forces and stiffness.
+    fn iter(&self) -> impl Iterator<Item = (&Contribution, &[Dof], &[f64], &[f64])> {
+        let (mut at, mut at_stiffness) = (0, 0);
+        self.contributions.iter().map(move |own| {
+            let (of_dofs, of_stiffness) = (
+                at..at + own.ndof,
+                at_stiffness..at_stiffness + own.nstiffness,
+            );
+            (at, at_stiffness) = (of_dofs.end, of_stiffness.end);
+            (
+                own,
+                &self.dofs[of_dofs.clone()],
+                &self.force[of_dofs],
+                &self.stiffness[of_stiffness],
+            )
+        })
     }
 }
 
-impl Buffer {
-    fn clear(&mut self) {
-        self.dofs.clear();
-        self.sizes.clear();
-        self.force.clear();
-        self.stiffness.clear();
-        self.stiffness_sizes.clear();
-        self.errors.clear();
+impl Sink for Buffer {
+    fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]) {
+        debug_assert!(stiffness.is_empty() || stiffness.len() == dofs.len() * dofs.len());
+        self.push(dofs, force, stiffness, false);
+    }
+
+    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], blocks: &[f64], _: usize) {
+        self.push(dofs, force, blocks, true);
+    }
+
+    fn uncertain(&mut self, dofs: &[Dof], error: f64) {
+        match self.contributions.last_mut() {
+            Some(last) if self.dofs.ends_with(dofs) && last.ndof == dofs.len() => {
+                last.error += error;
+            }
+            _ => self.errors.extend(dofs.iter().map(|&d| (d, error))),
+        }
     }
 }
 
@@ -197,10 +258,9 @@ impl Assembler {
         let mut bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
         self.is_constant = bulk.all(|term| term.has_constant_stiffness());
         self.increment += 1;
-        // one wave is evaluated while another one is added
-        let two = 2 * wave().min(self.tasks.len());
-        if self.slots.len() < two {
-            self.slots.resize_with(two, Slot::default);
+        let most = wave(Order::Residual).min(self.tasks.len());
+        if self.slots.len() < most {
+            self.slots.resize_with(most, Slot::default);
         }
     }
 
@@ -269,9 +329,9 @@ impl Assembler {
         order: Order,
         out: &mut Assembly,
     ) -> Result<(), TermError> {
-        reset(&mut out.residual, layout.ndof());
-        reset(&mut out.magnitude, layout.ndof());
-        reset(&mut out.uncertainty, layout.ndof());
+        for values in [&mut out.residual, &mut out.magnitude, &mut out.uncertainty] {
+            reset(values, layout.ndof());
+        }
         let is_kept = out.bulk_of == Some(self.increment);
         if order == Order::Tangent {
             if !is_kept {
@@ -298,64 +358,53 @@ impl Assembler {
             increment,
             ..
         } = self;
-        let evaluate = |wave: &[Task], slots: &mut [Slot]| {
-            let one = |(slot, task): (&mut Slot, &Task)| {
-                slot.buffer.clear();
-                let outcome = terms[task.term].evaluate(
-                    task.chunk,
-                    trial,
-                    order_of(task),
-                    &mut slot.work,
-                    &mut slot.buffer,
-                );
-                slot.failure = outcome.err();
+        let system = Setting {
+            layout,
+            elimination,
+            trial,
+            bulk,
+            interface,
+            order,
+        };
+        let evaluate = |(slot, task): (&mut Slot, &mut Task)| {
+            let Slot {
+                buffer,
+                work,
+                failure,
+                ..
+            } = slot;
+            buffer.clear();
+            let term = &terms[task.term];
+            let outcome = term.evaluate(task.chunk, trial, order_of(task), work, buffer);
+            *failure = outcome.err();
+            let mut dofs = buffer.dofs.iter();
+            buffer.has_dependent = dofs.any(|&dof| elimination.depends(dof, layout));
+            if task.part == Part::Bulk && task.positions.is_empty() {
+                system.find(buffer, &mut task.positions);
+            }
+        };
+        let of_bulk = if is_kept { Order::Residual } else { order };
+        let mut rest = tasks.as_mut_slice();
+        while let Some(first) = rest.first() {
+            let part = first.part;
+            let size = if part == Part::Bulk {
+                wave(of_bulk)
+            } else {
+                wave(order)
             };
-            match wave {
-                [_] => slots.iter_mut().zip(wave).for_each(one),
-                _ => slots.par_iter_mut().zip(wave).for_each(one),
+            let same = rest.iter().position(|task| task.part != part);
+            let size = size.min(slots.len()).min(same.unwrap_or(rest.len()));
+            let (tasks, others) = rest.split_at_mut(size);
+            rest = others;
+            let slots = &mut slots[..size];
+            match tasks {
+                [task] => slots.iter_mut().for_each(|slot| evaluate((slot, task))),
+                _ => slots.par_iter_mut().zip(&mut *tasks).for_each(evaluate),
             }
-        };
-        let mut add = |wave: &mut [Task], slots: &mut [Slot]| {
-            for (slot, task) in slots.iter_mut().zip(wave) {
-                if let Some(failure) = slot.failure.take() {
-                    return Err(failure);
-                }
-                let mut scatter = Scatter {
-                    layout,
-                    elimination,
-                    trial,
-                    bulk,
-                    interface,
-                    order,
-                    expanded: &mut *expanded,
-                    out: &mut *out,
-                };
-                stays &= scatter.add(&slot.buffer, task);
+            if let Some(failure) = slots.iter_mut().find_map(|slot| slot.failure.take()) {
+                return Err(failure);
             }
-            Ok(())
-        };
-        let half = slots.len() / 2;
-        let (mut now, mut next) = slots.split_at_mut(half);
-        let size = wave().min(half).max(1);
-        let mut waves = tasks.chunks_mut(size);
-        let mut wave = waves.next();
-        if let Some(first) = &wave {
-            evaluate(first, now);
-        }
-        while let Some(tasks) = wave {
-            wave = waves.next();
-            match &wave {
-                // a single thread has no use for two at once
-                Some(after) if size > 1 => {
-                    rayon::join(|| add(tasks, now), || evaluate(after, next)).0?;
-                    std::mem::swap(&mut now, &mut next);
-                }
-                Some(after) => {
-                    add(tasks, now)?;
-                    evaluate(after, now);
-                }
-                None => add(tasks, now)?,
-            }
+            stays &= system.add(slots, tasks, expanded, out);
         }
         if stays {
             out.bulk_of = Some(*increment);
@@ -379,7 +428,7 @@ impl Assembler {
         trial: &State,
     ) -> Result<Option<f64>, TermError> {
         let mut total = 0.0;
-        let size = wave().min(self.slots.len()).max(1);
+        let size = wave(Order::Residual).min(self.slots.len()).max(1);
         for wave in self.tasks.chunks(size) {
             let evaluate = |(slot, task): (&mut Slot, &Task)| match terms[task.term].energy(
                 task.chunk,
@@ -408,106 +457,195 @@ impl Assembler {
     }
 }
 
-/// Adds one chunk after the other.
-struct Scatter<'a> {
+/// What contributions are added to.
+#[derive(Clone, Copy)]
+struct Setting<'a> {
     layout: &'a Layout,
     elimination: &'a Elimination,
     trial: &'a State,
     bulk: &'a BlockPattern,
     interface: &'a Pattern,
     order: Order,
-    expanded: &'a mut Expanded,
-    out: &'a mut Assembly,
 }
 
-impl Scatter<'_> {
-    /// Adds a chunk; false where stiffness of the bulk went into the interface.
-    fn add(&mut self, buffer: &Buffer, task: &mut Task) -> bool {
-        for &(dof, error) in &buffer.errors {
-            if self.elimination.depends(dof, self.layout) {
-                let out = &mut self.out.uncertainty;
-                self.elimination
-                    .spread(dof, error, self.trial, self.layout, out);
-            } else if let Some(to) = self.out.uncertainty.get_mut(dof as usize) {
-                *to += error;
-            }
+impl Setting<'_> {
+    /// Adds chunks, one after the other at every entry; false where stiffness of the bulk went into the interface.
+    ///
+    /// Where no unknown follows others, threads share the rows among themselves, each with about as many nodes of what
+    /// is added: an entry is the same sum whoever adds it up.
+    fn add(
+        self,
+        slots: &[Slot],
+        tasks: &[Task],
+        expanded: &mut Expanded,
+        out: &mut Assembly,
+    ) -> bool {
+        let buffers: Vec<&Buffer> = slots.iter().map(|slot| &slot.buffer).collect();
+        let has_stiffness = buffers.iter().any(|buffer| !buffer.stiffness.is_empty());
+        let has_dependent = buffers.iter().any(|buffer| buffer.has_dependent);
+        let nstrip = rayon::current_num_threads();
+        if nstrip == 1 || buffers.len() == 1 || has_dependent || !has_stiffness {
+            let mut whole = Strip::whole(out);
+            let chunks = buffers.into_iter().zip(tasks);
+            return chunks.fold(true, |all, (buffer, task)| {
+                self.add_expanded(&mut whole, buffer, task, expanded) & all
+            });
         }
-        let (mut at, mut at_stiffness, mut at_position) = (0, 0, 0);
+        let strips = self.strips(nstrip, &buffers, out);
+        strips.into_par_iter().for_each(|mut strip| {
+            for (buffer, task) in buffers.iter().zip(tasks) {
+                self.add_chunk(&mut strip, buffer, task);
+            }
+        });
+        true
+    }
+
+    /// The rows in strips.
+    fn strips<'o>(
+        self,
+        nstrip: usize,
+        buffers: &[&Buffer],
+        out: &'o mut Assembly,
+    ) -> Vec<Strip<'o>> {
+        let (ndim, nnode) = (self.bulk.block.max(1), self.bulk.nrow());
+        let dofs = buffers.iter().flat_map(|buffer| &buffer.dofs);
+        let of_nodes = dofs.step_by(ndim).map(|&dof| dof as usize / ndim);
+        let mut nodes: Vec<usize> = of_nodes.filter(|&node| node < nnode).collect();
+        let quantiles = (1..nstrip).map(|k| {
+            let at = k * nodes.len() / nstrip;
+            if at < nodes.len() {
+                *nodes.select_nth_unstable(at).1
+            } else {
+                nnode
+            }
+        });
+        let ends: Vec<usize> = quantiles.collect();
+        let mut strips = Vec::with_capacity(nstrip);
+        let mut rest = Strip::whole(out);
+        for end in ends {
+            let dof = end * ndim;
+            let entries = [
+                self.bulk.row_start.get(end).map(|at| at * ndim * ndim),
+                self.interface.row_start.get(dof).copied(),
+            ];
+            let (strip, others) = rest.split_at(dof, entries.map(Option::unwrap_or_default));
+            strips.push(strip);
+            rest = others;
+        }
+        strips.push(rest);
+        strips
+    }
+
+    /// Adds a chunk in which unknowns may follow others; false where stiffness of the bulk went into the interface.
+    fn add_expanded(
+        self,
+        whole: &mut Strip<'_>,
+        buffer: &Buffer,
+        task: &Task,
+        expanded: &mut Expanded,
+    ) -> bool {
+        if !buffer.has_dependent {
+            self.add_chunk(whole, buffer, task);
+            return true;
+        }
+        let depends = |dof: Dof| self.elimination.depends(dof, self.layout);
+        let add_error = |strip: &mut Strip<'_>, dof: Dof, error: f64| {
+            if depends(dof) {
+                let (elimination, layout) = (self.elimination, self.layout);
+                elimination.spread(dof, error, self.trial, layout, strip.uncertainty);
+            } else {
+                strip.add_error(dof, error);
+            }
+        };
+        for &(dof, error) in &buffer.errors {
+            add_error(whole, dof, error);
+        }
+        let mut positions = task.positions.as_slice();
+        let mut full = Vec::new();
         let mut is_apart = true;
-        let first_time = task.positions.is_empty();
-        for (&n, &nk) in buffer.sizes.iter().zip(&buffer.stiffness_sizes) {
-            let dofs = &buffer.dofs[at..at + n];
-            let force = &buffer.force[at..at + n];
-            let stiffness = &buffer.stiffness[at_stiffness..at_stiffness + nk];
-            at += n;
-            at_stiffness += nk;
-            if dofs
-                .iter()
-                .any(|&d| self.elimination.depends(d, self.layout))
-            {
-                let mut expanded = std::mem::take(self.expanded);
-                self.elimination.expand(
-                    dofs,
-                    force,
-                    stiffness,
-                    self.order == Order::Tangent,
-                    self.trial,
-                    self.layout,
-                    &mut expanded,
-                );
-                self.force(&expanded.dofs, &expanded.force);
-                self.scalar(&expanded.dofs, &expanded.stiffness);
-                *self.expanded = expanded;
-                is_apart &= task.part == Part::Interface;
+        for (own, dofs, force, stiffness) in buffer.iter() {
+            for &dof in dofs {
+                add_error(whole, dof, own.error);
+            }
+            let at_blocks = own.positions(self.layout.ndim, &mut positions);
+            if !dofs.iter().any(|&dof| depends(dof)) {
+                whole.add_force(dofs, force);
+                self.add_stiffness(whole, own, dofs, stiffness, at_blocks, task.part);
                 continue;
             }
-            self.force(dofs, force);
-            if stiffness.is_empty() {
-                continue;
+            let mut stiffness = stiffness;
+            if own.is_symmetric {
+                fill_up(stiffness, dofs.len(), self.layout.ndim, &mut full);
+                stiffness = &full;
             }
-            if task.part == Part::Interface {
-                self.scalar(dofs, stiffness);
-                continue;
-            }
-            let nblock = n / self.layout.ndim;
-            if first_time {
-                self.find(dofs, &mut task.positions);
-            }
-            let end = at_position + nblock * nblock;
-            let positions = &task.positions[at_position..end];
-            match self.layout.ndim {
-                2 => add_blocks::<2>(&mut self.out.bulk, stiffness, positions, nblock),
-                _ => add_blocks::<3>(&mut self.out.bulk, stiffness, positions, nblock),
-            }
-            at_position = end;
+            self.elimination.expand(
+                dofs,
+                force,
+                stiffness,
+                self.order == Order::Tangent,
+                self.trial,
+                self.layout,
+                expanded,
+            );
+            whole.add_force(&expanded.dofs, &expanded.force);
+            self.add_entries(whole, &expanded.dofs, &expanded.stiffness);
+            is_apart &= task.part == Part::Interface;
         }
         is_apart
     }
 
-    fn force(&mut self, dofs: &[Dof], force: &[f64]) {
-        for (&dof, f) in dofs.iter().zip(force) {
-            if dof != NO_DOF {
-                self.out.residual[dof as usize] += f;
-                self.out.magnitude[dof as usize] += f.abs();
+    /// Adds what of a chunk belongs to a strip.
+    fn add_chunk(self, strip: &mut Strip<'_>, buffer: &Buffer, task: &Task) {
+        for &(dof, error) in &buffer.errors {
+            strip.add_error(dof, error);
+        }
+        let mut positions = task.positions.as_slice();
+        for (own, dofs, force, stiffness) in buffer.iter() {
+            if own.error > 0.0 {
+                dofs.iter().for_each(|&dof| strip.add_error(dof, own.error));
             }
+            strip.add_force(dofs, force);
+            let at_blocks = own.positions(self.layout.ndim, &mut positions);
+            self.add_stiffness(strip, own, dofs, stiffness, at_blocks, task.part);
         }
     }
 
-    /// Where the blocks of an element are in the bulk.
-    fn find(&self, dofs: &[Dof], positions: &mut Vec<u32>) {
+    fn add_stiffness(
+        self,
+        strip: &mut Strip<'_>,
+        own: &Contribution,
+        dofs: &[Dof],
+        stiffness: &[f64],
+        positions: &[u32],
+        part: Part,
+    ) {
+        if stiffness.is_empty() {
+            return;
+        }
+        match (part, self.layout.ndim) {
+            (Part::Interface, _) => self.add_entries(strip, dofs, stiffness),
+            (Part::Bulk, 2) => strip.add_blocks::<2>(stiffness, positions, own.is_symmetric),
+            (Part::Bulk, _) => strip.add_blocks::<3>(stiffness, positions, own.is_symmetric),
+        }
+    }
+
+    /// Where the blocks of each element of a chunk are in the bulk.
+    fn find(self, buffer: &Buffer, positions: &mut Vec<u32>) {
         let ndim = self.layout.ndim;
         let node = |d: &[Dof]| d[0] / ndim as u32;
-        for row in dofs.chunks_exact(ndim) {
-            for column in dofs.chunks_exact(ndim) {
-                let found = self.bulk.position(node(row), node(column));
-                positions.push(found.map_or(NONE, |p| p as u32));
+        for (_, dofs, ..) in buffer.iter().filter(|(own, ..)| own.nstiffness > 0) {
+            for row in dofs.chunks_exact(ndim) {
+                for column in dofs.chunks_exact(ndim) {
+                    let found = self.bulk.position(node(row), node(column));
+                    positions.push(found.map_or(NONE, |p| p as u32));
+                }
             }
         }
     }
 
-    fn scalar(&mut self, dofs: &[Dof], stiffness: &[f64]) {
+    fn add_entries(self, strip: &mut Strip<'_>, dofs: &[Dof], stiffness: &[f64]) {
         for (row, values) in dofs.iter().zip(stiffness.chunks_exact(dofs.len().max(1))) {
-            if *row == NO_DOF {
+            if *row == NO_DOF || !strip.has(*row) {
                 continue;
             }
             for (column, value) in dofs.iter().zip(values) {
@@ -515,41 +653,184 @@ impl Scatter<'_> {
                     continue;
                 }
                 // a dead force that turns with nothing but itself finds no place, and needs none
-                if let Some(position) = self.interface.position(*row, *column) {
-                    self.out.interface[position] += value;
+                let position = self.interface.position(*row, *column);
+                if let Some(to) = position.and_then(|at| strip.entry(at)) {
+                    *to += value;
                 }
             }
         }
     }
 }
 
-/// Adds the `nblock × nblock` blocks of an element where they belong in the bulk.
-fn add_blocks<const ND: usize>(
-    bulk: &mut [f64],
-    stiffness: &[f64],
-    positions: &[u32],
-    nblock: usize,
-) {
-    let rows = stiffness.chunks_exact(nblock * ND * ND);
-    for (rows, positions) in rows.zip(positions.chunks_exact(nblock)) {
-        for (column, &position) in positions.iter().enumerate() {
-            debug_assert_ne!(position, NONE, "an element outside its own pattern");
-            let at = position as usize * ND * ND;
-            let block = &mut bulk[at..at + ND * ND];
-            for i in 0..ND {
-                let from = (i * nblock + column) * ND;
-                let from = &rows[from..from + ND];
-                for j in 0..ND {
-                    block[i * ND + j] += from[j];
+/// Some rows of what is assembled.
+struct Strip<'a> {
+    first: usize,
+    first_bulk: usize,
+    first_interface: usize,
+    residual: &'a mut [f64],
+    magnitude: &'a mut [f64],
+    uncertainty: &'a mut [f64],
+    bulk: &'a mut [f64],
+    interface: &'a mut [f64],
+}
+
+impl<'a> Strip<'a> {
+    fn whole(out: &'a mut Assembly) -> Self {
+        Self {
+            first: 0,
+            first_bulk: 0,
+            first_interface: 0,
+            residual: &mut out.residual,
+            magnitude: &mut out.magnitude,
+            uncertainty: &mut out.uncertainty,
+            bulk: &mut out.bulk,
+            interface: &mut out.interface,
+        }
+    }
+
+    /// The rows before `dof`, and those from it on, whose values in bulk and interface begin at `entries`.
+    fn split_at(self, dof: usize, entries: [usize; 2]) -> (Self, Self) {
+        let split = |values: &'a mut [f64], first: usize, at: usize| {
+            let at = at.saturating_sub(first).min(values.len());
+            values.split_at_mut(at)
+        };
+        let (residual, residuals) = split(self.residual, self.first, dof);
+        let (magnitude, magnitudes) = split(self.magnitude, self.first, dof);
+        let (uncertainty, uncertainties) = split(self.uncertainty, self.first, dof);
+        let (bulk, bulks) = split(self.bulk, self.first_bulk, entries[0]);
+        let (interface, interfaces) = split(self.interface, self.first_interface, entries[1]);
+        let others = Self {
+            first: self.first + residual.len(),
+            first_bulk: self.first_bulk + bulk.len(),
+            first_interface: self.first_interface + interface.len(),
+            residual: residuals,
+            magnitude: magnitudes,
+            uncertainty: uncertainties,
+            bulk: bulks,
+            interface: interfaces,
+        };
+        let strip = Self {
+            residual,
+            magnitude,
+            uncertainty,
+            bulk,
+            interface,
+            ..self
+        };
+        (strip, others)
+    }
+
+    fn has(&self, dof: Dof) -> bool {
+        (dof as usize).wrapping_sub(self.first) < self.residual.len()
+    }
+
+    fn entry(&mut self, at: usize) -> Option<&mut f64> {
+        self.interface
+            .get_mut(at.wrapping_sub(self.first_interface))
+    }
+
+    fn add_error(&mut self, dof: Dof, error: f64) {
+        let at = (dof as usize).wrapping_sub(self.first);
+        if let Some(to) = self.uncertainty.get_mut(at) {
+            *to += error;
+        }
+    }
+
+    fn add_force(&mut self, dofs: &[Dof], force: &[f64]) {
+        for (&dof, f) in dofs.iter().zip(force) {
+            // what is no dof is beyond all
+            let at = (dof as usize).wrapping_sub(self.first);
+            if let (Some(sum), Some(sizes)) =
+                (self.residual.get_mut(at), self.magnitude.get_mut(at))
+            {
+                *sum += f;
+                *sizes += f.abs();
+            }
+        }
+    }
+
+    /// Adds the blocks of an element where they belong in the bulk.
+    fn add_blocks<const ND: usize>(
+        &mut self,
+        stiffness: &[f64],
+        positions: &[u32],
+        is_symmetric: bool,
+    ) {
+        let nblock = positions.len().isqrt();
+        let (bulk, first) = (self.bulk.as_chunks_mut::<ND>().0, self.first_bulk / ND);
+        // rows of a block, in a strip that may not have them
+        let range_of = |i: usize, j: usize| {
+            let position = positions.get(i * nblock + j).copied().unwrap_or(NONE);
+            let at = (position as usize * ND).wrapping_sub(first);
+            at..at.wrapping_add(ND)
+        };
+        if is_symmetric {
+            let pairs = (0..nblock).flat_map(|j| (0..=j).map(move |i| (i, j)));
+            let blocks = stiffness.as_chunks::<ND>().0.chunks_exact(ND);
+            for ((i, j), from) in pairs.zip(blocks) {
+                if let Some(to) = bulk.get_mut(range_of(i, j)) {
+                    for (to, from) in to.as_flattened_mut().iter_mut().zip(from.as_flattened()) {
+                        *to += from;
+                    }
+                }
+                if i == j {
+                    continue;
+                }
+                if let Some(to) = bulk.get_mut(range_of(j, i)) {
+                    for (k, to) in to.iter_mut().enumerate() {
+                        for (to, from) in to.iter_mut().zip(from) {
+                            *to += from[k];
+                        }
+                    }
+                }
+            }
+            return;
+        }
+        for (i, rows) in stiffness
+            .chunks_exact((nblock * ND * ND).max(1))
+            .enumerate()
+        {
+            let rows = rows.as_chunks::<ND>().0;
+            for j in 0..nblock {
+                if let Some(to) = bulk.get_mut(range_of(i, j)) {
+                    for (to, from) in to.iter_mut().zip(rows.iter().skip(j).step_by(nblock)) {
+                        for (to, from) in to.iter_mut().zip(from) {
+                            *to += from;
+                        }
+                    }
                 }
             }
         }
     }
 }
 
+/// The whole of a stiffness of which [`Sink::add_symmetric`] has blocks, row-major.
+pub(super) fn fill_up(blocks: &[f64], n: usize, ndim: usize, full: &mut Vec<f64>) {
+    full.clear();
+    if blocks.is_empty() {
+        return;
+    }
+    full.resize(n * n, 0.0);
+    let pairs = (0..n / ndim.max(1)).flat_map(|j| (0..=j).map(move |i| (i, j)));
+    for ((i, j), block) in pairs.zip(blocks.chunks_exact((ndim * ndim).max(1))) {
+        for (k, value) in block.iter().enumerate() {
+            let (row, column) = (i * ndim + k / ndim, j * ndim + k % ndim);
+            full[row * n + column] = *value;
+            full[column * n + row] = *value;
+        }
+    }
+}
+
+/// Sets `n` values to zero.
 fn reset(values: &mut Vec<f64>, n: usize) {
-    values.clear();
-    values.resize(n, 0.0);
+    if values.len() != n {
+        values.clear();
+        values.resize(n, 0.0);
+        return;
+    }
+    values
+        .par_chunks_mut(ENTRIES)
+        .for_each(|some| some.fill(0.0));
 }
 
 fn collect<'a>(

@@ -1,3 +1,4 @@
+use super::assembly::fill_up;
 use super::{Dof, Frame, Samples, State, Symmetry};
 use signorini_geometry::mesh::{CellId, NodeId};
 use std::any::Any;
@@ -163,6 +164,14 @@ pub trait Sink {
     /// Adds `force`, and `stiffness` (row-major, `n × n`; empty for [`Order::Residual`]), at these dofs. In the bulk,
     /// the dofs are those of whole nodes, one node after the other. Dofs may repeat and may be [`super::NO_DOF`].
     fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]);
+
+    /// The same of a stiffness that is symmetric, at the dofs of whole nodes: of the blocks `(I, J)` of nodes, `ndim × ndim`
+    /// and row-major, those with `I ≤ J`, first those of the first `J`; empty for [`Order::Residual`].
+    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], blocks: &[f64], ndim: usize) {
+        let mut stiffness = Vec::new();
+        fill_up(blocks, dofs.len(), ndim, &mut stiffness);
+        self.add(dofs, force, &stiffness);
+    }
 
     /// Says that forces at these dofs are uncertain by `error` through rounding: a stiff law amplifies the rounding of
     /// positions far beyond that of the forces themselves.

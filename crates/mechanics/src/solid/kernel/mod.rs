@@ -8,12 +8,17 @@
 
 #![allow(clippy::needless_range_loop)] // indices are those of tensors, and several arrays share them
 
+mod batch;
 mod dilatation;
 mod gradient;
+mod lanes;
 mod modes;
 mod plain;
 mod shear;
 mod stiffness;
+
+pub(super) use batch::{Batch, BatchKernel, Results};
+pub(super) use lanes::width;
 
 use super::dense;
 use crate::material::{Kinematics, Material, MaterialError, Order, Response, Strain};
@@ -218,6 +223,8 @@ pub(super) enum Remedy {
 struct Kernels {
     name: &'static str,
     plain: Kernel,
+    /// The same for several cells at once.
+    batch: Option<BatchKernel>,
     dilatation: Option<Kernel>,
     modes: Option<Kernel>,
     shear: Option<Kernel>,
@@ -227,6 +234,7 @@ const fn kernels<const NN: usize, const ND: usize, const NG: usize>(name: &'stat
     Kernels {
         name,
         plain: plain::respond::<NN, ND, NG>,
+        batch: None,
         dilatation: Some(dilatation::respond::<NN, ND, NG>),
         modes: None,
         shear: None,
@@ -238,6 +246,7 @@ const fn bare<const NN: usize, const ND: usize, const NG: usize>(name: &'static 
     Kernels {
         name,
         plain: plain::respond::<NN, ND, NG>,
+        batch: None,
         dilatation: None,
         modes: None,
         shear: None,
@@ -251,6 +260,14 @@ const fn with_modes<const NN: usize, const NT: usize, const ND: usize, const NG:
     Kernels {
         modes: Some(modes::respond::<NN, NT, ND, NG>),
         ..kernels::<NN, ND, NG>(name)
+    }
+}
+
+/// An element in space.
+const fn in_space<const NN: usize>(kernels: Kernels) -> Kernels {
+    Kernels {
+        batch: Some(batch::respond::<NN>),
+        ..kernels
     }
 }
 
@@ -279,23 +296,33 @@ static AXISYMMETRIC: [Kernels; 5] = [
 ];
 
 static SPACE: [Kernels; 7] = [
-    bare::<4, 3, 3>("tet4"),
-    bare::<6, 3, 3>("wedge6"),
-    with_modes::<8, 11, 3, 3>("hex8"),
-    kernels::<10, 3, 3>("tet10"),
-    kernels::<15, 3, 3>("wedge15"),
-    kernels::<20, 3, 3>("hex20"),
-    kernels::<27, 3, 3>("hex27"),
+    in_space::<4>(bare::<4, 3, 3>("tet4")),
+    in_space::<6>(bare::<6, 3, 3>("wedge6")),
+    in_space::<8>(with_modes::<8, 11, 3, 3>("hex8")),
+    in_space::<10>(kernels::<10, 3, 3>("tet10")),
+    in_space::<15>(kernels::<15, 3, 3>("wedge15")),
+    in_space::<20>(kernels::<20, 3, 3>("hex20")),
+    in_space::<27>(kernels::<27, 3, 3>("hex27")),
 ];
 
-/// The kernel of an element, by its name; `None` where there is none.
-pub(super) fn kernel(name: &str, space: Idealisation, remedy: Remedy) -> Option<Kernel> {
+fn kernels_of(name: &str, space: Idealisation) -> Option<&'static Kernels> {
     let table: &[Kernels] = match space {
         Idealisation::Space => &SPACE,
         Idealisation::PlaneStrain { .. } | Idealisation::PlaneStress { .. } => &PLANE,
         Idealisation::Axisymmetric => &AXISYMMETRIC,
     };
-    let found = table.iter().find(|k| k.name == name)?;
+    table.iter().find(|k| k.name == name)
+}
+
+/// The kernel of an element for several cells at once, where there is one.
+pub(super) fn batch_kernel(name: &str, space: Idealisation, remedy: Remedy) -> Option<BatchKernel> {
+    let found = kernels_of(name, space).filter(|_| remedy == Remedy::None)?;
+    found.batch
+}
+
+/// The kernel of an element, by its name; `None` where there is none.
+pub(super) fn kernel(name: &str, space: Idealisation, remedy: Remedy) -> Option<Kernel> {
+    let found = kernels_of(name, space)?;
     match remedy {
         Remedy::None => Some(found.plain),
         Remedy::Dilatation => found.dilatation,

@@ -5,7 +5,7 @@ use super::gradient::row;
 use signorini_geometry::tensor::{Mat3, Sym3};
 
 /// The place of component `(i, j)` of a symmetric tensor in [`Sym3::PAIRS`].
-const PAIR: [[usize; 3]; 3] = {
+pub(super) const PAIR: [[usize; 3]; 3] = {
     let mut place = [[0; 3]; 3];
     let mut k = 0;
     while k < 6 {

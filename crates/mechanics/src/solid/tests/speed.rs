@@ -75,6 +75,8 @@ fn hexahedra_assembled_per_second() {
         struct Nothing;
         impl Sink for Nothing {
             fn add(&mut self, _: &[Dof], _: &[f64], _: &[f64]) {}
+
+            fn add_symmetric(&mut self, _: &[Dof], _: &[f64], _: &[f64], _: usize) {}
         }
         let mut work = Work::default();
         let alone = best_of(40, || {
