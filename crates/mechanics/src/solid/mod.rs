@@ -55,6 +55,13 @@
 //! A point may have a stress `S_0` and a strain `E_0` that leaves no stress, [`AtStart`]: `S = S(E − E_0) + S_0`, with
 //! the energy `W(E − E_0) + S_0 : E`. Both stay what they are; they are not in equilibrium by themselves.
 //!
+//! # Several at once
+//!
+//! Cells without a remedy are evaluated as many at a time as the vector registers of the processor have lanes,
+//! [`kernel`]`::batch`: the material by its constants where it is isotropic and linear, (E17), else cell by cell. What has
+//! no answer there is evaluated once more, one cell after the other, to say which cell it is and why. The last digits of a
+//! result differ among processors with registers of different width, not with the number of threads.
+//!
 //! # History
 //!
 //! The accepted history of every quadrature point lies here, and beside it the incompatible modes. Evaluation is pure:
@@ -67,6 +74,7 @@
 //! To add an element: its file in `geometry`, and one line in each of the [`kernel`]'s tables that has its dimension.
 //! Limits: quad4 and hex8 have no remedy in bending at finite strain; a material's history goes on unchanged where a step of small strain is followed by one of finite strain.
 
+mod at;
 mod choice;
 mod dense;
 mod kernel;

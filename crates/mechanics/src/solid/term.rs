@@ -1,3 +1,4 @@
+use super::at::At;
 use super::choice::{Situation, keeps_volume};
 use super::kernel::{
     Batch, BatchKernel, Element, Failure, Initial, Kernel, Output, Points, Remedy, Results, Sample,
@@ -109,6 +110,8 @@ struct Cells {
     extrapolation: Vec<f64>,
     // numbers of history of a cell: those of its points, then its incompatible modes
     nhistory: usize,
+    // history of a cell of the undeformed material
+    undeformed: Vec<f64>,
     // accepted history of all cells
     history: Vec<f64>,
     // at the points of all cells; empty where there is nothing at the start
@@ -410,7 +413,7 @@ impl Solid {
     fn each(
         &self,
         chunk: usize,
-        trial: &State,
+        at: At<'_>,
         wanted: Wanted,
         scratch: &mut Scratch,
         mut take: impl FnMut(&Cells, usize, f64, &Scratch),
@@ -427,12 +430,12 @@ impl Solid {
         for begin in (first..last).step_by(width) {
             let cells = begin..last.min(begin + width);
             let is_done =
-                batch.is_some_and(|b| self.batch(block, b, cells.clone(), trial, wanted, scratch));
+                batch.is_some_and(|b| self.batch(block, b, cells.clone(), at, wanted, scratch));
             for (lane, cell) in cells.enumerate() {
                 let energy = if is_done {
-                    self.pick(block, cell, trial, (lane, width), scratch)
+                    self.pick(block, cell, at, (lane, width), scratch)
                 } else {
-                    let energy = self.cell(block, cell, trial, wanted, scratch)?;
+                    let energy = self.cell(block, cell, at, wanted, scratch)?;
                     if is_symmetric {
                         scratch.pack(block.nnode, self.layout.ndim);
                     }
@@ -450,7 +453,7 @@ impl Solid {
         block: &Cells,
         kernel: BatchKernel,
         cells: Range<usize>,
-        trial: &State,
+        at: At<'_>,
         wanted: Wanted,
         scratch: &mut Scratch,
     ) -> bool {
@@ -477,23 +480,23 @@ impl Solid {
             let nodes = block.nodes_of(cell_of(lane));
             for (k, &node) in nodes.iter().enumerate() {
                 let x = self.reference[node as usize].to_array();
-                for axis in 0..self.layout.ndim {
-                    let at = (k * self.layout.ndim + axis) * width + lane;
-                    lanes.x[at] = x[axis];
-                    lanes.u[at] = trial.u[self.layout.node(node, axis) as usize];
+                for (axis, x) in x.into_iter().enumerate().take(self.layout.ndim) {
+                    let place = (k * self.layout.ndim + axis) * width + lane;
+                    lanes.x[place] = x;
+                    lanes.u[place] = at.displacement(self.layout.node(node, axis));
                 }
             }
-            self.heat(nodes, trial, temperature, temperature_at_start);
+            self.heat(nodes, at, temperature, temperature_at_start);
         }
         let of_lane = |values: &'_ [f64], lane: usize| -> Range<usize> {
-            let at = lane * block.nnode..(lane + 1) * block.nnode;
-            if values.is_empty() { 0..0 } else { at }
+            let range = lane * block.nnode..(lane + 1) * block.nnode;
+            if values.is_empty() { 0..0 } else { range }
         };
         let (temperature, temperature_at_start) = (&temperature[..], &temperature_at_start[..]);
         let cell = |lane: usize| Element {
             temperature: &temperature[of_lane(temperature, lane)],
             temperature_at_start: &temperature_at_start[of_lane(temperature_at_start, lane)],
-            ..self.element(block, cell_of(lane))
+            ..self.element(block, cell_of(lane), at)
         };
         let batch = Batch {
             reference: &block.points,
@@ -519,11 +522,11 @@ impl Solid {
         &self,
         block: &Cells,
         cell: usize,
-        trial: &State,
+        at: At<'_>,
         (lane, width): (usize, usize),
         scratch: &mut Scratch,
     ) -> f64 {
-        self.locate(block, cell, trial, scratch);
+        self.locate(block, cell, at, scratch);
         let of_lane = |to: &mut [f64], from: &[f64]| {
             for (to, from) in to.iter_mut().zip(from.iter().skip(lane).step_by(width)) {
                 *to = *from;
@@ -535,29 +538,29 @@ impl Solid {
     }
 
     /// Where a cell is, and where its nodes go.
-    fn locate(&self, block: &Cells, cell: usize, trial: &State, scratch: &mut Scratch) {
+    fn locate(&self, block: &Cells, cell: usize, at: At<'_>, scratch: &mut Scratch) {
         scratch.u.clear();
         scratch.dofs.clear();
         for &node in block.nodes_of(cell) {
             for axis in 0..self.layout.ndim {
                 let dof = self.layout.node(node, axis);
                 scratch.dofs.push(dof);
-                scratch.u.push(trial.u[dof as usize]);
+                scratch.u.push(at.displacement(dof));
             }
         }
     }
 
     /// Adds the temperatures of nodes, where there are any.
-    fn heat(&self, nodes: &[NodeId], trial: &State, now: &mut Vec<f64>, at_start: &mut Vec<f64>) {
+    fn heat(&self, nodes: &[NodeId], at: At<'_>, now: &mut Vec<f64>, at_start: &mut Vec<f64>) {
         if let Some(field) = &self.temperature {
-            let at = |&node: &NodeId| field.at(&self.step, trial.time, node);
-            now.extend(nodes.iter().map(at));
+            let present = nodes.iter();
+            now.extend(present.map(|&node| at.temperature(field, &self.step, node)));
             at_start.extend(nodes.iter().map(|&node| field.at_start(node)));
         }
     }
 
     /// A cell without places and temperatures.
-    fn element<'a>(&'a self, block: &'a Cells, cell: usize) -> Element<'a> {
+    fn element<'a>(&'a self, block: &'a Cells, cell: usize, at: At<'_>) -> Element<'a> {
         Element {
             reference: &block.points,
             x: &[],
@@ -568,7 +571,10 @@ impl Solid {
             temperature: &[],
             temperature_at_start: &[],
             ndilatation: block.ndilatation,
-            old: &block.history[cell * block.nhistory..(cell + 1) * block.nhistory],
+            old: match at {
+                At::Trial(_) => &block.history[cell * block.nhistory..(cell + 1) * block.nhistory],
+                At::Start => &block.undeformed,
+            },
             initial: block.initial_of(cell),
         }
     }
@@ -578,25 +584,25 @@ impl Solid {
         &self,
         block: &Cells,
         cell: usize,
-        trial: &State,
+        at: At<'_>,
         wanted: Wanted,
         scratch: &mut Scratch,
     ) -> Result<f64, TermError> {
         let nodes = block.nodes_of(cell);
-        self.locate(block, cell, trial, scratch);
+        self.locate(block, cell, at, scratch);
         scratch.x.clear();
         let places = nodes.iter().map(|&node| self.reference[node as usize]);
         scratch.x.extend(places);
         scratch.temperature.clear();
         scratch.temperature_at_start.clear();
         let (now, at_start) = (&mut scratch.temperature, &mut scratch.temperature_at_start);
-        self.heat(nodes, trial, now, at_start);
+        self.heat(nodes, at, now, at_start);
         let element = Element {
             x: &scratch.x,
             u: &scratch.u,
             temperature: &scratch.temperature,
             temperature_at_start: &scratch.temperature_at_start,
-            ..self.element(block, cell)
+            ..self.element(block, cell, at)
         };
         let mut out = Output {
             force: &mut scratch.force,
@@ -683,6 +689,7 @@ impl Cells {
             ids: Vec::new(),
             rigidity: Vec::new(),
             nhistory: rule.npoint() * nhistory + modes,
+            undeformed: Vec::new(),
             history: Vec::new(),
             initial: Vec::new(),
         })
@@ -711,15 +718,13 @@ impl Cells {
     /// Gives every cell the history of the undeformed material.
     fn start(&mut self, material: &dyn Material) {
         let n = material.nhistory();
-        self.history = vec![0.0; self.labels.len() * self.nhistory];
-        if n == 0 || self.nhistory == 0 {
-            return;
-        }
-        let of_points = self.points.rule.npoint() * n;
-        for cell in self.history.chunks_exact_mut(self.nhistory) {
-            let points = cell[..of_points].chunks_exact_mut(n);
+        self.undeformed = vec![0.0; self.nhistory];
+        if n > 0 {
+            let of_points = self.points.rule.npoint() * n;
+            let points = self.undeformed[..of_points].chunks_exact_mut(n);
             points.for_each(|point| material.start(point));
         }
+        self.history = self.undeformed.repeat(self.labels.len());
     }
 
     /// Gives its points what they have at the start.
@@ -885,16 +890,40 @@ impl Term for Solid {
         };
         let scratch = work.of::<Scratch>();
         let is_symmetric = self.material().is_symmetric();
-        self.each(chunk, trial, wanted, scratch, |block, cell, _, s| {
+        self.each(
+            chunk,
+            At::Trial(trial),
+            wanted,
+            scratch,
+            |block, cell, _, s| {
+                if is_symmetric {
+                    out.add_symmetric(&s.dofs, &s.force, &s.blocks, self.layout.ndim);
+                } else {
+                    out.add(&s.dofs, &s.force, &s.stiffness);
+                }
+                // strains are sums of as many products as there are nodes
+                let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
+                let sum = block.rigidity[cell] * block.nnode as f64;
+                out.uncertain(&s.dofs, f64::EPSILON * sum * far);
+            },
+        )
+    }
+
+    fn stiffness_at_start(
+        &self,
+        chunk: usize,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let scratch = work.of::<Scratch>();
+        let is_symmetric = self.material().is_symmetric();
+        let wanted = Wanted::Stiffness;
+        self.each(chunk, At::Start, wanted, scratch, |_, _, _, s| {
             if is_symmetric {
                 out.add_symmetric(&s.dofs, &s.force, &s.blocks, self.layout.ndim);
             } else {
                 out.add(&s.dofs, &s.force, &s.stiffness);
             }
-            // strains are sums of as many products as there are nodes
-            let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
-            let sum = block.rigidity[cell] * block.nnode as f64;
-            out.uncertain(&s.dofs, f64::EPSILON * sum * far);
         })
     }
 
@@ -906,9 +935,15 @@ impl Term for Solid {
     ) -> Result<Option<f64>, TermError> {
         let mut total = 0.0;
         let scratch = work.of::<Scratch>();
-        self.each(chunk, trial, Wanted::Forces, scratch, |_, _, energy, _| {
-            total += energy;
-        })?;
+        self.each(
+            chunk,
+            At::Trial(trial),
+            Wanted::Forces,
+            scratch,
+            |_, _, energy, _| {
+                total += energy;
+            },
+        )?;
         Ok(Some(total))
     }
 
@@ -929,7 +964,7 @@ impl Term for Solid {
                     scratch
                         .new
                         .copy_from_slice(&block.history[cell * n..(cell + 1) * n]);
-                    self.cell(block, cell, state, Wanted::Forces, scratch)?;
+                    self.cell(block, cell, At::Trial(state), Wanted::Forces, scratch)?;
                     to.copy_from_slice(&scratch.new);
                 }
                 Ok(())
@@ -970,7 +1005,7 @@ impl Term for Solid {
                 if cells.binary_search(id).is_err() {
                     continue;
                 }
-                self.cell(block, cell, state, Wanted::Samples, &mut scratch)?;
+                self.cell(block, cell, At::Trial(state), Wanted::Samples, &mut scratch)?;
                 let of_point = |s: &Sample| PointSample {
                     stress: s.stress,
                     strain: s.seen,
@@ -996,9 +1031,15 @@ impl Term for Solid {
         for wave in chunks.chunks(SAMPLED) {
             let sample = |scratch: &mut Scratch, &chunk: &usize| {
                 let mut samples = Vec::new();
-                self.each(chunk, state, Wanted::Samples, scratch, |_, _, _, s| {
-                    samples.extend_from_slice(&s.samples);
-                })?;
+                self.each(
+                    chunk,
+                    At::Trial(state),
+                    Wanted::Samples,
+                    scratch,
+                    |_, _, _, s| {
+                        samples.extend_from_slice(&s.samples);
+                    },
+                )?;
                 Ok(samples)
             };
             let sampled = wave.par_iter().map_init(Scratch::default, sample);

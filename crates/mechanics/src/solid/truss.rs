@@ -3,14 +3,15 @@
 //! With the unit tangent `t` at the start, the length `s` along it and `h = du/ds`,
 //!
 //! ```text
-//! E = t·h + ½ h·h,  l² = 1 + 2E                     Green's strain along the bar; `t·h` alone at small strain  (E13)
-//! f_I  = Σ w A S N_I,s (t + h)                                                                              (E14)
-//! K_IJ = Σ w A N_I,s N_J,s (C (t + h)(t + h)ᵀ + S I)  `t` for `t + h` and no `S` at small strain             (E15)
+//! E = t·h + ½ h·h,  l² = 1 + 2E                     Green's strain along the bar; `t·h` alone at small strain  (E14)
+//! f_I  = Σ w A S N_I,s (t + h)                                                                              (E15)
+//! K_IJ = Σ w A N_I,s N_J,s (C (t + h)(t + h)ᵀ + S I)  `t` for `t + h` and no `S` at small strain             (E16)
 //! ```
 //!
 //! The law answers uniaxial stress. Source: Crisfield 1991, section 3.3.
 
 use super::SolidError;
+use super::at::At;
 use super::report;
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
 use crate::system::{
@@ -39,6 +40,8 @@ pub struct Truss {
     temperature: Option<Arc<NodalField>>,
     step: StepContext,
     bars: Vec<Bar>,
+    // history of a point of the undeformed material
+    undeformed: Vec<f64>,
     // accepted history of all points, bar by bar
     history: Vec<f64>,
 }
@@ -135,10 +138,11 @@ impl Truss {
             temperature,
             step: StepContext::default(),
             bars: Vec::new(),
+            undeformed: vec![0.0; material.nhistory()],
             history: Vec::new(),
             material: Box::new(material),
         };
-        let nhistory = truss.material.nhistory();
+        truss.material.start(&mut truss.undeformed);
         for &id in cells {
             let (Some(element), Some(label)) = (mesh.element(id), mesh.cell_label(id)) else {
                 continue;
@@ -169,9 +173,7 @@ impl Truss {
             }
             truss.bars.push(bar);
             for _ in 0..npoint {
-                let first = truss.history.len();
-                truss.history.resize(first + nhistory, 0.0);
-                truss.material.start(&mut truss.history[first..]);
+                truss.history.extend_from_slice(&truss.undeformed);
             }
         }
         Ok(truss)
@@ -190,14 +192,14 @@ impl Truss {
         Some((dn.map(|d| d.x), unit, along.norm()))
     }
 
-    /// (E13).
-    fn point(&self, bar: &Bar, point: usize, trial: &State) -> Option<Point> {
+    /// (E14).
+    fn point(&self, bar: &Bar, point: usize, at: At<'_>) -> Option<Point> {
         let (dn, unit, length) = self.tangent(bar, point)?;
         let slope = dn.map(|d| d / length);
         let mut h = Vec3::ZERO;
         for (&node, slope) in bar.nodes.iter().zip(slope) {
             for axis in 0..self.layout.ndim {
-                h[axis] += slope * trial.u[self.layout.node(node, axis) as usize];
+                h[axis] += slope * at.displacement(self.layout.node(node, axis));
             }
         }
         let finite = self.kinematics == Kinematics::Finite;
@@ -211,7 +213,7 @@ impl Truss {
     }
 
     /// The temperatures at a point: that of the present, and that at the start.
-    fn temperature(&self, bar: &Bar, point: usize, time: f64) -> [f64; 2] {
+    fn temperature(&self, bar: &Bar, point: usize, at: At<'_>) -> [f64; 2] {
         let Some(field) = &self.temperature else {
             return [0.0; 2];
         };
@@ -219,7 +221,7 @@ impl Truss {
         let n = bar.nodes.len();
         bar.element
             .shape(&bar.element.full_rule().points[point], &mut shape[..n]);
-        let now = |(&node, n): (&NodeId, f64)| n * field.at(&self.step, time, node);
+        let now = |(&node, n): (&NodeId, f64)| n * at.temperature(field, &self.step, node);
         let start = |(&node, n): (&NodeId, f64)| n * field.at_start(node);
         let nodes = || bar.nodes.iter().zip(shape);
         [nodes().map(now).sum(), nodes().map(start).sum()]
@@ -229,7 +231,7 @@ impl Truss {
     fn points(
         &self,
         bar: &Bar,
-        trial: &State,
+        at: At<'_>,
         order: MaterialOrder,
         new: &mut Vec<f64>,
         mut take: impl FnMut(&Point, &Response, &[f64]),
@@ -244,15 +246,18 @@ impl Truss {
                 element: bar.label,
                 ratio: 0.0,
             };
-            let point = self.point(bar, p, trial).ok_or_else(inverted)?;
-            let [temperature, temperature_at_start] = self.temperature(bar, p, trial.time);
+            let point = self.point(bar, p, at).ok_or_else(inverted)?;
+            let [temperature, temperature_at_start] = self.temperature(bar, p, at);
             let strain = Strain {
                 kinematics: self.kinematics,
                 value: Sym3::diagonal(point.strain, 0.0, 0.0),
                 temperature,
                 temperature_at_start,
             };
-            let old = &self.history[bar.history + p * nhistory..][..nhistory];
+            let old = match at {
+                At::Trial(_) => &self.history[bar.history + p * nhistory..][..nhistory],
+                At::Start => &self.undeformed,
+            };
             let new = &mut new[p * nhistory..][..nhistory];
             let answer = self
                 .material
@@ -267,11 +272,11 @@ impl Truss {
         Ok(())
     }
 
-    /// (E14), (E15).
+    /// (E15), (E16).
     fn local(
         &self,
         bar: &Bar,
-        trial: &State,
+        at: At<'_>,
         order: MaterialOrder,
         new: &mut Vec<f64>,
     ) -> Result<Local, TermError> {
@@ -283,7 +288,7 @@ impl Truss {
             stiffness: [0.0; MOST * MOST],
             energy: 0.0,
         };
-        self.points(bar, trial, order, new, |point, response, _| {
+        self.points(bar, at, order, new, |point, response, _| {
             let volume = point.weight * self.area;
             let stress = response.stress.xx();
             let modulus = response.tangent[0][0];
@@ -310,6 +315,36 @@ impl Truss {
             });
         }
         Ok(out)
+    }
+
+    /// Adds forces of one chunk, and stiffness where it is wanted.
+    fn add(
+        &self,
+        chunk: usize,
+        at: At<'_>,
+        order: Order,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let scratch = work.of::<Scratch>();
+        let (order, stiff) = match order {
+            Order::Residual => (MaterialOrder::Stress, 0),
+            Order::Tangent => (MaterialOrder::Tangent, 1),
+        };
+        for bar in self.chunk(chunk) {
+            let local = self.local(bar, at, order, &mut scratch.new)?;
+            let layout = &self.layout;
+            let of_node = |&node: &NodeId| (0..layout.ndim).map(move |c| layout.node(node, c));
+            scratch.dofs.clear();
+            scratch.dofs.extend(bar.nodes.iter().flat_map(of_node));
+            let n = scratch.dofs.len();
+            out.add(
+                &scratch.dofs,
+                &local.force[..n],
+                &local.stiffness[..stiff * n * n],
+            );
+        }
+        Ok(())
     }
 
     /// `σ t tᵀ`.
@@ -415,25 +450,16 @@ impl Term for Truss {
         work: &mut Work,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
-        let scratch = work.of::<Scratch>();
-        let (order, stiff) = match order {
-            Order::Residual => (MaterialOrder::Stress, 0),
-            Order::Tangent => (MaterialOrder::Tangent, 1),
-        };
-        for bar in self.chunk(chunk) {
-            let local = self.local(bar, trial, order, &mut scratch.new)?;
-            let layout = &self.layout;
-            let of_node = |&node: &NodeId| (0..layout.ndim).map(move |c| layout.node(node, c));
-            scratch.dofs.clear();
-            scratch.dofs.extend(bar.nodes.iter().flat_map(of_node));
-            let n = scratch.dofs.len();
-            out.add(
-                &scratch.dofs,
-                &local.force[..n],
-                &local.stiffness[..stiff * n * n],
-            );
-        }
-        Ok(())
+        self.add(chunk, At::Trial(trial), order, work, out)
+    }
+
+    fn stiffness_at_start(
+        &self,
+        chunk: usize,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        self.add(chunk, At::Start, Order::Tangent, work, out)
     }
 
     fn energy(
@@ -446,7 +472,9 @@ impl Term for Truss {
         let mut total = 0.0;
         for bar in self.chunk(chunk) {
             let order = MaterialOrder::Stress;
-            total += self.local(bar, trial, order, &mut scratch.new)?.energy;
+            total += self
+                .local(bar, At::Trial(trial), order, &mut scratch.new)?
+                .energy;
         }
         Ok(Some(total))
     }
@@ -455,7 +483,13 @@ impl Term for Truss {
         let mut next = Vec::with_capacity(self.history.len());
         let mut new = Vec::new();
         for bar in &self.bars {
-            self.points(bar, state, MaterialOrder::Stress, &mut new, |_, _, _| {})?;
+            self.points(
+                bar,
+                At::Trial(state),
+                MaterialOrder::Stress,
+                &mut new,
+                |_, _, _| {},
+            )?;
             next.extend_from_slice(&new);
         }
         self.history = next;
@@ -475,11 +509,17 @@ impl Term for Truss {
         let wanted = |bar: &&Bar| cells.binary_search(&bar.id).is_ok();
         for bar in self.bars.iter().filter(wanted) {
             let order = MaterialOrder::Stress;
-            self.points(bar, state, order, &mut new, |point, response, history| {
-                let number = samples.len();
-                let temperature = self.temperature(bar, number, state.time);
-                samples.push(self.point_sample(point, response, history, temperature));
-            })?;
+            self.points(
+                bar,
+                At::Trial(state),
+                order,
+                &mut new,
+                |point, response, history| {
+                    let number = samples.len();
+                    let temperature = self.temperature(bar, number, At::Trial(state));
+                    samples.push(self.point_sample(point, response, history, temperature));
+                },
+            )?;
             out.push(bar.id, bar.element.full_rule(), samples.drain(..));
         }
         Ok(())
@@ -492,14 +532,20 @@ impl Term for Truss {
         for bar in &self.bars {
             let mut mean = report::CellMeans::default();
             let order = MaterialOrder::Stress;
-            self.points(bar, state, order, &mut new, |point, response, history| {
-                let strain = match finite {
-                    true => dyad(point.along) * (0.5 * (2.0 * point.strain).ln_1p()),
-                    false => dyad(point.along) * point.strain,
-                };
-                let plastic = self.material.plastic_strain(history);
-                mean.add(point.weight, self.stress(point, response), strain, plastic);
-            })?;
+            self.points(
+                bar,
+                At::Trial(state),
+                order,
+                &mut new,
+                |point, response, history| {
+                    let strain = match finite {
+                        true => dyad(point.along) * (0.5 * (2.0 * point.strain).ln_1p()),
+                        false => dyad(point.along) * point.strain,
+                    };
+                    let plastic = self.material.plastic_strain(history);
+                    mean.add(point.weight, self.stress(point, response), strain, plastic);
+                },
+            )?;
             mean.put(frame, bar.id);
         }
         Ok(())

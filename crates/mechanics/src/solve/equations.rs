@@ -90,6 +90,16 @@ impl Equations {
         self.solver.forget();
     }
 
+    /// Whether the solver asks for the stiffness of the bodies at the start of the run.
+    pub fn wants_start(&self, step: usize) -> bool {
+        self.solver.wants_start(step)
+    }
+
+    /// Tells the solver of it.
+    pub fn start_from(&mut self, step: usize, bulk: Vec<f64>) {
+        self.solver.start_from(step, bulk);
+    }
+
     /// Numbers the unknowns and does the symbolic work.
     pub fn analyze(
         &mut self,

@@ -433,6 +433,16 @@ impl Newton {
             } else {
                 Accuracy::Residual(EXACT)
             };
+            if !self.assembler.is_constant() && self.equations.wants_start(place.step) {
+                let (layout, elimination) = (&system.layout, &system.elimination);
+                let bulk = self.assembler.bulk_at_start(
+                    layout,
+                    elimination,
+                    &system.terms,
+                    &self.trial,
+                )?;
+                self.equations.start_from(place.step, bulk);
+            }
             let left = self.solve_linear(motion, nearly, accuracy)?;
             economy.solved(judgement.residual, left);
             decrement = self.slope().abs().sqrt();

@@ -358,7 +358,7 @@ impl Assembler {
             increment,
             ..
         } = self;
-        let system = Setting {
+        let setting = Setting {
             layout,
             elimination,
             trial,
@@ -366,46 +366,17 @@ impl Assembler {
             interface,
             order,
         };
-        let evaluate = |(slot, task): (&mut Slot, &mut Task)| {
-            let Slot {
-                buffer,
-                work,
-                failure,
-                ..
-            } = slot;
-            buffer.clear();
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
             let term = &terms[task.term];
-            let outcome = term.evaluate(task.chunk, trial, order_of(task), work, buffer);
-            *failure = outcome.err();
-            let mut dofs = buffer.dofs.iter();
-            buffer.has_dependent = dofs.any(|&dof| elimination.depends(dof, layout));
-            if task.part == Part::Bulk && task.positions.is_empty() {
-                system.find(buffer, &mut task.positions);
-            }
+            term.evaluate(task.chunk, trial, order_of(task), work, buffer)
         };
         let of_bulk = if is_kept { Order::Residual } else { order };
-        let mut rest = tasks.as_mut_slice();
-        while let Some(first) = rest.first() {
-            let part = first.part;
-            let size = if part == Part::Bulk {
-                wave(of_bulk)
-            } else {
-                wave(order)
-            };
-            let same = rest.iter().position(|task| task.part != part);
-            let size = size.min(slots.len()).min(same.unwrap_or(rest.len()));
-            let (tasks, others) = rest.split_at_mut(size);
-            rest = others;
-            let slots = &mut slots[..size];
-            match tasks {
-                [task] => slots.iter_mut().for_each(|slot| evaluate((slot, task))),
-                _ => slots.par_iter_mut().zip(&mut *tasks).for_each(evaluate),
-            }
-            if let Some(failure) = slots.iter_mut().find_map(|slot| slot.failure.take()) {
-                return Err(failure);
-            }
-            stays &= system.add(slots, tasks, expanded, out);
-        }
+        let (of_bulk, of_interface) = (wave(of_bulk), wave(order));
+        let size = |part: Part| match part {
+            Part::Bulk => of_bulk,
+            Part::Interface => of_interface,
+        };
+        stays &= setting.run(evaluate, size, tasks, slots, expanded, out)?;
         if stays {
             out.bulk_of = Some(*increment);
         }
@@ -416,6 +387,54 @@ impl Assembler {
             *magnitude = 0.0;
         }
         Ok(())
+    }
+
+    /// Whether the stiffness of the bulk is the same at all states of the increment.
+    #[must_use]
+    pub const fn is_constant(&self) -> bool {
+        self.is_constant
+    }
+
+    /// The values of the bulk at the start of a run: undeformed, without history.
+    ///
+    /// # Errors
+    /// The first failure in the order of terms and chunks.
+    pub fn bulk_at_start(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        state: &State,
+    ) -> Result<Vec<f64>, TermError> {
+        let mut out = Assembly::default();
+        for values in [&mut out.residual, &mut out.magnitude, &mut out.uncertainty] {
+            reset(values, layout.ndof());
+        }
+        reset(&mut out.bulk, self.bulk.nvalue());
+        reset(&mut out.interface, self.interface.nentry());
+        let Self {
+            tasks,
+            bulk,
+            interface,
+            slots,
+            expanded,
+            ..
+        } = self;
+        let setting = Setting {
+            layout,
+            elimination,
+            trial: state,
+            bulk,
+            interface,
+            order: Order::Tangent,
+        };
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| match task.part {
+            Part::Bulk => terms[task.term].stiffness_at_start(task.chunk, work, buffer),
+            Part::Interface => Ok(()),
+        };
+        let size = wave(Order::Tangent);
+        setting.run(evaluate, |_| size, tasks, slots, expanded, &mut out)?;
+        Ok(out.bulk)
     }
 
     /// The potential energy at a trial state, where every term has one.
@@ -469,6 +488,53 @@ struct Setting<'a> {
 }
 
 impl Setting<'_> {
+    /// Evaluates chunks wave by wave, each of chunks of the same part, and adds them; false where stiffness of the bulk
+    /// went into the interface.
+    fn run(
+        self,
+        evaluate: impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync,
+        size: impl Fn(Part) -> usize,
+        tasks: &mut [Task],
+        slots: &mut [Slot],
+        expanded: &mut Expanded,
+        out: &mut Assembly,
+    ) -> Result<bool, TermError> {
+        let one = |(slot, task): (&mut Slot, &mut Task)| {
+            let Slot {
+                buffer,
+                work,
+                failure,
+                ..
+            } = slot;
+            buffer.clear();
+            *failure = evaluate(task, work, buffer).err();
+            let mut dofs = buffer.dofs.iter();
+            buffer.has_dependent = dofs.any(|&dof| self.elimination.depends(dof, self.layout));
+            if task.part == Part::Bulk && task.positions.is_empty() {
+                self.find(buffer, &mut task.positions);
+            }
+        };
+        let mut is_apart = true;
+        let mut rest = tasks;
+        while let Some(first) = rest.first() {
+            let part = first.part;
+            let same = rest.iter().position(|task| task.part != part);
+            let size = size(part).min(slots.len()).min(same.unwrap_or(rest.len()));
+            let (tasks, others) = rest.split_at_mut(size);
+            rest = others;
+            let slots = &mut slots[..size];
+            match tasks {
+                [task] => slots.iter_mut().for_each(|slot| one((slot, task))),
+                _ => slots.par_iter_mut().zip(&mut *tasks).for_each(one),
+            }
+            if let Some(failure) = slots.iter_mut().find_map(|slot| slot.failure.take()) {
+                return Err(failure);
+            }
+            is_apart &= self.add(slots, tasks, expanded, out);
+        }
+        Ok(is_apart)
+    }
+
     /// Adds chunks, one after the other at every entry; false where stiffness of the bulk went into the interface.
     ///
     /// Where no unknown follows others, threads share the rows among themselves, each with about as many nodes of what

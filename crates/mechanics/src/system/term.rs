@@ -287,6 +287,20 @@ pub trait Term: Send + Sync {
         out: &mut dyn Sink,
     ) -> Result<(), TermError>;
 
+    /// Adds the stiffness of one chunk as it is at the start of a run, undeformed and without history, with no forces: what
+    /// a hierarchy of levels may be made of, whatever has happened since. Asked of the bulk alone.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`].
+    fn stiffness_at_start(
+        &self,
+        _chunk: usize,
+        _work: &mut Work,
+        _out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        Ok(())
+    }
+
     /// The potential energy of one chunk, where the term has one: its forces are the gradient.
     ///
     /// # Errors

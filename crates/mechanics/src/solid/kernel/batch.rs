@@ -3,7 +3,7 @@
 //! Only what is symmetric, in space. A law that is isotropic and linear in the strain is evaluated in lanes too, with
 //!
 //! ```text
-//! A_iakb = λ F_ia F_kb + μ (F_ib F_ka + δ_ab F_ic F_kc) + δ_ik S_ab                              (E14)
+//! A_iakb = λ F_ia F_kb + μ (F_ib F_ka + δ_ab F_ic F_kc) + δ_ik S_ab                              (E17)
 //! ```
 //!
 //! which is (E2) with `C_rasb = λ δ_ra δ_sb + μ (δ_rs δ_ab + δ_rb δ_as)`; any other law cell by cell.
@@ -164,6 +164,8 @@ impl<const NN: usize> WithSimd for Evaluation<'_, '_, '_, NN> {
     }
 }
 
+type Gradient<S, const NN: usize> = [[Lanes<S>; 3]; NN];
+
 /// Gradients of the shape functions at a point, and the volume that belongs to it; nothing where the map from the
 /// reference element has no positive determinant.
 #[inline(always)]
@@ -172,7 +174,7 @@ fn place<S: Simd, const NN: usize>(
     batch: &Batch<'_>,
     point: usize,
     x: &[[S::f64s; 3]],
-) -> Option<([[Lanes<S>; 3]; NN], Lanes<S>)> {
+) -> Option<(Gradient<S, NN>, Lanes<S>)> {
     let zero = Lanes::splat(simd, 0.0);
     let slopes = batch.reference.dshape(point);
     let mut map = [[zero; 3]; 3];
@@ -335,7 +337,7 @@ fn moduli<S: Simd>(f: &[[Lanes<S>; 3]; 3], tangent: &[[Lanes<S>; 6]; 6]) -> Modu
     out
 }
 
-/// (E14) without the stress.
+/// (E17) without the stress.
 #[inline(always)]
 fn isotropic<S: Simd>(simd: S, lame: Lame, f: &[[Lanes<S>; 3]; 3]) -> Moduli<S> {
     let (lambda, mu) = (Lanes::splat(simd, lame.lambda), Lanes::splat(simd, lame.mu));
@@ -364,7 +366,7 @@ fn isotropic<S: Simd>(simd: S, lame: Lame, f: &[[Lanes<S>; 3]; 3]) -> Moduli<S> 
 #[inline(always)]
 fn add_stiffness<S: Simd, const NN: usize>(
     simd: S,
-    gradient: &[[Lanes<S>; 3]; NN],
+    gradient: &Gradient<S, NN>,
     moduli: &Moduli<S>,
     blocks: &mut [[S::f64s; 9]],
 ) {

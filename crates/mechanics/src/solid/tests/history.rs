@@ -52,6 +52,52 @@ fn history_moves_on_when_accepted_and_comes_back_from_an_archive() {
 }
 
 #[test]
+fn stiffness_at_the_start_is_that_of_a_body_to_which_nothing_has_happened() {
+    let space = Idealisation::PlaneStrain { thickness: 1.0 };
+    for (element, space, locking, kinematics) in [
+        ("quad4", space, Locking::Incompatible, Kinematics::Small),
+        ("tri6", space, Locking::FBar, Kinematics::Finite),
+        (
+            "hex8",
+            Idealisation::Space,
+            Locking::None,
+            Kinematics::Finite,
+        ),
+        (
+            "tet10",
+            Idealisation::Space,
+            Locking::BBar,
+            Kinematics::Small,
+        ),
+    ] {
+        for law in [
+            || Box::new(Viscous) as Box<dyn Material>,
+            derivatives::plastic,
+        ] {
+            let mesh = one(element::by_name(element).unwrap(), space);
+            let wish = Wish {
+                locking,
+                ..Wish::plain(space, kinematics)
+            };
+            let mut body = body(&mesh, law(), &wish).unwrap();
+            let n = body.layout.ndof();
+            let mut work = Work::default();
+            let fresh = body.assemble(&vec![0.0; n], Order::Tangent, &mut work);
+            let u: Vec<f64> = (0..n).map(|k| 0.03 * noise(k)).collect();
+            let state = body.state(&u);
+            body.solid.accept(&state).unwrap();
+            let mut found = Dense {
+                force: vec![0.0; n],
+                stiffness: vec![0.0; n * n],
+            };
+            let outcome = body.solid.stiffness_at_start(0, &mut work, &mut found);
+            outcome.unwrap();
+            assert!(found.stiffness == fresh.stiffness, "{element} {locking}");
+        }
+    }
+}
+
+#[test]
 fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
     struct Warm;
     impl Material for Warm {

@@ -1,4 +1,4 @@
-//! Elements against differences, patches, rigid motions; remedies, history, reports.
+//! Elements against differences, patches, rigid motions; several at once; remedies, history, reports.
 
 use super::*;
 use crate::material::{
@@ -14,6 +14,7 @@ use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
 
+mod batch;
 mod derivatives;
 mod history;
 mod locking;

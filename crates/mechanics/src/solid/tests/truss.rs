@@ -138,6 +138,12 @@ fn a_turned_and_stretched_bar_reports_force_over_present_area_along_itself() {
     );
     assert!((force - cauchy * 0.4 * b2).abs() < 1e-9 * force);
     assert!(stress.xx().abs() < 1e-12 && dense.force[3].abs() < 1e-12);
+    // E A / L along x, as it lay at first
+    truss
+        .stiffness_at_start(0, &mut Work::default(), &mut dense)
+        .unwrap();
+    assert!((dense.stiffness[0] - 500.0 * 0.4 / 2.0).abs() < 1e-9);
+    assert!(dense.stiffness[7] == 0.0);
     assert!((frame.cell_strain[0][0].yy() - 1.1f64.ln()).abs() < 1e-14);
     let mut samples = Samples::default();
     let cell = CellId { block: 0, index: 0 };

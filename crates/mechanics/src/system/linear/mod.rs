@@ -236,6 +236,14 @@ pub trait LinearSolver: Send {
     /// had it just been told of the pattern. A run that is resumed here repeats every bit.
     fn forget(&mut self) {}
 
+    /// Whether it asks for the stiffness of the bodies at the start of the run before the next values, in this step.
+    fn wants_start(&self, _step: usize) -> bool {
+        false
+    }
+
+    /// Takes the values of the bulk at the start of the run, undeformed and without history, as this step has them.
+    fn start_from(&mut self, _step: usize, _bulk: Vec<f64>) {}
+
     /// Solves `A x = rhs` until the true relative residual is at most `rtol`, or at the round-off of the operator.
     ///
     /// The values may be newer than those of the factor, which then serves as a preconditioner for a few refinements.

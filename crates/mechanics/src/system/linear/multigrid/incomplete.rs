@@ -1,7 +1,8 @@
 //! Incomplete factorization by blocks, without fill.
 
 use super::blocks::{Blocks, inverse};
-use super::packed::{Packed, Sums};
+use super::packed::Packed;
+use super::vectors::{Sums, Task, Vectors, dispatch};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -104,24 +105,23 @@ impl<const N: usize> Incomplete<N> {
         let pieces = self.pieces(interior);
         pieces
             .into_par_iter()
-            .for_each(|(rows, x)| self.forward(rows, x));
-        for row in last..last + between.len() {
-            let sums = self
-                .lower
-                .row(row, |column| match column.checked_sub(last) {
-                    Some(at) => &between[at],
-                    None => &interior[column],
-                });
-            self.reduce(row, &mut between[row - last], &sums);
-        }
-        for row in (last..last + between.len()).rev() {
-            let sums = self.above(row, |column| &between[column - last]);
-            self.settle(row, &mut between[row - last], &sums);
-        }
+            .for_each(|(rows, x)| dispatch(Forward { of: self, rows, x }));
+        dispatch(Between {
+            of: self,
+            last,
+            interior,
+            between,
+        });
         let (pieces, between) = (self.pieces(interior), &*between);
-        pieces
-            .into_par_iter()
-            .for_each(|(rows, x)| self.backward(rows, x, last, between));
+        pieces.into_par_iter().for_each(|(rows, x)| {
+            dispatch(Backward {
+                of: self,
+                rows,
+                x,
+                last,
+                between,
+            });
+        });
     }
 
     /// The part of a vector that belongs to each part.
@@ -135,29 +135,15 @@ impl<const N: usize> Incomplete<N> {
         pieces
     }
 
-    fn forward(&self, rows: Range<usize>, x: &mut [[f32; N]]) {
-        let first = rows.start;
-        for row in rows {
-            let sums = self.lower.row(row, |column| &x[column - first]);
-            self.reduce(row, &mut x[row - first], &sums);
-        }
-    }
-
-    fn backward(&self, rows: Range<usize>, x: &mut [[f32; N]], last: usize, between: &[[f32; N]]) {
-        let first = rows.start;
-        for row in rows.rev() {
-            let sums = self.above(row, |column| match column.checked_sub(last) {
-                Some(at) => &between[at],
-                None => &x[column - first],
-            });
-            self.settle(row, &mut x[row - first], &sums);
-        }
-    }
-
     /// `Lᵀ x` of one row.
     #[inline(always)]
-    fn above<'x>(&self, row: usize, x: impl Fn(usize) -> &'x [f32; N]) -> Sums {
-        self.upper.row(self.inverse.len() - 1 - row, x)
+    fn above<'x>(
+        &self,
+        vectors: impl Vectors,
+        row: usize,
+        x: impl Fn(usize) -> &'x [f32; N],
+    ) -> Sums {
+        self.upper.row(vectors, self.inverse.len() - 1 - row, x)
     }
 
     /// `x = D⁻¹ (x − sum)`
@@ -186,6 +172,88 @@ impl<const N: usize> Incomplete<N> {
             }
         }
         scaled
+    }
+}
+
+/// Forward substitution in one part.
+struct Forward<'a, const N: usize> {
+    of: &'a Incomplete<N>,
+    rows: Range<usize>,
+    x: &'a mut [[f32; N]],
+}
+
+impl<const N: usize> Task for Forward<'_, N> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self { of, rows, x } = self;
+        let first = rows.start;
+        for row in rows {
+            let sums = of.lower.row(vectors, row, |column| &x[column - first]);
+            of.reduce(row, &mut x[row - first], &sums);
+        }
+    }
+}
+
+/// Both substitutions in the rows between the parts.
+struct Between<'a, const N: usize> {
+    of: &'a Incomplete<N>,
+    last: usize,
+    interior: &'a [[f32; N]],
+    between: &'a mut [[f32; N]],
+}
+
+impl<const N: usize> Task for Between<'_, N> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self {
+            of,
+            last,
+            interior,
+            between,
+        } = self;
+        for row in last..last + between.len() {
+            let sums = of
+                .lower
+                .row(vectors, row, |column| match column.checked_sub(last) {
+                    Some(at) => &between[at],
+                    None => &interior[column],
+                });
+            of.reduce(row, &mut between[row - last], &sums);
+        }
+        for row in (last..last + between.len()).rev() {
+            let sums = of.above(vectors, row, |column| &between[column - last]);
+            of.settle(row, &mut between[row - last], &sums);
+        }
+    }
+}
+
+/// Backward substitution in one part.
+struct Backward<'a, const N: usize> {
+    of: &'a Incomplete<N>,
+    rows: Range<usize>,
+    x: &'a mut [[f32; N]],
+    last: usize,
+    between: &'a [[f32; N]],
+}
+
+impl<const N: usize> Task for Backward<'_, N> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self {
+            of,
+            rows,
+            x,
+            last,
+            between,
+        } = self;
+        let first = rows.start;
+        for row in rows.rev() {
+            let sums = of.above(vectors, row, |column| match column.checked_sub(last) {
+                Some(at) => &between[at],
+                None => &x[column - first],
+            });
+            of.settle(row, &mut x[row - first], &sums);
+        }
     }
 }
 

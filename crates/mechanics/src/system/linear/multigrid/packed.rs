@@ -1,16 +1,12 @@
 //! Sparse matrices of small blocks in single precision, laid out for products with vectors.
 
 use super::blocks::Blocks;
+use super::vectors::{FEW, LANES, Sums, Task, Vectors, dispatch};
 use rayon::prelude::*;
 use std::ops::Range;
-use wide::{f32x4, f32x8};
 
 /// Rows handled by one task; results do not depend on it.
 const ROWS_PER_TASK: usize = 1024;
-/// Numbers that are worked on together: as many as the rows of a block, or a few more, whose results are dropped.
-pub(super) const LANES: usize = 8;
-/// As many where blocks have few rows.
-const FEW: usize = 4;
 
 /// A matrix of blocks with `R` rows and `C` columns each, compressed by rows of blocks, a block column by column: what a
 /// column adds is added to all rows at once.
@@ -23,9 +19,6 @@ pub(super) struct Packed<const R: usize, const C: usize> {
     /// The blocks, and what is read beyond the last one.
     value: Vec<f32>,
 }
-
-/// The sums of the rows of a block, in their lanes.
-pub(super) type Sums = [f32; LANES];
 
 impl<const R: usize, const C: usize> Packed<R, C> {
     /// The same matrix in single precision.
@@ -114,56 +107,74 @@ impl<const R: usize, const C: usize> Packed<R, C> {
     /// `A x` of one row of blocks, where `x(column)` is the part of the vector that meets the block. Columns have sums of
     /// their own, which do not wait for one another.
     #[inline(always)]
-    pub fn row<'x>(&self, row: usize, x: impl Fn(usize) -> &'x [f32; C]) -> Sums {
+    pub fn row<'x, V: Vectors>(
+        &self,
+        vectors: V,
+        row: usize,
+        x: impl Fn(usize) -> &'x [f32; C],
+    ) -> Sums {
         let range = self.range(row);
         let values = &self.value[range.start * R * C..range.end * R * C + LANES];
-        let columns = self.column[range].iter().map(|&c| c as usize);
-        let blocks = columns.enumerate().map(|(k, column)| {
-            // as long as what is read of it
-            let block = &values[k * R * C..k * R * C + (C - 1) * R + Self::WIDTH];
-            (block, x(column))
-        });
-        let mut sums = Sums::default();
+        let columns = &self.column[range];
         if R <= FEW {
-            let mut by_column = [f32x4::ZERO; C];
-            for (block, x) in blocks {
-                for (c, (sum, &x)) in by_column.iter_mut().zip(x).enumerate() {
-                    if let Some(&column) = block[c * R..].first_chunk::<FEW>() {
-                        *sum += f32x4::new(column) * f32x4::splat(x);
+            let mut by_column = [vectors.four(&[0.0; FEW]); C];
+            for (k, &column) in columns.iter().enumerate() {
+                // as long as what is read of it
+                let block = &values[k * R * C..k * R * C + (C - 1) * R + FEW];
+                let x = x(column as usize);
+                for c in 0..C {
+                    if let Some(column) = block[c * R..].first_chunk() {
+                        by_column[c] = vectors.add_four(column, x[c], by_column[c]);
                     }
                 }
             }
-            let sum = by_column.into_iter().fold(f32x4::ZERO, |sum, c| sum + c);
-            sums[..FEW].copy_from_slice(&sum.to_array());
+            vectors.sum_of_four(&by_column)
         } else {
-            let mut by_column = [f32x8::ZERO; C];
-            for (block, x) in blocks {
-                for (c, (sum, &x)) in by_column.iter_mut().zip(x).enumerate() {
-                    if let Some(&column) = block[c * R..].first_chunk::<LANES>() {
-                        *sum += f32x8::new(column) * f32x8::splat(x);
+            let mut by_column = [vectors.eight(&[0.0; LANES]); C];
+            for (k, &column) in columns.iter().enumerate() {
+                let block = &values[k * R * C..k * R * C + (C - 1) * R + LANES];
+                let x = x(column as usize);
+                for c in 0..C {
+                    if let Some(column) = block[c * R..].first_chunk() {
+                        by_column[c] = vectors.add_eight(column, x[c], by_column[c]);
                     }
                 }
             }
-            let sum = by_column.into_iter().fold(f32x8::ZERO, |sum, c| sum + c);
-            sums = sum.to_array();
+            vectors.sum_of_eight(&by_column)
         }
-        sums
     }
-
-    /// Numbers that are read where a column of a block begins.
-    const WIDTH: usize = if R <= FEW { FEW } else { LANES };
 
     /// `to += A x`, or `to -= A x`.
     pub fn multiply<const SUBTRACT: bool>(&self, x: &[[f32; C]], to: &mut [[f32; R]]) {
         let tasks = to.par_chunks_mut(ROWS_PER_TASK).enumerate();
         tasks.for_each(|(task, to)| {
-            for (row, to) in (task * ROWS_PER_TASK..).zip(to) {
-                let sums = self.row(row, |column| &x[column]);
-                for (to, sum) in to.iter_mut().zip(sums) {
-                    *to += if SUBTRACT { -sum } else { sum };
-                }
-            }
+            dispatch(Product::<R, C, SUBTRACT> {
+                of: self,
+                first: task * ROWS_PER_TASK,
+                x,
+                to,
+            });
         });
+    }
+}
+
+/// Some rows of a product.
+struct Product<'a, const R: usize, const C: usize, const SUBTRACT: bool> {
+    of: &'a Packed<R, C>,
+    first: usize,
+    x: &'a [[f32; C]],
+    to: &'a mut [[f32; R]],
+}
+
+impl<const R: usize, const C: usize, const SUBTRACT: bool> Task for Product<'_, R, C, SUBTRACT> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        for (row, to) in (self.first..).zip(self.to) {
+            let sums = self.of.row(vectors, row, |column| &self.x[column]);
+            for (to, sum) in to.iter_mut().zip(sums) {
+                *to += if SUBTRACT { -sum } else { sum };
+            }
+        }
     }
 }
 

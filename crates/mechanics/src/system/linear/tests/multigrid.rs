@@ -4,6 +4,7 @@ use super::super::Multigrid;
 use super::*;
 
 /// A system of blocks with the places of its nodes.
+#[derive(Clone)]
 struct Placed {
     system: System,
     coordinates: Vec<[f64; 3]>,
@@ -279,29 +280,37 @@ fn count(placed: &Placed, rhs: impl Fn(&Assembled) -> Vec<f64>) -> usize {
     report.iterations
 }
 
+fn turned(by: [[f64; 3]; 3], x: &[f64]) -> [f64; 3] {
+    by.map(|row| row.iter().zip(x).map(|(r, x)| r * x).sum())
+}
+
+/// Turns the matrix of a cell.
+fn turn_matrix(matrix: &mut [f64], by: [[f64; 3]; 3]) {
+    let n = matrix.len().isqrt();
+    // rows, then columns
+    for column in 0..n {
+        for k in (0..n).step_by(3) {
+            let of = [0, 1, 2].map(|i| matrix[(k + i) * n + column]);
+            for (i, v) in turned(by, &of).into_iter().enumerate() {
+                matrix[(k + i) * n + column] = v;
+            }
+        }
+    }
+    for row in matrix.chunks_exact_mut(n) {
+        for part in row.chunks_exact_mut(3) {
+            let v = turned(by, part);
+            part.copy_from_slice(&v);
+        }
+    }
+}
+
 /// Turns a system whose held nodes are held altogether.
 fn turn(placed: &mut Placed, by: [[f64; 3]; 3]) {
-    let turned = |x: &[f64]| [0, 1, 2].map(|i| (0..3).map(|j| by[i][j] * x[j]).sum::<f64>());
     for x in &mut placed.coordinates {
-        *x = turned(x);
+        *x = turned(by, x);
     }
-    for (nodes, matrix) in &mut placed.system.bulk {
-        let n = 3 * nodes.len();
-        // rows, then columns
-        for column in 0..n {
-            for k in (0..n).step_by(3) {
-                let of = [0, 1, 2].map(|i| matrix[(k + i) * n + column]);
-                for (i, v) in turned(&of).into_iter().enumerate() {
-                    matrix[(k + i) * n + column] = v;
-                }
-            }
-        }
-        for row in matrix.chunks_exact_mut(n) {
-            for part in row.chunks_exact_mut(3) {
-                let v = turned(part);
-                part.copy_from_slice(&v);
-            }
-        }
+    for (_, matrix) in &mut placed.system.bulk {
+        turn_matrix(matrix, by);
     }
     // springs along what was the axis z
     let axis = [0, 1, 2].map(|i| by[i][2]);
@@ -448,6 +457,66 @@ fn hierarchies_outlive_contact_and_increments_but_not_the_bodies() {
     }
     assert_eq!(made(&stiffer, false), 0);
     assert_eq!(made(&stiffer, true), 1);
+}
+
+/// The same, but the upper block is turned about x by an angle.
+fn turned_above(placed: &Placed, angle: f64) -> Placed {
+    let (s, c) = angle.sin_cos();
+    let by = [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]];
+    let mut turned = placed.clone();
+    let upper = placed.coordinates.len() as u32 / 2;
+    for (nodes, matrix) in &mut turned.system.bulk {
+        if nodes[0] >= upper {
+            turn_matrix(matrix, by);
+        }
+    }
+    turned
+}
+
+/// Iterations and the solution in an increment of a run, where the solver is told of the stiffness at the start if it asks.
+fn solve_from(start: &Placed, now: &Placed, solver: &mut Multigrid) -> (usize, Vec<f64>) {
+    let assembled = now.system.assemble();
+    let rhs = Random(3).vector(assembled.nequation);
+    let mut x = vec![0.0; rhs.len()];
+    solver.forget();
+    solver.analyze(&now.problem(&assembled)).unwrap();
+    if solver.wants_start(0) {
+        let at_start = start.system.assemble();
+        solver.start_from(0, at_start.values().bulk.to_vec());
+    }
+    solver.factorize(&assembled.values()).unwrap();
+    let report = solver.solve(&assembled.values(), &rhs, &mut x, 1e-8);
+    assert!(solver.is_multigrid());
+    (report.unwrap().iterations, x)
+}
+
+#[test]
+fn a_hierarchy_of_the_start_serves_bodies_that_turn_a_little() {
+    let start = pressed([12, 12, 12], 10.0, false, false);
+    let mut solver = Multigrid::new();
+    solve_from(&start, &start, &mut solver);
+    assert_eq!(solver.notes().len(), 1);
+    let turns = [
+        (0.05, true, 0),
+        (0.2, true, 0),
+        (0.5, false, 1),
+        (0.6, false, 1),
+        (0.1, true, 1),
+        (0.0, true, 0),
+    ];
+    for (angle, is_of_start, made) in turns {
+        let now = turned_above(&start, angle);
+        let (count, x) = solve_from(&start, &now, &mut solver);
+        let (new, _) = solve_from(&now, &now, &mut Multigrid::new());
+        println!("turned by {angle}: {count} iterations, {new} with a hierarchy of its own");
+        assert!(count as f64 <= 1.35 * new as f64, "{angle}: {count} {new}");
+        assert_eq!(solver.is_of_start(), is_of_start, "{angle}");
+        assert_eq!(solver.notes().len(), made, "{angle}");
+        // a run that goes on from here knows nothing but the start
+        let mut resumed = Multigrid::new();
+        let (_, again) = solve_from(&start, &now, &mut resumed);
+        assert!(x == again, "{angle}");
+    }
 }
 
 #[test]

@@ -1,0 +1,127 @@
+//! Several cells at once against one cell after the other.
+
+use super::derivatives::Viscous;
+use super::*;
+
+/// A law that is asked for what another answers, and hides of it what lets cells be worked on together.
+struct Hidden {
+    law: Box<dyn Material>,
+    is_symmetric: bool,
+}
+
+impl Material for Hidden {
+    fn nhistory(&self) -> usize {
+        self.law.nhistory()
+    }
+
+    fn start(&self, history: &mut [f64]) {
+        self.law.start(history);
+    }
+
+    fn respond(
+        &self,
+        strain: &Strain,
+        old: &[f64],
+        new: &mut [f64],
+        order: MaterialOrder,
+        out: &mut Response,
+    ) -> Result<(), MaterialError> {
+        self.law.respond(strain, old, new, order, out)
+    }
+
+    fn modulus(&self) -> f64 {
+        self.law.modulus()
+    }
+
+    fn is_symmetric(&self) -> bool {
+        self.is_symmetric
+    }
+}
+
+/// Distorted cells of one type, which share no node.
+fn cells(element: Element, count: usize) -> Mesh {
+    let mut mesh = Mesh::default();
+    let size = if element.nnode() > 8 { 0.05 } else { 0.1 };
+    for cell in 0..count {
+        let first = mesh.points.len();
+        for (i, xi) in element.nodes().iter().enumerate() {
+            let seed = 3 * (first + i);
+            let moved = Vec3::new(noise(seed), noise(seed + 1), noise(seed + 2));
+            mesh.points.push(*xi + moved * size);
+            mesh.node_labels.push((first + i) as u64 + 1);
+        }
+        let nodes: Vec<u32> = (first as u32..mesh.points.len() as u32).collect();
+        mesh.push_cell(element, &nodes, cell as u64 + 1);
+    }
+    mesh
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let pairs = a.iter().zip(b);
+    pairs.fold(0.0, |most, (a, b)| (a - b).abs().max(most))
+}
+
+#[test]
+fn cells_in_lanes_have_the_forces_stiffness_and_energy_of_cells_alone() {
+    type Make = fn() -> Box<dyn Material>;
+    let laws: [(&str, Make); 4] = [
+        ("linear", || elastic("linear-elastic", 0.3)),
+        ("hyperelastic", || elastic("neo-hookean", 0.4)),
+        ("plastic", derivatives::plastic),
+        ("with history", || Box::new(Viscous)),
+    ];
+    for element in SPACE.map(|name| element::by_name(name).unwrap()) {
+        // more than one register holds, and lanes that stay empty
+        let mesh = cells(element, 11);
+        for kinematics in [Kinematics::Small, Kinematics::Finite] {
+            for (law, make) in &laws {
+                let what = format!("{} {kinematics:?} {law}", element.name());
+                let wish = Wish::plain(Idealisation::Space, kinematics);
+                let of = |law| body(&mesh, law, &wish).unwrap();
+                let hide = |is_symmetric| {
+                    let law = make();
+                    of(Box::new(Hidden { law, is_symmetric }))
+                };
+                let alone = hide(false);
+                let u: Vec<f64> = (0..alone.layout.ndof()).map(|k| 0.02 * noise(k)).collect();
+                let mut work = Work::default();
+                let right = alone.assemble(&u, Order::Tangent, &mut work);
+                let energy = alone.energy(&u, &mut work);
+                let force = right.force.iter().fold(0.0f64, |most, f| most.max(f.abs()));
+                // as it is, and without constants of a linear law
+                for together in [of(make()), hide(true)] {
+                    let mut work = Work::default();
+                    let found = together.assemble(&u, Order::Tangent, &mut work);
+                    let off = largest_difference(&found.stiffness, &right.stiffness);
+                    assert!(
+                        off < 1e-13 * right.scale(),
+                        "{what}: stiffness off by {off:e}"
+                    );
+                    let off = largest_difference(&found.force, &right.force);
+                    assert!(off < 1e-12 * force, "{what}: force off by {off:e}");
+                    let residual = together.assemble(&u, Order::Residual, &mut work);
+                    assert_eq!(residual.force, found.force, "{what}");
+                    let off = (together.energy(&u, &mut work) - energy).abs();
+                    assert!(off < 1e-12 * energy, "{what}: energy off by {off:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn of_several_cells_the_one_that_is_turned_inside_out_is_named() {
+    let mesh = cells(element::by_name("hex8").unwrap(), 6);
+    let wish = Wish::plain(Idealisation::Space, Kinematics::Finite);
+    let body = body(&mesh, elastic("linear-elastic", 0.3), &wish).unwrap();
+    let mut u = vec![0.0; body.layout.ndof()];
+    for (node, x) in mesh.points.iter().enumerate().skip(4 * 8).take(8) {
+        u[3 * node + 2] = -2.0 * x.z;
+    }
+    let outcome = body.solid.energy(0, &body.state(&u), &mut Work::default());
+    assert!(matches!(
+        outcome,
+        Err(TermError::Inverted { element: 5, .. })
+    ));
+}

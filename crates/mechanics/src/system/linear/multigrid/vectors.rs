@@ -1,0 +1,194 @@
+//! Vector registers for blocks of a few rows, in single precision, as the processor has them.
+
+use pulp::{Scalar128b, Scalar256b, Simd};
+
+/// Numbers that are worked on together: as many as the rows of a block, or a few more, whose results are dropped.
+pub(super) const LANES: usize = 8;
+/// As many where blocks have few rows.
+pub(super) const FEW: usize = 4;
+
+/// The sums of the rows of a block, in their lanes.
+pub(super) type Sums = [f32; LANES];
+
+/// Registers of four and of eight numbers.
+pub(super) trait Vectors: Copy {
+    type Four: Copy;
+    type Eight: Copy;
+
+    fn four(self, values: &[f32; FEW]) -> Self::Four;
+    fn eight(self, values: &[f32; LANES]) -> Self::Eight;
+
+    /// `sum + factor values`
+    fn add_four(self, values: &[f32; FEW], factor: f32, sum: Self::Four) -> Self::Four;
+    fn add_eight(self, values: &[f32; LANES], factor: f32, sum: Self::Eight) -> Self::Eight;
+
+    /// What several registers add up to.
+    fn sum_of_four(self, all: &[Self::Four]) -> Sums;
+    fn sum_of_eight(self, all: &[Self::Eight]) -> Sums;
+}
+
+/// Work on such registers.
+pub(super) trait Task {
+    fn run<V: Vectors>(self, vectors: V);
+}
+
+/// Two sets of instructions of the same processor: one for four numbers, one for eight.
+#[derive(Clone, Copy)]
+struct Pair<F: Simd, E: Simd> {
+    four: F,
+    eight: E,
+}
+
+impl<F: Simd, E: Simd> Vectors for Pair<F, E> {
+    type Four = F::f32s;
+    type Eight = E::f32s;
+
+    #[inline(always)]
+    fn four(self, values: &[f32; FEW]) -> F::f32s {
+        load(self.four, values)
+    }
+
+    #[inline(always)]
+    fn eight(self, values: &[f32; LANES]) -> E::f32s {
+        load(self.eight, values)
+    }
+
+    #[inline(always)]
+    fn add_four(self, values: &[f32; FEW], factor: f32, sum: F::f32s) -> F::f32s {
+        let factor = self.four.splat_f32s(factor);
+        self.four
+            .mul_add_e_f32s(load(self.four, values), factor, sum)
+    }
+
+    #[inline(always)]
+    fn add_eight(self, values: &[f32; LANES], factor: f32, sum: E::f32s) -> E::f32s {
+        let factor = self.eight.splat_f32s(factor);
+        self.eight
+            .mul_add_e_f32s(load(self.eight, values), factor, sum)
+    }
+
+    #[inline(always)]
+    fn sum_of_four(self, all: &[F::f32s]) -> Sums {
+        sum(self.four, all)
+    }
+
+    #[inline(always)]
+    fn sum_of_eight(self, all: &[E::f32s]) -> Sums {
+        sum(self.eight, all)
+    }
+}
+
+/// The first numbers, as many as fit; zero where there are too few.
+#[inline(always)]
+fn load<S: Simd>(simd: S, values: &[f32]) -> S::f32s {
+    let all = S::as_simd_f32s(values).0.first();
+    all.copied().unwrap_or_else(|| simd.splat_f32s(0.0))
+}
+
+#[inline(always)]
+fn sum<S: Simd>(simd: S, all: &[S::f32s]) -> Sums {
+    let mut total = simd.splat_f32s(0.0);
+    for one in all {
+        total = simd.add_f32s(total, *one);
+    }
+    let mut sums = Sums::default();
+    if let Some(to) = S::as_mut_simd_f32s(&mut sums).0.first_mut() {
+        *to = total;
+    }
+    sums
+}
+
+/// Works with the registers of this processor.
+pub(super) fn dispatch(task: impl Task) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        wide::run(simd, task);
+        return;
+    }
+    task.run(Pair {
+        four: Scalar128b,
+        eight: Scalar256b,
+    });
+}
+
+#[cfg(target_arch = "x86_64")]
+mod wide {
+    use super::{Pair, Task};
+    use pulp::x86::{V3, V3_128b, V3_256b};
+    use pulp::{Simd, WithSimd};
+
+    /// A task with the proof that the processor has AVX2 and FMA.
+    struct Proven<T> {
+        task: T,
+        simd: V3,
+    }
+
+    impl<T: Task> WithSimd for Proven<T> {
+        type Output = ();
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, _: S) {
+            self.task.run(Pair {
+                four: V3_128b(self.simd),
+                eight: V3_256b(self.simd),
+            });
+        }
+    }
+
+    pub(super) fn run(simd: V3, task: impl Task) {
+        Simd::vectorize(simd, Proven { task, simd });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sums over columns of four and of eight numbers.
+    struct Columns<'a> {
+        columns: &'a [[f32; LANES]],
+        factors: &'a [f32],
+        sums: &'a mut [Sums; 2],
+    }
+
+    impl Task for Columns<'_> {
+        fn run<V: Vectors>(self, vectors: V) {
+            let mut four = [vectors.four(&[1.0; FEW]), vectors.four(&[0.0; FEW])];
+            let mut eight = [vectors.eight(&[1.0; LANES]), vectors.eight(&[0.0; LANES])];
+            for (k, (column, factor)) in self.columns.iter().zip(self.factors).enumerate() {
+                let first = column.first_chunk().unwrap();
+                four[k % 2] = vectors.add_four(first, *factor, four[k % 2]);
+                eight[k % 2] = vectors.add_eight(column, *factor, eight[k % 2]);
+            }
+            *self.sums = [vectors.sum_of_four(&four), vectors.sum_of_eight(&eight)];
+        }
+    }
+
+    #[test]
+    fn sums_are_those_of_their_lanes_on_every_processor() {
+        // numbers whose products and sums have no rounding
+        let columns: Vec<[f32; LANES]> = (0..9)
+            .map(|k| std::array::from_fn(|lane| (3 * k + lane) as f32 - 10.0))
+            .collect();
+        let factors: Vec<f32> = (0..9).map(|k| 4.0 - k as f32).collect();
+        let right: Sums = std::array::from_fn(|lane| {
+            let pairs = columns.iter().zip(&factors);
+            1.0 + pairs.map(|(c, f)| c[lane] * f).sum::<f32>()
+        });
+        let task = |sums| Columns {
+            columns: &columns,
+            factors: &factors,
+            sums,
+        };
+        let [mut here, mut plain] = [[Sums::default(); 2]; 2];
+        dispatch(task(&mut here));
+        task(&mut plain).run(Pair {
+            four: Scalar128b,
+            eight: Scalar256b,
+        });
+        for sums in [here, plain] {
+            assert_eq!(sums[0][..FEW], right[..FEW]);
+            assert_eq!(sums[1], right);
+        }
+    }
+}
