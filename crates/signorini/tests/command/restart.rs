@@ -115,6 +115,12 @@ fn sliding() -> String {
 fn f64_a_run_killed_at_any_moment_and_resumed_is_the_same_run_bit_by_bit() {
     is_the_same(&case(), &[vec![2], vec![9], vec![30], vec![45, 52]]);
     is_the_same(&sliding(), &[vec![9], vec![30, 45]]);
+    let multigrid = change(
+        &sliding(),
+        "[output]",
+        "[solver]\nlinear = \"multigrid\"\n[output]",
+    );
+    is_the_same(&multigrid, &[vec![16, 40]]);
 }
 
 /// Runs a case whole, and killed at each of these moments.
