@@ -480,7 +480,6 @@ impl Grid {
         let pairs = now.iter().zip(&self.start.response);
         let change: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
         let size: f64 = self.start.response.iter().map(|b| b * b).sum();
-        eprintln!("CHANGE {}", (change / size).sqrt());
         let is_near = change <= DRIFTED * DRIFTED * size;
         match at_start {
             Some(bulk) if is_near => {
