@@ -31,12 +31,14 @@ pub(super) struct InterfaceBlock {
     /// The equation of the whole behind each.
     pub whole: Vec<u32>,
     sign: Vec<i8>,
-    rows: Rows,
+    /// Where the values of the operator between these equations and others are: those of the bulk, then of the interface.
+    outer_at: Vec<usize>,
+    outer: Rows,
     right: Vec<f64>,
     left: Vec<f64>,
 }
 
-/// The rows of the whole operator at these equations, over all equations.
+/// The rows of the whole operator at these equations, over all others.
 #[derive(Default)]
 struct Rows {
     start: Vec<usize>,
@@ -60,7 +62,8 @@ impl InterfaceBlock {
             equation: Vec::new(),
             whole: Vec::new(),
             sign: Vec::new(),
-            rows: Rows::default(),
+            outer_at: Vec::new(),
+            outer: Rows::default(),
             right: Vec::new(),
             left: Vec::new(),
         }
@@ -85,7 +88,7 @@ impl InterfaceBlock {
         if self.whole.is_empty() {
             return Ok(());
         }
-        self.gather(kept, values);
+        self.gather(values);
         let problem = Problem {
             ndof: self.equation.len(),
             bulk: &self.bulk,
@@ -177,13 +180,44 @@ impl InterfaceBlock {
                 self.whole.push(whole);
             }
         }
+        self.connect(kept, &raw);
         let signs = self.whole.iter().map(|&e| kept.sign[e as usize]);
         self.sign = signs.collect();
         self.right = vec![0.0; self.whole.len()];
         self.left = vec![0.0; self.whole.len()];
     }
 
-    fn gather(&mut self, kept: &Kept, values: &Values) {
+    /// Finds what connects these equations with others: bulk, and what rows of the interface depend on without acting on it.
+    fn connect(&mut self, kept: &Kept, raw: &[u32]) {
+        let mut is_inside = vec![false; kept.sign.len()];
+        for &e in &self.whole {
+            is_inside[e as usize] = true;
+        }
+        let nbulk = kept.bulk.nvalue();
+        let Rows { start, column, .. } = &mut self.outer;
+        start.clear();
+        column.clear();
+        self.outer_at.clear();
+        start.push(0);
+        for &dof in raw
+            .iter()
+            .filter(|&&dof| kept.equation[dof as usize] != NONE)
+        {
+            let of_interface = kept.interface.row_start.get(dof as usize..dof as usize + 2);
+            let of_interface = of_interface.map_or(0..0, |ends| ends[0]..ends[1]);
+            let of_interface = of_interface.map(|at| (kept.interface.column[at], nbulk + at));
+            for (other, at) in kept.bulk_row(dof).chain(of_interface) {
+                let e = kept.equation[other as usize];
+                if e != NONE && !is_inside[e as usize] {
+                    column.push(e);
+                    self.outer_at.push(at);
+                }
+            }
+            start.push(column.len());
+        }
+    }
+
+    fn gather(&mut self, values: &Values) {
         self.bulk_values.clear();
         for &at in &self.bulk_at {
             let block = values.bulk.get(9 * at..9 * at + 9).unwrap_or(&[0.0; 9]);
@@ -193,40 +227,17 @@ impl InterfaceBlock {
         self.interface_values.clear();
         self.interface_values
             .extend(interface.map(|&at| values.interface.get(at).copied().unwrap_or(0.0)));
-        let Rows {
-            start,
-            column,
-            value,
-        } = &mut self.rows;
-        start.clear();
-        column.clear();
-        value.clear();
-        start.push(0);
-        let nodes = self
-            .nodes
-            .iter()
-            .flat_map(|&node| (0..3).map(move |i| 3 * node + i));
-        for dof in nodes.chain(self.extra.iter().copied()) {
-            if kept.equation[dof as usize] == NONE {
-                continue;
-            }
-            for (other, at) in kept.bulk_row(dof) {
-                let e = kept.equation[other as usize];
-                if e != NONE {
-                    column.push(e);
-                    value.push(values.bulk[at]);
-                }
-            }
-            let of_row = kept.interface.row_start.get(dof as usize..dof as usize + 2);
-            for at in of_row.map_or(0..0, |ends| ends[0]..ends[1]) {
-                let e = kept.equation[kept.interface.column[at] as usize];
-                if e != NONE {
-                    column.push(e);
-                    value.push(values.interface[at]);
-                }
-            }
-            start.push(column.len());
-        }
+        let nbulk = values.bulk.len();
+        let outer = self.outer_at.iter().map(|&at| {
+            let value = if at < nbulk {
+                values.bulk.get(at)
+            } else {
+                values.interface.get(at - nbulk)
+            };
+            value.copied().unwrap_or(0.0)
+        });
+        self.outer.value.clear();
+        self.outer.value.extend(outer);
     }
 
     /// `A_II⁻¹` times what `right` gives for each of the equations, into `left`.
@@ -254,9 +265,15 @@ impl InterfaceBlock {
         }
         self.apply()?;
         // outside of the block the operator is that of the bulk, which is symmetric
-        for (ends, y) in self.rows.start.windows(2).zip(&self.left) {
-            for at in ends[0]..ends[1] {
-                r[self.rows.column[at] as usize] -= self.rows.value[at] * y;
+        let Rows {
+            start,
+            column,
+            value,
+        } = &self.outer;
+        for (ends, y) in start.windows(2).zip(&self.left) {
+            let at = ends[0]..ends[1];
+            for (&e, a) in column[at.clone()].iter().zip(&value[at]) {
+                r[e as usize] -= a * y;
             }
         }
         for &e in &self.whole {
@@ -272,22 +289,28 @@ impl InterfaceBlock {
         }
     }
 
-    /// `x_I += A_II⁻¹ (r − A x)_I`
+    /// `x_I += A_II⁻¹ (r − A x)_I`, which is `x_I = A_II⁻¹ (r_I − A_IO x_O)` with the other equations O.
     ///
     /// # Errors
     /// Those of the direct solver.
     pub fn after(&mut self, r: &[f64], x: &mut [f64]) -> Result<(), LinearError> {
-        let rows = self.rows.start.windows(2).zip(&self.whole);
-        for ((ends, &e), right) in rows.zip(&mut self.right) {
+        for (right, &e) in self.right.iter_mut().zip(&self.whole) {
+            *right = r[e as usize];
+        }
+        let Rows {
+            start,
+            column,
+            value,
+        } = &self.outer;
+        for (ends, right) in start.windows(2).zip(&mut self.right) {
             let at = ends[0]..ends[1];
-            let parts = self.rows.column[at.clone()]
-                .iter()
-                .zip(&self.rows.value[at]);
-            let sum: f64 = parts.map(|(&c, a)| a * x[c as usize]).sum();
-            *right = r[e as usize] - sum;
+            let parts = column[at.clone()].iter().zip(&value[at]);
+            *right -= parts.map(|(&e, a)| a * x[e as usize]).sum::<f64>();
         }
         self.apply()?;
-        self.add(x);
+        for (left, &e) in self.left.iter().zip(&self.whole) {
+            x[e as usize] = *left;
+        }
         Ok(())
     }
 }
