@@ -2,6 +2,9 @@
 
 use signorini_geometry::tensor::{Sym3, Vec3};
 
+/// A strain below it has its logarithm from a series of no more than ten terms.
+const SMALL: f64 = 0.1;
+
 /// Solves `a x = b` by elimination with pivoting, `b` of `nright` columns becoming `x`. Both are row-major; `a` is lost.
 /// `None` where a pivot is no longer a number of the matrix's own size.
 pub(super) fn solve(a: &mut [f64], n: usize, b: &mut [f64], nright: usize) -> Option<()> {
@@ -46,8 +49,47 @@ pub(super) fn subtract(from: &mut [f64], factor: f64, row: &[f64]) {
     }
 }
 
-/// `½ ln(I + 2e)`, by Jacobi's rotations: exact to round-off for small `e`, too.
+/// `½ ln(I + 2e)`, exact to round-off for small `e`, too.
 pub(super) fn half_logarithm(e: Sym3) -> Sym3 {
+    let is_small = e.double_dot(e) < SMALL * SMALL;
+    let by_series = is_small.then(|| half_logarithm_by_series(e)).flatten();
+    by_series.unwrap_or_else(|| half_logarithm_by_rotations(e))
+}
+
+/// With `z = e (I + e)⁻¹`, `½ ln(I + 2e) = artanh z = z (I + z²/3 + z⁴/5 + …)`, which needs few terms.
+fn half_logarithm_by_series(e: Sym3) -> Option<Sym3> {
+    let (inverse, _) = (Sym3::IDENTITY + e).inverse()?;
+    let z = commuting(e, inverse);
+    let square = commuting(z, z);
+    let size = square.double_dot(square).sqrt();
+    let (mut left, mut terms) = (size, 1);
+    while left > 0.1 * f64::EPSILON {
+        left *= size;
+        terms += 1;
+    }
+    let mut sum = Sym3::ZERO;
+    for k in (0..=terms).rev() {
+        sum = Sym3::IDENTITY * f64::from(2 * k + 1).recip() + commuting(sum, square);
+    }
+    Some(commuting(z, sum))
+}
+
+/// The product of two tensors that commute, which is symmetric.
+fn commuting(a: Sym3, b: Sym3) -> Sym3 {
+    let ([axx, ayy, azz, axy, ayz, axz], [bxx, byy, bzz, bxy, byz, bxz]) =
+        (a.to_pairs(), b.to_pairs());
+    Sym3::new(
+        axx * bxx + axy * bxy + axz * bxz,
+        axy * bxy + ayy * byy + ayz * byz,
+        axz * bxz + ayz * byz + azz * bzz,
+        axx * bxy + axy * byy + axz * byz,
+        axy * bxz + ayy * byz + ayz * bzz,
+        axx * bxz + axy * byz + axz * bzz,
+    )
+}
+
+/// By Jacobi's rotations, for any size.
+fn half_logarithm_by_rotations(e: Sym3) -> Sym3 {
     let mut a = e.to_mat3().rows;
     let mut axes = [Vec3::unit(0), Vec3::unit(1), Vec3::unit(2)];
     // what is nothing beside all of it
@@ -114,7 +156,7 @@ mod tests {
     #[test]
     fn the_logarithm_of_a_turned_stretch_is_the_turned_logarithm() {
         let turn = Mat3::rotation(Vec3::new(0.3, -1.1, 0.7));
-        for scale in [1.0, 1e-9] {
+        for scale in [1.0, 0.12, 1e-2, 1e-5, 1e-9] {
             let stretch = [0.7 * scale, -0.3 * scale, 0.1 * scale];
             let [a, b, c] = stretch;
             let e = Sym3::diagonal(a, b, c).congruence(turn);

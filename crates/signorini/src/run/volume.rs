@@ -8,12 +8,16 @@
 
 use super::cells::Cells;
 use super::fields::Fields;
+use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::writers::vtu::{
     self, Fact, FactValue, Field, Grid, Options, SymTensor, Values, VtuError,
 };
 use signorini_mechanics::system::Frame;
+
+/// Tensors handled by one task.
+const TENSORS_PER_TASK: usize = 1024;
 
 /// What is the same in all frames.
 #[derive(Debug)]
@@ -218,9 +222,10 @@ impl Derived {
     }
 }
 
-fn picked<T>(wanted: bool, from: &[Sym3], of: fn(Sym3) -> T) -> Vec<T> {
+fn picked<T: Send>(wanted: bool, from: &[Sym3], of: fn(Sym3) -> T) -> Vec<T> {
     let from = if wanted { from } else { &[] };
-    from.iter().copied().map(of).collect()
+    let tensors = from.par_iter().with_min_len(TENSORS_PER_TASK);
+    tensors.map(|&tensor| of(tensor)).collect()
 }
 
 fn symmetric<'a>(name: &'a str, values: &'a [SymTensor]) -> Field<'a> {

@@ -52,6 +52,8 @@ struct Analysis {
 struct Factors {
     cholesky: Option<Cholesky>,
     fronts: Option<Fronts>,
+    /// Whether the values that told the order of the fronts are forgotten.
+    is_order_old: bool,
     lu: Option<Lu>,
     active: Active,
 }
@@ -227,6 +229,7 @@ impl Analysis {
             factors: Factors {
                 cholesky,
                 fronts: None,
+                is_order_old: false,
                 lu: None,
                 active: Active::None,
             },
@@ -241,7 +244,7 @@ impl Analysis {
     fn forget(&mut self) {
         (self.indefinite, self.prefer_lu) = (false, false);
         if self.gathered.kept.sign.iter().any(|&sign| sign < 0) {
-            self.factors.fronts = None;
+            self.factors.is_order_old = true;
         }
     }
 
@@ -285,12 +288,17 @@ impl Analysis {
         let Gathered { kept, matrix, .. } = &self.gathered;
         for _ in 0..2 {
             let known = self.factors.fronts.take();
-            let is_new = known.is_none();
+            let is_old = std::mem::take(&mut self.factors.is_order_old);
+            let is_new = known.is_none() || is_old;
             let mut fronts = match known {
-                Some(fronts) => fronts,
-                None => {
+                Some(fronts) if !is_new => fronts,
+                known => {
                     let order = ordering::order(&kept.problem(), matrix, self.ordering)?;
-                    Fronts::new(matrix, &order)?
+                    let same = known.filter(|fronts| fronts.are_of(&order));
+                    match same {
+                        Some(fronts) => fronts,
+                        None => Fronts::new(matrix, &order)?,
+                    }
                 }
             };
             if fronts.factorize(matrix) {

@@ -55,7 +55,9 @@ const RELAX: [(usize, f64); 3] = [(8, 0.9), (24, 0.4), (64, 0.15)];
 
 /// The factors, and the tree that they are made along.
 pub(super) struct Fronts {
-    /// `order[new] = old`
+    /// The order that was asked for.
+    asked: Vec<u32>,
+    /// The order that became of it, in which supernodes are whole: `order[new] = old`.
     order: Vec<u32>,
     nodes: Vec<Node>,
     panels: Vec<Panel>,
@@ -136,7 +138,7 @@ impl Fronts {
         let SymbolicCholeskyRaw::Supernodal(raw) = symbolic.raw() else {
             return Err(too_large());
         };
-        let order = match symbolic.perm() {
+        let own_order = match symbolic.perm() {
             Some(perm) => perm.arrays().0.to_vec(),
             None => (0..n as u32).collect(),
         };
@@ -170,7 +172,8 @@ impl Fronts {
         let tasks = tasks(&nodes);
         let mut fronts = Self {
             panels: nodes.iter().map(|_| Panel::default()).collect(),
-            order,
+            asked: order.to_vec(),
+            order: own_order,
             nodes,
             tasks,
             from: Vec::new(),
@@ -191,6 +194,11 @@ impl Fronts {
             panel.pivot.resize(w, 0);
         }
         Ok(fronts)
+    }
+
+    /// Whether they are for this order of elimination.
+    pub fn are_of(&self, order: &[u32]) -> bool {
+        self.asked == order
     }
 
     /// Finds the place of every entry; column e of the matrix holds row e of the operator.

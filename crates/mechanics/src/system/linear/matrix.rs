@@ -17,9 +17,12 @@
 use super::{LinearError, Problem, Symmetry, Values};
 use crate::system::sparsity::NONE;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Columns gathered by one task; results do not depend on it.
-const COLUMNS_PER_TASK: usize = 2048;
+const COLUMNS_PER_TASK: usize = 512;
+/// Entries that are worth a task where all of them are scaled.
+const ENTRIES_PER_TASK: usize = 50_000;
 
 pub(super) struct Matrix {
     /// Where each column begins.
@@ -176,7 +179,7 @@ impl Matrix {
         &self.value[self.range(column)]
     }
 
-    fn range(&self, column: usize) -> std::ops::Range<usize> {
+    fn range(&self, column: usize) -> Range<usize> {
         self.start[column] as usize..self.start[column + 1] as usize
     }
 
@@ -257,44 +260,17 @@ impl Matrix {
         self.equilibrate()
     }
 
+    /// Scales until every row and column has its largest entry near 1, then applies the scales.
     fn equilibrate(&mut self) -> Result<(), LinearError> {
         self.row_scale.fill(1.0);
         self.column_scale.fill(1.0);
-        let (mut row_max, mut column_max) = (
-            std::mem::take(&mut self.row_max),
-            std::mem::take(&mut self.column_max),
-        );
-        let result = self.sweep(&mut row_max, &mut column_max);
-        (self.row_max, self.column_max) = (row_max, column_max);
-        result
-    }
-
-    /// Scales until every row and column has its largest entry near 1, then applies the scales.
-    fn sweep(&mut self, row_max: &mut [f64], column_max: &mut [f64]) -> Result<(), LinearError> {
-        let n = self.nequation();
+        let parts = self.parts();
         for sweep in 0..3 {
-            // an entry of column e at row f is A[e, f] of the operator
-            row_max.fill(0.0);
-            column_max.fill(0.0);
-            for (e, row_max) in row_max.iter_mut().enumerate() {
-                let entries = self.range(e);
-                for (&f, &a) in self.row[entries.clone()].iter().zip(&self.value[entries]) {
-                    let size = a.abs() * self.row_scale[e] * self.column_scale[f as usize];
-                    *row_max = row_max.max(size);
-                    column_max[f as usize] = column_max[f as usize].max(size);
-                }
-            }
-            if self.symmetric {
-                for (row, column) in row_max.iter_mut().zip(column_max.iter_mut()) {
-                    *row = row.max(*column);
-                    *column = *row;
-                }
-            }
+            self.measure(&parts);
+            let (row_max, column_max) = (&self.row_max, &self.column_max);
             if sweep == 0 {
-                let zero = row_max
-                    .iter()
-                    .zip(column_max.iter())
-                    .position(|(&row, &column)| row == 0.0 || column == 0.0);
+                let mut pairs = row_max.iter().zip(column_max);
+                let zero = pairs.position(|(&row, &column)| row == 0.0 || column == 0.0);
                 if zero.is_some() {
                     return Err(LinearError::Singular { equation: zero });
                 }
@@ -303,23 +279,94 @@ impl Matrix {
             if within(row_max) && within(column_max) {
                 break;
             }
-            for (scale, &max) in self.row_scale.iter_mut().zip(row_max.iter()) {
+            for (scale, &max) in self.row_scale.iter_mut().zip(row_max) {
                 *scale *= power_of_two(max);
             }
-            for (scale, &max) in self.column_scale.iter_mut().zip(column_max.iter()) {
+            for (scale, &max) in self.column_scale.iter_mut().zip(column_max) {
                 *scale *= power_of_two(max);
             }
         }
-        for e in 0..n {
-            let range = self.range(e);
-            for (&f, a) in self.row[range.clone()].iter().zip(&mut self.value[range]) {
-                *a *= self.row_scale[e] * self.column_scale[f as usize];
-            }
+        let (start, row) = (&self.start, &self.row);
+        let (row_scale, column_scale) = (&self.row_scale, &self.column_scale);
+        let mut rest = self.value.as_mut_slice();
+        let mut tasks = Vec::with_capacity(parts.len());
+        for columns in parts {
+            let entries = (start[columns.end] - start[columns.start]) as usize;
+            let (value, others) = rest.split_at_mut(entries);
+            tasks.push((columns, value));
+            rest = others;
         }
-        if self.value.iter().any(|a| !a.is_finite()) {
+        let is_finite = tasks.into_par_iter().map(|(columns, value)| {
+            let mut is_finite = true;
+            let first = start[columns.start] as usize;
+            for e in columns {
+                let range = start[e] as usize..start[e + 1] as usize;
+                let own = &mut value[range.start - first..range.end - first];
+                for (&f, a) in row[range].iter().zip(own) {
+                    *a *= row_scale[e] * column_scale[f as usize];
+                    is_finite &= a.is_finite();
+                }
+            }
+            is_finite
+        });
+        if !is_finite.reduce(|| true, |a, b| a && b) {
             return Err(LinearError::NotFinite);
         }
         Ok(())
+    }
+
+    /// Columns shared among the threads, with about as many entries each.
+    fn parts(&self) -> Vec<Range<usize>> {
+        let (n, nentry) = (self.nequation(), self.row.len());
+        let count = (nentry / ENTRIES_PER_TASK).clamp(1, rayon::current_num_threads());
+        let mut first = 0;
+        let ends = (1..=count).map(|k| match k == count {
+            true => n,
+            false => self
+                .start
+                .partition_point(|&at| (at as usize) < k * nentry / count),
+        });
+        let part = |last: usize| std::mem::replace(&mut first, last)..last;
+        ends.map(part).collect()
+    }
+
+    /// Finds the largest scaled entry of each row and column. An entry of column e at row f is A[e, f] of the operator.
+    fn measure(&mut self, parts: &[Range<usize>]) {
+        let (start, row, value) = (&self.start, &self.row, &self.value);
+        let (row_scale, column_scale) = (&self.row_scale, &self.column_scale);
+        let n = row_scale.len();
+        let mut rest = self.row_max.as_mut_slice();
+        let mut tasks = Vec::with_capacity(parts.len());
+        for columns in parts {
+            let (row_max, others) = rest.split_at_mut(columns.len());
+            tasks.push((columns.clone(), row_max));
+            rest = others;
+        }
+        let measured = tasks.into_par_iter().map(|(columns, row_max)| {
+            let mut column_max = vec![0.0f64; n];
+            for (e, row_max) in columns.zip(row_max) {
+                let range = start[e] as usize..start[e + 1] as usize;
+                *row_max = 0.0;
+                for (&f, &a) in row[range.clone()].iter().zip(&value[range]) {
+                    let size = a.abs() * row_scale[e] * column_scale[f as usize];
+                    *row_max = row_max.max(size);
+                    column_max[f as usize] = column_max[f as usize].max(size);
+                }
+            }
+            column_max
+        });
+        let measured: Vec<Vec<f64>> = measured.collect();
+        self.column_max.fill(0.0);
+        for part in measured {
+            let pairs = self.column_max.iter_mut().zip(part);
+            pairs.for_each(|(most, size)| *most = most.max(size));
+        }
+        if self.symmetric {
+            for (row, column) in self.row_max.iter_mut().zip(&mut self.column_max) {
+                *row = row.max(*column);
+                *column = *row;
+            }
+        }
     }
 
     /// The equilibrated operator times a vector; with `of` the absolute value, the size of what is added up.
