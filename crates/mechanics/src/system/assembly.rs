@@ -710,21 +710,37 @@ impl Setting<'_> {
     }
 
     fn add_entries(self, strip: &mut Strip<'_>, dofs: &[Dof], stiffness: &[f64]) {
+        let mut places = std::mem::take(&mut strip.places);
+        places.clear();
+        places.resize(dofs.len(), 0);
         for (row, values) in dofs.iter().zip(stiffness.chunks_exact(dofs.len().max(1))) {
             if *row == NO_DOF || !strip.has(*row) {
                 continue;
             }
-            for (column, value) in dofs.iter().zip(values) {
+            let (first, columns) = self.interface.row(*row);
+            let mut next = 0;
+            for ((column, value), place) in dofs.iter().zip(values).zip(&mut places) {
                 if *column == NO_DOF || *value == 0.0 {
                     continue;
                 }
-                // a dead force that turns with nothing but itself finds no place, and needs none
-                let position = self.interface.position(*row, *column);
-                if let Some(to) = position.and_then(|at| strip.entry(at)) {
+                // most often where it was in the row before, or right of the one before
+                if columns.get(*place) != Some(column) {
+                    *place = next;
+                    if columns.get(next) != Some(column) {
+                        // a dead force that turns with nothing but itself finds no place, and needs none
+                        let Ok(found) = columns.binary_search(column) else {
+                            continue;
+                        };
+                        *place = found;
+                    }
+                }
+                next = *place + 1;
+                if let Some(to) = strip.entry(first + *place) {
                     *to += value;
                 }
             }
         }
+        strip.places = places;
     }
 }
 
@@ -738,6 +754,8 @@ struct Strip<'a> {
     uncertainty: &'a mut [f64],
     bulk: &'a mut [f64],
     interface: &'a mut [f64],
+    /// Scratch: the places of unknowns in a row of the interface.
+    places: Vec<usize>,
 }
 
 impl<'a> Strip<'a> {
@@ -751,6 +769,7 @@ impl<'a> Strip<'a> {
             uncertainty: &mut out.uncertainty,
             bulk: &mut out.bulk,
             interface: &mut out.interface,
+            places: Vec::new(),
         }
     }
 
@@ -774,6 +793,7 @@ impl<'a> Strip<'a> {
             uncertainty: uncertainties,
             bulk: bulks,
             interface: interfaces,
+            places: Vec::new(),
         };
         let strip = Self {
             residual,

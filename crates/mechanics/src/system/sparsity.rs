@@ -117,6 +117,15 @@ impl Pattern {
         }
     }
 
+    /// The position of the first entry of a row, and its columns; none for a row outside the pattern.
+    pub fn row(&self, row: u32) -> (usize, &[u32]) {
+        let first = self.row_start.get(row as usize).copied();
+        (
+            first.unwrap_or_default(),
+            row_of(&self.row_start, &self.column, row),
+        )
+    }
+
     /// The number of entries, and of values.
     pub fn nentry(&self) -> usize {
         self.column.len()
