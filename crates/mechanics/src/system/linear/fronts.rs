@@ -37,6 +37,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 use faer::{Accum, MatMut, Par, Side};
+use pulp::Arch;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -50,6 +51,8 @@ const PART: f64 = 1.0 / 32.0;
 const COLUMNS: usize = 96;
 /// Multiplications below which nothing is shared among threads.
 const LITTLE: f64 = 2e6;
+/// Entries of factors below which threads do not share a solution.
+const FEW: usize = 500_000;
 /// Supernodes are merged where they have at most so many columns, and at most this part of their entries is zero.
 const RELAX: [(usize, f64); 3] = [(8, 0.9), (24, 0.4), (64, 0.15)];
 
@@ -68,7 +71,16 @@ pub(super) struct Fronts {
     to: Vec<u32>,
     /// The smallest pivot of the last factorization, in units of the largest entry of its row.
     smallest: f64,
-    work: Vec<f64>,
+    /// What a solution works with: of each task, then of the nodes above them all.
+    work: Vec<Work>,
+}
+
+/// What some nodes work with in a solution.
+#[derive(Default)]
+struct Work {
+    /// Their unknowns, and what is left of the rows below them, node by node.
+    front: Vec<f64>,
+    own: Vec<f64>,
 }
 
 /// A supernode.
@@ -78,8 +90,13 @@ struct Node {
     /// The rows below them, in the new order.
     rows: Vec<u32>,
     children: Vec<u32>,
+    parent: Option<u32>,
     /// The place of each of its rows in the front of its parent.
     place: Vec<u32>,
+    /// The task it is in; past them all where it is in none.
+    task: usize,
+    /// Where its front begins among those of its task.
+    front: usize,
     /// Its entries among those of the matrix.
     entries: Range<usize>,
 }
@@ -99,6 +116,11 @@ struct NoPivot;
 impl Node {
     fn width(&self) -> usize {
         self.columns.len()
+    }
+
+    /// Rows of its front.
+    fn size(&self) -> usize {
+        self.columns.len() + self.rows.len()
     }
 
     /// Multiplications of its elimination.
@@ -153,7 +175,10 @@ impl Fronts {
                 columns,
                 rows,
                 children: Vec::new(),
+                parent: None,
                 place: Vec::new(),
+                task: 0,
+                front: 0,
                 entries: 0..0,
             });
         }
@@ -167,9 +192,11 @@ impl Fronts {
             let places = nodes[s].rows.iter().map(|&row| above.place_of(row));
             let places: Option<Vec<u32>> = places.collect();
             nodes[s].place = places.ok_or_else(too_large)?;
+            nodes[s].parent = Some(parent as u32);
             nodes[parent].children.push(s as u32);
         }
         let tasks = tasks(&nodes);
+        let work = place_fronts(&mut nodes, &tasks);
         let mut fronts = Self {
             panels: nodes.iter().map(|_| Panel::default()).collect(),
             asked: order.to_vec(),
@@ -179,7 +206,7 @@ impl Fronts {
             from: Vec::new(),
             to: Vec::new(),
             smallest: 0.0,
-            work: vec![0.0; n],
+            work,
         };
         fronts
             .place_entries(matrix, &node_of)
@@ -317,54 +344,153 @@ impl Fronts {
 
     /// Solves with the factors, in equilibrated unknowns.
     pub fn solve(&mut self, x: &mut [f64]) {
-        let y = &mut self.work;
-        for (y, &old) in y.iter_mut().zip(&self.order) {
-            *y = x[old as usize];
-        }
-        let mut own = Vec::new();
-        for (node, panel) in self.nodes.iter().zip(&self.panels) {
-            let (w, m) = (node.width(), node.width() + node.rows.len());
-            own.clear();
-            own.extend(
-                panel
-                    .pivot
-                    .iter()
-                    .map(|&k| y[node.columns.start + k as usize]),
-            );
-            for k in 0..w {
-                let column = &panel.value[k * m..(k + 1) * m];
-                let known = own[k];
-                for (x, l) in own[k + 1..].iter_mut().zip(&column[k + 1..w]) {
-                    *x -= l * known;
-                }
-                for (&row, l) in node.rows.iter().zip(&column[w..]) {
-                    y[row as usize] -= l * known;
-                }
+        let factors = Factors {
+            order: &self.order,
+            nodes: &self.nodes,
+            panels: &self.panels,
+        };
+        let Some((above, below)) = self.work.split_last_mut() else {
+            return;
+        };
+        let tasks = &self.tasks;
+        let is_little = self.panels.iter().map(|p| p.value.len()).sum::<usize>() < FEW;
+        let each = |below: &mut [Work], run: &(dyn Fn(&Range<usize>, &mut Work) + Sync)| {
+            if is_little {
+                tasks.iter().zip(below).for_each(|(t, w)| run(t, w));
+            } else {
+                tasks.par_iter().zip(below).for_each(|(t, w)| run(t, w));
             }
-            y[node.columns.clone()].copy_from_slice(&own);
-        }
-        for (node, panel) in self.nodes.iter().zip(&self.panels).rev() {
-            let (w, m) = (node.width(), node.width() + node.rows.len());
-            own.clear();
-            own.extend_from_slice(&y[node.columns.clone()]);
-            for (&row, column) in node.rows.iter().zip(panel.value[w * m..].chunks_exact(w)) {
-                let known = y[row as usize];
-                for (x, u) in own.iter_mut().zip(column) {
-                    *x -= u * known;
-                }
+        };
+        let nodes_above =
+            || (0..factors.nodes.len()).filter(|&s| factors.nodes[s].task == tasks.len());
+        let arch = Arch::new();
+        let right = &*x;
+        each(below, &|task, work| {
+            arch.dispatch(|| {
+                task.clone()
+                    .for_each(|s| factors.reduce(s, right, work, &[]))
+            });
+        });
+        arch.dispatch(|| nodes_above().for_each(|s| factors.reduce(s, right, above, below)));
+        arch.dispatch(|| {
+            nodes_above()
+                .rev()
+                .for_each(|s| factors.expand(s, above, None))
+        });
+        let above = &*above;
+        each(below, &|task, work| {
+            let down = || {
+                task.clone()
+                    .rev()
+                    .for_each(|s| factors.expand(s, work, Some(above)))
+            };
+            arch.dispatch(down);
+        });
+        for node in &self.nodes {
+            let work = below.get(node.task).unwrap_or(above);
+            let found = &work.front[node.front..];
+            for (&old, found) in self.order[node.columns.clone()].iter().zip(found) {
+                x[old as usize] = *found;
             }
-            for k in (0..w).rev() {
-                let column = &panel.value[k * m..k * m + k + 1];
-                let known = own[k] / column[k];
-                own[k] = known;
-                for (x, u) in own[..k].iter_mut().zip(column) {
-                    *x -= u * known;
-                }
-            }
-            y[node.columns.clone()].copy_from_slice(&own);
         }
-        for (y, &old) in y.iter().zip(&self.order) {
-            x[old as usize] = *y;
+    }
+}
+
+/// What all nodes share in a solution.
+#[derive(Clone, Copy)]
+struct Factors<'a> {
+    order: &'a [u32],
+    nodes: &'a [Node],
+    panels: &'a [Panel],
+}
+
+impl Factors<'_> {
+    /// Solves with the lower factor of a node, and leaves to its parent what remains of the rows below. Children are in the
+    /// same work, or in that of their task.
+    #[inline(always)]
+    fn reduce(self, s: usize, right: &[f64], work: &mut Work, tasks: &[Work]) {
+        let (node, panel) = (&self.nodes[s], &self.panels[s]);
+        let (w, m) = (node.width(), node.size());
+        let (before, rest) = work.front.split_at_mut(node.front);
+        let front = &mut rest[..m];
+        let unknowns = &self.order[node.columns.clone()];
+        for (y, &old) in front.iter_mut().zip(unknowns) {
+            *y = right[old as usize];
+        }
+        front[w..].fill(0.0);
+        for &child in &node.children {
+            let child = &self.nodes[child as usize];
+            let home = if child.task == node.task {
+                &*before
+            } else {
+                &tasks[child.task].front
+            };
+            let left = &home[child.front + child.width()..];
+            for (&place, left) in child.place.iter().zip(left) {
+                front[place as usize] += left;
+            }
+        }
+        let (known, below) = front.split_at_mut(w);
+        let own = &mut work.own;
+        own.clear();
+        own.extend(panel.pivot.iter().map(|&k| known[k as usize]));
+        for k in 0..w {
+            let column = &panel.value[k * m + k + 1..k * m + w];
+            let known = own[k];
+            for (x, l) in own[k + 1..].iter_mut().zip(column) {
+                *x -= l * known;
+            }
+        }
+        known.copy_from_slice(own);
+        subtract_product(below, &panel.value[w..], m, known);
+    }
+
+    /// Solves with the upper factor of a node, whose parent is in the same work, or in that of the nodes above.
+    #[inline(always)]
+    fn expand(self, s: usize, work: &mut Work, above: Option<&Work>) {
+        let (node, panel) = (&self.nodes[s], &self.panels[s]);
+        let (w, m) = (node.width(), node.size());
+        let (fronts, after) = work.front.split_at_mut(node.front + m);
+        let (own, below) = fronts[node.front..].split_at_mut(w);
+        if let Some(parent) = node.parent {
+            let parent = &self.nodes[parent as usize];
+            let known = match above {
+                Some(above) if parent.task != node.task => &above.front[parent.front..],
+                _ => &after[parent.front - node.front - m..],
+            };
+            for (y, &place) in below.iter_mut().zip(&node.place) {
+                *y = known[place as usize];
+            }
+        }
+        subtract_product(own, &panel.value[w * m..], w, below);
+        for k in (0..w).rev() {
+            let column = &panel.value[k * m..k * m + k + 1];
+            let known = own[k] / column[k];
+            own[k] = known;
+            for (x, u) in own[..k].iter_mut().zip(column) {
+                *x -= u * known;
+            }
+        }
+    }
+}
+
+/// `y −= A x` with A by columns, which begin `stride` apart.
+#[inline(always)]
+fn subtract_product(y: &mut [f64], a: &[f64], stride: usize, x: &[f64]) {
+    let n = y.len();
+    if n == 0 {
+        return;
+    }
+    let (fours, others) = x.as_chunks::<4>();
+    for (k, x) in fours.iter().enumerate() {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|i| &a[(4 * k + i) * stride..][..n]);
+        for i in 0..n {
+            y[i] -= (a[i] * x[0] + b[i] * x[1]) + (c[i] * x[2] + d[i] * x[3]);
+        }
+    }
+    for (k, x) in (4 * fours.len()..).zip(others) {
+        for (y, a) in y.iter_mut().zip(&a[k * stride..][..n]) {
+            *y -= a * x;
         }
     }
 }
@@ -598,4 +724,24 @@ fn tasks(nodes: &[Node]) -> Vec<Range<usize>> {
     }
     tasks.reverse();
     tasks
+}
+
+/// Tells every node which task it is in, and where its front is in what that works with.
+fn place_fronts(nodes: &mut [Node], tasks: &[Range<usize>]) -> Vec<Work> {
+    nodes.iter_mut().for_each(|node| node.task = tasks.len());
+    for (number, task) in tasks.iter().enumerate() {
+        nodes[task.clone()]
+            .iter_mut()
+            .for_each(|node| node.task = number);
+    }
+    let mut size = vec![0; tasks.len() + 1];
+    for node in nodes {
+        node.front = size[node.task];
+        size[node.task] += node.size();
+    }
+    let of_size = |size: usize| Work {
+        front: vec![0.0; size],
+        own: Vec::new(),
+    };
+    size.into_iter().map(of_size).collect()
 }
