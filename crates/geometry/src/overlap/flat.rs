@@ -218,12 +218,13 @@ impl<T: Real> Flat<T> {
     /// What its outline is like.
     fn look(&self) -> Outline {
         let tolerance = TOUCH * self.size();
-        let whole = self.polygon(0);
+        let outline = |dents| self.around(&self.values, dents);
+        let whole = outline(0);
         let on_edge = |k: &usize| usize::from(self.boundary[*k]) >= self.element.ncorner();
         let inward = |k: &usize| on_edge(k) && whole.is_dented(*k, tolerance);
         let dents = (0..self.nboundary).filter(inward);
         let dents = dents.fold(0, |flags, k| flags | 1 << k);
-        match self.polygon(dents).is_convex(tolerance) {
+        match outline(dents).is_convex(tolerance) {
             true if dents == 0 => Outline::Convex,
             true if self.bend <= EXTENSIBLE => Outline::Dented(dents),
             _ => Outline::Star,
@@ -236,8 +237,14 @@ impl<T: Real> Flat<T> {
 
     /// The polygon through its boundary without the places that have a flag.
     fn polygon(&self, without: u8) -> Polygon<T> {
-        let kept = (0..self.nboundary).filter(|k| without >> k & 1 == 0);
-        Polygon::of(kept.map(|k| self.node(k)))
+        self.around(&self.x, without)
+    }
+
+    /// The same with nodes at other places.
+    fn around<S: Real>(&self, x: &[Pair<S>; MAX_FACET_NODES], without: u8) -> Polygon<S> {
+        let nodes = self.boundary[..self.nboundary].iter().enumerate();
+        let kept = nodes.filter(|(k, _)| without >> k & 1 == 0);
+        Polygon::of(kept.map(|(_, &node)| x[usize::from(node)]))
     }
 
     /// The triangle that is missing at a place where the boundary turns inward.

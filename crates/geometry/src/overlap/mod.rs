@@ -117,7 +117,7 @@ const EXACT: f64 = 1e-12;
 const BENT: f64 = 1e-9;
 
 /// A point of a cell.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Point {
     /// w, negative in a cell that is taken away.
     pub weight: f64,
@@ -132,7 +132,7 @@ pub struct Point {
 }
 
 /// Parameters of a place on a facet.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Parameters {
     /// ξ.
     pub xi: Pair<f64>,
@@ -143,7 +143,7 @@ pub struct Parameters {
 }
 
 /// How a point follows a corner of its cell.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Follow {
     /// The number of the corner.
     pub corner: usize,
@@ -271,6 +271,7 @@ impl<T: Real> Cell<'_, T> {
     /// A map has no inverse at a point. Then some points have been given already.
     pub fn points(&self, factor: usize, mut each: impl FnMut(&Point)) -> Result<(), OverlapError> {
         let place = |k: usize| self.corners[k].map(|c| c.value());
+        let mut point = Point::default();
         if self.facets.secondary.dim() == 1 {
             let (start, end) = (place(0)[0], place(1)[0]);
             let length = end - start;
@@ -279,12 +280,14 @@ impl<T: Real> Cell<'_, T> {
                 let share = 0.5 * (1.0 + s.x);
                 let at = [start + share * length, 0.0];
                 let half = 0.5 * w;
-                let follows = [
+                point.weight = half * length;
+                point.follows = [
                     follow(0, 1.0 - share, [-half, 0.0]),
                     follow(1, share, [half, 0.0]),
                     follow(1, 0.0, [0.0; 2]),
                 ];
-                each(&self.point(at, half * length, follows)?);
+                self.locate(at, &mut point)?;
+                each(&point);
             }
             return Ok(());
         }
@@ -307,12 +310,14 @@ impl<T: Real> Cell<'_, T> {
                 let w = w * self.sign;
                 let at = [0, 1].map(|c| first[c] + u[c] * s.x + v[c] * s.y);
                 let [b, c] = [of_u, of_v].map(|d| d.map(|d| w * d));
-                let follows = [
+                point.weight = w * twice(k);
+                point.follows = [
                     follow(0, 1.0 - s.x - s.y, [-b[0] - c[0], -b[1] - c[1]]),
                     follow(k, s.x, b),
                     follow(k + 1, s.y, c),
                 ];
-                each(&self.point(at, w * twice(k), follows)?);
+                self.locate(at, &mut point)?;
+                each(&point);
             }
         }
         Ok(())
@@ -336,34 +341,28 @@ impl<T: Real> Cell<'_, T> {
         let place = |k: usize| self.corners[k % n].map(|c| c.value());
         let sum = |c: usize| (0..n).map(|k| place(k)[c]).sum::<f64>() / n as f64;
         let centre = [sum(0), sum(1)];
+        let mut there = Parameters::default();
         for k in 0..n {
             let corners = [centre, place(k), place(k + 1)];
             let [u, v] = [minus(corners[1], centre), minus(corners[2], centre)];
             let degree = self.facets.degree(&corners) + factor;
             for &(s, w) in of_degree(2, degree) {
                 let at = [0, 1].map(|c| centre[c] + u[c] * s.x + v[c] * s.y);
-                let found = locate::parameters(self.facets.secondary, at);
-                let xi = found.ok_or(OverlapError::Folded)?.xi;
-                each(xi, w * self.sign * cross2(u, v));
+                let found = locate::parameters(self.facets.secondary, at, &mut there);
+                found.ok_or(OverlapError::Folded)?;
+                each(there.xi, w * self.sign * cross2(u, v));
             }
         }
         Ok(())
     }
 
-    fn point(
-        &self,
-        at: Pair<f64>,
-        weight: f64,
-        follows: [Follow; 3],
-    ) -> Result<Point, OverlapError> {
-        let find = |facet| locate::parameters(facet, at).ok_or(OverlapError::Folded);
-        Ok(Point {
-            weight,
-            at,
-            secondary: find(self.facets.secondary)?,
-            primary: find(self.facets.primary)?,
-            follows,
-        })
+    /// Places a point.
+    fn locate(&self, at: Pair<f64>, point: &mut Point) -> Result<(), OverlapError> {
+        let Both { secondary, primary } = self.facets;
+        point.at = at;
+        let found = locate::parameters(secondary, at, &mut point.secondary)
+            .and_then(|()| locate::parameters(primary, at, &mut point.primary));
+        found.ok_or(OverlapError::Folded)
     }
 }
 

@@ -45,9 +45,9 @@ impl<T: Real> Polygon<T> {
     }
 
     /// Every corner with the next one.
-    fn sides(&self) -> impl Iterator<Item = (Pair<T>, Pair<T>)> {
+    fn sides(&self) -> impl Iterator<Item = (&Pair<T>, &Pair<T>)> {
         let next = self.corners().iter().cycle().skip(1);
-        self.corners().iter().copied().zip(next.copied())
+        self.corners().iter().zip(next)
     }
 
     pub(super) fn area(&self) -> f64 {
@@ -55,7 +55,7 @@ impl<T: Real> Polygon<T> {
             return 0.0;
         };
         let twice =
-            |(a, b): (Pair<T>, Pair<T>)| cross2(minus(values(&a), first), minus(values(&b), first));
+            |(a, b): (&Pair<T>, &Pair<T>)| cross2(minus(values(a), first), minus(values(b), first));
         0.5 * self.sides().map(twice).sum::<f64>()
     }
 
@@ -93,42 +93,64 @@ impl<T: Real> Polygon<T> {
 
     /// What it has in common with a convex one.
     pub(super) fn intersection(&self, other: &Self, tolerance: f64) -> Self {
-        let mut rest = *self;
+        // polygons of numbers with derivatives are large: they are written only where something is cut off
+        let mut both = [*self, Self::new()];
+        let mut is_second = false;
         for (a, b) in other.sides() {
-            rest = rest.left_of(a, b, tolerance);
+            let Some(line) = Line::through(values(a), values(b)) else {
+                continue;
+            };
+            let [first, second] = &mut both;
+            let (rest, next) = match is_second {
+                false => (first, second),
+                true => (second, first),
+            };
+            match rest.cut(&line, tolerance) {
+                Cut::Nothing => {}
+                Cut::All => return Self::new(),
+                Cut::Some => {
+                    rest.left_of([*a, *b], &line, tolerance, next);
+                    is_second = !is_second;
+                }
+            }
         }
-        rest
+        let [first, second] = both;
+        if is_second { second } else { first }
     }
 
-    /// The part to the left of the line from `a` to `b`. Corners within the tolerance are on the line.
-    fn left_of(&self, a: Pair<T>, b: Pair<T>, tolerance: f64) -> Self {
-        let Some(line) = Line::through(values(&a), values(&b)) else {
-            return *self;
-        };
-        let side = |p: &Pair<T>| {
-            let h = line.height(values(p));
-            if h.abs() <= tolerance { 0.0 } else { h }
-        };
-        if self.corners().iter().all(|p| side(p) >= 0.0) {
-            let inside = self.corners().iter().any(|p| side(p) > 0.0);
-            return if inside { *self } else { Self::new() };
+    /// What lies to the right of a line; corners within the tolerance are on the line.
+    fn cut(&self, line: &Line, tolerance: f64) -> Cut {
+        let sides = self.corners().iter().map(|p| line.side(p, tolerance));
+        let [least, most] = sides.fold([0.0f64; 2], |[l, m], h| [l.min(h), m.max(h)]);
+        match (least < 0.0, most > 0.0) {
+            (_, false) => Cut::All,
+            (false, true) => Cut::Nothing,
+            (true, true) => Cut::Some,
         }
-        let mut kept = Self::new();
-        let mut inside = false;
+    }
+
+    /// The part to the left of the line from `a` to `b`.
+    fn left_of(&self, [a, b]: [Pair<T>; 2], line: &Line, tolerance: f64, kept: &mut Self) {
+        kept.n = 0;
         for (p, q) in self.sides() {
-            let (h, k) = (side(&p), side(&q));
-            inside |= h > 0.0;
+            let [h, k] = [p, q].map(|p| line.side(p, tolerance));
             if h >= 0.0 {
-                kept.push(p);
+                kept.push(*p);
             }
             if h * k < 0.0 {
-                let [dp, dq] = [p, q].map(|c| cross2(minus(b, a), minus(c, a)));
+                let [dp, dq] = [p, q].map(|c| cross2(minus(b, a), minus(*c, a)));
                 let s = dp / (dp - dq);
                 kept.push([0, 1].map(|c| p[c] + (q[c] - p[c]) * s));
             }
         }
-        if inside { kept } else { Self::new() }
     }
+}
+
+/// How much of a polygon a line cuts off.
+enum Cut {
+    Nothing,
+    Some,
+    All,
 }
 
 /// A line of plain numbers.
@@ -141,6 +163,12 @@ impl Line {
     fn through(start: Pair<f64>, end: Pair<f64>) -> Option<Self> {
         let along = crate::scalar::unit(minus(end, start))?;
         Some(Self { start, along })
+    }
+
+    /// The distance of a corner to the left; none within the tolerance.
+    fn side<T: Real>(&self, p: &Pair<T>, tolerance: f64) -> f64 {
+        let h = self.height(values(p));
+        if h.abs() <= tolerance { 0.0 } else { h }
     }
 
     /// The distance of a point to the left.

@@ -318,7 +318,9 @@ fn errors_of_rules_fall_as_stated() {
                 for degree in (q..=MAX_DEGREE).step_by(2) {
                     let mut sums = Products::new(n);
                     let mut add = |p: Pair<f64>, w: f64| {
-                        let xi = locate::parameters(&flat, p).unwrap().xi;
+                        let mut there = Parameters::default();
+                        locate::parameters(&flat, p, &mut there).unwrap();
+                        let xi = there.xi;
                         sums.add(element, xi, w);
                     };
                     if element.dim() == 1 {
