@@ -487,12 +487,11 @@ impl Pair {
         let each = self.by_place.chunks_exact(self.nvariable);
         for (by_place, slope) in each.zip(self.slopes.chunks_exact_mut(ncolumn)) {
             let mut turn = [Vec3::ZERO; 2];
-            let of_nodes = by_place.chunks_exact(dim).zip(slope.chunks_exact_mut(3));
+            let of_nodes = by_place.chunks_exact(dim).zip(slope.as_chunks_mut::<3>().0);
             for ((by_place, slope), &x) in of_nodes.zip(nodes()) {
                 for ((&s, &axis), turn) in by_place.iter().zip(&frame.axes).zip(&mut turn) {
-                    let along = axis * s;
-                    for (c, slope) in slope.iter_mut().enumerate() {
-                        *slope += along[c];
+                    for (slope, along) in slope.iter_mut().zip((axis * s).to_array()) {
+                        *slope += along;
                     }
                     *turn += (x - frame.origin) * s;
                 }

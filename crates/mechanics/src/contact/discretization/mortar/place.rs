@@ -15,8 +15,8 @@ pub(super) struct Workspace {
     kept: Kept,
     /// Who takes part in the row: all nodes of the present weights, then those of the accepted ones alone.
     pub participants: Vec<NodeId>,
-    /// Column of the row for each column of a facet.
-    columns: Vec<usize>,
+    /// The place among the nodes of the row of each node of a facet and of those that it meets.
+    places: Vec<usize>,
     /// dD_j, dN and dw: one entry for each column.
     d: Vec<f64>,
     normal: Vec<Vec3>,
@@ -161,7 +161,7 @@ impl Place<'_> {
                 },
             )?;
             let nodes = facets.nodes(facet);
-            work.columns.clear();
+            work.places.clear();
             let known = |node: &NodeId, of: &[NodeId]| of.iter().position(|n| n == node);
             let (secondary, primary) = self.now.nodes.split_at(self.now.nsecondary);
             let own = nodes.iter().map(|n| known(n, secondary));
@@ -169,10 +169,9 @@ impl Place<'_> {
             let others = met.map(|n| known(n, primary).map(|k| secondary.len() + k));
             // every node is known: it was collected from the same facets
             let places = own.chain(others).map(Option::unwrap_or_default);
-            work.columns
-                .extend(places.flat_map(|k| [3 * k, 3 * k + 1, 3 * k + 2]));
+            work.places.extend(places);
             let sums = Sums {
-                columns: &work.columns,
+                places: &work.places,
                 d: &mut work.d,
                 normal: &mut work.normal,
                 way: &mut work.way,
@@ -197,7 +196,7 @@ impl Place<'_> {
     /// What a facet adds.
     fn add(
         &self,
-        to: Sums<'_>,
+        mut to: Sums<'_>,
         facets: &Facets,
         (facet, place, share): (u32, usize, f64),
         covered: &Covered,
@@ -214,16 +213,13 @@ impl Place<'_> {
                 covered.dnormal(2)[i],
             )
         };
-        for (&column, dd) in to.columns.iter().zip(dd) {
-            to.d[column] += share * dd;
-        }
+        scatter(to.d, to.places, share, dd);
         let inverse = &self.mortar.inverse(facet)[place];
         let m = covered.m(place);
         let own = nodes.len();
         let centre = self.centre();
         let mut way = Vec3::ZERO;
-        for (k, columns) in to.columns.chunks_exact(3).enumerate() {
-            let line = columns[0] / 3;
+        for (k, &line) in to.places.iter().enumerate() {
             let x = self.x(self.now.nodes[line]) - centre;
             let (c, factor, dc) = match k.checked_sub(own) {
                 None => (inverse[k] * d, share * inverse[k], dd),
@@ -234,41 +230,32 @@ impl Place<'_> {
             }
             way += x * c;
             let along = nu.dot(x) * factor;
-            for (&column, dc) in to.columns.iter().zip(dc) {
-                to.row.gradient[column] += along * dc;
-                to.way[column] += x * (factor * dc);
-            }
+            scatter(&mut to.row.gradient, to.places, along, dc);
+            to.scatter_way(x * factor, dc);
             for a in 0..3 {
                 to.row.gradient[3 * line + a] += nu[a] * c;
                 to.way[3 * line + a][a] += c;
             }
             if let Some(dscale) = to.row.sliding.dscale.get_mut(line * n..(line + 1) * n) {
-                for (&column, dc) in to.columns.iter().zip(dc) {
-                    dscale[column] += factor * dc / area;
-                }
+                scatter(dscale, to.places, factor / area, dc);
             }
             if nodal {
                 continue;
             }
             for a in 0..3 {
                 let dweights = &mut to.row.dweights[(3 * line + a) * n..][..n];
-                let along = nu[a] * factor / area;
-                for (&column, dc) in to.columns.iter().zip(dc) {
-                    dweights[column] += along * dc;
-                }
-                for (&column, turned) in to.columns.iter().zip(covered.dnormal(a)) {
-                    dweights[column] += turned * c / area;
-                }
+                scatter(dweights, to.places, nu[a] * factor / area, dc);
+                scatter(dweights, to.places, c / area, covered.dnormal(a));
             }
         }
         if nodal {
             return self.turn(to, facets, (facet, place, share));
         }
-        for (i, &column) in to.columns[..3 * own].iter().enumerate() {
+        for (i, column) in columns(&to.places[..own]).enumerate() {
             to.row.gradient[column] += dnu(i).dot(way);
             to.normal[column] += dnu(i) * d;
         }
-        for (&column, dd) in to.columns.iter().zip(dd) {
+        for (column, dd) in columns(to.places).zip(dd) {
             to.normal[column] += nu * (share * dd);
         }
         Ok(())
@@ -287,7 +274,7 @@ impl Place<'_> {
             _ => jet.tangent[1],
         };
         let size = jet.tangent[0].cross(t2).norm();
-        for (i, &column) in to.columns[..3 * jet.nnode].iter().enumerate() {
+        for (i, column) in columns(&to.places[..jet.nnode]).enumerate() {
             let (unit, d) = (Vec3::unit(i % 3), jet.dshape[i / 3]);
             let mut change = unit.cross(t2) * d[0];
             if facets.ntan() == 2 {
@@ -345,9 +332,40 @@ impl Place<'_> {
 
 /// Where derivatives of a row are added up.
 struct Sums<'a> {
-    columns: &'a [usize],
+    /// The place of each node of the facet and of those that it meets among the nodes of the row.
+    places: &'a [usize],
     d: &'a mut [f64],
     normal: &'a mut [Vec3],
     way: &'a mut [Vec3],
     row: &'a mut Row,
+}
+
+impl Sums<'_> {
+    fn scatter_way(&mut self, factor: Vec3, from: &[f64]) {
+        let to = self.way.as_chunks_mut::<3>().0;
+        for (&place, from) in self.places.iter().zip(from.as_chunks::<3>().0) {
+            if let Some(to) = to.get_mut(place) {
+                for (to, from) in to.iter_mut().zip(from) {
+                    *to += factor * *from;
+                }
+            }
+        }
+    }
+}
+
+/// Adds a multiple of what is there for nodes, three numbers each, where these are.
+fn scatter(to: &mut [f64], places: &[usize], factor: f64, from: &[f64]) {
+    let to = to.as_chunks_mut::<3>().0;
+    for (&place, from) in places.iter().zip(from.as_chunks::<3>().0) {
+        if let Some(to) = to.get_mut(place) {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to += factor * from;
+            }
+        }
+    }
+}
+
+/// The columns of nodes at these places.
+fn columns(places: &[usize]) -> impl Iterator<Item = usize> {
+    places.iter().flat_map(|&k| [3 * k, 3 * k + 1, 3 * k + 2])
 }
