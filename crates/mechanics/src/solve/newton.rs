@@ -23,6 +23,10 @@ pub enum LineSearch {
 /// opens from its rim inwards takes an iteration for every row of them.
 const PATIENCE: usize = 3;
 
+/// The part by which the stiffness of bodies may be another than that at the trial state where systems are solved by
+/// iterations, and roughly. Iterations of two blocks that slide over each other, 10,000 unknowns, with none, 0.001, 0.01 and
+/// 0.1: 31, 31, 31, 32.
+const KEPT: f64 = 0.01;
 /// Iterations over which the smallest residual has to fall to this part of the smallest before them.
 const FALLS: (usize, f64) = (5, 0.7);
 
@@ -346,6 +350,12 @@ impl Newton {
         let mut residuals = Vec::with_capacity(last + 1);
         loop {
             self.prepare(system)?;
+            let tolerance = if self.equations.is_iterative() {
+                KEPT
+            } else {
+                0.0
+            };
+            self.assembler.tolerate(tolerance);
             let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
             let little = solved && correction <= CORRECTION * moved;
             // after a small correction there is probably no need for a tangent

@@ -244,6 +244,16 @@ pub trait Term: Send + Sync {
         false
     }
 
+    /// About how much its stiffness differs between a state, of which there are the unknowns, and a trial state of the same
+    /// increment, relative to it; infinite where that is not known. Asked of the bulk alone.
+    fn stiffness_change(&self, _from: &[f64], _trial: &State) -> f64 {
+        if self.has_constant_stiffness() {
+            0.0
+        } else {
+            f64::INFINITY
+        }
+    }
+
     /// A step begins at this accepted state.
     ///
     /// # Errors
