@@ -60,7 +60,7 @@
 //! Cells without a remedy are evaluated as many at a time as the vector registers of the processor have lanes,
 //! [`kernel`]`::batch`: the material by its constants where it is isotropic and linear, (E17), else cell by cell. What has
 //! no answer there is evaluated once more, one cell after the other, to say which cell it is and why. The last digits of a
-//! result differ among processors with registers of different width, not with the number of threads.
+//! result differ between processors with and without fused multiply-add, not with the number of threads.
 //!
 //! # History
 //!

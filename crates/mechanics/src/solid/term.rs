@@ -118,8 +118,6 @@ struct Cells {
     initial: Vec<Initial>,
     // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
     rigidity: Vec<f64>,
-    // the largest gradient of a shape function in a cell
-    steepest: Vec<f64>,
 }
 
 /// Why a body cannot be made.
@@ -334,7 +332,7 @@ impl Solid {
             }
             block.start(material.as_ref());
             block.begin(name, initial)?;
-            block.measure(&reference, space, material.modulus());
+            block.rigidity = block.rigidities(&reference, space, material.modulus());
             let ncell = block.labels.len();
             chunks.extend(
                 (0..ncell)
@@ -449,6 +447,15 @@ impl Solid {
         Ok(())
     }
 
+    /// Hands over the forces and the stiffness of a cell.
+    fn hand(&self, of: &Scratch, out: &mut dyn Sink) {
+        if self.material().is_symmetric() {
+            out.add_symmetric(&of.dofs, &of.force, &of.blocks, self.layout.ndim);
+        } else {
+            out.add(&of.dofs, &of.force, &of.stiffness);
+        }
+    }
+
     /// Runs the kernel over several cells at once; false where that is not possible for all of them.
     fn batch(
         &self,
@@ -559,25 +566,6 @@ impl Solid {
             now.extend(present.map(|&node| at.temperature(field, &self.step, node)));
             at_start.extend(nodes.iter().map(|&node| field.at_start(node)));
         }
-    }
-
-    /// About the part by which the stiffness of a cell changes where it is linear in the strain: no more than the change
-    /// of F twice, and that of the stress once.
-    fn change_of(&self, block: &Cells, cell: usize, from: &[f64], trial: &State) -> f64 {
-        let nodes = block.nodes_of(cell);
-        let moved = |node: NodeId| {
-            let axes = 0..self.layout.ndim;
-            axes.fold(Vec3::ZERO, |mut moved, axis| {
-                let dof = self.layout.node(node, axis) as usize;
-                moved[axis] = trial.u[dof] - from[dof];
-                moved
-            })
-        };
-        let Some(first) = nodes.first().map(|&node| moved(node)) else {
-            return 0.0;
-        };
-        let apart: f64 = nodes.iter().map(|&n| (moved(n) - first).norm()).sum();
-        3.0 * block.steepest[cell] * apart
     }
 
     /// A cell without places and temperatures.
@@ -709,7 +697,6 @@ impl Cells {
             labels: Vec::new(),
             ids: Vec::new(),
             rigidity: Vec::new(),
-            steepest: Vec::new(),
             nhistory: rule.npoint() * nhistory + modes,
             undeformed: Vec::new(),
             history: Vec::new(),
@@ -784,18 +771,16 @@ impl Cells {
         of_cell.unwrap_or_default()
     }
 
-    /// `M ∫ max_i |N_i,X|² dV` of every cell, with the modulus `M`: the largest entry of its stiffness, about. And the
-    /// largest `|N_i,X|`.
-    fn measure(&mut self, reference: &[Vec3], space: Idealisation, modulus: f64) {
+    /// `M ∫ max_i |N_i,X|² dV` of every cell, with the modulus `M`: the largest entry of its stiffness, about.
+    fn rigidities(&self, reference: &[Vec3], space: Idealisation, modulus: f64) -> Vec<f64> {
         let at = |node: &NodeId| reference.get(*node as usize).copied().unwrap_or_default();
         let mut x: Vec<Vec3> = Vec::new();
-        for nodes in self.nodes.chunks_exact(self.nnode) {
+        let of_cell = |nodes: &[NodeId]| {
             x.clear();
             x.extend(nodes.iter().map(at));
-            let [stretch, steepest] = self.points.stretch(&x, space);
-            self.rigidity.push(modulus * stretch);
-            self.steepest.push(steepest);
-        }
+            modulus * self.points.stretch(&x, space)
+        };
+        self.nodes.chunks_exact(self.nnode).map(of_cell).collect()
     }
 
     /// Checks that no node lies beyond the axis, and no quadrature point on it.
@@ -882,24 +867,6 @@ impl Term for Solid {
         self.kinematics == Kinematics::Small && self.material().is_linear()
     }
 
-    fn stiffness_change(&self, from: &[f64], trial: &State) -> f64 {
-        if self.has_constant_stiffness() {
-            return 0.0;
-        }
-        // of other laws and of the remedies it depends on more than the change of F
-        let is_plain =
-            |block: &Cells| block.treatment(self.kinematics).locking == Ok(Locking::None);
-        if self.material().lame().is_none() || !self.blocks.iter().all(is_plain) {
-            return f64::INFINITY;
-        }
-        let change = |&(block, first, last): &(usize, usize, usize)| {
-            let block = &self.blocks[block];
-            let of_cells = (first..last).map(|cell| self.change_of(block, cell, from, trial));
-            of_cells.fold(0.0, f64::max)
-        };
-        self.chunks.par_iter().map(change).reduce(|| 0.0, f64::max)
-    }
-
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
         let kinematics = if step.nonlinear {
             Kinematics::Finite
@@ -931,18 +898,13 @@ impl Term for Solid {
             Order::Tangent => Wanted::Stiffness,
         };
         let scratch = work.of::<Scratch>();
-        let is_symmetric = self.material().is_symmetric();
         self.each(
             chunk,
             At::Trial(trial),
             wanted,
             scratch,
             |block, cell, _, s| {
-                if is_symmetric {
-                    out.add_symmetric(&s.dofs, &s.force, &s.blocks, self.layout.ndim);
-                } else {
-                    out.add(&s.dofs, &s.force, &s.stiffness);
-                }
+                self.hand(s, out);
                 // strains are sums of as many products as there are nodes
                 let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
                 let sum = block.rigidity[cell] * block.nnode as f64;
@@ -958,14 +920,9 @@ impl Term for Solid {
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         let scratch = work.of::<Scratch>();
-        let is_symmetric = self.material().is_symmetric();
         let wanted = Wanted::Stiffness;
         self.each(chunk, At::Start, wanted, scratch, |_, _, _, s| {
-            if is_symmetric {
-                out.add_symmetric(&s.dofs, &s.force, &s.blocks, self.layout.ndim);
-            } else {
-                out.add(&s.dofs, &s.force, &s.stiffness);
-            }
+            self.hand(s, out);
         })
     }
 

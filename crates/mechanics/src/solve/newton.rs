@@ -23,10 +23,6 @@ pub enum LineSearch {
 /// opens from its rim inwards takes an iteration for every row of them.
 const PATIENCE: usize = 3;
 
-/// The part by which the stiffness of bodies may be another than that at the trial state where systems are solved by
-/// iterations, and roughly. Iterations of two blocks that slide over each other, 10,000 unknowns, with none, 0.001, 0.01 and
-/// 0.1: 31, 31, 31, 32.
-const KEPT: f64 = 0.01;
 /// Iterations over which the smallest residual has to fall to this part of the smallest before them.
 const FALLS: (usize, f64) = (5, 0.7);
 
@@ -350,12 +346,6 @@ impl Newton {
         let mut residuals = Vec::with_capacity(last + 1);
         loop {
             self.prepare(system)?;
-            let tolerance = if self.equations.is_iterative() {
-                KEPT
-            } else {
-                0.0
-            };
-            self.assembler.tolerate(tolerance);
             let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
             let little = solved && correction <= CORRECTION * moved;
             // after a small correction there is probably no need for a tangent
@@ -443,14 +433,8 @@ impl Newton {
             } else {
                 Accuracy::Residual(EXACT)
             };
-            if !self.assembler.is_constant() && self.equations.wants_start(place.step) {
-                let (layout, elimination) = (&system.layout, &system.elimination);
-                let bulk = self.assembler.bulk_at_start(
-                    layout,
-                    elimination,
-                    &system.terms,
-                    &self.trial,
-                )?;
+            if self.equations.wants_start(place.step) {
+                let bulk = self.bulk_at_start(system)?;
                 self.equations.start_from(place.step, bulk);
             }
             let left = self.solve_linear(motion, nearly, accuracy)?;
@@ -617,6 +601,19 @@ impl Newton {
         )?;
         self.assembled = Some(order);
         Ok(())
+    }
+
+    /// The stiffness of the bodies at the start of the run, where the tangent is assembled.
+    fn bulk_at_start(&mut self, system: &System) -> Result<Vec<f64>, TermError> {
+        if self.assembler.is_constant() {
+            return Ok(self.assembly.values().bulk.to_vec());
+        }
+        self.assembler.bulk_at_start(
+            &system.layout,
+            &system.elimination,
+            &system.terms,
+            &self.trial,
+        )
     }
 
     fn judge(&self, system: &System) -> Judgement {

@@ -38,8 +38,6 @@ pub struct Assembly {
     interface: Vec<f64>,
     /// The increment of which the bulk is, where it holds for all states in it.
     bulk_of: Option<u64>,
-    /// The unknowns of the state.
-    bulk_at: Vec<f64>,
 }
 
 impl Assembly {
@@ -64,8 +62,6 @@ pub struct Assembler {
     increment: u64,
     /// Whether the stiffness of the bulk is the same at all states of the increment.
     is_constant: bool,
-    /// By what part the stiffness of the bulk may be another than that at the trial state.
-    tolerance: f64,
 }
 
 struct Task {
@@ -226,7 +222,6 @@ impl Assembler {
             expanded: Expanded::default(),
             increment: 0,
             is_constant: false,
-            tolerance: 0.0,
         };
         assembler.begin_increment(terms);
         let cliques = collect(layout, elimination, terms);
@@ -337,7 +332,7 @@ impl Assembler {
         for values in [&mut out.residual, &mut out.magnitude, &mut out.uncertainty] {
             reset(values, layout.ndof());
         }
-        let is_kept = order == Order::Tangent && self.keeps(terms, trial, out);
+        let is_kept = out.bulk_of == Some(self.increment);
         if order == Order::Tangent {
             if !is_kept {
                 out.bulk_of = None;
@@ -346,7 +341,7 @@ impl Assembler {
             reset(&mut out.interface, self.interface.nentry());
         }
         // unknowns that follow others put stiffness of the bulk into the interface
-        let mut stays = (self.is_constant || self.tolerance > 0.0) && order == Order::Tangent;
+        let mut stays = self.is_constant && order == Order::Tangent;
         let order_of = |task: &Task| {
             if is_kept && task.part == Part::Bulk {
                 Order::Residual
@@ -382,9 +377,8 @@ impl Assembler {
             Part::Interface => of_interface,
         };
         stays &= setting.run(evaluate, size, tasks, slots, expanded, out)?;
-        if stays && !is_kept {
+        if stays {
             out.bulk_of = Some(*increment);
-            out.bulk_at.clone_from(&trial.u);
         }
         if let Some(magnitude) = elimination
             .course()
@@ -393,21 +387,6 @@ impl Assembler {
             *magnitude = 0.0;
         }
         Ok(())
-    }
-
-    /// Whether the stiffness of the bulk is known already, as nearly as it has to be.
-    fn keeps(&self, terms: &[Box<dyn Term>], trial: &State, out: &Assembly) -> bool {
-        let is_near = || {
-            let mut bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
-            bulk.all(|term| term.stiffness_change(&out.bulk_at, trial) <= self.tolerance)
-        };
-        out.bulk_of == Some(self.increment) && (self.is_constant || is_near())
-    }
-
-    /// Lets the stiffness of the bulk be another than that at the trial state by no more than this part: that of a state
-    /// before it in the same increment.
-    pub fn tolerate(&mut self, part: f64) {
-        self.tolerance = part;
     }
 
     /// Whether the stiffness of the bulk is the same at all states of the increment.
@@ -470,13 +449,13 @@ impl Assembler {
         let mut total = 0.0;
         let size = wave(Order::Residual).min(self.slots.len()).max(1);
         for wave in self.tasks.chunks(size) {
-            let evaluate = |(slot, task): (&mut Slot, &Task)| match terms[task.term].energy(
-                task.chunk,
-                trial,
-                &mut slot.work,
-            ) {
-                Ok(energy) => slot.energy = energy,
-                Err(failure) => slot.failure = Some(failure),
+            let evaluate = |(slot, task): (&mut Slot, &Task)| {
+                let energy = terms[task.term].energy(task.chunk, trial, &mut slot.work);
+                // nothing stays of a wave before it
+                (slot.energy, slot.failure) = match energy {
+                    Ok(energy) => (energy, None),
+                    Err(failure) => (None, Some(failure)),
+                };
             };
             if wave.len() == 1 {
                 self.slots.iter_mut().zip(wave).for_each(evaluate);

@@ -244,16 +244,6 @@ pub trait Term: Send + Sync {
         false
     }
 
-    /// About how much its stiffness differs between a state, of which there are the unknowns, and a trial state of the same
-    /// increment, relative to it; infinite where that is not known. Asked of the bulk alone.
-    fn stiffness_change(&self, _from: &[f64], _trial: &State) -> f64 {
-        if self.has_constant_stiffness() {
-            0.0
-        } else {
-            f64::INFINITY
-        }
-    }
-
     /// A step begins at this accepted state.
     ///
     /// # Errors
@@ -297,8 +287,8 @@ pub trait Term: Send + Sync {
         out: &mut dyn Sink,
     ) -> Result<(), TermError>;
 
-    /// Adds the stiffness of one chunk as it is at the start of a run, undeformed and without history, with no forces: what
-    /// a hierarchy of levels may be made of, whatever has happened since. Asked of the bulk alone.
+    /// Adds the stiffness of one chunk as it is at the start of a run, undeformed and without history: what a hierarchy of
+    /// levels may be made of, whatever has happened since. Forces that come with it count for nothing. Asked of the bulk alone.
     ///
     /// # Errors
     /// As [`Term::evaluate`].

@@ -23,7 +23,7 @@
 //! `δϑ`, keeps `J̄` positive, and agrees with it to first order.
 
 use super::gradient::{Place, deformation, displacement_gradient, place, position, row, strain};
-use super::stiffness::{add_force, add_stiffness, contract, mirror};
+use super::stiffness::{add_force, add_stiffness, contract};
 use super::{Element, Failure, Output, dense};
 use crate::material::{Order, Response};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -264,9 +264,6 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
             let factor = here.at.weight * (mean - out.scratch[point]) / 3.0; // (E9)
             add_curvature::<NN, ND, NG>(&here.spatial, factor, symmetric, out.stiffness);
         }
-    }
-    if symmetric && !out.stiffness.is_empty() {
-        mirror(out.stiffness, NN * ND, ND);
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Numbers of several cells at once: one in each lane of a vector register, as wide as the processor's.
 
 use pulp::{Arch, Simd, WithSimd};
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Mul, Neg};
 
 /// Lanes that any processor has, at most.
 pub(super) const MOST: usize = 8;
@@ -64,16 +64,6 @@ impl<S: Simd> Add for Lanes<S> {
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         let value = self.simd.add_f64s(self.value, other.value);
-        Self { value, ..self }
-    }
-}
-
-impl<S: Simd> Sub for Lanes<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        let value = self.simd.sub_f64s(self.value, other.value);
         Self { value, ..self }
     }
 }

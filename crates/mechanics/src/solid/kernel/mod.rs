@@ -62,7 +62,7 @@ pub(super) struct Initial {
 /// Results of one element. Forces and stiffness are those of displacements, node by node.
 pub(super) struct Output<'a> {
     pub force: &'a mut [f64],
-    /// Row-major; empty where it is not wanted.
+    /// Row-major; empty where it is not wanted. Of a law that is symmetric the blocks `(I, J)` of nodes with `I ≤ J`.
     pub stiffness: &'a mut [f64],
     pub energy: f64,
     /// History at the end of the increment.
@@ -184,8 +184,8 @@ impl Points {
         &self.dshape[point * self.nnode..(point + 1) * self.nnode]
     }
 
-    /// `∫ max_i |N_i,X|² dV` over a cell whose nodes are at `x`, and the largest `|N_i,X|`; 0 where its map has no inverse.
-    pub fn stretch(&self, x: &[Vec3], space: Idealisation) -> [f64; 2] {
+    /// `∫ max_i |N_i,X|² dV` over a cell whose nodes are at `x`; 0 where its map has no inverse.
+    pub fn stretch(&self, x: &[Vec3], space: Idealisation) -> f64 {
         let weights = self.rule.weights.iter().enumerate();
         let at_point = weights.map(|(point, weight)| {
             let (mut jacobian, mut at) = (Mat3::ZERO, Vec3::ZERO);
@@ -199,14 +199,13 @@ impl Points {
                 jacobian.rows[2] = Vec3::unit(2);
             }
             let Some((inverse, det)) = jacobian.inverse() else {
-                return [0.0; 2];
+                return 0.0;
             };
             let slopes = self.dshape(point).iter().map(|d| (inverse * *d).norm());
             let steepest = slopes.fold(0.0, f64::max);
-            let volume = weight * det.abs() * space.extent(at);
-            [steepest * steepest * volume, steepest]
+            steepest * steepest * weight * det.abs() * space.extent(at)
         });
-        at_point.fold([0.0; 2], |[sum, most], [a, b]| [sum + a, f64::max(most, b)])
+        at_point.sum()
     }
 }
 

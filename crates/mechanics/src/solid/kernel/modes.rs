@@ -156,9 +156,6 @@ fn condense<const ND: usize>(
             rows().for_each(|(k, x)| dense::subtract(to, k, &x[1 + first..]));
         }
     }
-    if nright > 1 && symmetric {
-        mirror(out.stiffness, n, ND);
-    }
 }
 
 /// Forces and stiffness of modes and nodes together, above the diagonal where it is symmetric; answers with the size of what was added up in the modes' forces.

@@ -1,7 +1,7 @@
 //! The element as it is.
 
 use super::gradient::{deformation, displacement_gradient, place, strain};
-use super::stiffness::{add_force, add_stiffness, contract, mirror};
+use super::stiffness::{add_force, add_stiffness, contract};
 use super::{Element, Failure, Output};
 use crate::material::{Order, Response};
 
@@ -41,9 +41,6 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
                 out,
             );
         }
-    }
-    if symmetric && !out.stiffness.is_empty() {
-        mirror(out.stiffness, NN * ND, ND);
     }
     Ok(())
 }

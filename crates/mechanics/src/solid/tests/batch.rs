@@ -111,6 +111,88 @@ fn cells_in_lanes_have_the_forces_stiffness_and_energy_of_cells_alone() {
 }
 
 #[test]
+fn every_lane_has_the_history_temperature_and_start_of_its_cell() {
+    let hex8 = element::by_name("hex8").unwrap();
+    let mesh = cells(hex8, 7);
+    let space = Idealisation::Space;
+    let all: Vec<_> = mesh.cells(3).collect();
+    // each cell its own stress at the start, at one of its points
+    let initial = all.iter().zip(1..).map(|(&cell, k)| {
+        let stress = Sym3::new(0.3, -0.2, 0.1, 0.05, 0.0, -0.1) * f64::from(k);
+        AtStart {
+            cell,
+            point: 3,
+            stress,
+            strain: Sym3::ZERO,
+        }
+    });
+    let initial: Vec<AtStart> = initial.collect();
+    for kinematics in [Kinematics::Small, Kinematics::Finite] {
+        let of = |is_symmetric| {
+            let law: Box<dyn Material> = Box::new(Expanding::new(Box::new(Viscous), 1e-3, 0.0));
+            let wish = Wish::plain(space, kinematics);
+            let plain = body(&mesh, elastic("linear-elastic", 0.3), &wish).unwrap();
+            let warm = |by: f64| (0..mesh.nnode()).map(|k| by * noise(900 + k)).collect();
+            let field = NodalField {
+                ends: vec![warm(2.0), warm(15.0)],
+            };
+            let mut solid = Solid::new(SolidParts {
+                name: "body",
+                mesh: &mesh,
+                reference: plain.reference.clone(),
+                cells: &all,
+                layout: plain.layout,
+                space,
+                material: Box::new(Hidden { law, is_symmetric }),
+                integration: Integration::Full,
+                locking: Locking::None,
+                temperature: Some(Arc::new(field)),
+                linear_temperatures: false,
+                at_nodes: Default::default(),
+                initial: &initial,
+            });
+            if let Ok(solid) = &mut solid {
+                solid.set_kinematics(kinematics);
+            }
+            let mut body = Body {
+                solid: solid.unwrap(),
+                ..plain
+            };
+            let n = body.layout.ndof();
+            let u: Vec<f64> = (0..n).map(|k| 0.02 * noise(k)).collect();
+            let before = body.state(&u);
+            body.solid.accept(&before).unwrap();
+            body
+        };
+        let [together, alone] = [true, false].map(of);
+        let n = alone.layout.ndof();
+        let u: Vec<f64> = (0..n).map(|k| 0.02 * noise(300 + k)).collect();
+        let mut work = Work::default();
+        let right = alone.assemble(&u, Order::Tangent, &mut work);
+        let found = together.assemble(&u, Order::Tangent, &mut work);
+        let off = largest_difference(&found.stiffness, &right.stiffness);
+        assert!(off < 1e-13 * right.scale(), "stiffness off by {off:e}");
+        let off = largest_difference(&found.force, &right.force);
+        assert!(off < 1e-12 * right.scale(), "force off by {off:e}");
+        // undeformed, at the first temperature and without history: what is at the start stays
+        let zero = vec![0.0; n];
+        let [found, right] = [&together, &alone].map(|body| {
+            let mut dense = Dense {
+                force: zero.clone(),
+                stiffness: vec![0.0; n * n],
+            };
+            for chunk in 0..body.solid.nchunk() {
+                let outcome = body.solid.stiffness_at_start(chunk, &mut work, &mut dense);
+                outcome.unwrap();
+            }
+            dense
+        });
+        let off = largest_difference(&found.stiffness, &right.stiffness);
+        assert!(off < 1e-13 * right.scale(), "at the start off by {off:e}");
+    }
+}
+
+#[test]
 fn of_several_cells_the_one_that_is_turned_inside_out_is_named() {
     let mesh = cells(element::by_name("hex8").unwrap(), 6);
     let wish = Wish::plain(Idealisation::Space, Kinematics::Finite);

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::material::{
-    Constants, Expanding, Hardening, HardeningKind, Kinematics, Material, MaterialError,
-    Order as MaterialOrder, Plasticity, Response, Strain, TABLE,
+    ByTemperature, Constants, Expanding, Hardening, HardeningKind, Kinematics, Material,
+    MaterialError, Order as MaterialOrder, Plasticity, Response, Strain, TABLE,
 };
 use crate::system::{
     Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, Layout, NodalField, Order,

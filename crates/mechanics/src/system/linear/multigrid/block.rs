@@ -282,14 +282,7 @@ impl InterfaceBlock {
         Ok(())
     }
 
-    /// Adds what [`InterfaceBlock::before`] found.
-    pub fn add(&self, x: &mut [f64]) {
-        for (left, &e) in self.left.iter().zip(&self.whole) {
-            x[e as usize] += left;
-        }
-    }
-
-    /// `x_I += A_II⁻¹ (r − A x)_I`, which is `x_I = A_II⁻¹ (r_I − A_IO x_O)` with the other equations O.
+    /// `x_I = A_II⁻¹ (r_I − A_IO x_O)` with the other equations O: what `x_I += A_II⁻¹ (r − A x)_I` makes of any `x_I`.
     ///
     /// # Errors
     /// Those of the direct solver.

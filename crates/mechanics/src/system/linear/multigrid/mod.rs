@@ -4,7 +4,7 @@
 //!   K     stiffness of the bodies     ──aggregate, smooth──▶ hierarchy        kept while it serves
 //!   A = K + contact, couplings        ──rows at the interface──▶ block A_II   anew with every tangent
 //!
-//!   M⁻¹ r:   y = A_II⁻¹ r_I    x = V (r − A y) + y    x_I += A_II⁻¹ (r − A x)_I
+//!   M⁻¹ r:   y = A_II⁻¹ r_I    x = V (r − A y)    x_I = A_II⁻¹ (r_I − A_IO x_O)    O: all other equations
 //! ```
 //!
 //! Contact never enters the hierarchy, so that no change of contact costs a new one, and no stiffness of contact makes
@@ -61,6 +61,8 @@ const GROWN: usize = 2;
 const DRIFTED: f64 = 0.2;
 /// Iterations to a power of ten that are never too many.
 const LEAST: f64 = 4.0;
+/// Iterations to a power of ten that are too many with a hierarchy of the start, whatever it took before.
+const MOST: f64 = 8.0;
 
 /// Multigrid over direct solution.
 pub struct Multigrid {
@@ -359,7 +361,14 @@ impl Multigrid {
                 before: "factorize",
             }),
             (Some(grid), Some(Way::Grid)) => {
-                let why = match grid.solve(kept, values, rhs, x, wanted, &mut self.residual)? {
+                let residual = &mut self.residual;
+                let mut outcome = grid.solve(kept, values, rhs, x, wanted, residual)?;
+                if matches!(outcome, Err(Why::Slow { .. })) && grid.start.is_in_use {
+                    // where the stiffness has changed here and there, that of the start may not serve
+                    self.notes.extend(grid.make_anew(kept, values));
+                    outcome = grid.solve(kept, values, rhs, x, wanted, residual)?;
+                }
+                let why = match outcome {
                     Ok(report) => return Ok(report),
                     Err(why) => why,
                 };
@@ -524,13 +533,13 @@ impl Grid {
         if self.hierarchy.is_some() && self.is_proven && !is_worn && many <= GROWN * few {
             return None;
         }
-        let source = fingerprint(values.bulk);
-        let is_same = self.source == source && self.springs == springs;
         let worn = self.base.filter(|_| is_worn).map(|base| [self.rate, base]);
         // that of an increment before is not known to a run that is resumed here
         let of_increment = std::mem::replace(&mut self.is_proven, true);
-        (self.source, self.springs) = (source, springs);
         (self.base, self.worn) = (None, 0);
+        let source = fingerprint(values.bulk);
+        let is_same = self.source == source && self.springs == springs;
+        (self.source, self.springs) = (source, springs);
         if is_same && self.hierarchy.is_some() {
             return None;
         }
@@ -546,6 +555,13 @@ impl Grid {
         self.start.is_in_use &= new.is_none() && before.is_some();
         self.hierarchy = new.or(before);
         note
+    }
+
+    /// Makes a hierarchy of these values in place of that of the start.
+    fn make_anew(&mut self, kept: &Kept, values: &Values) -> Option<Note> {
+        self.start.is_in_use = false;
+        self.hierarchy = None;
+        self.renew(kept, values)
     }
 
     /// Takes the values of a tangent; false where they do not suit.
@@ -652,7 +668,9 @@ impl Grid {
         let rate = iterations as f64 / powers.max(1.0);
         self.rate = rate;
         let base = *self.base.get_or_insert(rate.max(LEAST));
-        if rate > WORN * base {
+        if self.start.is_in_use && rate > MOST {
+            self.worn = 2;
+        } else if rate > WORN * base {
             self.worn += 1;
         } else {
             self.worn = 0;
@@ -749,9 +767,6 @@ impl Operators for OneGrid<'_> {
             f64::from(x.get(unknown as usize).copied().unwrap_or(0.0)) * scale
         });
         if has_block {
-            if two_sided {
-                block.add(z);
-            }
             block.after(r, z)?;
         }
         Ok(())

@@ -473,16 +473,22 @@ fn turned_above(placed: &Placed, angle: f64) -> Placed {
     turned
 }
 
-/// Iterations and the solution in an increment of a run, where the solver is told of the stiffness at the start if it asks.
-fn solve_from(start: &Placed, now: &Placed, solver: &mut Multigrid) -> (usize, Vec<f64>) {
+/// Iterations and the solution in an increment of a step, where the solver is told of the stiffness at the start if it
+/// asks.
+fn solve_from(
+    step: usize,
+    start: &Placed,
+    now: &Placed,
+    solver: &mut Multigrid,
+) -> (usize, Vec<f64>) {
     let assembled = now.system.assemble();
     let rhs = Random(3).vector(assembled.nequation);
     let mut x = vec![0.0; rhs.len()];
     solver.forget();
     solver.analyze(&now.problem(&assembled)).unwrap();
-    if solver.wants_start(0) {
+    if solver.wants_start(step) {
         let at_start = start.system.assemble();
-        solver.start_from(0, at_start.values().bulk.to_vec());
+        solver.start_from(step, at_start.values().bulk.to_vec());
     }
     solver.factorize(&assembled.values()).unwrap();
     let report = solver.solve(&assembled.values(), &rhs, &mut x, 1e-8);
@@ -494,7 +500,7 @@ fn solve_from(start: &Placed, now: &Placed, solver: &mut Multigrid) -> (usize, V
 fn a_hierarchy_of_the_start_serves_bodies_that_turn_a_little() {
     let start = pressed([12, 12, 12], 10.0, false, false);
     let mut solver = Multigrid::new();
-    solve_from(&start, &start, &mut solver);
+    solve_from(0, &start, &start, &mut solver);
     assert_eq!(solver.notes().len(), 1);
     let turns = [
         (0.05, true, 0),
@@ -506,16 +512,69 @@ fn a_hierarchy_of_the_start_serves_bodies_that_turn_a_little() {
     ];
     for (angle, is_of_start, made) in turns {
         let now = turned_above(&start, angle);
-        let (count, x) = solve_from(&start, &now, &mut solver);
-        let (new, _) = solve_from(&now, &now, &mut Multigrid::new());
+        let (count, x) = solve_from(0, &start, &now, &mut solver);
+        let (new, _) = solve_from(0, &now, &now, &mut Multigrid::new());
         println!("turned by {angle}: {count} iterations, {new} with a hierarchy of its own");
         assert!(count as f64 <= 1.35 * new as f64, "{angle}: {count} {new}");
         assert_eq!(solver.is_of_start(), is_of_start, "{angle}");
         assert_eq!(solver.notes().len(), made, "{angle}");
         // a run that goes on from here knows nothing but the start
         let mut resumed = Multigrid::new();
-        let (_, again) = solve_from(&start, &now, &mut resumed);
+        let (_, again) = solve_from(0, &start, &now, &mut resumed);
         assert!(x == again, "{angle}");
+    }
+    // a step in which the bodies are of another material
+    let mut other = start.clone();
+    for (_, matrix) in &mut other.system.bulk {
+        matrix.iter_mut().for_each(|k| *k *= 1.1);
+    }
+    let (_, x) = solve_from(1, &other, &other, &mut solver);
+    assert_eq!(solver.notes().len(), 1);
+    let (_, again) = solve_from(1, &other, &other, &mut Multigrid::new());
+    assert!(x == again);
+}
+
+#[test]
+fn a_hierarchy_of_the_start_that_is_slow_gives_way_to_a_new_one() {
+    let start = pressed([12, 12, 12], 10.0, false, false);
+    // hardly any change in the norm: in the lower block, the softer of the two, some cells lose their strength
+    let weakened = |of: &dyn Fn(usize, [f64; 3]) -> f64| {
+        let mut now = start.clone();
+        for (cell, (nodes, matrix)) in now.system.bulk.iter_mut().enumerate() {
+            let factor = of(cell, start.coordinates[nodes[0] as usize]);
+            matrix.iter_mut().for_each(|k| *k *= factor);
+        }
+        now
+    };
+    let corner = weakened(&|_, x| {
+        if x.iter().all(|x| *x < 3.5) {
+            1e-5
+        } else {
+            1.0
+        }
+    });
+    let scattered = weakened(&|cell, [x, _, z]| {
+        if x < 3.5 && z < 11.5 {
+            0.1f64.powi((cell * cell % 7) as i32)
+        } else {
+            1.0
+        }
+    });
+    // after a solution that takes long, and after one that comes to no end
+    for (now, solutions) in [(corner, 2), (scattered, 1)] {
+        let mut solver = Multigrid::new();
+        solve_from(0, &start, &start, &mut solver);
+        solver.notes();
+        let (first, _) = solve_from(0, &start, &now, &mut solver);
+        let mut count = first;
+        if solutions == 2 {
+            assert!(solver.is_of_start());
+            count = solve(&now, &mut solver).1.iterations;
+        }
+        let notes = solver.notes();
+        println!("{first}, then {count} iterations, {notes:?}");
+        assert!(matches!(notes[..], [Note::Hierarchy { .. }]) && !solver.is_of_start());
+        assert!(count <= 40);
     }
 }
 
