@@ -96,7 +96,7 @@ impl Equations {
     }
 
     /// Tells the solver of it.
-    pub fn start_from(&mut self, step: usize, bulk: Vec<f64>) {
+    pub fn start_from(&mut self, step: usize, bulk: Option<Vec<f64>>) {
         self.solver.start_from(step, bulk);
     }
 

@@ -603,17 +603,18 @@ impl Newton {
         Ok(())
     }
 
-    /// The stiffness of the bodies at the start of the run, where the tangent is assembled.
-    fn bulk_at_start(&mut self, system: &System) -> Result<Vec<f64>, TermError> {
+    /// The stiffness of the bodies at the start of the run; none where it is the present one at all states.
+    fn bulk_at_start(&mut self, system: &System) -> Result<Option<Vec<f64>>, TermError> {
         if self.assembler.is_constant() {
-            return Ok(self.assembly.values().bulk.to_vec());
+            return Ok(None);
         }
-        self.assembler.bulk_at_start(
+        let bulk = self.assembler.bulk_at_start(
             &system.layout,
             &system.elimination,
             &system.terms,
             &self.trial,
-        )
+        );
+        bulk.map(Some)
     }
 
     fn judge(&self, system: &System) -> Judgement {

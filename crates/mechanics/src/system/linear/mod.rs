@@ -241,8 +241,9 @@ pub trait LinearSolver: Send {
         false
     }
 
-    /// Takes the values of the bulk at the start of the run, undeformed and without history, as this step has them.
-    fn start_from(&mut self, _step: usize, _bulk: Vec<f64>) {}
+    /// Takes the values of the bulk at the start of the run, undeformed and without history, as this step has them; none
+    /// where they are those of all states.
+    fn start_from(&mut self, _step: usize, _bulk: Option<Vec<f64>>) {}
 
     /// Solves `A x = rhs` until the true relative residual is at most `rtol`, or at the round-off of the operator.
     ///

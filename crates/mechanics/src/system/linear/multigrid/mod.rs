@@ -295,11 +295,13 @@ impl LinearSolver for Multigrid {
         })
     }
 
-    fn start_from(&mut self, step: usize, bulk: Vec<f64>) {
-        if let (Some(grid), Some(kept)) = (&mut self.grid, &self.kept)
-            && bulk.len() == kept.bulk.nvalue()
-        {
-            grid.take_start(step, bulk, kept);
+    fn start_from(&mut self, step: usize, bulk: Option<Vec<f64>>) {
+        let (Some(grid), Some(kept)) = (&mut self.grid, &self.kept) else {
+            return;
+        };
+        match bulk.filter(|bulk| bulk.len() == kept.bulk.nvalue()) {
+            Some(bulk) => grid.take_start(step, bulk, kept),
+            None => grid.start = Start::default(),
         }
     }
 

@@ -488,7 +488,7 @@ fn solve_from(
     solver.analyze(&now.problem(&assembled)).unwrap();
     if solver.wants_start(step) {
         let at_start = start.system.assemble();
-        solver.start_from(step, at_start.values().bulk.to_vec());
+        solver.start_from(step, Some(at_start.values().bulk.to_vec()));
     }
     solver.factorize(&assembled.values()).unwrap();
     let report = solver.solve(&assembled.values(), &rhs, &mut x, 1e-8);
