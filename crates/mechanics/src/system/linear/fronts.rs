@@ -485,7 +485,8 @@ fn subtract_product(y: &mut [f64], a: &[f64], stride: usize, x: &[f64]) {
     for (k, x) in fours.iter().enumerate() {
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| &a[(4 * k + i) * stride..][..n]);
         for i in 0..n {
-            y[i] -= (a[i] * x[0] + b[i] * x[1]) + (c[i] * x[2] + d[i] * x[3]);
+            // in the order of the columns
+            y[i] = y[i] - a[i] * x[0] - b[i] * x[1] - c[i] * x[2] - d[i] * x[3];
         }
     }
     for (k, x) in (4 * fours.len()..).zip(others) {
