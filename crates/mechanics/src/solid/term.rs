@@ -898,19 +898,14 @@ impl Term for Solid {
             Order::Tangent => Wanted::Stiffness,
         };
         let scratch = work.of::<Scratch>();
-        self.each(
-            chunk,
-            At::Trial(trial),
-            wanted,
-            scratch,
-            |block, cell, _, s| {
-                self.hand(s, out);
-                // strains are sums of as many products as there are nodes
-                let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
-                let sum = block.rigidity[cell] * block.nnode as f64;
-                out.uncertain(&s.dofs, f64::EPSILON * sum * far);
-            },
-        )
+        let at = At::Trial(trial);
+        self.each(chunk, at, wanted, scratch, |block, cell, _, s| {
+            self.hand(s, out);
+            // strains are sums of as many products as there are nodes
+            let far = s.u.iter().fold(0.0f64, |far, u| far.max(u.abs()));
+            let sum = block.rigidity[cell] * block.nnode as f64;
+            out.uncertain(&s.dofs, f64::EPSILON * sum * far);
+        })
     }
 
     fn stiffness_at_start(
@@ -932,17 +927,11 @@ impl Term for Solid {
         trial: &State,
         work: &mut Work,
     ) -> Result<Option<f64>, TermError> {
-        let mut total = 0.0;
+        let (at, mut total) = (At::Trial(trial), 0.0);
         let scratch = work.of::<Scratch>();
-        self.each(
-            chunk,
-            At::Trial(trial),
-            Wanted::Forces,
-            scratch,
-            |_, _, energy, _| {
-                total += energy;
-            },
-        )?;
+        self.each(chunk, at, Wanted::Forces, scratch, |_, _, energy, _| {
+            total += energy;
+        })?;
         Ok(Some(total))
     }
 
@@ -1029,16 +1018,10 @@ impl Term for Solid {
         let chunks: Vec<usize> = (0..self.chunks.len()).collect();
         for wave in chunks.chunks(SAMPLED) {
             let sample = |scratch: &mut Scratch, &chunk: &usize| {
-                let mut samples = Vec::new();
-                self.each(
-                    chunk,
-                    At::Trial(state),
-                    Wanted::Samples,
-                    scratch,
-                    |_, _, _, s| {
-                        samples.extend_from_slice(&s.samples);
-                    },
-                )?;
+                let (at, mut samples) = (At::Trial(state), Vec::new());
+                self.each(chunk, at, Wanted::Samples, scratch, |_, _, _, s| {
+                    samples.extend_from_slice(&s.samples);
+                })?;
                 Ok(samples)
             };
             let sampled = wave.par_iter().map_init(Scratch::default, sample);

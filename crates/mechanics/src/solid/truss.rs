@@ -469,27 +469,19 @@ impl Term for Truss {
         work: &mut Work,
     ) -> Result<Option<f64>, TermError> {
         let scratch = work.of::<Scratch>();
-        let mut total = 0.0;
+        let (at, mut total) = (At::Trial(trial), 0.0);
         for bar in self.chunk(chunk) {
             let order = MaterialOrder::Stress;
-            total += self
-                .local(bar, At::Trial(trial), order, &mut scratch.new)?
-                .energy;
+            total += self.local(bar, at, order, &mut scratch.new)?.energy;
         }
         Ok(Some(total))
     }
 
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         let mut next = Vec::with_capacity(self.history.len());
-        let mut new = Vec::new();
+        let (at, mut new) = (At::Trial(state), Vec::new());
         for bar in &self.bars {
-            self.points(
-                bar,
-                At::Trial(state),
-                MaterialOrder::Stress,
-                &mut new,
-                |_, _, _| {},
-            )?;
+            self.points(bar, at, MaterialOrder::Stress, &mut new, |_, _, _| {})?;
             next.extend_from_slice(&new);
         }
         self.history = next;
@@ -505,21 +497,16 @@ impl Term for Truss {
     }
 
     fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
+        let at = At::Trial(state);
         let (mut new, mut samples) = (Vec::new(), Vec::new());
         let wanted = |bar: &&Bar| cells.binary_search(&bar.id).is_ok();
         for bar in self.bars.iter().filter(wanted) {
             let order = MaterialOrder::Stress;
-            self.points(
-                bar,
-                At::Trial(state),
-                order,
-                &mut new,
-                |point, response, history| {
-                    let number = samples.len();
-                    let temperature = self.temperature(bar, number, At::Trial(state));
-                    samples.push(self.point_sample(point, response, history, temperature));
-                },
-            )?;
+            self.points(bar, at, order, &mut new, |point, response, history| {
+                let number = samples.len();
+                let temperature = self.temperature(bar, number, at);
+                samples.push(self.point_sample(point, response, history, temperature));
+            })?;
             out.push(bar.id, bar.element.full_rule(), samples.drain(..));
         }
         Ok(())
@@ -528,24 +515,18 @@ impl Term for Truss {
     /// The axial stress and strain as tensors `σ t tᵀ`, cell by cell; nodes have none, for bars meet at angles.
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let finite = self.kinematics == Kinematics::Finite;
-        let mut new = Vec::new();
+        let (at, mut new) = (At::Trial(state), Vec::new());
         for bar in &self.bars {
             let mut mean = report::CellMeans::default();
             let order = MaterialOrder::Stress;
-            self.points(
-                bar,
-                At::Trial(state),
-                order,
-                &mut new,
-                |point, response, history| {
-                    let strain = match finite {
-                        true => dyad(point.along) * (0.5 * (2.0 * point.strain).ln_1p()),
-                        false => dyad(point.along) * point.strain,
-                    };
-                    let plastic = self.material.plastic_strain(history);
-                    mean.add(point.weight, self.stress(point, response), strain, plastic);
-                },
-            )?;
+            self.points(bar, at, order, &mut new, |point, response, history| {
+                let strain = match finite {
+                    true => dyad(point.along) * (0.5 * (2.0 * point.strain).ln_1p()),
+                    false => dyad(point.along) * point.strain,
+                };
+                let plastic = self.material.plastic_strain(history);
+                mean.add(point.weight, self.stress(point, response), strain, plastic);
+            })?;
             mean.put(frame, bar.id);
         }
         Ok(())

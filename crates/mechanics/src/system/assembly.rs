@@ -41,6 +41,17 @@ pub struct Assembly {
 }
 
 impl Assembly {
+    /// Sets forces, and what is known of their rounding, to zero.
+    fn reset_forces(&mut self, ndof: usize) {
+        for values in [
+            &mut self.residual,
+            &mut self.magnitude,
+            &mut self.uncertainty,
+        ] {
+            reset(values, ndof);
+        }
+    }
+
     /// The values of the operator.
     #[must_use]
     pub fn values(&self) -> Values<'_> {
@@ -329,9 +340,7 @@ impl Assembler {
         order: Order,
         out: &mut Assembly,
     ) -> Result<(), TermError> {
-        for values in [&mut out.residual, &mut out.magnitude, &mut out.uncertainty] {
-            reset(values, layout.ndof());
-        }
+        out.reset_forces(layout.ndof());
         let is_kept = out.bulk_of == Some(self.increment);
         if order == Order::Tangent {
             if !is_kept {
@@ -407,9 +416,7 @@ impl Assembler {
         state: &State,
     ) -> Result<Vec<f64>, TermError> {
         let mut out = Assembly::default();
-        for values in [&mut out.residual, &mut out.magnitude, &mut out.uncertainty] {
-            reset(values, layout.ndof());
-        }
+        out.reset_forces(layout.ndof());
         reset(&mut out.bulk, self.bulk.nvalue());
         reset(&mut out.interface, self.interface.nentry());
         let Self {

@@ -41,6 +41,7 @@ use super::{
 };
 use crate::system::sparsity::{NONE, Pattern};
 use block::{InterfaceBlock, touched};
+use blocks::Blocks;
 use fine::{Fine, hold};
 use hierarchy::Hierarchy;
 use krylov::{End, Operators, Stop};
@@ -481,48 +482,46 @@ impl Grid {
         response
     }
 
-    /// Whether the hierarchy is, or now becomes, that of the start, from which the stiffness is not far.
-    fn goes_from_start(&mut self, kept: &Kept, values: &Values, note: &mut Option<Note>) -> bool {
+    /// Lets the hierarchy of the start serve where the stiffness is not far from that, and makes it where there is none.
+    fn go_from_start(&mut self, kept: &Kept, values: &Values) -> Option<Note> {
         let at_start = self.start.values.take();
         if !self.start.is_in_use && at_start.is_none() {
-            return false;
+            return None;
         }
         let now = self.signed(kept, values.bulk);
         let pairs = now.iter().zip(&self.start.response);
         let change: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
         let size: f64 = self.start.response.iter().map(|b| b * b).sum();
         let is_near = change <= DRIFTED * DRIFTED * size;
-        match at_start {
-            Some(bulk) if is_near => {
-                let interface = values.interface;
-                let values = Values {
-                    bulk: &bulk,
-                    interface,
-                };
-                let matrix = self.fine.matrix(kept, &values);
-                let new = Hierarchy::new(&matrix, &self.fine.modes, &self.fine.parts);
-                let Some(new) = new else {
-                    return false;
-                };
-                *note = Some(Note::Hierarchy {
-                    unknowns: 3 * self.fine.node.len(),
-                    levels: new.nlevel(),
-                    worn: None,
-                });
-                self.hierarchy = Some(new);
-                self.start.is_in_use = true;
-            }
-            _ => self.start.is_in_use &= is_near,
-        }
-        self.start.is_in_use
+        self.start.is_in_use &= is_near;
+        let bulk = at_start.filter(|_| is_near)?;
+        let values = Values {
+            bulk: &bulk,
+            interface: values.interface,
+        };
+        let (new, note) = self.build(&self.fine.matrix(kept, &values), None)?;
+        self.hierarchy = Some(new);
+        self.start.is_in_use = true;
+        Some(note)
+    }
+
+    /// The hierarchy of a matrix, and what to say of it.
+    fn build(&self, matrix: &Blocks<3, 3>, worn: Option<[f64; 2]>) -> Option<(Hierarchy, Note)> {
+        let new = Hierarchy::new(matrix, &self.fine.modes, &self.fine.parts)?;
+        let note = Note::Hierarchy {
+            unknowns: 3 * self.fine.node.len(),
+            levels: new.nlevel(),
+            worn,
+        };
+        Some((new, note))
     }
 
     /// Makes a hierarchy where there is none, where it is worn, and where that of another increment is not what this
     /// one would have made.
     fn renew(&mut self, kept: &Kept, values: &Values) -> Option<Note> {
         if !self.is_proven {
-            let mut note = None;
-            if self.goes_from_start(kept, values, &mut note) {
+            let note = self.go_from_start(kept, values);
+            if self.start.is_in_use {
                 (self.is_proven, self.source) = (true, 0);
                 (self.base, self.worn) = (None, 0);
                 return note;
@@ -535,24 +534,19 @@ impl Grid {
         if self.hierarchy.is_some() && self.is_proven && !is_worn && many <= GROWN * few {
             return None;
         }
+        let source = fingerprint(values.bulk);
+        let is_same = self.source == source && self.springs == springs;
         let worn = self.base.filter(|_| is_worn).map(|base| [self.rate, base]);
         // that of an increment before is not known to a run that is resumed here
         let of_increment = std::mem::replace(&mut self.is_proven, true);
-        (self.base, self.worn) = (None, 0);
-        let source = fingerprint(values.bulk);
-        let is_same = self.source == source && self.springs == springs;
         (self.source, self.springs) = (source, springs);
+        (self.base, self.worn) = (None, 0);
         if is_same && self.hierarchy.is_some() {
             return None;
         }
         let mut matrix = self.fine.matrix(kept, values);
         hold(&mut matrix, &self.springs);
-        let new = Hierarchy::new(&matrix, &self.fine.modes, &self.fine.parts);
-        let note = new.as_ref().map(|new| Note::Hierarchy {
-            unknowns: 3 * self.fine.node.len(),
-            levels: new.nlevel(),
-            worn,
-        });
+        let (new, note) = self.build(&matrix, worn).unzip();
         let before = self.hierarchy.take().filter(|_| of_increment);
         self.start.is_in_use &= new.is_none() && before.is_some();
         self.hierarchy = new.or(before);
