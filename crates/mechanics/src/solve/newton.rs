@@ -142,6 +142,8 @@ const fn kind(name: Option<DofName>) -> usize {
 struct Judgement {
     /// max |r| / q over the kinds.
     residual: f64,
+    /// max |r| over what is small, of forces and moments.
+    excess: f64,
     worst: Option<Dof>,
     force: f64,
     small: bool,
@@ -197,6 +199,7 @@ impl ForceScale {
         });
         let mut judgement = Judgement {
             residual: 0.0,
+            excess: 0.0,
             worst: None,
             force: 0.0,
             small: true,
@@ -206,7 +209,7 @@ impl ForceScale {
         // a reaction must be a number, too
         let broken = assembly.residual.iter().position(|r| !r.is_finite());
         if let Some(dof) = broken {
-            judgement.residual = f64::NAN;
+            (judgement.residual, judgement.excess) = (f64::NAN, f64::NAN);
             judgement.worst = Some(dof as Dof);
             judgement.force = f64::NAN;
             judgement.small = false;
@@ -218,7 +221,11 @@ impl ForceScale {
             let r = assembly.residual[dof as usize].abs();
             let floor = ROUND_OFF * largest[k] + assembly.uncertainty[dof as usize];
             judgement.round_off &= r <= floor;
-            judgement.small &= r <= (force_tol * q[k]).max(floor);
+            let limit = (force_tol * q[k]).max(floor);
+            judgement.small &= r <= limit;
+            if k != MULTIPLIERS && r > judgement.excess * limit {
+                judgement.excess = r / limit;
+            }
             // a multiplier's equation may hold nothing but its residual: its mean says nothing
             let done = r == 0.0 || (k == MULTIPLIERS && r <= floor);
             let relative = if done { 0.0 } else { r / q[k] };
@@ -333,12 +340,14 @@ impl Newton {
         self.equations.forget();
         let mut motion = self.start(system, base, goal);
         let mut correction = 0.0;
-        // since what terms keep frozen changed last
+        // whether a correction tells how far off the state is
         let mut solved = false;
+        // whether what terms keep frozen has changed since the last solution
+        let mut released = false;
         let mut alpha = 1.0;
         let mut decrement = 0.0;
         let mut unsettled = None;
-        let mut economy = Economy::new(self.settings.force_tol);
+        let mut economy = Economy::default();
         let mut last = self.settings.max_iterations;
         let mut augmentations = 0;
         let nmotion = system.layout.nmotion();
@@ -389,8 +398,11 @@ impl Newton {
                         augmentations += 1;
                         last = iterations + self.settings.max_iterations;
                         residuals.clear();
-                        correction = 0.0;
-                        solved = false;
+                        // the change may be of no account: then the state is judged again as it is, but only once
+                        if std::mem::replace(&mut released, true) {
+                            correction = 0.0;
+                            solved = false;
+                        }
                         continue;
                     }
                     Some(changed) => {
@@ -429,7 +441,7 @@ impl Newton {
             let nearly = iterations > 0 && !motion && judgement.small && settled;
             let accuracy = if self.equations.is_iterative() {
                 let changes = motion || iterations == 0 || !settled || flips > 0;
-                economy.accuracy(judgement.residual, changes || nearly)
+                economy.accuracy(judgement.excess, changes || nearly)
             } else {
                 Accuracy::Residual(EXACT)
             };
@@ -438,7 +450,7 @@ impl Newton {
                 self.equations.start_from(place.step, bulk);
             }
             let left = self.solve_linear(motion, nearly, accuracy)?;
-            economy.solved(judgement.residual, left);
+            economy.solved(judgement.excess, left);
             decrement = self.slope().abs().sqrt();
             let is_last = largest(&self.du[..nmotion]) <= CORRECTION * moved;
             let next = if is_last {
@@ -450,6 +462,7 @@ impl Newton {
             correction = alpha * largest(&self.du[..nmotion]);
             motion = false;
             solved = true;
+            released = false;
             iterations += 1;
         }
     }

@@ -609,12 +609,16 @@ impl Grid {
             residual.measure(kept, values, rhs, x);
             size = size.max(kept.largest_force(&residual.value));
         }
+        let part = match wanted {
+            Wanted::Residual(rtol) => rtol,
+            Wanted::Part(part) if symmetric => part,
+            Wanted::Part(part) => STRICTER * part,
+        };
         for attempt in 0..3 {
             let most = ITERATIONS.saturating_sub(report.iterations);
             let stop = match wanted {
-                Wanted::Residual(rtol) => Stop::Largest(0.5 * rtol * size),
-                Wanted::Part(part) if symmetric => Stop::Part(part),
-                Wanted::Part(part) => Stop::Part(STRICTER * part),
+                Wanted::Residual(_) => Stop::Largest(0.5 * part * size),
+                Wanted::Part(_) => Stop::Part(part),
             };
             let mut operators = OneGrid {
                 grid: self,
@@ -640,13 +644,13 @@ impl Grid {
             report.residual = if left > 0.0 { left / size } else { 0.0 };
             report.refinements = attempt;
             let done = match wanted {
-                Wanted::Residual(rtol) => {
-                    report.residual <= rtol || left <= residual.round_off(kept, values, x)
+                Wanted::Residual(_) => {
+                    report.residual <= part || left <= residual.round_off(kept, values, x)
                 }
                 Wanted::Part(_) => true,
             };
             if done {
-                self.judge(wanted, report.iterations);
+                self.judge(part, report.iterations);
                 return Ok(Ok(report));
             }
         }
@@ -654,14 +658,9 @@ impl Grid {
         Ok(Err(Why::Slow { iterations }))
     }
 
-    /// Keeps count of how well the hierarchy serves.
-    fn judge(&mut self, wanted: Wanted, iterations: usize) {
-        // iterations to one power of ten
-        let powers = match wanted {
-            Wanted::Residual(rtol) => -rtol.log10(),
-            Wanted::Part(part) => -part.log10(),
-        };
-        let rate = iterations as f64 / powers.max(1.0);
+    /// Keeps count of how well the hierarchy serves, by its iterations to this part of a residual or an error.
+    fn judge(&mut self, part: f64, iterations: usize) {
+        let rate = iterations as f64 / (-part.log10()).max(1.0);
         self.rate = rate;
         let base = *self.base.get_or_insert(rate.max(LEAST));
         if self.start.is_in_use && rate > MOST {
