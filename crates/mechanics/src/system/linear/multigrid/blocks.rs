@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Rows handled by one task; results do not depend on it.
-const ROWS_PER_TASK: usize = 1024;
+/// Blocks of a factor whose rows are handled by one task; results do not depend on it.
+const BLOCKS_PER_TASK: usize = 8192;
 /// Rows of a matrix that are projected at once; sums are in this order.
 const ROWS_PER_STRIP: usize = 16_384;
 /// Stands for no place in a row.
@@ -39,43 +39,38 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         columns.zip(&self.value[range])
     }
 
-    /// The transpose.
-    pub fn transpose(&self) -> Blocks<C, R> {
+    /// The blocks of some rows, column by column: where those of each begin; the row from the first on, and the place.
+    fn by_column(&self, rows: Range<usize>) -> (Vec<usize>, Vec<(u32, usize)>) {
         let mut start = vec![0usize; self.ncolumn + 1];
-        for &column in &self.column {
+        let all = self.start[rows.start]..self.start[rows.end];
+        for &column in &self.column[all.clone()] {
             start[column as usize + 1] += 1;
         }
-        for row in 0..self.ncolumn {
-            start[row + 1] += start[row];
+        for column in 0..self.ncolumn {
+            start[column + 1] += start[column];
         }
         let mut next = start.clone();
-        let mut column = vec![0; self.column.len()];
-        let mut value = vec![[[0.0; R]; C]; self.value.len()];
-        for row in 0..self.nrow() {
-            for (to, block) in self.row(row) {
-                let at = next[to];
-                next[to] += 1;
-                column[at] = row as u32;
-                value[at] = std::array::from_fn(|c| std::array::from_fn(|r| block[r][c]));
+        let mut place = vec![(0, 0); all.len()];
+        for (from, row) in rows.enumerate() {
+            let range = self.range(row);
+            for (&column, at) in self.column[range.clone()].iter().zip(range) {
+                place[next[column as usize]] = (from as u32, at);
+                next[column as usize] += 1;
             }
         }
+        (start, place)
+    }
+
+    /// The transpose.
+    #[cfg(test)]
+    pub fn transpose(&self) -> Blocks<C, R> {
+        let (start, place) = self.by_column(0..self.nrow());
+        let value = place.iter().map(|&(_, at)| transposed(&self.value[at]));
         Blocks {
             ncolumn: self.nrow(),
             start,
-            column,
-            value,
-        }
-    }
-
-    /// Some of its rows.
-    fn rows(&self, rows: Range<usize>) -> Self {
-        let (begin, end) = (self.start[rows.start], self.start[rows.end]);
-        let starts = self.start[rows.start..=rows.end].iter();
-        Self {
-            ncolumn: self.ncolumn,
-            start: starts.map(|start| start - begin).collect(),
-            column: self.column[begin..end].to_vec(),
-            value: self.value[begin..end].to_vec(),
+            column: place.iter().map(|&(row, _)| row).collect(),
+            value: value.collect(),
         }
     }
 
@@ -112,80 +107,119 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         sum
     }
 
-    /// The product with another matrix.
-    pub fn times<const D: usize>(&self, other: &Blocks<C, D>) -> Blocks<R, D> {
-        let nrow = self.nrow();
-        let ntask = nrow.div_ceil(ROWS_PER_TASK);
-        type Part<const R: usize, const D: usize> = (Vec<usize>, Vec<u32>, Vec<[[f64; D]; R]>);
-        let parts: Vec<Part<R, D>> = (0..ntask)
-            .into_par_iter()
-            .map_init(
-                || (vec![NOWHERE; other.ncolumn], Vec::new(), Vec::new()),
-                |(place, columns, sums), task| {
-                    let (mut length, mut column, mut value) = (Vec::new(), Vec::new(), Vec::new());
-                    for row in task * ROWS_PER_TASK..nrow.min((task + 1) * ROWS_PER_TASK) {
-                        self.product_row(row, other, place, columns, sums);
-                        // sorted, and the places free again
-                        let mut sorted: Vec<(u32, u32)> = Vec::with_capacity(columns.len());
-                        for (at, &c) in columns.iter().enumerate() {
-                            sorted.push((c, at as u32));
-                            place[c as usize] = NOWHERE;
-                        }
-                        sorted.sort_unstable();
-                        length.push(sorted.len());
-                        for (c, at) in sorted {
-                            column.push(c);
-                            value.push(sums[at as usize]);
-                        }
-                    }
-                    (length, column, value)
-                },
-            )
-            .collect();
-        let total = parts.iter().map(|part| part.1.len()).sum();
-        let mut product = Blocks {
-            ncolumn: other.ncolumn,
-            start: Vec::with_capacity(nrow + 1),
-            column: Vec::with_capacity(total),
-            value: Vec::with_capacity(total),
-        };
-        let mut end = 0;
-        product.start.push(end);
-        for (length, column, value) in parts {
-            for n in length {
-                end += n;
-                product.start.push(end);
-            }
-            product.column.extend(column);
-            product.value.extend(value);
-        }
-        product
-    }
-
-    /// One row of a product: its columns in the order they are met, with their sums.
-    fn product_row<const D: usize>(
+    /// The product with another matrix. `finish` has the last word on a row, told its number and its columns.
+    pub fn times<const D: usize>(
         &self,
-        row: usize,
         other: &Blocks<C, D>,
-        place: &mut [u32],
-        columns: &mut Vec<u32>,
-        sums: &mut Vec<[[f64; D]; R]>,
-    ) {
-        columns.clear();
-        sums.clear();
-        for (k, a) in self.row(row) {
-            for (column, b) in other.row(k) {
-                if place[column] == NOWHERE {
-                    place[column] = columns.len() as u32;
-                    columns.push(column as u32);
-                    sums.push([[0.0; D]; R]);
+        finish: impl Fn(usize, &[u32], &mut [[[f64; D]; R]]) + Sync,
+    ) -> Blocks<R, D> {
+        let row_of = |row| self.row(row).map(|(k, block)| (k, *block));
+        product(&tasks(&self.start, 0..self.nrow()), row_of, other, finish)
+    }
+}
+
+/// Ranges of rows with about as many blocks each.
+fn tasks(start: &[usize], rows: Range<usize>) -> Vec<Range<usize>> {
+    let mut tasks = Vec::new();
+    let mut begin = rows.start;
+    while begin < rows.end {
+        let most = start[begin] + BLOCKS_PER_TASK;
+        let more = start[begin + 1..=rows.end].partition_point(|&end| end <= most);
+        let end = begin + more.max(1);
+        tasks.push(begin..end);
+        begin = end;
+    }
+    tasks
+}
+
+/// The product of some rows, told by their blocks, with a matrix.
+fn product<const R: usize, const C: usize, const D: usize, Row>(
+    tasks: &[Range<usize>],
+    row_of: impl Fn(usize) -> Row + Sync,
+    other: &Blocks<C, D>,
+    finish: impl Fn(usize, &[u32], &mut [[[f64; D]; R]]) + Sync,
+) -> Blocks<R, D>
+where
+    Row: Iterator<Item = (usize, [[f64; C]; R])>,
+{
+    type Part<const R: usize, const D: usize> = (Vec<usize>, Vec<u32>, Vec<[[f64; D]; R]>);
+    let work = || (vec![NOWHERE; other.ncolumn], Vec::new(), Vec::new());
+    let parts = tasks
+        .par_iter()
+        .map_init(work, |(place, columns, sums), rows| {
+            let (mut length, mut column, mut value) = (Vec::new(), Vec::new(), Vec::new());
+            let mut sorted: Vec<(u32, u32)> = Vec::new();
+            for row in rows.clone() {
+                product_row(row_of(row), other, place, columns, sums);
+                // sorted, and the places free again
+                sorted.clear();
+                for (at, &c) in columns.iter().enumerate() {
+                    sorted.push((c, at as u32));
+                    place[c as usize] = NOWHERE;
                 }
-                let sum = &mut sums[place[column] as usize];
-                for (sum, a) in sum.iter_mut().zip(a) {
-                    for (a, b) in a.iter().zip(b) {
-                        for (sum, b) in sum.iter_mut().zip(b) {
-                            *sum += a * b;
-                        }
+                sorted.sort_unstable();
+                let first = column.len();
+                for &(c, at) in &sorted {
+                    column.push(c);
+                    value.push(sums[at as usize]);
+                }
+                finish(row, &column[first..], &mut value[first..]);
+                length.push(sorted.len());
+            }
+            (length, column, value)
+        });
+    let parts: Vec<Part<R, D>> = parts.collect();
+    let total = parts.iter().map(|part| part.1.len()).sum();
+    let mut product = Blocks {
+        ncolumn: other.ncolumn,
+        start: Vec::with_capacity(tasks.iter().map(Range::len).sum::<usize>() + 1),
+        column: vec![0; total],
+        value: vec![[[0.0; D]; R]; total],
+    };
+    let mut end = 0;
+    product.start.push(end);
+    let (mut columns, mut values) = (&mut product.column[..], &mut product.value[..]);
+    let mut places = Vec::with_capacity(parts.len());
+    for part in &parts {
+        for n in &part.0 {
+            end += n;
+            product.start.push(end);
+        }
+        let (own_columns, other_columns) = columns.split_at_mut(part.1.len());
+        let (own_values, other_values) = values.split_at_mut(part.1.len());
+        (columns, values) = (other_columns, other_values);
+        places.push((own_columns, own_values));
+    }
+    let places = places.into_par_iter().zip(&parts);
+    places.for_each(|((columns, values), part)| {
+        columns.copy_from_slice(&part.1);
+        values.copy_from_slice(&part.2);
+    });
+    product
+}
+
+/// One row of a product: its columns in the order they are met, with their sums.
+fn product_row<const R: usize, const C: usize, const D: usize>(
+    row: impl Iterator<Item = (usize, [[f64; C]; R])>,
+    other: &Blocks<C, D>,
+    place: &mut [u32],
+    columns: &mut Vec<u32>,
+    sums: &mut Vec<[[f64; D]; R]>,
+) {
+    columns.clear();
+    sums.clear();
+    for (k, a) in row {
+        for (column, b) in other.row(k) {
+            if place[column] == NOWHERE {
+                place[column] = columns.len() as u32;
+                columns.push(column as u32);
+                sums.push([[0.0; D]; R]);
+            }
+            let sum = &mut sums[place[column] as usize];
+            for (sum, a) in sum.iter_mut().zip(&a) {
+                for (a, b) in a.iter().zip(b) {
+                    for (sum, b) in sum.iter_mut().zip(b) {
+                        *sum += a * b;
                     }
                 }
             }
@@ -199,8 +233,16 @@ impl<const N: usize> Blocks<N, N> {
         let mut sum: Option<Blocks<D, D>> = None;
         for begin in (0..self.nrow()).step_by(ROWS_PER_STRIP) {
             let strip = begin..self.nrow().min(begin + ROWS_PER_STRIP);
-            let product = self.rows(strip.clone()).times(onto);
-            let part = onto.rows(strip).transpose().times(&product);
+            let row_of = |row| self.row(row).map(|(k, block)| (k, *block));
+            let rows = tasks(&self.start, strip.clone());
+            let times = product(&rows, row_of, onto, |_, _, _| {});
+            let (start, place) = onto.by_column(strip);
+            let row_of = |column: usize| {
+                let places = place[start[column]..start[column + 1]].iter();
+                places.map(|&(row, at)| (row as usize, transposed(&onto.value[at])))
+            };
+            let rows = tasks(&start, 0..onto.ncolumn);
+            let part = product(&rows, row_of, &times, |_, _, _| {});
             sum = Some(match sum {
                 Some(sum) => sum.plus(&part),
                 None => part,
@@ -221,6 +263,10 @@ impl<const N: usize> Blocks<N, N> {
         let at = columns.binary_search(&(row as u32)).unwrap_or(0);
         &self.value[range.start + at]
     }
+}
+
+fn transposed<const R: usize, const C: usize>(block: &[[f64; C]; R]) -> [[f64; R]; C] {
+    std::array::from_fn(|c| std::array::from_fn(|r| block[r][c]))
 }
 
 /// `sum += block x`

@@ -59,9 +59,11 @@ impl<const N: usize> Level<N> {
                 });
             });
         let (motions, coarse_modes) = Aggregates::new(matrix).motions(modes);
-        let mut prolong = matrix.times(&motions);
         let weight = 4.0 / (3.0 * largest);
-        smooth(&mut prolong, &motions, &inverses, weight);
+        let prolong = matrix.times(&motions, |row, columns, blocks| {
+            let own = (motions.column[row], &motions.value[row]);
+            smooth(own, &inverses[row], weight, columns, blocks);
+        });
         let mut coarse = matrix.projected(&prolong);
         settle(&mut coarse);
         let nrow = matrix.nrow();
@@ -123,28 +125,25 @@ impl<const N: usize> Level<N> {
     }
 }
 
-/// `P = T − weight D⁻¹ (A T)`, where P holds A T.
+/// A row of `P = T − weight D⁻¹ (A T)` from that of A T; T has one block in it.
 fn smooth<const N: usize>(
-    prolong: &mut Blocks<N, MODES>,
-    motions: &Blocks<N, MODES>,
-    inverses: &[[[f64; N]; N]],
+    (own, motion): (u32, &[[f64; MODES]; N]),
+    inverse: &[[f64; N]; N],
     weight: f64,
+    columns: &[u32],
+    blocks: &mut [[[f64; MODES]; N]],
 ) {
-    for (row, inverse) in inverses.iter().enumerate() {
-        let own = motions.column[row];
-        for at in prolong.range(row) {
-            let block = &mut prolong.value[at];
-            let right = *block;
-            *block = if prolong.column[at] == own {
-                motions.value[row]
-            } else {
-                [[0.0; MODES]; N]
-            };
-            for (to, inverse) in block.iter_mut().zip(inverse) {
-                for (a, right) in inverse.iter().zip(&right) {
-                    for (to, b) in to.iter_mut().zip(right) {
-                        *to -= weight * a * b;
-                    }
+    for (&column, block) in columns.iter().zip(blocks) {
+        let right = *block;
+        *block = if column == own {
+            *motion
+        } else {
+            [[0.0; MODES]; N]
+        };
+        for (to, inverse) in block.iter_mut().zip(inverse) {
+            for (a, right) in inverse.iter().zip(&right) {
+                for (to, b) in to.iter_mut().zip(right) {
+                    *to -= weight * a * b;
                 }
             }
         }
@@ -186,8 +185,15 @@ fn largest<const N: usize>(
     let mut x: Vec<[f32; N]> = (0..nrow).map(|_| std::array::from_fn(|_| next())).collect();
     let mut y = vec![[0.0; N]; nrow];
     let norm = |v: &[[f32; N]]| -> f64 {
-        let squares = v.iter().flatten().map(|&v| f64::from(v) * f64::from(v));
-        squares.sum::<f64>().sqrt()
+        let squares = |v: &[[f32; N]]| -> f64 {
+            let squares = v
+                .as_flattened()
+                .iter()
+                .map(|&v| f64::from(v) * f64::from(v));
+            squares.sum()
+        };
+        let parts: Vec<f64> = v.par_chunks(CHUNK).map(squares).collect();
+        parts.iter().sum::<f64>().sqrt()
     };
     let mut value = 1.0;
     for _ in 0..STEPS {
@@ -196,9 +202,12 @@ fn largest<const N: usize>(
         precondition(&mut y);
         value = (norm(&y) / norm(&x).max(f64::MIN_POSITIVE)).max(f64::MIN_POSITIVE);
         let scale = value.recip() as f32;
-        for (x, y) in x.iter_mut().flatten().zip(y.iter().flatten()) {
-            *x = *y * scale;
-        }
+        let chunks = x.par_chunks_mut(CHUNK).zip(y.par_chunks(CHUNK));
+        chunks.for_each(|(x, y)| {
+            for (x, y) in x.as_flattened_mut().iter_mut().zip(y.as_flattened()) {
+                *x = *y * scale;
+            }
+        });
     }
     value
 }

@@ -96,7 +96,7 @@ fn applied(matrix: &Blocks<3, 3>, x: &[[f64; 3]]) -> Vec<[f64; 3]> {
 fn products_and_transposes_are_those_of_dense_matrices() {
     let pairs = [(0, 1), (0, 4), (1, 3), (2, 5), (3, 4), (4, 6)];
     let a = definite::<3>(&pairs, 7);
-    let product = a.times(&a.transpose());
+    let product = a.times(&a.transpose(), |_, _, _| {});
     let x: Vec<[f64; 3]> = (0..7).map(|k| [1.0, k as f64, (k * k) as f64]).collect();
     let (twice, at_once) = (applied(&a, &applied(&a, &x)), applied(&product, &x));
     let pairs = twice.iter().flatten().zip(at_once.iter().flatten());
@@ -134,7 +134,9 @@ fn projections_are_products() {
         value: motions,
     };
     let found = a.projected(&onto);
-    let expected = onto.transpose().times(&a.times(&onto));
+    let expected = onto
+        .transpose()
+        .times(&a.times(&onto, |_, _, _| {}), |_, _, _| {});
     assert_eq!(
         (&found.start, &found.column),
         (&expected.start, &expected.column)
