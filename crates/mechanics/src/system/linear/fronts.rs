@@ -141,7 +141,8 @@ impl Fronts {
             nequation: n,
             nentry: matrix.row.len(),
         };
-        let (start, row) = lower_half(matrix);
+        let by_row = ByRow::new(matrix);
+        let (start, row) = by_row.lower_half(matrix);
         let mut place = vec![0u32; n];
         for (new, &old) in order.iter().enumerate() {
             place[old as usize] = new as u32;
@@ -209,7 +210,7 @@ impl Fronts {
             work,
         };
         fronts
-            .place_entries(matrix, &node_of)
+            .place_entries(matrix, &by_row)
             .ok_or_else(too_large)?;
         for (panel, node) in fronts.panels.iter_mut().zip(&fronts.nodes) {
             let (w, r) = (node.width(), node.rows.len());
@@ -229,41 +230,52 @@ impl Fronts {
     }
 
     /// Finds the place of every entry; column e of the matrix holds row e of the operator.
-    fn place_entries(&mut self, matrix: &Matrix, node_of: &[u32]) -> Option<()> {
-        let n = matrix.nequation();
-        let mut place = vec![0u32; n];
-        for (new, &old) in self.order.iter().enumerate() {
+    fn place_entries(&mut self, matrix: &Matrix, by_row: &ByRow) -> Option<()> {
+        let Self {
+            order,
+            nodes,
+            from,
+            to,
+            ..
+        } = self;
+        let mut place = vec![0u32; order.len()];
+        for (new, &old) in order.iter().enumerate() {
             place[old as usize] = new as u32;
         }
-        let node_at = |e: usize, f: u32| node_of[place[e].min(place[f as usize]) as usize] as usize;
-        let mut count = vec![0usize; self.nodes.len() + 1];
-        for e in 0..n {
-            for &f in matrix.column(e) {
-                count[node_at(e, f) + 1] += 1;
+        from.reserve_exact(matrix.row.len());
+        to.reserve_exact(matrix.row.len());
+        // where unknowns are in the front of the node at hand
+        let mut local = vec![None; order.len()];
+        for node in nodes {
+            let (columns, w, m) = (node.columns.clone(), node.width(), node.size());
+            let unknowns = || columns.clone().chain(node.rows.iter().map(|&r| r as usize));
+            unknowns().zip(0..).for_each(|(k, at)| local[k] = Some(at));
+            let first = from.len();
+            for (own, &e) in order[columns.clone()].iter().enumerate() {
+                let e = e as usize;
+                for (at, &f) in (matrix.start[e]..).zip(matrix.column(e)) {
+                    let other = place[f as usize] as usize;
+                    if other >= columns.start {
+                        let j = local[other]? as usize;
+                        let place = if j < w {
+                            own + j * m
+                        } else {
+                            w * m + own + (j - w) * w
+                        };
+                        from.push(at);
+                        to.push(u32::try_from(place).ok()?);
+                    }
+                }
+                for (&f, &at) in by_row.of(e) {
+                    let other = place[f as usize] as usize;
+                    if other >= columns.end {
+                        from.push(at);
+                        to.push(u32::try_from(local[other]? as usize + own * m).ok()?);
+                    }
+                }
             }
-        }
-        for s in 0..self.nodes.len() {
-            count[s + 1] += count[s];
-            self.nodes[s].entries = count[s]..count[s + 1];
-        }
-        self.from = vec![0; matrix.row.len()];
-        self.to = vec![0; matrix.row.len()];
-        for e in 0..n {
-            for (at, &f) in (matrix.start[e]..).zip(matrix.column(e)) {
-                let (i, j) = (place[e], place[f as usize]);
-                let s = node_at(e, f);
-                let node = &self.nodes[s];
-                let (w, r) = (node.width(), node.rows.len());
-                let (i, j) = (node.place_of(i)? as usize, node.place_of(j)? as usize);
-                let to = if j < w {
-                    i + j * (w + r)
-                } else {
-                    w * (w + r) + i + (j - w) * w
-                };
-                self.from[count[s]] = at;
-                self.to[count[s]] = u32::try_from(to).ok()?;
-                count[s] += 1;
-            }
+            unknowns().for_each(|k| local[k] = None);
+            node.entries = first..from.len();
         }
         Some(())
     }
@@ -656,45 +668,81 @@ fn pivots(
     Ok(smallest)
 }
 
-/// The lower half of the pattern of A + Aᵀ.
-fn lower_half(matrix: &Matrix) -> (Vec<u32>, Vec<u32>) {
-    let n = matrix.nequation();
-    let mut start = vec![0u32; n + 1];
-    let pairs = |e: usize| {
-        let of_column = matrix.column(e).iter();
-        of_column.map(move |&f| ((e as u32).min(f), (e as u32).max(f)))
-    };
-    for e in 0..n {
-        for (column, _) in pairs(e) {
-            start[column as usize + 1] += 1;
+/// The entries of a matrix row by row.
+struct ByRow {
+    start: Vec<u32>,
+    /// Sorted in each row.
+    column: Vec<u32>,
+    /// The place in the matrix.
+    at: Vec<u32>,
+}
+
+impl ByRow {
+    fn new(matrix: &Matrix) -> Self {
+        let n = matrix.nequation();
+        let mut start = vec![0u32; n + 1];
+        for &row in &matrix.row {
+            start[row as usize + 1] += 1;
         }
-    }
-    for e in 0..n {
-        start[e + 1] += start[e];
-    }
-    let mut next = start.clone();
-    let mut all = vec![0u32; start[n] as usize];
-    for e in 0..n {
-        for (column, row) in pairs(e) {
-            all[next[column as usize] as usize] = row;
-            next[column as usize] += 1;
+        for row in 0..n {
+            start[row + 1] += start[row];
         }
-    }
-    let mut row = Vec::with_capacity(all.len());
-    let mut begin = Vec::with_capacity(n + 1);
-    begin.push(0);
-    for ends in start.windows(2) {
-        let of_column = &mut all[ends[0] as usize..ends[1] as usize];
-        of_column.sort_unstable();
-        let first = row.len();
-        for &r in of_column.iter() {
-            if row.len() == first || row.last() != Some(&r) {
-                row.push(r);
+        let mut next = start.clone();
+        let (mut column, mut place) = (vec![0; matrix.row.len()], vec![0; matrix.row.len()]);
+        for e in 0..n {
+            for (at, &row) in (matrix.start[e]..).zip(matrix.column(e)) {
+                let next = &mut next[row as usize];
+                column[*next as usize] = e as u32;
+                place[*next as usize] = at;
+                *next += 1;
             }
         }
-        begin.push(row.len() as u32);
+        Self {
+            start,
+            column,
+            at: place,
+        }
     }
-    (begin, row)
+
+    fn range(&self, row: usize) -> Range<usize> {
+        self.start[row] as usize..self.start[row + 1] as usize
+    }
+
+    /// The columns of a row, with their places.
+    fn of(&self, row: usize) -> impl Iterator<Item = (&u32, &u32)> {
+        let range = self.range(row);
+        self.column[range.clone()].iter().zip(&self.at[range])
+    }
+
+    /// The lower half of the pattern of A + Aᵀ.
+    fn lower_half(&self, matrix: &Matrix) -> (Vec<u32>, Vec<u32>) {
+        let n = matrix.nequation();
+        let mut row = Vec::with_capacity(matrix.row.len() / 2 + n);
+        let mut begin = Vec::with_capacity(n + 1);
+        begin.push(0);
+        for e in 0..n {
+            let below = |sorted: &'_ [u32]| sorted.partition_point(|&f| (f as usize) < e);
+            let (one, two) = (matrix.column(e), &self.column[self.range(e)]);
+            let (mut one, mut two) = (&one[below(one)..], &two[below(two)..]);
+            if one == two {
+                row.extend_from_slice(one);
+                (one, two) = (&[], &[]);
+            }
+            while let Some(&least) = match (one.first(), two.first()) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            } {
+                row.push(least);
+                for some in [&mut one, &mut two] {
+                    if some.first() == Some(&least) {
+                        *some = &some[1..];
+                    }
+                }
+            }
+            begin.push(row.len() as u32);
+        }
+        (begin, row)
+    }
 }
 
 /// The largest subtrees with little work: ranges of nodes, for children come right before their parents.

@@ -182,26 +182,43 @@ fn groups(matrix: &Matrix, node: &[u32], sign: &[i8]) -> Vec<u32> {
     for &g in group.iter().filter(|&&g| g != NONE) {
         size[g as usize] += 1;
     }
-    let mut pairs: Vec<(u32, u32, f64)> = Vec::new();
-    for column in 0..nequation {
-        for (&row, value) in matrix.column(column).iter().zip(matrix.values(column)) {
-            for (multiplier, other) in [(column as u32, row), (row, column as u32)] {
-                if sign[multiplier as usize] < 0 && sign[other as usize] >= 0 {
-                    pairs.push((multiplier, group[other as usize], value.abs()));
+    let each_coupling = |act: &mut dyn FnMut(usize, usize, f64)| {
+        for column in 0..nequation {
+            for (&row, value) in matrix.column(column).iter().zip(matrix.values(column)) {
+                for (multiplier, other) in [(column, row as usize), (row as usize, column)] {
+                    if sign[multiplier] < 0 && sign[other] >= 0 {
+                        act(multiplier, other, value.abs());
+                    }
                 }
             }
         }
+    };
+    let mut start = vec![0usize; nequation + 1];
+    each_coupling(&mut |multiplier, _, _| start[multiplier + 1] += 1);
+    for equation in 0..nequation {
+        start[equation + 1] += start[equation];
     }
-    pairs.sort_by_key(|&(multiplier, group, _)| (multiplier, group));
-    let mut pairs = pairs.as_slice();
+    let mut next = start.clone();
+    let mut coupled = vec![(0, 0.0); start[nequation]];
+    each_coupling(&mut |multiplier, other, value| {
+        coupled[next[multiplier]] = (group[other], value);
+        next[multiplier] += 1;
+    });
+    // the place of a group among those near the multiplier at hand
+    let mut place = vec![NONE; ngroup as usize];
     let mut near: Vec<(u32, f64)> = Vec::new();
-    for equation in (0..nequation as u32).filter(|&e| sign[e as usize] < 0) {
-        let (mine, rest) =
-            pairs.split_at(pairs.partition_point(|&(multiplier, ..)| multiplier <= equation));
-        pairs = rest;
+    for equation in (0..nequation).filter(|&e| sign[e] < 0) {
         near.clear();
-        let sums = mine.chunk_by(|a, b| a.1 == b.1);
-        near.extend(sums.map(|of| (of[0].1, of.iter().map(|(.., value)| value).sum::<f64>())));
+        for &(g, value) in &coupled[start[equation]..start[equation + 1]] {
+            match near.get_mut(place[g as usize] as usize) {
+                Some((_, sum)) => *sum += value,
+                None => {
+                    place[g as usize] = near.len() as u32;
+                    near.push((g, value));
+                }
+            }
+        }
+        near.iter().for_each(|&(g, _)| place[g as usize] = NONE);
         let free = |g: u32| load[g as usize] * 8 / size[g as usize].max(1);
         let is_full = |g: u32| load[g as usize] >= size[g as usize];
         let better = |a: &&(u32, f64), b: &&(u32, f64)| {
@@ -212,10 +229,10 @@ fn groups(matrix: &Matrix, node: &[u32], sign: &[i8]) -> Vec<u32> {
         match near.iter().min_by(better).map(|&(g, _)| g) {
             Some(g) => {
                 load[g as usize] += 1;
-                group[equation as usize] = g;
+                group[equation] = g;
             }
             None => {
-                group[equation as usize] = ngroup;
+                group[equation] = ngroup;
                 ngroup += 1;
             }
         }
