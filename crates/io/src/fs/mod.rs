@@ -10,6 +10,8 @@
 //!                                cut
 //! ```
 //!
+//! [`BehindFs`] lets any of them work on a thread of its own.
+//!
 //! At any instant a file written by [`Fs::write_atomic`] is either the old one or the new one, whole. Files that grow
 //! (tables, logs) are a [`Log`]: one write per row, so that at most the last row can be torn.
 //!
@@ -17,6 +19,7 @@
 //!
 //! One more: implement [`Fs`] in a file of its own; the methods without a body are the single steps in which a disk can fail.
 
+mod behind;
 pub(crate) mod bytes;
 mod error;
 mod faulty;
@@ -25,6 +28,7 @@ mod real;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+pub use behind::BehindFs;
 pub use error::{Action, FsError};
 pub use faulty::{Failing, FailingFs, Faulty, Torn, TornFs};
 pub use real::RealFs;
@@ -82,6 +86,14 @@ pub trait Fs: Send + Sync {
         }
         self.sync_dir(folder_of(path))
             .map_err(|error| error.while_writing(path, bytes.len()))
+    }
+
+    /// Waits until all that was asked for is done, where it is not done at once.
+    ///
+    /// # Errors
+    /// The first failure that has not been told.
+    fn settle(&self) -> Result<(), FsError> {
+        Ok(())
     }
 }
 

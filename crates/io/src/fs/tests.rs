@@ -1,4 +1,5 @@
 use std::io::ErrorKind;
+use std::sync::Arc;
 
 use super::*;
 
@@ -204,4 +205,80 @@ fn the_failing_disk_fails_exactly_where_told() {
     log.append(b"x").unwrap();
     log.sync().unwrap();
     assert_eq!(counting.count(), 7);
+}
+
+#[test]
+fn files_written_behind_are_those_that_were_asked_for_in_their_order() {
+    let dir = folder();
+    let path = |n: usize| dir.path().join(format!("{n}.vtu"));
+    let fs = BehindFs::new(Arc::new(RealFs));
+    let mut log = fs.open_log(&dir.path().join("rows.csv"), 0).unwrap();
+    for n in 0..100 {
+        fs.write_atomic(&path(n), &[n as u8; 1000]).unwrap();
+        assert!(fs.exists(&path(n)).unwrap(), "{n} is on its way");
+        log.append(format!("{n}\n").as_bytes()).unwrap();
+    }
+    assert!(!fs.exists(&path(100)).unwrap());
+    assert_eq!(fs.read(&path(99)).unwrap(), [99; 1000], "a reader waits");
+    fs.settle().unwrap();
+    let rows: String = (0..100).map(|n| format!("{n}\n")).collect();
+    let have = RealFs.read(&dir.path().join("rows.csv")).unwrap();
+    assert_eq!(have, rows.as_bytes());
+    log.cut(2).unwrap();
+    log.append(b"again\n").unwrap();
+    fs.write_atomic(&path(0), b"last").unwrap();
+    drop(fs);
+    assert_eq!(
+        RealFs.read(&path(0)).unwrap(),
+        b"last",
+        "the last is waited for"
+    );
+    let have = RealFs.read(&dir.path().join("rows.csv")).unwrap();
+    assert_eq!(have, b"0\nagain\n");
+}
+
+#[test]
+fn nothing_that_was_asked_for_after_a_fault_reaches_the_disk_before_the_fault_is_told() {
+    // three operations make a file
+    for n in 1..=12 {
+        let dir = folder();
+        let path = |n: usize| dir.path().join(format!("{n}.vtu"));
+        let inner = FailingFs::nth(RealFs, n, ErrorKind::StorageFull);
+        let fs = BehindFs::new(Arc::new(inner));
+        let faults = (0..4).filter_map(|k| fs.write_atomic(&path(k), b"frame").err());
+        let mut faults: Vec<FsError> = faults.collect();
+        let was_told = !faults.is_empty();
+        faults.extend(fs.settle().err());
+        let [fault] = &faults[..] else {
+            panic!("operation {n}: told {} times", faults.len());
+        };
+        let failed = (n as usize - 1) / 3;
+        assert_eq!(fault.path(), path(failed));
+        let whole = |k: &usize| RealFs.exists(&path(*k)).unwrap();
+        assert_eq!((0..failed).filter(whole).count(), failed, "operation {n}");
+        if !was_told {
+            assert_eq!((failed + 1..4).find(whole), None, "operation {n}");
+        }
+        // a fault is told once
+        fs.write_atomic(&path(9), b"frame").unwrap();
+        fs.settle().unwrap();
+        assert!(whole(&9));
+    }
+}
+
+#[test]
+fn what_does_not_exist_because_of_a_fault_tells_the_fault() {
+    let dir = folder();
+    let path = dir.path().join("frame.vtu");
+    let fs = BehindFs::new(Arc::new(FailingFs::nth(RealFs, 1, ErrorKind::StorageFull)));
+    fs.write_atomic(&path, b"frame").unwrap();
+    let fault = loop {
+        // as long as it is on its way, it is said to exist
+        match fs.exists(&path) {
+            Ok(exists) => assert!(exists),
+            Err(fault) => break fault,
+        }
+    };
+    assert_eq!(fault.path(), path);
+    assert!(!fs.exists(&path).unwrap());
 }

@@ -83,6 +83,10 @@ impl Listener for Terminal {
         }
         Flow::Continue
     }
+
+    fn opens_files(&self) -> bool {
+        false
+    }
 }
 
 /// How far a run is.

@@ -16,10 +16,11 @@ use crate::build::Model;
 use signorini_io::case;
 use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
-use signorini_io::fs::FsError;
+use signorini_io::fs::{BehindFs, FsError};
 use signorini_io::writers::RowsError;
 use signorini_io::writers::frd::FrdError;
 use signorini_io::writers::json::{DiagnosticSummary, Event, StepSummary, Summary};
+use signorini_io::writers::pvd::Pvd;
 use signorini_mechanics::solve::{LinearSeconds, Outcome, RunError, Stepper};
 use signorini_mechanics::system::{Archive, ArchiveError};
 use std::sync::Arc;
@@ -126,7 +127,7 @@ fn setting(
     let formats = Formats::new(&model.case.output);
     let frd = || (format!("{}.frd", model.name), model.case.title.clone());
     let setting = Setting {
-        fs: Arc::clone(&options.fs),
+        fs: Arc::new(BehindFs::new(Arc::clone(&options.fs))),
         tree,
         name: model.name.clone(),
         mesh: Arc::clone(&model.mesh),
@@ -256,8 +257,10 @@ impl Run<'_, '_> {
         nunknown: usize,
         solving: f64,
     ) -> Finished {
+        self.recorder.settle();
         let solved = matches!(ending, Ending::Solved) && self.recorder.error.is_none();
         self.recorder.finish(solved);
+        self.recorder.settle();
         let mut verdicts = Vec::new();
         let (mut exit_code, mut status) = match ending {
             Ending::Solved => {
@@ -349,10 +352,12 @@ impl Run<'_, '_> {
             if let Err(error) = written {
                 self.recorder.error.get_or_insert(error.into());
             }
+            self.recorder.settle();
             if self.recorder.error.is_none() {
                 break;
             }
         }
+        self.recorder.settle();
         self.recorder.tell_listener(&event, Detail::End(&totals));
         Finished {
             exit_code,
@@ -397,7 +402,9 @@ impl Run<'_, '_> {
 
     fn not_written(&self, error: &OutputError) -> Diagnostic {
         let one = error.diagnostic();
-        match self.recorder.counts.frames.len() {
+        let setting = &self.recorder.setting;
+        let listed = Pvd::read(setting.fs.as_ref(), &setting.tree.path("results.pvd"));
+        match listed.map_or(0, |list| list.entries().len()) {
             0 => one,
             n => one
                 .note(format!(

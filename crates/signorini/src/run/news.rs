@@ -95,12 +95,21 @@ pub struct Totals {
 pub trait Listener {
     /// Something happened.
     fn hear(&mut self, news: &News<'_>) -> Flow;
+
+    /// Whether it may open the files that it hears of: then it hears of them when they are on the disk.
+    fn opens_files(&self) -> bool {
+        true
+    }
 }
 
 /// Hears nothing.
 impl Listener for () {
     fn hear(&mut self, _: &News<'_>) -> Flow {
         Flow::Continue
+    }
+
+    fn opens_files(&self) -> bool {
+        false
     }
 }
 
@@ -119,6 +128,10 @@ impl<A: Listener, B: Listener> Listener for (A, B) {
         } else {
             Flow::Continue
         }
+    }
+
+    fn opens_files(&self) -> bool {
+        self.0.opens_files() || self.1.opens_files()
     }
 }
 

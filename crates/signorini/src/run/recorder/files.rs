@@ -83,6 +83,7 @@ impl Opened {
             steps: steps.collect(),
             ..Counts::default()
         };
+        setting.fs.settle()?;
         Ok(Self::new(
             setting,
             files,
@@ -177,6 +178,7 @@ impl Opened {
         let has_contact = setting.has_vtu && setting.has_contact;
         let contact = list("contact.pvd", "contact", has_contact)?;
         let [step, time, step_time] = clock;
+        setting.fs.settle()?;
         Ok(Self {
             step: (step >= 0.0).then_some(step as usize),
             time,
@@ -224,6 +226,7 @@ impl Opened {
             work_stabilization: 0.0,
             error: None,
             stop: None,
+            untold: Vec::new(),
             write_seconds: 0.0,
             flips: 0,
             iterations: 0,

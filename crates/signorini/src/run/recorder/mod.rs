@@ -115,7 +115,9 @@ pub struct Recorder<'l> {
     pub error: Option<OutputError>,
     /// Why to stop.
     pub stop: Option<Stop>,
-    /// Seconds spent on files.
+    /// Files on their way to the disk, of which the listener has not heard.
+    untold: Vec<Event>,
+    /// Seconds spent on files, and in waiting for the disk.
     pub write_seconds: f64,
     saved_at: (u64, Instant),
     step: Option<usize>,
@@ -163,8 +165,28 @@ impl Recorder<'_> {
         });
     }
 
-    /// Tells what happened to the listener only.
+    /// Tells what happened to the listener only. Of a file that it may open it hears when the file is on the disk, at the
+    /// latest before what happens next.
     pub fn tell_listener(&mut self, event: &Event, detail: Detail<'_>) {
+        let is_file = matches!(event, Event::Frame { .. } | Event::Checkpoint { .. });
+        if is_file && self.listener.opens_files() {
+            self.untold.push(event.clone());
+            return;
+        }
+        if !self.untold.is_empty() {
+            self.settle();
+            let untold = std::mem::take(&mut self.untold);
+            // what the disk may have refused is not told
+            if self.error.is_none() {
+                untold
+                    .iter()
+                    .for_each(|event| self.hear(event, Detail::None));
+            }
+        }
+        self.hear(event, detail);
+    }
+
+    fn hear(&mut self, event: &Event, detail: Detail<'_>) {
         if self.listener.hear(&News { event, detail }) == Flow::Stop {
             self.stop.get_or_insert(Stop::Listener);
         }
@@ -178,6 +200,15 @@ impl Recorder<'_> {
         let clock = Instant::now();
         if let Err(error) = write(&mut self.files) {
             self.error = Some(error);
+        }
+        self.write_seconds += clock.elapsed().as_secs_f64();
+    }
+
+    /// Waits until all that was written is on the disk.
+    pub fn settle(&mut self) {
+        let clock = Instant::now();
+        if let Err(error) = self.setting.fs.settle() {
+            self.error.get_or_insert(error.into());
         }
         self.write_seconds += clock.elapsed().as_secs_f64();
     }
