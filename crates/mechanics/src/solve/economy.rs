@@ -8,7 +8,7 @@
 //! Residuals are those of forces, over what they may be: equations of multipliers are solved exactly at each step, and
 //! have a curvature of their own. While contact changes, a step only has to find out what touches. When it does not, one
 //! solution goes as far as is of use: to what is allowed, or to what the step leaves because forces are not linear in the
-//! displacements, `c r²`, as the steps before did. Sources: Dembo, Eisenstat, Steihaug, *SIAM J. Numer. Anal.* 19 (1982)
+//! displacements, `c r²`, as the steps before did, the first one as that of the increment before. Sources: Dembo, Eisenstat, Steihaug, *SIAM J. Numer. Anal.* 19 (1982)
 //! 400–408; Eisenstat, Walker, *SIAM J. Sci. Comput.* 17 (1996) 16–32.
 
 use super::equations::Accuracy;
@@ -22,21 +22,40 @@ const MARGIN: f64 = 0.3;
 /// What the steps of an increment have shown so far.
 #[derive(Default)]
 pub(super) struct Economy {
+    /// What a step leaves over the square of what was there, c.
+    curvature: Option<f64>,
     /// Residuals of the last step: before it, and what its linear system left.
     last: Option<[f64; 2]>,
 }
 
 impl Economy {
+    /// With the curvature that the first step of a like increment has shown.
+    pub fn new(curvature: Option<f64>) -> Self {
+        Self {
+            curvature,
+            last: None,
+        }
+    }
+
+    /// The curvature that was told or shown last.
+    pub const fn curvature(&self) -> Option<f64> {
+        self.curvature
+    }
+
+    /// Takes note of the residual that the last step has led to.
+    pub fn reached(&mut self, residual: f64) {
+        if let Some([before, left]) = self.last.take() {
+            self.curvature = Some((residual - left).max(0.0) / (before * before));
+        }
+    }
+
     /// How exactly to solve at this residual; `is_rough` where nothing is gained by more than a tenth.
     pub fn accuracy(&self, residual: f64, is_rough: bool) -> Accuracy {
         if is_rough || residual.is_nan() || residual <= 0.0 {
             return Accuracy::Part(ROUGH);
         }
-        // the last step left this in spite of its system: c times the square of what was there before
-        let curved = self.last.map_or(0.0, |[before, left]| {
-            (residual - left).max(0.0) / (before * before)
-        });
-        let left = MARGIN * (curved * residual * residual).max(1.0);
+        let curved = self.curvature.map_or(0.0, |c| c * residual * residual);
+        let left = MARGIN * curved.max(1.0);
         if left >= ROUGH * residual {
             return Accuracy::Part(ROUGH);
         }
@@ -58,6 +77,7 @@ mod tests {
         let mut economy = Economy::default();
         assert_eq!(economy.accuracy(1e6, true), Accuracy::Part(0.1));
         economy.solved(1e6, 0.1);
+        economy.reached(1e5);
         let Accuracy::Residual(rtol) = economy.accuracy(1e5, false) else {
             panic!("too rough");
         };
@@ -69,13 +89,28 @@ mod tests {
         // r = c r²: 1e11, 1e9, 1e5
         let mut economy = Economy::default();
         economy.solved(1e11, 0.0);
+        economy.reached(1e9);
         let Accuracy::Residual(rtol) = economy.accuracy(1e9, false) else {
             panic!("too rough");
         };
         assert!((rtol / (0.3 * 1e5 / 1e9) - 1.0).abs() < 1e-9);
         // and where it leaves nearly all, nor is the rest
         economy.solved(1e6, 0.0);
+        economy.reached(9e5);
         assert_eq!(economy.accuracy(9e5, false), Accuracy::Part(0.1));
+    }
+
+    #[test]
+    fn the_increment_before_tells_how_far_the_first_step_may_go() {
+        let mut economy = Economy::new(Some(1e-9));
+        let Accuracy::Residual(rtol) = economy.accuracy(1e3, false) else {
+            panic!("too rough");
+        };
+        assert!((rtol / 3e-4 - 1.0).abs() < 1e-9);
+        // what it then shows counts
+        economy.solved(1e3, 0.3e-3);
+        economy.reached(100.3);
+        assert!((economy.curvature().unwrap() / 1e-4 - 1.0).abs() < 1e-9);
     }
 
     #[test]

@@ -258,6 +258,8 @@ pub(super) struct Converged {
     pub iterations: usize,
     pub residual: f64,
     pub q: [f64; KINDS],
+    /// What the first step from an extrapolated start has shown, for the next increment.
+    pub curvature: Option<f64>,
 }
 
 /// Where an increment stands: for the records.
@@ -276,6 +278,8 @@ pub(super) struct Goal<'a> {
     pub targets: &'a [(Dof, f64)],
     /// Expected change of all dofs, from the increments before.
     pub guess: Option<&'a [f64]>,
+    /// What the first step from such a start has shown there.
+    pub curvature: Option<f64>,
 }
 
 /// Newton's method with its memory: kept for a whole run.
@@ -347,7 +351,9 @@ impl Newton {
         let mut alpha = 1.0;
         let mut decrement = 0.0;
         let mut unsettled = None;
-        let mut economy = Economy::default();
+        let is_like = goal.guess.is_some() && !motion;
+        let mut economy = Economy::new(goal.curvature.filter(|_| is_like));
+        let mut first_curvature = None;
         let mut last = self.settings.max_iterations;
         let mut augmentations = 0;
         let nmotion = system.layout.nmotion();
@@ -367,6 +373,10 @@ impl Newton {
                 self.assemble(system, first)?;
             }
             let judgement = self.judge(system);
+            economy.reached(judgement.excess);
+            if iterations == 1 && is_like {
+                first_curvature = economy.curvature();
+            }
             let Verdicts { flips, repeat, .. } = verdicts(system, &self.trial);
             report(&IterationRecord {
                 step: place.step,
@@ -391,6 +401,7 @@ impl Newton {
                             iterations,
                             residual: judgement.residual,
                             q: judgement.q,
+                            curvature: first_curvature,
                         });
                     }
                     Some(changed) if augmentations < MAX_AUGMENTATIONS => {
@@ -440,7 +451,8 @@ impl Newton {
             // where only the size of the next correction is left to show, the last factor tells it
             let nearly = iterations > 0 && !motion && judgement.small && settled;
             let accuracy = if self.equations.is_iterative() {
-                let changes = motion || iterations == 0 || !settled || flips > 0;
+                let is_unknown = iterations == 0 && economy.curvature().is_none();
+                let changes = motion || is_unknown || !settled || flips > 0;
                 economy.accuracy(judgement.excess, changes || nearly)
             } else {
                 Accuracy::Residual(EXACT)

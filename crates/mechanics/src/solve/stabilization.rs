@@ -106,6 +106,7 @@ impl Stepper {
                 time: self.progress.step_start + end,
                 targets,
                 guess: None,
+                curvature: None,
             };
             let place = self.place(attempt);
             let solved = self

@@ -171,6 +171,8 @@ pub(super) struct Progress {
     origin: Vec<f64>,
     /// Change of the state per time in the last increment of this step that did not jump; empty where there was none.
     pub rate: Vec<f64>,
+    /// What the first step of the last increment has shown, where that started from an extrapolation.
+    curvature: Option<f64>,
     /// Whether the last increment jumped: then the rate before it says nothing of the next start.
     pub jumped: bool,
 }
@@ -426,6 +428,7 @@ impl Stepper {
             time,
             targets,
             guess: extrapolated.then_some(&self.guess[..]),
+            curvature: self.progress.curvature,
         };
         let outcome = self
             .newton
@@ -448,6 +451,7 @@ impl Stepper {
         self.progress.rate.clear();
         self.progress.rate.extend(rate);
         self.progress.jumped = false;
+        self.progress.curvature = converged.curvature;
         self.accept(system)?;
         Ok(Accepted {
             iterations: converged.iterations,
@@ -569,6 +573,7 @@ impl Stepper {
         );
         out.put("progress.origin", &p.origin);
         out.put("progress.rate", &p.rate);
+        out.put("progress.curvature", p.curvature.as_slice());
         out.put("progress.scale", &self.newton.scale.to_array());
         for term in &system.terms {
             term.save(out);
@@ -587,6 +592,11 @@ impl Stepper {
         from.get("progress.origin", &mut origin)?;
         let mut rate = vec![0.0; from.length("progress.rate")?];
         from.get("progress.rate", &mut rate)?;
+        // an older run does not know of it
+        let mut curvature = vec![0.0; from.length("progress.curvature").unwrap_or(0)];
+        if !curvature.is_empty() {
+            from.get("progress.curvature", &mut curvature)?;
+        }
         let mut scale = [0.0; 3];
         from.get("progress.scale", &mut scale)?;
         let mut state = system.initial_state();
@@ -609,6 +619,7 @@ impl Stepper {
             easy: easy as usize,
             origin,
             rate,
+            curvature: curvature.first().copied(),
             jumped: jumped != 0.0,
         };
         Ok(())
