@@ -9,19 +9,31 @@
 //! A fault is told late, but nothing that was asked for after it reaches the disk before it is told: at any instant the
 //! disk is as it would be had each call waited and the program stopped at one of them. What reads, and what is rare,
 //! waits for the queue; a file that is in it is said to exist.
+//!
+//! # Limits
+//! The call that is told of a fault is not the one that met it: what that one said of the state of its file, such as that a
+//! row may be tried again, does not hold. Who writes here stops at the first fault.
 
 use super::{Fs, FsError, Lock, Log};
+use std::any::Any;
 use std::collections::VecDeque;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
-/// Bytes that may wait for the disk; one call may go beyond.
+/// Bytes that may be on their way to the disk, unless one call alone has more.
 const MOST: usize = 64 << 20;
 
 /// A file system that writes behind its caller's back.
 pub struct BehindFs {
     inner: Arc<dyn Fs>,
+    /// None where there can be no more threads.
+    worker: Option<Arc<Worker>>,
+}
+
+/// The thread; it lives as long as somebody may write.
+struct Worker {
     queue: Arc<Queue>,
     thread: Option<JoinHandle<()>>,
 }
@@ -57,6 +69,21 @@ struct State {
     is_closed: bool,
     /// A fault that nobody knows of.
     error: Option<FsError>,
+    /// A panic that nobody knows of.
+    panic: Option<Box<dyn Any + Send>>,
+}
+
+impl State {
+    /// Tells what has gone wrong, once.
+    ///
+    /// # Panics
+    /// Where a file system has.
+    fn told(&mut self) -> Result<(), FsError> {
+        if let Some(panic) = self.panic.take() {
+            resume_unwind(panic);
+        }
+        self.error.take().map_or(Ok(()), Err)
+    }
 }
 
 impl Queue {
@@ -64,14 +91,13 @@ impl Queue {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Puts a job at the end, where there is room.
-    fn push(&self, job: Job) -> Result<(), FsError> {
-        let is_full = |state: &mut State| !state.jobs.is_empty() && state.bytes + job.bytes > MOST;
+    /// Puts a job at the end, when there is room for its bytes.
+    fn push(&self, bytes: usize, job: impl FnOnce() -> Job) -> Result<(), FsError> {
+        let is_full = |state: &mut State| state.bytes > 0 && state.bytes + bytes > MOST;
         let state = self.done.wait_while(self.lock(), is_full);
         let mut state = state.unwrap_or_else(PoisonError::into_inner);
-        if let Some(error) = state.error.take() {
-            return Err(error);
-        }
+        state.told()?;
+        let job = job();
         state.bytes += job.bytes;
         state.making.extend(job.makes.clone());
         state.jobs.push_back(job);
@@ -84,7 +110,7 @@ impl Queue {
         let is_at_work = |state: &mut State| state.is_busy || !state.jobs.is_empty();
         let state = self.done.wait_while(self.lock(), is_at_work);
         let mut state = state.unwrap_or_else(PoisonError::into_inner);
-        state.error.take().map_or(Ok(()), Err)
+        state.told()
     }
 
     /// Does what comes, until no more can come.
@@ -98,16 +124,20 @@ impl Queue {
             };
             state.is_busy = true;
             drop(state);
-            let outcome = (job.act)(fs);
+            let outcome = catch_unwind(AssertUnwindSafe(|| (job.act)(fs)));
             let mut state = self.lock();
             state.is_busy = false;
             state.bytes -= job.bytes;
             if job.makes.is_some() {
                 state.making.pop_front();
             }
-            if let Err(error) = outcome {
+            if !matches!(outcome, Ok(Ok(()))) {
                 (state.jobs, state.making, state.bytes) = Default::default();
-                state.error = Some(error);
+            }
+            match outcome {
+                Ok(Ok(())) => {}
+                Ok(Err(error)) => state.error = Some(error),
+                Err(panic) => state.panic = Some(panic),
             }
             self.done.notify_all();
         }
@@ -116,10 +146,8 @@ impl Queue {
     /// Whether a file is about to be there; the fault that may be why it is not.
     fn makes(&self, path: &Path) -> Result<bool, FsError> {
         let mut state = self.lock();
-        match state.error.take() {
-            Some(error) => Err(error),
-            None => Ok(state.making.iter().any(|made| made == path)),
-        }
+        state.told()?;
+        Ok(state.making.iter().any(|made| made == path))
     }
 
     fn close(&self) {
@@ -128,35 +156,43 @@ impl Queue {
     }
 }
 
+impl Worker {
+    fn new(fs: Arc<dyn Fs>) -> Option<Self> {
+        let queue = Arc::new(Queue::default());
+        let of_thread = Arc::clone(&queue);
+        let thread = std::thread::Builder::new().name("files".into());
+        let thread = thread.spawn(move || of_thread.serve(fs.as_ref())).ok()?;
+        Some(Self {
+            queue,
+            thread: Some(thread),
+        })
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.queue.close();
+        if let Some(thread) = self.thread.take() {
+            // it catches what panics
+            let _ = thread.join();
+        }
+    }
+}
+
 impl BehindFs {
     /// The same files as those of `inner`. Where there can be no more threads, every call waits for the disk.
     #[must_use]
     pub fn new(inner: Arc<dyn Fs>) -> Self {
-        let queue = Arc::new(Queue::default());
-        let (of_thread, fs) = (Arc::clone(&queue), Arc::clone(&inner));
-        let thread = std::thread::Builder::new().name("files".into());
-        let thread = thread.spawn(move || of_thread.serve(fs.as_ref())).ok();
-        Self {
-            inner,
-            queue,
-            thread,
-        }
+        let worker = Worker::new(Arc::clone(&inner)).map(Arc::new);
+        Self { inner, worker }
     }
 
     /// The inner files, when all that was asked for is done.
     fn settled(&self) -> Result<&dyn Fs, FsError> {
-        self.queue.settle()?;
-        Ok(self.inner.as_ref())
-    }
-}
-
-impl Drop for BehindFs {
-    fn drop(&mut self) {
-        self.queue.close();
-        if let Some(thread) = self.thread.take() {
-            // a panic there has been told already
-            let _ = thread.join();
+        if let Some(worker) = &self.worker {
+            worker.queue.settle()?;
         }
+        Ok(self.inner.as_ref())
     }
 }
 
@@ -166,10 +202,11 @@ impl Fs for BehindFs {
     }
 
     fn exists(&self, path: &Path) -> Result<bool, FsError> {
-        Ok(self.queue.makes(path)? || self.inner.exists(path)? || {
-            // a fault since the first look
-            self.queue.makes(path)?
-        })
+        let Some(Worker { queue, .. }) = self.worker.as_deref() else {
+            return self.inner.exists(path);
+        };
+        // a file may come, or be prevented by a fault, between two looks
+        Ok(queue.makes(path)? || self.inner.exists(path)? || queue.makes(path)?)
     }
 
     fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, FsError> {
@@ -198,11 +235,11 @@ impl Fs for BehindFs {
 
     fn open_log(&self, path: &Path, keep: u64) -> Result<Box<dyn Log>, FsError> {
         let log = self.settled()?.open_log(path, keep)?;
-        if self.thread.is_none() {
+        let Some(worker) = &self.worker else {
             return Ok(log);
-        }
+        };
         Ok(Box::new(BehindLog {
-            queue: Arc::clone(&self.queue),
+            worker: Arc::clone(worker),
             log: Arc::new(Mutex::new(log)),
         }))
     }
@@ -212,14 +249,16 @@ impl Fs for BehindFs {
     }
 
     fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
-        if self.thread.is_none() {
+        let Some(Worker { queue, .. }) = self.worker.as_deref() else {
             return self.inner.write_atomic(path, bytes);
-        }
-        let (file, bytes) = (path.to_path_buf(), bytes.to_vec());
-        self.queue.push(Job {
-            makes: Some(path.to_path_buf()),
-            bytes: bytes.len(),
-            act: Box::new(move |fs| fs.write_atomic(&file, &bytes)),
+        };
+        queue.push(bytes.len(), || {
+            let (file, bytes) = (path.to_path_buf(), bytes.to_vec());
+            Job {
+                makes: Some(path.to_path_buf()),
+                bytes: bytes.len(),
+                act: Box::new(move |fs| fs.write_atomic(&file, &bytes)),
+            }
         })
     }
 
@@ -230,41 +269,43 @@ impl Fs for BehindFs {
 
 /// A file that grows behind its writer's back.
 struct BehindLog {
-    queue: Arc<Queue>,
+    worker: Arc<Worker>,
     log: Arc<Mutex<Box<dyn Log>>>,
 }
 
 impl BehindLog {
     fn push(
         &self,
-        bytes: usize,
-        act: impl FnOnce(&mut dyn Log) -> Result<(), FsError> + Send + 'static,
+        bytes: &[u8],
+        act: impl FnOnce(&mut dyn Log, &[u8]) -> Result<(), FsError> + Send + 'static,
     ) -> Result<(), FsError> {
         let log = Arc::clone(&self.log);
-        self.queue.push(Job {
-            makes: None,
-            bytes,
-            act: Box::new(move |_| {
-                let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
-                act(log.as_mut())
-            }),
+        self.worker.queue.push(bytes.len(), || {
+            let bytes = bytes.to_vec();
+            Job {
+                makes: None,
+                bytes: bytes.len(),
+                act: Box::new(move |_| {
+                    let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
+                    act(log.as_mut(), &bytes)
+                }),
+            }
         })
     }
 }
 
 impl Log for BehindLog {
     fn append(&mut self, bytes: &[u8]) -> Result<(), FsError> {
-        let bytes = bytes.to_vec();
-        self.push(bytes.len(), move |log| log.append(&bytes))
+        self.push(bytes, |log, bytes| log.append(bytes))
     }
 
     fn cut(&mut self, keep: u64) -> Result<(), FsError> {
-        self.queue.settle()?;
+        self.worker.queue.settle()?;
         let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
         log.cut(keep)
     }
 
     fn sync(&mut self) -> Result<(), FsError> {
-        self.push(0, |log| log.sync())
+        self.push(&[], |log, _| log.sync())
     }
 }

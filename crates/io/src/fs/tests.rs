@@ -227,7 +227,7 @@ fn files_written_behind_are_those_that_were_asked_for_in_their_order() {
     log.cut(2).unwrap();
     log.append(b"again\n").unwrap();
     fs.write_atomic(&path(0), b"last").unwrap();
-    drop(fs);
+    drop((fs, log));
     assert_eq!(
         RealFs.read(&path(0)).unwrap(),
         b"last",
@@ -281,4 +281,68 @@ fn what_does_not_exist_because_of_a_fault_tells_the_fault() {
     };
     assert_eq!(fault.path(), path);
     assert!(!fs.exists(&path).unwrap());
+}
+
+/// Panics where it is to write a file.
+struct Panicking;
+
+impl Fs for Panicking {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FsError> {
+        RealFs.read(path)
+    }
+
+    fn exists(&self, path: &Path) -> Result<bool, FsError> {
+        RealFs.exists(path)
+    }
+
+    fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, FsError> {
+        RealFs.list(folder)
+    }
+
+    fn create_dir_all(&self, folder: &Path) -> Result<(), FsError> {
+        RealFs.create_dir_all(folder)
+    }
+
+    fn write(&self, _: &Path, _: &[u8]) -> Result<(), FsError> {
+        panic!("a fault of the program");
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> Result<(), FsError> {
+        RealFs.rename(from, to)
+    }
+
+    fn sync_dir(&self, folder: &Path) -> Result<(), FsError> {
+        RealFs.sync_dir(folder)
+    }
+
+    fn remove(&self, path: &Path) -> Result<(), FsError> {
+        RealFs.remove(path)
+    }
+
+    fn open_log(&self, path: &Path, keep: u64) -> Result<Box<dyn Log>, FsError> {
+        RealFs.open_log(path, keep)
+    }
+
+    fn lock(&self, path: &Path) -> Result<Lock, FsError> {
+        RealFs.lock(path)
+    }
+}
+
+#[test]
+fn a_panic_behind_comes_to_who_asked_and_nobody_waits_for_ever() {
+    let dir = folder();
+    let path = dir.path().join("frame.vtu");
+    let fs = BehindFs::new(Arc::new(Panicking));
+    let mut log = fs.open_log(&dir.path().join("rows.csv"), 0).unwrap();
+    fs.write_atomic(&path, b"frame").unwrap();
+    let settled = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| fs.settle()));
+    assert!(settled.is_err());
+    // a log may outlive what opened it
+    drop(fs);
+    log.append(b"row\n").unwrap();
+    log.cut(0).unwrap();
+    log.append(b"last\n").unwrap();
+    drop(log);
+    let have = RealFs.read(&dir.path().join("rows.csv")).unwrap();
+    assert_eq!(have, b"last\n");
 }

@@ -2,7 +2,7 @@
 
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, StepContext,
-    Symmetry, Term, TermError, Verdict, Work,
+    Symmetry, Term, TermError, Work,
 };
 
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
@@ -23,9 +23,9 @@ pub struct Damper {
 /// How s comes about.
 #[derive(Clone, Copy, Debug)]
 enum Strength {
-    /// They fade over each step, `s = 1 − τ` with the part `τ` of the step that is over when the increment begins. A
-    /// solution that was found with them is looked for without them next, and they come back only where that fails:
-    /// where contact holds the bodies they act no more.
+    /// They fade over each step, `s = 1 − τ` with the part `τ` of the step that is over when the increment begins. When
+    /// contact has settled, the solution is looked for without them, and they come back only where that fails: where
+    /// contact holds the bodies they act no more.
     UntilHeld {
         fading: f64,
         /// Whether they act, and whether they have to in this increment.
@@ -187,22 +187,16 @@ impl Term for Damper {
         Ok(Some(self.chunk(chunk).map(energy).sum()))
     }
 
-    fn converged(&mut self, _: &State) -> Result<Verdict, TermError> {
+    fn let_go(&mut self) -> bool {
         let Strength::UntilHeld {
-            acts: acts @ true,
+            acts,
             needed: false,
             ..
         } = &mut self.strength
         else {
-            return Ok(Verdict::Settled);
+            return false;
         };
-        *acts = false;
-        Ok(Verdict::Repeat {
-            changes: 1,
-            closing: false,
-            why: String::from("bodies that only contact holds were let go"),
-            nodes: Vec::new(),
-        })
+        std::mem::take(acts)
     }
 
     fn rescue(&mut self) -> bool {

@@ -378,6 +378,7 @@ impl Newton {
                 first_curvature = economy.curvature();
             }
             let Verdicts { flips, repeat, .. } = verdicts(system, &self.trial);
+            let closed = system.terms.iter().map(|t| t.nactive()).sum();
             report(&IterationRecord {
                 step: place.step,
                 increment: place.increment,
@@ -388,13 +389,23 @@ impl Newton {
                 correction,
                 decrement,
                 line_search: alpha,
-                closed: system.terms.iter().map(|t| t.nactive()).sum(),
+                closed,
                 flips,
             });
             let settled = repeat.is_none() || iterations == 0;
             residuals.push(judgement.residual);
             unsettled = repeat.or(unsettled);
-            if !motion && judgement.small && settled && (judgement.round_off || little) {
+            let is_found = !motion && judgement.small && settled && (judgement.round_off || little);
+            let is_held = !motion && settled && iterations > 0 && closed > 0;
+            if (is_found || is_held) && let_go(system) {
+                self.assembled = None;
+                last = iterations + self.settings.max_iterations;
+                residuals.clear();
+                correction = 0.0;
+                solved = false;
+                continue;
+            }
+            if is_found {
                 match self.release(system)? {
                     None => {
                         return Ok(Converged {
@@ -824,6 +835,15 @@ impl Newton {
         let product = |&dof: &Dof| self.du[dof as usize] * self.assembly.residual[dof as usize];
         self.equations.dofs().iter().map(product).sum()
     }
+}
+
+/// Whether some term lets go of what it has held so far.
+fn let_go(system: &mut System) -> bool {
+    let mut some = false;
+    for term in &mut system.terms {
+        some |= term.let_go();
+    }
+    some
 }
 
 /// What all terms say of an iterate.

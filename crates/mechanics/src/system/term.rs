@@ -331,6 +331,12 @@ pub trait Term: Send + Sync {
         Ok(Verdict::Settled)
     }
 
+    /// Active sets have settled with something closed, or all has converged: says whether the term lets go of what it has
+    /// held so far. The state is then looked for without.
+    fn let_go(&mut self) -> bool {
+        false
+    }
+
     /// The iteration failed: says whether the term knows a slower and safer way to the same solution, which it then goes
     /// until the increment is accepted.
     fn rescue(&mut self) -> bool {

@@ -17,7 +17,6 @@ use signorini_io::case;
 use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_io::fs::{BehindFs, FsError};
-use signorini_io::writers::RowsError;
 use signorini_io::writers::frd::FrdError;
 use signorini_io::writers::json::{DiagnosticSummary, Event, StepSummary, Summary};
 use signorini_io::writers::pvd::Pvd;
@@ -109,9 +108,8 @@ fn not_opened(error: &OutputError, resumed: bool) -> Diagnostic {
         OutputError::Frd(FrdError::Fs(short @ FsError::TooShort { .. })) if resumed => {
             cannot_resume(short).help(short.help())
         }
-        OutputError::Rows(RowsError::Fs(_)) | OutputError::Fs(_) | OutputError::Frd(_) => {
-            error.diagnostic()
-        }
+        OutputError::Frd(_) => error.diagnostic(),
+        _ if error.fs().is_some() => error.diagnostic(),
         other if resumed => cannot_resume(other),
         other => other.diagnostic(),
     }
@@ -401,21 +399,21 @@ impl Run<'_, '_> {
     }
 
     fn not_written(&self, error: &OutputError) -> Diagnostic {
-        let one = error.diagnostic();
+        let mut one = error.diagnostic();
         let setting = &self.recorder.setting;
         let listed = Pvd::read(setting.fs.as_ref(), &setting.tree.path("results.pvd"));
-        match listed.map_or(0, |list| list.entries().len()) {
-            0 => one,
-            n => one
-                .note(format!(
-                    "frames 0 to {} are complete; results.pvd lists only complete ones",
-                    n - 1
-                ))
-                .help(format!(
-                    "then  signorini resume {}",
-                    self.options.folder.display()
-                )),
+        let listed = listed.map_or(0, |list| list.entries().len());
+        if listed > 0 {
+            let last = listed - 1;
+            one = one.note(format!(
+                "frames 0 to {last} are complete; results.pvd lists only complete ones"
+            ));
         }
+        if !self.recorder.counts.frames.is_empty() {
+            let folder = self.options.folder.display();
+            one = one.help(format!("then  signorini resume {folder}"));
+        }
+        one
     }
 }
 

@@ -33,7 +33,8 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    fn fs(&self) -> Option<&FsError> {
+    /// The fault of the disk, where it is one.
+    pub(super) fn fs(&self) -> Option<&FsError> {
         match self {
             Self::Fs(error)
             | Self::Rows(RowsError::Fs(error))

@@ -226,7 +226,6 @@ impl Opened {
             work_stabilization: 0.0,
             error: None,
             stop: None,
-            untold: Vec::new(),
             write_seconds: 0.0,
             flips: 0,
             iterations: 0,

@@ -115,8 +115,6 @@ pub struct Recorder<'l> {
     pub error: Option<OutputError>,
     /// Why to stop.
     pub stop: Option<Stop>,
-    /// Files on their way to the disk, of which the listener has not heard.
-    untold: Vec<Event>,
     /// Seconds spent on files, and in waiting for the disk.
     pub write_seconds: f64,
     saved_at: (u64, Instant),
@@ -165,28 +163,15 @@ impl Recorder<'_> {
         });
     }
 
-    /// Tells what happened to the listener only. Of a file that it may open it hears when the file is on the disk, at the
-    /// latest before what happens next.
+    /// Tells what happened to the listener only; of a file that it may open, when that is on the disk.
     pub fn tell_listener(&mut self, event: &Event, detail: Detail<'_>) {
         let is_file = matches!(event, Event::Frame { .. } | Event::Checkpoint { .. });
         if is_file && self.listener.opens_files() {
-            self.untold.push(event.clone());
-            return;
-        }
-        if !self.untold.is_empty() {
             self.settle();
-            let untold = std::mem::take(&mut self.untold);
-            // what the disk may have refused is not told
-            if self.error.is_none() {
-                untold
-                    .iter()
-                    .for_each(|event| self.hear(event, Detail::None));
+            if self.error.is_some() {
+                return;
             }
         }
-        self.hear(event, detail);
-    }
-
-    fn hear(&mut self, event: &Event, detail: Detail<'_>) {
         if self.listener.hear(&News { event, detail }) == Flow::Stop {
             self.stop.get_or_insert(Stop::Listener);
         }

@@ -190,7 +190,7 @@ where
         (columns, values) = (other_columns, other_values);
         places.push((own_columns, own_values));
     }
-    let places = places.into_par_iter().zip(&parts);
+    let places = places.into_par_iter().zip(parts);
     places.for_each(|((columns, values), part)| {
         columns.copy_from_slice(&part.1);
         values.copy_from_slice(&part.2);
