@@ -11,7 +11,7 @@ use signorini_io::writers::pvd::Pvd;
 use signorini_io::writers::vtu;
 use signorini_mechanics::solve::Flow;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 const CASE: &str = r#"
@@ -71,8 +71,37 @@ value = 1.0
 tol = { abs = 0.0 }
 "#;
 
+/// Hears how a run ends, and looks for the files that it hears of.
+struct Ears {
+    endings: Vec<String>,
+    folder: PathBuf,
+    opens_files: bool,
+}
+
+impl Listener for Ears {
+    fn hear(&mut self, news: &News<'_>) -> Flow {
+        let is_there = |file: &String| self.folder.join(file).exists();
+        match news.event {
+            Event::End { status, .. } => self.endings.push(status.clone()),
+            Event::Frame { files, .. } if self.opens_files => assert!(files.iter().all(is_there)),
+            Event::Checkpoint { file, .. } if self.opens_files => assert!(is_there(file)),
+            _ => {}
+        }
+        Flow::Continue
+    }
+
+    fn opens_files(&self) -> bool {
+        self.opens_files
+    }
+}
+
 /// Runs the case into a folder through a disk, and hears what is told.
-fn run_on(fs: Arc<dyn Fs>, folder: &Path, resume: bool) -> (Finished, Vec<String>) {
+fn run_on(
+    fs: Arc<dyn Fs>,
+    folder: &Path,
+    resume: bool,
+    opens_files: bool,
+) -> (Finished, Vec<String>) {
     let text = CASE.to_owned();
     let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
     let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
@@ -88,15 +117,12 @@ fn run_on(fs: Arc<dyn Fs>, folder: &Path, resume: bool) -> (Finished, Vec<String
     options.folder = folder.to_path_buf();
     options.fs = fs;
     options.resume = resume;
-    let mut endings = Vec::new();
-    let mut listener = |news: &News<'_>| {
-        if let Event::End { status, .. } = news.event {
-            endings.push(status.clone());
-        }
-        Flow::Continue
+    let mut ears = Ears {
+        endings: Vec::new(),
+        folder: folder.to_path_buf(),
+        opens_files,
     };
-    let listener: &mut dyn Listener = &mut listener;
-    (run(&mut model, &options, listener), endings)
+    (run(&mut model, &options, &mut ears), ears.endings)
 }
 
 /// A folder in memory where there is one: on a disk, every operation waits for it.
@@ -116,15 +142,16 @@ fn grown(folder: &Path) -> [String; 3] {
 fn f62_a_disk_that_fails_at_any_moment_harms_nothing_that_was_written() {
     let whole = scratch();
     let counting = Arc::new(FailingFs::counting(RealFs));
-    let (finished, endings) = run_on(counting.clone(), whole.path(), false);
+    let (finished, endings) = run_on(counting.clone(), whole.path(), false, true);
     assert_eq!(finished.exit_code, 0, "{}", finished.diagnostics);
     assert_eq!(endings, ["solved"]);
     let operations = counting.count();
     assert!(operations > 60, "{operations}");
     for n in 1..=operations {
-        // one fault, and a disk that stays full: by turns, both at the first and the last operations
-        for stays in [false, true] {
-            if stays && n % 5 != 0 {
+        // one fault, and now and then one before a listener that waits for files, and a disk that stays full
+        let kinds = [(1, false, false), (3, false, true), (5, true, false)];
+        for (each, stays, opens_files) in kinds {
+            if n % each != 0 {
                 continue;
             }
             let folder = scratch();
@@ -134,7 +161,7 @@ fn f62_a_disk_that_fails_at_any_moment_harms_nothing_that_was_written() {
             } else {
                 Arc::new(FailingFs::nth(RealFs, n, ErrorKind::StorageFull))
             };
-            let (finished, endings) = run_on(disk, folder, false);
+            let (finished, endings) = run_on(disk, folder, false, opens_files);
             assert_eq!(
                 finished.exit_code, 6,
                 "operation {n}: {}",
@@ -184,7 +211,7 @@ fn go_on(folder: &Path, n: u64, listed: usize, whole: &[String; 3]) {
         );
         return;
     }
-    let (finished, _) = run_on(Arc::new(RealFs), folder, true);
+    let (finished, _) = run_on(Arc::new(RealFs), folder, true, false);
     assert_eq!(
         finished.exit_code, 0,
         "operation {n}: {}",
@@ -210,4 +237,34 @@ fn a_listener_that_wants_no_more_stops_the_run() {
     let finished = run(&mut model, &options, &mut stop);
     assert_eq!(finished.summary.status, "interrupted");
     assert_eq!(finished.summary.steps[0].increments, 2);
+}
+
+#[test]
+fn a_state_that_is_judged_again_is_no_further_iteration() {
+    let folder = scratch();
+    let by = "primary = \"top\"\nenforcement = { augmented = \"uzawa\" }";
+    let text = CASE.replace("primary = \"top\"", by);
+    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
+    let mut model = build(case, mesh).unwrap();
+    let mut options = RunOptions::new(Source::default());
+    options.folder = folder.path().join("out");
+    let (mut taken, mut judged) = (0, 0);
+    let mut count = |news: &News<'_>| {
+        match news.event {
+            Event::Increment { iters, .. } => taken += iters,
+            // each increment is judged once before its first iteration
+            Event::Iteration { iter, .. } => judged += u64::from(*iter > 1),
+            _ => {}
+        }
+        Flow::Continue
+    };
+    let finished = run(&mut model, &options, &mut count);
+    assert_eq!(finished.exit_code, 0, "{}", finished.diagnostics);
+    let counted: u64 = finished.summary.steps.iter().map(|s| s.iterations).sum();
+    assert_eq!(counted, taken);
+    assert!(
+        judged > taken,
+        "{judged} of {taken}: multipliers are renewed"
+    );
 }

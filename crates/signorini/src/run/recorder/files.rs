@@ -229,6 +229,7 @@ impl Opened {
             write_seconds: 0.0,
             flips: 0,
             iterations: 0,
+            judged: 0,
             last_flips: 0,
             worst: None,
             setting: self.setting,

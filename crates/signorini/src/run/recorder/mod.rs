@@ -121,6 +121,8 @@ pub struct Recorder<'l> {
     step: Option<usize>,
     flips: u64,
     iterations: u64,
+    /// The iteration that was judged last.
+    judged: usize,
     last_flips: usize,
     worst: Option<Dof>,
     time: f64,

@@ -15,13 +15,15 @@ impl Recorder<'_> {
         if record.iteration == 1 {
             self.flips = 0;
             self.iterations = 0;
-        } else {
+        } else if record.iteration != self.judged {
             self.iterations += 1;
             self.flips += u64::from(record.flips > 0);
             if let Some(step) = self.counts.steps.get_mut(record.step) {
                 step.iterations += 1;
             }
         }
+        // a state is judged again where terms let go of something
+        self.judged = record.iteration;
         if record.iteration > 1 && record.flips > 0 {
             self.last_flips = record.flips;
         }
