@@ -396,7 +396,9 @@ impl Newton {
             residuals.push(judgement.residual);
             unsettled = repeat.or(unsettled);
             let is_found = !motion && judgement.small && settled && (judgement.round_off || little);
-            let is_held = !motion && settled && iterations > 0 && closed > 0;
+            // a step that was shortened has not shown yet what else closes
+            let is_whole = iterations > 0 && alpha >= 1.0;
+            let is_held = !motion && settled && is_whole && closed > 0;
             if (is_found || is_held) && let_go(system) {
                 self.assembled = None;
                 last = iterations + self.settings.max_iterations;
