@@ -15,7 +15,6 @@
 //! row may be tried again, does not hold. Who writes here stops at the first fault.
 
 use super::{Fs, FsError, Lock, Log};
-use std::any::Any;
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
@@ -46,7 +45,8 @@ struct Job {
     makes: Option<PathBuf>,
     /// What it holds in memory.
     bytes: usize,
-    act: Act,
+    /// None while it is being done.
+    act: Option<Act>,
 }
 
 #[derive(Default)]
@@ -60,17 +60,13 @@ struct Queue {
 
 #[derive(Default)]
 struct State {
+    /// What is not done, the first of it under way.
     jobs: VecDeque<Job>,
     /// What all of them hold.
     bytes: usize,
-    /// Files that are being made, in the order of their jobs.
-    making: VecDeque<PathBuf>,
-    is_busy: bool,
     is_closed: bool,
-    /// A fault that nobody knows of.
-    error: Option<FsError>,
-    /// A panic that nobody knows of.
-    panic: Option<Box<dyn Any + Send>>,
+    /// A fault, or a panic, that nobody knows of.
+    fault: Option<std::thread::Result<FsError>>,
 }
 
 impl State {
@@ -79,10 +75,11 @@ impl State {
     /// # Panics
     /// Where a file system has.
     fn told(&mut self) -> Result<(), FsError> {
-        if let Some(panic) = self.panic.take() {
-            resume_unwind(panic);
+        match self.fault.take() {
+            None => Ok(()),
+            Some(Ok(error)) => Err(error),
+            Some(Err(panic)) => resume_unwind(panic),
         }
-        self.error.take().map_or(Ok(()), Err)
     }
 }
 
@@ -91,53 +88,62 @@ impl Queue {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Waits for a signal as long as this holds.
+    fn wait(
+        &self,
+        signal: &Condvar,
+        holds: impl FnMut(&mut State) -> bool,
+    ) -> MutexGuard<'_, State> {
+        let state = signal.wait_while(self.lock(), holds);
+        state.unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Puts a job at the end, when there is room for its bytes.
-    fn push(&self, bytes: usize, job: impl FnOnce() -> Job) -> Result<(), FsError> {
+    fn push(
+        &self,
+        bytes: usize,
+        makes: Option<&Path>,
+        act: impl FnOnce() -> Act,
+    ) -> Result<(), FsError> {
         let is_full = |state: &mut State| state.bytes > 0 && state.bytes + bytes > MOST;
-        let state = self.done.wait_while(self.lock(), is_full);
-        let mut state = state.unwrap_or_else(PoisonError::into_inner);
+        let mut state = self.wait(&self.done, is_full);
         state.told()?;
-        let job = job();
-        state.bytes += job.bytes;
-        state.making.extend(job.makes.clone());
-        state.jobs.push_back(job);
+        state.bytes += bytes;
+        state.jobs.push_back(Job {
+            makes: makes.map(Path::to_path_buf),
+            bytes,
+            act: Some(act()),
+        });
         self.work.notify_one();
         Ok(())
     }
 
     /// Waits until nothing is left to do.
     fn settle(&self) -> Result<(), FsError> {
-        let is_at_work = |state: &mut State| state.is_busy || !state.jobs.is_empty();
-        let state = self.done.wait_while(self.lock(), is_at_work);
-        let mut state = state.unwrap_or_else(PoisonError::into_inner);
-        state.told()
+        let is_at_work = |state: &mut State| !state.jobs.is_empty();
+        self.wait(&self.done, is_at_work).told()
     }
 
     /// Does what comes, until no more can come.
     fn serve(&self, fs: &dyn Fs) {
         loop {
             let has_none = |state: &mut State| state.jobs.is_empty() && !state.is_closed;
-            let state = self.work.wait_while(self.lock(), has_none);
-            let mut state = state.unwrap_or_else(PoisonError::into_inner);
-            let Some(job) = state.jobs.pop_front() else {
+            let mut state = self.wait(&self.work, has_none);
+            let Some(act) = state.jobs.front_mut().and_then(|job| job.act.take()) else {
                 return;
             };
-            state.is_busy = true;
             drop(state);
-            let outcome = catch_unwind(AssertUnwindSafe(|| (job.act)(fs)));
+            let outcome = catch_unwind(AssertUnwindSafe(|| act(fs)));
             let mut state = self.lock();
-            state.is_busy = false;
-            state.bytes -= job.bytes;
-            if job.makes.is_some() {
-                state.making.pop_front();
-            }
-            if !matches!(outcome, Ok(Ok(()))) {
-                (state.jobs, state.making, state.bytes) = Default::default();
-            }
-            match outcome {
-                Ok(Ok(())) => {}
-                Ok(Err(error)) => state.error = Some(error),
-                Err(panic) => state.panic = Some(panic),
+            state.fault = match outcome {
+                Ok(Ok(())) => None,
+                Ok(Err(error)) => Some(Ok(error)),
+                Err(panic) => Some(Err(panic)),
+            };
+            if state.fault.is_some() {
+                (state.jobs, state.bytes) = Default::default();
+            } else if let Some(job) = state.jobs.pop_front() {
+                state.bytes -= job.bytes;
             }
             self.done.notify_all();
         }
@@ -147,7 +153,8 @@ impl Queue {
     fn makes(&self, path: &Path) -> Result<bool, FsError> {
         let mut state = self.lock();
         state.told()?;
-        Ok(state.making.iter().any(|made| made == path))
+        let makes = |job: &Job| job.makes.as_deref() == Some(path);
+        Ok(state.jobs.iter().any(makes))
     }
 
     fn close(&self) {
@@ -252,13 +259,9 @@ impl Fs for BehindFs {
         let Some(Worker { queue, .. }) = self.worker.as_deref() else {
             return self.inner.write_atomic(path, bytes);
         };
-        queue.push(bytes.len(), || {
-            let (file, bytes) = (path.to_path_buf(), bytes.to_vec());
-            Job {
-                makes: Some(path.to_path_buf()),
-                bytes: bytes.len(),
-                act: Box::new(move |fs| fs.write_atomic(&file, &bytes)),
-            }
+        queue.push(bytes.len(), Some(path), || {
+            let (path, bytes) = (path.to_path_buf(), bytes.to_vec());
+            Box::new(move |fs| fs.write_atomic(&path, &bytes))
         })
     }
 
@@ -280,16 +283,12 @@ impl BehindLog {
         act: impl FnOnce(&mut dyn Log, &[u8]) -> Result<(), FsError> + Send + 'static,
     ) -> Result<(), FsError> {
         let log = Arc::clone(&self.log);
-        self.worker.queue.push(bytes.len(), || {
+        self.worker.queue.push(bytes.len(), None, || {
             let bytes = bytes.to_vec();
-            Job {
-                makes: None,
-                bytes: bytes.len(),
-                act: Box::new(move |_| {
-                    let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
-                    act(log.as_mut(), &bytes)
-                }),
-            }
+            Box::new(move |_| {
+                let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
+                act(log.as_mut(), &bytes)
+            })
         })
     }
 }
