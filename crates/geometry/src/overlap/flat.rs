@@ -32,6 +32,8 @@ pub struct Flat<T> {
     centre: Pair<f64>,
     middle: Pair<f64>,
     tangents: [Pair<f64>; 2],
+    /// Of a quadrilateral with four nodes, X_,12: its map has nothing else beyond the affine one.
+    twist: Option<Pair<f64>>,
 }
 
 /// What the polygon through all nodes of the boundary is like.
@@ -89,6 +91,7 @@ impl<T: Real> Flat<T> {
             centre: [centre.x, centre.y],
             middle: place(element, &values, &centre),
             tangents: jacobian(element, &values, &centre),
+            twist: twist(element, &values),
         };
         if element.dim() == 2 {
             flat.outline = flat.look();
@@ -118,6 +121,17 @@ impl<T: Real> Flat<T> {
     pub(super) fn affine(&self, p: Pair<f64>) -> Pair<f64> {
         let [a, b] = solve(self.element, self.tangents, minus(p, self.middle));
         [self.centre[0] + a, self.centre[1] + b]
+    }
+
+    /// The place of parameters and the tangents there, of a quadrilateral with four nodes; `None` of all others.
+    pub(super) fn bilinear(&self, xi: Pair<f64>) -> Option<(Pair<f64>, [Pair<f64>; 2])> {
+        let twist = self.twist?;
+        let [x, y] = [xi[0] - self.centre[0], xi[1] - self.centre[1]];
+        let [t1, t2] = self.tangents;
+        let along = |a: usize| t1[a] + twist[a] * y;
+        let across = |a: usize| t2[a] + twist[a] * x;
+        let place = |a: usize| self.middle[a] + along(a) * x + t2[a] * y;
+        Some(([0, 1].map(place), [[0, 1].map(along), [0, 1].map(across)]))
     }
 
     pub(super) fn dim(&self) -> usize {
@@ -342,6 +356,16 @@ fn jacobian(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], xi: &Vec3) -> [P
         return [along(0), [0.0; 2]];
     }
     [along(0), along(1)]
+}
+
+/// X_,12 of a quadrilateral with four nodes, where it is the same everywhere.
+fn twist(element: Element, x: &[Pair<f64>; MAX_FACET_NODES]) -> Option<Pair<f64>> {
+    if (element.dim(), element.nnode(), element.ncorner()) != (2, 4, 4) {
+        return None;
+    }
+    let mut ddn = [Sym3::ZERO; MAX_FACET_NODES];
+    element.ddshape(&element.centre(), &mut ddn[..4]);
+    Some(combine(ddn.iter().map(Sym3::xy), &x[..4]))
 }
 
 /// The determinant of tangents; on a line the tangent itself.

@@ -27,7 +27,14 @@ pub(super) fn parameters<T: Real>(
     let mut xi = flat.affine(p);
     if flat.bend() > AFFINE {
         let mut step = |xi: &mut Pair<f64>| {
-            let there = Map::new(flat, *xi, out);
+            let there = match flat.bilinear(*xi) {
+                Some((place, tangents)) => Map {
+                    dim: 2,
+                    place,
+                    tangents,
+                },
+                None => Map::new(flat, *xi, out).0,
+            };
             let [a, b] = there.solve(minus(there.place, p));
             let size = a.abs().max(b.abs());
             let cut = LONGEST / size.max(LONGEST);
@@ -37,10 +44,10 @@ pub(super) fn parameters<T: Real>(
         (0..MAX_STEPS).find(|_| step(&mut xi) <= SMALL)?;
     }
     out.xi = xi;
-    let there = Map::new(flat, xi, out);
+    let (there, slopes) = Map::new(flat, xi, out);
     let n = flat.element().nnode();
     let inverse = [there.solve([1.0, 0.0]), there.solve([0.0, 1.0])];
-    for (g, d) in out.gradient[..n].iter_mut().zip(&there.slopes) {
+    for (g, d) in out.gradient[..n].iter_mut().zip(&slopes) {
         *g = inverse.map(|xi| d.x * xi[0] + d.y * xi[1]);
     }
     Some(())
@@ -49,14 +56,17 @@ pub(super) fn parameters<T: Real>(
 /// The map of a facet at some parameters.
 struct Map {
     dim: usize,
-    slopes: [Vec3; MAX_FACET_NODES],
     place: Pair<f64>,
     tangents: [Pair<f64>; 2],
 }
 
 impl Map {
-    /// The map there; shape functions go to `out`.
-    fn new<T: Real>(flat: &Flat<T>, [x, y]: Pair<f64>, out: &mut Parameters) -> Self {
+    /// The map there, and the slopes of shape functions; these go to `out`.
+    fn new<T: Real>(
+        flat: &Flat<T>,
+        [x, y]: Pair<f64>,
+        out: &mut Parameters,
+    ) -> (Self, [Vec3; MAX_FACET_NODES]) {
         let (element, xi) = (flat.element(), Vec3::new(x, y, 0.0));
         let n = element.nnode();
         let mut slopes = [Vec3::ZERO; MAX_FACET_NODES];
@@ -70,12 +80,12 @@ impl Map {
             }
         }
         let [place, t1, t2] = sums;
-        Self {
+        let map = Self {
             dim: flat.dim(),
-            slopes,
             place,
             tangents: [t1, t2],
-        }
+        };
+        (map, slopes)
     }
 
     /// The change of parameters that makes a change of place.

@@ -246,6 +246,31 @@ fn moments(elements: [Element; 2], points: &[Point]) -> [Vec<f64>; 2] {
     [of(0), of(1)]
 }
 
+#[test]
+fn the_map_of_a_quadrilateral_is_that_of_its_shape_functions() {
+    let mut random = Random(7);
+    for element in LINES.into_iter().chain(FACES).map(|n| by_name(n).unwrap()) {
+        let (x, flat) = straight(element, 0.4, &mut random);
+        for xi in [[0.0, 0.0], [0.3, -0.7], [-1.2, 0.9]] {
+            let Some((place, tangents)) = flat.bilinear(xi) else {
+                assert_ne!(element.name(), "quad4");
+                continue;
+            };
+            let known = at(element, &x, xi);
+            let h = 1e-6;
+            for a in 0..2 {
+                assert!((place[a] - known[a]).abs() < 1e-14);
+                for (along, tangent) in tangents.iter().enumerate() {
+                    let [mut before, mut after] = [xi, xi];
+                    (before[along], after[along]) = (xi[along] - h, xi[along] + h);
+                    let slope = at(element, &x, after)[a] - at(element, &x, before)[a];
+                    assert!((slope / (2.0 * h) - tangent[a]).abs() < 1e-9);
+                }
+            }
+        }
+    }
+}
+
 /// `∫ N_j` over a facet by a rule on its parameters.
 fn whole(element: Element, x: &[Vec3]) -> Vec<f64> {
     let mut sum = vec![0.0; element.nnode()];

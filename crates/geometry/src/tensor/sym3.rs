@@ -175,8 +175,13 @@ impl Sym3 {
     #[must_use]
     pub fn eigenvalues(self) -> [f64; 3] {
         let mut m = self.to_mat3().rows.map(Vec3::to_array);
-        // convergence is quadratic: four sweeps reach round-off from any start, and rotations by nothing cost nothing
+        // convergence is quadratic: four sweeps reach round-off from nearly all starts, six from any
         for _ in 0..6 {
+            let size = |entries: [f64; 3]| entries.iter().map(|e| e.abs()).sum::<f64>();
+            let diagonal = size([m[0][0], m[1][1], m[2][2]]);
+            if size([m[0][1], m[0][2], m[1][2]]) <= NOTHING * diagonal {
+                break;
+            }
             for (p, q) in [(0, 1), (0, 2), (1, 2)] {
                 annihilate(&mut m, p, q);
             }
@@ -195,6 +200,9 @@ impl Sym3 {
     }
 }
 
+/// What is left beside the diagonal, relative to it, when values are found.
+const NOTHING: f64 = f64::EPSILON / 64.0;
+
 /// Turns a symmetric matrix in the plane `p, q` such that its entry there vanishes.
 fn annihilate(m: &mut [[f64; 3]; 3], p: usize, q: usize) {
     let entry = m[p][q];
@@ -202,8 +210,9 @@ fn annihilate(m: &mut [[f64; 3]; 3], p: usize, q: usize) {
         return;
     }
     let theta = 0.5 * (m[q][q] - m[p][p]) / entry;
-    let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-    let c = 1.0 / t.hypot(1.0);
+    // where the square is too large for a number, there is nothing to turn
+    let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+    let c = 1.0 / (t * t + 1.0).sqrt();
     let s = t * c;
     m[p][p] -= t * entry;
     m[q][q] += t * entry;
@@ -321,6 +330,18 @@ mod tests {
             let [a, b, c] = s.eigenvalues();
             assert!((a - 1.0 - d).abs() < 1e-15, "{d}: {a}");
             assert!((b - 1.0).abs() < 1e-15 && (c - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn eigenvalues_of_what_is_not_finite_are_not() {
+        for value in [f64::NAN, f64::INFINITY] {
+            for k in 0..6 {
+                let mut c = [1.0, 2.0, 3.0, 0.5, 0.0, 0.0];
+                c[k] = value;
+                let found = Sym3::from_pairs(c).eigenvalues();
+                assert!(found.iter().any(|v| !v.is_finite()), "{c:?}: {found:?}");
+            }
         }
     }
 
