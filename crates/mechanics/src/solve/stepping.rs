@@ -202,6 +202,23 @@ impl Stepper {
         }
     }
 
+    /// A stepper that goes on with a stored run. Histories come first, for they tell what is coupled.
+    ///
+    /// # Errors
+    /// The archive belongs to another model.
+    pub fn resumed(
+        system: &mut System,
+        settings: StepperSettings,
+        from: &Archive,
+    ) -> Result<Self, ArchiveError> {
+        for term in &mut system.terms {
+            term.load(from)?;
+        }
+        let mut stepper = Self::new(system, settings);
+        stepper.load(system, from)?;
+        Ok(stepper)
+    }
+
     /// The last accepted state.
     #[must_use]
     pub const fn state(&self) -> &State {

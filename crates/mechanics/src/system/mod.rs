@@ -39,6 +39,7 @@ mod frame;
 mod idealisation;
 mod layout;
 pub mod linear;
+mod lists;
 mod samples;
 pub mod sparsity;
 mod state;

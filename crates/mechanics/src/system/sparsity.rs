@@ -19,6 +19,7 @@
 //! couple with each other, one per element or contact row, flat, with offsets: clique `c` is
 //! `members[offsets[c]..offsets[c + 1]]`. A row has a diagonal entry only where it occurs in a clique.
 
+use super::lists::Lists;
 use rayon::prelude::*;
 
 /// "No such number": a degree of freedom without an equation, a node without a body.
@@ -160,25 +161,13 @@ fn rows_from_cliques(nrow: usize, members: &[u32], offsets: &[usize]) -> (Vec<us
             .map(|ends| members.get(ends[0]..ends[1]).unwrap_or_default())
     };
 
-    // the cliques of each row, by counting
-    let mut start = vec![0usize; nrow + 1];
-    for &row in cliques().flatten() {
-        if (row as usize) < nrow {
-            start[row as usize + 1] += 1;
-        }
-    }
-    for row in 0..nrow {
-        start[row + 1] += start[row];
-    }
-    let mut next = start.clone();
-    let mut clique_of = vec![0u32; start[nrow]];
-    for (clique, rows) in cliques().enumerate() {
-        for &row in rows.iter().filter(|&&row| (row as usize) < nrow) {
-            clique_of[next[row as usize]] = clique as u32;
-            next[row as usize] += 1;
-        }
-    }
-    drop(next);
+    let cliques_of = Lists::new(nrow, || {
+        let known = |&&row: &&u32| (row as usize) < nrow;
+        (0u32..).zip(cliques()).flat_map(move |(clique, rows)| {
+            let rows = rows.iter().filter(known);
+            rows.map(move |&row| (row as usize, clique))
+        })
+    });
 
     // their union, a task for each run of rows; `seen` holds the last row that met a column
     let ntask = nrow.div_ceil(ROWS_PER_TASK);
@@ -192,7 +181,7 @@ fn rows_from_cliques(nrow: usize, members: &[u32], offsets: &[usize]) -> (Vec<us
                 let mut column = Vec::new();
                 for row in rows {
                     let begin = column.len();
-                    for &clique in &clique_of[start[row]..start[row + 1]] {
+                    for &clique in cliques_of.of(row) {
                         let ends = offsets[clique as usize]..offsets[clique as usize + 1];
                         for &other in &members[ends] {
                             if (other as usize) < nrow && seen[other as usize] != row as u32 {

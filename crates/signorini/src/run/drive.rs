@@ -227,14 +227,10 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Goes on from an archive in the way a new process does, so that both give the same bits: loaded histories first,
-    /// then a stepper that has seen nothing else.
+    /// Goes on from an archive in the way a new process does, so that both give the same bits: with a stepper that has
+    /// seen nothing else.
     fn restart(&mut self, archive: &Archive) -> Result<Stepper, ArchiveError> {
-        let (system, settings) = (&mut self.model.system, self.model.settings);
-        Stepper::new(system, settings).load(system, archive)?;
-        let mut stepper = Stepper::new(system, settings);
-        stepper.load(system, archive)?;
-        Ok(stepper)
+        Stepper::resumed(&mut self.model.system, self.model.settings, archive)
     }
 
     fn failed(&mut self, error: &RunError, stepper: &Stepper) -> Ending {
@@ -343,19 +339,17 @@ impl Run<'_, '_> {
                 (*status, *exit_code) = (summary.status.clone(), summary.exit_code);
             }
             let written = summary.write(self.recorder.setting.fs.as_ref(), &path);
-            if failed.is_some() {
-                break;
-            }
-            self.recorder.record(&event, Detail::End(&totals));
-            if let Err(error) = written {
-                self.recorder.error.get_or_insert(error.into());
+            if failed.is_none() {
+                self.recorder.record(&event, Detail::End(&totals));
+                if let Err(error) = written {
+                    self.recorder.error.get_or_insert(error.into());
+                }
             }
             self.recorder.settle();
-            if self.recorder.error.is_none() {
+            if failed.is_some() || self.recorder.error.is_none() {
                 break;
             }
         }
-        self.recorder.settle();
         self.recorder.tell_listener(&event, Detail::End(&totals));
         Finished {
             exit_code,

@@ -1,7 +1,7 @@
 //! A disk that fails at every single operation of a whole run.
 
 use super::{Finished, Listener, News, RunOptions, run};
-use crate::build::build;
+use crate::build::{Model, build};
 use crate::load::Source;
 use signorini_io::case::read_case;
 use signorini_io::checkpoint::Checkpoints;
@@ -71,6 +71,12 @@ value = 1.0
 tol = { abs = 0.0 }
 "#;
 
+fn model_of(text: &str) -> Model {
+    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
+    build(case, mesh).unwrap()
+}
+
 /// Hears how a run ends, and looks for the files that it hears of.
 struct Ears {
     endings: Vec<String>,
@@ -102,15 +108,12 @@ fn run_on(
     resume: bool,
     opens_files: bool,
 ) -> (Finished, Vec<String>) {
-    let text = CASE.to_owned();
-    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
-    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
-    let mut model = build(case, mesh).unwrap();
+    let mut model = model_of(CASE);
     model.name = "case".into();
     let source = Source {
         name: "case".into(),
         path: "/nowhere/case.toml".into(),
-        text: text.into_bytes(),
+        text: CASE.into(),
         ..Source::default()
     };
     let mut options = RunOptions::new(source);
@@ -224,10 +227,7 @@ fn go_on(folder: &Path, n: u64, listed: usize, whole: &[String; 3]) {
 #[test]
 fn a_listener_that_wants_no_more_stops_the_run() {
     let folder = scratch();
-    let text = CASE.to_owned();
-    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
-    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
-    let mut model = build(case, mesh).unwrap();
+    let mut model = model_of(CASE);
     let mut options = RunOptions::new(Source::default());
     options.folder = folder.path().join("out");
     let mut stop = |news: &News<'_>| match news.event {
@@ -244,9 +244,7 @@ fn a_state_that_is_judged_again_is_no_further_iteration() {
     let folder = scratch();
     let by = "primary = \"top\"\nenforcement = { augmented = \"uzawa\" }";
     let text = CASE.replace("primary = \"top\"", by);
-    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
-    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
-    let mut model = build(case, mesh).unwrap();
+    let mut model = model_of(&text);
     let mut options = RunOptions::new(Source::default());
     options.folder = folder.path().join("out");
     let (mut taken, mut judged) = (0, 0);

@@ -24,6 +24,7 @@
 use super::LinearError;
 use super::matrix::Matrix;
 use super::registers::clear_upper_halves;
+use crate::system::lists::Lists;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
 use faer::linalg::matmul::matmul;
@@ -141,8 +142,8 @@ impl Fronts {
             nequation: n,
             nentry: matrix.row.len(),
         };
-        let by_row = ByRow::new(matrix);
-        let (start, row) = by_row.lower_half(matrix);
+        let by_row = by_row(matrix);
+        let (start, row) = lower_half(matrix, &by_row);
         let mut place = vec![0u32; n];
         for (new, &old) in order.iter().enumerate() {
             place[old as usize] = new as u32;
@@ -230,7 +231,7 @@ impl Fronts {
     }
 
     /// Finds the place of every entry; column e of the matrix holds row e of the operator.
-    fn place_entries(&mut self, matrix: &Matrix, by_row: &ByRow) -> Option<()> {
+    fn place_entries(&mut self, matrix: &Matrix, by_row: &Lists<[u32; 2]>) -> Option<()> {
         let Self {
             order,
             nodes,
@@ -266,7 +267,7 @@ impl Fronts {
                         to.push(u32::try_from(place).ok()?);
                     }
                 }
-                for (&f, &at) in by_row.of(e) {
+                for &[f, at] in by_row.of(e) {
                     let other = place[f as usize] as usize;
                     if other >= columns.end {
                         from.push(at);
@@ -668,81 +669,48 @@ fn pivots(
     Ok(smallest)
 }
 
-/// The entries of a matrix row by row.
-struct ByRow {
-    start: Vec<u32>,
-    /// Sorted in each row.
-    column: Vec<u32>,
-    /// The place in the matrix.
-    at: Vec<u32>,
+/// The columns of each row of a matrix, sorted, with the places of their entries.
+fn by_row(matrix: &Matrix) -> Lists<[u32; 2]> {
+    let n = matrix.nequation();
+    Lists::new(n, || {
+        (0..n).flat_map(|e| {
+            let places = matrix.start[e]..;
+            let entries = matrix.column(e).iter().zip(places);
+            entries.map(move |(&row, at)| (row as usize, [e as u32, at]))
+        })
+    })
 }
 
-impl ByRow {
-    fn new(matrix: &Matrix) -> Self {
-        let n = matrix.nequation();
-        let mut start = vec![0u32; n + 1];
-        for &row in &matrix.row {
-            start[row as usize + 1] += 1;
+/// The lower half of the pattern of A + Aᵀ.
+fn lower_half(matrix: &Matrix, by_row: &Lists<[u32; 2]>) -> (Vec<u32>, Vec<u32>) {
+    let n = matrix.nequation();
+    let mut row = Vec::with_capacity(matrix.row.len() / 2 + n);
+    let mut begin = Vec::with_capacity(n + 1);
+    begin.push(0);
+    for e in 0..n {
+        let is_above = |&f: &u32| (f as usize) < e;
+        let (one, two) = (matrix.column(e), by_row.of(e));
+        let mut one = &one[one.partition_point(is_above)..];
+        let mut two = &two[two.partition_point(|[f, _]| is_above(f))..];
+        if one.iter().eq(two.iter().map(|[f, _]| f)) {
+            row.extend_from_slice(one);
+            (one, two) = (&[], &[]);
         }
-        for row in 0..n {
-            start[row + 1] += start[row];
-        }
-        let mut next = start.clone();
-        let (mut column, mut place) = (vec![0; matrix.row.len()], vec![0; matrix.row.len()]);
-        for e in 0..n {
-            for (at, &row) in (matrix.start[e]..).zip(matrix.column(e)) {
-                let next = &mut next[row as usize];
-                column[*next as usize] = e as u32;
-                place[*next as usize] = at;
-                *next += 1;
+        while let Some(&least) = match (one.first(), two.first()) {
+            (Some(a), Some([b, _])) => Some(a.min(b)),
+            (a, b) => a.or(b.map(|[f, _]| f)),
+        } {
+            row.push(least);
+            if one.first() == Some(&least) {
+                one = &one[1..];
+            }
+            if two.first().is_some_and(|[f, _]| *f == least) {
+                two = &two[1..];
             }
         }
-        Self {
-            start,
-            column,
-            at: place,
-        }
+        begin.push(row.len() as u32);
     }
-
-    fn range(&self, row: usize) -> Range<usize> {
-        self.start[row] as usize..self.start[row + 1] as usize
-    }
-
-    /// The columns of a row, with their places.
-    fn of(&self, row: usize) -> impl Iterator<Item = (&u32, &u32)> {
-        let range = self.range(row);
-        self.column[range.clone()].iter().zip(&self.at[range])
-    }
-
-    /// The lower half of the pattern of A + Aᵀ.
-    fn lower_half(&self, matrix: &Matrix) -> (Vec<u32>, Vec<u32>) {
-        let n = matrix.nequation();
-        let mut row = Vec::with_capacity(matrix.row.len() / 2 + n);
-        let mut begin = Vec::with_capacity(n + 1);
-        begin.push(0);
-        for e in 0..n {
-            let below = |sorted: &'_ [u32]| sorted.partition_point(|&f| (f as usize) < e);
-            let (one, two) = (matrix.column(e), &self.column[self.range(e)]);
-            let (mut one, mut two) = (&one[below(one)..], &two[below(two)..]);
-            if one == two {
-                row.extend_from_slice(one);
-                (one, two) = (&[], &[]);
-            }
-            while let Some(&least) = match (one.first(), two.first()) {
-                (Some(a), Some(b)) => Some(a.min(b)),
-                (a, b) => a.or(b),
-            } {
-                row.push(least);
-                for some in [&mut one, &mut two] {
-                    if some.first() == Some(&least) {
-                        *some = &some[1..];
-                    }
-                }
-            }
-            begin.push(row.len() as u32);
-        }
-        (begin, row)
-    }
+    (begin, row)
 }
 
 /// The largest subtrees with little work: ranges of nodes, for children come right before their parents.

@@ -16,6 +16,7 @@
 
 use super::metis;
 use super::{LinearError, Problem, matrix::Matrix};
+use crate::system::lists::Lists;
 use crate::system::sparsity::NONE;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -182,34 +183,24 @@ fn groups(matrix: &Matrix, node: &[u32], sign: &[i8]) -> Vec<u32> {
     for &g in group.iter().filter(|&&g| g != NONE) {
         size[g as usize] += 1;
     }
-    let each_coupling = |act: &mut dyn FnMut(usize, usize, f64)| {
-        for column in 0..nequation {
-            for (&row, value) in matrix.column(column).iter().zip(matrix.values(column)) {
-                for (multiplier, other) in [(column, row as usize), (row as usize, column)] {
-                    if sign[multiplier] < 0 && sign[other] >= 0 {
-                        act(multiplier, other, value.abs());
-                    }
-                }
-            }
-        }
-    };
-    let mut start = vec![0usize; nequation + 1];
-    each_coupling(&mut |multiplier, _, _| start[multiplier + 1] += 1);
-    for equation in 0..nequation {
-        start[equation + 1] += start[equation];
-    }
-    let mut next = start.clone();
-    let mut coupled = vec![(0, 0.0); start[nequation]];
-    each_coupling(&mut |multiplier, other, value| {
-        coupled[next[multiplier]] = (group[other], value);
-        next[multiplier] += 1;
+    let group_of = &group;
+    let coupled = Lists::new(nequation, || {
+        (0..nequation).flat_map(|column| {
+            let entries = matrix.column(column).iter().zip(matrix.values(column));
+            entries.flat_map(move |(&row, value)| {
+                let ends = [(column, row as usize), (row as usize, column)];
+                let of_multiplier = |&(m, other): &(usize, usize)| sign[m] < 0 && sign[other] >= 0;
+                let ends = ends.into_iter().filter(of_multiplier);
+                ends.map(move |(m, other)| (m, (group_of[other], value.abs())))
+            })
+        })
     });
     // the place of a group among those near the multiplier at hand
     let mut place = vec![NONE; ngroup as usize];
     let mut near: Vec<(u32, f64)> = Vec::new();
     for equation in (0..nequation).filter(|&e| sign[e] < 0) {
         near.clear();
-        for &(g, value) in &coupled[start[equation]..start[equation + 1]] {
+        for &(g, value) in coupled.of(equation) {
             match near.get_mut(place[g as usize] as usize) {
                 Some((_, sum)) => *sum += value,
                 None => {

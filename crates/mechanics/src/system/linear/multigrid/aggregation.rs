@@ -1,6 +1,7 @@
 //! Aggregates of nodes, and what they move by.
 
 use super::blocks::Blocks;
+use crate::system::lists::Lists;
 use crate::system::sparsity::NONE;
 
 /// Modes of a rigid body in space.
@@ -73,24 +74,13 @@ impl Aggregates {
         &self,
         modes: &[[[f64; MODES]; N]],
     ) -> (Blocks<N, MODES>, Vec<[[f64; MODES]; MODES]>) {
-        let mut start = vec![0usize; self.count + 1];
-        for &aggregate in &self.of {
-            start[aggregate as usize + 1] += 1;
-        }
-        for k in 0..self.count {
-            start[k + 1] += start[k];
-        }
-        let mut next = start.clone();
-        let mut members = vec![0u32; self.of.len()];
-        for (row, &aggregate) in self.of.iter().enumerate() {
-            members[next[aggregate as usize]] = row as u32;
-            next[aggregate as usize] += 1;
-        }
+        let members = Lists::new(self.count, || {
+            (0..).zip(&self.of).map(|(row, &k)| (k as usize, row))
+        });
         let mut value = modes.to_vec();
         let mut coarse = Vec::with_capacity(self.count);
         for k in 0..self.count {
-            let members = &members[start[k]..start[k + 1]];
-            coarse.push(orthonormalize(members, &mut value));
+            coarse.push(orthonormalize(members.of(k), &mut value));
         }
         let motions = Blocks {
             ncolumn: self.count,

@@ -1,5 +1,6 @@
 //! Sparse matrices of small dense blocks.
 
+use crate::system::lists::Lists;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -39,38 +40,29 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         columns.zip(&self.value[range])
     }
 
-    /// The blocks of some rows, column by column: where those of each begin; the row from the first on, and the place.
-    fn by_column(&self, rows: Range<usize>) -> (Vec<usize>, Vec<(u32, usize)>) {
-        let mut start = vec![0usize; self.ncolumn + 1];
-        let all = self.start[rows.start]..self.start[rows.end];
-        for &column in &self.column[all.clone()] {
-            start[column as usize + 1] += 1;
-        }
-        for column in 0..self.ncolumn {
-            start[column + 1] += start[column];
-        }
-        let mut next = start.clone();
-        let mut place = vec![(0, 0); all.len()];
-        for (from, row) in rows.enumerate() {
-            let range = self.range(row);
-            for (&column, at) in self.column[range.clone()].iter().zip(range) {
-                place[next[column as usize]] = (from as u32, at);
-                next[column as usize] += 1;
-            }
-        }
-        (start, place)
+    /// The blocks of some rows, column by column: the row, from the first of them on, and the place.
+    fn by_column(&self, rows: Range<usize>) -> Lists<(u32, usize)> {
+        Lists::new(self.ncolumn, || {
+            (0..).zip(rows.clone()).flat_map(|(from, row)| {
+                let range = self.range(row);
+                let columns = self.column[range.clone()].iter();
+                columns
+                    .zip(range)
+                    .map(move |(&column, at)| (column as usize, (from, at)))
+            })
+        })
     }
 
     /// The transpose.
     #[cfg(test)]
     pub fn transpose(&self) -> Blocks<C, R> {
-        let (start, place) = self.by_column(0..self.nrow());
-        let value = place.iter().map(|&(_, at)| transposed(&self.value[at]));
+        let blocks = self.by_column(0..self.nrow());
+        let all = || (0..self.ncolumn).flat_map(|column| blocks.of(column));
         Blocks {
             ncolumn: self.nrow(),
-            start,
-            column: place.iter().map(|&(row, _)| row).collect(),
-            value: value.collect(),
+            start: blocks.start().to_vec(),
+            column: all().map(|&(row, _)| row).collect(),
+            value: all().map(|&(_, at)| transposed(&self.value[at])).collect(),
         }
     }
 
@@ -113,8 +105,18 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         other: &Blocks<C, D>,
         finish: impl Fn(usize, &[u32], &mut [[[f64; D]; R]]) + Sync,
     ) -> Blocks<R, D> {
+        self.rows_times(0..self.nrow(), other, finish)
+    }
+
+    /// The product of some of its rows with another matrix.
+    fn rows_times<const D: usize>(
+        &self,
+        rows: Range<usize>,
+        other: &Blocks<C, D>,
+        finish: impl Fn(usize, &[u32], &mut [[[f64; D]; R]]) + Sync,
+    ) -> Blocks<R, D> {
         let row_of = |row| self.row(row).map(|(k, block)| (k, *block));
-        product(&tasks(&self.start, 0..self.nrow()), row_of, other, finish)
+        product(&tasks(&self.start, rows), row_of, other, finish)
     }
 }
 
@@ -233,15 +235,13 @@ impl<const N: usize> Blocks<N, N> {
         let mut sum: Option<Blocks<D, D>> = None;
         for begin in (0..self.nrow()).step_by(ROWS_PER_STRIP) {
             let strip = begin..self.nrow().min(begin + ROWS_PER_STRIP);
-            let row_of = |row| self.row(row).map(|(k, block)| (k, *block));
-            let rows = tasks(&self.start, strip.clone());
-            let times = product(&rows, row_of, onto, |_, _, _| {});
-            let (start, place) = onto.by_column(strip);
+            let times = self.rows_times(strip.clone(), onto, |_, _, _| {});
+            let blocks = onto.by_column(strip);
             let row_of = |column: usize| {
-                let places = place[start[column]..start[column + 1]].iter();
-                places.map(|&(row, at)| (row as usize, transposed(&onto.value[at])))
+                let blocks = blocks.of(column).iter();
+                blocks.map(|&(row, at)| (row as usize, transposed(&onto.value[at])))
             };
-            let rows = tasks(&start, 0..onto.ncolumn);
+            let rows = tasks(blocks.start(), 0..onto.ncolumn);
             let part = product(&rows, row_of, &times, |_, _, _| {});
             sum = Some(match sum {
                 Some(sum) => sum.plus(&part),

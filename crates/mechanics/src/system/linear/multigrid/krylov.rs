@@ -85,7 +85,7 @@ fn residual_of(basis: &[Vec<f64>], turns: &[(f64, f64)], last: f64, r: &mut [f64
     }
 }
 
-/// `x` such that `stop` is reached, from the residual `r` of the `x` at hand; both are kept up.
+/// `x` such that `stop` is reached, from the residual `r` of the `x` at hand, which is used up.
 /// Returns the number of applications of the preconditioner.
 ///
 /// Source: Hestenes, Stiefel, *J. Res. Nat. Bur. Standards* 49 (1952) 409–436.
@@ -173,6 +173,7 @@ pub(super) fn minimal_residuals(
         let mut triangle: Vec<Vec<f64>> = Vec::new();
         let mut turns: Vec<(f64, f64)> = Vec::new();
         let mut right = vec![size];
+        let mut is_reached = false;
         while directions.len() < RESTART && total < most {
             let k = directions.len();
             let mut z = vec![0.0; n];
@@ -211,7 +212,7 @@ pub(super) fn minimal_residuals(
             w.iter_mut().for_each(|w| *w /= left);
             basis.push(w);
             if right[k + 1].abs() <= goal {
-                let is_reached = match stop {
+                is_reached = match stop {
                     Stop::Largest(goal) => {
                         residual_of(&basis, &turns, right[k + 1], &mut change);
                         largest(&change) <= goal
@@ -238,8 +239,11 @@ pub(super) fn minimal_residuals(
         for (y, direction) in y.iter().zip(&directions) {
             add(*y, direction, &mut sum);
         }
-        of.apply(&sum, &mut change);
         add(1.0, &sum, x);
+        if is_reached {
+            return Ok((End::Small, total));
+        }
+        of.apply(&sum, &mut change);
         add(-1.0, &change, r);
     }
     Ok((End::Slow, total))
