@@ -14,6 +14,7 @@ mod info;
 mod init;
 mod keywords;
 mod ndjson;
+mod pages;
 mod resume;
 mod run;
 mod schema;
@@ -27,6 +28,9 @@ use console::Console;
 use signorini::{Compat, Reading};
 use std::path::PathBuf;
 use std::process::ExitCode;
+
+#[global_allocator]
+static MEMORY: pages::LargePages = pages::LargePages;
 
 /// The exit code for a command line that is not understood.
 const WRONG_COMMAND: u8 = 2;
