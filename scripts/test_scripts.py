@@ -746,10 +746,12 @@ for end in (".dat", ".frd"):
         signorini = pretending(
             self.folder,
             "signorini",
-            f"""import json, os, shutil, sys
+            f"""import json, os, shutil, sys, time
 if sys.argv[1] == "--version":
     print("signorini 1.2.3")
     sys.exit(0)
+# hundredths, which the table shows, are to be small beside it
+time.sleep(0.2)
 if "x=2" in sys.argv:
     print("error: there is no x")
     sys.exit(3)
@@ -779,7 +781,7 @@ open(out + "/summary.json", "w").write(json.dumps(summary))
         rows = [line.strip("| \n").split(" | ") for line in text.splitlines() if line.startswith("| hertz-C3D8-10000")]
         speed, errors, phases = rows
         self.assertEqual(speed[1:4] + speed[-1:], ["24", "2 / 2", "7 / 5", "iterativescaling"])
-        self.assertAlmostEqual(float(speed[6]), float(speed[4]) / float(speed[5]), delta=0.3 * float(speed[6]))
+        self.assertAlmostEqual(float(speed[6]), float(speed[4]) / float(speed[5]), delta=0.1 * float(speed[6]))
         self.assertEqual(errors[1:5], ["5e-03", "1e-07", "+25.00%", "+1.50%"])
         self.assertEqual(phases[1:], ["0.25"])
         with open(numbers, encoding="utf-8") as file:
