@@ -259,7 +259,8 @@ impl LinearSolver for Multigrid {
         let kept = kept.ok_or(LinearError::Order { before: "analyze" })?;
         self.way = None;
         kept.check(values)?;
-        let is_finite = |some: &[f64]| some.iter().all(|v| v.is_finite());
+        // without a branch for each value
+        let is_finite = |some: &[f64]| some.iter().fold(true, |all, v| all & v.is_finite());
         let chunks = |all| <[f64]>::par_chunks(all, CHUNK);
         if !chunks(values.bulk)
             .chain(chunks(values.interface))
