@@ -1,7 +1,16 @@
 //! The threads of a run: one pool, made once.
 
+use std::thread::{sleep, yield_now};
+use std::time::{Duration, Instant};
+
 /// Bytes of stack for each thread, whatever limit the shell has set.
 const STACK: usize = 8 << 20;
+
+/// How long a thread without work looks for some all the time. Parallel loops of an iteration follow each other within
+/// fractions of it, and a thread that sleeps takes as long to wake up as some of them last.
+const ALERT: Duration = Duration::from_millis(1);
+/// How long it rests before it looks again.
+const REST: Duration = Duration::from_micros(50);
 
 /// Makes the pool and returns its size: as many threads as the command line, else the case, else
 /// `OMP_NUM_THREADS`, else the machine says.
@@ -16,10 +25,65 @@ pub fn make(command_line: Option<u64>, case: Option<u64>) -> usize {
     let wanted = usize::try_from(wanted.min(4096)).unwrap_or(1);
     // a second pool is refused: then the first one is what there is; the calling thread works, too, so that nothing is
     // handed over where there is only one
-    let _ = rayon::ThreadPoolBuilder::new()
+    let made = rayon::ThreadPoolBuilder::new()
         .num_threads(wanted)
         .use_current_thread()
         .stack_size(STACK)
         .build_global();
+    // other systems cannot rest as briefly
+    if made.is_ok() && cfg!(unix) {
+        keep_awake();
+    }
     rayon::current_num_threads()
+}
+
+/// Keeps all threads of a new pool awake but the calling one, until the process ends. They have nothing to do yet, so that
+/// nobody waits for what they were about to do.
+fn keep_awake() {
+    let caller = rayon::current_thread_index();
+    rayon::spawn_broadcast(move |thread| {
+        if Some(thread.index()) == caller {
+            return;
+        }
+        let mut worked = Instant::now();
+        loop {
+            if rayon::yield_now() == Some(rayon::Yield::Executed) {
+                worked = Instant::now();
+            } else if worked.elapsed() < ALERT {
+                yield_now();
+            } else {
+                sleep(REST);
+            }
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rayon::prelude::*;
+
+    #[test]
+    fn threads_that_stay_awake_work() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
+        pool.unwrap().install(|| {
+            keep_awake();
+            for rest in [Duration::ZERO, 3 * ALERT] {
+                sleep(rest);
+                // each waits for the two others
+                let barrier = std::sync::Barrier::new(3);
+                let leaders = (0..3).into_par_iter().with_max_len(1);
+                let leaders = leaders.filter(|_| barrier.wait().is_leader());
+                assert_eq!(leaders.count(), 1);
+                let nested = (0..100u64).into_par_iter().map(|n| {
+                    let (a, b) = rayon::join(|| n, || (0..n).into_par_iter().sum::<u64>());
+                    a + b
+                });
+                assert_eq!(
+                    nested.sum::<u64>(),
+                    (0..100).map(|n| n * (n + 1) / 2).sum::<u64>()
+                );
+            }
+        });
+    }
 }
