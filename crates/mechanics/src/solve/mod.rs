@@ -22,10 +22,10 @@
 //! multipliers have means of their own. Condition (c), on penetrations, belongs to laws with multipliers and comes
 //! through the verdict of their terms. *Iterations* are linear solves.
 //!
-//! An increment starts from the state extrapolated from the one before, unless contact does more there than to close without friction.
-//! Else, and at the start of a step, prescribed motion of nodes enters through the first linear solve, from the last
-//! accepted state: moving the nodes first would crush the elements next to them. Rigid bodies are moved at once: they
-//! deform nothing.
+//! An increment starts from the state extrapolated from the one before, unless that changes more than a few choices of
+//! contact, and not only by closing it without friction. Else, and at the start of a step, prescribed motion of nodes
+//! enters through the first linear solve, from the last accepted state: moving the nodes first would crush the elements
+//! next to them. Rigid bodies are moved at once: they deform nothing.
 //!
 //! This room knows nothing of solids or contact: all it sees is [`crate::system::Term`].
 
