@@ -70,11 +70,6 @@ impl Equations {
         }
     }
 
-    /// No equations, with the same solver.
-    pub fn emptied(self) -> Self {
-        Self::new(self.solver)
-    }
-
     /// The raw dofs that are solved for.
     pub fn dofs(&self) -> &[Dof] {
         &self.dofs

@@ -192,10 +192,7 @@ impl Stepper {
     /// Prepares a run of a system from its undeformed state.
     #[must_use]
     pub fn new(system: &System, settings: StepperSettings) -> Self {
-        Self::with(system, settings, Equations::new(choose(settings.linear)))
-    }
-
-    fn with(system: &System, settings: StepperSettings, equations: Equations) -> Self {
+        let equations = Equations::new(choose(settings.linear));
         Self {
             newton: Newton::new(settings.newton, system, equations),
             state: system.initial_state(),
@@ -205,7 +202,7 @@ impl Stepper {
         }
     }
 
-    /// A stepper that goes on with a stored run.
+    /// A stepper that goes on with a stored run. Histories come first, for they tell what is coupled.
     ///
     /// # Errors
     /// The archive belongs to another model.
@@ -214,35 +211,10 @@ impl Stepper {
         settings: StepperSettings,
         from: &Archive,
     ) -> Result<Self, ArchiveError> {
-        let equations = Equations::new(choose(settings.linear));
-        Self::loaded(system, settings, equations, from)
-    }
-
-    /// The same in place of this one, whose linear solver goes on: it knows nothing that a new one would not find out.
-    ///
-    /// # Errors
-    /// The archive belongs to another model.
-    pub fn restarted(
-        self,
-        system: &mut System,
-        settings: StepperSettings,
-        from: &Archive,
-    ) -> Result<Self, ArchiveError> {
-        let equations = self.newton.equations.emptied();
-        Self::loaded(system, settings, equations, from)
-    }
-
-    fn loaded(
-        system: &mut System,
-        settings: StepperSettings,
-        equations: Equations,
-        from: &Archive,
-    ) -> Result<Self, ArchiveError> {
-        // histories come first, for they tell what is coupled
         for term in &mut system.terms {
             term.load(from)?;
         }
-        let mut stepper = Self::with(system, settings, equations);
+        let mut stepper = Self::new(system, settings);
         stepper.load(system, from)?;
         Ok(stepper)
     }

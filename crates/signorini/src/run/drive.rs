@@ -195,10 +195,7 @@ impl Run<'_, '_> {
     /// Solves until the end, a limit or a failure; saves where it is due.
     fn solve(&mut self, start: &Start, from: Option<&Checkpoint>) -> Result<Ending, ArchiveError> {
         let mut stepper = match from {
-            Some(from) => {
-                let archive = solution_of(&from.archive);
-                Stepper::resumed(&mut self.model.system, self.model.settings, &archive)?
-            }
+            Some(from) => self.restart(&solution_of(&from.archive))?,
             None => {
                 self.recorder.undeformed(&start.frame);
                 Stepper::new(&self.model.system, self.model.settings)
@@ -209,11 +206,7 @@ impl Run<'_, '_> {
             if due && self.recorder.error.is_none() {
                 let saved = self.recorder.save(&stepper, &self.model.system);
                 if let Some(solution) = saved {
-                    // in the way a new process goes on, so that both give the same bits
-                    let Model {
-                        system, settings, ..
-                    } = &mut *self.model;
-                    stepper = stepper.restarted(system, *settings, &solution)?;
+                    stepper = self.restart(&solution)?;
                 }
             }
             if self.recorder.error.is_some() {
@@ -232,6 +225,12 @@ impl Run<'_, '_> {
                 Err(error) => return Ok(self.failed(&error, &stepper)),
             }
         }
+    }
+
+    /// Goes on from an archive in the way a new process does, so that both give the same bits: with a stepper that has
+    /// seen nothing else.
+    fn restart(&mut self, archive: &Archive) -> Result<Stepper, ArchiveError> {
+        Stepper::resumed(&mut self.model.system, self.model.settings, archive)
     }
 
     fn failed(&mut self, error: &RunError, stepper: &Stepper) -> Ending {
