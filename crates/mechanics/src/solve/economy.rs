@@ -83,13 +83,13 @@ impl Economy {
 
     /// Whether the tangent of the last step leads from these residuals to the goal, where contact is as it was.
     pub fn is_nearly_straight(&self, excess: Excess) -> bool {
-        let is_left = |now: f64, before: f64| 2.0 * now * now <= MARGIN * before;
+        let is_left = |now: f64, before: f64| now <= MARGIN || 2.0 * now * now <= MARGIN * before;
         self.before.is_some_and(|before| {
             is_left(excess.forces, before.forces) && is_left(excess.multipliers, before.multipliers)
         })
     }
 
-    /// A system was solved at these residuals, of which `left` is the part that stayed.
+    /// A system was solved at these residuals with their own tangent; `left` is the part of them that stayed.
     pub fn solved(&mut self, excess: Excess, left: f64) {
         self.last = (excess.forces > 0.0).then_some((excess, left * excess.forces));
     }

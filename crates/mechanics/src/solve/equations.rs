@@ -38,10 +38,10 @@ pub(super) struct Equations {
     pub seconds: LinearSeconds,
 }
 
-/// Which factor a solve goes by. The residual that is made small is that of the present operator in both cases.
+/// Which factor a solve goes by. The residual that is made small is that of the operator assembled last in both cases.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Factor {
-    /// That of the present operator.
+    /// That of this operator.
     New,
     /// That of the last one: an error where it is too far off, or gone.
     Kept,

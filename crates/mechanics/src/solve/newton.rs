@@ -356,7 +356,10 @@ impl Newton {
         self.assembler.begin_increment(&system.terms);
         self.equations.forget();
         self.has_tangent = false;
-        let mut motion = self.start(system, base, goal);
+        let Start {
+            mut motion,
+            changes: mut of_start,
+        } = self.start(system, base, goal);
         let mut correction = 0.0;
         // whether a correction tells how far off the state is
         let mut solved = false;
@@ -392,6 +395,7 @@ impl Newton {
                 first_curvature = economy.curvature();
             }
             let Verdicts { flips, repeat, .. } = verdicts(system, &self.trial);
+            let flips = flips + std::mem::take(&mut of_start);
             let closed = nclosed(system);
             report(&IterationRecord {
                 step: place.step,
@@ -494,7 +498,9 @@ impl Newton {
                 self.equations.start_from(place.step, bulk);
             }
             let left = self.solve_linear(motion, nearly || serves, accuracy)?;
-            economy.solved(judgement.excess, left);
+            if !serves {
+                economy.solved(judgement.excess, left);
+            }
             decrement = self.slope().abs().sqrt();
             let is_last = largest(&self.du[..nmotion]) <= CORRECTION * moved;
             let next = if is_last {
@@ -523,24 +529,25 @@ impl Newton {
         Ok(first)
     }
 
-    /// Sets up the trial state, extrapolated where that is of use; says whether nodes have to be moved in the first
-    /// solve.
+    /// Sets up the trial state, extrapolated where that is of use.
     ///
-    /// An extrapolation that cannot be evaluated is of no use. One that changes a few choices of terms is: the plain start
-    /// will change as many. One that changes more is of use where nodes have to be moved and all it does is to close
-    /// contact without friction; one that opens contact, takes it to other facets, or leaves traces of friction may lead
-    /// to another equilibrium. Where no nodes have to be moved, it is of use only where the plain start leaves a larger
-    /// residual.
-    fn start(&mut self, system: &mut System, base: &State, goal: &Goal<'_>) -> bool {
+    /// An extrapolation that cannot be evaluated is of no use. One that changes a few choices of terms is. One that changes
+    /// more is of use where nodes have to be moved and all it does is to close contact without friction; one that opens
+    /// contact, takes it to other facets, or leaves traces of friction may lead to another equilibrium. Where no nodes have
+    /// to be moved, it is of use only where the plain start leaves a larger residual.
+    fn start(&mut self, system: &mut System, base: &State, goal: &Goal<'_>) -> Start {
         let Some(guess) = goal.guess else {
-            return self.begin(system, base, goal);
+            let motion = self.begin(system, base, goal);
+            return Start { motion, changes: 0 };
         };
         self.extrapolate(system, base, goal, guess);
         let extrapolated = self.largest_residual(system);
         let verdicts = verdicts(system, &self.trial);
-        let has_few = FEW * verdicts.flips <= nclosed(system);
-        if extrapolated.is_some() && (verdicts.repeat.is_none() || has_few) {
-            return false;
+        if extrapolated.is_some() && verdicts.few {
+            return Start {
+                motion: false,
+                changes: verdicts.flips,
+            };
         }
         self.forget(system);
         let motion = self.begin(system, base, goal);
@@ -554,7 +561,10 @@ impl Newton {
         if better {
             self.extrapolate(system, base, goal, guess);
         }
-        motion && !better
+        Start {
+            motion: motion && !better,
+            changes: 0,
+        }
     }
 
     /// What was found out about the trial state holds no more.
@@ -649,6 +659,8 @@ impl Newton {
         self.assembled = None;
         if order == Order::Tangent {
             self.held.clear();
+            // one that fails leaves a torn one
+            self.has_tangent = false;
         }
         self.assembler.assemble(
             &system.layout,
@@ -875,10 +887,20 @@ fn let_go(system: &mut System) -> bool {
     some
 }
 
+/// How an increment starts.
+struct Start {
+    /// Whether nodes have to be moved in the first solve.
+    motion: bool,
+    /// How many discrete choices have changed, as terms have told already.
+    changes: usize,
+}
+
 /// What all terms say of an iterate.
 struct Verdicts {
     /// How many discrete choices changed.
     flips: usize,
+    /// Whether these are few beside the closed contacts of every term.
+    few: bool,
     /// What the first term that is not settled says.
     repeat: Option<(String, Vec<NodeId>)>,
     /// Whether all that changed is contact without friction that closed.
@@ -888,6 +910,7 @@ struct Verdicts {
 fn verdicts(system: &mut System, trial: &State) -> Verdicts {
     let mut all = Verdicts {
         flips: 0,
+        few: true,
         repeat: None,
         closing: true,
     };
@@ -900,6 +923,7 @@ fn verdicts(system: &mut System, trial: &State) -> Verdicts {
         } = term.verdict(trial)
         {
             all.flips += changes;
+            all.few &= FEW * changes <= term.nactive();
             all.closing &= closing;
             all.repeat.get_or_insert((why, nodes));
         }

@@ -10,6 +10,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 
 /// The size of a large page.
+#[cfg(any(target_os = "linux", test))]
 const PAGE: usize = 2 << 20;
 
 /// The allocator of the system, which asks for large pages.
@@ -60,6 +61,7 @@ fn advise(memory: *mut u8, size: usize) {
 }
 
 /// The bytes before the first whole page in a range of memory, and those of all whole pages in it.
+#[cfg(any(target_os = "linux", test))]
 fn whole_pages(start: usize, size: usize) -> Option<(usize, usize)> {
     let skip = start.wrapping_neg() % PAGE;
     let length = size.checked_sub(skip)? / PAGE * PAGE;

@@ -9,8 +9,8 @@ const STACK: usize = 8 << 20;
 /// How long a thread without work looks for some all the time. Parallel loops of an iteration follow each other within
 /// fractions of it, and a thread that sleeps takes as long to wake up as some of them last.
 const ALERT: Duration = Duration::from_millis(1);
-/// How long it rests before it looks again.
-const REST: Duration = Duration::from_micros(50);
+/// How long it rests then before it looks again, at first and at most: each rest is twice as long as the one before.
+const REST: [Duration; 2] = [Duration::from_micros(50), Duration::from_millis(1)];
 
 /// Makes the pool and returns its size: as many threads as the command line, else the case, else
 /// `OMP_NUM_THREADS`, else the machine says.
@@ -45,14 +45,16 @@ fn keep_awake() {
         if Some(thread.index()) == caller {
             return;
         }
-        let mut worked = Instant::now();
+        let [first, longest] = REST;
+        let (mut worked, mut rest) = (Instant::now(), first);
         loop {
             if rayon::yield_now() == Some(rayon::Yield::Executed) {
-                worked = Instant::now();
+                (worked, rest) = (Instant::now(), first);
             } else if worked.elapsed() < ALERT {
                 yield_now();
             } else {
-                sleep(REST);
+                sleep(rest);
+                rest = longest.min(2 * rest);
             }
         }
     });
@@ -65,25 +67,32 @@ mod tests {
 
     #[test]
     fn threads_that_stay_awake_work() {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
-        pool.unwrap().install(|| {
-            keep_awake();
-            for rest in [Duration::ZERO, 3 * ALERT] {
-                sleep(rest);
-                // each waits for the two others
-                let barrier = std::sync::Barrier::new(3);
-                let leaders = (0..3).into_par_iter().with_max_len(1);
-                let leaders = leaders.filter(|_| barrier.wait().is_leader());
-                assert_eq!(leaders.count(), 1);
-                let nested = (0..100u64).into_par_iter().map(|n| {
-                    let (a, b) = rayon::join(|| n, || (0..n).into_par_iter().sum::<u64>());
-                    a + b
-                });
-                assert_eq!(
-                    nested.sum::<u64>(),
-                    (0..100).map(|n| n * (n + 1) / 2).sum::<u64>()
-                );
-            }
+        // as in a run, the calling thread is one of them
+        let caller = std::thread::spawn(|| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(3)
+                .use_current_thread()
+                .build();
+            pool.unwrap().install(|| {
+                keep_awake();
+                for pause in [Duration::ZERO, 3 * ALERT] {
+                    sleep(pause);
+                    // each waits for the two others
+                    let barrier = std::sync::Barrier::new(3);
+                    let leaders = (0..3).into_par_iter().with_max_len(1);
+                    let leaders = leaders.filter(|_| barrier.wait().is_leader());
+                    assert_eq!(leaders.count(), 1);
+                    let heard = rayon::broadcast(|thread| thread.index());
+                    assert_eq!(heard, [0, 1, 2]);
+                    let nested = (0..100u64).into_par_iter().map(|n| {
+                        let (a, b) = rayon::join(|| n, || (0..n).into_par_iter().sum::<u64>());
+                        a + b
+                    });
+                    let expected = (0..100).map(|n| n * (n + 1) / 2).sum::<u64>();
+                    assert_eq!(nested.sum::<u64>(), expected);
+                }
+            });
         });
+        caller.join().unwrap();
     }
 }
