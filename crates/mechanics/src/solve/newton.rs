@@ -253,9 +253,8 @@ const CORRECTION: f64 = 1e-2;
 /// Residual over the mean force at which an iteration has left the realm of the possible.
 const DIVERGED: f64 = 1e12;
 
-/// Choices that an extrapolated start has changed are few where there are so many times as many closed contacts. Iterations
-/// of an ironing by mortar and one by Gauss points where none, an eighth and a third may change: 690, 579, 615 and 748, 742,
-/// 692.
+/// Choices of a term that an extrapolated start has changed are few where it has so many times as many closed contacts.
+/// Iterations of an ironing by mortar and one by Gauss points where none and where few may change: 690, 579 and 748, 744.
 const FEW: usize = 8;
 
 /// How often a step to a saddle point is halved.

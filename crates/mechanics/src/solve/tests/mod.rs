@@ -130,6 +130,8 @@ struct Fault {
     unsettled: fn(&State, &State, usize) -> bool,
     start: Option<State>,
     asked: usize,
+    /// How many contacts it claims to have closed.
+    nactive: usize,
 }
 
 impl Fault {
@@ -139,6 +141,7 @@ impl Fault {
             unsettled: |_, _, _| false,
             start: None,
             asked: 0,
+            nactive: 0,
         })
     }
 
@@ -148,6 +151,18 @@ impl Fault {
             unsettled,
             start: None,
             asked: 0,
+            nactive: 0,
+        })
+    }
+
+    /// Makes three changes of as many closed contacts when it is asked first in an increment.
+    fn flip_of(nactive: usize) -> Box<dyn Term> {
+        Box::new(Self {
+            refuses: |_, _| false,
+            unsettled: |_, _, asked| asked == 1,
+            start: None,
+            asked: 0,
+            nactive,
         })
     }
 
@@ -206,6 +221,10 @@ impl Term for Fault {
             return Err(Self::error());
         }
         Ok(Some(0.0))
+    }
+
+    fn nactive(&self) -> usize {
+        self.nactive
     }
 
     fn verdict(&mut self, trial: &State) -> Verdict {

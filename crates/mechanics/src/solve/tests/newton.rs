@@ -213,6 +213,28 @@ fn extrapolation_leaves_nothing_to_solve_on_a_straight_path() {
     assert_close(&told.u[3], &[0.0, 0.5, 1.0], 1e-15);
 }
 
+#[test]
+fn an_extrapolated_start_may_change_a_few_choices_of_each_term() {
+    // three changes: an eighth of 24 contacts, and more of 23, whatever others have closed
+    for (few, faults) in [
+        (true, vec![Fault::flip_of(24)]),
+        (false, vec![Fault::flip_of(23)]),
+        (false, vec![Fault::flip_of(0), Fault::flip_of(1000)]),
+    ] {
+        let nfault = faults.len();
+        let mut terms = vec![Spring::between(None, 0, linear)];
+        terms.extend(faults);
+        let motion = [(0, Motion::Ramp(1.0))];
+        let told = run(system(1, terms), &[step(Increments::Fixed(3), &motion)]);
+        told.assert_finished();
+        for increment in [2, 3] {
+            let of = told.iterations.iter().find(|i| i.increment == increment);
+            // where the start was given up, others have been asked before
+            assert_eq!(of.unwrap().flips, if few { 3 * nfault } else { 0 });
+        }
+    }
+}
+
 /// `f = atan e`: from beyond 1.39, full steps lead further and further away.
 fn saturating(e: f64) -> [f64; 3] {
     [
