@@ -150,6 +150,7 @@ struct FolderOption {
 
 /// Runs the command that the command line names.
 pub fn main() -> ExitCode {
+    pages::keep_memory();
     guard::guarded(|| {
         let cli = match Cli::try_parse() {
             Ok(cli) => cli,

@@ -2,9 +2,10 @@
 //!
 //! A run of 300,000 unknowns touches 250,000 pages of 4 KiB for the first time, each of which the kernel has to find and
 //! clear, and later looks up places of more pages than the processor remembers. Where the kernel gives pages of 2 MiB to
-//! those who ask for them, large arrays do.
+//! those who ask for them, large arrays do. And what one array gives back, the next one takes, cleared or not: given to
+//! the kernel in between, it would be found and cleared again.
 //!
-//! Source: Linux, Documentation/admin-guide/mm/transhuge.rst.
+//! Sources: Linux, Documentation/admin-guide/mm/transhuge.rst; `mallopt(3)`.
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -42,6 +43,17 @@ unsafe impl GlobalAlloc for LargePages {
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
         // SAFETY: as asked of this function
         unsafe { System.dealloc(memory, layout) }
+    }
+}
+
+/// Has the system's allocator keep the memory that is given back to it, for the arrays to come: a run needs about as much
+/// in each of its iterations. One that does not know how goes on as it does.
+pub fn keep_memory() {
+    #[cfg(all(target_os = "linux", target_env = "gnu"))]
+    // SAFETY: both only change where later memory comes from; an option that is unknown is refused.
+    unsafe {
+        libc::mallopt(libc::M_MMAP_MAX, 0);
+        libc::mallopt(libc::M_TRIM_THRESHOLD, -1);
     }
 }
 

@@ -6,7 +6,7 @@ use super::vectors::{Sums, Task, Vectors, dispatch};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// `A ≈ (L + D) D⁻¹ (L + D)ᵀ`, with `L` below the diagonal where `A` has blocks.
+/// `A ≈ (1 + W) D (1 + W)ᵀ`, with `W` below the diagonal where `A` has blocks.
 ///
 /// Rows come in parts that do not couple, and last those between the parts: parts are worked on in parallel, and the
 /// same way for any number of threads.
@@ -15,14 +15,14 @@ use std::ops::Range;
 /// 1994, chapter 7.
 pub(super) struct Incomplete<const N: usize> {
     parts: Vec<Range<usize>>,
-    lower: Packed<N, N>,
-    /// Lᵀ, its last row first: memory is read in the order in which it is held.
-    upper: Packed<N, N>,
+    lower: Packed<N, N, i16>,
+    /// Wᵀ, its last row first: memory is read in the order in which it is held.
+    upper: Packed<N, N, i16>,
     /// D⁻¹
     inverse: Vec<[[f32; N]; N]>,
 }
 
-/// What a factor is worked out with: `L` and `D⁻¹` in full precision.
+/// What a factor is worked out with: `L = W D` and `D⁻¹` in full precision.
 struct Factor<'a, const N: usize> {
     first: usize,
     lower: &'a mut [[[f64; N]; N]],
@@ -89,6 +89,10 @@ impl<const N: usize> Incomplete<N> {
             scaled: Vec::new(),
         };
         (row..nrow).try_for_each(|row| whole.eliminate(row, matrix, start, column, shift))?;
+        let columns = lower.column.par_iter();
+        columns.zip(&mut lower.value).for_each(|(&column, block)| {
+            *block = product(block, &inverse[column as usize]);
+        });
         let single = |block: &[[f64; N]; N]| block.map(|row| row.map(|v| v as f32));
         Some(Self {
             parts: parts.to_vec(),
@@ -135,7 +139,15 @@ impl<const N: usize> Incomplete<N> {
         pieces
     }
 
-    /// `Lᵀ x` of one row.
+    /// `x −= sum`
+    #[inline(always)]
+    fn reduce(x: &mut [f32; N], sums: &Sums) {
+        for (x, sum) in x.iter_mut().zip(sums) {
+            *x -= sum;
+        }
+    }
+
+    /// `Wᵀ x` of one row.
     #[inline(always)]
     fn above<'x>(
         &self,
@@ -146,20 +158,11 @@ impl<const N: usize> Incomplete<N> {
         self.upper.row(vectors, self.inverse.len() - 1 - row, x)
     }
 
-    /// `x = D⁻¹ (x − sum)`
-    #[inline(always)]
-    fn reduce(&self, row: usize, x: &mut [f32; N], sums: &Sums) {
-        let left = std::array::from_fn(|i| x[i] - sums[i]);
-        *x = self.scaled(row, left);
-    }
-
-    /// `x −= D⁻¹ sum`
+    /// `x = D⁻¹ x − sum`
     #[inline(always)]
     fn settle(&self, row: usize, x: &mut [f32; N], sums: &Sums) {
-        let change = self.scaled(row, std::array::from_fn(|i| sums[i]));
-        for (x, change) in x.iter_mut().zip(change) {
-            *x -= change;
-        }
+        *x = self.scaled(row, *x);
+        Self::reduce(x, sums);
     }
 
     /// `D⁻¹ x` of a row; the block is symmetric.
@@ -189,7 +192,7 @@ impl<const N: usize> Task for Forward<'_, N> {
         let first = rows.start;
         for row in rows {
             let sums = of.lower.row(vectors, row, |column| &x[column - first]);
-            of.reduce(row, &mut x[row - first], &sums);
+            Incomplete::reduce(&mut x[row - first], &sums);
         }
     }
 }
@@ -218,7 +221,7 @@ impl<const N: usize> Task for Between<'_, N> {
                     Some(at) => &between[at],
                     None => &interior[column],
                 });
-            of.reduce(row, &mut between[row - last], &sums);
+            Incomplete::reduce(&mut between[row - last], &sums);
         }
         for row in (last..last + between.len()).rev() {
             let sums = of.above(vectors, row, |column| &between[column - last]);

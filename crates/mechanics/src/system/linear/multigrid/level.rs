@@ -24,8 +24,8 @@ pub(super) struct Level<const N: usize> {
     smoother: Incomplete<N>,
     damping: f32,
     /// From the next level, and to it.
-    prolong: Packed<N, MODES>,
-    restrict: Packed<MODES, N>,
+    prolong: Packed<N, MODES, i16>,
+    restrict: Packed<MODES, N, i16>,
     residual: Vec<[f32; N]>,
     change: Vec<[f32; N]>,
 }
@@ -48,7 +48,7 @@ impl<const N: usize> Level<N> {
         let inverses: Option<Vec<[[f64; N]; N]>> =
             rows.map(|row| inverse(matrix.diagonal(row))).collect();
         let inverses = inverses?;
-        let single = Packed::new(matrix);
+        let single: Packed<N, N> = Packed::new(matrix);
         let largest = SAFETY
             * largest(&single, matrix.nrow(), |r| {
                 r.par_iter_mut().zip(&inverses).for_each(|(r, inverse)| {

@@ -8,8 +8,9 @@
 //! ```
 //!
 //! Contact never enters the hierarchy, so that no change of contact costs a new one, and no stiffness of contact makes
-//! iterations more. The smoother is an incomplete factor by blocks of nodes, in single precision. It outlives patterns:
-//! nothing but the stiffness of the bodies, and what is held of them, makes it anew.
+//! iterations more. The smoother is an incomplete factor by blocks of nodes. It outlives patterns: nothing but the
+//! stiffness of the bodies, and what is held of them, makes it anew. All of it is in single precision, and what only
+//! smooths, or leads from level to level, in whole numbers of 16 bits with a unit for each row: iterations stay the same.
 //!
 //! Multipliers are in the block with all they act on. Where operator and block are positive definite, iterations are by
 //! conjugate gradients; elsewhere by minimal residuals, from a start that leaves nothing at the equations of the block,

@@ -286,7 +286,7 @@ fn a_cycle_is_symmetric_positive_and_reduces_what_is_smooth() {
         .iter()
         .map(|m| m.map(|r| (r[2] + r[4]) as f32))
         .collect();
-    let single = Packed::new(&matrix);
+    let single: Packed<3, 3> = Packed::new(&matrix);
     let mut load = vec![[0.0; 3]; n];
     single.multiply::<false>(&smooth, &mut load);
     let mut answer = load.clone();
