@@ -40,6 +40,45 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         columns.zip(&self.value[range])
     }
 
+    /// The blocks of each row where they can be changed, and their columns.
+    pub fn rows_mut(&mut self) -> Vec<(&mut [u32], &mut [[[f64; C]; R]])> {
+        let mut rows = Vec::with_capacity(self.nrow());
+        let (mut columns, mut values) = (self.column.as_mut_slice(), self.value.as_mut_slice());
+        for ends in self.start.windows(2) {
+            let (own_columns, other_columns) = columns.split_at_mut(ends[1] - ends[0]);
+            let (own_values, other_values) = values.split_at_mut(ends[1] - ends[0]);
+            (columns, values) = (other_columns, other_values);
+            rows.push((own_columns, own_values));
+        }
+        rows
+    }
+
+    /// The part of a square matrix below its diagonal.
+    pub fn below_diagonal(&self) -> Self {
+        let below = |row: usize| {
+            let range = self.range(row);
+            let columns = &self.column[range.clone()];
+            range.start..range.start + columns.partition_point(|&c| (c as usize) < row)
+        };
+        let mut start = vec![0; self.nrow() + 1];
+        for row in 0..self.nrow() {
+            start[row + 1] = start[row] + below(row).len();
+        }
+        let nblock = start[self.nrow()];
+        let mut part = Self {
+            ncolumn: self.ncolumn,
+            start,
+            column: vec![0; nblock],
+            value: vec![[[0.0; C]; R]; nblock],
+        };
+        let rows = part.rows_mut().into_par_iter().enumerate();
+        rows.for_each(|(row, (columns, values))| {
+            columns.copy_from_slice(&self.column[below(row)]);
+            values.copy_from_slice(&self.value[below(row)]);
+        });
+        part
+    }
+
     /// The blocks of some rows, column by column: the row, from the first of them on, and the place.
     fn by_column(&self, rows: Range<usize>) -> Lists<(u32, usize)> {
         Lists::new(self.ncolumn, || {

@@ -118,18 +118,13 @@ impl Fine {
             end += n;
             start.push(end);
         }
-        let mut column = vec![0; end];
-        let mut value = vec![[[0.0; 3]; 3]; end];
-        // one task for each row: rows get slices of their own
-        let mut slices = Vec::with_capacity(self.node.len());
-        let (mut columns, mut blocks) = (column.as_mut_slice(), value.as_mut_slice());
-        for ends in start.windows(2) {
-            let (own_columns, rest_columns) = columns.split_at_mut(ends[1] - ends[0]);
-            let (own_blocks, rest_blocks) = blocks.split_at_mut(ends[1] - ends[0]);
-            (columns, blocks) = (rest_columns, rest_blocks);
-            slices.push((own_columns, own_blocks));
-        }
-        let tasks = self.node.par_iter().zip(slices);
+        let mut matrix = Blocks {
+            ncolumn: self.node.len(),
+            start,
+            column: vec![0; end],
+            value: vec![[[0.0; 3]; 3]; end],
+        };
+        let tasks = self.node.par_iter().zip(matrix.rows_mut());
         tasks.for_each_init(
             Vec::new,
             |order: &mut Vec<(u32, usize)>, (&node, (columns, blocks))| {
@@ -155,12 +150,7 @@ impl Fine {
                 }
             },
         );
-        Blocks {
-            ncolumn: self.node.len(),
-            start,
-            column,
-            value,
-        }
+        matrix
     }
 }
 

@@ -37,27 +37,7 @@ impl<const N: usize> Incomplete<N> {
     /// `parts` are ranges of rows from the first one on; rows after the last part are worked on one after the other.
     pub fn new(matrix: &Blocks<N, N>, parts: &[Range<usize>], shift: f64) -> Option<Self> {
         let nrow = matrix.nrow();
-        let mut start = Vec::with_capacity(nrow + 1);
-        start.push(0);
-        let below = |row: usize| {
-            let range = matrix.range(row);
-            let columns = &matrix.column[range.clone()];
-            range.start..range.start + columns.partition_point(|&c| (c as usize) < row)
-        };
-        let mut column = Vec::with_capacity(matrix.column.len() / 2);
-        let mut value = Vec::with_capacity(matrix.column.len() / 2);
-        for row in 0..nrow {
-            let range = below(row);
-            column.extend_from_slice(&matrix.column[range.clone()]);
-            value.extend_from_slice(&matrix.value[range]);
-            start.push(column.len());
-        }
-        let mut lower = Blocks {
-            ncolumn: nrow,
-            start,
-            column,
-            value,
-        };
+        let mut lower = matrix.below_diagonal();
         let mut inverse = vec![[[0.0; N]; N]; nrow];
         let held = lower.value.as_mut_slice();
         let mut factors = Vec::with_capacity(parts.len());

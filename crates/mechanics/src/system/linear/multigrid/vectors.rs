@@ -94,19 +94,19 @@ pub(super) trait Task {
 
 /// Instructions that make numbers of a register from short ones.
 trait Short<const N: usize>: Simd {
-    fn from_short(self, values: &[i16; N]) -> Self::f32s;
+    fn short(self, values: &[i16; N]) -> Self::f32s;
 }
 
 impl Short<FEW> for Scalar128b {
     #[inline(always)]
-    fn from_short(self, values: &[i16; FEW]) -> f32x4 {
+    fn short(self, values: &[i16; FEW]) -> f32x4 {
         pulp::cast(values.map(f32::from))
     }
 }
 
 impl Short<LANES> for Scalar256b {
     #[inline(always)]
-    fn from_short(self, values: &[i16; LANES]) -> f32x8 {
+    fn short(self, values: &[i16; LANES]) -> f32x8 {
         pulp::cast(values.map(f32::from))
     }
 }
@@ -134,12 +134,12 @@ impl<F: Short<FEW>, E: Short<LANES>> Vectors for Pair<F, E> {
 
     #[inline(always)]
     fn four_short(self, values: &[i16; FEW]) -> F::f32s {
-        self.four.from_short(values)
+        self.four.short(values)
     }
 
     #[inline(always)]
     fn eight_short(self, values: &[i16; LANES]) -> E::f32s {
-        self.eight.from_short(values)
+        self.eight.short(values)
     }
 
     #[inline(always)]
@@ -204,7 +204,7 @@ mod wide {
 
     impl Short<FEW> for V3_128b {
         #[inline(always)]
-        fn from_short(self, values: &[i16; FEW]) -> f32x4 {
+        fn short(self, values: &[i16; FEW]) -> f32x4 {
             let Self(simd) = self;
             let [a, b, c, d] = *values;
             let numbers = simd
@@ -216,7 +216,7 @@ mod wide {
 
     impl Short<LANES> for V3_256b {
         #[inline(always)]
-        fn from_short(self, values: &[i16; LANES]) -> f32x8 {
+        fn short(self, values: &[i16; LANES]) -> f32x8 {
             let Self(simd) = self;
             let numbers = simd.avx2._mm256_cvtepi16_epi32(cast(*values));
             cast(simd.avx._mm256_cvtepi32_ps(numbers))
