@@ -46,8 +46,10 @@ use std::ops::Range;
 const VANISHING: f64 = 1e-14;
 /// A pivot below it gives reason to look for free motions.
 const SUSPICIOUS: f64 = 1e-8;
-/// A subtree with no more than this part of all work is one task.
+/// A subtree with no more than this part of all work is one task of a factorization, where threads share the nodes above.
 const PART: f64 = 1.0 / 32.0;
+/// A subtree with no more than this part of all entries is one task of a solution: each node above waits for the one below.
+const PART_OF_SOLUTION: f64 = 1.0 / 4.0;
 /// Columns of what goes to the parent that are worked on together.
 const COLUMNS: usize = 96;
 /// Multiplications below which nothing is shared among threads.
@@ -67,12 +69,14 @@ pub(super) struct Fronts {
     panels: Vec<Panel>,
     /// Ranges of nodes that are subtrees with little work; what is not in one is above them all.
     tasks: Vec<Range<usize>>,
+    /// The same for solutions.
+    branches: Vec<Range<usize>>,
     /// The place of each entry of the matrix in its panel, node by node.
     from: Vec<u32>,
     to: Vec<u32>,
     /// The smallest pivot of the last factorization, in units of the largest entry of its row.
     smallest: f64,
-    /// What a solution works with: of each task, then of the nodes above them all.
+    /// What a solution works with: of each branch, then of the nodes above them all.
     work: Vec<Work>,
 }
 
@@ -94,9 +98,9 @@ struct Node {
     parent: Option<u32>,
     /// The place of each of its rows in the front of its parent.
     place: Vec<u32>,
-    /// The task it is in; past them all where it is in none.
-    task: usize,
-    /// Where its front begins among those of its task.
+    /// The branch it is in; past them all where it is in none.
+    branch: usize,
+    /// Where its front begins among those of its branch.
     front: usize,
     /// Its entries among those of the matrix.
     entries: Range<usize>,
@@ -122,6 +126,11 @@ impl Node {
     /// Rows of its front.
     fn size(&self) -> usize {
         self.columns.len() + self.rows.len()
+    }
+
+    /// Entries of its factors.
+    fn nentry(&self) -> usize {
+        self.width() * (self.width() + 2 * self.rows.len())
     }
 
     /// Multiplications of its elimination.
@@ -179,7 +188,7 @@ impl Fronts {
                 children: Vec::new(),
                 parent: None,
                 place: Vec::new(),
-                task: 0,
+                branch: 0,
                 front: 0,
                 entries: 0..0,
             });
@@ -197,14 +206,16 @@ impl Fronts {
             nodes[s].parent = Some(parent as u32);
             nodes[parent].children.push(s as u32);
         }
-        let tasks = tasks(&nodes);
-        let work = place_fronts(&mut nodes, &tasks);
+        let tasks = subtrees(&nodes, Node::effort, PART, LITTLE);
+        let branches = subtrees(&nodes, |node| node.nentry() as f64, PART_OF_SOLUTION, 0.0);
+        let work = place_fronts(&mut nodes, &branches);
         let mut fronts = Self {
             panels: nodes.iter().map(|_| Panel::default()).collect(),
             asked: order.to_vec(),
             order: own_order,
             nodes,
             tasks,
+            branches,
             from: Vec::new(),
             to: Vec::new(),
             smallest: 0.0,
@@ -214,13 +225,11 @@ impl Fronts {
             .place_entries(matrix, &by_row)
             .ok_or_else(too_large)?;
         for (panel, node) in fronts.panels.iter_mut().zip(&fronts.nodes) {
-            let (w, r) = (node.width(), node.rows.len());
-            let size = w * (w + 2 * r);
-            if panel.value.try_reserve_exact(size).is_err() {
+            if panel.value.try_reserve_exact(node.nentry()).is_err() {
                 return Err(too_large());
             }
-            panel.value.resize(size, 0.0);
-            panel.pivot.resize(w, 0);
+            panel.value.resize(node.nentry(), 0.0);
+            panel.pivot.resize(node.width(), 0);
         }
         Ok(fronts)
     }
@@ -365,22 +374,23 @@ impl Fronts {
         let Some((above, below)) = self.work.split_last_mut() else {
             return;
         };
-        let tasks = &self.tasks;
-        let is_little = self.panels.iter().map(|p| p.value.len()).sum::<usize>() < FEW;
+        let branches = &self.branches;
+        let is_little = self.nodes.iter().map(Node::nentry).sum::<usize>() < FEW;
         let each = |below: &mut [Work], run: &(dyn Fn(&Range<usize>, &mut Work) + Sync)| {
             if is_little {
-                tasks.iter().zip(below).for_each(|(t, w)| run(t, w));
+                branches.iter().zip(below).for_each(|(b, w)| run(b, w));
             } else {
-                tasks.par_iter().zip(below).for_each(|(t, w)| run(t, w));
+                branches.par_iter().zip(below).for_each(|(b, w)| run(b, w));
             }
         };
         let nodes_above =
-            || (0..factors.nodes.len()).filter(|&s| factors.nodes[s].task == tasks.len());
+            || (0..factors.nodes.len()).filter(|&s| factors.nodes[s].branch == branches.len());
         let arch = Arch::new();
         let right = &*x;
-        each(below, &|task, work| {
+        each(below, &|branch, work| {
             arch.dispatch(|| {
-                task.clone()
+                branch
+                    .clone()
                     .for_each(|s| factors.reduce(s, right, work, &[]))
             });
         });
@@ -391,16 +401,17 @@ impl Fronts {
                 .for_each(|s| factors.expand(s, above, None))
         });
         let above = &*above;
-        each(below, &|task, work| {
+        each(below, &|branch, work| {
             let down = || {
-                task.clone()
+                branch
+                    .clone()
                     .rev()
                     .for_each(|s| factors.expand(s, work, Some(above)))
             };
             arch.dispatch(down);
         });
         for node in &self.nodes {
-            let work = below.get(node.task).unwrap_or(above);
+            let work = below.get(node.branch).unwrap_or(above);
             let found = &work.front[node.front..];
             for (&old, found) in self.order[node.columns.clone()].iter().zip(found) {
                 x[old as usize] = *found;
@@ -419,9 +430,9 @@ struct Factors<'a> {
 
 impl Factors<'_> {
     /// Solves with the lower factor of a node, and leaves to its parent what remains of the rows below. Children are in the
-    /// same work, or in that of their task.
+    /// same work, or in that of their branch.
     #[inline(always)]
-    fn reduce(self, s: usize, right: &[f64], work: &mut Work, tasks: &[Work]) {
+    fn reduce(self, s: usize, right: &[f64], work: &mut Work, branches: &[Work]) {
         let (node, panel) = (&self.nodes[s], &self.panels[s]);
         let (w, m) = (node.width(), node.size());
         let (before, rest) = work.front.split_at_mut(node.front);
@@ -433,10 +444,10 @@ impl Factors<'_> {
         front[w..].fill(0.0);
         for &child in &node.children {
             let child = &self.nodes[child as usize];
-            let home = if child.task == node.task {
+            let home = if child.branch == node.branch {
                 &*before
             } else {
-                &tasks[child.task].front
+                &branches[child.branch].front
             };
             let left = &home[child.front + child.width()..];
             for (&place, left) in child.place.iter().zip(left) {
@@ -468,7 +479,7 @@ impl Factors<'_> {
         if let Some(parent) = node.parent {
             let parent = &self.nodes[parent as usize];
             let known = match above {
-                Some(above) if parent.task != node.task => &above.front[parent.front..],
+                Some(above) if parent.branch != node.branch => &above.front[parent.front..],
                 _ => &after[parent.front - node.front - m..],
             };
             for (y, &place) in below.iter_mut().zip(&node.place) {
@@ -713,9 +724,15 @@ fn lower_half(matrix: &Matrix, by_row: &Lists<[u32; 2]>) -> (Vec<u32>, Vec<u32>)
     (begin, row)
 }
 
-/// The largest subtrees with little work: ranges of nodes, for children come right before their parents.
-fn tasks(nodes: &[Node]) -> Vec<Range<usize>> {
-    let mut effort: Vec<f64> = nodes.iter().map(Node::effort).collect();
+/// The largest subtrees with no more than this part of all that nodes take, or no more than this, the larger of the two:
+/// ranges of nodes, for children come right before their parents.
+fn subtrees(
+    nodes: &[Node],
+    take: impl Fn(&Node) -> f64,
+    part: f64,
+    little: f64,
+) -> Vec<Range<usize>> {
+    let mut effort: Vec<f64> = nodes.iter().map(take).collect();
     let mut first: Vec<usize> = (0..nodes.len()).collect();
     let mut is_child = vec![false; nodes.len()];
     for (s, node) in nodes.iter().enumerate() {
@@ -727,34 +744,36 @@ fn tasks(nodes: &[Node]) -> Vec<Range<usize>> {
     }
     let roots = effort.iter().zip(&is_child).filter(|(_, child)| !**child);
     let all: f64 = roots.map(|(effort, _)| effort).sum();
-    let most = (PART * all).max(LITTLE);
-    let mut tasks: Vec<Range<usize>> = Vec::new();
+    let most = (part * all).max(little);
+    let mut subtrees: Vec<Range<usize>> = Vec::new();
     let mut s = nodes.len();
     while s > 0 {
         let last = s - 1;
         if effort[last] <= most {
-            tasks.push(first[last]..s);
+            subtrees.push(first[last]..s);
             s = first[last];
         } else {
             s = last;
         }
     }
-    tasks.reverse();
-    tasks
+    subtrees.reverse();
+    subtrees
 }
 
-/// Tells every node which task it is in, and where its front is in what that works with.
-fn place_fronts(nodes: &mut [Node], tasks: &[Range<usize>]) -> Vec<Work> {
-    nodes.iter_mut().for_each(|node| node.task = tasks.len());
-    for (number, task) in tasks.iter().enumerate() {
-        nodes[task.clone()]
+/// Tells every node which branch it is in, and where its front is in what that works with.
+fn place_fronts(nodes: &mut [Node], branches: &[Range<usize>]) -> Vec<Work> {
+    nodes
+        .iter_mut()
+        .for_each(|node| node.branch = branches.len());
+    for (number, branch) in branches.iter().enumerate() {
+        nodes[branch.clone()]
             .iter_mut()
-            .for_each(|node| node.task = number);
+            .for_each(|node| node.branch = number);
     }
-    let mut size = vec![0; tasks.len() + 1];
+    let mut size = vec![0; branches.len() + 1];
     for node in nodes {
-        node.front = size[node.task];
-        size[node.task] += node.size();
+        node.front = size[node.branch];
+        size[node.branch] += node.size();
     }
     let of_size = |size: usize| Work {
         front: vec![0.0; size],

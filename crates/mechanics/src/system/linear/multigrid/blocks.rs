@@ -22,6 +22,9 @@ pub(super) struct Blocks<const R: usize, const C: usize> {
     pub value: Vec<[[f64; C]; R]>,
 }
 
+/// The columns and the blocks of a row.
+type RowMut<'a, const R: usize, const C: usize> = (&'a mut [u32], &'a mut [[[f64; C]; R]]);
+
 impl<const R: usize, const C: usize> Blocks<R, C> {
     /// Rows of blocks.
     pub fn nrow(&self) -> usize {
@@ -41,7 +44,7 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
     }
 
     /// The blocks of each row where they can be changed, and their columns.
-    pub fn rows_mut(&mut self) -> Vec<(&mut [u32], &mut [[[f64; C]; R]])> {
+    pub fn rows_mut(&mut self) -> Vec<RowMut<'_, R, C>> {
         let mut rows = Vec::with_capacity(self.nrow());
         let (mut columns, mut values) = (self.column.as_mut_slice(), self.value.as_mut_slice());
         for ends in self.start.windows(2) {
