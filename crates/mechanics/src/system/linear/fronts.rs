@@ -732,24 +732,24 @@ fn subtrees(
     part: f64,
     little: f64,
 ) -> Vec<Range<usize>> {
-    let mut effort: Vec<f64> = nodes.iter().map(take).collect();
+    let mut taken: Vec<f64> = nodes.iter().map(take).collect();
     let mut first: Vec<usize> = (0..nodes.len()).collect();
     let mut is_child = vec![false; nodes.len()];
     for (s, node) in nodes.iter().enumerate() {
         for &child in &node.children {
-            effort[s] += effort[child as usize];
+            taken[s] += taken[child as usize];
             first[s] = first[s].min(first[child as usize]);
             is_child[child as usize] = true;
         }
     }
-    let roots = effort.iter().zip(&is_child).filter(|(_, child)| !**child);
-    let all: f64 = roots.map(|(effort, _)| effort).sum();
+    let roots = taken.iter().zip(&is_child).filter(|(_, child)| !**child);
+    let all: f64 = roots.map(|(taken, _)| taken).sum();
     let most = (part * all).max(little);
     let mut subtrees: Vec<Range<usize>> = Vec::new();
     let mut s = nodes.len();
     while s > 0 {
         let last = s - 1;
-        if effort[last] <= most {
+        if taken[last] <= most {
             subtrees.push(first[last]..s);
             s = first[last];
         } else {

@@ -36,23 +36,23 @@ impl<const R: usize, const C: usize, T: Number> Packed<R, C, T> {
             values = rest;
             tasks.push((first, units, own));
         }
-        tasks
-            .into_par_iter()
-            .for_each(|(first, units, mut values)| {
-                for (row, unit) in (first..).zip(units) {
-                    let blocks = &of.value[of.range(row)];
-                    *unit = T::unit(blocks.iter().map(largest).fold(0.0, f32::max));
-                    for block in blocks {
-                        let (own, rest) = values.split_at_mut(R * C);
-                        values = rest;
-                        for (c, to) in own.chunks_exact_mut(R.max(1)).enumerate() {
-                            for (to, row) in to.iter_mut().zip(block) {
-                                *to = T::new(row[c] as f32, *unit);
-                            }
-                        }
+        let tasks = tasks.into_par_iter();
+        tasks.for_each(|(first, units, mut values)| {
+            for (row, unit) in (first..).zip(units) {
+                let blocks = &of.value[of.range(row)];
+                *unit = T::unit(blocks.iter().map(largest));
+                let (own, rest) = values.split_at_mut(blocks.len() * R * C);
+                values = rest;
+                let columns = blocks
+                    .iter()
+                    .flat_map(|block| (0..C).map(move |c| (block, c)));
+                for ((block, c), to) in columns.zip(own.chunks_exact_mut(R.max(1))) {
+                    for (to, line) in to.iter_mut().zip(block) {
+                        *to = T::new(line[c] as f32, *unit);
                     }
                 }
-            });
+            }
+        });
         Self {
             start: of.start.clone(),
             column: of.column.clone(),
@@ -110,7 +110,8 @@ impl<const R: usize, const C: usize, T: Number> Packed<R, C, T> {
             for (_, row, block) in blocks() {
                 units[row] = units[row].max(largest(block));
             }
-            units.iter_mut().for_each(|unit| *unit = T::unit(*unit));
+            let of_row = |unit: &mut f32| *unit = T::unit(std::iter::once(*unit));
+            units.iter_mut().for_each(of_row);
             let first = start[rows.start];
             let mut next: Vec<usize> = start[rows.clone()].iter().map(|at| at - first).collect();
             for (from, row, block) in blocks() {
@@ -279,25 +280,18 @@ mod tests {
         assert_eq!(to, expected);
     }
 
-    #[test]
-    fn transposes_are_those_of_the_blocks() {
-        transposes_agree::<3, 3, f32>();
-        transposes_agree::<3, 3, i16>();
-        transposes_agree::<3, 6, f32>();
-        transposes_agree::<3, 6, i16>();
-        transposes_agree::<6, 6, f32>();
-        transposes_agree::<6, 6, i16>();
+    fn all_agree<const R: usize, const C: usize>() {
+        agrees::<R, C, f32>();
+        agrees::<R, C, i16>();
+        transposes_agree::<R, C, f32>();
+        transposes_agree::<R, C, i16>();
     }
 
     #[test]
-    fn products_are_those_of_the_blocks() {
-        agrees::<3, 3, f32>();
-        agrees::<3, 3, i16>();
-        agrees::<3, 6, f32>();
-        agrees::<3, 6, i16>();
-        agrees::<6, 3, f32>();
-        agrees::<6, 3, i16>();
-        agrees::<6, 6, f32>();
-        agrees::<6, 6, i16>();
+    fn products_and_transposes_are_those_of_the_blocks() {
+        all_agree::<3, 3>();
+        all_agree::<3, 6>();
+        all_agree::<6, 3>();
+        all_agree::<6, 6>();
     }
 }

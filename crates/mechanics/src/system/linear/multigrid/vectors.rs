@@ -12,8 +12,8 @@ pub(super) type Sums = [f32; LANES];
 
 /// A number as it is stored: itself, or so many parts of a unit that it shares with others.
 pub(super) trait Number: Copy + Default + Send + Sync {
-    /// The unit of numbers that are no larger than this.
-    fn unit(largest: f32) -> f32;
+    /// The unit of numbers with these sizes, which are looked at only where it depends on them.
+    fn unit(sizes: impl Iterator<Item = f32>) -> f32;
     fn new(value: f32, unit: f32) -> Self;
 
     /// Numbers in a register, as multiples of their unit.
@@ -22,7 +22,7 @@ pub(super) trait Number: Copy + Default + Send + Sync {
 }
 
 impl Number for f32 {
-    fn unit(_: f32) -> f32 {
+    fn unit(_: impl Iterator<Item = f32>) -> f32 {
         1.0
     }
 
@@ -42,7 +42,8 @@ impl Number for f32 {
 }
 
 impl Number for i16 {
-    fn unit(largest: f32) -> f32 {
+    fn unit(sizes: impl Iterator<Item = f32>) -> f32 {
+        let largest = sizes.fold(0.0, f32::max);
         // a row of zeros has any unit
         if largest > 0.0 {
             largest / f32::from(i16::MAX)
@@ -287,12 +288,12 @@ mod tests {
     #[test]
     fn short_numbers_are_multiples_of_their_unit() {
         let values = [1.0, -1.0, 0.0, 0.3, -0.7, 1e-5, 2e-5, -0.999_99f32];
-        let unit = i16::unit(1.0);
+        let unit = i16::unit(values.iter().map(|value| value.abs()));
         let numbers = values.map(|value| i16::new(value, unit));
         for (value, number) in values.iter().zip(numbers) {
             assert!((f32::from(number) * unit - value).abs() <= 0.501 * unit);
         }
-        assert_eq!(i16::new(0.0, i16::unit(0.0)), 0);
+        assert_eq!(i16::new(0.0, i16::unit([0.0].into_iter())), 0);
         let [mut here, mut plain] = [Shorts(numbers, Default::default()); 2];
         dispatch(&mut here);
         (&mut plain).run(Pair {
