@@ -1,4 +1,5 @@
 use super::{Dof, DofName, Layout, Order, Sink, State, Term, TermError, Work};
+use rayon::prelude::*;
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::{Sym3, Vec3};
@@ -80,38 +81,48 @@ impl Samples {
     }
 }
 
+/// Chunks whose forces are found before their nodes take them: bounds the memory.
+const CHUNKS: usize = 256;
+
 /// The forces of all terms within at the nodes, whatever follows whatever.
 pub(super) fn internal_forces(
     terms: &[Box<dyn Term>],
     layout: &Layout,
     state: &State,
 ) -> Result<Vec<Vec3>, TermError> {
-    let mut at_nodes = AtNodes {
-        layout,
-        force: vec![Vec3::ZERO; layout.nnode],
-    };
-    let mut work = Work::default();
+    let mut at_nodes = vec![Vec3::ZERO; layout.nnode];
     for term in terms.iter().filter(|term| !term.is_outside()) {
-        for chunk in 0..term.nchunk() {
-            term.evaluate(chunk, state, Order::Residual, &mut work, &mut at_nodes)?;
-        }
-    }
-    Ok(at_nodes.force)
-}
-
-struct AtNodes<'a> {
-    layout: &'a Layout,
-    force: Vec<Vec3>,
-}
-
-impl Sink for AtNodes<'_> {
-    fn add(&mut self, dofs: &[Dof], force: &[f64], _: &[f64]) {
-        for (&dof, f) in dofs.iter().zip(force) {
-            if let Some(DofName::Node(node, axis)) = self.layout.name(dof)
-                && let Some(to) = self.force.get_mut(node as usize)
-            {
-                to[axis] += f;
+        let chunks: Vec<usize> = (0..term.nchunk()).collect();
+        for wave in chunks.chunks(CHUNKS) {
+            // chunks in parallel, nodes in their order
+            let evaluate = |work: &mut Work, &chunk: &usize| {
+                let mut forces = Forces::default();
+                term.evaluate(chunk, state, Order::Residual, work, &mut forces)?;
+                Ok(forces)
+            };
+            let evaluated = wave.par_iter().map_init(Work::default, evaluate);
+            let evaluated: Vec<Result<Forces, TermError>> = evaluated.collect();
+            for forces in evaluated {
+                for (dof, force) in forces?.0 {
+                    if let Some(DofName::Node(node, axis)) = layout.name(dof)
+                        && let Some(to) = at_nodes.get_mut(node as usize)
+                    {
+                        to[axis] += force;
+                    }
+                }
             }
         }
+    }
+    Ok(at_nodes)
+}
+
+/// Forces as they come.
+#[derive(Default)]
+struct Forces(Vec<(Dof, f64)>);
+
+impl Sink for Forces {
+    fn add(&mut self, dofs: &[Dof], force: &[f64], _: &[f64]) {
+        self.0
+            .extend(dofs.iter().copied().zip(force.iter().copied()));
     }
 }

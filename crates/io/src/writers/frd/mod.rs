@@ -43,6 +43,7 @@ mod columns;
 use crate::frd::cells::CellType;
 use crate::fs::{Fs, FsError, Log};
 use columns::{push_real, push_time, push_whole};
+use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use std::path::{Path, PathBuf};
@@ -246,6 +247,8 @@ pub struct FrdFile {
     at: Mark,
     /// The frame in the making, kept for its memory.
     draft: Vec<u8>,
+    /// Its data sets, which are written at the same time.
+    parts: Vec<Vec<u8>>,
 }
 
 impl FrdFile {
@@ -260,6 +263,7 @@ impl FrdFile {
             labels: Labels::new(mesh),
             at: Mark::default(),
             draft: Vec::new(),
+            parts: Vec::new(),
         };
         push_head(&mut file.draft, title);
         push_nodes(&mut file.draft, &file.labels, &mesh.points);
@@ -279,6 +283,7 @@ impl FrdFile {
             labels: Labels::new(mesh),
             at: mark,
             draft: Vec::new(),
+            parts: Vec::new(),
         };
         file.append(0)?;
         Ok(file)
@@ -292,13 +297,20 @@ impl FrdFile {
         for dataset in datasets {
             self.check(dataset)?;
         }
-        self.draft.clear();
         let nframe = self.at.nframe + 1;
-        for (number, dataset) in (self.at.ndataset + 1..).zip(datasets) {
-            let out = &mut self.draft;
-            push_moment(out, moment, [number, nframe], self.labels.nrow(dataset));
+        let numbers = self.at.ndataset + 1..;
+        let labels = &self.labels;
+        self.parts.resize_with(datasets.len(), Vec::new);
+        let all: Vec<_> = self.parts.iter_mut().zip(numbers).zip(datasets).collect();
+        all.into_par_iter().for_each(|((out, number), dataset)| {
+            out.clear();
+            push_moment(out, moment, [number, nframe], labels.nrow(dataset));
             push_declaration(out, dataset);
-            push_values(out, &self.labels, dataset);
+            push_values(out, labels, dataset);
+        });
+        self.draft.clear();
+        for part in &self.parts {
+            self.draft.extend_from_slice(part);
         }
         self.append(datasets.len() as u64)?;
         self.at.nframe = nframe;
