@@ -2,8 +2,8 @@ use super::course::Clock;
 use super::local::{Local, gather};
 use super::{Region, Schedule};
 use crate::system::{
-    Frame, Layout, Order, Part, PatternSink, Sink, SpinFrame, State, StepContext, Symmetry, Term,
-    TermError, Work,
+    Frame, Lasts, Layout, Order, Part, PatternSink, Sink, SpinFrame, State, StepContext, Symmetry,
+    Term, TermError, Work,
 };
 use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::{Mat3, Vec3};
@@ -135,8 +135,8 @@ impl Term for Centrifugal {
         Part::Bulk
     }
 
-    fn has_constant_stiffness(&self) -> bool {
-        true
+    fn stiffness_lasts(&self) -> Lasts {
+        Lasts::Increment
     }
 
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {

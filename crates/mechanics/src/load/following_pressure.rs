@@ -2,8 +2,8 @@ use super::course::Clock;
 use super::local::Local;
 use super::{Region, Schedule};
 use crate::system::{
-    Idealisation, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term,
-    TermError, Work,
+    Idealisation, Lasts, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry,
+    Term, TermError, Work,
 };
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::f64::consts::TAU;
@@ -109,8 +109,12 @@ impl Term for FollowingPressure {
         Part::Bulk
     }
 
-    fn has_constant_stiffness(&self) -> bool {
-        !self.follows()
+    fn stiffness_lasts(&self) -> Lasts {
+        if self.follows() {
+            Lasts::State
+        } else {
+            Lasts::Step
+        }
     }
 
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {

@@ -8,8 +8,8 @@ use super::report;
 use super::{AtNodes, Integration, Locking};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Strain};
 use crate::system::{
-    Archive, ArchiveError, Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink,
-    PointSample, Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    Archive, ArchiveError, Dof, Frame, Idealisation, Lasts, Layout, NodalField, Order, Part,
+    PatternSink, PointSample, Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -863,8 +863,13 @@ impl Term for Solid {
         Part::Bulk
     }
 
-    fn has_constant_stiffness(&self) -> bool {
-        self.kinematics == Kinematics::Small && self.material().is_linear()
+    fn stiffness_lasts(&self) -> Lasts {
+        match (self.kinematics, &self.temperature) {
+            (Kinematics::Small, _) if !self.material().is_linear() => Lasts::State,
+            (Kinematics::Small, Some(_)) => Lasts::Increment,
+            (Kinematics::Small, None) => Lasts::Step,
+            (Kinematics::Finite, _) => Lasts::State,
+        }
     }
 
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {

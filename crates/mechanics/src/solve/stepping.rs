@@ -289,6 +289,7 @@ impl Stepper {
         for term in &mut system.terms {
             term.begin_step(&context, &self.state)?;
         }
+        self.newton.assembler.begin_step();
         let prescribed = &mut self.newton.prescribed;
         prescribed.clear();
         prescribed.resize(system.layout.ndof(), false);

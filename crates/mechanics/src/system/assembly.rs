@@ -4,7 +4,8 @@ use super::elimination::Expanded;
 use super::linear::Values;
 use super::sparsity::{BlockPattern, NONE, Pattern};
 use super::{
-    Dof, Elimination, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, Term, TermError, Work,
+    Dof, Elimination, Lasts, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, Term,
+    TermError, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
@@ -36,7 +37,7 @@ pub struct Assembly {
     pub uncertainty: Vec<f64>,
     bulk: Vec<f64>,
     interface: Vec<f64>,
-    /// The increment of which the bulk is, where it holds for all states in it.
+    /// The period of which the bulk is, where it holds for all states in it.
     bulk_of: Option<u64>,
 }
 
@@ -69,10 +70,10 @@ pub struct Assembler {
     interface: Pattern,
     slots: Vec<Slot>,
     expanded: Expanded,
-    /// Counts increments.
-    increment: u64,
-    /// Whether the stiffness of the bulk is the same at all states of the increment.
-    is_constant: bool,
+    /// How long the stiffness of the bulk is the same.
+    lasts: Lasts,
+    /// Counts what it is the same in at most: steps, or increments.
+    period: u64,
 }
 
 struct Task {
@@ -231,8 +232,8 @@ impl Assembler {
             interface: Pattern::empty(layout.ndof()),
             slots: Vec::new(),
             expanded: Expanded::default(),
-            increment: 0,
-            is_constant: false,
+            lasts: Lasts::State,
+            period: 0,
         };
         assembler.begin_increment(terms);
         let cliques = collect(layout, elimination, terms);
@@ -248,6 +249,11 @@ impl Assembler {
             &cliques.interface_offsets,
         );
         assembler
+    }
+
+    /// A step begins: what terms are may change.
+    pub fn begin_step(&mut self) {
+        self.period += 1;
     }
 
     /// Takes up the chunks of the terms, whose numbers may be others in each increment.
@@ -266,9 +272,12 @@ impl Assembler {
                 positions: Vec::new(),
             }));
         }
-        let mut bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
-        self.is_constant = bulk.all(|term| term.has_constant_stiffness());
-        self.increment += 1;
+        let bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
+        let lasts = bulk.map(|term| term.stiffness_lasts()).min();
+        let before = std::mem::replace(&mut self.lasts, lasts.unwrap_or(Lasts::Step));
+        if self.lasts.min(before) < Lasts::Step {
+            self.period += 1;
+        }
         let most = wave(Order::Residual).min(self.tasks.len());
         if self.slots.len() < most {
             self.slots.resize_with(most, Slot::default);
@@ -341,7 +350,7 @@ impl Assembler {
         out: &mut Assembly,
     ) -> Result<(), TermError> {
         out.reset_forces(layout.ndof());
-        let is_kept = out.bulk_of == Some(self.increment);
+        let is_kept = out.bulk_of == Some(self.period);
         if order == Order::Tangent {
             if !is_kept {
                 out.bulk_of = None;
@@ -350,7 +359,7 @@ impl Assembler {
             reset(&mut out.interface, self.interface.nentry());
         }
         // unknowns that follow others put stiffness of the bulk into the interface
-        let mut stays = self.is_constant && order == Order::Tangent;
+        let mut stays = self.is_constant() && order == Order::Tangent;
         let order_of = |task: &Task| {
             if is_kept && task.part == Part::Bulk {
                 Order::Residual
@@ -364,7 +373,7 @@ impl Assembler {
             interface,
             slots,
             expanded,
-            increment,
+            period,
             ..
         } = self;
         let setting = Setting {
@@ -387,7 +396,7 @@ impl Assembler {
         };
         stays &= setting.run(evaluate, size, tasks, slots, expanded, out)?;
         if stays {
-            out.bulk_of = Some(*increment);
+            out.bulk_of = Some(*period);
         }
         if let Some(magnitude) = elimination
             .course()
@@ -400,8 +409,8 @@ impl Assembler {
 
     /// Whether the stiffness of the bulk is the same at all states of the increment.
     #[must_use]
-    pub const fn is_constant(&self) -> bool {
-        self.is_constant
+    pub fn is_constant(&self) -> bool {
+        self.lasts > Lasts::State
     }
 
     /// The values of the bulk at the start of a run: undeformed, without history.

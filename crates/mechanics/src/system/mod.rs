@@ -61,7 +61,7 @@ pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;
 pub use state::State;
 pub use term::{
-    Archive, ArchiveError, Order, Part, PatternSink, Sink, StepContext, Term, TermError, Verdict,
-    Work,
+    Archive, ArchiveError, Lasts, Order, Part, PatternSink, Sink, StepContext, Term, TermError,
+    Verdict, Work,
 };
 pub use whole::System;

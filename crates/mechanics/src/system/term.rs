@@ -23,6 +23,17 @@ pub enum Part {
     Interface,
 }
 
+/// How long a stiffness is the same, whatever the state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Lasts {
+    /// It depends on the state.
+    State,
+    /// Until the increment ends.
+    Increment,
+    /// Until the step ends.
+    Step,
+}
+
 /// What a term says after an iteration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
@@ -239,9 +250,9 @@ pub trait Term: Send + Sync {
     /// Where its stiffness belongs.
     fn part(&self) -> Part;
 
-    /// Whether its stiffness is the same at all states of the increment that has begun.
-    fn has_constant_stiffness(&self) -> bool {
-        false
+    /// How long its stiffness is the same, to the last bit, from the begin of a step or an increment on.
+    fn stiffness_lasts(&self) -> Lasts {
+        Lasts::State
     }
 
     /// A step begins at this accepted state.

@@ -6,8 +6,8 @@ use crate::material::{
     MaterialError, Order as MaterialOrder, Plasticity, Response, Strain, TABLE,
 };
 use crate::system::{
-    Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, Layout, NodalField, Order,
-    Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, Lasts, Layout, NodalField,
+    Order, Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::element::{self, Element};
 use signorini_geometry::mesh::{CellId, Mesh};
@@ -244,6 +244,39 @@ fn a_rigid_rotation_stores_no_energy_at_finite_strain() {
             assert!(at.stiffness.is_empty());
         }
     }
+}
+
+#[test]
+fn a_stiffness_that_lasts_has_the_same_bits_at_all_states() {
+    let laws: Vec<_> = TABLE.iter().map(|l| l.name).collect();
+    let mut count = 0;
+    for (element, space) in elements() {
+        let mesh = one(element, space);
+        for (law, locking) in laws.iter().flat_map(|law| LOCKINGS.map(|l| (law, l))) {
+            let wish = Wish {
+                locking,
+                ..Wish::plain(space, Kinematics::Small)
+            };
+            let make = TABLE.iter().find(|l| l.name == *law).unwrap().make;
+            let Ok(material) = make(&Constants::elastic(500.0, 0.3)) else {
+                continue;
+            };
+            let Ok(body) = body(&mesh, material, &wish) else {
+                continue;
+            };
+            if body.solid.stiffness_lasts() < Lasts::Step {
+                continue;
+            }
+            let mut work = Work::default();
+            let mut stiffness = |size: f64| {
+                let u: Vec<f64> = (0..body.layout.ndof()).map(|k| size * noise(k)).collect();
+                body.assemble(&u, Order::Tangent, &mut work).stiffness
+            };
+            assert_eq!(stiffness(0.0), stiffness(0.03), "{} {law}", element.name());
+            count += 1;
+        }
+    }
+    assert!(count > 50, "{count}");
 }
 
 #[test]
