@@ -52,7 +52,8 @@ struct Analysis {
 struct Factors {
     cholesky: Option<Cholesky>,
     fronts: Option<Fronts>,
-    /// Whether the values that told the order of the fronts are forgotten.
+    /// The groups of equations whose order the fronts have, and whether the values that told them are forgotten.
+    groups: Vec<u32>,
     is_order_old: bool,
     lu: Option<Lu>,
     active: Active,
@@ -229,6 +230,7 @@ impl Analysis {
             factors: Factors {
                 cholesky,
                 fronts: None,
+                groups: Vec::new(),
                 is_order_old: false,
                 lu: None,
                 active: Active::None,
@@ -293,11 +295,16 @@ impl Analysis {
             let mut fronts = match known {
                 Some(fronts) if !is_new => fronts,
                 known => {
-                    let order = ordering::order(&kept.problem(), matrix, self.ordering)?;
-                    let same = known.filter(|fronts| fronts.are_of(&order));
-                    match same {
+                    let problem = kept.problem();
+                    let groups = ordering::groups(&problem, matrix);
+                    match known.filter(|_| groups == self.factors.groups) {
                         Some(fronts) => fronts,
-                        None => Fronts::new(matrix, &order)?,
+                        None => {
+                            let order =
+                                ordering::order_groups(&problem, matrix, &groups, self.ordering)?;
+                            self.factors.groups = groups;
+                            Fronts::new(matrix, &order)?
+                        }
                     }
                 }
             };

@@ -16,7 +16,8 @@
 //! [`super::ordering`], which puts a multiplier after a node that it couples with, these blocks are regular in practice.
 //! Where one is not, [`Fronts::factorize`] says so, and factors with free choice of pivots take over.
 //!
-//! Subtrees without much work are tasks of their own; sums are formed in an order that does not depend on threads.
+//! Subtrees without much work are tasks of their own, and above them what is side by side is eliminated at the same time;
+//! sums are formed in an order that does not depend on threads.
 //!
 //! Source: I. S. Duff and J. K. Reid, The multifrontal solution of unsymmetric sets of linear equations, SIAM J. Sci.
 //! Stat. Comput. 5 (1984) 633–641.
@@ -61,13 +62,11 @@ const RELAX: [(usize, f64); 3] = [(8, 0.9), (24, 0.4), (64, 0.15)];
 
 /// The factors, and the tree that they are made along.
 pub(super) struct Fronts {
-    /// The order that was asked for.
-    asked: Vec<u32>,
-    /// The order that became of it, in which supernodes are whole: `order[new] = old`.
+    /// The order that became of the one that was asked for, in which supernodes are whole: `order[new] = old`.
     order: Vec<u32>,
     nodes: Vec<Node>,
     panels: Vec<Panel>,
-    /// Ranges of nodes that are subtrees with little work; what is not in one is above them all.
+    /// Ranges of nodes that are subtrees with little work, in their order; what is not in one is above them all.
     tasks: Vec<Range<usize>>,
     /// The same for solutions.
     branches: Vec<Range<usize>>,
@@ -211,7 +210,6 @@ impl Fronts {
         let work = place_fronts(&mut nodes, &branches);
         let mut fronts = Self {
             panels: nodes.iter().map(|_| Panel::default()).collect(),
-            asked: order.to_vec(),
             order: own_order,
             nodes,
             tasks,
@@ -232,11 +230,6 @@ impl Fronts {
             panel.pivot.resize(node.width(), 0);
         }
         Ok(fronts)
-    }
-
-    /// Whether they are for this order of elimination.
-    pub fn are_of(&self, order: &[u32]) -> bool {
-        self.asked == order
     }
 
     /// Finds the place of every entry; column e of the matrix holds row e of the operator.
@@ -307,6 +300,7 @@ impl Fronts {
         } = self;
         let tree = Tree {
             nodes,
+            tasks,
             from,
             to,
             value: &matrix.value,
@@ -343,24 +337,15 @@ impl Fronts {
         let Ok(smallest) = done else {
             return false;
         };
-        let mut smallest = smallest.into_iter().fold(f64::INFINITY, f64::min);
-        let mut memory = Memory::default();
-        let mut tasks = tasks.iter().peekable();
-        let mut s = 0;
-        while s < nodes.len() {
-            if let Some(task) = tasks.next_if(|task| task.start == s) {
-                s = task.end;
-                continue;
-            }
-            let (children, own) = left.split_at_mut(s);
-            let pivot = tree.eliminate(s, (children, 0), &mut panels[s], &mut own[0], &mut memory);
-            match pivot {
-                Ok(pivot) => smallest = smallest.min(pivot),
-                Err(NoPivot) => return false,
-            }
-            s += 1;
-        }
-        self.smallest = smallest;
+        let roots: Vec<u32> = (0..)
+            .zip(nodes.iter())
+            .filter(|(_, node)| node.parent.is_none())
+            .map(|(s, _)| s)
+            .collect();
+        let Ok(above) = tree.climb_all(0, &roots, panels, &mut left) else {
+            return false;
+        };
+        self.smallest = smallest.into_iter().fold(above, f64::min);
         true
     }
 
@@ -545,12 +530,80 @@ struct Memory {
 #[derive(Clone, Copy)]
 struct Tree<'a> {
     nodes: &'a [Node],
+    tasks: &'a [Range<usize>],
     from: &'a [u32],
     to: &'a [u32],
     value: &'a [f64],
 }
 
 impl Tree<'_> {
+    /// Whether a node is above all tasks.
+    fn is_above(self, s: u32) -> bool {
+        let before = self.tasks.partition_point(|task| task.end <= s as usize);
+        let next = self.tasks.get(before);
+        next.is_none_or(|task| task.start > s as usize)
+    }
+
+    /// Eliminates what is above the tasks in the subtrees with these roots, which side by side are the nodes from `begin`
+    /// on: at the same time. Returns the smallest pivot.
+    fn climb_all(
+        self,
+        mut begin: usize,
+        roots: &[u32],
+        mut panels: &mut [Panel],
+        mut left: &mut [Vec<f64>],
+    ) -> Result<f64, NoPivot> {
+        let mut jobs = Vec::with_capacity(roots.len());
+        for &root in roots {
+            let end = root as usize + 1;
+            let (own, others) = panels.split_at_mut(end - begin);
+            let (own_left, others_left) = left.split_at_mut(end - begin);
+            if self.is_above(root) {
+                jobs.push((begin..end, own, own_left));
+            }
+            (panels, left, begin) = (others, others_left, end);
+        }
+        let jobs = jobs.into_par_iter();
+        jobs.map(|(subtree, panels, left)| self.climb(subtree, panels, left))
+            .try_reduce(|| f64::INFINITY, |a, b| Ok(a.min(b)))
+    }
+
+    /// The same of one subtree. A node with two children above the tasks has two subtrees with much work below it, so that
+    /// there are never many of them above one another.
+    fn climb(
+        self,
+        subtree: Range<usize>,
+        panels: &mut [Panel],
+        left: &mut [Vec<f64>],
+    ) -> Result<f64, NoPivot> {
+        let (mut begin, mut lowest) = (subtree.start, subtree.end - 1);
+        let children = loop {
+            let children = self.nodes[lowest].children.as_slice();
+            let mut above = (0..children.len()).filter(|&k| self.is_above(children[k]));
+            match (above.next(), above.next()) {
+                (Some(only), None) => {
+                    begin = only
+                        .checked_sub(1)
+                        .map_or(begin, |k| children[k] as usize + 1);
+                    lowest = children[only] as usize;
+                }
+                _ => break children,
+            }
+        };
+        let below = begin - subtree.start..lowest - subtree.start;
+        let parts = (&mut panels[below.clone()], &mut left[below]);
+        let mut smallest = self.climb_all(begin, children, parts.0, parts.1)?;
+        let mut memory = Memory::default();
+        for s in (lowest..subtree.end).filter(|&s| self.is_above(s as u32)) {
+            let at = s - subtree.start;
+            let (children, own) = left.split_at_mut(at);
+            let children = (children, subtree.start);
+            let pivot = self.eliminate(s, children, &mut panels[at], &mut own[0], &mut memory)?;
+            smallest = smallest.min(pivot);
+        }
+        Ok(smallest)
+    }
+
     /// Eliminates the columns of a node; `children` holds what the nodes from its number on leave, and `left` gets what
     /// this one does. Returns the smallest pivot.
     fn eliminate(

@@ -96,21 +96,27 @@ pub(super) enum Ordering {
 }
 
 /// Orders the equations of a problem and its matrix: `order[new] = old`. What is not symmetric is ordered as A + Aᵀ.
-///
-/// Values, where the matrix has them already, tell which node a multiplier acts on most.
 pub(super) fn order(
     problem: &Problem,
     matrix: &Matrix,
     ordering: Ordering,
 ) -> Result<Vec<u32>, LinearError> {
-    let sign = problem.sign;
-    let group = groups(matrix, &node_of(problem), sign);
+    order_groups(problem, matrix, &groups(problem, matrix), ordering)
+}
+
+/// The same, in groups that are known.
+pub(super) fn order_groups(
+    problem: &Problem,
+    matrix: &Matrix,
+    group: &[u32],
+    ordering: Ordering,
+) -> Result<Vec<u32>, LinearError> {
     let ngroup = group.iter().map(|&g| g as usize + 1).max().unwrap_or(0);
     let mut weight = vec![0u32; ngroup];
-    for &g in &group {
+    for &g in group {
         weight[g as usize] += 1;
     }
-    let graph = Graph::from_pairs(weight, &group_pairs(matrix, &group));
+    let graph = Graph::from_pairs(weight, &group_pairs(matrix, group));
 
     let dissect = match ordering {
         Ordering::Auto => ngroup >= DISSECT_FROM,
@@ -128,7 +134,7 @@ pub(super) fn order(
         Some(order) => order,
         None => minimum_degree(&graph)?,
     };
-    Ok(expand(&group, &postorder(&graph, &first), sign))
+    Ok(expand(group, &postorder(&graph, &first), problem.sign))
 }
 
 /// The node of each equation; none for those outside the bulk.
@@ -147,8 +153,10 @@ fn node_of(problem: &Problem) -> Vec<u32> {
     node
 }
 
-/// The group of each equation, numbered by first appearance.
-fn groups(matrix: &Matrix, node: &[u32], sign: &[i8]) -> Vec<u32> {
+/// The group of each equation, numbered by first appearance. Values, where the matrix has them already, tell which node a
+/// multiplier acts on most; nothing else about the order depends on them.
+pub(super) fn groups(problem: &Problem, matrix: &Matrix) -> Vec<u32> {
+    let (node, sign) = (node_of(problem), problem.sign);
     let nequation = node.len();
     let mut of_node = vec![
         NONE;
