@@ -1,17 +1,18 @@
 //! How exactly Newton's systems are solved, where less accuracy is less work.
 //!
 //! ```text
-//!   contact changes           ──▶ to a tenth of the error, in the norm of the solver
+//!   contact changes           ──▶ to a tenth of the error, in the norm of the solver, or to 0.3
 //!   it does not, residual r   ──▶ to max(0.3, 0.3 c r²), and to a tenth at least
 //!                                 with the last tangent, where that leaves no more than 0.3
 //! ```
 //!
 //! Residuals are those of forces, over what they may be: equations of multipliers are solved exactly at each step, and
-//! have a curvature of their own. While contact changes, a step only has to find out what touches. When it does not, one
-//! solution goes as far as is of use: to what is allowed, or to what the step leaves because forces are not linear in the
-//! displacements, `c r²`, as the steps before did, the first one as that of the increment before. What then stays is often
-//! so little that the tangent of the last step, with its factor, removes it, too: from `r₀` to `r` by a tangent, and from
-//! there with the same one, `2 c r₀ r` is left.
+//! have a curvature of their own; where nothing else is left, closing them may be all there is to do. While contact
+//! changes, a step only has to find out what touches. When it does not, one solution goes as far as is of use: to what
+//! is allowed, or to what the step leaves because forces are not linear in the displacements, `c r²`, as the steps
+//! before did, the first one as that of the increment before. What then stays is often so little that the tangent of
+//! the last step, with its factor, removes it, too: from `r₀` to `r` by a tangent, and from there with the same one, `2
+//! c r₀ r` is left.
 //!
 //! Sources: Dembo, Eisenstat, Steihaug, *SIAM J. Numer. Anal.* 19 (1982) 400–408; Eisenstat, Walker, *SIAM J. Sci.
 //! Comput.* 17 (1996) 16–32.
@@ -68,15 +69,20 @@ impl Economy {
         }
     }
 
-    /// How exactly to solve at this residual of forces; `is_rough` where nothing is gained by more than a tenth.
-    pub fn accuracy(&self, residual: f64, is_rough: bool) -> Accuracy {
+    /// How exactly to solve at this residual of forces, where a force of this size is allowed; `is_rough` where nothing is
+    /// gained by more than a tenth.
+    pub fn accuracy(&self, residual: f64, allowed: f64, is_rough: bool) -> Accuracy {
+        let rough = Accuracy::Part {
+            part: ROUGH,
+            enough: MARGIN * allowed,
+        };
         if is_rough || residual.is_nan() || residual <= 0.0 {
-            return Accuracy::Part(ROUGH);
+            return rough;
         }
         let curved = self.curvature.map_or(0.0, |c| c * residual * residual);
         let left = MARGIN * curved.max(1.0);
         if left >= ROUGH * residual {
-            return Accuracy::Part(ROUGH);
+            return rough;
         }
         Accuracy::Residual((left / residual).max(EXACT))
     }
@@ -99,6 +105,11 @@ impl Economy {
 mod tests {
     use super::*;
 
+    const ROUGHLY: Accuracy = Accuracy::Part {
+        part: 0.1,
+        enough: 0.3,
+    };
+
     fn forces(forces: f64) -> Excess {
         Excess {
             forces,
@@ -109,10 +120,14 @@ mod tests {
     #[test]
     fn a_linear_problem_is_solved_to_what_is_allowed_in_one_go() {
         let mut economy = Economy::new(None);
-        assert_eq!(economy.accuracy(1e6, true), Accuracy::Part(0.1));
+        let rough = Accuracy::Part {
+            part: 0.1,
+            enough: 0.6,
+        };
+        assert_eq!(economy.accuracy(1e6, 2.0, true), rough);
         economy.solved(forces(1e6), 0.1);
         economy.reached(forces(1e5));
-        let Accuracy::Residual(rtol) = economy.accuracy(1e5, false) else {
+        let Accuracy::Residual(rtol) = economy.accuracy(1e5, 2.0, false) else {
             panic!("too rough");
         };
         assert!((rtol - 3e-6).abs() < 1e-18);
@@ -124,20 +139,20 @@ mod tests {
         let mut economy = Economy::new(None);
         economy.solved(forces(1e11), 0.0);
         economy.reached(forces(1e9));
-        let Accuracy::Residual(rtol) = economy.accuracy(1e9, false) else {
+        let Accuracy::Residual(rtol) = economy.accuracy(1e9, 1.0, false) else {
             panic!("too rough");
         };
         assert!((rtol / (0.3 * 1e5 / 1e9) - 1.0).abs() < 1e-9);
         // and where it leaves nearly all, nor is the rest
         economy.solved(forces(1e6), 0.0);
         economy.reached(forces(9e5));
-        assert_eq!(economy.accuracy(9e5, false), Accuracy::Part(0.1));
+        assert_eq!(economy.accuracy(9e5, 1.0, false), ROUGHLY);
     }
 
     #[test]
     fn the_increment_before_tells_how_far_the_first_step_may_go() {
         let mut economy = Economy::new(Some(1e-9));
-        let Accuracy::Residual(rtol) = economy.accuracy(1e3, false) else {
+        let Accuracy::Residual(rtol) = economy.accuracy(1e3, 1.0, false) else {
             panic!("too rough");
         };
         assert!((rtol / 3e-4 - 1.0).abs() < 1e-9);
@@ -184,7 +199,8 @@ mod tests {
     #[test]
     fn nothing_is_asked_that_rounding_forbids() {
         let economy = Economy::new(None);
-        assert_eq!(economy.accuracy(1e18, false), Accuracy::Residual(EXACT));
-        assert_eq!(economy.accuracy(f64::NAN, false), Accuracy::Part(0.1));
+        let exact = Accuracy::Residual(EXACT);
+        assert_eq!(economy.accuracy(1e18, 1.0, false), exact);
+        assert_eq!(economy.accuracy(f64::NAN, 1.0, false), ROUGHLY);
     }
 }

@@ -50,8 +50,13 @@ pub(super) enum Factor {
 /// How exact a solution is to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Accuracy {
-    /// So far that this part of the error is left.
-    Part(f64),
+    /// So far that this part of the error is left, or no force that is larger than `enough`.
+    Part {
+        /// The part.
+        part: f64,
+        /// A force.
+        enough: f64,
+    },
     /// The relative residual.
     Residual(f64),
 }
@@ -212,7 +217,9 @@ impl Equations {
         let start = Instant::now();
         let (solver, left) = (&mut self.solver, &mut self.left);
         let outcome = match accuracy {
-            Accuracy::Part(part) => solver.solve_roughly(&values, &self.right, left, part),
+            Accuracy::Part { part, enough } => {
+                solver.solve_roughly(&values, &self.right, left, part, enough)
+            }
             Accuracy::Residual(rtol) => solver.solve(&values, &self.right, left, rtol),
         };
         self.seconds.solve += start.elapsed().as_secs_f64();

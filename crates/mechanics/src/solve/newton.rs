@@ -143,6 +143,8 @@ struct Judgement {
     /// max |r| / q over the kinds.
     residual: f64,
     excess: Excess,
+    /// The least force or moment that is allowed.
+    allowed: f64,
     worst: Option<Dof>,
     force: f64,
     small: bool,
@@ -199,6 +201,7 @@ impl ForceScale {
         let mut judgement = Judgement {
             residual: 0.0,
             excess: Excess::default(),
+            allowed: 0.0,
             worst: None,
             force: 0.0,
             small: true,
@@ -216,6 +219,7 @@ impl ForceScale {
             judgement.round_off = false;
             return judgement;
         }
+        let mut least = f64::INFINITY;
         for &dof in dofs {
             let k = kind(layout.name(dof));
             let r = assembly.residual[dof as usize].abs();
@@ -226,6 +230,7 @@ impl ForceScale {
             let excess = if k == MULTIPLIERS {
                 &mut judgement.excess.multipliers
             } else {
+                least = least.min(limit);
                 &mut judgement.excess.forces
             };
             if r > *excess * limit {
@@ -240,6 +245,7 @@ impl ForceScale {
                 judgement.force = r;
             }
         }
+        judgement.allowed = if least.is_finite() { least } else { 0.0 };
         judgement
     }
 }
@@ -488,7 +494,9 @@ impl Newton {
             let accuracy = if is_iterative {
                 let is_unknown = iterations == 0 && economy.curvature().is_none();
                 let changes = motion || is_unknown || !settled || flips > 0;
-                economy.accuracy(judgement.excess.forces, changes || nearly)
+                // forces that are small already tell nothing of the correction unless they are solved for
+                let allowed = if nearly { 0.0 } else { judgement.allowed };
+                economy.accuracy(judgement.excess.forces, allowed, changes || nearly)
             } else {
                 Accuracy::Residual(EXACT)
             };

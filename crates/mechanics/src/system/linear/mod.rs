@@ -274,7 +274,8 @@ pub trait LinearSolver: Send {
     }
 
     /// Solves until about this part of the error is left, in a norm of the solver's own: enough for a step of Newton's
-    /// method that will not be the last. What is not iterative solves as exactly as it can.
+    /// method that will not be the last. It need not go on where no entry of the residual is larger than `enough`, but for
+    /// equations of multipliers. What is not iterative solves as exactly as it can.
     ///
     /// # Errors
     /// Those of [`LinearSolver::solve`].
@@ -284,8 +285,9 @@ pub trait LinearSolver: Send {
         rhs: &[f64],
         x: &mut [f64],
         part: f64,
+        enough: f64,
     ) -> Result<SolveReport, LinearError> {
-        let _ = part;
+        let _ = (part, enough);
         self.solve(values, rhs, x, EXACT)
     }
 }

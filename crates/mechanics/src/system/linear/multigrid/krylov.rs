@@ -6,6 +6,9 @@ use rayon::prelude::*;
 /// Vectors of the flexible iteration before it starts again.
 const RESTART: usize = 50;
 
+/// The largest entry of a residual is looked at from so many times what is wanted on, as it was told from the norm.
+const NEARLY: f64 = 2.0;
+
 /// What the iterations do with vectors.
 pub(super) trait Operators {
     /// `y = A x`
@@ -34,17 +37,22 @@ pub(super) enum End {
 pub(super) enum Stop {
     /// At a residual whose largest entry is not above this.
     Largest(f64),
-    /// At this part of the error: in the norm of the energy, or of the residual where there is none.
-    Part(f64),
+    /// At this part of the error, in the norm of the energy, or of the residual where there is none; or at a residual
+    /// whose largest entry is not above `enough`.
+    Part { part: f64, enough: f64 },
 }
 
 impl Stop {
-    fn is_reached(self, r: &[f64]) -> bool {
-        let small = |goal: f64| largest(r) <= goal;
+    /// The largest entry of a residual that may stay.
+    const fn largest(self) -> f64 {
         match self {
-            Self::Largest(goal) => small(goal),
-            Self::Part(_) => small(0.0),
+            Self::Largest(goal) => goal,
+            Self::Part { enough, .. } => enough,
         }
+    }
+
+    fn is_reached(self, r: &[f64]) -> bool {
+        largest(r) <= self.largest()
     }
 }
 
@@ -113,7 +121,7 @@ pub(super) fn conjugate_gradients(
         }
         // r·M⁻¹r is the square of the energy of the error, about
         let start: f64 = *first.get_or_insert(product);
-        if let Stop::Part(part) = stop
+        if let Stop::Part { part, .. } = stop
             && product <= part * part * start
         {
             return Ok((End::Small, iteration + 1));
@@ -158,15 +166,15 @@ pub(super) fn minimal_residuals(
     let (mut sum, mut change) = (vec![0.0; n], vec![0.0; n]);
     while total < most {
         let size = dot(r, r).sqrt();
-        // the largest entry is looked at where the norm says that it may be small enough
         let goal = match stop {
-            Stop::Largest(goal) => goal * (n as f64).sqrt(),
-            Stop::Part(part) => part * start,
+            Stop::Largest(_) => 0.0,
+            Stop::Part { part, .. } => part * start,
         };
-        let is_small = matches!(stop, Stop::Part(_)) && size <= goal;
-        if is_small || stop.is_reached(r) {
+        if size <= goal || stop.is_reached(r) {
             return Ok((End::Small, total));
         }
+        // the largest entry over the norm, where it was looked at last
+        let mut spread = largest(r) / size;
         let mut basis = vec![r.iter().map(|r| r / size).collect::<Vec<f64>>()];
         let mut directions: Vec<Vec<f64>> = Vec::new();
         // columns of the triangle, rotations, and the right side
@@ -211,17 +219,17 @@ pub(super) fn minimal_residuals(
             }
             w.iter_mut().for_each(|w| *w /= left);
             basis.push(w);
-            if right[k + 1].abs() <= goal {
-                is_reached = match stop {
-                    Stop::Largest(goal) => {
-                        residual_of(&basis, &turns, right[k + 1], &mut change);
-                        largest(&change) <= goal
-                    }
-                    Stop::Part(_) => true,
-                };
-                if is_reached {
-                    break;
-                }
+            let size = right[k + 1].abs();
+            is_reached = size <= goal;
+            // the largest entry is looked at where the norm says that it may be small enough
+            if !is_reached && size * spread <= NEARLY * stop.largest() {
+                residual_of(&basis, &turns, right[k + 1], &mut change);
+                let left = largest(&change);
+                is_reached = left <= stop.largest();
+                spread = left / size;
+            }
+            if is_reached {
+                break;
             }
         }
         let m = directions.len();

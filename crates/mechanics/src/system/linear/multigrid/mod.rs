@@ -322,8 +322,9 @@ impl LinearSolver for Multigrid {
         rhs: &[f64],
         x: &mut [f64],
         part: f64,
+        enough: f64,
     ) -> Result<SolveReport, LinearError> {
-        self.solve_by(values, rhs, x, Wanted::Part(part))
+        self.solve_by(values, rhs, x, Wanted::Part { part, enough })
     }
 
     fn solve(
@@ -342,8 +343,9 @@ impl LinearSolver for Multigrid {
 enum Wanted {
     /// The true relative residual.
     Residual(f64),
-    /// The part of the error that may stay, in the norm of the energy or, where there is none, of the residual.
-    Part(f64),
+    /// The part of the error that may stay, in the norm of the energy or, where there is none, of the residual; and the
+    /// largest entry of a residual that may stay in any case.
+    Part { part: f64, enough: f64 },
 }
 
 impl Multigrid {
@@ -359,7 +361,7 @@ impl Multigrid {
         kept.check_solution(values, rhs, x)?;
         let rtol = match wanted {
             Wanted::Residual(rtol) => rtol,
-            Wanted::Part(_) => EXACT,
+            Wanted::Part { .. } => EXACT,
         };
         match (&mut self.grid, self.way) {
             (_, None) => Err(LinearError::Order {
@@ -613,14 +615,14 @@ impl Grid {
         }
         let part = match wanted {
             Wanted::Residual(rtol) => rtol,
-            Wanted::Part(part) if symmetric => part,
-            Wanted::Part(part) => STRICTER * part,
+            Wanted::Part { part, .. } if symmetric => part,
+            Wanted::Part { part, .. } => STRICTER * part,
         };
         for attempt in 0..3 {
             let most = ITERATIONS.saturating_sub(report.iterations);
             let stop = match wanted {
                 Wanted::Residual(_) => Stop::Largest(0.5 * part * size),
-                Wanted::Part(_) => Stop::Part(part),
+                Wanted::Part { enough, .. } => Stop::Part { part, enough },
             };
             let mut operators = OneGrid {
                 grid: self,
@@ -649,9 +651,13 @@ impl Grid {
                 Wanted::Residual(_) => {
                     report.residual <= part || left <= residual.round_off(kept, values, x)
                 }
-                Wanted::Part(_) => true,
+                Wanted::Part { .. } => true,
             };
             if done {
+                let part = match wanted {
+                    Wanted::Residual(_) => part,
+                    Wanted::Part { enough, .. } => part.max(enough / size),
+                };
                 self.judge(part, report.iterations);
                 return Ok(Ok(report));
             }

@@ -597,7 +597,7 @@ fn a_rough_solution_is_less_work() {
         let mut solver = Multigrid::new();
         solver.analyze(&placed.problem(&assembled)).unwrap();
         solver.factorize(&assembled.values()).unwrap();
-        let rough = solver.solve_roughly(&assembled.values(), &rhs, &mut x, 0.1);
+        let rough = solver.solve_roughly(&assembled.values(), &rhs, &mut x, 0.1, 0.0);
         let full = solver.solve(&assembled.values(), &rhs, &mut exact, 1e-12);
         let (rough, full) = (rough.unwrap(), full.unwrap());
         println!("{mu}: {} and {}", rough.iterations, full.iterations);
