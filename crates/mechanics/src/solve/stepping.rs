@@ -181,7 +181,8 @@ pub(super) struct Progress {
 const EASY: usize = 6;
 /// Easy increments in a row after which the next one grows.
 const EASY_ROW: usize = 2;
-/// By how much it grows.
+/// By how much it grows; and one that follows easy ones takes what is left of a step where it is no longer than so much:
+/// a short rest would cost as many iterations as any increment.
 const GROWTH: f64 = 1.5;
 /// What is left of an increment that failed.
 const CUT: f64 = 0.5;
@@ -501,15 +502,23 @@ impl Stepper {
         Ok(())
     }
 
-    /// The step time at which an increment of about `dt` ends: on the grid where increments are fixed, and at the
-    /// end of the step rather than just before it.
+    /// The step time at which an increment of about `dt` ends: on the grid where increments are fixed, and at the end of
+    /// the step rather than shortly before it.
     fn end_of_increment(&self, step: &Step, dt: f64) -> f64 {
-        if let Increments::Fixed(n) = step.increments {
-            let done = self.progress.increment + 1;
-            return step.duration * (done as f64 / n as f64);
-        }
-        let end = self.progress.time + dt;
-        if step.duration - end <= TIME.max(1e-3 * dt / step.duration) * step.duration {
+        let max = match step.increments {
+            Increments::Fixed(n) => {
+                let done = self.progress.increment + 1;
+                return step.duration * (done as f64 / n as f64);
+            }
+            Increments::Adaptive { max, .. } => max,
+        };
+        let longest = if self.progress.easy >= EASY_ROW {
+            (GROWTH * dt).min(max)
+        } else {
+            dt
+        };
+        let (left, end) = (step.duration - self.progress.time, self.progress.time + dt);
+        if left <= longest || left - dt <= (TIME * step.duration).max(1e-3 * dt) {
             step.duration
         } else {
             end

@@ -925,6 +925,11 @@ pub(super) fn fill_up(blocks: &[f64], n: usize, ndim: usize, full: &mut Vec<f64>
 
 /// Sets `n` values to zero.
 fn reset(values: &mut Vec<f64>, n: usize) {
+    if values.capacity() < n {
+        // not touched: threads find the pages of what they add to
+        *values = vec![0.0; n];
+        return;
+    }
     if values.len() != n {
         values.clear();
         values.resize(n, 0.0);

@@ -25,6 +25,22 @@ fn increments_grow_after_two_easy_ones_and_end_with_the_step() {
 }
 
 #[test]
+fn no_short_rest_of_a_step_is_left_after_easy_increments() {
+    let told = run(pulled(None), &[step(adaptive(0.1, 0.01, 1.0), &[])]);
+    told.assert_finished();
+    assert_close(&told.sizes(), &[0.1, 0.1, 0.15, 0.225, 0.425], 1e-14);
+    // the first increments are those that were asked for
+    let told = run(pulled(None), &[step(adaptive(0.4, 0.01, 1.0), &[])]);
+    assert_close(&told.sizes(), &[0.4, 0.4, 0.2], 1e-14);
+    // where a step fails with all that is left, it is cut as any other
+    let long = Fault::refuse(|from, at| at.time - from.time > 0.4);
+    let told = run(pulled(Some(long)), &[step(adaptive(0.1, 0.01, 1.0), &[])]);
+    told.assert_finished();
+    assert_close(&told.sizes()[..5], &[0.1, 0.1, 0.15, 0.225, 0.10625], 1e-14);
+    assert_eq!(told.state.time, 1.0);
+}
+
+#[test]
 fn a_refused_state_quarters_the_increment_and_growth_starts_anew() {
     let long = Fault::refuse(|from, at| at.time - from.time > 0.16);
     let told = run(pulled(Some(long)), &[step(adaptive(0.4, 1e-3, 1.0), &[])]);
