@@ -2,7 +2,6 @@
 
 use super::{CellId, Face, Mesh, NodeId, Set};
 use crate::element::Element;
-use std::collections::HashMap;
 use thiserror::Error;
 
 /// Why a set cannot be used as asked.
@@ -30,58 +29,102 @@ pub enum SetError {
 
 /// Finds solids by the nodes of their sides.
 pub struct FaceIndex {
-    // sorted corner nodes, padded, to the one or two faces that have them
-    by_nodes: HashMap<[NodeId; 4], (Face, Option<Face>)>,
+    /// Where the sides begin whose lowest corner is each node.
+    start: Vec<u32>,
+    sides: Vec<Side>,
 }
 
-/// At most four corners identify a side; mid nodes do not matter.
-fn key(corners: impl Iterator<Item = NodeId>) -> [NodeId; 4] {
+/// A side by its corners.
+#[derive(Clone, Copy)]
+struct Side {
+    /// Its other corners, sorted and padded.
+    others: [NodeId; 3],
+    face: Face,
+}
+
+/// At most four corners identify a side, sorted and padded: the lowest one and the others. Mid nodes do not matter.
+fn key(corners: impl Iterator<Item = NodeId>) -> (NodeId, [NodeId; 3]) {
     let mut key = [NodeId::MAX; 4];
     for (k, n) in key.iter_mut().zip(corners) {
         *k = n;
     }
     key.sort_unstable();
-    key
+    let [lowest, others @ ..] = key;
+    (lowest, others)
+}
+
+/// The sides of a cell.
+fn sides_of(mesh: &Mesh, cell: CellId) -> impl Iterator<Item = (NodeId, Side)> {
+    let nodes = mesh.cell(cell);
+    let sides = mesh.element(cell).map_or(&[][..], |e| e.sides());
+    sides.iter().enumerate().map(move |(number, side)| {
+        let corners = side.nodes.iter().take(side.element.ncorner());
+        let (lowest, others) = key(corners.filter_map(|&i| nodes.get(i).copied()));
+        let face = Face {
+            cell,
+            side: number as u8,
+        };
+        (lowest, Side { others, face })
+    })
 }
 
 impl FaceIndex {
     /// Indexes all sides of these cells.
     #[must_use]
     pub fn new(mesh: &Mesh, cells: impl IntoIterator<Item = CellId>) -> Self {
-        let mut by_nodes: HashMap<[NodeId; 4], (Face, Option<Face>)> = HashMap::new();
-        for cell in cells {
-            let Some(element) = mesh.element(cell) else {
-                continue;
-            };
-            let nodes = mesh.cell(cell);
-            for (number, side) in element.sides().iter().enumerate() {
-                let corners = side.nodes.iter().take(side.element.ncorner());
-                let corners = corners.filter_map(|&i| nodes.get(i).copied());
-                let face = Face {
-                    cell,
-                    side: number as u8,
-                };
-                by_nodes
-                    .entry(key(corners))
-                    .and_modify(|found| found.1 = found.1.or(Some(face)))
-                    .or_insert((face, None));
-            }
+        let cells: Vec<CellId> = cells.into_iter().collect();
+        let all = || cells.iter().flat_map(|&cell| sides_of(mesh, cell));
+        // of nodes that are in no cell there is one more, which stands for corners that are missing
+        let nnode = mesh.points.len();
+        let place = |lowest: NodeId| nnode.min(lowest as usize);
+        let mut start = vec![0u32; nnode + 2];
+        all().for_each(|(lowest, _)| start[place(lowest) + 1] += 1);
+        for node in 0..=nnode {
+            start[node + 1] += start[node];
         }
-        Self { by_nodes }
+        let mut next = start.clone();
+        let cell = CellId { block: 0, index: 0 };
+        let nothing = Side {
+            others: [NodeId::MAX; 3],
+            face: Face { cell, side: 0 },
+        };
+        let mut sides = vec![nothing; start[nnode + 1] as usize];
+        all().for_each(|(lowest, side)| {
+            let next = &mut next[place(lowest)];
+            sides[*next as usize] = side;
+            *next += 1;
+        });
+        Self { start, sides }
+    }
+
+    /// The sides with this lowest corner, in the order of their cells.
+    fn with_lowest(&self, node: NodeId) -> &[Side] {
+        let ends = self.start.get(node as usize..).and_then(<[u32]>::first_chunk);
+        let range = ends.map(|&[from, to]| from as usize..to as usize);
+        range.and_then(|r| self.sides.get(r)).unwrap_or(&[])
     }
 
     /// The one or two faces with the corners of this element with these nodes, whatever corner comes first.
     #[must_use]
     pub fn find(&self, element: Element, nodes: &[NodeId]) -> Option<(Face, Option<Face>)> {
-        let corners = nodes.iter().copied().take(element.ncorner());
-        self.by_nodes.get(&key(corners)).copied()
+        let (lowest, others) = key(nodes.iter().copied().take(element.ncorner()));
+        let sides = self.with_lowest(lowest).iter();
+        let mut same = sides.filter(|side| side.others == others).map(|s| s.face);
+        Some((same.next()?, same.next()))
     }
 
     /// The sides that only one cell has, sorted.
     #[must_use]
     pub fn boundary(&self) -> Vec<Face> {
-        let outer = self.by_nodes.values().filter(|f| f.1.is_none());
-        let mut faces: Vec<Face> = outer.map(|f| f.0).collect();
+        let mut faces = Vec::new();
+        for node in 0..self.start.len().saturating_sub(1) {
+            let sides = self.with_lowest(node as NodeId);
+            let is_alone = |side: &&Side| {
+                let same = sides.iter().filter(|other| other.others == side.others);
+                same.count() == 1
+            };
+            faces.extend(sides.iter().filter(is_alone).map(|side| side.face));
+        }
         faces.sort_unstable();
         faces
     }

@@ -106,6 +106,23 @@ struct Dense {
     n: usize,
 }
 
+/// Sums of a product that do not wait for one another.
+const SUMS: usize = 16;
+
+/// The product of two vectors of the same length.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a, a_rest) = a.as_chunks::<SUMS>();
+    let (b, b_rest) = b.as_chunks::<SUMS>();
+    let mut sums = [0.0; SUMS];
+    for (a, b) in a.iter().zip(b) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += a * b;
+        }
+    }
+    let rest = a_rest.iter().zip(b_rest).map(|(a, b)| a * b);
+    sums.into_iter().chain(rest).sum()
+}
+
 /// A pivot that is nothing beside the largest.
 const FREE: f64 = 1e-12;
 
@@ -128,8 +145,7 @@ impl Dense {
             let own = &mut rest[..n];
             let mut pivot = own[i];
             for j in 0..i {
-                let of_j = &above[j * n..j * n + j];
-                let known: f64 = of_j.iter().zip(&scaled[..j]).map(|(l, s)| l * s).sum();
+                let known = dot(&above[j * n..j * n + j], &scaled[..j]);
                 // L_ij D_j, then L_ij
                 scaled[j] = own[j] - known;
                 let d = above[j * n + j];
@@ -153,9 +169,7 @@ impl Dense {
         y.clear();
         y.extend(b.iter().flatten().map(|&b| f64::from(b)));
         for i in 0..n {
-            let row = &self.factor[i * n..i * n + i];
-            let known: f64 = row.iter().zip(y.iter()).map(|(l, y)| l * y).sum();
-            y[i] -= known;
+            y[i] -= dot(&self.factor[i * n..i * n + i], &y[..i]);
         }
         for (y, d) in y.iter_mut().zip(self.factor.iter().step_by(n + 1)) {
             *y = if *d == 0.0 { 0.0 } else { *y / d };
