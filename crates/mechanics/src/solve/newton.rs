@@ -548,8 +548,19 @@ impl Newton {
             return Start { motion, changes: 0 };
         };
         self.extrapolate(system, base, goal, guess);
-        let extrapolated = self.largest_residual(system);
+        let is_seen = self.prepare(system).is_ok();
         let verdicts = verdicts(system, &self.trial);
+        // a tangent where the iteration goes on from here
+        let order = if verdicts.few {
+            Order::Tangent
+        } else {
+            Order::Residual
+        };
+        let extrapolated = if is_seen {
+            self.largest_residual(system, order)
+        } else {
+            None
+        };
         if extrapolated.is_some() && verdicts.few {
             return Start {
                 motion: false,
@@ -561,7 +572,8 @@ impl Newton {
         let better = if motion {
             extrapolated.is_some() && verdicts.closing
         } else {
-            let plain = self.largest_residual(system);
+            let plain = self.prepare(system).ok();
+            let plain = plain.and_then(|()| self.largest_residual(system, Order::Residual));
             self.forget(system);
             extrapolated.zip(plain).is_some_and(|(e, p)| e < p)
         };
@@ -588,9 +600,8 @@ impl Newton {
     }
 
     /// The largest residual over the mean force at the trial state; `None` where it cannot be evaluated.
-    fn largest_residual(&mut self, system: &mut System) -> Option<f64> {
-        self.prepare(system).ok()?;
-        self.assemble(system, Order::Residual).ok()?;
+    fn largest_residual(&mut self, system: &System, order: Order) -> Option<f64> {
+        self.assemble(system, order).ok()?;
         let residual = self.judge(system).residual;
         residual.is_finite().then_some(residual)
     }
