@@ -99,7 +99,10 @@ impl FaceIndex {
 
     /// The sides with this lowest corner, in the order of their cells.
     fn with_lowest(&self, node: NodeId) -> &[Side] {
-        let ends = self.start.get(node as usize..).and_then(<[u32]>::first_chunk);
+        let ends = self
+            .start
+            .get(node as usize..)
+            .and_then(<[u32]>::first_chunk);
         let range = ends.map(|&[from, to]| from as usize..to as usize);
         range.and_then(|r| self.sides.get(r)).unwrap_or(&[])
     }

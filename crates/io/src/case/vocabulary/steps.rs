@@ -70,7 +70,7 @@ const INCREMENTS: &[Shape] = &[COUNT, Shape::Table(&INCREMENTS_TABLE)];
 
 pub(super) static INCREMENTS_TABLE: Table = Table {
     heading: "increments",
-    doc: "how the step is cut into increments",
+    doc: "how the step is cut into increments: a smaller one after a failure; after two easy ones a larger one, or all that is left of the step where that is not much more",
     keys: &[
         key("fixed", COUNT, "exactly so many equal ones"),
         key(
