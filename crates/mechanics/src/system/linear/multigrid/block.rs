@@ -20,6 +20,8 @@ pub(super) struct InterfaceBlock {
     /// The nodes in it, and the raw dofs beyond the nodes.
     nodes: Vec<u32>,
     extra: Vec<u32>,
+    /// Layers of nodes around the interface in it.
+    pub nlayer: usize,
     bulk: BlockPattern,
     interface: Pattern,
     /// Where the values are in those of the whole.
@@ -53,6 +55,7 @@ impl InterfaceBlock {
             is_exact: false,
             nodes: Vec::new(),
             extra: Vec::new(),
+            nlayer: 0,
             bulk: BlockPattern::empty(0, 3),
             interface: Pattern::empty(0),
             bulk_at: Vec::new(),
@@ -79,7 +82,8 @@ impl InterfaceBlock {
     /// # Errors
     /// Those of the direct solver.
     pub fn update(&mut self, kept: &Kept, values: &Values) -> Result<(), LinearError> {
-        let (nodes, extra) = choose(kept, values);
+        let (nodes, extra, nlayer) = choose(kept, values);
+        self.nlayer = nlayer;
         if nodes != self.nodes || extra != self.extra || self.equation.is_empty() {
             self.nodes = nodes;
             self.extra = extra;
@@ -319,8 +323,9 @@ pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
     touched
 }
 
-/// Nodes and other raw dofs that interface values act on, and layers of nodes around, where they are not too many.
-fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
+/// Nodes and other raw dofs that interface values act on, with layers of nodes around, where they are not too many, and
+/// the number of these.
+fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>, usize) {
     let nnode = kept.bulk.nrow();
     let mut inside = touched(kept, values);
     let beyond = 3 * nnode..kept.equation.len();
@@ -331,6 +336,7 @@ fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
     let mut nodes: Vec<u32> = (0..nnode as u32)
         .filter(|&node| inside[node as usize])
         .collect();
+    let mut nlayer = 0;
     for (part, few) in LAYERS {
         let mut more = nodes.clone();
         for &node in &nodes {
@@ -347,6 +353,7 @@ fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
         }
         more.sort_unstable();
         nodes = more;
+        nlayer += 1;
     }
-    (nodes, extra)
+    (nodes, extra, nlayer)
 }

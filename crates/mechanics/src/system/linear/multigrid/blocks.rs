@@ -109,7 +109,7 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
     }
 
     /// The sum with another matrix of the same size.
-    fn plus(&self, other: &Self) -> Self {
+    pub fn plus(&self, other: &Self) -> Self {
         let nrow = self.nrow();
         let mut sum = Self {
             ncolumn: self.ncolumn,

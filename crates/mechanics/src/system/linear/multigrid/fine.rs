@@ -95,6 +95,11 @@ impl Fine {
         }
     }
 
+    /// The row of a node, or `NONE`.
+    pub fn row(&self, node: usize) -> u32 {
+        self.row.get(node).copied().unwrap_or(NONE)
+    }
+
     /// Whether it is that of a problem, whatever its interface.
     pub fn is_of(&self, kept: &Kept) -> bool {
         self.bulk == kept.bulk && freedom(kept).eq(self.is_free.iter().copied())

@@ -3,6 +3,7 @@
 use super::aggregation::MODES;
 use super::blocks::Blocks;
 use super::level::Level;
+use super::springs::{self, Rows};
 use std::ops::Range;
 
 /// Unknowns of the coarsest level, at most, unless it stops becoming coarser.
@@ -19,6 +20,8 @@ pub(super) struct Hierarchy {
     fine: Level<3>,
     coarse: Vec<Level<MODES>>,
     last: Dense,
+    /// The matrix of the coarsest level without springs.
+    elastic: Blocks<MODES, MODES>,
     /// Right sides and solutions of all levels but the finest.
     vectors: Vec<[Vec<[f32; MODES]>; 2]>,
 }
@@ -56,6 +59,7 @@ impl Hierarchy {
             fine,
             coarse,
             last: Dense::new(&matrix),
+            elastic: matrix,
             vectors,
         })
     }
@@ -65,6 +69,18 @@ impl Hierarchy {
         self.coarse.len() + 2
     }
 
+    /// Takes springs with these rows in place of those it has.
+    pub fn hold(&mut self, rows: Option<Rows<3>>) {
+        let mut rows = self.fine.hold(rows, true);
+        for level in &mut self.coarse {
+            rows = level.hold(rows, false);
+        }
+        self.last = match rows {
+            Some(rows) => Dense::new(&self.elastic.plus(&springs::stiffness(&rows))),
+            None => Dense::new(&self.elastic),
+        };
+    }
+
     /// One V-cycle from zero.
     pub fn cycle(&mut self, b: &[[f32; 3]], x: &mut [[f32; 3]]) {
         let Self {
@@ -72,6 +88,7 @@ impl Hierarchy {
             coarse,
             last,
             vectors,
+            ..
         } = self;
         if let [[coarse_b, coarse_x], rest @ ..] = vectors.as_mut_slice() {
             fine.cycle(b, x, coarse_b, coarse_x, |b, x| {

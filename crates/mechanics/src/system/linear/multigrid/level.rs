@@ -4,6 +4,7 @@ use super::aggregation::{Aggregates, MODES};
 use super::blocks::{Blocks, add_product, inverse};
 use super::incomplete::Incomplete;
 use super::packed::Packed;
+use super::springs::{self, Rows, Springs};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -28,6 +29,7 @@ pub(super) struct Level<const N: usize> {
     restrict: Packed<MODES, N, i16>,
     residual: Vec<[f32; N]>,
     change: Vec<[f32; N]>,
+    springs: Option<Springs<N>>,
 }
 
 /// The next level: its matrix and the modes there.
@@ -75,6 +77,7 @@ impl<const N: usize> Level<N> {
             restrict: Packed::transposed(&prolong),
             residual: vec![[0.0; N]; nrow],
             change: vec![[0.0; N]; nrow],
+            springs: None,
         };
         level.damp();
         Some((level, (coarse, coarse_modes)))
@@ -85,6 +88,15 @@ impl<const N: usize> Level<N> {
         let (matrix, smoother) = (&self.matrix, &self.smoother);
         let value = SAFETY * largest(matrix, self.residual.len(), |r| smoother.solve(r));
         self.damping = (DAMPED_ABOVE / value).min(1.0) as f32;
+    }
+
+    /// Takes springs with these rows, `weak` as in [`springs::limit`], or none; returns those of the next level.
+    pub fn hold(&mut self, rows: Option<Rows<N>>, weak: bool) -> Option<Rows<MODES>> {
+        self.springs = None;
+        let mut rows = rows?;
+        springs::limit(&mut rows, |row| self.matrix.diagonal(row), weak);
+        self.springs = Some(Springs::new(&rows));
+        Some(springs::projected(&rows, &self.prolong))
     }
 
     /// `x = V b`: smooths, lets `coarse` turn the coarse residual into the coarse solution, and smooths again.
@@ -108,6 +120,9 @@ impl<const N: usize> Level<N> {
         });
         self.smoother.solve(x);
         self.matrix.multiply::<true>(x, &mut self.residual);
+        if let Some(springs) = &mut self.springs {
+            springs.subtract(x, &mut self.residual);
+        }
         coarse_b.fill([0.0; MODES]);
         self.restrict.multiply::<false>(&self.residual, coarse_b);
         coarse(coarse_b, coarse_x);
@@ -115,6 +130,9 @@ impl<const N: usize> Level<N> {
         let chunks = self.change.par_chunks_mut(CHUNK).zip(b.par_chunks(CHUNK));
         chunks.for_each(|(change, b)| change.copy_from_slice(b));
         self.matrix.multiply::<true>(x, &mut self.change);
+        if let Some(springs) = &mut self.springs {
+            springs.subtract(x, &mut self.change);
+        }
         self.smoother.solve(&mut self.change);
         let chunks = x.par_chunks_mut(CHUNK).zip(self.change.par_chunks(CHUNK));
         chunks.for_each(|(x, change)| {

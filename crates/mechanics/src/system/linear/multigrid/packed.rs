@@ -20,6 +20,7 @@ pub(super) struct Packed<const R: usize, const C: usize, T = f32> {
     value: Vec<T>,
     /// The unit of the numbers of each row of blocks.
     unit: Vec<f32>,
+    ncolumn: usize,
 }
 
 impl<const R: usize, const C: usize, T: Number> Packed<R, C, T> {
@@ -58,6 +59,7 @@ impl<const R: usize, const C: usize, T: Number> Packed<R, C, T> {
             column: of.column.clone(),
             value,
             unit,
+            ncolumn: of.ncolumn,
         }
     }
 
@@ -129,11 +131,40 @@ impl<const R: usize, const C: usize, T: Number> Packed<R, C, T> {
             column,
             value,
             unit,
+            ncolumn: of.nrow(),
         }
     }
 
     fn range(&self, row: usize) -> Range<usize> {
         self.start[row]..self.start[row + 1]
+    }
+
+    /// An entry of the block at this place.
+    fn entry(&self, unit: f32, at: usize, i: usize, j: usize) -> f32 {
+        self.value[at * R * C + j * R + i].value(unit)
+    }
+
+    /// The matrix as it is stored, with nothing in rows that are not wanted.
+    pub fn blocks(&self, is_wanted: impl Fn(usize) -> bool) -> Blocks<R, C> {
+        let nrow = self.unit.len();
+        let mut blocks = Blocks {
+            ncolumn: self.ncolumn,
+            start: Vec::with_capacity(nrow + 1),
+            column: Vec::new(),
+            value: Vec::new(),
+        };
+        blocks.start.push(0);
+        for (row, &unit) in self.unit.iter().enumerate() {
+            if is_wanted(row) {
+                blocks.column.extend(&self.column[self.range(row)]);
+                blocks.value.extend(self.range(row).map(|at| {
+                    let entry = |i, j| f64::from(self.entry(unit, at, i, j));
+                    std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+                }));
+            }
+            blocks.start.push(blocks.column.len());
+        }
+        blocks
     }
 
     /// `A x` of one row of blocks, where `x(column)` is the part of the vector that meets the block. Columns have sums of
@@ -190,6 +221,17 @@ impl<const R: usize, const C: usize, T: Number> Packed<R, C, T> {
                 to,
             });
         });
+    }
+}
+
+impl<const N: usize, T: Number> Packed<N, N, T> {
+    /// The diagonal of the block on the diagonal of a row.
+    pub fn diagonal(&self, row: usize) -> [f32; N] {
+        let range = self.range(row);
+        let found = self.column[range.clone()].binary_search(&(row as u32));
+        found.map_or([0.0; N], |k| {
+            std::array::from_fn(|i| self.entry(self.unit[row], range.start + k, i, i))
+        })
     }
 }
 
@@ -263,6 +305,19 @@ mod tests {
         }
     }
 
+    /// What is stored is what it was made of, to half a unit, and nothing of rows that are not wanted.
+    fn is_held<const R: usize, const C: usize, T: Number>() {
+        let matrix = matrix::<R, C>();
+        let packed = Packed::<R, C, T>::new(&matrix);
+        let held = packed.blocks(|row| row == 0);
+        assert_eq!((held.nrow(), held.ncolumn), (3, 3));
+        assert_eq!(held.column, [0, 2]);
+        let pairs = held.value.iter().zip(&matrix.value);
+        for (a, b) in pairs.flat_map(|(a, b)| a.as_flattened().iter().zip(b.as_flattened())) {
+            assert!((a - b).abs() <= 0.51 * f64::from(packed.unit[0]), "{a} {b}");
+        }
+    }
+
     /// Aᵀ x, with its rows in their order and upside down.
     fn transposes_agree<const R: usize, const C: usize, T: Number>() {
         let matrix = matrix::<R, C>();
@@ -283,8 +338,17 @@ mod tests {
     fn all_agree<const R: usize, const C: usize>() {
         agrees::<R, C, f32>();
         agrees::<R, C, i16>();
+        is_held::<R, C, f32>();
+        is_held::<R, C, i16>();
         transposes_agree::<R, C, f32>();
         transposes_agree::<R, C, i16>();
+    }
+
+    #[test]
+    fn diagonals_are_found() {
+        let packed = Packed::<3, 3>::new(&matrix());
+        assert_eq!(packed.diagonal(0), [1.0, 12.0, 23.0]);
+        assert_eq!(packed.diagonal(1), [0.0; 3]);
     }
 
     #[test]

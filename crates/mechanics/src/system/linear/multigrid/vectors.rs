@@ -15,6 +15,7 @@ pub(super) trait Number: Copy + Default + Send + Sync {
     /// The unit of numbers with these sizes, which are looked at only where it depends on them.
     fn unit(sizes: impl Iterator<Item = f32>) -> f32;
     fn new(value: f32, unit: f32) -> Self;
+    fn value(self, unit: f32) -> f32;
 
     /// Numbers in a register, as multiples of their unit.
     fn four<V: Vectors>(vectors: V, values: &[Self; FEW]) -> V::Four;
@@ -28,6 +29,10 @@ impl Number for f32 {
 
     fn new(value: f32, _: f32) -> Self {
         value
+    }
+
+    fn value(self, _: f32) -> f32 {
+        self
     }
 
     #[inline(always)]
@@ -56,6 +61,10 @@ impl Number for i16 {
         let number = value / unit;
         // to the nearest one, without a call
         (number + 0.5f32.copysign(number)) as i16
+    }
+
+    fn value(self, unit: f32) -> f32 {
+        f32::from(self) * unit
     }
 
     #[inline(always)]

@@ -632,6 +632,21 @@ fn multipliers_are_condensed_or_in_the_block() {
 }
 
 #[test]
+fn blocks_that_multipliers_join_over_a_whole_face_take_few_iterations() {
+    // so large a face that nothing around it is in the block: 35 iterations where levels know nothing of it, 23 where they do
+    let n = [20, 20, 6];
+    let mut tied = Placed {
+        system: tied_blocks(n, [1.0, 5.0]),
+        coordinates: places(n, 2),
+    };
+    let end = 6 * nnode(n) as u32;
+    tied.system.held.extend(end - 3 * 441..end);
+    let (multigrid, report, _) = solve(&tied, &mut Multigrid::new());
+    println!("{report:?}");
+    assert!(multigrid && report.iterations <= 30, "{report:?}");
+}
+
+#[test]
 fn what_does_not_suit_is_solved_directly() {
     // in the plane
     let n = [6, 6, 0];
