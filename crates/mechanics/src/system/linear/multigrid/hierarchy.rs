@@ -20,7 +20,8 @@ pub(super) struct Hierarchy {
     fine: Level<3>,
     coarse: Vec<Level<MODES>>,
     last: Dense,
-    /// The matrix of the coarsest level without springs.
+    /// Whether it has springs; and the matrix of the coarsest level without them.
+    is_held: bool,
     elastic: Blocks<MODES, MODES>,
     /// Right sides and solutions of all levels but the finest.
     vectors: Vec<[Vec<[f32; MODES]>; 2]>,
@@ -59,6 +60,7 @@ impl Hierarchy {
             fine,
             coarse,
             last: Dense::new(&matrix),
+            is_held: false,
             elastic: matrix,
             vectors,
         })
@@ -71,6 +73,10 @@ impl Hierarchy {
 
     /// Takes springs with these rows in place of those it has.
     pub fn hold(&mut self, rows: Option<Rows<3>>) {
+        if rows.is_none() && !self.is_held {
+            return;
+        }
+        self.is_held = rows.is_some();
         let mut rows = self.fine.hold(rows, true);
         for level in &mut self.coarse {
             rows = level.hold(rows, false);

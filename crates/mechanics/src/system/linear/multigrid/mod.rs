@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Contact never enters the hierarchy, so that no change of contact costs a new one, and no stiffness of contact makes
-//! iterations more. Where the interface is so large that the block has nothing around it, levels know of the multipliers
-//! by springs beside their stiffness ([`springs`]), which are told anew with every tangent. The smoother is an incomplete factor by blocks of nodes. It outlives patterns: nothing but the
+//! iterations more. Of multipliers its levels know by springs beside their stiffness ([`springs`]), which are told anew
+//! with every tangent. The smoother is an incomplete factor by blocks of nodes. It outlives patterns: nothing but the
 //! stiffness of the bodies, and what is held of them, makes it anew. All of it is in single precision, and what only
 //! smooths, or leads from level to level, in whole numbers of 16 bits with a unit for each row: iterations stay the same.
 //!
@@ -591,13 +591,10 @@ impl Grid {
         Ok(false)
     }
 
-    /// Lets the hierarchy know of what multipliers hold together, where the block has nothing around the interface that
-    /// would tell the bodies of one another.
+    /// Lets the hierarchy know of what multipliers hold together.
     fn hold(&mut self, kept: &Kept, values: &Values) {
-        let is_alone = self.block.nlayer == 0;
-        let rows = springs::rows(kept, values, &self.fine).filter(|_| is_alone);
         if let Some(hierarchy) = &mut self.hierarchy {
-            hierarchy.hold(rows);
+            hierarchy.hold(springs::rows(kept, values, &self.fine));
         }
     }
 
