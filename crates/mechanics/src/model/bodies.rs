@@ -3,6 +3,7 @@ use crate::connector::Damper;
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
 use crate::system::{Dof, Idealisation, NO_DOF, NodalField, Term};
+use signorini_geometry::element::ReferenceElement;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::{ContactSurface, Facets};
 use signorini_geometry::tensor::Vec3;
@@ -106,6 +107,33 @@ pub(super) fn nodes_by_body(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<u32> {
         }
     }
     of
+}
+
+/// The corners that each node of quadratic cells is halfway between, `u32::MAX` where it is a corner; empty where there is
+/// none that is not.
+pub(super) fn between(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<[u32; 2]> {
+    const CORNER: [u32; 2] = [u32::MAX; 2];
+    let cells = || {
+        let all = bodies.iter().flat_map(|body| &body.cells);
+        all.filter_map(|&cell| Some((mesh.element(cell)?, mesh.cell(cell))))
+    };
+    let is_quadratic = |element: &dyn ReferenceElement| element.nnode() > element.ncorner();
+    if !cells().any(|(element, _)| is_quadratic(element)) {
+        return Vec::new();
+    }
+    let mut between = vec![CORNER; mesh.nnode()];
+    for (element, nodes) in cells().filter(|(element, _)| is_quadratic(*element)) {
+        for (&[a, b], &node) in element.edges().iter().zip(&nodes[element.ncorner()..]) {
+            between[node as usize] = [nodes[a], nodes[b]];
+        }
+    }
+    // what is a corner of another cell is one
+    for (element, nodes) in cells() {
+        for &node in &nodes[..element.ncorner()] {
+            between[node as usize] = CORNER;
+        }
+    }
+    between
 }
 
 /// Stiffness of the viscous forces on a body that only contact holds, over its modulus times its size.

@@ -44,7 +44,7 @@ use crate::material::Kinematics;
 use crate::solid::Locking;
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System};
-use bodies::{Spaces, nodes_by_body, owners};
+use bodies::{Spaces, between, nodes_by_body, owners};
 use constraints::{Followers, Ties};
 use contact::Source;
 use held::Held;
@@ -141,6 +141,7 @@ impl Model {
         } = parts;
         let owner = owners(mesh, &bodies)?;
         let body_of_node = nodes_by_body(mesh, &bodies);
+        let between = between(mesh, &bodies);
         let spaces = Spaces::new(space, &owner, &body_of_node, &bodies);
         let followers = Followers {
             mesh,
@@ -269,6 +270,7 @@ impl Model {
                 elimination,
                 terms,
                 body: body_of_node,
+                between,
                 ncell: mesh.blocks.iter().map(|b| b.ncell()).collect(),
                 wanted: crate::system::Wanted::default(),
             },

@@ -149,7 +149,7 @@ impl Equations {
             symmetry,
             sign: &self.sign,
             coordinates: &system.coordinates,
-            body: &system.body,
+            between: &system.between,
         };
         let start = Instant::now();
         let outcome = self.solver.analyze(&problem);

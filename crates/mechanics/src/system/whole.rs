@@ -19,6 +19,8 @@ pub struct System {
     pub coordinates: Vec<[f64; 3]>,
     /// The body each node belongs to.
     pub body: Vec<u32>,
+    /// The corners that each node of quadratic elements is halfway between, as solvers take them.
+    pub between: Vec<[u32; 2]>,
     /// Cells of each block of the mesh, for frames.
     pub ncell: Vec<usize>,
     /// What frames have besides.

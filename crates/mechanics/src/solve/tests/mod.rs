@@ -266,6 +266,7 @@ fn system(nnode: usize, terms: Vec<Box<dyn Term>>) -> System {
         elimination: Arc::new(Elimination::default()),
         terms,
         body: vec![0; nnode],
+        between: Vec::new(),
         ncell: Vec::new(),
         wanted: crate::system::Wanted::default(),
     }

@@ -266,7 +266,7 @@ impl Condensation {
             symmetry,
             sign: &self.sign,
             coordinates: &kept.coordinates,
-            body: &[],
+            between: &kept.between,
         }
     }
 

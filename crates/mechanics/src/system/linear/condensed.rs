@@ -395,7 +395,7 @@ impl<S: LinearSolver> LinearSolver for Condensed<S> {
 }
 
 impl Kept {
-    /// The problem again, but for the bodies.
+    /// The problem again.
     pub(super) fn problem(&self) -> Problem<'_> {
         Problem {
             ndof: self.equation.len(),
@@ -406,7 +406,7 @@ impl Kept {
             symmetry: self.symmetry,
             sign: &self.sign,
             coordinates: &self.coordinates,
-            body: &[],
+            between: &self.between,
         }
     }
 }

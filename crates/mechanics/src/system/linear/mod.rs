@@ -77,8 +77,8 @@ pub struct Problem<'a> {
     pub sign: &'a [i8],
     /// Where each node is.
     pub coordinates: &'a [[f64; 3]],
-    /// The body of each node.
-    pub body: &'a [u32],
+    /// The corners that a node of quadratic elements is halfway between, [`NONE`] where it is a corner itself; may be empty.
+    pub between: &'a [[u32; 2]],
 }
 
 impl Problem<'_> {
@@ -182,6 +182,7 @@ struct Kept {
     symmetry: Symmetry,
     sign: Vec<i8>,
     coordinates: Vec<[f64; 3]>,
+    between: Vec<[u32; 2]>,
 }
 
 impl Kept {
@@ -193,6 +194,7 @@ impl Kept {
             symmetry: problem.symmetry,
             sign: problem.sign.to_vec(),
             coordinates: problem.coordinates.to_vec(),
+            between: problem.between.to_vec(),
         }
     }
 

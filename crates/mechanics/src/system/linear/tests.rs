@@ -206,7 +206,7 @@ impl Assembled {
             symmetry: self.symmetry,
             sign: &self.sign,
             coordinates: &[],
-            body: &[],
+            between: &[],
         }
     }
 

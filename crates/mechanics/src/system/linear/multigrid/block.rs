@@ -99,7 +99,7 @@ impl InterfaceBlock {
             symmetry: kept.symmetry,
             sign: &self.sign,
             coordinates: &[],
-            body: &[],
+            between: &[],
         };
         self.direct.analyze(&problem)?;
         let values = Values {

@@ -12,6 +12,8 @@ const PARTS: usize = 64;
 const NODES_PER_PART: usize = 4096;
 /// The stiffness of springs over that of the nodes, where there is one. Measured: from 0.1 to 0.7 iterations hardly differ.
 const SPRING: f64 = 0.3;
+/// Nodes between corners, over the corners, from which on these are a level of their own.
+const MANY_BETWEEN: usize = 2;
 /// The part of a motion that is held, on the average of the nodes held, below which it is free.
 const HELD: f64 = 1e-8;
 
@@ -27,9 +29,23 @@ pub(super) struct Fine {
     pub modes: Vec<[[f64; MODES]; 3]>,
     /// Rows of bodies that nothing holds but contact, in their order.
     pub floating: Vec<u32>,
+    /// Where elements are quadratic.
+    pub corners: Option<Corners>,
     /// What it was made of: bodies, and which of their dofs can move.
     bulk: BlockPattern,
     is_free: Vec<bool>,
+}
+
+/// The corners of quadratic elements: there are the linear ones on the same places, which a hierarchy aggregates better.
+///
+/// Source: Rønquist, Patera, *J. Sci. Comput.* 2 (1987) 389–406.
+pub(super) struct Corners {
+    /// The row of each, in the order of the rows.
+    pub row: Vec<u32>,
+    /// Ranges of corners in the parts.
+    pub parts: Vec<Range<usize>>,
+    /// From corners to rows: what is between two moves by their mean.
+    pub prolong: Blocks<3, 3>,
 }
 
 impl Fine {
@@ -83,6 +99,7 @@ impl Fine {
             row[n as usize] = r as u32;
         }
         let modes = modes(&node, coordinates, is_free);
+        let corners = Corners::new(&node, &row, &parts, &kept.between, is_free);
         let floating = floating(&bodies, coordinates, &row, is_free);
         Self {
             node,
@@ -90,6 +107,7 @@ impl Fine {
             parts,
             modes,
             floating,
+            corners,
             bulk: kept.bulk.clone(),
             is_free: freedom(kept).collect(),
         }
@@ -156,6 +174,74 @@ impl Fine {
             },
         );
         matrix
+    }
+}
+
+impl Corners {
+    /// Those among the nodes of rows; none where few nodes are between others.
+    fn new(
+        node: &[u32],
+        row: &[u32],
+        parts: &[Range<usize>],
+        between: &[[u32; 2]],
+        is_free: impl Fn(usize) -> bool,
+    ) -> Option<Self> {
+        let ends = |node: u32| between.get(node as usize).filter(|ends| ends[0] != NONE);
+        let mut column = vec![NONE; node.len()];
+        let mut corners = Vec::new();
+        for (r, &node) in node.iter().enumerate() {
+            if ends(node).is_none() {
+                column[r] = corners.len() as u32;
+                corners.push(r as u32);
+            }
+        }
+        if node.len() - corners.len() < MANY_BETWEEN * corners.len() {
+            return None;
+        }
+        let before = |end: usize| corners.partition_point(|&r| (r as usize) < end);
+        let parts = parts
+            .iter()
+            .map(|p| before(p.start)..before(p.end))
+            .collect();
+        let mut prolong = Blocks {
+            ncolumn: corners.len(),
+            start: Vec::with_capacity(node.len() + 1),
+            column: Vec::new(),
+            value: Vec::new(),
+        };
+        prolong.start.push(0);
+        for (r, &own) in node.iter().enumerate() {
+            let whole = ([own, NONE], 1.0);
+            let (mut of, share) = ends(own).map_or(whole, |&ends| (ends, 0.5));
+            let at = |node: u32| row.get(node as usize).map_or(NONE, |&r| r);
+            of.sort_unstable_by_key(|&node| at(node));
+            for corner in of {
+                let to = column.get(at(corner) as usize).copied().unwrap_or(NONE);
+                if to == NONE {
+                    continue;
+                }
+                // what is held does not move others, nor do they move it
+                let moves =
+                    |i: usize| is_free(3 * own as usize + i) && is_free(3 * corner as usize + i);
+                let mut block = [[0.0; 3]; 3];
+                for (i, line) in block.iter_mut().enumerate() {
+                    line[i] = if corner == own || moves(i) {
+                        share
+                    } else {
+                        0.0
+                    };
+                }
+                prolong.column.push(to);
+                prolong.value.push(block);
+            }
+            debug_assert!(prolong.column[prolong.start[r]..].is_sorted());
+            prolong.start.push(prolong.column.len());
+        }
+        Some(Self {
+            row: corners,
+            parts,
+            prolong,
+        })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::aggregation::MODES;
 use super::blocks::Blocks;
+use super::fine::Corners;
 use super::level::Level;
 use super::springs::{self, Rows};
 use std::ops::Range;
@@ -17,6 +18,7 @@ const COARSER: f64 = 0.7;
 
 /// Levels with the solution on the coarsest one.
 pub(super) struct Hierarchy {
+    quadratic: Option<Quadratic>,
     fine: Level<3>,
     coarse: Vec<Level<MODES>>,
     last: Dense,
@@ -27,17 +29,39 @@ pub(super) struct Hierarchy {
     vectors: Vec<[Vec<[f32; MODES]>; 2]>,
 }
 
+/// The level of all nodes of quadratic elements, above that of their corners, with the right side and the solution of that.
+struct Quadratic {
+    level: Level<3, 3>,
+    b: Vec<[f32; 3]>,
+    x: Vec<[f32; 3]>,
+}
+
 impl Hierarchy {
     /// The hierarchy of a matrix; `None` where it is not positive definite.
     ///
     /// # Shapes
-    /// `modes`: motions of a rigid body at each row. `parts`: see [`super::incomplete::Incomplete`].
+    /// `modes`: motions of a rigid body at each row. `parts`: see [`super::incomplete::Incomplete`]. `corners`: where rows are
+    /// those of quadratic elements.
     pub fn new(
         matrix: &Blocks<3, 3>,
         modes: &[[[f64; MODES]; 3]],
         parts: &[Range<usize>],
+        corners: Option<&Corners>,
     ) -> Option<Self> {
-        let (fine, (mut matrix, mut modes)) = Level::new(matrix, modes, parts)?;
+        let (quadratic, (fine, (mut matrix, mut modes))) = match corners {
+            None => (None, Level::new(matrix, modes, parts)?),
+            Some(corners) => {
+                let (level, linear) = Level::above(matrix, &corners.prolong, parts)?;
+                let modes: Vec<_> = corners.row.iter().map(|&r| modes[r as usize]).collect();
+                let quadratic = Quadratic {
+                    level,
+                    b: vec![[0.0; 3]; modes.len()],
+                    x: vec![[0.0; 3]; modes.len()],
+                };
+                let next = Level::new(&linear, &modes, &corners.parts)?;
+                (Some(quadratic), next)
+            }
+        };
         let mut coarse: Vec<Level<MODES>> = Vec::new();
         let mut vectors = Vec::new();
         loop {
@@ -57,6 +81,7 @@ impl Hierarchy {
             return None;
         }
         Some(Self {
+            quadratic,
             fine,
             coarse,
             last: Dense::new(&matrix),
@@ -67,8 +92,8 @@ impl Hierarchy {
     }
 
     /// The number of levels, with the last one.
-    pub const fn nlevel(&self) -> usize {
-        self.coarse.len() + 2
+    pub fn nlevel(&self) -> usize {
+        self.coarse.len() + 2 + usize::from(self.quadratic.is_some())
     }
 
     /// Takes springs with these rows in place of those it has.
@@ -77,7 +102,12 @@ impl Hierarchy {
             return;
         }
         self.is_held = rows.is_some();
-        let mut rows = self.fine.hold(rows, true);
+        let is_first = self.quadratic.is_none();
+        let rows = match &mut self.quadratic {
+            Some(quadratic) => quadratic.level.hold(rows, true),
+            None => rows,
+        };
+        let mut rows = self.fine.hold(rows, is_first);
         for level in &mut self.coarse {
             rows = level.hold(rows, false);
         }
@@ -90,16 +120,23 @@ impl Hierarchy {
     /// One V-cycle from zero.
     pub fn cycle(&mut self, b: &[[f32; 3]], x: &mut [[f32; 3]]) {
         let Self {
+            quadratic,
             fine,
             coarse,
             last,
             vectors,
             ..
         } = self;
-        if let [[coarse_b, coarse_x], rest @ ..] = vectors.as_mut_slice() {
-            fine.cycle(b, x, coarse_b, coarse_x, |b, x| {
-                descend(coarse, last, rest, b, x);
-            });
+        let mut linear = |b: &[[f32; 3]], x: &mut [[f32; 3]]| {
+            if let [[coarse_b, coarse_x], rest @ ..] = vectors.as_mut_slice() {
+                fine.cycle(b, x, coarse_b, coarse_x, |b, x| {
+                    descend(coarse, last, rest, b, x);
+                });
+            }
+        };
+        match quadratic {
+            Some(of) => of.level.cycle(b, x, &mut of.b, &mut of.x, linear),
+            None => linear(b, x),
         }
     }
 }

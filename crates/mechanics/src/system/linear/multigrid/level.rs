@@ -19,14 +19,14 @@ const SAFETY: f64 = 1.1;
 /// The largest eigenvalue of the smoothed operator above which the smoother is damped.
 const DAMPED_ABOVE: f64 = 1.7;
 
-/// A level of a hierarchy with blocks of `N`.
-pub(super) struct Level<const N: usize> {
+/// A level of a hierarchy with blocks of `N`, above one with blocks of `M`.
+pub(super) struct Level<const N: usize, const M: usize = MODES> {
     matrix: Packed<N, N>,
     smoother: Incomplete<N>,
     damping: f32,
     /// From the next level, and to it.
-    prolong: Packed<N, MODES, i16>,
-    restrict: Packed<MODES, N, i16>,
+    prolong: Packed<N, M, i16>,
+    restrict: Packed<M, N, i16>,
     residual: Vec<[f32; N]>,
     change: Vec<[f32; N]>,
     springs: Option<Springs<N>>,
@@ -44,8 +44,7 @@ impl<const N: usize> Level<N> {
         modes: &[[[f64; MODES]; N]],
         parts: &[Range<usize>],
     ) -> Option<(Self, Coarser)> {
-        let mut shifts = SHIFTS.iter();
-        let smoother = shifts.find_map(|&shift| Incomplete::new(matrix, parts, shift))?;
+        let smoother = smoother(matrix, parts)?;
         let rows = (0..matrix.nrow()).into_par_iter();
         let inverses: Option<Vec<[[f64; N]; N]>> =
             rows.map(|row| inverse(matrix.diagonal(row))).collect();
@@ -68,19 +67,38 @@ impl<const N: usize> Level<N> {
         });
         let mut coarse = matrix.projected(&prolong);
         settle(&mut coarse);
-        let nrow = matrix.nrow();
+        let level = Self::with(single, smoother, &prolong);
+        Some((level, (coarse, coarse_modes)))
+    }
+}
+
+impl<const N: usize, const M: usize> Level<N, M> {
+    /// A level above one that is reached by `prolong`, and the matrix of that; `None` where the matrix is not positive
+    /// definite.
+    pub fn above(
+        matrix: &Blocks<N, N>,
+        prolong: &Blocks<N, M>,
+        parts: &[Range<usize>],
+    ) -> Option<(Self, Blocks<M, M>)> {
+        let smoother = smoother(matrix, parts)?;
+        let level = Self::with(Packed::new(matrix), smoother, prolong);
+        Some((level, matrix.projected(prolong)))
+    }
+
+    fn with(matrix: Packed<N, N>, smoother: Incomplete<N>, prolong: &Blocks<N, M>) -> Self {
+        let nrow = prolong.nrow();
         let mut level = Self {
-            matrix: single,
+            matrix,
             smoother,
             damping: 1.0,
-            prolong: Packed::new(&prolong),
-            restrict: Packed::transposed(&prolong),
+            prolong: Packed::new(prolong),
+            restrict: Packed::transposed(prolong),
             residual: vec![[0.0; N]; nrow],
             change: vec![[0.0; N]; nrow],
             springs: None,
         };
         level.damp();
-        Some((level, (coarse, coarse_modes)))
+        level
     }
 
     /// Damps the smoother where it overshoots.
@@ -91,7 +109,7 @@ impl<const N: usize> Level<N> {
     }
 
     /// Takes springs with these rows, `weak` as in [`springs::limit`], or none; returns those of the next level.
-    pub fn hold(&mut self, rows: Option<Rows<N>>, weak: bool) -> Option<Rows<MODES>> {
+    pub fn hold(&mut self, rows: Option<Rows<N>>, weak: bool) -> Option<Rows<M>> {
         self.springs = None;
         let mut rows = rows?;
         springs::limit(&mut rows, |row| self.matrix.diagonal(row), weak);
@@ -104,9 +122,9 @@ impl<const N: usize> Level<N> {
         &mut self,
         b: &[[f32; N]],
         x: &mut [[f32; N]],
-        coarse_b: &mut [[f32; MODES]],
-        coarse_x: &mut [[f32; MODES]],
-        coarse: impl FnOnce(&[[f32; MODES]], &mut [[f32; MODES]]),
+        coarse_b: &mut [[f32; M]],
+        coarse_x: &mut [[f32; M]],
+        coarse: impl FnOnce(&[[f32; M]], &mut [[f32; M]]),
     ) {
         let damping = self.damping;
         let both = x
@@ -123,7 +141,7 @@ impl<const N: usize> Level<N> {
         if let Some(springs) = &mut self.springs {
             springs.subtract(x, &mut self.residual);
         }
-        coarse_b.fill([0.0; MODES]);
+        coarse_b.fill([0.0; M]);
         self.restrict.multiply::<false>(&self.residual, coarse_b);
         coarse(coarse_b, coarse_x);
         self.prolong.multiply::<false>(coarse_x, x);
@@ -141,6 +159,15 @@ impl<const N: usize> Level<N> {
             }
         });
     }
+}
+
+/// The smoother of a matrix; `None` where that is not positive definite.
+fn smoother<const N: usize>(
+    matrix: &Blocks<N, N>,
+    parts: &[Range<usize>],
+) -> Option<Incomplete<N>> {
+    let mut shifts = SHIFTS.iter();
+    shifts.find_map(|&shift| Incomplete::new(matrix, parts, shift))
 }
 
 /// A row of `P = T − weight D⁻¹ (A T)` from that of A T; T has one block in it.

@@ -513,7 +513,13 @@ impl Grid {
 
     /// The hierarchy of a matrix, and what to say of it.
     fn build(&self, matrix: &Blocks<3, 3>, worn: Option<[f64; 2]>) -> Option<(Hierarchy, Note)> {
-        let new = Hierarchy::new(matrix, &self.fine.modes, &self.fine.parts)?;
+        let Fine {
+            modes,
+            parts,
+            corners,
+            ..
+        } = &self.fine;
+        let new = Hierarchy::new(matrix, modes, parts, corners.as_ref())?;
         let note = Note::Hierarchy {
             unknowns: 3 * self.fine.node.len(),
             levels: new.nlevel(),

@@ -178,10 +178,10 @@ pub(super) fn limit<const N: usize>(
 }
 
 /// `C P`
-pub(super) fn projected<const N: usize>(
+pub(super) fn projected<const N: usize, const M: usize>(
     rows: &Rows<N>,
-    prolong: &Packed<N, MODES, i16>,
-) -> Rows<MODES> {
+    prolong: &Packed<N, M, i16>,
+) -> Rows<M> {
     let mut is_met = vec![false; rows.ncolumn];
     for &column in &rows.column {
         is_met[column as usize] = true;

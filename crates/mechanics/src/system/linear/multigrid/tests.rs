@@ -260,7 +260,7 @@ fn a_cycle_is_symmetric_positive_and_reduces_what_is_smooth() {
         (0..3).for_each(|i| matrix.value[range.start + at][i][i] += 1e-4);
     }
     let n = matrix.nrow();
-    let mut hierarchy = Hierarchy::new(&matrix, &modes, &[]).unwrap();
+    let mut hierarchy = Hierarchy::new(&matrix, &modes, &[], None).unwrap();
     let mut state = 3;
     let mut vector = || -> Vec<[f32; 3]> {
         (0..n)
