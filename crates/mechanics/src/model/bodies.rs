@@ -282,3 +282,43 @@ impl Context<'_> {
         Ok((terms, summaries))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{Constants, by_name};
+    use signorini_geometry::element;
+
+    #[test]
+    fn nodes_halfway_along_edges_are_between_their_corners() {
+        let mut mesh = Mesh::default();
+        let mut bodies = Vec::new();
+        for name in ["hex20", "tet10", "hex8", "hex27"] {
+            let element = element::by_name(name).unwrap();
+            let first = mesh.nnode() as u32;
+            mesh.points.extend(element.nodes());
+            let labels = u64::from(first) + 1..;
+            mesh.node_labels.extend(labels.take(element.nnode()));
+            let nodes: Vec<u32> = (first..).take(element.nnode()).collect();
+            let cell = mesh.push_cell(element, &nodes, 1);
+            let make = by_name("linear-elastic").unwrap().make;
+            bodies.push(BodyPart {
+                name: name.into(),
+                cells: vec![cell],
+                kind: BodyKind::solid(make(&Constants::elastic(1.0, 0.3)).unwrap()),
+            });
+        }
+        let found = between(&mesh, &bodies);
+        let mut count = 0;
+        for (x, ends) in mesh.points.iter().zip(&found) {
+            if ends[0] != u32::MAX {
+                let [a, b] = ends.map(|end| mesh.points[end as usize]);
+                assert!((*x - (a + b) * 0.5).max_abs() < 1e-15);
+                assert!(ends.iter().all(|&end| found[end as usize][0] == u32::MAX));
+                count += 1;
+            }
+        }
+        assert_eq!(count, 12 + 6 + 12);
+        assert!(between(&mesh, &bodies[2..3]).is_empty());
+    }
+}

@@ -446,3 +446,60 @@ fn modes(
     };
     node.iter().map(of).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_between_corners_move_by_their_mean_but_for_what_is_held() {
+        // corners 4, 1 and 7; twice each of the three edges; node 8 has no row
+        let node = [4, 0, 1, 2, 3, 5, 6, 7, 9];
+        let mut row = [NONE; 10];
+        node.iter().zip(0..).for_each(|(&n, r)| row[n as usize] = r);
+        let mut between = [[NONE; 2]; 10];
+        for (node, ends) in [
+            (0, [4, 1]),
+            (2, [1, 4]),
+            (3, [1, 7]),
+            (5, [7, 1]),
+            (6, [4, 7]),
+            (9, [7, 4]),
+        ] {
+            between[node] = ends;
+        }
+        // the x of a corner, and the y of a node between
+        let is_free = |dof: usize| dof != 3 * 7 && dof != 3 * 2 + 1;
+        let corners = Corners::new(&node, &row, &[0..3, 3..5], &between, is_free).unwrap();
+        assert_eq!(corners.row, [0, 2, 7]);
+        assert_eq!(corners.parts, [0..2, 2..2]);
+        let moved = [[1.0, 2.0, 4.0], [3.0, 8.0, 16.0], [5.0, 32.0, 64.0]];
+        let mut found = [[0.0; 3]; 9];
+        for (row, found) in found.iter_mut().enumerate() {
+            for (column, block) in corners.prolong.row(row) {
+                super::super::blocks::add_product(block, &moved[column], found);
+            }
+        }
+        let mean = |a: usize, b: usize| [0, 1, 2].map(|i| 0.5 * (moved[a][i] + moved[b][i]));
+        let mut expected = [
+            moved[0],
+            mean(0, 1),
+            moved[1],
+            mean(0, 1),
+            mean(1, 2),
+            mean(1, 2),
+            mean(0, 2),
+            moved[2],
+            mean(0, 2),
+        ];
+        expected[3][1] = 0.0;
+        for (k, other) in [(4, 1), (5, 1), (6, 0), (8, 0)] {
+            expected[k][0] = 0.5 * moved[other][0];
+        }
+        assert_eq!(found, expected);
+        // linear elements, and those where few nodes are between
+        assert!(Corners::new(&node, &row, &[], &[], is_free).is_none());
+        between[0] = [NONE; 2];
+        assert!(Corners::new(&node, &row, &[], &between, is_free).is_none());
+    }
+}

@@ -7,6 +7,9 @@
 //!   M⁻¹ r:   y = A_II⁻¹ r_I    x = V (r − A y)    x_I = A_II⁻¹ (r_I − A_IO x_O)    O: all other equations
 //! ```
 //!
+//! Corners of quadratic elements are a level of their own: there stand the linear elements on the same places, which are
+//! aggregated.
+//!
 //! Contact never enters the hierarchy, so that no change of contact costs a new one, and no stiffness of contact makes
 //! iterations more. Of multipliers its levels know by springs beside their stiffness ([`springs`]), which are told anew
 //! with every tangent. The smoother is an incomplete factor by blocks of nodes. It outlives patterns: nothing but the
