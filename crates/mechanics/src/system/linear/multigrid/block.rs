@@ -332,7 +332,8 @@ fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
     let mut nodes: Vec<u32> = (0..nnode as u32)
         .filter(|&node| inside[node as usize])
         .collect();
-    let most = if extra.is_empty() { LAYERS.len() } else { 1 };
+    let has_multipliers = extra.iter().any(|&dof| kept.is_multiplier(dof as usize));
+    let most = if has_multipliers { 1 } else { LAYERS.len() };
     for (part, few) in LAYERS.into_iter().take(most) {
         let mut more = nodes.clone();
         for &node in &nodes {

@@ -708,6 +708,13 @@ impl Kept {
         self.symmetry == Symmetry::Definite && self.sign.iter().all(|&sign| sign > 0)
     }
 
+    /// Whether a raw dof is a multiplier that is solved for.
+    fn is_multiplier(&self, dof: usize) -> bool {
+        let equation = self.equation.get(dof).filter(|&&e| e != NONE);
+        let sign = equation.and_then(|&e| self.sign.get(e as usize));
+        sign.is_some_and(|&sign| sign < 0)
+    }
+
     /// The largest value at equations of displacements.
     fn largest_force(&self, values: &[f64]) -> f64 {
         let forces = values.iter().zip(&self.sign).filter(|(_, s)| **s > 0);

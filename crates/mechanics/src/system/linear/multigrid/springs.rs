@@ -91,7 +91,7 @@ pub(super) fn rows(kept: &Kept, values: &Values, fine: &Fine) -> Option<Rows<3>>
     };
     let acting: Vec<(usize, f64)> = (nbulk..)
         .zip(&acts)
-        .filter(|(dof, _)| is_free(*dof))
+        .filter(|(dof, _)| kept.is_multiplier(*dof))
         .filter_map(|(dof, acts)| unit(acts).map(|unit| (dof, unit)))
         .collect();
     let mut all = Rows {
