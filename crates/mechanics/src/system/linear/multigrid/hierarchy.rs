@@ -102,14 +102,13 @@ impl Hierarchy {
             return;
         }
         self.is_held = rows.is_some();
-        let is_first = self.quadratic.is_none();
         let rows = match &mut self.quadratic {
-            Some(quadratic) => quadratic.level.hold(rows, true),
+            Some(quadratic) => quadratic.level.hold(rows),
             None => rows,
         };
-        let mut rows = self.fine.hold(rows, is_first);
+        let mut rows = self.fine.hold(rows);
         for level in &mut self.coarse {
-            rows = level.hold(rows, false);
+            rows = level.hold(rows);
         }
         self.last = match rows {
             Some(rows) => Dense::new(&self.elastic.plus(&springs::stiffness(&rows))),

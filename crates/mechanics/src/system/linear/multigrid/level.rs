@@ -108,11 +108,11 @@ impl<const N: usize, const M: usize> Level<N, M> {
         self.damping = (DAMPED_ABOVE / value).min(1.0) as f32;
     }
 
-    /// Takes springs with these rows, `weak` as in [`springs::limit`], or none; returns those of the next level.
-    pub fn hold(&mut self, rows: Option<Rows<N>>, weak: bool) -> Option<Rows<M>> {
+    /// Takes springs with these rows, or none; returns those of the next level.
+    pub fn hold(&mut self, rows: Option<Rows<N>>) -> Option<Rows<M>> {
         self.springs = None;
         let mut rows = rows?;
-        springs::limit(&mut rows, |row| self.matrix.diagonal(row), weak);
+        springs::limit(&mut rows, |row| self.matrix.diagonal(row));
         self.springs = Some(Springs::new(&rows));
         Some(springs::projected(&rows, &self.prolong))
     }

@@ -572,7 +572,9 @@ impl Grid {
     fn make_anew(&mut self, kept: &Kept, values: &Values) -> Option<Note> {
         self.start.is_in_use = false;
         self.hierarchy = None;
-        self.renew(kept, values)
+        let note = self.renew(kept, values);
+        self.hold(kept, values);
+        note
     }
 
     /// Takes the values of a tangent; false where they do not suit.
