@@ -127,46 +127,53 @@ pub(super) fn rows(kept: &Kept, values: &Values, fine: &Fine) -> Option<Rows<3>>
 
 /// Makes springs no stiffer than `STIFFEST` allows beside this diagonal.
 pub(super) fn limit<const N: usize>(rows: &mut Rows<N>, diagonal: impl Fn(usize) -> [f32; N]) {
-    let root = |d: f32| {
+    let inverse_root = |d: f32| {
         if d > 0.0 {
             f64::from(d).sqrt().recip()
         } else {
             0.0
         }
     };
-    let mut roots = vec![[0.0; N]; rows.ncolumn];
-    for &column in &rows.column {
-        roots[column as usize] = diagonal(column as usize).map(root);
-    }
-    // of each entry of a spring, in units of D^½
-    let sizes = |rows: &Rows<N>, row: usize, each: &mut dyn FnMut(usize, usize, usize, f64)| {
-        for (column, block) in rows.row(row) {
-            for (k, line) in block.iter().enumerate() {
-                for (i, (value, root)) in line.iter().zip(&roots[column]).enumerate() {
-                    each(k, column, i, value.abs() * root);
-                }
-            }
+    // C D^-½, without signs
+    let mut sizes = rows.clone();
+    for (&column, block) in rows.column.iter().zip(&mut sizes.value) {
+        let root = diagonal(column as usize).map(inverse_root);
+        for line in block {
+            line.iter_mut()
+                .zip(root)
+                .for_each(|(v, root)| *v = v.abs() * root);
         }
-    };
+    }
     let mut sums = vec![[0.0; N]; rows.ncolumn];
     for row in 0..rows.nrow() {
         let mut whole = [0.0; GROUP];
-        sizes(rows, row, &mut |k, _, _, size| whole[k] += size);
-        sizes(rows, row, &mut |k, column, i, size| {
-            sums[column][i] += size * whole[k];
-        });
+        for (_, block) in sizes.row(row) {
+            for (whole, line) in whole.iter_mut().zip(block) {
+                *whole += line.iter().sum::<f64>();
+            }
+        }
+        for (column, block) in sizes.row(row) {
+            for (whole, line) in whole.iter().zip(block) {
+                let entries = sums[column].iter_mut().zip(line);
+                entries.for_each(|(sum, size)| *sum += size * whole);
+            }
+        }
     }
     for row in 0..rows.nrow() {
         let mut factor = [1.0f64; GROUP];
-        sizes(rows, row, &mut |k, column, i, size| {
-            if size > 0.0 {
-                factor[k] = factor[k].min(STIFFEST / sums[column][i]);
+        for (column, block) in sizes.row(row) {
+            for (factor, line) in factor.iter_mut().zip(block) {
+                let met = sums[column]
+                    .iter()
+                    .zip(line)
+                    .filter(|(_, size)| **size > 0.0);
+                *factor = met.fold(*factor, |least, (sum, _)| least.min(STIFFEST / sum));
             }
-        });
-        let factor = factor.map(f64::sqrt);
-        for block in &mut rows.value[rows.start[row]..rows.start[row + 1]] {
+        }
+        let range = rows.range(row);
+        for block in &mut rows.value[range] {
             for (line, factor) in block.iter_mut().zip(factor) {
-                line.iter_mut().for_each(|value| *value *= factor);
+                line.iter_mut().for_each(|value| *value *= factor.sqrt());
             }
         }
     }
