@@ -52,7 +52,7 @@ impl Fine {
     /// Nodes with an equation and a stiffness of their own, bisected by their places.
     pub fn new(kept: &Kept) -> Self {
         let coordinates = kept.coordinates.as_slice();
-        let is_free = |dof: usize| kept.equation.get(dof).is_some_and(|&e| e != NONE);
+        let is_free = |dof: usize| kept.is_free(dof);
         let nnode = kept.bulk.nrow().min(coordinates.len());
         let has_bulk = |node: u32| kept.bulk.position(node, node).is_some();
         let moves =
@@ -125,7 +125,7 @@ impl Fine {
 
     /// The stiffness over the rows: what is held has its own diagonal and no more.
     pub fn matrix(&self, kept: &Kept, values: &Values) -> Blocks<3, 3> {
-        let is_free = |dof: usize| kept.equation.get(dof).is_some_and(|&e| e != NONE);
+        let is_free = |dof: usize| kept.is_free(dof);
         let bulk = &kept.bulk;
         let range = |node: u32| bulk.row_start[node as usize]..bulk.row_start[node as usize + 1];
         let row_of = |column: u32| self.row[column as usize];

@@ -22,8 +22,7 @@ pub(super) struct Hierarchy {
     fine: Level<3>,
     coarse: Vec<Level<MODES>>,
     last: Dense,
-    /// Whether it has springs; and the matrix of the coarsest level without them.
-    is_held: bool,
+    /// The matrix of the coarsest level without springs.
     elastic: Blocks<MODES, MODES>,
     /// Right sides and solutions of all levels but the finest.
     vectors: Vec<[Vec<[f32; MODES]>; 2]>,
@@ -85,7 +84,6 @@ impl Hierarchy {
             fine,
             coarse,
             last: Dense::new(&matrix),
-            is_held: false,
             elastic: matrix,
             vectors,
         })
@@ -98,10 +96,9 @@ impl Hierarchy {
 
     /// Takes springs with these rows in place of those it has.
     pub fn hold(&mut self, rows: Option<Rows<3>>) {
-        if rows.is_none() && !self.is_held {
+        if rows.is_none() && !self.fine.is_held() {
             return;
         }
-        self.is_held = rows.is_some();
         let rows = match &mut self.quadratic {
             Some(quadratic) => quadratic.level.hold(rows),
             None => rows,

@@ -108,6 +108,11 @@ impl<const N: usize, const M: usize> Level<N, M> {
         self.damping = (DAMPED_ABOVE / value).min(1.0) as f32;
     }
 
+    /// Whether it has springs.
+    pub const fn is_held(&self) -> bool {
+        self.springs.is_some()
+    }
+
     /// Takes springs with these rows, or none; returns those of the next level.
     pub fn hold(&mut self, rows: Option<Rows<N>>) -> Option<Rows<M>> {
         self.springs = None;

@@ -710,6 +710,11 @@ impl Kept {
         self.symmetry == Symmetry::Definite && self.sign.iter().all(|&sign| sign > 0)
     }
 
+    /// Whether a raw dof is solved for.
+    fn is_free(&self, dof: usize) -> bool {
+        self.equation.get(dof).is_some_and(|&e| e != NONE)
+    }
+
     /// Whether a raw dof is a multiplier that is solved for.
     fn is_multiplier(&self, dof: usize) -> bool {
         let equation = self.equation.get(dof).filter(|&&e| e != NONE);

@@ -66,10 +66,9 @@ pub(super) fn rows(kept: &Kept, values: &Values, fine: &Fine) -> Option<Rows<3>>
         let values = values.interface.get(range).unwrap_or(&[]);
         columns.iter().map(|&c| c as usize).zip(values)
     };
-    let is_free = |dof: usize| kept.equation.get(dof).is_some_and(|&e| e != NONE);
     // forces of multipliers are as large whether they hold or slip
     let mut acts = vec![(0.0f64, 0); kept.equation.len().saturating_sub(nbulk)];
-    for dof in (0..nbulk).filter(|&dof| is_free(dof)) {
+    for dof in (0..nbulk).filter(|&dof| kept.is_free(dof)) {
         for (column, value) in interface(dof) {
             let Some(most) = column.checked_sub(nbulk).and_then(|k| acts.get_mut(k)) else {
                 continue;
@@ -106,7 +105,7 @@ pub(super) fn rows(kept: &Kept, values: &Values, fine: &Fine) -> Option<Rows<3>>
         for (k, &(dof, unit)) in dofs.iter().enumerate() {
             for (column, value) in interface(dof).filter(|(c, v)| *c < nbulk && **v != 0.0) {
                 let row = fine.row(column / 3);
-                if row != NONE && is_free(column) {
+                if row != NONE && kept.is_free(column) {
                     group.push((row, k, column % 3, unit * value));
                 }
             }
