@@ -22,11 +22,22 @@ use signorini_geometry::surface::{Carrier, ContactSurface, Placement, SurfaceErr
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
-/// Rows evaluated together.
+/// The most rows evaluated together.
 const CHUNK: usize = 64;
+
+/// Chunks come in numbers of which each of a few threads gets as many.
+const EVEN: usize = 4;
 
 /// Changes within one increment after which a choice is kept.
 const RESTLESS: u8 = 4;
+
+/// Into how many chunks rows are split.
+fn nchunk(nrow: usize) -> usize {
+    match nrow {
+        0..=CHUNK => nrow.min(1),
+        _ => nrow.div_ceil(CHUNK).next_multiple_of(EVEN),
+    }
+}
 
 /// How many nodes a verdict names.
 const NAMED: usize = 4;
@@ -528,7 +539,7 @@ impl Term for Interface {
     }
 
     fn nchunk(&self) -> usize {
-        self.parts.discretization.nrow().div_ceil(CHUNK)
+        nchunk(self.parts.discretization.nrow())
     }
 
     fn evaluate(

@@ -1,8 +1,8 @@
 //! Rows, and what acts on them.
 
 use super::{
-    CHUNK, Contact, Interface, Judged, Lambda, Order, Participant, RowOrder, Rows, Scratch, Sink,
-    State, TermError, Wanted,
+    Contact, Interface, Judged, Lambda, Order, Participant, RowOrder, Rows, Scratch, Sink, State,
+    TermError, Wanted,
 };
 use crate::contact::discretization::Links;
 use crate::contact::kernel::{Target, Traction};
@@ -15,9 +15,12 @@ use signorini_geometry::tensor::Vec3;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Interface {
+    /// Rows of a chunk; all chunks have as many, or one more.
     pub(super) fn chunk(&self, chunk: usize) -> std::ops::Range<usize> {
-        let n = self.parts.discretization.nrow();
-        (chunk * CHUNK).min(n)..((chunk + 1) * CHUNK).min(n)
+        let nrow = self.parts.discretization.nrow();
+        let nchunk = super::nchunk(nrow).max(1);
+        let first = |chunk: usize| (chunk * nrow / nchunk).min(nrow);
+        first(chunk)..first(chunk + 1)
     }
 
     /// Fills a row; its gap is what the law sees.

@@ -585,16 +585,20 @@ impl Grid {
         notes: &mut Vec<Note>,
     ) -> Result<bool, LinearError> {
         notes.extend(self.renew(kept, values));
-        let why = if self.hierarchy.is_none() {
-            Why::NotPositive
-        } else {
-            match self.block.update(kept, values) {
-                Ok(()) => {
-                    self.hold(kept, values);
-                    return Ok(true);
+        let why = match &mut self.hierarchy {
+            None => Why::NotPositive,
+            Some(hierarchy) => {
+                let (block, fine) = (&mut self.block, &self.fine);
+                // either has much that one thread does alone
+                let (updated, ()) = rayon::join(
+                    || block.update(kept, values),
+                    || hierarchy.hold(springs::rows(kept, values, fine)),
+                );
+                match updated {
+                    Ok(()) => return Ok(true),
+                    Err(LinearError::Singular { .. }) => Why::Interface,
+                    Err(other) => return Err(other),
                 }
-                Err(LinearError::Singular { .. }) => Why::Interface,
-                Err(other) => return Err(other),
             }
         };
         self.has_failed = true;
