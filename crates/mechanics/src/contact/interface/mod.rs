@@ -22,22 +22,8 @@ use signorini_geometry::surface::{Carrier, ContactSurface, Placement, SurfaceErr
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
-/// The most rows evaluated together.
-const CHUNK: usize = 64;
-
-/// Chunks come in numbers of which each of a few threads gets as many.
-const EVEN: usize = 4;
-
 /// Changes within one increment after which a choice is kept.
 const RESTLESS: u8 = 4;
-
-/// Into how many chunks rows are split.
-fn nchunk(nrow: usize) -> usize {
-    match nrow {
-        0..=CHUNK => nrow.min(1),
-        _ => nrow.div_ceil(CHUNK).next_multiple_of(EVEN),
-    }
-}
 
 /// How many nodes a verdict names.
 const NAMED: usize = 4;
@@ -539,7 +525,7 @@ impl Term for Interface {
     }
 
     fn nchunk(&self) -> usize {
-        nchunk(self.parts.discretization.nrow())
+        rows::nchunk(self.parts.discretization.nrow())
     }
 
     fn evaluate(
@@ -551,7 +537,7 @@ impl Term for Interface {
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         let scratch = work.of::<Scratch>();
-        for row in self.chunk(chunk) {
+        for row in rows::chunk(chunk, self.parts.discretization.nrow()) {
             self.act(row, trial, order, scratch, out)?;
         }
         Ok(())
@@ -569,7 +555,7 @@ impl Term for Interface {
         }
         let rows = &mut work.of::<Scratch>().rows;
         let mut total = 0.0;
-        for k in self.chunk(chunk) {
+        for k in rows::chunk(chunk, self.parts.discretization.nrow()) {
             total += self.measure(k) * self.energy_of(k, trial, rows)?.unwrap_or(0.0);
         }
         Ok(Some(total))

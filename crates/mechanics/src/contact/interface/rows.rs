@@ -14,15 +14,28 @@ use signorini_geometry::tensor::Vec3;
 /// Rounding error of a gap over the coordinates it comes from.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-impl Interface {
-    /// Rows of a chunk; all chunks have as many, or one more.
-    pub(super) fn chunk(&self, chunk: usize) -> std::ops::Range<usize> {
-        let nrow = self.parts.discretization.nrow();
-        let nchunk = super::nchunk(nrow).max(1);
-        let first = |chunk: usize| (chunk * nrow / nchunk).min(nrow);
-        first(chunk)..first(chunk + 1)
-    }
+/// The most rows evaluated together.
+const CHUNK: usize = 64;
 
+/// Chunks come in multiples of this, so that a few threads get as many each.
+const EVEN: usize = 4;
+
+/// Into how many chunks rows are split.
+pub(super) fn nchunk(nrow: usize) -> usize {
+    match nrow {
+        0..=CHUNK => nrow.min(1),
+        _ => nrow.div_ceil(CHUNK).next_multiple_of(EVEN),
+    }
+}
+
+/// Rows of a chunk: all chunks have as many, or one more.
+pub(super) fn chunk(chunk: usize, nrow: usize) -> std::ops::Range<usize> {
+    let nchunk = nchunk(nrow).max(1);
+    let first = |chunk: usize| (chunk * nrow / nchunk).min(nrow);
+    first(chunk)..first(chunk + 1)
+}
+
+impl Interface {
     /// Fills a row; its gap is what the law sees.
     pub(super) fn fill(
         &self,
@@ -333,5 +346,24 @@ impl Interface {
         }
         self.judged = judged;
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CHUNK, EVEN, chunk, nchunk};
+
+    #[test]
+    fn chunks_share_all_rows_evenly() {
+        for nrow in [0, 1, 63, 64, 65, 180, 256, 257, 432, 10_007] {
+            let chunks: Vec<_> = (0..nchunk(nrow)).map(|k| chunk(k, nrow)).collect();
+            let all: Vec<usize> = chunks.iter().cloned().flatten().collect();
+            assert_eq!(all, (0..nrow).collect::<Vec<_>>());
+            let sizes = chunks.iter().map(ExactSizeIterator::len);
+            let (least, most) = (sizes.clone().min(), sizes.max().unwrap_or(0));
+            assert!(most <= CHUNK && least.is_none_or(|least| most - least <= 1));
+            assert!(chunks.len() <= 1 || chunks.len() % EVEN == 0);
+        }
+        assert!(chunk(7, 10).is_empty());
     }
 }
