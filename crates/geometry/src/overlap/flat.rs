@@ -1,7 +1,7 @@
-use super::polygon::{Polygon, cross2};
+use super::polygon::{Polygon, Spot, cross2};
 use super::{BENT, EXACT, Pair, TOUCH};
 use crate::element::{Element, MAX_FACET_NODES};
-use crate::scalar::{Real, combine, minus};
+use crate::scalar::{combine, minus};
 use crate::tensor::{Sym3, Vec3};
 
 /// Which side of a facet is seen along the normal of the plane.
@@ -14,11 +14,11 @@ pub enum Facing {
 }
 
 /// A facet projected onto a plane, or a line; each point of it has one place there.
-#[derive(Clone, Copy, Debug)]
-pub struct Flat<T> {
+#[derive(Clone, Debug)]
+pub struct Flat {
     element: Element,
-    x: [Pair<T>; MAX_FACET_NODES],
-    values: [Pair<f64>; MAX_FACET_NODES],
+    facing: Facing,
+    x: [Pair<f64>; MAX_FACET_NODES],
     /// Nodes on the boundary, counter-clockwise on the plane; on a line, the ends from left to right.
     boundary: [u8; MAX_FACET_NODES],
     nboundary: usize,
@@ -48,8 +48,8 @@ enum Outline {
 }
 
 /// A convex part of a facet, counter-clockwise, and what it counts: less than nothing where an outline is dented.
-pub(super) struct Piece<T> {
-    pub polygon: Polygon<T>,
+pub(super) struct Piece {
+    pub polygon: Polygon,
     pub sign: f64,
 }
 
@@ -59,20 +59,19 @@ const EXTENSIBLE: f64 = 0.3;
 /// The Jacobian of the map at the parameters of a node must be this large compared with that at the centre.
 const FOLDED: f64 = 1e-6;
 
-impl<T: Real> Flat<T> {
+impl Flat {
     /// A facet with its nodes at `x`. `None` where it turns the wrong side to the viewer, or is folded: where the map
     /// from its parameters turns round at a node or at the centre.
     ///
     /// # Limits
     /// Facets only, with one place for each node.
     #[must_use]
-    pub fn new(element: Element, places: &[Pair<T>], facing: Facing) -> Option<Self> {
-        let mut x = [[T::from(0.0); 2]; MAX_FACET_NODES];
+    pub fn new(element: Element, places: &[Pair<f64>], facing: Facing) -> Option<Self> {
+        let mut x = [[0.0; 2]; MAX_FACET_NODES];
         let n = element.nnode();
         x.get_mut(..n)?.copy_from_slice(places.get(..n)?);
-        let values = x.map(|p| p.map(|c| c.value()));
-        let mut bounds = [values[0]; 2];
-        for (p, a) in values[..n].iter().flat_map(|p| [(p, 0), (p, 1)]) {
+        let mut bounds = [x[0]; 2];
+        for (p, a) in x[..n].iter().flat_map(|p| [(p, 0), (p, 1)]) {
             bounds[0][a] = bounds[0][a].min(p[a]);
             bounds[1][a] = bounds[1][a].max(p[a]);
         }
@@ -80,18 +79,18 @@ impl<T: Real> Flat<T> {
         let centre = element.centre();
         let mut flat = Self {
             element,
+            facing,
             x,
-            values,
             boundary,
             nboundary,
             outline: Outline::Convex,
             bounds,
-            bend: bend(element, &values, facing)?,
-            sagitta: sagitta(element, &values),
+            bend: bend(element, &x, facing)?,
+            sagitta: sagitta(element, &x),
             centre: [centre.x, centre.y],
-            middle: place(element, &values, &centre),
-            tangents: jacobian(element, &values, &centre),
-            twist: twist(element, &values),
+            middle: place(element, &x, &centre),
+            tangents: jacobian(element, &x, &centre),
+            twist: twist(element, &x),
         };
         if element.dim() == 2 {
             flat.outline = flat.look();
@@ -109,12 +108,8 @@ impl<T: Real> Flat<T> {
 
     /// The places of its nodes.
     #[must_use]
-    pub fn x(&self) -> &[Pair<T>] {
+    pub fn x(&self) -> &[Pair<f64>] {
         &self.x[..self.element.nnode()]
-    }
-
-    pub(super) fn values(&self) -> &[Pair<f64>; MAX_FACET_NODES] {
-        &self.values
     }
 
     /// The parameters of a place by the map at the centre, continued as an affine one.
@@ -209,13 +204,34 @@ impl<T: Real> Flat<T> {
         })
     }
 
-    /// The ends of a line, from left to right.
-    pub(super) fn ends(&self) -> [T; 2] {
-        [0, 1].map(|k| self.x[usize::from(self.boundary[k])][0])
+    /// The nodes at the ends of a line, from left to right.
+    pub(super) fn ends(&self) -> [u8; 2] {
+        [self.boundary[0], self.boundary[1]]
+    }
+
+    /// The place of a spot.
+    pub(super) fn at(&self, spot: Spot) -> Pair<f64> {
+        match spot {
+            Spot::Node(node) => self.x[usize::from(node)],
+            Spot::Centre => self.middle,
+        }
+    }
+
+    /// Gives `each` the nodes that a spot moves with, and their shares in it.
+    pub(super) fn nodes_of(&self, spot: Spot, mut each: impl FnMut(usize, f64)) {
+        match spot {
+            Spot::Node(node) => each(usize::from(node), 1.0),
+            Spot::Centre => {
+                let mut n = [0.0; MAX_FACET_NODES];
+                let nnode = self.element.nnode();
+                self.element.shape(&self.element.centre(), &mut n[..nnode]);
+                (0..nnode).for_each(|i| each(i, n[i]));
+            }
+        }
     }
 
     /// Its convex parts: itself, or what is convex around it and, to be taken away, dents; or triangles around its centre.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = Piece<T>> {
+    pub(super) fn pieces(&self) -> impl Iterator<Item = Piece> {
         let (dents, triangles) = match self.outline {
             Outline::Convex => (0, 0),
             Outline::Dented(dents) => (dents, 0),
@@ -232,7 +248,7 @@ impl<T: Real> Flat<T> {
     /// What its outline is like.
     fn look(&self) -> Outline {
         let tolerance = TOUCH * self.size();
-        let outline = |dents| self.around(&self.values, dents);
+        let outline = |dents| self.polygon(dents);
         let whole = outline(0);
         let on_edge = |k: &usize| usize::from(self.boundary[*k]) >= self.element.ncorner();
         let inward = |k: &usize| on_edge(k) && whole.is_dented(*k, tolerance);
@@ -245,31 +261,30 @@ impl<T: Real> Flat<T> {
         }
     }
 
-    fn node(&self, k: usize) -> Pair<T> {
-        self.x[usize::from(self.boundary[k % self.nboundary])]
+    /// A place in the boundary.
+    fn node(&self, k: usize) -> Spot {
+        Spot::Node(self.boundary[k % self.nboundary])
     }
 
     /// The polygon through its boundary without the places that have a flag.
-    fn polygon(&self, without: u8) -> Polygon<T> {
-        self.around(&self.x, without)
-    }
-
-    /// The same with nodes at other places.
-    fn around<S: Real>(&self, x: &[Pair<S>; MAX_FACET_NODES], without: u8) -> Polygon<S> {
-        let nodes = self.boundary[..self.nboundary].iter().enumerate();
-        let kept = nodes.filter(|(k, _)| without >> k & 1 == 0);
-        Polygon::of(kept.map(|(_, &node)| x[usize::from(node)]))
+    fn polygon(&self, without: u8) -> Polygon {
+        let kept = (0..self.nboundary).filter(|k| without >> k & 1 == 0);
+        self.through(kept.map(|k| self.node(k)))
     }
 
     /// The triangle that is missing at a place where the boundary turns inward.
-    fn dent(&self, k: usize) -> Polygon<T> {
-        Polygon::of([k + 1, k, k + self.nboundary - 1].map(|k| self.node(k)))
+    fn dent(&self, k: usize) -> Polygon {
+        let around = [k + 1, k, k + self.nboundary - 1];
+        self.through(around.into_iter().map(|k| self.node(k)))
     }
 
     /// A triangle from the centre to a side of the boundary.
-    fn triangle(&self, k: usize) -> Polygon<T> {
-        let centre = place(self.element, self.x(), &self.element.centre());
-        Polygon::of([centre, self.node(k), self.node(k + 1)])
+    fn triangle(&self, k: usize) -> Polygon {
+        self.through([Spot::Centre, self.node(k), self.node(k + 1)].into_iter())
+    }
+
+    fn through(&self, spots: impl Iterator<Item = Spot> + Clone) -> Polygon {
+        Polygon::of(self.facing, spots.map(|spot| (spot, self.at(spot))))
     }
 }
 
@@ -386,7 +401,7 @@ fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pair<f64> {
 }
 
 /// The place of parameters.
-fn place<T: Real>(element: Element, x: &[Pair<T>], xi: &Vec3) -> Pair<T> {
+fn place(element: Element, x: &[Pair<f64>], xi: &Vec3) -> Pair<f64> {
     let mut n = [0.0; MAX_FACET_NODES];
     element.shape(xi, &mut n[..element.nnode()]);
     combine(n, x)

@@ -2,7 +2,7 @@ use super::flat::Flat;
 use super::polygon::cross2;
 use super::{Pair, Parameters};
 use crate::element::MAX_FACET_NODES;
-use crate::scalar::{Real, minus};
+use crate::scalar::minus;
 use crate::tensor::Vec3;
 
 /// Steps of Newton's method: from the affine map it needs a handful.
@@ -19,22 +19,11 @@ const LONGEST: f64 = 1.0;
 const AFFINE: f64 = 4.0 * f64::EPSILON;
 
 /// The parameters (E2) of a place on the plane, into `out`; `None` where Newton's method finds none.
-pub(super) fn parameters<T: Real>(
-    flat: &Flat<T>,
-    p: Pair<f64>,
-    out: &mut Parameters,
-) -> Option<()> {
+pub(super) fn parameters(flat: &Flat, p: Pair<f64>, out: &mut Parameters) -> Option<()> {
     let mut xi = flat.affine(p);
     if flat.bend() > AFFINE {
         let mut step = |xi: &mut Pair<f64>| {
-            let there = match flat.bilinear(*xi) {
-                Some((place, tangents)) => Map {
-                    dim: 2,
-                    place,
-                    tangents,
-                },
-                None => Map::new(flat, *xi, out).0,
-            };
+            let there = Map::of(flat, *xi).unwrap_or_else(|| Map::new(flat, *xi, out).0);
             let [a, b] = there.solve(minus(there.place, p));
             let size = a.abs().max(b.abs());
             let cut = LONGEST / size.max(LONGEST);
@@ -61,20 +50,32 @@ struct Map {
 }
 
 impl Map {
+    /// The map of a quadrilateral with four nodes; `None` of all others.
+    fn of(flat: &Flat, xi: Pair<f64>) -> Option<Self> {
+        let (place, tangents) = flat.bilinear(xi)?;
+        Some(Self {
+            dim: 2,
+            place,
+            tangents,
+        })
+    }
+
     /// The map there, and the slopes of shape functions; these go to `out`.
-    fn new<T: Real>(
-        flat: &Flat<T>,
+    fn new(
+        flat: &Flat,
         [x, y]: Pair<f64>,
         out: &mut Parameters,
     ) -> (Self, [Vec3; MAX_FACET_NODES]) {
         let (element, xi) = (flat.element(), Vec3::new(x, y, 0.0));
-        let n = element.nnode();
+        let n = flat.x().len();
         let mut slopes = [Vec3::ZERO; MAX_FACET_NODES];
         element.shape(&xi, &mut out.shape[..n]);
         element.dshape(&xi, &mut slopes[..n]);
+        if let Some(map) = Self::of(flat, [x, y]) {
+            return (map, slopes);
+        }
         let mut sums = [[0.0; 2]; 3];
-        let nodes = flat.values().iter().zip(&out.shape).zip(&slopes);
-        for ((x, &n), d) in nodes.take(n) {
+        for ((x, &n), d) in flat.x().iter().zip(&out.shape).zip(&slopes) {
             for (sum, factor) in sums.iter_mut().zip([n, d.x, d.y]) {
                 *sum = [sum[0] + factor * x[0], sum[1] + factor * x[1]];
             }

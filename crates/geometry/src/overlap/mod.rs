@@ -16,7 +16,8 @@
 //! | p | `at` of a [`Point`] of a cell | pair |
 //! | ξ, ξ^m | `secondary`, `primary` of a [`Point`]: parameters on either facet | pairs |
 //! | w | `weight`: area of the plane, length of the line | number |
-//! | c, s_c | `corner`, `share` of a [`Follow`]: a corner of the cell, and how far the point goes with it | |
+//! | c, s_c | corner of a cell, and `shares`: how far a point goes with those of its [`Simplex`] | |
+//! | A, ∂A/∂c | `size`, `dsize` of a simplex | |
 //! | δ | `bend` of a flat facet | number |
 //!
 //! The plane goes through the mean of the secondary facet's nodes and has its normal at the centre,
@@ -30,11 +31,11 @@
 //! by cutting one along the sides of the other (Sutherland and Hodgman); what is left is integrated triangle by triangle,
 //! or as an interval of the line.
 //!
-//! *Derivatives.* Polygons are cut in any [`Real`] numbers, so that corners of cells carry their derivatives. Points, of
-//! which there are many, are plain numbers, and say how they follow: with `p = Σ_c s_c c` and the places of nodes,
+//! *Derivatives.* A polygon knows of each corner what makes it, a node or two lines that cross, and how it moves with the
+//! nodes ([`Cell::moves`]). Points say how they follow: with `p = Σ_c s_c c` and the places of nodes,
 //!
 //! ```text
-//! dN_j(ξ) = ∂N_j/∂p·(Σ_c s_c dc − Σ_i N_i dX_i),     dw = Σ_c ∂w/∂c·dc             (E4)
+//! dN_j(ξ) = ∂N_j/∂p·(Σ_c s_c dc − Σ_i N_i dX_i),     dw = w/A Σ_c ∂A/∂c·dc        (E4)
 //! ```
 //!
 //! *Quadratic facets* have polygons through all nodes of their boundary. Where edges are straight nothing is lost, and
@@ -97,8 +98,8 @@ pub use plane::Plane;
 
 use crate::element::MAX_FACET_NODES;
 use crate::element::quadrature::{MAX_DEGREE, of_degree};
-use crate::scalar::{Real, minus};
-use polygon::{Polygon, cross2};
+use crate::scalar::minus;
+use polygon::{Corner, Origin, Polygon, Spot, cross2};
 use thiserror::Error;
 
 /// A pair of numbers on the auxiliary plane, or of parameters; the second is zero on a line.
@@ -123,12 +124,12 @@ pub struct Point {
     pub weight: f64,
     /// p.
     pub at: Pair<f64>,
+    /// s_c: how it goes with the corners of its simplex.
+    pub shares: [f64; 3],
     /// ξ, and what is there.
     pub secondary: Parameters,
     /// ξ^m.
     pub primary: Parameters,
-    /// How it follows corners of its cell; on a line the third stands still.
-    pub follows: [Follow; 3],
 }
 
 /// Parameters of a place on a facet.
@@ -142,17 +143,6 @@ pub struct Parameters {
     pub gradient: [Pair<f64>; MAX_FACET_NODES],
 }
 
-/// How a point follows a corner of its cell.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Follow {
-    /// The number of the corner.
-    pub corner: usize,
-    /// ∂p/∂c.
-    pub share: f64,
-    /// ∂w/∂c.
-    pub dweight: Pair<f64>,
-}
-
 /// What prevents integration over an overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum OverlapError {
@@ -164,14 +154,15 @@ pub enum OverlapError {
 /// Gives `each` the cells of the part that two facets have in common.
 ///
 /// # Limits
-/// Both facets have the same dimension, else there is none.
+/// Both facets have the same dimension, else there is none. The secondary one faces the [same](Facing::Same) way as the
+/// plane, the primary one the [opposite](Facing::Opposite).
 ///
 /// # Errors
 /// Those of `each`.
-pub fn integrate<T: Real>(
-    secondary: &Flat<T>,
-    primary: &Flat<T>,
-    mut each: impl FnMut(&Cell<T>) -> Result<(), OverlapError>,
+pub fn integrate(
+    secondary: &Flat,
+    primary: &Flat,
+    mut each: impl FnMut(&Cell) -> Result<(), OverlapError>,
 ) -> Result<(), OverlapError> {
     if secondary.dim() != primary.dim() || !secondary.near(primary) {
         return Ok(());
@@ -194,20 +185,39 @@ pub fn integrate<T: Real>(
 
 /// A convex part of what two facets have in common: a polygon, counter-clockwise, or an interval. Where the outline of a
 /// facet is dented, there are cells that are taken away: their points have negative weights.
-pub struct Cell<'a, T> {
-    facets: Both<'a, T>,
-    corners: &'a [Pair<T>],
+pub struct Cell<'a> {
+    facets: Both<'a>,
+    corners: &'a [Corner],
     sign: f64,
+}
+
+/// A triangle of a cell, or the interval that it is.
+pub struct Simplex<'a> {
+    facets: Both<'a>,
+    /// The numbers of its corners; of an interval the third stands still.
+    pub corners: [usize; 3],
+    places: [Pair<f64>; 3],
+    /// Its size: negative where it is taken away.
+    pub size: f64,
+    /// The derivatives of the size by the corners.
+    pub dsize: [Pair<f64>; 3],
 }
 
 /// Two facets of the same plane.
 #[derive(Clone, Copy)]
-struct Both<'a, T> {
-    secondary: &'a Flat<T>,
-    primary: &'a Flat<T>,
+struct Both<'a> {
+    secondary: &'a Flat,
+    primary: &'a Flat,
 }
 
-impl<T: Real> Both<'_, T> {
+impl Both<'_> {
+    fn of(&self, facing: Facing) -> &Flat {
+        match facing {
+            Facing::Same => self.secondary,
+            Facing::Opposite => self.primary,
+        }
+    }
+
     fn tolerance(&self) -> f64 {
         let (a, b) = (self.secondary, self.primary);
         TOUCH * a.size().min(b.size()) + ROUNDING * a.reach().max(b.reach())
@@ -224,27 +234,35 @@ impl<T: Real> Both<'_, T> {
 
     fn interval(
         &self,
-        each: &mut impl FnMut(&Cell<T>) -> Result<(), OverlapError>,
+        each: &mut impl FnMut(&Cell) -> Result<(), OverlapError>,
     ) -> Result<(), OverlapError> {
-        let ([a, b], [c, d]) = (self.secondary.ends(), self.primary.ends());
-        let start = if c.value() > a.value() { c } else { a };
-        let end = if d.value() < b.value() { d } else { b };
-        if 0.5 * (end.value() - start.value()) <= self.tolerance() {
+        let ends = |facing| {
+            let nodes = self.of(facing).ends();
+            let corner = |node: u8, other: u8| {
+                let spots = [node, other].map(Spot::Node);
+                let at = self.of(facing).at(spots[0]);
+                Corner::new(facing, spots, [at[0], 0.0])
+            };
+            [corner(nodes[0], nodes[1]), corner(nodes[1], nodes[0])]
+        };
+        let ([a, b], [c, d]) = (ends(Facing::Same), ends(Facing::Opposite));
+        let start = if c.at[0] > a.at[0] { c } else { a };
+        let end = if d.at[0] < b.at[0] { d } else { b };
+        if 0.5 * (end.at[0] - start.at[0]) <= self.tolerance() {
             return Ok(());
         }
-        let corners = &[start, end].map(|x| [x, T::from(0.0)]);
         each(&Cell {
             facets: *self,
-            corners,
+            corners: &[start, end],
             sign: 1.0,
         })
     }
 
     fn polygon(
         &self,
-        polygon: &Polygon<T>,
+        polygon: &Polygon,
         sign: f64,
-        each: &mut impl FnMut(&Cell<T>) -> Result<(), OverlapError>,
+        each: &mut impl FnMut(&Cell) -> Result<(), OverlapError>,
     ) -> Result<(), OverlapError> {
         let corners = polygon.corners();
         if corners.len() < 3 || polygon.area() <= self.tolerance() * polygon.size() {
@@ -256,42 +274,76 @@ impl<T: Real> Both<'_, T> {
             sign,
         })
     }
+
+    /// Places a point.
+    fn locate(&self, at: Pair<f64>, point: &mut Point) -> Result<(), OverlapError> {
+        point.at = at;
+        let found = locate::parameters(self.secondary, at, &mut point.secondary)
+            .and_then(|()| locate::parameters(self.primary, at, &mut point.primary));
+        found.ok_or(OverlapError::Folded)
+    }
 }
 
-impl<T: Real> Cell<'_, T> {
-    /// Its corners: of an interval its ends, from left to right.
-    #[must_use]
-    pub fn corners(&self) -> &[Pair<T>] {
-        self.corners
+impl Cell<'_> {
+    /// The places of its corners: of an interval its ends, from left to right.
+    pub fn corners(&self) -> impl ExactSizeIterator<Item = Pair<f64>> {
+        self.corners.iter().map(|corner| corner.at)
     }
 
-    /// Gives `each` all points, for integrals of shape functions times a polynomial of degree `factor` of the place.
+    /// Gives `each` the nodes that a corner moves with: which facet's, which one, and the derivatives `∂c_a/∂X_b`.
+    ///
+    /// A node moves with itself. Where two lines with the directions `d, d'` cross, and `δ` is how the place on the first
+    /// that is at the corner moves with the ends of the line,
+    ///
+    /// ```text
+    /// dc = (d' (d × δ) − d (d' × δ'))/(d × d'),   δ = (1 − s) dp + s dq                  (E5)
+    /// ```
+    pub fn moves(&self, corner: usize, mut each: impl FnMut(Facing, usize, [Pair<f64>; 2])) {
+        let Some(corner) = self.corners.get(corner) else {
+            return;
+        };
+        let lines = match corner.origin {
+            Origin::Spot(facing, spot) => {
+                let with = |node, n| each(facing, node, [[n, 0.0], [0.0, n]]);
+                return self.facets.of(facing).nodes_of(spot, with);
+            }
+            Origin::Crossing(lines) => lines,
+        };
+        let ends = lines.map(|line| line.ends.map(|spot| self.facets.of(line.facet).at(spot)));
+        let [d, e] = ends.map(|[p, q]| minus(q, p));
+        let across = cross2(d, e);
+        let of_lines = [(d, e, 1.0 / across), (e, d, -1.0 / across)];
+        for ((line, [p, _]), (own, other, over)) in lines.iter().zip(ends).zip(of_lines) {
+            let away = minus(corner.at, p);
+            let s = (away[0] * own[0] + away[1] * own[1]) / (own[0] * own[0] + own[1] * own[1]);
+            let normal = [-own[1] * over, own[0] * over];
+            for (spot, share) in line.ends.into_iter().zip([1.0 - s, s]) {
+                self.facets.of(line.facet).nodes_of(spot, |node, n| {
+                    let slope = |a: usize| normal.map(|normal| share * n * other[a] * normal);
+                    each(line.facet, node, [slope(0), slope(1)]);
+                });
+            }
+        }
+    }
+
+    /// Gives `each` the triangles from its first corner, or itself.
     ///
     /// # Errors
-    /// A map has no inverse at a point. Then some points have been given already.
-    pub fn points(&self, factor: usize, mut each: impl FnMut(&Point)) -> Result<(), OverlapError> {
-        let place = |k: usize| self.corners[k].map(|c| c.value());
-        let mut point = Point::default();
+    /// Those of `each`.
+    pub fn simplices(
+        &self,
+        mut each: impl FnMut(&Simplex) -> Result<(), OverlapError>,
+    ) -> Result<(), OverlapError> {
+        let place = |k: usize| self.corners[k].at;
         if self.facets.secondary.dim() == 1 {
-            let (start, end) = (place(0)[0], place(1)[0]);
-            let length = end - start;
-            let degree = self.facets.degree(&[place(0), place(1)]) + factor;
-            for &(s, w) in of_degree(1, degree) {
-                let share = 0.5 * (1.0 + s.x);
-                let at = [start + share * length, 0.0];
-                let half = 0.5 * w;
-                point.weight = half * length;
-                point.follows = [
-                    follow(0, 1.0 - share, [-half, 0.0]),
-                    follow(1, share, [half, 0.0]),
-                    follow(1, 0.0, [0.0; 2]),
-                ];
-                self.locate(at, &mut point)?;
-                each(&point);
-            }
-            return Ok(());
+            return each(&Simplex {
+                facets: self.facets,
+                corners: [0, 1, 1],
+                places: [place(0), place(1), place(1)],
+                size: self.sign * (place(1)[0] - place(0)[0]),
+                dsize: [[-self.sign, 0.0], [self.sign, 0.0], [0.0; 2]],
+            });
         }
-        // triangles from the first corner
         let first = place(0);
         let sides = |k: usize| [minus(place(k), first), minus(place(k + 1), first)];
         let twice = |k: usize| {
@@ -302,30 +354,22 @@ impl<T: Real> Cell<'_, T> {
         let all: f64 = (1..last).map(twice).sum();
         for k in (1..last).filter(|&k| twice(k) > f64::EPSILON * all) {
             let [u, v] = sides(k);
-            let of_u = [v[1], -v[0]];
-            let of_v = [-u[1], u[0]];
-            let corners = [first, place(k), place(k + 1)];
-            let degree = self.facets.degree(&corners) + factor;
-            for &(s, w) in of_degree(2, degree) {
-                let w = w * self.sign;
-                let at = [0, 1].map(|c| first[c] + u[c] * s.x + v[c] * s.y);
-                let [b, c] = [of_u, of_v].map(|d| d.map(|d| w * d));
-                point.weight = w * twice(k);
-                point.follows = [
-                    follow(0, 1.0 - s.x - s.y, [-b[0] - c[0], -b[1] - c[1]]),
-                    follow(k, s.x, b),
-                    follow(k + 1, s.y, c),
-                ];
-                self.locate(at, &mut point)?;
-                each(&point);
-            }
+            let half = 0.5 * self.sign;
+            let [b, c] = [[v[1], -v[0]], [-u[1], u[0]]].map(|d| d.map(|d| half * d));
+            each(&Simplex {
+                facets: self.facets,
+                corners: [0, k, k + 1],
+                places: [first, place(k), place(k + 1)],
+                size: half * twice(k),
+                dsize: [[-b[0] - c[0], -b[1] - c[1]], b, c],
+            })?;
         }
         Ok(())
     }
 
     /// Gives `each` the places of points in the parameters of the secondary facet, and their weights, without
     /// derivatives: over triangles around the centre of the corners, as symmetric as the cell is. `factor` as in
-    /// [`Cell::points`].
+    /// [`Simplex::points`].
     ///
     /// # Errors
     /// A map has no inverse at a point. Then some points have been given already.
@@ -336,9 +380,10 @@ impl<T: Real> Cell<'_, T> {
     ) -> Result<(), OverlapError> {
         let n = self.corners.len();
         if n <= 3 {
-            return self.points(factor, |point| each(point.secondary.xi, point.weight));
+            let mut each = |point: &Point| each(point.secondary.xi, point.weight);
+            return self.simplices(|simplex| simplex.points(factor, &mut each));
         }
-        let place = |k: usize| self.corners[k % n].map(|c| c.value());
+        let place = |k: usize| self.corners[k % n].at;
         let sum = |c: usize| (0..n).map(|k| place(k)[c]).sum::<f64>() / n as f64;
         let centre = [sum(0), sum(1)];
         let mut there = Parameters::default();
@@ -355,22 +400,38 @@ impl<T: Real> Cell<'_, T> {
         }
         Ok(())
     }
-
-    /// Places a point.
-    fn locate(&self, at: Pair<f64>, point: &mut Point) -> Result<(), OverlapError> {
-        let Both { secondary, primary } = self.facets;
-        point.at = at;
-        let found = locate::parameters(secondary, at, &mut point.secondary)
-            .and_then(|()| locate::parameters(primary, at, &mut point.primary));
-        found.ok_or(OverlapError::Folded)
-    }
 }
 
-fn follow(corner: usize, share: f64, dweight: Pair<f64>) -> Follow {
-    Follow {
-        corner,
-        share,
-        dweight,
+impl Simplex<'_> {
+    /// Gives `each` all points, for integrals of shape functions times a polynomial of degree `factor` of the place.
+    ///
+    /// # Errors
+    /// A map has no inverse at a point. Then some points have been given already.
+    pub fn points(&self, factor: usize, mut each: impl FnMut(&Point)) -> Result<(), OverlapError> {
+        let [first, second, third] = self.places;
+        let mut point = Point::default();
+        if self.facets.secondary.dim() == 1 {
+            let degree = self.facets.degree(&[first, second]) + factor;
+            for &(s, w) in of_degree(1, degree) {
+                let share = 0.5 * (1.0 + s.x);
+                point.weight = 0.5 * w * self.size;
+                point.shares = [1.0 - share, share, 0.0];
+                let at = [first[0] + share * (second[0] - first[0]), 0.0];
+                self.facets.locate(at, &mut point)?;
+                each(&point);
+            }
+            return Ok(());
+        }
+        let [u, v] = [minus(second, first), minus(third, first)];
+        let degree = self.facets.degree(&self.places) + factor;
+        for &(s, w) in of_degree(2, degree) {
+            point.weight = 2.0 * w * self.size;
+            point.shares = [1.0 - s.x - s.y, s.x, s.y];
+            let at = [0, 1].map(|c| first[c] + u[c] * s.x + v[c] * s.y);
+            self.facets.locate(at, &mut point)?;
+            each(&point);
+        }
+        Ok(())
     }
 }
 

@@ -1,75 +1,137 @@
-use super::Pair;
-use crate::scalar::{Real, minus};
+use super::{Facing, Pair};
+use crate::scalar::minus;
 
 /// More corners than two convex polygons of eight sides can share.
 const MAX_CORNERS: usize = 20;
 
+/// What the outline of a facet, or of a part of it, goes through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Spot {
+    /// A node.
+    Node(u8),
+    /// The centre.
+    Centre,
+}
+
+/// The line through two spots of a facet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Through {
+    pub facet: Facing,
+    pub ends: [Spot; 2],
+}
+
+/// What a corner moves with.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Origin {
+    /// A spot of a facet.
+    Spot(Facing, Spot),
+    /// The place where two lines cross.
+    Crossing([Through; 2]),
+}
+
+impl Origin {
+    /// Where two lines cross: those of the same facet do so in the spot that they share.
+    fn crossing(a: Through, b: Through) -> Self {
+        let shared = a.ends.into_iter().find(|end| b.ends.contains(end));
+        match shared {
+            Some(spot) if a.facet == b.facet => Self::Spot(a.facet, spot),
+            _ => Self::Crossing([a, b]),
+        }
+    }
+}
+
+/// A corner of a polygon.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub at: Pair<f64>,
+    pub origin: Origin,
+    /// The line along which the boundary goes on from here.
+    side: Through,
+}
+
+impl Corner {
+    /// The corner in a spot from where the boundary goes on to the next one.
+    pub(super) fn new(facet: Facing, [spot, next]: [Spot; 2], at: Pair<f64>) -> Self {
+        Self {
+            at,
+            origin: Origin::Spot(facet, spot),
+            side: Through {
+                facet,
+                ends: [spot, next],
+            },
+        }
+    }
+}
+
 /// A polygon, counter-clockwise.
 #[derive(Clone, Copy)]
-pub(super) struct Polygon<T> {
-    corners: [Pair<T>; MAX_CORNERS],
+pub(super) struct Polygon {
+    corners: [Corner; MAX_CORNERS],
     n: usize,
 }
 
 /// `a × b` of two vectors of the plane.
 #[inline]
-pub(super) fn cross2<T: Real>(a: Pair<T>, b: Pair<T>) -> T {
+pub(super) fn cross2(a: Pair<f64>, b: Pair<f64>) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-impl<T: Real> Polygon<T> {
+impl Polygon {
     fn new() -> Self {
+        let spots = [Spot::Centre; 2];
         Self {
-            corners: [[T::from(0.0); 2]; MAX_CORNERS],
+            corners: [Corner::new(Facing::Same, spots, [0.0; 2]); MAX_CORNERS],
             n: 0,
         }
     }
 
-    /// The one with these corners, as far as there is room.
-    pub(super) fn of(corners: impl IntoIterator<Item = Pair<T>>) -> Self {
+    /// The one through spots of a facet, as far as there is room.
+    pub(super) fn of(
+        facet: Facing,
+        spots: impl Iterator<Item = (Spot, Pair<f64>)> + Clone,
+    ) -> Self {
         let mut polygon = Self::new();
-        corners.into_iter().for_each(|corner| polygon.push(corner));
+        let next = spots.clone().cycle().skip(1);
+        for ((spot, at), (next, _)) in spots.zip(next) {
+            polygon.push(Corner::new(facet, [spot, next], at));
+        }
         polygon
     }
 
     /// One more corner, if there is room.
-    fn push(&mut self, corner: Pair<T>) {
+    fn push(&mut self, corner: Corner) {
         if let Some(c) = self.corners.get_mut(self.n) {
             *c = corner;
             self.n += 1;
         }
     }
 
-    pub(super) fn corners(&self) -> &[Pair<T>] {
+    pub(super) fn corners(&self) -> &[Corner] {
         &self.corners[..self.n]
     }
 
     /// Every corner with the next one.
-    fn sides(&self) -> impl Iterator<Item = (&Pair<T>, &Pair<T>)> {
+    fn sides(&self) -> impl Iterator<Item = (&Corner, &Corner)> {
         let next = self.corners().iter().cycle().skip(1);
         self.corners().iter().zip(next)
     }
 
     pub(super) fn area(&self) -> f64 {
-        let Some(first) = self.corners().first().map(values) else {
-            return 0.0;
-        };
-        let twice =
-            |(a, b): (&Pair<T>, &Pair<T>)| cross2(minus(values(a), first), minus(values(b), first));
+        let first = self.corners[0].at;
+        let twice = |(a, b): (&Corner, &Corner)| cross2(minus(a.at, first), minus(b.at, first));
         0.5 * self.sides().map(twice).sum::<f64>()
     }
 
     /// The largest distance of a corner from the first along an axis.
     pub(super) fn size(&self) -> f64 {
-        let first = self.corners[0];
-        let away = |p: &Pair<T>| values(&minus(*p, first));
-        let all = self.corners().iter().flat_map(away);
+        let first = self.corners[0].at;
+        let all = self.corners().iter().flat_map(|c| minus(c.at, first));
         all.fold(0.0, |most, c| most.max(c.abs()))
     }
 
     /// Whether a corner lies inside the line between its neighbours by more than the tolerance.
     pub(super) fn is_dented(&self, k: usize, tolerance: f64) -> bool {
-        let corner = |k: usize| values(&self.corners()[k % self.n]);
+        let corner = |k: usize| self.corners()[k % self.n].at;
         let line = Line::through(corner(k + self.n - 1), corner(k + 1));
         line.is_some_and(|line| line.height(corner(k)) > tolerance)
     }
@@ -82,7 +144,7 @@ impl<T: Real> Polygon<T> {
     /// Whether the boxes around two polygons meet.
     pub(super) fn near(&self, other: &Self) -> bool {
         let range = |of: &Self, a: usize| {
-            let all = of.corners().iter().map(|p| p[a].value());
+            let all = of.corners().iter().map(|c| c.at[a]);
             all.fold([f64::MAX, f64::MIN], |[l, m], c| [l.min(c), m.max(c)])
         };
         (0..2).all(|a| {
@@ -93,11 +155,11 @@ impl<T: Real> Polygon<T> {
 
     /// What it has in common with a convex one.
     pub(super) fn intersection(&self, other: &Self, tolerance: f64) -> Self {
-        // polygons of numbers with derivatives are large: they are written only where something is cut off
+        // written only where something is cut off
         let mut both = [*self, Self::new()];
         let mut is_second = false;
         for (a, b) in other.sides() {
-            let Some(line) = Line::through(values(a), values(b)) else {
+            let Some(line) = Line::through(a.at, b.at) else {
                 continue;
             };
             let [first, second] = &mut both;
@@ -109,7 +171,7 @@ impl<T: Real> Polygon<T> {
                 Cut::Nothing => {}
                 Cut::All => return Self::new(),
                 Cut::Some => {
-                    rest.left_of([*a, *b], &line, tolerance, next);
+                    rest.left_of(&line, a.side, tolerance, next);
                     is_second = !is_second;
                 }
             }
@@ -120,7 +182,7 @@ impl<T: Real> Polygon<T> {
 
     /// What lies to the right of a line; corners within the tolerance are on the line.
     fn cut(&self, line: &Line, tolerance: f64) -> Cut {
-        let sides = self.corners().iter().map(|p| line.side(p, tolerance));
+        let sides = self.corners().iter().map(|c| line.side(c.at, tolerance));
         let [least, most] = sides.fold([0.0f64; 2], |[l, m], h| [l.min(h), m.max(h)]);
         match (least < 0.0, most > 0.0) {
             (_, false) => Cut::All,
@@ -129,18 +191,25 @@ impl<T: Real> Polygon<T> {
         }
     }
 
-    /// The part to the left of the line from `a` to `b`.
-    fn left_of(&self, [a, b]: [Pair<T>; 2], line: &Line, tolerance: f64, kept: &mut Self) {
+    /// The part to the left of a line, which goes through these spots.
+    fn left_of(&self, line: &Line, through: Through, tolerance: f64, kept: &mut Self) {
         kept.n = 0;
         for (p, q) in self.sides() {
-            let [h, k] = [p, q].map(|p| line.side(p, tolerance));
-            if h >= 0.0 {
+            let [h, k] = [p, q].map(|c| line.side(c.at, tolerance));
+            // where the boundary leaves, it goes on along the line
+            let side = if k < 0.0 { through } else { p.side };
+            if h == 0.0 {
+                kept.push(Corner { side, ..*p });
+            } else if h > 0.0 {
                 kept.push(*p);
             }
             if h * k < 0.0 {
-                let [dp, dq] = [p, q].map(|c| cross2(minus(b, a), minus(*c, a)));
-                let s = dp / (dp - dq);
-                kept.push([0, 1].map(|c| p[c] + (q[c] - p[c]) * s));
+                let s = h / (h - k);
+                kept.push(Corner {
+                    at: [0, 1].map(|c| p.at[c] + (q.at[c] - p.at[c]) * s),
+                    origin: Origin::crossing(p.side, through),
+                    side,
+                });
             }
         }
     }
@@ -166,8 +235,8 @@ impl Line {
     }
 
     /// The distance of a corner to the left; none within the tolerance.
-    fn side<T: Real>(&self, p: &Pair<T>, tolerance: f64) -> f64 {
-        let h = self.height(values(p));
+    fn side(&self, p: Pair<f64>, tolerance: f64) -> f64 {
+        let h = self.height(p);
         if h.abs() <= tolerance { 0.0 } else { h }
     }
 
@@ -175,8 +244,4 @@ impl Line {
     fn height(&self, p: Pair<f64>) -> f64 {
         cross2(self.along, minus(p, self.start))
     }
-}
-
-fn values<T: Real>(p: &Pair<T>) -> Pair<f64> {
-    p.map(|c| c.value())
 }

@@ -56,18 +56,45 @@ fn opposite(element: Element, noise: f64, random: &mut Random) -> Vec<Vec3> {
     x.map(|x| turn * over(x) + shift).collect()
 }
 
-/// The points of two facets, given in space, and what they are made of.
-fn points<T: Real>(elements: [Element; 2], x: [&[[T; 3]]; 2]) -> Vec<(Point, Vec<Pair<T>>)> {
-    let plane = Plane::of(elements[0], x[0]).unwrap();
+/// How corners move: for each the nodes, with the facet, and derivatives.
+type Moves = [Vec<(Facing, usize, [Pair<f64>; 2])>; 3];
+
+/// A point, and the simplex it belongs to: its size with derivatives, and how its corners move.
+struct Placed {
+    point: Point,
+    size: f64,
+    dsize: [Pair<f64>; 3],
+    moves: Moves,
+}
+
+/// The points of two facets, given in space.
+fn points(elements: [Element; 2], x: [&[Vec3]; 2]) -> Vec<Placed> {
+    let plane = Plane::of(elements[0], &plain(x[0])).unwrap();
     let flat = |k: usize, facing| {
-        let places: Vec<Pair<T>> = x[k].iter().map(|&x| plane.project(x)).collect();
-        Flat::new(elements[k], &places, facing)
+        let places = plain(x[k]).into_iter().map(|x| plane.project(x));
+        Flat::new(elements[k], &places.collect::<Vec<_>>(), facing)
     };
     let mut found = Vec::new();
     if let Some(primary) = flat(1, Facing::Opposite) {
         let secondary = flat(0, Facing::Same).unwrap();
-        let cell = |cell: &Cell<T>| cell.points(0, |p| found.push((*p, cell.corners().to_vec())));
-        integrate(&secondary, &primary, cell).unwrap();
+        integrate(&secondary, &primary, |cell| {
+            cell.simplices(|simplex| {
+                let moves: Moves = simplex.corners.map(|corner| {
+                    let mut moves = Vec::new();
+                    cell.moves(corner, |facing, node, d| moves.push((facing, node, d)));
+                    moves
+                });
+                simplex.points(0, |point| {
+                    found.push(Placed {
+                        point: *point,
+                        size: simplex.size,
+                        dsize: simplex.dsize,
+                        moves: moves.clone(),
+                    });
+                })
+            })
+        })
+        .unwrap();
     }
     found
 }
@@ -77,11 +104,7 @@ fn plain(x: &[Vec3]) -> Vec<[f64; 3]> {
 }
 
 fn between(elements: [Element; 2], x: [&[Vec3]; 2]) -> Vec<Point> {
-    let [a, b] = x.map(plain);
-    points(elements, [&a, &b])
-        .into_iter()
-        .map(|p| p.0)
-        .collect()
+    points(elements, x).into_iter().map(|p| p.point).collect()
 }
 
 fn measure(points: &[Point]) -> f64 {
@@ -292,7 +315,7 @@ fn whole(element: Element, x: &[Vec3]) -> Vec<f64> {
 
 /// A facet of the plane with straight edges and a bend below `most`: a distorted one with its other nodes moved along
 /// the edges they lie on.
-fn straight(element: Element, most: f64, random: &mut Random) -> (Vec<Vec3>, Flat<f64>) {
+fn straight(element: Element, most: f64, random: &mut Random) -> (Vec<Vec3>, Flat) {
     let linear = corner_element(element);
     let line = element.dim() == 1;
     loop {
@@ -349,14 +372,15 @@ fn errors_of_rules_fall_as_stated() {
                         sums.add(element, xi, w);
                     };
                     if element.dim() == 1 {
-                        let [a, b] = flat.ends();
+                        let [a, b] = flat.ends().map(|node| flat.x()[usize::from(node)][0]);
                         let half = 0.5 * (b - a);
                         for (s, w) in of_degree(1, degree) {
                             add([a + half * (1.0 + s.x), 0.0], w * half);
                         }
                     } else {
                         let outline = flat.pieces().next().unwrap().polygon;
-                        let [first, rest @ ..] = outline.corners() else {
+                        let corners: Vec<_> = outline.corners().iter().map(|c| c.at).collect();
+                        let [first, rest @ ..] = &corners[..] else {
                             panic!("a polygon")
                         };
                         for side in rest.windows(2) {
@@ -627,7 +651,7 @@ fn derivatives_of_points_and_weights_match_differences() {
                 };
                 x[k].iter().enumerate().map(node).collect()
             });
-            let exact = points(elements, [&seeded[0], &seeded[1]]);
+            let exact = points(elements, [&x[0], &x[1]]);
             let plane = Plane::of(elements[0], &seeded[0]).unwrap();
             let places = [0, 1].map(|k: usize| -> Vec<Pair<Dual<54>>> {
                 seeded[k].iter().map(|&x| plane.project(x)).collect()
@@ -653,17 +677,22 @@ fn derivatives_of_points_and_weights_match_differences() {
                 if steps.iter().any(|s| s.len() != exact.len()) {
                     continue; // a corner comes or goes
                 }
-                for (k, (p, corners)) in exact.iter().enumerate() {
+                for (k, placed) in exact.iter().enumerate() {
+                    let p = &placed.point;
                     // w, and N_0 of either facet
                     let parts = |p: &Point| [p.weight, p.secondary.shape[0], p.primary.shape[0]];
                     let [a, b, c, d] = [0, 1, 2, 3].map(|s| parts(&steps[s][k]));
                     let mut weight = 0.0;
                     let mut at = [0.0; 2];
-                    for f in &p.follows {
-                        for a in 0..2 {
-                            let dc = corners[f.corner][a].slope[variable];
-                            weight += f.dweight[a] * dc;
-                            at[a] += f.share * dc;
+                    for (corner, moves) in placed.moves.iter().enumerate() {
+                        for (facing, node, slopes) in moves {
+                            let place = places[usize::from(*facing == Facing::Opposite)][*node];
+                            for a in 0..2 {
+                                let along = |b: usize| slopes[a][b] * place[b].slope[variable];
+                                let dc: f64 = (0..elements[0].dim()).map(along).sum();
+                                weight += p.weight / placed.size * placed.dsize[corner][a] * dc;
+                                at[a] += p.shares[corner] * dc;
+                            }
                         }
                     }
                     let of = |there: &Parameters, k: usize| {

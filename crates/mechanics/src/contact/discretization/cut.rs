@@ -98,7 +98,7 @@ impl Placed {
         })
     }
 
-    fn flat(&self, plane: &Plane<f64>, facing: Facing) -> Option<Flat<f64>> {
+    fn flat(&self, plane: &Plane<f64>, facing: Facing) -> Option<Flat> {
         let mut places = [[0.0; 2]; MAX_FACET_NODES];
         for (to, x) in places.iter_mut().zip(&self.x) {
             *to = plane.project(x.to_array());
@@ -132,7 +132,7 @@ impl Placed {
             };
             let mut dented = false;
             let met = integrate(&own, &flat, |cell| {
-                parts.push(cell.corners().to_vec());
+                parts.push(cell.corners().collect());
                 cell.points_around_centre(more, |[a, b], weight| {
                     dented |= weight < 0.0;
                     let xi = Vec3::new(a, b, 0.0);

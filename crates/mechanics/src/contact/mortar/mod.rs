@@ -52,10 +52,9 @@
 //! covered and `D_j < 0`, it is zero with all its row. The displacements that belong to `Ñ` are `x̃ = T⁻ᵀ x`, and `∫ψ_j N_k = D_j T⁻ᵀ_jk`.
 //!
 //! *Derivatives.* Cells depend on the places of nodes on the plane alone, two numbers each. Points of cells follow their
-//! corners and the nodes ((E4) of [`signorini_geometry::overlap`]); corners carry derivatives by the places that make
-//! them, as dual numbers; places depend on coordinates by the axes of the plane. The three stages are taken for all
-//! points, for each cell, and once for each pair. What couples several primary facets is (E2) and (E3), by the product
-//! rule.
+//! corners and the nodes ((E4) of [`signorini_geometry::overlap`]); corners move with nodes as (E5) there says; places
+//! depend on coordinates by the axes of the plane. The three stages are taken for all points, for each cell, and once for
+//! each pair (`products`, `pair`). What couples several primary facets is (E2) and (E3), by the product rule.
 //!
 //! *Axisymmetry.* Lines of the x-y plane stand for surfaces of revolution about the axis y, r = x. All integrals, `D⁰` too,
 //! have the factor
@@ -110,6 +109,8 @@ mod basis;
 #[allow(clippy::needless_range_loop)]
 mod covered;
 mod pair;
+#[allow(clippy::needless_range_loop)]
+mod products;
 #[cfg(test)]
 #[allow(clippy::needless_range_loop)]
 mod tests;

@@ -1,9 +1,8 @@
+use super::products::Products;
 use super::{Facet, Measure, MortarError};
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
-use signorini_geometry::overlap::{
-    self, Cell, Facing, Flat, OverlapError, Parameters, Plane, Point,
-};
-use signorini_geometry::scalar::{Dual, Real};
+use signorini_geometry::overlap::{Facing, Flat, OverlapError, Plane};
+use signorini_geometry::scalar::Dual;
 use signorini_geometry::tensor::Vec3;
 use std::f64::consts::TAU;
 
@@ -44,6 +43,8 @@ pub struct Frame {
     daxes: [Slopes; 2],
     dnormal: Slopes,
     places: Places,
+    /// The facet on its plane, if it is not folded there.
+    flat: Option<Flat>,
 }
 
 /// Places of nodes on the plane.
@@ -74,6 +75,7 @@ impl Frame {
             daxes: [[[0.0; COORDINATES]; 3]; 2],
             dnormal: [[0.0; COORDINATES]; 3],
             places: [[0.0; 2]; MAX_FACET_NODES],
+            flat: None,
         };
         frame.x[..facet.x.len()].copy_from_slice(facet.x);
         let found = match 3 * facet.x.len() {
@@ -84,6 +86,7 @@ impl Frame {
         };
         found.ok_or(MortarError::Secondary)?;
         frame.places = frame.project(facet.x);
+        frame.flat = Flat::new(facet.element, &frame.places[..facet.x.len()], Facing::Same);
         Ok(frame)
     }
 
@@ -142,11 +145,13 @@ impl Frame {
         })
     }
 
-    /// The places of points on the plane.
+    /// The places of points on the plane; the second coordinate is zero on a line.
     fn project(&self, x: &[Vec3]) -> Places {
         let mut places = [[0.0; 2]; MAX_FACET_NODES];
         for (place, &x) in places.iter_mut().zip(x) {
-            *place = self.axes.map(|axis| axis.dot(x - self.origin));
+            for (place, axis) in place[..self.element.dim()].iter_mut().zip(&self.axes) {
+                *place = axis.dot(x - self.origin);
+            }
         }
         places
     }
@@ -177,7 +182,7 @@ pub(super) enum Factor {
 
 impl Factor {
     /// Its degree as a polynomial of the place.
-    fn degree(self) -> usize {
+    pub(super) fn degree(self) -> usize {
         match self {
             Self::One => 0,
             Self::Circumference(_) => 1,
@@ -194,7 +199,7 @@ impl Factor {
     }
 
     /// Its derivatives by the place, and by places and radii of the ends.
-    fn slopes(self, p: f64) -> Option<[f64; 5]> {
+    pub(super) fn slopes(self, p: f64) -> Option<[f64; 5]> {
         let Self::Circumference([(a, ra), (b, rb)]) = self else {
             return None;
         };
@@ -230,18 +235,15 @@ pub struct Pair {
     dim: usize,
     /// Of the angle by which the two fail to face one another.
     cosine: f64,
-    /// All integrals, one kind after the other; above the diagonal of `∫N_j N_k` there is nothing.
+    /// All integrals, one kind after the other.
     values: Vec<f64>,
     /// The derivatives of each.
     slopes: Vec<f64>,
-    /// Derivatives by the places on the plane, and by the radii of the ends.
-    by_place: Vec<f64>,
-    nvariable: usize,
-    /// Derivatives by the corners of the cell at hand.
-    by_corner: Vec<f64>,
-    ncorner: usize,
-    /// Of the corners, what moves them: the component, the variable, and the derivative.
-    moves: Vec<(usize, usize, f64)>,
+    products: Products,
+    /// Derivatives of all products by one coordinate.
+    column: Vec<f64>,
+    /// Those by how the axes turn, component by component.
+    turn: Vec<f64>,
 }
 
 impl Pair {
@@ -268,17 +270,7 @@ impl Pair {
         if self.cosine <= EDGE_ON {
             return Ok(false);
         }
-        let elements = [frame.element, primary.element];
-        let places = [frame.places, places];
-        let factor = frame.factor();
-        let found = match (derivatives, self.dim * (self.nsecondary + self.nprimary)) {
-            (false, _) => self.over(elements, &places, factor, |x, _| x),
-            (_, ..=6) => self.over(elements, &places, factor, Dual::<6>::variable),
-            (_, ..=12) => self.over(elements, &places, factor, Dual::<12>::variable),
-            (_, ..=16) => self.over(elements, &places, factor, Dual::<16>::variable),
-            (_, ..=24) => self.over(elements, &places, factor, Dual::<24>::variable),
-            _ => self.over(elements, &places, factor, Dual::<36>::variable),
-        };
+        let found = self.over(frame, primary.element, &places, derivatives);
         let found = match found {
             Ok(found) => found,
             Err(Fault::Secondary) => return Err(MortarError::Secondary),
@@ -294,219 +286,90 @@ impl Pair {
         Ok(found)
     }
 
-    /// Values, and derivatives by the places on the plane, the variables that `seed` makes.
-    fn over<T: Real>(
+    /// Integrates over what both share on the plane.
+    fn over(
         &mut self,
-        elements: [Element; 2],
-        places: &[Places; 2],
-        factor: Factor,
-        seed: impl Fn(f64, usize) -> T,
+        frame: &Frame,
+        primary: Element,
+        places: &Places,
+        derivatives: bool,
     ) -> Result<bool, Fault> {
-        let dim = self.dim;
-        let mut flats = [None; 2];
-        let mut first = 0;
-        for (k, facing) in [Facing::Same, Facing::Opposite].into_iter().enumerate() {
-            let mut x = [[T::from(0.0); 2]; MAX_FACET_NODES];
-            let n = elements[k].nnode();
-            for (x, place) in x[..n].iter_mut().zip(&places[k]) {
-                for (x, &place) in x[..dim].iter_mut().zip(place) {
-                    *x = seed(place, first);
-                    first += 1;
-                }
-            }
-            flats[k] = Flat::new(elements[k], &x[..n], facing);
-        }
-        let secondary = flats[0].as_ref().ok_or(Fault::Secondary)?;
-        let primary = flats[1].as_ref().ok_or(Fault::Primary)?;
-        let derivatives = !T::from(0.0).slope().is_empty();
-        self.nvariable = if derivatives {
-            first + 2 * factor.degree()
-        } else {
-            0
-        };
-        let nintegral = self.nsecondary * (1 + self.nsecondary + self.nprimary);
-        zeros(&mut self.values, nintegral);
-        zeros(&mut self.by_place, nintegral * self.nvariable);
-        let mut gross = 0.0;
-        overlap::integrate(secondary, primary, |cell: &Cell<T>| {
-            self.ncorner = cell.corners().len();
-            if derivatives {
-                zeros(&mut self.by_corner, nintegral * 2 * self.ncorner);
-            }
-            cell.points(factor.degree(), |point| {
-                let factor = Weighted::new(point, factor);
-                gross += factor.weight.abs();
-                self.add(point, &factor);
-                if derivatives {
-                    self.differentiate(point, &factor);
-                }
-            })?;
-            if derivatives {
-                self.follow(cell.corners());
-            }
-            Ok(())
-        })?;
-        self.sum_up();
-        // cells that are taken away may leave nothing but rounding
-        Ok(self.values[..self.nsecondary].iter().sum::<f64>() > NOTHING * gross)
-    }
-
-    /// Adds what a point contributes to the products.
-    fn add(&mut self, point: &Point, weighted: &Weighted) {
         let (ns, nm) = (self.nsecondary, self.nprimary);
-        let (own, other) = (&point.secondary.shape[..ns], &point.primary.shape[..nm]);
-        let (products, mixed) = self.values[ns..].split_at_mut(ns * ns);
-        let rows = products
-            .chunks_exact_mut(ns)
-            .zip(mixed.chunks_exact_mut(nm));
-        for (j, (product, mixed)) in rows.enumerate() {
-            let w = weighted.weight * own[j];
-            for (sum, n) in product[..=j].iter_mut().zip(own) {
-                *sum += w * n;
-            }
-            for (sum, n) in mixed.iter_mut().zip(other) {
-                *sum += w * n;
-            }
+        let secondary = frame.flat.as_ref().ok_or(Fault::Secondary)?;
+        let primary = Flat::new(primary, &places[..nm], Facing::Opposite);
+        let primary = primary.as_ref().ok_or(Fault::Primary)?;
+        let products = &mut self.products;
+        let gross = products.over(secondary, primary, frame.factor(), derivatives)?;
+        self.values.clear();
+        let sums = (0..ns).map(|j| (0..nm).map(|l| products.value(1, j, l)).sum::<f64>());
+        self.values.extend(sums);
+        for (block, n) in [(0, ns), (1, nm)] {
+            let all = (0..ns).flat_map(|j| (0..n).map(move |k| (j, k)));
+            self.values
+                .extend(all.map(|(j, k)| products.value(block, j, k)));
         }
-    }
-
-    /// Adds what it contributes to derivatives of the products `f = N_j N_k` and `N_j N^m_l`: by the places of nodes,
-    /// and by the corners it follows, both of (E4) of the overlap.
-    fn differentiate(&mut self, point: &Point, weighted: &Weighted) {
-        let (ns, nm, dim) = (self.nsecondary, self.nprimary, self.dim);
-        let w = weighted.weight;
-        // −w ∂N_j/∂p_a N_i, by the places X_ia, of either facet
-        let pull = |there: &Parameters, n: usize| {
-            let mut pull = [[0.0; 2 * MAX_FACET_NODES]; MAX_FACET_NODES];
-            for (pull, g) in pull[..n].iter_mut().zip(&there.gradient) {
-                for (pull, shape) in pull.chunks_exact_mut(dim).zip(&there.shape[..n]) {
-                    for (pull, g) in pull.iter_mut().zip(g) {
-                        *pull = -w * g * shape;
-                    }
-                }
-            }
-            pull
-        };
-        let (own, other) = (&point.secondary, &point.primary);
-        let (of_own, of_other) = (pull(own, ns), pull(other, nm));
-        let (ds, dm) = (dim * ns, dim * nm);
-        for j in 0..ns {
-            for k in 0..=j {
-                let integral = self.place_nn(j, k);
-                let row = &mut self.by_place[integral * self.nvariable..][..self.nvariable];
-                let (a, b) = (own.shape[k], own.shape[j]);
-                for ((to, p), q) in row[..ds].iter_mut().zip(&of_own[j]).zip(&of_own[k]) {
-                    *to += a * p + b * q;
-                }
-                let [g, h] = [own.gradient[j], own.gradient[k]];
-                self.move_with(integral, point, weighted, (b, g), (a, h));
-            }
-            for (l, of_other) in of_other[..nm].iter().enumerate() {
-                let integral = self.place_nm(j, l);
-                let row = &mut self.by_place[integral * self.nvariable..][..self.nvariable];
-                let (a, b) = (other.shape[l], own.shape[j]);
-                let (first, rest) = row.split_at_mut(ds);
-                for (to, p) in first.iter_mut().zip(&of_own[j]) {
-                    *to += a * p;
-                }
-                for (to, p) in rest[..dm].iter_mut().zip(of_other) {
-                    *to += b * p;
-                }
-                let [g, h] = [own.gradient[j], other.gradient[l]];
-                self.move_with(integral, point, weighted, (b, g), (a, h));
-            }
-        }
-    }
-
-    /// The product of two functions, given by value and gradient, at a point that moves with its corners.
-    #[inline]
-    fn move_with(
-        &mut self,
-        integral: usize,
-        point: &Point,
-        weighted: &Weighted,
-        (f, df): (f64, [f64; 2]),
-        (g, dg): (f64, [f64; 2]),
-    ) {
-        let product = f * g;
-        let slope = [0, 1].map(|a| weighted.weight * (df[a] * g + f * dg[a]));
-        let along = slope[0] + weighted.along * product;
-        let row = &mut self.by_corner[integral * 2 * self.ncorner..][..2 * self.ncorner];
-        for follow in &point.follows {
-            let to = &mut row[2 * follow.corner..][..2];
-            to[0] += follow.share * along + weighted.factor * follow.dweight[0] * product;
-            to[1] += follow.share * slope[1] + weighted.factor * follow.dweight[1] * product;
-        }
-        if let Some(by_ends) = weighted.by_ends {
-            let row = &mut self.by_place[integral * self.nvariable..][..self.nvariable];
-            let radii = self.nvariable - 2;
-            for (v, slope) in [0, 1, radii, radii + 1].into_iter().zip(by_ends) {
-                row[v] += slope * product;
-            }
-        }
-    }
-
-    /// From derivatives by the corners of a cell to derivatives by places.
-    fn follow<T: Real>(&mut self, corners: &[[T; 2]]) {
-        self.moves.clear();
-        for (component, c) in corners.iter().flatten().enumerate() {
-            let slopes = c.slope().iter().enumerate().filter(|(_, s)| **s != 0.0);
-            self.moves.extend(slopes.map(|(v, &s)| (component, v, s)));
-        }
-        let rows = self.by_place.chunks_exact_mut(self.nvariable);
-        for (row, by_corner) in rows.zip(self.by_corner.chunks_exact(2 * self.ncorner)) {
-            for &(component, v, slope) in &self.moves {
-                row[v] += by_corner[component] * slope;
-            }
-        }
-    }
-
-    /// `∫N_j = Σ_l ∫N_j N^m_l`.
-    fn sum_up(&mut self) {
-        let (ns, nm, nv) = (self.nsecondary, self.nprimary, self.nvariable);
-        let first = ns * (1 + ns);
-        for j in 0..ns {
-            let all = first + j * nm..first + (j + 1) * nm;
-            self.values[j] = self.values[all.clone()].iter().sum();
-            let (sums, rows) = self.by_place.split_at_mut(ns * nv);
-            for l in all {
-                let from = &rows[(l - ns) * nv..][..nv];
-                for (to, from) in sums[j * nv..][..nv].iter_mut().zip(from) {
-                    *to += from;
-                }
-            }
-        }
+        // cells that are taken away may leave nothing but rounding
+        Ok(self.values[..ns].iter().sum::<f64>() > NOTHING * gross)
     }
 
     /// From derivatives by places `X_ia = e_a·(x_i − o)` to derivatives by coordinates. Integrals do not notice when both
     /// facets move along the plane: what comes from `o` is zero in sum.
     fn chain(&mut self, frame: &Frame, primary: &Facet) {
-        let (own, ncolumn, dim) = (3 * self.nsecondary, self.ncolumn(), self.dim);
-        let nodes = || frame.x[..self.nsecondary].iter().chain(primary.x);
+        let (ncolumn, dim, n) = (self.ncolumn(), self.dim, self.products.len());
+        let nodes = || {
+            frame.x[..self.nsecondary]
+                .iter()
+                .chain(primary.x)
+                .enumerate()
+        };
+        zeros(&mut self.turn, 3 * dim * n);
+        for ((a, c), turn) in axes(dim).zip(self.turn.chunks_exact_mut(n)) {
+            for (node, &x) in nodes() {
+                let arm = (x - frame.origin)[c];
+                add(turn, arm, self.products.by_place(node, a));
+            }
+        }
         zeros(&mut self.slopes, self.values.len() * ncolumn);
-        let each = self.by_place.chunks_exact(self.nvariable);
-        for (by_place, slope) in each.zip(self.slopes.chunks_exact_mut(ncolumn)) {
-            let mut turn = [Vec3::ZERO; 2];
-            let of_nodes = by_place.chunks_exact(dim).zip(slope.as_chunks_mut::<3>().0);
-            for ((by_place, slope), &x) in of_nodes.zip(nodes()) {
-                for ((&s, &axis), turn) in by_place.iter().zip(&frame.axes).zip(&mut turn) {
-                    for (slope, along) in slope.iter_mut().zip((axis * s).to_array()) {
-                        *slope += along;
-                    }
-                    *turn += (x - frame.origin) * s;
+        for node in 0..self.nsecondary + self.nprimary {
+            for c in 0..3 {
+                let column = 3 * node + c;
+                zeros(&mut self.column, n);
+                for (a, axis) in frame.axes.iter().enumerate().take(dim) {
+                    add(&mut self.column, axis[c], self.products.by_place(node, a));
                 }
-            }
-            for (turn, daxis) in turn[..dim].iter().zip(&frame.daxes) {
-                for (c, daxis) in daxis.iter().enumerate() {
-                    for (slope, d) in slope[..own].iter_mut().zip(daxis) {
-                        *slope += turn[c] * d;
+                if node < self.nsecondary {
+                    for ((a, c), turn) in axes(dim).zip(self.turn.chunks_exact(n)) {
+                        add(&mut self.column, frame.daxes[a][c][column], turn);
                     }
                 }
+                if c == 0 && node < 2 {
+                    add(&mut self.column, 1.0, self.products.by_radius(node)); // r is the first coordinate
+                }
+                self.store(column);
             }
-            let nplace = dim * ncolumn / 3;
-            for (end, s) in by_place[nplace..].iter().enumerate() {
-                slope[3 * end] += s; // r is the first coordinate
+        }
+    }
+
+    /// Stores derivatives of all integrals by one coordinate, and `∫N_j = Σ_l ∫N_j N^m_l`.
+    fn store(&mut self, column: usize) {
+        let (ns, nm, ncolumn) = (self.nsecondary, self.nprimary, self.ncolumn());
+        let (sums, rest) = self.slopes.split_at_mut(ns * ncolumn);
+        let (own, mixed) = rest.split_at_mut(ns * ns * ncolumn);
+        for j in 0..ns {
+            let of = |block| &self.column[self.products.place(block, j, 0)..];
+            for (row, slope) in own[j * ns * ncolumn..]
+                .chunks_exact_mut(ncolumn)
+                .zip(&of(0)[..ns])
+            {
+                row[column] = *slope;
             }
+            for (row, slope) in mixed[j * nm * ncolumn..]
+                .chunks_exact_mut(ncolumn)
+                .zip(&of(1)[..nm])
+            {
+                row[column] = *slope;
+            }
+            sums[j * ncolumn + column] = of(1)[..nm].iter().sum();
         }
     }
 
@@ -598,7 +461,7 @@ impl Pair {
     }
 
     fn place_nn(&self, j: usize, k: usize) -> usize {
-        self.nsecondary * (1 + j.max(k)) + j.min(k)
+        self.nsecondary * (1 + j) + k
     }
 
     fn place_nm(&self, j: usize, l: usize) -> usize {
@@ -623,29 +486,15 @@ impl From<OverlapError> for Fault {
     }
 }
 
-/// The weight of a point and its factor.
-struct Weighted {
-    /// Both.
-    weight: f64,
-    factor: f64,
-    /// The derivative of the factor by the place, times the weight alone.
-    along: f64,
-    /// Those by the places and radii of the ends, likewise.
-    by_ends: Option<[f64; 4]>,
+/// The directions of places and components of vectors.
+fn axes(dim: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..dim).flat_map(|a| (0..3).map(move |c| (a, c)))
 }
 
-impl Weighted {
-    fn new(point: &Point, factor: Factor) -> Self {
-        let value = factor.at(point.at[0]);
-        let slopes = factor
-            .slopes(point.at[0])
-            .map(|s| s.map(|s| s * point.weight));
-        Self {
-            weight: value * point.weight,
-            factor: value,
-            along: slopes.map_or(0.0, |s| s[0]),
-            by_ends: slopes.map(|[_, a, b, ra, rb]| [a, b, ra, rb]),
-        }
+/// `to += factor · from`
+fn add(to: &mut [f64], factor: f64, from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to += factor * from;
     }
 }
 
