@@ -46,6 +46,7 @@ mod wedge15;
 mod wedge6;
 
 use crate::tensor::{Sym3, Vec3};
+pub(crate) use quad4::Quad4;
 use quadrature::Rule;
 use std::fmt;
 

@@ -3,7 +3,7 @@ use super::{ReferenceElement, Side, line2};
 use crate::tensor::{Sym3, Vec3};
 
 /// The bilinear quadrilateral of four nodes, `ξ, η ∈ [-1, 1]`.
-pub(super) struct Quad4;
+pub(crate) struct Quad4;
 
 const NODES: [Vec3; 4] = [
     Vec3::new(-1.0, -1.0, 0.0),

@@ -17,6 +17,10 @@ pub enum Facing {
 #[derive(Clone, Debug)]
 pub struct Flat {
     element: Element,
+    dim: usize,
+    nnode: usize,
+    /// The degree of its shape functions as polynomials of the parameters.
+    degree: usize,
     facing: Facing,
     x: [Pair<f64>; MAX_FACET_NODES],
     /// Nodes on the boundary, counter-clockwise on the plane; on a line, the ends from left to right.
@@ -76,9 +80,13 @@ impl Flat {
             bounds[1][a] = bounds[1][a].max(p[a]);
         }
         let (boundary, nboundary) = boundary(element, facing);
+        let dim = element.dim();
         let centre = element.centre();
         let mut flat = Self {
             element,
+            dim,
+            nnode: n,
+            degree: degree(element),
             facing,
             x,
             boundary,
@@ -92,7 +100,7 @@ impl Flat {
             tangents: jacobian(element, &x, &centre),
             twist: twist(element, &x),
         };
-        if element.dim() == 2 {
+        if dim == 2 {
             flat.outline = flat.look();
         }
         let star = flat.outline == Outline::Star;
@@ -109,12 +117,12 @@ impl Flat {
     /// The places of its nodes.
     #[must_use]
     pub fn x(&self) -> &[Pair<f64>] {
-        &self.x[..self.element.nnode()]
+        &self.x[..self.nnode]
     }
 
     /// The parameters of a place by the map at the centre, continued as an affine one.
     pub(super) fn affine(&self, p: Pair<f64>) -> Pair<f64> {
-        let [a, b] = solve(self.element, self.tangents, minus(p, self.middle));
+        let [a, b] = solve(self.dim, self.tangents, minus(p, self.middle));
         [self.centre[0] + a, self.centre[1] + b]
     }
 
@@ -130,7 +138,7 @@ impl Flat {
     }
 
     pub(super) fn dim(&self) -> usize {
-        self.element.dim()
+        self.dim
     }
 
     /// δ.
@@ -145,7 +153,7 @@ impl Flat {
         }
         let mut extent = [[f64::MAX, f64::MIN]; 2];
         for p in corners {
-            let xi = solve(self.element, self.tangents, *p);
+            let xi = solve(self.dim, self.tangents, *p);
             for ([least, most], xi) in extent.iter_mut().zip(xi) {
                 *least = least.min(xi);
                 *most = most.max(xi);
@@ -162,7 +170,7 @@ impl Flat {
 
     /// The width of its reference domain.
     fn width(&self) -> f64 {
-        if self.element.dim() == 2 && self.element.ncorner() == 3 {
+        if self.dim == 2 && self.element.ncorner() == 3 {
             1.0
         } else {
             2.0
@@ -176,13 +184,7 @@ impl Flat {
 
     /// The degree of its shape functions as polynomials of the parameters.
     pub(super) fn degree(&self) -> usize {
-        let (n, corners) = (self.element.nnode(), self.element.ncorner());
-        let (linear, quadrilateral) = (n == corners, self.dim() == 2 && corners == 4);
-        match (quadrilateral, linear) {
-            (false, true) => 1,
-            (false, false) | (true, true) => 2,
-            (true, false) => n - 5, // 3 without, 4 with a node in the middle
-        }
+        self.degree
     }
 
     /// The largest extent.
@@ -223,9 +225,9 @@ impl Flat {
             Spot::Node(node) => each(usize::from(node), 1.0),
             Spot::Centre => {
                 let mut n = [0.0; MAX_FACET_NODES];
-                let nnode = self.element.nnode();
-                self.element.shape(&self.element.centre(), &mut n[..nnode]);
-                (0..nnode).for_each(|i| each(i, n[i]));
+                self.element
+                    .shape(&self.element.centre(), &mut n[..self.nnode]);
+                (0..self.nnode).for_each(|i| each(i, n[i]));
             }
         }
     }
@@ -254,8 +256,15 @@ impl Flat {
         let inward = |k: &usize| on_edge(k) && whole.is_dented(*k, tolerance);
         let dents = (0..self.nboundary).filter(inward);
         let dents = dents.fold(0, |flags, k| flags | 1 << k);
+        if dents == 0 {
+            let convex = whole.is_convex(tolerance);
+            return if convex {
+                Outline::Convex
+            } else {
+                Outline::Star
+            };
+        }
         match outline(dents).is_convex(tolerance) {
-            true if dents == 0 => Outline::Convex,
             true if self.bend <= EXTENSIBLE => Outline::Dented(dents),
             _ => Outline::Star,
         }
@@ -283,8 +292,19 @@ impl Flat {
         self.through([Spot::Centre, self.node(k), self.node(k + 1)].into_iter())
     }
 
-    fn through(&self, spots: impl Iterator<Item = Spot> + Clone) -> Polygon {
+    fn through(&self, spots: impl Iterator<Item = Spot>) -> Polygon {
         Polygon::of(self.facing, spots.map(|spot| (spot, self.at(spot))))
+    }
+}
+
+/// The degree of shape functions as polynomials of the parameters.
+fn degree(element: Element) -> usize {
+    let (n, corners) = (element.nnode(), element.ncorner());
+    let (linear, quadrilateral) = (n == corners, element.dim() == 2 && corners == 4);
+    match (quadrilateral, linear) {
+        (false, true) => 1,
+        (false, false) | (true, true) => 2,
+        (true, false) => n - 5, // 3 without, 4 with a node in the middle
     }
 }
 
@@ -321,7 +341,7 @@ fn bend(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], facing: Facing) -> O
     let sign = if facing == Facing::Same { 1.0 } else { -1.0 };
     let centre = element.centre();
     let at_centre = jacobian(element, x, &centre);
-    let least = determinant(element, at_centre) * sign * FOLDED;
+    let least = determinant(element.dim(), at_centre) * sign * FOLDED;
     let turned = |det: f64| det.is_nan() || det <= least;
     if turned(least / FOLDED) || least <= 0.0 {
         return None;
@@ -329,14 +349,14 @@ fn bend(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], facing: Facing) -> O
     let mut ddn = [Sym3::ZERO; MAX_FACET_NODES];
     let mut bend = 0.0f64;
     for xi in element.nodes() {
-        if turned(determinant(element, jacobian(element, x, xi)) * sign) {
+        if turned(determinant(element.dim(), jacobian(element, x, xi)) * sign) {
             return None;
         }
         element.ddshape(xi, &mut ddn[..n]);
         let mut here = 0.0;
         for of in [Sym3::xx, Sym3::yy, Sym3::xy] {
             let second = combine(ddn.iter().map(of), &x[..n]);
-            here += solve(element, at_centre, second)
+            here += solve(element.dim(), at_centre, second)
                 .iter()
                 .map(|c| c.abs())
                 .sum::<f64>();
@@ -384,17 +404,17 @@ fn twist(element: Element, x: &[Pair<f64>; MAX_FACET_NODES]) -> Option<Pair<f64>
 }
 
 /// The determinant of tangents; on a line the tangent itself.
-fn determinant(element: Element, [t1, t2]: [Pair<f64>; 2]) -> f64 {
-    if element.dim() == 1 {
+fn determinant(dim: usize, [t1, t2]: [Pair<f64>; 2]) -> f64 {
+    if dim == 1 {
         return t1[0];
     }
     cross2(t1, t2)
 }
 
 /// The change of parameters that makes a change of place.
-fn solve(element: Element, t: [Pair<f64>; 2], place: Pair<f64>) -> Pair<f64> {
-    let over = 1.0 / determinant(element, t);
-    if element.dim() == 1 {
+fn solve(dim: usize, t: [Pair<f64>; 2], place: Pair<f64>) -> Pair<f64> {
+    let over = 1.0 / determinant(dim, t);
+    if dim == 1 {
         return [place[0] * over, 0.0];
     }
     [cross2(place, t[1]) * over, cross2(t[0], place) * over]

@@ -1,7 +1,7 @@
 use super::flat::Flat;
 use super::polygon::cross2;
 use super::{Pair, Parameters};
-use crate::element::MAX_FACET_NODES;
+use crate::element::{MAX_FACET_NODES, Quad4, ReferenceElement};
 use crate::scalar::minus;
 use crate::tensor::Vec3;
 
@@ -34,7 +34,7 @@ pub(super) fn parameters(flat: &Flat, p: Pair<f64>, out: &mut Parameters) -> Opt
     }
     out.xi = xi;
     let (there, slopes) = Map::new(flat, xi, out);
-    let n = flat.element().nnode();
+    let n = flat.x().len();
     let inverse = [there.solve([1.0, 0.0]), there.solve([0.0, 1.0])];
     for (g, d) in out.gradient[..n].iter_mut().zip(&slopes) {
         *g = inverse.map(|xi| d.x * xi[0] + d.y * xi[1]);
@@ -66,14 +66,15 @@ impl Map {
         [x, y]: Pair<f64>,
         out: &mut Parameters,
     ) -> (Self, [Vec3; MAX_FACET_NODES]) {
-        let (element, xi) = (flat.element(), Vec3::new(x, y, 0.0));
-        let n = flat.x().len();
+        let (n, xi) = (flat.x().len(), Vec3::new(x, y, 0.0));
         let mut slopes = [Vec3::ZERO; MAX_FACET_NODES];
-        element.shape(&xi, &mut out.shape[..n]);
-        element.dshape(&xi, &mut slopes[..n]);
         if let Some(map) = Self::of(flat, [x, y]) {
+            Quad4.shape(&xi, &mut out.shape[..4]);
+            Quad4.dshape(&xi, &mut slopes[..4]);
             return (map, slopes);
         }
+        flat.element().shape(&xi, &mut out.shape[..n]);
+        flat.element().dshape(&xi, &mut slopes[..n]);
         let mut sums = [[0.0; 2]; 3];
         for ((x, &n), d) in flat.x().iter().zip(&out.shape).zip(&slopes) {
             for (sum, factor) in sums.iter_mut().zip([n, d.x, d.y]) {

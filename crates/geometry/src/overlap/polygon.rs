@@ -86,14 +86,16 @@ impl Polygon {
     }
 
     /// The one through spots of a facet, as far as there is room.
-    pub(super) fn of(
-        facet: Facing,
-        spots: impl Iterator<Item = (Spot, Pair<f64>)> + Clone,
-    ) -> Self {
+    pub(super) fn of(facet: Facing, spots: impl Iterator<Item = (Spot, Pair<f64>)>) -> Self {
         let mut polygon = Self::new();
-        let next = spots.clone().cycle().skip(1);
-        for ((spot, at), (next, _)) in spots.zip(next) {
-            polygon.push(Corner::new(facet, [spot, next], at));
+        spots.for_each(|(spot, at)| polygon.push(Corner::new(facet, [spot; 2], at)));
+        // sides end where the next begins
+        let Some(mut next) = polygon.corners().first().map(|c| c.side.ends[0]) else {
+            return polygon;
+        };
+        for corner in polygon.corners[..polygon.n].iter_mut().rev() {
+            corner.side.ends[1] = next;
+            next = corner.side.ends[0];
         }
         polygon
     }

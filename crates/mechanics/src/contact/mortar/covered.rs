@@ -1,6 +1,7 @@
 use super::basis::{Small, inverse};
-use super::pair::zeros;
+use super::pair::{add, zeros};
 use super::{Basis, Facet, Frame, Measure, MortarError, Pair, Transformation};
+use pulp::Arch;
 use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::tensor::Vec3;
 
@@ -34,13 +35,6 @@ pub struct Covered {
     dg: Vec<f64>,
     product: Vec<f64>,
     db: Vec<f64>,
-}
-
-/// `to += factor · from`.
-fn add(to: &mut [f64], factor: f64, from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to += factor * from;
-    }
 }
 
 impl Covered {
@@ -93,7 +87,10 @@ impl Covered {
         self.ncolumn = 3 * (self.nnode + self.nprimary);
         let t = Transformation::of(secondary.element, self.basis);
         self.measure_whole(&frame, secondary, &t);
-        self.combine(&t, derivatives);
+        Arch::new().dispatch(
+            #[inline(always)]
+            || self.combine(&t, derivatives),
+        );
         Ok(())
     }
 
@@ -223,6 +220,7 @@ impl Covered {
 
     /// (E1) to (E3), with `G = ∫N Nᵀ`, `B = A T` and `ψ = B N`:
     /// `B = D W`, `W = S⁻¹ T`, `dB = dD W − B dG Tᵀ W`.
+    #[inline(always)]
     fn combine(&mut self, t: &Transformation, derivatives: bool) {
         let n = self.nnode;
         let pairs = &self.pairs[..self.met.len()];
@@ -300,6 +298,7 @@ impl Covered {
         }
     }
 
+    #[inline(always)]
     fn differentiate(&mut self, t: &Transformation, w: &Small, h: &Small, b: &Small) {
         let (n, nc, own) = (self.nnode, self.ncolumn, 3 * self.nnode);
         zeros(&mut self.dd, n * nc);
@@ -311,23 +310,23 @@ impl Covered {
         let pairs = &self.pairs[..self.met.len()];
         let mut first = own;
         for pair in pairs {
-            // columns of the pair: those of the secondary facet, and its own
-            let scatter = |to: &mut [f64], factor: f64, from: &[f64]| {
-                let (secondary, primary) = from.split_at(own);
-                add(&mut to[..own], factor, secondary);
-                add(&mut to[first..first + primary.len()], factor, primary);
-            };
             for j in 0..n {
                 for k in 0..n {
-                    scatter(&mut self.dd[j * nc..][..nc], t.get(j, k), pair.dn(k));
-                    scatter(&mut self.dg[at(j, k)], 1.0, pair.dnn(j, k));
+                    scatter(
+                        own,
+                        first,
+                        &mut self.dd[j * nc..][..nc],
+                        t.get(j, k),
+                        pair.dn(k),
+                    );
+                    scatter(own, first, &mut self.dg[at(j, k)], 1.0, pair.dnn(j, k));
                 }
                 let nm = pair.nnode()[1];
                 let l0 = (first - own) / 3;
                 for l in 0..nm {
                     let row = (j * self.nprimary + l0 + l) * nc;
                     for (k, &b) in b[j][..n].iter().enumerate() {
-                        scatter(&mut self.dm[row..row + nc], b, pair.dnm(k, l));
+                        scatter(own, first, &mut self.dm[row..row + nc], b, pair.dnm(k, l));
                     }
                 }
             }
@@ -373,6 +372,14 @@ impl Covered {
             first += nm;
         }
     }
+}
+
+/// Adds columns of a pair: those of the secondary facet, and its own from `first` on.
+#[inline(always)]
+fn scatter(own: usize, first: usize, to: &mut [f64], factor: f64, from: &[f64]) {
+    let (secondary, primary) = from.split_at(own);
+    add(&mut to[..own], factor, secondary);
+    add(&mut to[first..first + primary.len()], factor, primary);
 }
 
 /// Sets the entries of a small matrix.

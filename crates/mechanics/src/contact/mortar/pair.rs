@@ -1,5 +1,6 @@
 use super::products::Products;
 use super::{Facet, Measure, MortarError};
+use pulp::Arch;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::overlap::{Facing, Flat, OverlapError, Plane};
 use signorini_geometry::scalar::Dual;
@@ -278,7 +279,10 @@ impl Pair {
             Err(Fault::Primary) => return Err(MortarError::Folded { number }),
         };
         if found && derivatives {
-            self.chain(frame, primary);
+            Arch::new().dispatch(
+                #[inline(always)]
+                || self.chain(frame, primary),
+            );
         }
         if found && self.cosine < FACING {
             self.fade(frame, primary, derivatives)?;
@@ -314,6 +318,7 @@ impl Pair {
 
     /// From derivatives by places `X_ia = e_a·(x_i − o)` to derivatives by coordinates. Integrals do not notice when both
     /// facets move along the plane: what comes from `o` is zero in sum.
+    #[inline(always)]
     fn chain(&mut self, frame: &Frame, primary: &Facet) {
         let (ncolumn, dim, n) = (self.ncolumn(), self.dim, self.products.len());
         let nodes = || {
@@ -492,7 +497,8 @@ fn axes(dim: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// `to += factor · from`
-fn add(to: &mut [f64], factor: f64, from: &[f64]) {
+#[inline(always)]
+pub(super) fn add(to: &mut [f64], factor: f64, from: &[f64]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to += factor * from;
     }

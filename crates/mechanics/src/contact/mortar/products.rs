@@ -104,10 +104,13 @@ impl Products {
                         || sums.add(simplex, point, &weighted),
                     );
                 })?;
-                sums.end(simplex);
+                arch.dispatch(
+                    #[inline(always)]
+                    || sums.end(simplex),
+                );
                 Ok(())
             })?;
-            sums.follow(cell);
+            sums.follow(cell, arch);
             Ok(())
         })?;
         self.values.clear();
@@ -175,6 +178,7 @@ fn add<const N: usize>(to: &mut Block<N>, factor: f64, from: &Block<N>) {
     }
 }
 
+#[inline(always)]
 fn add_twin<const N: usize>(to: &mut Twin<N>, factor: f64, from: &Twin<N>) {
     for (to, from) in to.iter_mut().zip(from) {
         add(to, factor, from);
@@ -253,6 +257,7 @@ impl<const N: usize, const D: usize> Sums<'_, N, D> {
     }
 
     /// What the size of a simplex makes of its integrals, and these to the others.
+    #[inline(always)]
     fn end(&mut self, simplex: &Simplex) {
         let part = std::mem::replace(&mut self.part, [[[0.0; N]; N]; 2]);
         if self.derivatives {
@@ -270,7 +275,7 @@ impl<const N: usize, const D: usize> Sums<'_, N, D> {
     }
 
     /// From derivatives by the corners of a cell to derivatives by places.
-    fn follow(&mut self, cell: &Cell) {
+    fn follow(&mut self, cell: &Cell, arch: Arch) {
         if !self.derivatives {
             return;
         }
@@ -280,12 +285,18 @@ impl<const N: usize, const D: usize> Sums<'_, N, D> {
                     Facing::Same => node,
                     Facing::Opposite => N + node,
                 };
-                for (slopes, by_corner) in slopes.iter().zip(by_corner) {
-                    let places = self.by_place[first * D..][..D].iter_mut();
-                    for (to, &slope) in places.zip(slopes).filter(|(_, s)| **s != 0.0) {
-                        add_twin(to, slope, by_corner);
-                    }
-                }
+                let places = &mut self.by_place[first * D..][..D];
+                arch.dispatch(
+                    #[inline(always)]
+                    || {
+                        for (slopes, by_corner) in slopes.iter().zip(by_corner) {
+                            let places = places.iter_mut().zip(slopes);
+                            for (to, &slope) in places.filter(|(_, s)| **s != 0.0) {
+                                add_twin(to, slope, by_corner);
+                            }
+                        }
+                    },
+                );
             });
         }
     }
