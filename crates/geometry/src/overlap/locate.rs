@@ -20,10 +20,11 @@ const AFFINE: f64 = 4.0 * f64::EPSILON;
 
 /// The parameters (E2) of a place on the plane, into `out`; `None` where Newton's method finds none.
 pub(super) fn parameters(flat: &Flat, p: Pair<f64>, out: &mut Parameters) -> Option<()> {
-    let mut xi = flat.affine(p);
+    let (n, mut xi) = (flat.x().len(), flat.affine(p));
+    let mut slopes = [Vec3::ZERO; MAX_FACET_NODES];
     if flat.bend() > AFFINE {
         let mut step = |xi: &mut Pair<f64>| {
-            let there = Map::of(flat, *xi).unwrap_or_else(|| Map::new(flat, *xi, out).0);
+            let there = Map::of(flat, *xi).unwrap_or_else(|| Map::new(flat, *xi, out, &mut slopes));
             let [a, b] = there.solve(minus(there.place, p));
             let size = a.abs().max(b.abs());
             let cut = LONGEST / size.max(LONGEST);
@@ -33,8 +34,7 @@ pub(super) fn parameters(flat: &Flat, p: Pair<f64>, out: &mut Parameters) -> Opt
         (0..MAX_STEPS).find(|_| step(&mut xi) <= SMALL)?;
     }
     out.xi = xi;
-    let (there, slopes) = Map::new(flat, xi, out);
-    let n = flat.x().len();
+    let there = Map::new(flat, xi, out, &mut slopes);
     let inverse = [there.solve([1.0, 0.0]), there.solve([0.0, 1.0])];
     for (g, d) in out.gradient[..n].iter_mut().zip(&slopes) {
         *g = inverse.map(|xi| d.x * xi[0] + d.y * xi[1]);
@@ -60,34 +60,33 @@ impl Map {
         })
     }
 
-    /// The map there, and the slopes of shape functions; these go to `out`.
+    /// The map there. Shape functions go to `out`, and their slopes.
     fn new(
         flat: &Flat,
         [x, y]: Pair<f64>,
         out: &mut Parameters,
-    ) -> (Self, [Vec3; MAX_FACET_NODES]) {
+        slopes: &mut [Vec3; MAX_FACET_NODES],
+    ) -> Self {
         let (n, xi) = (flat.x().len(), Vec3::new(x, y, 0.0));
-        let mut slopes = [Vec3::ZERO; MAX_FACET_NODES];
         if let Some(map) = Self::of(flat, [x, y]) {
             Quad4.shape(&xi, &mut out.shape[..4]);
             Quad4.dshape(&xi, &mut slopes[..4]);
-            return (map, slopes);
+            return map;
         }
         flat.element().shape(&xi, &mut out.shape[..n]);
         flat.element().dshape(&xi, &mut slopes[..n]);
         let mut sums = [[0.0; 2]; 3];
-        for ((x, &n), d) in flat.x().iter().zip(&out.shape).zip(&slopes) {
+        for ((x, &n), d) in flat.x().iter().zip(&out.shape).zip(slopes) {
             for (sum, factor) in sums.iter_mut().zip([n, d.x, d.y]) {
                 *sum = [sum[0] + factor * x[0], sum[1] + factor * x[1]];
             }
         }
         let [place, t1, t2] = sums;
-        let map = Self {
+        Self {
             dim: flat.dim(),
             place,
             tangents: [t1, t2],
-        };
-        (map, slopes)
+        }
     }
 
     /// The change of parameters that makes a change of place.

@@ -1,5 +1,5 @@
 use super::basis::{Small, inverse};
-use super::pair::{add, zeros};
+use super::pair::{add, add_rows, zeros};
 use super::{Basis, Facet, Frame, Measure, MortarError, Pair, Transformation};
 use pulp::Arch;
 use signorini_geometry::element::MAX_FACET_NODES;
@@ -338,20 +338,23 @@ impl Covered {
         if self.lumped {
             return;
         }
+        let all = |j: usize| j * n * nc..(j + 1) * n * nc;
         for j in 0..n {
             for k in 0..n {
-                for i in 0..n {
-                    add(&mut self.product[at(j, k)], b[j][i], &self.dg[at(i, k)]);
-                }
+                // dG is symmetric
+                let product = &mut self.product[at(j, k)];
+                add_rows(product, &b[j][..n], &self.dg[all(k)]);
             }
         }
         for j in 0..n {
             for k in 0..n {
                 let db = &mut self.db[at(j, k)];
                 add(db, w[j][k], &self.dd[j * nc..][..nc]);
+                let mut factors = [0.0; MAX_FACET_NODES];
                 for i in 0..n {
-                    add(db, -h[i][k], &self.product[at(j, i)]);
+                    factors[i] = -h[i][k];
                 }
+                add_rows(db, &factors[..n], &self.product[all(j)]);
             }
         }
         let mut first = 0;
@@ -360,13 +363,11 @@ impl Covered {
             for j in 0..n {
                 for l in 0..nm {
                     let row = (j * self.nprimary + first + l) * nc;
+                    let mut factors = [0.0; MAX_FACET_NODES];
                     for k in 0..n {
-                        add(
-                            &mut self.dm[row..row + nc],
-                            pair.nm(k, l),
-                            &self.db[at(j, k)],
-                        );
+                        factors[k] = pair.nm(k, l);
                     }
+                    add_rows(&mut self.dm[row..row + nc], &factors[..n], &self.db[all(j)]);
                 }
             }
             first += nm;
