@@ -95,6 +95,7 @@ mod tests;
 
 pub use flat::{Facing, Flat};
 pub use plane::Plane;
+pub use polygon::MAX_CORNERS;
 
 use crate::element::MAX_FACET_NODES;
 use crate::element::quadrature::{MAX_DEGREE, of_degree};

@@ -1,8 +1,8 @@
 use super::{Facing, Pair};
 use crate::scalar::minus;
 
-/// More corners than two convex polygons of eight sides can share.
-const MAX_CORNERS: usize = 20;
+/// More corners than two convex polygons of eight sides can share: no cell has as many.
+pub const MAX_CORNERS: usize = 20;
 
 /// What the outline of a facet, or of a part of it, goes through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -137,25 +137,9 @@ impl<const N: usize> Real for Dual<N> {
     }
 
     #[inline]
-    fn slope(&self) -> &[f64] {
-        &self.slope
-    }
-
-    #[inline]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.of(root, 0.5 / root)
-    }
-
-    #[inline]
-    fn chain(value: f64, terms: &[(f64, Self)]) -> Self {
-        let mut slope = [0.0; N];
-        for (factor, term) in terms {
-            for (s, t) in slope.iter_mut().zip(&term.slope) {
-                *s += factor * t;
-            }
-        }
-        Self { value, slope }
     }
 }
 

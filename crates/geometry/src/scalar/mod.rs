@@ -40,16 +40,9 @@ pub trait Real:
     /// The value, without derivatives.
     fn value(&self) -> f64;
 
-    /// The derivatives; none of a plain number.
-    fn slope(&self) -> &[f64];
-
     /// The square root.
     #[must_use]
     fn sqrt(self) -> Self;
-
-    /// The number with this value and the derivatives `Σ factor a'` of others: a function of them, linearized.
-    #[must_use]
-    fn chain(value: f64, terms: &[(f64, Self)]) -> Self;
 }
 
 impl Real for f64 {
@@ -59,17 +52,7 @@ impl Real for f64 {
     }
 
     #[inline]
-    fn slope(&self) -> &[f64] {
-        &[]
-    }
-
-    #[inline]
     fn sqrt(self) -> Self {
         Self::sqrt(self)
-    }
-
-    #[inline]
-    fn chain(value: f64, _: &[(f64, Self)]) -> Self {
-        value
     }
 }

@@ -20,16 +20,15 @@
 use super::pair::{Factor, zeros};
 use pulp::Arch;
 use signorini_geometry::element::MAX_FACET_NODES;
-use signorini_geometry::overlap::{Cell, Facing, Flat, OverlapError, Point, Simplex, integrate};
+use signorini_geometry::overlap::{
+    Cell, Facing, Flat, MAX_CORNERS, OverlapError, Point, Simplex, integrate,
+};
 
 /// Products of functions, by the node of the one and the node of the other.
 type Block<const N: usize> = [[f64; N]; N];
 
 /// Those of two functions of the secondary side, and those of one of each side.
 type Twin<const N: usize> = [Block<N>; 2];
-
-/// A cell has no more corners.
-const MAX_CORNERS: usize = 20;
 
 /// The sums, with the memory they take.
 #[derive(Clone, Debug, Default)]
