@@ -120,7 +120,7 @@ impl Products {
 
     /// `∫N_j N_k` for the first block, `∫N_j N^m_l` for the second.
     pub fn value(&self, block: usize, j: usize, k: usize) -> f64 {
-        self.values[(block * self.width + j) * self.width + k]
+        self.values[self.place(block, j, k)]
     }
 
     /// All derivatives by a component of the place of a node, the secondary facet's first: both blocks.
@@ -129,14 +129,13 @@ impl Products {
             None => node,
             Some(primary) => self.width + primary,
         };
-        let twin = 2 * self.width * self.width;
-        &self.by_place[(place * self.dim + a) * twin..][..twin]
+        &self.by_place[(place * self.dim + a) * self.len()..][..self.len()]
     }
 
     /// All derivatives by the radius of an end; none where integrals are not over surfaces of revolution.
     pub fn by_radius(&self, end: usize) -> &[f64] {
-        let twin = 2 * self.width * self.width;
-        let of_end = self.by_radius.get(end * twin..(end + 1) * twin);
+        let of_end = end * self.len()..(end + 1) * self.len();
+        let of_end = self.by_radius.get(of_end);
         of_end.unwrap_or_default()
     }
 
@@ -204,8 +203,7 @@ impl<const N: usize, const D: usize> Sums<'_, N, D> {
                 products[1][j][k] = own[j] * other[k];
             }
         }
-        add(&mut self.part[0], w, &products[0]);
-        add(&mut self.part[1], w, &products[1]);
+        add_twin(&mut self.part, w, &products);
         if !self.derivatives {
             return;
         }
@@ -234,14 +232,11 @@ impl<const N: usize, const D: usize> Sums<'_, N, D> {
                 }
             }
             if a == 0 && weighted.along != 0.0 {
-                for (slopes, products) in slopes.iter_mut().zip(&products) {
-                    add(slopes, weighted.along, products);
-                }
+                add_twin(&mut slopes, weighted.along, &products);
             }
             for (&corner, &share) in simplex.corners.iter().zip(&point.shares).take(D + 1) {
-                if let Some([nn, nm]) = self.by_corner.get_mut(corner * D + a) {
-                    add(nn, share, &slopes[0]);
-                    add(nm, share, &slopes[1]);
+                if let Some(to) = self.by_corner.get_mut(corner * D + a) {
+                    add_twin(to, share, &slopes);
                 }
             }
         }
@@ -249,8 +244,7 @@ impl<const N: usize, const D: usize> Sums<'_, N, D> {
             let places = own_places.iter_mut().take(2);
             let ends = places.chain(self.by_radius.iter_mut());
             for (to, slope) in ends.zip([a, b, ra, rb]) {
-                add(&mut to[0], slope, &products[0]);
-                add(&mut to[1], slope, &products[1]);
+                add_twin(to, slope, &products);
             }
         }
     }
