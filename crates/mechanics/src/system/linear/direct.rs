@@ -300,10 +300,12 @@ impl Analysis {
                     match known.filter(|_| groups == self.factors.groups) {
                         Some(fronts) => fronts,
                         None => {
+                            let ordering = self.ordering;
                             let order =
-                                ordering::order_groups(&problem, matrix, &groups, self.ordering)?;
+                                || ordering::order_groups(&problem, matrix, &groups, ordering);
+                            let fronts = Fronts::new(matrix, order)?;
                             self.factors.groups = groups;
-                            Fronts::new(matrix, &order)?
+                            fronts
                         }
                     }
                 }

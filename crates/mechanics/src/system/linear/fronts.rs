@@ -55,6 +55,8 @@ const PART_OF_SOLUTION: f64 = 1.0 / 4.0;
 const COLUMNS: usize = 96;
 /// Multiplications below which nothing is shared among threads.
 const LITTLE: f64 = 2e6;
+/// Supernodes whose entries are placed by one task.
+const NODES: usize = 16;
 /// Entries of factors below which threads do not share a solution.
 const FEW: usize = 500_000;
 /// Supernodes are merged where they have at most so many columns, and at most this part of their entries is zero.
@@ -140,24 +142,31 @@ impl Node {
 }
 
 impl Fronts {
-    /// The tree for this order of elimination, `order[new] = old`.
+    /// The tree for the order of elimination, `order[new] = old`, that is found meanwhile.
     ///
     /// # Errors
-    /// `TooLarge`.
-    pub fn new(matrix: &Matrix, order: &[u32]) -> Result<Self, LinearError> {
+    /// `TooLarge`, and those of `find_order`.
+    pub fn new(
+        matrix: &Matrix,
+        find_order: impl FnOnce() -> Result<Vec<u32>, LinearError> + Send,
+    ) -> Result<Self, LinearError> {
         let n = matrix.nequation();
         let too_large = || LinearError::TooLarge {
             nequation: n,
             nentry: matrix.row.len(),
         };
-        let by_row = by_row(matrix);
-        let (start, row) = lower_half(matrix, &by_row);
+        let (order, (by_row, (start, row))) = rayon::join(find_order, || {
+            let by_row = by_row(matrix);
+            let half = lower_half(matrix, &by_row);
+            (by_row, half)
+        });
+        let order = order?;
         let mut place = vec![0u32; n];
         for (new, &old) in order.iter().enumerate() {
             place[old as usize] = new as u32;
         }
         let pattern = SymbolicSparseColMatRef::new_checked(n, n, &start, None, &row);
-        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(order, &place, n));
+        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &place, n));
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             supernodal_params: SymbolicSupernodalParams {
@@ -234,51 +243,33 @@ impl Fronts {
 
     /// Finds the place of every entry; column e of the matrix holds row e of the operator.
     fn place_entries(&mut self, matrix: &Matrix, by_row: &Lists<[u32; 2]>) -> Option<()> {
-        let Self {
-            order,
-            nodes,
-            from,
-            to,
-            ..
-        } = self;
-        let mut place = vec![0u32; order.len()];
-        for (new, &old) in order.iter().enumerate() {
+        let mut place = vec![0u32; self.order.len()];
+        for (new, &old) in self.order.iter().enumerate() {
             place[old as usize] = new as u32;
         }
-        from.reserve_exact(matrix.row.len());
-        to.reserve_exact(matrix.row.len());
-        // where unknowns are in the front of the node at hand
-        let mut local = vec![None; order.len()];
-        for node in nodes {
-            let (columns, w, m) = (node.columns.clone(), node.width(), node.size());
-            let unknowns = || columns.clone().chain(node.rows.iter().map(|&r| r as usize));
-            unknowns().zip(0..).for_each(|(k, at)| local[k] = Some(at));
-            let first = from.len();
-            for (own, &e) in order[columns.clone()].iter().enumerate() {
-                let e = e as usize;
-                for (at, &f) in (matrix.start[e]..).zip(matrix.column(e)) {
-                    let other = place[f as usize] as usize;
-                    if other >= columns.start {
-                        let j = local[other]? as usize;
-                        let place = if j < w {
-                            own + j * m
-                        } else {
-                            w * m + own + (j - w) * w
-                        };
-                        from.push(at);
-                        to.push(u32::try_from(place).ok()?);
-                    }
+        let (order, place) = (&self.order, &place);
+        let chunks = self.nodes.par_chunks(NODES);
+        let placed = chunks.map_init(
+            // where unknowns are in the front of the node at hand
+            || vec![None; order.len()],
+            |local, nodes| {
+                let mut placed = Placed::default();
+                for node in nodes {
+                    placed.add(node, (matrix, by_row), (order, place), local)?;
                 }
-                for &[f, at] in by_row.of(e) {
-                    let other = place[f as usize] as usize;
-                    if other >= columns.end {
-                        from.push(at);
-                        to.push(u32::try_from(local[other]? as usize + own * m).ok()?);
-                    }
-                }
+                Some(placed)
+            },
+        );
+        let placed: Option<Vec<Placed>> = placed.collect();
+        self.from.reserve_exact(matrix.row.len());
+        self.to.reserve_exact(matrix.row.len());
+        for (nodes, placed) in self.nodes.chunks_mut(NODES).zip(placed?) {
+            let first = self.from.len();
+            for (node, ends) in nodes.iter_mut().zip(placed.ends.windows(2)) {
+                node.entries = first + ends[0]..first + ends[1];
             }
-            unknowns().for_each(|k| local[k] = None);
-            node.entries = first..from.len();
+            self.from.extend_from_slice(&placed.from);
+            self.to.extend_from_slice(&placed.to);
         }
         Some(())
     }
@@ -402,6 +393,66 @@ impl Fronts {
                 x[old as usize] = *found;
             }
         }
+    }
+}
+
+/// The places of the entries of some nodes in their panels.
+struct Placed {
+    from: Vec<u32>,
+    to: Vec<u32>,
+    /// Where the entries of each node begin, and the last ones end.
+    ends: Vec<usize>,
+}
+
+impl Default for Placed {
+    fn default() -> Self {
+        Self {
+            from: Vec::new(),
+            to: Vec::new(),
+            ends: vec![0],
+        }
+    }
+}
+
+impl Placed {
+    /// Adds one more node; `local` is of nothing before and after.
+    fn add(
+        &mut self,
+        node: &Node,
+        (matrix, by_row): (&Matrix, &Lists<[u32; 2]>),
+        (order, place): (&[u32], &[u32]),
+        local: &mut [Option<u32>],
+    ) -> Option<()> {
+        let (columns, w, m) = (node.columns.clone(), node.width(), node.size());
+        let unknowns = || columns.clone().chain(node.rows.iter().map(|&r| r as usize));
+        unknowns().zip(0..).for_each(|(k, at)| local[k] = Some(at));
+        for (own, &e) in order[columns.clone()].iter().enumerate() {
+            let e = e as usize;
+            for (at, &f) in (matrix.start[e]..).zip(matrix.column(e)) {
+                let other = place[f as usize] as usize;
+                if other >= columns.start {
+                    let j = local[other]? as usize;
+                    let place = if j < w {
+                        own + j * m
+                    } else {
+                        w * m + own + (j - w) * w
+                    };
+                    self.from.push(at);
+                    self.to.push(u32::try_from(place).ok()?);
+                }
+            }
+            for &[f, at] in by_row.of(e) {
+                let other = place[f as usize] as usize;
+                if other >= columns.end {
+                    let place = local[other]? as usize + own * m;
+                    self.from.push(at);
+                    self.to.push(u32::try_from(place).ok()?);
+                }
+            }
+        }
+        unknowns().for_each(|k| local[k] = None);
+        self.ends.push(self.from.len());
+        Some(())
     }
 }
 

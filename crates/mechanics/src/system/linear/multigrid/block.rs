@@ -13,6 +13,9 @@ const TOLERANCE: f64 = 1e-6;
 /// run are 55, 48 and 44 without, with one and with two, and the seconds least with one.
 const LAYERS: [(f64, usize); 2] = [(0.12, 2500), (0.05, 1000)];
 
+/// All nodes at which interface values have a place are taken where these are no more than so many times those they act on.
+const NEARLY: f64 = 1.25;
+
 /// The equations that interface values act on, with those of the nodes around.
 pub(super) struct InterfaceBlock {
     direct: Direct,
@@ -320,10 +323,26 @@ pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
     touched
 }
 
-/// Nodes and other raw dofs that interface values act on, and layers of nodes around, where they are not too many.
+/// Whether interface values have a place at each node.
+fn coupled(kept: &Kept) -> Vec<bool> {
+    let start = &kept.interface.row_start;
+    let of_node = |node: usize| {
+        let [first, last] = [3 * node, 3 * node + 3].map(|dof| start[dof.min(start.len() - 1)]);
+        first < last
+    };
+    (0..kept.bulk.nrow()).map(of_node).collect()
+}
+
+/// Nodes and other raw dofs that interface values act on, and layers of nodes around, where they are not too many. Where
+/// values act on nearly all that they have a place at, these are taken: then what opens and closes costs no new order.
 fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
     let nnode = kept.bulk.nrow();
     let mut inside = touched(kept, values);
+    let all = coupled(kept);
+    let [some, most] = [&inside, &all].map(|some| some.iter().filter(|is_in| **is_in).count());
+    if some > 0 && most as f64 <= NEARLY * some as f64 {
+        inside = all;
+    }
     let beyond = 3 * nnode..kept.equation.len();
     let extra: Vec<u32> = beyond
         .filter(|&dof| kept.equation[dof] != NONE)
