@@ -23,8 +23,8 @@ use signorini_mechanics::model::{
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
 };
-use signorini_mechanics::system::Idealisation;
 use signorini_mechanics::system::linear::LinearKind;
+use signorini_mechanics::system::{Archive, Idealisation};
 
 /// A situation; the default is a block that is pressed without friction.
 #[derive(Clone, Copy)]
@@ -100,14 +100,7 @@ fn situations() -> Vec<Situation> {
     ]
 }
 
-struct Found {
-    displacement: Vec<Vec3>,
-    unknowns: usize,
-    iterations: usize,
-    notes: Vec<String>,
-}
-
-fn solved(s: &Situation, linear: LinearKind) -> Found {
+fn model_of(s: &Situation) -> Model {
     let mut mesh = Mesh::default();
     let base = Grid::new(s.element, s.cells[0], s.cells[1].min(4), |x| {
         Vec3::new(2.0 * x.x - 0.4, 2.0 * x.y - 0.5, x.z - 1.0)
@@ -201,19 +194,34 @@ fn solved(s: &Situation, linear: LinearKind) -> Found {
         }],
         ..Parts::new(&mesh, Idealisation::Space)
     };
-    let mut model = Model::assemble(parts).unwrap();
+    Model::assemble(parts).unwrap()
+}
+
+fn settings(linear: LinearKind) -> StepperSettings {
     let mut settings = StepperSettings {
         linear,
         ..StepperSettings::default()
     };
     settings.newton.force_tol = 1e-9;
+    settings
+}
+
+struct Found {
+    displacement: Vec<Vec3>,
+    unknowns: usize,
+    iterations: usize,
+    notes: Vec<String>,
+}
+
+fn solved(s: &Situation, linear: LinearKind) -> Found {
+    let mut model = model_of(s);
     let mut found = Found {
         displacement: Vec::new(),
         unknowns: model.system.layout.ndof(),
         iterations: 0,
         notes: Vec::new(),
     };
-    let mut stepper = Stepper::new(&model.system, settings);
+    let mut stepper = Stepper::new(&model.system, settings(linear));
     let mut watch = |event: &Event<'_>| {
         match event {
             Event::Increment { record, frame } => {
@@ -254,5 +262,51 @@ fn hard_situations_are_solved_or_left_to_the_direct_solver_aloud() {
         assert!(off < s.tolerance, "{}: {off:e}", s.name);
         assert!(!found.notes.is_empty() && direct.notes.is_empty());
         assert!(found.iterations <= 2 * direct.iterations + 6, "{}", s.name);
+    }
+}
+
+/// Displacements after each increment, and iterations, where `next` makes the stepper that goes on from an archive.
+fn by_increments(
+    s: &Situation,
+    next: impl Fn(Stepper, &mut Model, &Archive) -> Stepper,
+) -> Vec<(Vec<Vec3>, usize)> {
+    let mut model = model_of(s);
+    let mut stepper = Stepper::new(&model.system, settings(LinearKind::Multigrid));
+    let mut found = Vec::new();
+    loop {
+        let mut watch = |event: &Event<'_>| match event {
+            Event::Increment { record, frame } => {
+                found.push((frame.displacement.clone(), record.iterations));
+                Flow::Stop
+            }
+            _ => Flow::Continue,
+        };
+        let outcome = stepper.run(&mut model.system, &model.steps, &mut watch);
+        if outcome.unwrap() == Outcome::Finished {
+            return found;
+        }
+        let mut archive = Archive::default();
+        stepper.save(&model.system, &mut archive);
+        stepper = next(stepper, &mut model, &archive);
+    }
+}
+
+#[test]
+fn what_a_solver_keeps_makes_no_difference_to_a_run_that_goes_on() {
+    let all = situations();
+    let chosen = all.iter().filter(|s| s.mu > 0.0 || s.name == PRESSED.name);
+    for s in chosen.inspect(|s| println!("{}", s.name)) {
+        let by = settings(LinearKind::Multigrid);
+        let whole = by_increments(s, |stepper, _, _| stepper);
+        let restarted = by_increments(s, |stepper, model, archive| {
+            let stepper = stepper.restarted(&mut model.system, by, archive);
+            stepper.unwrap()
+        });
+        let resumed = by_increments(s, |_, model, archive| {
+            *model = model_of(s);
+            Stepper::resumed(&mut model.system, by, archive).unwrap()
+        });
+        assert_eq!(whole.len(), 2);
+        assert!(restarted == resumed && whole == resumed);
     }
 }

@@ -105,6 +105,13 @@ impl Equations {
         self.solver.start_from(step, bulk);
     }
 
+    /// Lets the solver take over what that of equations before has left.
+    pub fn inherit(&mut self, mut before: Self) {
+        if let Some(heritage) = before.solver.bequeath() {
+            self.solver.inherit(heritage);
+        }
+    }
+
     /// Numbers the unknowns and does the symbolic work.
     pub fn analyze(
         &mut self,

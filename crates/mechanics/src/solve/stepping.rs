@@ -220,6 +220,22 @@ impl Stepper {
         Ok(stepper)
     }
 
+    /// Goes on in the place of this one as [`Stepper::resumed`] does, to the same bits: what the linear solver would make
+    /// again is not made again.
+    ///
+    /// # Errors
+    /// The archive belongs to another model.
+    pub fn restarted(
+        self,
+        system: &mut System,
+        settings: StepperSettings,
+        from: &Archive,
+    ) -> Result<Self, ArchiveError> {
+        let mut stepper = Self::resumed(system, settings, from)?;
+        stepper.newton.equations.inherit(self.newton.equations);
+        Ok(stepper)
+    }
+
     /// The last accepted state.
     #[must_use]
     pub const fn state(&self) -> &State {

@@ -195,7 +195,13 @@ impl Run<'_, '_> {
     /// Solves until the end, a limit or a failure; saves where it is due.
     fn solve(&mut self, start: &Start, from: Option<&Checkpoint>) -> Result<Ending, ArchiveError> {
         let mut stepper = match from {
-            Some(from) => self.restart(&solution_of(&from.archive))?,
+            Some(from) => {
+                let archive = solution_of(&from.archive);
+                let Model {
+                    system, settings, ..
+                } = &mut *self.model;
+                Stepper::resumed(system, *settings, &archive)?
+            }
             None => {
                 self.recorder.undeformed(&start.frame);
                 Stepper::new(&self.model.system, self.model.settings)
@@ -206,7 +212,11 @@ impl Run<'_, '_> {
             if due && self.recorder.error.is_none() {
                 let saved = self.recorder.save(&stepper, &self.model.system);
                 if let Some(solution) = saved {
-                    stepper = self.restart(&solution)?;
+                    // in the way a new process does, so that both give the same bits
+                    let Model {
+                        system, settings, ..
+                    } = &mut *self.model;
+                    stepper = stepper.restarted(system, *settings, &solution)?;
                 }
             }
             if self.recorder.error.is_some() {
@@ -225,12 +235,6 @@ impl Run<'_, '_> {
                 Err(error) => return Ok(self.failed(&error, &stepper)),
             }
         }
-    }
-
-    /// Goes on from an archive in the way a new process does, so that both give the same bits: with a stepper that has
-    /// seen nothing else.
-    fn restart(&mut self, archive: &Archive) -> Result<Stepper, ArchiveError> {
-        Stepper::resumed(&mut self.model.system, self.model.settings, archive)
     }
 
     fn failed(&mut self, error: &RunError, stepper: &Stepper) -> Ending {

@@ -220,6 +220,9 @@ pub struct SolveReport {
     pub negative_pivots: usize,
 }
 
+/// What a solver leaves to the one that goes on in its place.
+pub struct Heritage(Box<multigrid::Grid>);
+
 /// A way to solve linear systems; see the room's page for the order of calls.
 pub trait LinearSolver: Send {
     /// Takes note of the pattern. Cheap where the problem is the same as in the last call.
@@ -246,6 +249,15 @@ pub trait LinearSolver: Send {
     /// Takes the values of the bulk at the start of the run, undeformed and without history, as this step has them; none
     /// where they are those of all states.
     fn start_from(&mut self, _step: usize, _bulk: Option<Vec<f64>>) {}
+
+    /// What it has that depends on the problem and its values alone, not on what was solved before: for a solver that goes
+    /// on in its place as if it were new. Nothing unless said.
+    fn bequeath(&mut self) -> Option<Heritage> {
+        None
+    }
+
+    /// Takes over what another one has left, where it can be of use.
+    fn inherit(&mut self, _heritage: Heritage) {}
 
     /// Solves `A x = rhs` until the true relative residual is at most `rtol`, or at the round-off of the operator.
     ///

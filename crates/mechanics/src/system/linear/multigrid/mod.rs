@@ -42,7 +42,7 @@ mod vectors;
 
 use super::residual::Residual;
 use super::{
-    Condensed, Direct, EXACT, Kept, LinearError, LinearSolver, Note, Problem, SolveReport,
+    Condensed, Direct, EXACT, Heritage, Kept, LinearError, LinearSolver, Note, Problem, SolveReport,
     Symmetry, Values, Why, apply, largest,
 };
 use crate::system::sparsity::{NONE, Pattern};
@@ -92,7 +92,7 @@ enum Way {
 }
 
 /// What serves one problem.
-struct Grid {
+pub(super) struct Grid {
     fine: Fine,
     hierarchy: Option<Hierarchy>,
     /// The fingerprint of the stiffness that the hierarchy was made of, and whether it is that of this increment.
@@ -313,6 +313,17 @@ impl LinearSolver for Multigrid {
         }
     }
 
+    fn bequeath(&mut self) -> Option<Heritage> {
+        (self.kept, self.way) = (None, None);
+        self.grid.take().map(|grid| Heritage(Box::new(grid.rested())))
+    }
+
+    fn inherit(&mut self, Heritage(grid): Heritage) {
+        // nothing is known of the present problem: the grid serves if it suits that
+        (self.kept, self.way) = (None, None);
+        self.grid = Some(*grid);
+    }
+
     fn notes(&mut self) -> Vec<Note> {
         std::mem::take(&mut self.notes)
     }
@@ -439,6 +450,21 @@ impl Grid {
         self.work.raw_x = vec![0.0; kept.equation.len()];
         self.work.raw_y = vec![0.0; kept.equation.len()];
         self.work.right = vec![0.0; kept.sign.len()];
+    }
+
+    /// The same with nothing but what a new one would make again of the same stiffness: fingerprints tell which that is.
+    fn rested(self) -> Self {
+        let is_of_start = self.start.is_in_use;
+        Self {
+            is_proven: false,
+            start: Some(self.start).filter(|_| is_of_start).unwrap_or_default(),
+            has_failed: false,
+            block: InterfaceBlock::new(),
+            base: None,
+            rate: 0.0,
+            worn: 0,
+            ..self
+        }
     }
 
     /// Where contact holds what nothing else does.
