@@ -185,6 +185,8 @@ pub struct Interface {
     judged: Vec<Judged>,
     accepted_judged: Vec<Judged>,
     next: Pairing,
+    /// Where the rows of each chunk end.
+    shares: Vec<usize>,
     history: History,
     /// Whether the accepted choices are those of a state, and not just of nothing.
     started: bool,
@@ -250,6 +252,7 @@ impl Interface {
             before: nothing.clone(),
             judged: vec![Judged::default(); nrow],
             accepted_judged: vec![Judged::default(); nrow],
+            shares: Vec::new(),
             next: nothing,
             history,
             started: false,
@@ -521,6 +524,7 @@ impl Term for Interface {
             });
         }
         self.stick(&at).map_err(|e| self.failed(&e))?;
+        self.share_out(trial);
         Ok(self.couple(trial))
     }
 
@@ -537,7 +541,7 @@ impl Term for Interface {
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         let scratch = work.of::<Scratch>();
-        for row in rows::chunk(chunk, self.parts.discretization.nrow()) {
+        for row in self.share(chunk) {
             self.act(row, trial, order, scratch, out)?;
         }
         Ok(())

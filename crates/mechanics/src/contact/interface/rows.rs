@@ -10,6 +10,7 @@ use crate::contact::row::Row;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::Feature;
 use signorini_geometry::tensor::Vec3;
+use std::ops::Range;
 
 /// Rounding error of a gap over the coordinates it comes from.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -20,6 +21,9 @@ const CHUNK: usize = 64;
 /// Chunks come in multiples of this, so that a few threads get as many each.
 const EVEN: usize = 4;
 
+/// How many times the work of another row one is on which something acts.
+const ACTING: usize = 16;
+
 /// Into how many chunks rows are split.
 pub(super) fn nchunk(nrow: usize) -> usize {
     match nrow {
@@ -29,13 +33,52 @@ pub(super) fn nchunk(nrow: usize) -> usize {
 }
 
 /// Rows of a chunk: all chunks have as many, or one more.
-pub(super) fn chunk(chunk: usize, nrow: usize) -> std::ops::Range<usize> {
+pub(super) fn chunk(chunk: usize, nrow: usize) -> Range<usize> {
     let nchunk = nchunk(nrow).max(1);
     let first = |chunk: usize| (chunk * nrow / nchunk).min(nrow);
     first(chunk)..first(chunk + 1)
 }
 
+/// Where each of as many chunks ends if each has as much work, or one row more.
+fn even_work(nrow: usize, work: impl Fn(usize) -> usize, ends: &mut Vec<usize>) {
+    let nchunk = nchunk(nrow);
+    let all: usize = (0..nrow).map(&work).sum();
+    ends.clear();
+    let mut done = 0;
+    for row in 0..nrow {
+        done += work(row);
+        while ends.len() + 1 < nchunk && done * nchunk >= all * (ends.len() + 1) {
+            ends.push(row + 1);
+        }
+    }
+    ends.resize(nchunk, nrow);
+}
+
 impl Interface {
+    /// Shares the rows out among chunks so that each has about as many on which something acts: what a chunk has to do
+    /// depends on that, and what comes of it does not.
+    pub(super) fn share_out(&mut self, trial: &State) {
+        let mut ends = std::mem::take(&mut self.shares);
+        let work = |row: usize| {
+            let is_near = self.now.pairs[row].is_some_and(|pair| pair.gap < 0.0);
+            let lambda = self.lambda(row, trial);
+            let acts = is_near || lambda.scalar != 0.0 || lambda.vector != Vec3::ZERO;
+            if acts { ACTING } else { 1 }
+        };
+        even_work(self.parts.discretization.nrow(), work, &mut ends);
+        self.shares = ends;
+    }
+
+    /// The rows of a chunk.
+    pub(super) fn share(&self, chunk: usize) -> Range<usize> {
+        let end = |chunk: usize| self.shares.get(chunk).copied();
+        match end(chunk) {
+            Some(last) => chunk.checked_sub(1).and_then(end).unwrap_or(0)..last,
+            // before anything was looked for
+            None => self::chunk(chunk, self.parts.discretization.nrow()),
+        }
+    }
+
     /// Fills a row; its gap is what the law sees.
     pub(super) fn fill(
         &self,
@@ -351,7 +394,7 @@ impl Interface {
 
 #[cfg(test)]
 mod tests {
-    use super::{CHUNK, EVEN, chunk, nchunk};
+    use super::{ACTING, CHUNK, EVEN, chunk, even_work, nchunk};
 
     #[test]
     fn chunks_share_all_rows_evenly() {
@@ -365,5 +408,22 @@ mod tests {
             assert!(chunks.len() <= 1 || chunks.len() % EVEN == 0);
         }
         assert!(chunk(7, 10).is_empty());
+    }
+
+    #[test]
+    fn chunks_have_as_many_rows_on_which_something_acts() {
+        let mut ends = vec![7];
+        for (nrow, acting) in [(0, 0..0), (1, 0..1), (40, 3..9), (221, 10..58), (221, 0..0)] {
+            let work = |row| if acting.contains(&row) { ACTING } else { 1 };
+            even_work(nrow, work, &mut ends);
+            assert_eq!(ends.len(), nchunk(nrow));
+            assert!(ends.is_sorted() && ends.last().is_none_or(|&last| last == nrow));
+            let begins = [0].into_iter().chain(ends.iter().copied());
+            let all: usize = (0..nrow).map(work).sum();
+            for (begin, &end) in begins.zip(&ends) {
+                let share: usize = (begin..end).map(work).sum();
+                assert!(share * ends.len() <= all + ACTING * ends.len());
+            }
+        }
     }
 }
