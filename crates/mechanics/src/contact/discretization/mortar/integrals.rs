@@ -7,9 +7,10 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
+use std::cell::RefCell;
 
 /// Facets whose integrals one thread keeps.
-const KEPT: usize = 24;
+const NKEPT: usize = 64;
 
 /// The integrals of one facet, with the memory they take.
 #[derive(Default)]
@@ -109,9 +110,26 @@ impl Integrator {
     }
 }
 
+thread_local! {
+    /// A thread takes chunks of rows that lie side by side: what the last rows of one needed serves the next.
+    static KEPT: RefCell<Kept> = RefCell::default();
+}
+
+/// Lets `take` have the integrals of a facet with derivatives, integrated where this thread does not keep them. `stamp` is
+/// another number for every configuration and every pair of surfaces.
+pub(super) fn with_integrals<T>(
+    stamp: u64,
+    facet: u32,
+    of: (Measure, Basis),
+    integrate: impl FnOnce(&mut Integrator) -> Result<(), SurfaceError>,
+    take: impl FnOnce(&Covered) -> Result<T, SurfaceError>,
+) -> Result<T, SurfaceError> {
+    KEPT.with_borrow_mut(|kept| take(kept.of(stamp, facet, of, integrate)?))
+}
+
 /// Integrals with derivatives that one thread keeps for the next row.
 #[derive(Default)]
-pub(super) struct Kept {
+struct Kept {
     slots: Vec<Slot>,
     clock: u64,
 }
@@ -126,7 +144,7 @@ struct Slot {
 
 impl Kept {
     /// Those of a facet, integrated where they are not kept.
-    pub fn of(
+    fn of(
         &mut self,
         stamp: u64,
         facet: u32,
@@ -138,7 +156,7 @@ impl Kept {
         let found = self.slots.iter().position(known);
         let place = match found {
             Some(place) => place,
-            None if self.slots.len() < KEPT => {
+            None if self.slots.len() < NKEPT => {
                 self.slots.push(Slot::default());
                 self.slots.len() - 1
             }

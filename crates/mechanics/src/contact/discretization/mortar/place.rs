@@ -1,6 +1,6 @@
 //! (E1) to (E4) of the room, at one configuration.
 
-use super::integrals::Kept;
+use super::integrals::with_integrals;
 use super::{Mortar, Normals, corner_normal, nodes_of};
 use crate::contact::discretization::{Anchored, SurfacePair};
 use crate::contact::mortar::{Covered, OfRow, Weights};
@@ -12,7 +12,6 @@ use signorini_geometry::tensor::Vec3;
 /// What one thread works with, row after row.
 #[derive(Default)]
 pub(super) struct Workspace {
-    kept: Kept,
     /// Who takes part in the row: all nodes of the present weights, then those of the accepted ones alone.
     pub participants: Vec<NodeId>,
     /// The place among the nodes of the row of each node of a facet and of those that it meets.
@@ -151,15 +150,6 @@ impl Place<'_> {
                 Some(of) if !of.met.is_empty() => of,
                 _ => continue,
             };
-            let covered = work.kept.of(
-                self.weights.stamp,
-                facet,
-                (self.mortar.measure, self.mortar.form.basis),
-                |integrator| {
-                    integrator.near.clone_from(&of.met);
-                    integrator.integrate(facets, facet, self.pair, self.at, true)
-                },
-            )?;
             let nodes = facets.nodes(facet);
             work.places.clear();
             let known = |node: &NodeId, of: &[NodeId]| of.iter().position(|n| n == node);
@@ -177,7 +167,16 @@ impl Place<'_> {
                 way: &mut work.way,
                 row,
             };
-            self.add(sums, facets, (facet, place, share), covered)?;
+            with_integrals(
+                self.weights.stamp,
+                facet,
+                (self.mortar.measure, self.mortar.form.basis),
+                |integrator| {
+                    integrator.near.clone_from(&of.met);
+                    integrator.integrate(facets, facet, self.pair, self.at, true)
+                },
+                |covered| self.add(sums, facets, (facet, place, share), covered),
+            )?;
         }
         let (sum, g) = (self.now.normal.norm(), self.gap());
         let nu = row.normal;
