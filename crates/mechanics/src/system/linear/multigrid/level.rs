@@ -44,14 +44,34 @@ impl<const N: usize> Level<N> {
         modes: &[[[f64; MODES]; N]],
         parts: &[Range<usize>],
     ) -> Option<(Self, Coarser)> {
-        let smoother = smoother(matrix, parts)?;
-        let rows = (0..matrix.nrow()).into_par_iter();
-        let inverses: Option<Vec<[[f64; N]; N]>> =
-            rows.map(|row| inverse(matrix.diagonal(row))).collect();
-        let inverses = inverses?;
-        let single: Packed<N, N> = Packed::new(matrix);
-        let largest = SAFETY
-            * largest(&single, matrix.nrow(), |r| {
+        // each has something that one thread does alone
+        let (smoother, way) = rayon::join(|| smoother(matrix, parts), || way_down(matrix, modes));
+        let Way {
+            single,
+            prolong,
+            coarser,
+        } = way?;
+        Some((Self::with(single, smoother?, &prolong), coarser))
+    }
+}
+
+/// What a level has besides its smoother.
+struct Way<const N: usize> {
+    single: Packed<N, N>,
+    prolong: Blocks<N, MODES>,
+    coarser: Coarser,
+}
+
+/// The way to the next level; `None` where a block on the diagonal is not positive definite.
+fn way_down<const N: usize>(matrix: &Blocks<N, N>, modes: &[[[f64; MODES]; N]]) -> Option<Way<N>> {
+    let ((motions, coarse_modes), of_jacobi) = rayon::join(
+        || Aggregates::new(matrix).motions(modes),
+        || {
+            let single: Packed<N, N> = Packed::new(matrix);
+            let rows = (0..matrix.nrow()).into_par_iter();
+            let inverses = rows.map(|row| inverse(matrix.diagonal(row)));
+            let inverses = inverses.collect::<Option<Vec<[[f64; N]; N]>>>()?;
+            let largest = largest(&single, matrix.nrow(), |r| {
                 r.par_iter_mut().zip(&inverses).for_each(|(r, inverse)| {
                     let right = r.map(f64::from);
                     let mut product = [0.0; N];
@@ -59,17 +79,22 @@ impl<const N: usize> Level<N> {
                     *r = product.map(|v| v as f32);
                 });
             });
-        let (motions, coarse_modes) = Aggregates::new(matrix).motions(modes);
-        let weight = 4.0 / (3.0 * largest);
-        let prolong = matrix.times(&motions, |row, columns, blocks| {
-            let own = (motions.column[row], &motions.value[row]);
-            smooth(own, &inverses[row], weight, columns, blocks);
-        });
-        let mut coarse = matrix.projected(&prolong);
-        settle(&mut coarse);
-        let level = Self::with(single, smoother, &prolong);
-        Some((level, (coarse, coarse_modes)))
-    }
+            Some((single, inverses, SAFETY * largest))
+        },
+    );
+    let (single, inverses, largest) = of_jacobi?;
+    let weight = 4.0 / (3.0 * largest);
+    let prolong = matrix.times(&motions, |row, columns, blocks| {
+        let own = (motions.column[row], &motions.value[row]);
+        smooth(own, &inverses[row], weight, columns, blocks);
+    });
+    let mut coarse = matrix.projected(&prolong);
+    settle(&mut coarse);
+    Some(Way {
+        single,
+        prolong,
+        coarser: (coarse, coarse_modes),
+    })
 }
 
 impl<const N: usize, const M: usize> Level<N, M> {
@@ -80,19 +105,23 @@ impl<const N: usize, const M: usize> Level<N, M> {
         prolong: &Blocks<N, M>,
         parts: &[Range<usize>],
     ) -> Option<(Self, Blocks<M, M>)> {
-        let smoother = smoother(matrix, parts)?;
-        let level = Self::with(Packed::new(matrix), smoother, prolong);
-        Some((level, matrix.projected(prolong)))
+        let (smoother, (single, coarse)) = rayon::join(
+            || smoother(matrix, parts),
+            || (Packed::new(matrix), matrix.projected(prolong)),
+        );
+        Some((Self::with(single, smoother?, prolong), coarse))
     }
 
     fn with(matrix: Packed<N, N>, smoother: Incomplete<N>, prolong: &Blocks<N, M>) -> Self {
         let nrow = prolong.nrow();
+        let (to_fine, to_coarse) =
+            rayon::join(|| Packed::new(prolong), || Packed::transposed(prolong));
         let mut level = Self {
             matrix,
             smoother,
             damping: 1.0,
-            prolong: Packed::new(prolong),
-            restrict: Packed::transposed(prolong),
+            prolong: to_fine,
+            restrict: to_coarse,
             residual: vec![[0.0; N]; nrow],
             change: vec![[0.0; N]; nrow],
             springs: None,

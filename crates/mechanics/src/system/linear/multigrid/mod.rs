@@ -42,8 +42,8 @@ mod vectors;
 
 use super::residual::Residual;
 use super::{
-    Condensed, Direct, EXACT, Heritage, Kept, LinearError, LinearSolver, Note, Problem, SolveReport,
-    Symmetry, Values, Why, apply, largest,
+    Condensed, Direct, EXACT, Heritage, Kept, LinearError, LinearSolver, Note, Problem,
+    SolveReport, Symmetry, Values, Why, apply, largest,
 };
 use crate::system::sparsity::{NONE, Pattern};
 use block::{InterfaceBlock, touched};
@@ -315,7 +315,9 @@ impl LinearSolver for Multigrid {
 
     fn bequeath(&mut self) -> Option<Heritage> {
         (self.kept, self.way) = (None, None);
-        self.grid.take().map(|grid| Heritage(Box::new(grid.rested())))
+        self.grid
+            .take()
+            .map(|grid| Heritage(Box::new(grid.rested())))
     }
 
     fn inherit(&mut self, Heritage(grid): Heritage) {
