@@ -238,6 +238,41 @@ fn arrays_of_many_pieces_are_read_back_and_do_not_depend_on_threads() {
 }
 
 #[test]
+fn what_compression_does_not_make_smaller_is_stored_as_it_is() {
+    let n = 3 * PIECE / 8 + 5;
+    let mut state = 1u64;
+    let mut noise = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        f64::from_bits(0x3ff0_0000_0000_0000 | state >> 12)
+    };
+    let noise: Vec<f64> = (0..n).map(|_| noise()).collect();
+    // noise here and there is no reason to store the rest
+    let steps: Vec<f64> = (0..n)
+        .map(|i| if i % 64 == 0 { noise[i] } else { 2.0 })
+        .collect();
+    let points = vec![[0.0; 3]; n];
+    let size = |values: &[f64]| {
+        let data = [Field::new("values", Values::Scalar(values))];
+        let grid = Grid {
+            points: &points,
+            point_data: &data,
+            ..Grid::default()
+        };
+        let bytes = encode(&grid, &Options::default()).unwrap();
+        let vtu = read(&bytes).unwrap();
+        let found = &vtu.point_field("values").unwrap().numbers;
+        assert!(*found == Numbers::F64(values.to_vec()));
+        bytes.len()
+    };
+    let nothing = size(&vec![0.0; n]);
+    let (noise, steps) = (size(&noise) - nothing, size(&steps) - nothing);
+    assert!(noise.abs_diff(8 * n) < 8 * n / 100, "{noise} of {}", 8 * n);
+    assert!(steps < 8 * n / 10, "{steps} of {}", 8 * n);
+}
+
+#[test]
 fn every_cell_type_is_written_with_its_number_of_nodes() {
     let (types, offsets, connectivity) = one_cell_of_every_type();
     assert_eq!(

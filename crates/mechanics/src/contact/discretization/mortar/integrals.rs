@@ -9,8 +9,11 @@ use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceErro
 use signorini_geometry::tensor::Vec3;
 use std::cell::RefCell;
 
-/// Facets whose integrals one thread keeps.
-const NKEPT: usize = 64;
+/// Facets whose integrals one thread keeps: two lines of a surface of 30 by 30 at least, where those of a facet take 60 kB;
+/// of quadratic facets they take up to ten times as much.
+const fn nkept(nnode: usize) -> usize {
+    if nnode > 4 { 24 } else { 64 }
+}
 
 /// The integrals of one facet, with the memory they take.
 #[derive(Default)]
@@ -115,16 +118,16 @@ thread_local! {
     static KEPT: RefCell<Kept> = RefCell::default();
 }
 
-/// Lets `take` have the integrals of a facet with derivatives, integrated where this thread does not keep them. `stamp` is
-/// another number for every configuration and every pair of surfaces.
+/// Lets `take` have the integrals of a facet, which has so many nodes, with derivatives: integrated where this thread does
+/// not keep them. `stamp` is another number for every configuration and every pair of surfaces.
 pub(super) fn with_integrals<T>(
     stamp: u64,
-    facet: u32,
+    (facet, nnode): (u32, usize),
     of: (Measure, Basis),
     integrate: impl FnOnce(&mut Integrator) -> Result<(), SurfaceError>,
     take: impl FnOnce(&Covered) -> Result<T, SurfaceError>,
 ) -> Result<T, SurfaceError> {
-    KEPT.with_borrow_mut(|kept| take(kept.of(stamp, facet, of, integrate)?))
+    KEPT.with_borrow_mut(|kept| take(kept.of(stamp, (facet, nnode), of, integrate)?))
 }
 
 /// Integrals with derivatives that one thread keeps for the next row.
@@ -147,7 +150,7 @@ impl Kept {
     fn of(
         &mut self,
         stamp: u64,
-        facet: u32,
+        (facet, nnode): (u32, usize),
         (measure, basis): (Measure, Basis),
         integrate: impl FnOnce(&mut Integrator) -> Result<(), SurfaceError>,
     ) -> Result<&Covered, SurfaceError> {
@@ -156,7 +159,7 @@ impl Kept {
         let found = self.slots.iter().position(known);
         let place = match found {
             Some(place) => place,
-            None if self.slots.len() < NKEPT => {
+            None if self.slots.len() < nkept(nnode) => {
                 self.slots.push(Slot::default());
                 self.slots.len() - 1
             }

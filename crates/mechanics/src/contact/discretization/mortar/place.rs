@@ -169,7 +169,7 @@ impl Place<'_> {
             };
             with_integrals(
                 self.weights.stamp,
-                facet,
+                (facet, nodes.len()),
                 (self.mortar.measure, self.mortar.form.basis),
                 |integrator| {
                     integrator.near.clone_from(&of.met);
