@@ -197,10 +197,7 @@ impl Run<'_, '_> {
         let mut stepper = match from {
             Some(from) => {
                 let archive = solution_of(&from.archive);
-                let Model {
-                    system, settings, ..
-                } = &mut *self.model;
-                Stepper::resumed(system, *settings, &archive)?
+                Stepper::resumed(&mut self.model.system, self.model.settings, &archive)?
             }
             None => {
                 self.recorder.undeformed(&start.frame);
@@ -213,10 +210,8 @@ impl Run<'_, '_> {
                 let saved = self.recorder.save(&stepper, &self.model.system);
                 if let Some(solution) = saved {
                     // in the way a new process does, so that both give the same bits
-                    let Model {
-                        system, settings, ..
-                    } = &mut *self.model;
-                    stepper = stepper.restarted(system, *settings, &solution)?;
+                    let settings = self.model.settings;
+                    stepper = stepper.restarted(&mut self.model.system, settings, &solution)?;
                 }
             }
             if self.recorder.error.is_some() {

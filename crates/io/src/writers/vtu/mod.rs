@@ -442,32 +442,29 @@ impl File<'_> {
             waiting,
             ..
         } = self;
-        let mut pieces = match options.compression {
-            Some(level) => {
-                let pieces = waiting.iter().flat_map(|(_, bytes)| bytes.chunks(PIECE));
-                let pieces: Vec<&[u8]> = pieces.collect();
-                let pieces = pieces.into_par_iter().with_max_len(1);
-                let deflated = pieces.map_init(|| Deflate::new(level), Deflate::piece);
-                deflated.collect::<Vec<Vec<u8>>>().into_iter()
-            }
-            None => Vec::new().into_iter(),
-        };
-        for (at, bytes) in waiting.iter() {
-            offsets.push((*at, data.len()));
-            if options.compression.is_none() {
+        let Some(level) = options.compression else {
+            for (at, bytes) in waiting.drain(..) {
+                offsets.push((at, data.len()));
                 data.extend_from_slice(&(bytes.len() as u64).to_le_bytes());
-                data.extend_from_slice(bytes);
-                continue;
+                data.extend_from_slice(&bytes);
             }
-            let own: Vec<Vec<u8>> = pieces.by_ref().take(bytes.len().div_ceil(PIECE)).collect();
-            let last = bytes.len() % PIECE;
-            let header = [own.len() as u64, PIECE as u64, last as u64];
+            return;
+        };
+        let pieces = waiting.iter().flat_map(|(_, bytes)| bytes.chunks(PIECE));
+        let pieces: Vec<&[u8]> = pieces.collect();
+        let deflated = pieces.into_par_iter().with_max_len(1);
+        let deflated = deflated.map_init(|| Deflate::new(level), Deflate::piece);
+        let mut deflated = deflated.collect::<Vec<Vec<u8>>>().into_iter();
+        for (at, bytes) in waiting.drain(..) {
+            offsets.push((at, data.len()));
+            let count = bytes.len().div_ceil(PIECE);
+            let own: Vec<Vec<u8>> = deflated.by_ref().take(count).collect();
+            let header = [count as u64, PIECE as u64, (bytes.len() % PIECE) as u64];
             let sizes = own.iter().map(|piece| piece.len() as u64);
             let header: Vec<u64> = header.into_iter().chain(sizes).collect();
             extend_le(data, &header, u64::to_le_bytes);
             own.iter().for_each(|piece| data.extend_from_slice(piece));
         }
-        waiting.clear();
     }
 
     /// The whole file.

@@ -265,8 +265,10 @@ impl Fronts {
         self.to.reserve_exact(matrix.row.len());
         for (nodes, placed) in self.nodes.chunks_mut(NODES).zip(placed?) {
             let first = self.from.len();
-            for (node, ends) in nodes.iter_mut().zip(placed.ends.windows(2)) {
-                node.entries = first + ends[0]..first + ends[1];
+            let mut begin = first;
+            for (node, end) in nodes.iter_mut().zip(&placed.ends) {
+                node.entries = begin..first + end;
+                begin = first + end;
             }
             self.from.extend_from_slice(&placed.from);
             self.to.extend_from_slice(&placed.to);
@@ -397,21 +399,12 @@ impl Fronts {
 }
 
 /// The places of the entries of some nodes in their panels.
+#[derive(Default)]
 struct Placed {
     from: Vec<u32>,
     to: Vec<u32>,
-    /// Where the entries of each node begin, and the last ones end.
+    /// Where the entries of each node end.
     ends: Vec<usize>,
-}
-
-impl Default for Placed {
-    fn default() -> Self {
-        Self {
-            from: Vec::new(),
-            to: Vec::new(),
-            ends: vec![0],
-        }
-    }
 }
 
 impl Placed {

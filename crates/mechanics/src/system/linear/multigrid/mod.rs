@@ -288,9 +288,7 @@ impl LinearSolver for Multigrid {
     fn forget(&mut self) {
         self.direct.forget();
         if let Some(grid) = &mut self.grid {
-            (grid.is_proven, grid.has_failed) = (false, false);
-            (grid.base, grid.worn) = (None, 0);
-            grid.block.forget();
+            grid.forget();
         }
     }
 
@@ -315,9 +313,13 @@ impl LinearSolver for Multigrid {
 
     fn bequeath(&mut self) -> Option<Heritage> {
         (self.kept, self.way) = (None, None);
-        self.grid
-            .take()
-            .map(|grid| Heritage(Box::new(grid.rested())))
+        let mut grid = self.grid.take()?;
+        grid.forget();
+        // a hierarchy is known by the fingerprint of its stiffness, or is that of the start
+        if !grid.start.is_in_use {
+            grid.start = Start::default();
+        }
+        Some(Heritage(Box::new(grid)))
     }
 
     fn inherit(&mut self, Heritage(grid): Heritage) {
@@ -454,19 +456,11 @@ impl Grid {
         self.work.right = vec![0.0; kept.sign.len()];
     }
 
-    /// The same with nothing but what a new one would make again of the same stiffness: fingerprints tell which that is.
-    fn rested(self) -> Self {
-        let is_of_start = self.start.is_in_use;
-        Self {
-            is_proven: false,
-            start: Some(self.start).filter(|_| is_of_start).unwrap_or_default(),
-            has_failed: false,
-            block: InterfaceBlock::new(),
-            base: None,
-            rate: 0.0,
-            worn: 0,
-            ..self
-        }
+    /// Forgets how it served.
+    fn forget(&mut self) {
+        (self.is_proven, self.has_failed) = (false, false);
+        (self.base, self.worn) = (None, 0);
+        self.block.forget();
     }
 
     /// Where contact holds what nothing else does.
