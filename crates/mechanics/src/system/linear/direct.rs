@@ -242,8 +242,9 @@ impl Analysis {
         })
     }
 
-    /// Forgets what values taught: which factor serves, and the order of multipliers.
+    /// Forgets what values taught: which factor serves, the scales, and the order of multipliers.
     fn forget(&mut self) {
+        self.gathered.matrix.forget_scales();
         (self.indefinite, self.prefer_lu) = (false, false);
         if self.gathered.kept.sign.iter().any(|&sign| sign < 0) {
             self.factors.is_order_old = true;

@@ -74,7 +74,17 @@ impl Gathered {
         let value = matrix.value.clone();
         let scales = (matrix.row_scale.clone(), matrix.column_scale.clone());
         matrix.gather(&self.kept, values)?;
-        let is_same = matrix.value == value;
+        // other scales may have become better ones
+        let is_same = (0..matrix.nequation()).all(|e| {
+            let own = matrix.range(e);
+            let pairs = matrix.value[own.clone()].iter().zip(&value[own.clone()]);
+            let rows = matrix.row[own].iter().map(|&row| row as usize);
+            pairs.zip(rows).all(|((new, old), f)| {
+                let by_new = matrix.row_scale[e] * matrix.column_scale[f];
+                let by_old = scales.0[e] * scales.1[f];
+                new / by_new == old / by_old
+            })
+        });
         matrix.value = value;
         (matrix.row_scale, matrix.column_scale) = scales;
         Ok(is_same)

@@ -19,10 +19,10 @@ use crate::system::sparsity::NONE;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Columns gathered by one task; results do not depend on it.
-const COLUMNS_PER_TASK: usize = 512;
-/// Entries that are worth a task where all of them are scaled.
+/// Entries that are worth a task; results do not depend on it.
 const ENTRIES_PER_TASK: usize = 50_000;
+/// How often scales are improved.
+const SWEEPS: usize = 3;
 
 pub(super) struct Matrix {
     /// Where each column begins.
@@ -179,7 +179,7 @@ impl Matrix {
         &self.value[self.range(column)]
     }
 
-    fn range(&self, column: usize) -> Range<usize> {
+    pub fn range(&self, column: usize) -> Range<usize> {
         self.start[column] as usize..self.start[column + 1] as usize
     }
 
@@ -204,7 +204,7 @@ impl Matrix {
         }
     }
 
-    /// Adds up bulk and interface and equilibrates.
+    /// Adds up bulk and interface and equilibrates, from the scales of the values before on.
     ///
     /// # Errors
     /// `NotFinite`, and `Singular` with the equation where a row is zero.
@@ -212,26 +212,15 @@ impl Matrix {
         let (bulk, interface, block) = (&problem.bulk, &problem.interface, problem.bulk.block);
         let nbulk = bulk.nrow() * block;
         let (dof_start, dof) = (&self.dof_start, &self.dof);
-        let (bulk_place, interface_place, start) =
-            (&self.bulk_place, &self.interface_place, &self.start);
-
-        let mut tasks = Vec::new();
-        let mut rest = self.value.as_mut_slice();
-        for first in (0..self.row_scale.len()).step_by(COLUMNS_PER_TASK) {
-            let last = (first + COLUMNS_PER_TASK).min(self.row_scale.len());
-            let (mine, others) = rest.split_at_mut((start[last] - start[first]) as usize);
-            tasks.push((first..last, mine));
-            rest = others;
-        }
-        let finite = tasks.into_par_iter().map(|(columns, out)| {
+        let (bulk_place, interface_place) = (&self.bulk_place, &self.interface_place);
+        let add_up = |e: usize, first: usize, out: &mut [f64]| {
             out.fill(0.0);
-            let base = start[columns.start];
             let mut add = |place: u32, a: f64| {
                 if place != NONE {
-                    out[(place - base) as usize] += a;
+                    out[place as usize - first] += a;
                 }
             };
-            for &d in &dof[dof_start[columns.start] as usize..dof_start[columns.end] as usize] {
+            for &d in &dof[dof_start[e] as usize..dof_start[e + 1] as usize] {
                 let d = d as usize;
                 if d < nbulk {
                     for k in bulk.row_start[d / block]..bulk.row_start[d / block + 1] {
@@ -253,51 +242,59 @@ impl Matrix {
                 }
             }
             out.iter().all(|a| a.is_finite())
+        };
+        let shares = shares(&self.start, &mut self.value, &mut self.row_max);
+        let (start, row) = (&self.start, &self.row);
+        let (row_scale, column_scale) = (&self.row_scale, &self.column_scale);
+        let measured = shares.into_par_iter().map(|share| {
+            let mut column_max = vec![0.0; column_scale.len()];
+            let mut is_finite = true;
+            let Share { columns, value, .. } = share;
+            let first = start[columns.start] as usize;
+            for (e, row_max) in columns.zip(share.row_max) {
+                let range = start[e] as usize..start[e + 1] as usize;
+                let own = &mut value[range.start - first..range.end - first];
+                is_finite &= add_up(e, range.start, own);
+                let entries = row[range].iter().zip(&*own);
+                *row_max = largest(entries, row_scale[e], column_scale, &mut column_max);
+            }
+            is_finite.then_some(column_max)
         });
-        if !finite.reduce(|| true, |a, b| a && b) {
-            return Err(LinearError::NotFinite);
-        }
+        let measured: Option<Vec<Vec<f64>>> = measured.collect();
+        let measured = measured.ok_or(LinearError::NotFinite)?;
+        self.take_measures(&measured);
         self.equilibrate()
     }
 
-    /// Scales until every row and column has its largest entry near 1, then applies the scales.
+    /// Scales until every row and column, measured with the present scales, has its largest entry near 1, then applies
+    /// the scales.
     fn equilibrate(&mut self) -> Result<(), LinearError> {
-        self.row_scale.fill(1.0);
-        self.column_scale.fill(1.0);
-        let parts = self.parts();
-        for sweep in 0..3 {
-            self.measure(&parts);
-            let (row_max, column_max) = (&self.row_max, &self.column_max);
-            if sweep == 0 {
-                let mut pairs = row_max.iter().zip(column_max);
-                let zero = pairs.position(|(&row, &column)| row == 0.0 || column == 0.0);
-                if zero.is_some() {
-                    return Err(LinearError::Singular { equation: zero });
-                }
-            }
+        let mut pairs = self.row_max.iter().zip(&self.column_max);
+        let zero = pairs.position(|(&row, &column)| row == 0.0 || column == 0.0);
+        if zero.is_some() {
+            return Err(LinearError::Singular { equation: zero });
+        }
+        for sweep in 0..SWEEPS {
             let within = |max: &[f64]| max.iter().all(|&m| (0.25..4.0).contains(&m));
-            if within(row_max) && within(column_max) {
+            if within(&self.row_max) && within(&self.column_max) {
                 break;
             }
-            for (scale, &max) in self.row_scale.iter_mut().zip(row_max) {
+            for (scale, &max) in self.row_scale.iter_mut().zip(&self.row_max) {
                 *scale *= power_of_two(max);
             }
-            for (scale, &max) in self.column_scale.iter_mut().zip(column_max) {
+            for (scale, &max) in self.column_scale.iter_mut().zip(&self.column_max) {
                 *scale *= power_of_two(max);
+            }
+            if sweep + 1 < SWEEPS {
+                self.measure();
             }
         }
+        let shares = shares(&self.start, &mut self.value, &mut self.row_max);
         let (start, row) = (&self.start, &self.row);
         let (row_scale, column_scale) = (&self.row_scale, &self.column_scale);
-        let mut rest = self.value.as_mut_slice();
-        let mut tasks = Vec::with_capacity(parts.len());
-        for columns in parts {
-            let entries = (start[columns.end] - start[columns.start]) as usize;
-            let (value, others) = rest.split_at_mut(entries);
-            tasks.push((columns, value));
-            rest = others;
-        }
-        let is_finite = tasks.into_par_iter().map(|(columns, value)| {
+        let is_finite = shares.into_par_iter().map(|share| {
             let mut is_finite = true;
+            let Share { columns, value, .. } = share;
             let first = start[columns.start] as usize;
             for e in columns {
                 let range = start[e] as usize..start[e + 1] as usize;
@@ -310,56 +307,46 @@ impl Matrix {
             is_finite
         });
         if !is_finite.reduce(|| true, |a, b| a && b) {
+            // such scales are no start for other values
+            self.forget_scales();
             return Err(LinearError::NotFinite);
         }
         Ok(())
     }
 
-    /// Columns shared among the threads, with about as many entries each.
-    fn parts(&self) -> Vec<Range<usize>> {
-        let (n, nentry) = (self.nequation(), self.row.len());
-        let count = (nentry / ENTRIES_PER_TASK).clamp(1, rayon::current_num_threads());
-        let mut first = 0;
-        let ends = (1..=count).map(|k| match k == count {
-            true => n,
-            false => self
-                .start
-                .partition_point(|&at| (at as usize) < k * nentry / count),
-        });
-        let part = |last: usize| std::mem::replace(&mut first, last)..last;
-        ends.map(part).collect()
+    /// Lets the next values be equilibrated as if they were the first.
+    pub fn forget_scales(&mut self) {
+        self.row_scale.fill(1.0);
+        self.column_scale.fill(1.0);
     }
 
     /// Finds the largest scaled entry of each row and column. An entry of column e at row f is A[e, f] of the operator.
-    fn measure(&mut self, parts: &[Range<usize>]) {
-        let (start, row, value) = (&self.start, &self.row, &self.value);
+    fn measure(&mut self) {
+        let shares = shares(&self.start, &mut self.value, &mut self.row_max);
+        let (start, row) = (&self.start, &self.row);
         let (row_scale, column_scale) = (&self.row_scale, &self.column_scale);
-        let n = row_scale.len();
-        let mut rest = self.row_max.as_mut_slice();
-        let mut tasks = Vec::with_capacity(parts.len());
-        for columns in parts {
-            let (row_max, others) = rest.split_at_mut(columns.len());
-            tasks.push((columns.clone(), row_max));
-            rest = others;
-        }
-        let measured = tasks.into_par_iter().map(|(columns, row_max)| {
-            let mut column_max = vec![0.0f64; n];
-            for (e, row_max) in columns.zip(row_max) {
+        let measured = shares.into_par_iter().map(|share| {
+            let mut column_max = vec![0.0; column_scale.len()];
+            let Share { columns, value, .. } = share;
+            let first = start[columns.start] as usize;
+            for (e, row_max) in columns.zip(share.row_max) {
                 let range = start[e] as usize..start[e + 1] as usize;
-                *row_max = 0.0;
-                for (&f, &a) in row[range.clone()].iter().zip(&value[range]) {
-                    let size = a.abs() * row_scale[e] * column_scale[f as usize];
-                    *row_max = row_max.max(size);
-                    column_max[f as usize] = column_max[f as usize].max(size);
-                }
+                let own = &value[range.start - first..range.end - first];
+                let entries = row[range].iter().zip(own);
+                *row_max = largest(entries, row_scale[e], column_scale, &mut column_max);
             }
             column_max
         });
         let measured: Vec<Vec<f64>> = measured.collect();
+        self.take_measures(&measured);
+    }
+
+    /// Takes what each share has measured of all columns.
+    fn take_measures(&mut self, measured: &[Vec<f64>]) {
         self.column_max.fill(0.0);
-        for part in measured {
-            let pairs = self.column_max.iter_mut().zip(part);
-            pairs.for_each(|(most, size)| *most = most.max(size));
+        for share in measured {
+            let pairs = self.column_max.iter_mut().zip(share);
+            pairs.for_each(|(most, size)| *most = most.max(*size));
         }
         if self.symmetric {
             for (row, column) in self.row_max.iter_mut().zip(&mut self.column_max) {
@@ -385,6 +372,51 @@ impl Matrix {
             }
         }
     }
+}
+
+/// Columns of one task, with their values and what is measured of their rows of the operator.
+struct Share<'m> {
+    columns: Range<usize>,
+    value: &'m mut [f64],
+    row_max: &'m mut [f64],
+}
+
+/// All columns, shared among the threads with about as many entries each.
+fn shares<'m>(start: &[u32], value: &'m mut [f64], row_max: &'m mut [f64]) -> Vec<Share<'m>> {
+    let (n, nentry) = (row_max.len(), value.len());
+    let count = (nentry / ENTRIES_PER_TASK).clamp(1, rayon::current_num_threads());
+    let (mut first, mut values, mut rows) = (0, value, row_max);
+    let share = |k: usize| {
+        let last = match k == count {
+            true => n,
+            false => start.partition_point(|&at| (at as usize) < k * nentry / count),
+        };
+        let columns = std::mem::replace(&mut first, last)..last;
+        let entries = (start[columns.end] - start[columns.start]) as usize;
+        Share {
+            value: values.split_off_mut(..entries).unwrap_or_default(),
+            row_max: rows.split_off_mut(..columns.len()).unwrap_or_default(),
+            columns,
+        }
+    };
+    (1..=count).map(share).collect()
+}
+
+/// The largest scaled entry of a row of the operator; those of the columns are updated.
+fn largest<'a>(
+    entries: impl Iterator<Item = (&'a u32, &'a f64)>,
+    row_scale: f64,
+    column_scale: &[f64],
+    column_max: &mut [f64],
+) -> f64 {
+    let mut of_row = 0.0f64;
+    for (&f, a) in entries {
+        let size = a.abs() * row_scale * column_scale[f as usize];
+        of_row = of_row.max(size);
+        let of_column = &mut column_max[f as usize];
+        *of_column = of_column.max(size);
+    }
+    of_row
 }
 
 /// The power of two next to 1/√size.

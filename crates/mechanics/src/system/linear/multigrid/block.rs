@@ -19,8 +19,8 @@ const NEARLY: f64 = 1.25;
 /// The equations that interface values act on, with those of the nodes around.
 pub(super) struct InterfaceBlock {
     direct: Direct,
-    /// Whether a solution with the present factor needs no refinement.
-    is_exact: bool,
+    /// Whether solutions need no refinement, as one with the first factor of these equations has told.
+    is_exact: Option<bool>,
     /// The nodes in it, and the raw dofs beyond the nodes.
     nodes: Vec<u32>,
     extra: Vec<u32>,
@@ -54,7 +54,7 @@ impl InterfaceBlock {
     pub fn new() -> Self {
         Self {
             direct: Direct::reproducible(),
-            is_exact: false,
+            is_exact: None,
             nodes: Vec::new(),
             extra: Vec::new(),
             bulk: BlockPattern::empty(0, 3),
@@ -76,6 +76,7 @@ impl InterfaceBlock {
     /// Forgets what earlier values taught.
     pub fn forget(&mut self) {
         self.direct.forget();
+        self.is_exact = None;
     }
 
     /// Takes the values of a tangent: chooses the equations, and factorizes.
@@ -88,6 +89,7 @@ impl InterfaceBlock {
             self.nodes = nodes;
             self.extra = extra;
             self.number(kept);
+            self.is_exact = None;
         }
         if self.whole.is_empty() {
             return Ok(());
@@ -110,14 +112,16 @@ impl InterfaceBlock {
             interface: &self.interface_values,
         };
         self.direct.factorize(&values)?;
-        // one solution tells whether others have to be looked at
+        if self.is_exact.is_some() {
+            return Ok(());
+        }
         let signs = [1.0, -1.0, 1.0, 1.0, -1.0];
         let signs = signs.into_iter().cycle();
         self.right.iter_mut().zip(signs).for_each(|(b, s)| *b = s);
         let (right, left) = (&self.right, &mut self.left);
         self.is_exact = match self.direct.solve(&values, right, left, TOLERANCE) {
-            Ok(report) => report.refinements == 0,
-            Err(LinearError::Inaccurate { .. }) => false,
+            Ok(report) => Some(report.refinements == 0),
+            Err(LinearError::Inaccurate { .. }) => Some(false),
             Err(other) => return Err(other),
         };
         Ok(())
@@ -246,7 +250,7 @@ impl InterfaceBlock {
 
     /// `A_II⁻¹` times what `right` gives for each of the equations, into `left`.
     fn apply(&mut self) -> Result<(), LinearError> {
-        if self.is_exact {
+        if self.is_exact == Some(true) {
             return self.direct.solve_unchecked(&self.right, &mut self.left);
         }
         let values = Values {

@@ -109,6 +109,7 @@ impl Analysis {
 
     fn factorize(&mut self, values: &Values) -> Result<(), LinearError> {
         self.current = false;
+        self.gathered.matrix.forget_scales();
         self.gathered.gather(values)?;
         if self.order.is_empty() {
             return Ok(());
