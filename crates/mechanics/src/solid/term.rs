@@ -373,11 +373,17 @@ impl Solid {
         Ok(())
     }
 
+    /// How many materials have taken the place of one before.
+    fn nchanged(&self) -> usize {
+        let is_begun = |(step, _): &&(usize, _)| *step <= self.step.number;
+        self.later.iter().take_while(is_begun).count()
+    }
+
     /// The material of the present step.
     fn material(&self) -> &dyn Material {
-        let mut later = self.later.iter().rev();
-        let of_step = later.find(|(step, _)| *step <= self.step.number);
-        of_step.map_or(self.material.as_ref(), |(_, material)| material.as_ref())
+        let last = self.nchanged().checked_sub(1);
+        let later = last.and_then(|last| self.later.get(last));
+        later.map_or(self.material.as_ref(), |(_, material)| material.as_ref())
     }
 
     /// Which strains it uses; steps change it.
@@ -924,6 +930,23 @@ impl Term for Solid {
         self.each(chunk, At::Start, wanted, scratch, |_, _, _, s| {
             self.hand(s, out);
         })
+    }
+
+    fn start(&self) -> u64 {
+        2 * self.nchanged() as u64 + self.kinematics as u64
+    }
+
+    fn is_at_start(&self, trial: &State) -> bool {
+        let at = |&node: &NodeId| (0..self.layout.ndim).map(move |i| self.layout.node(node, i));
+        let is_undeformed = |block: &Cells| {
+            let mut displacements = block
+                .nodes
+                .iter()
+                .flat_map(at)
+                .map(|dof| trial.u[dof as usize]);
+            block.nhistory == 0 && displacements.all(|u| u == 0.0)
+        };
+        self.temperature.is_none() && self.blocks.iter().all(is_undeformed)
     }
 
     fn energy(

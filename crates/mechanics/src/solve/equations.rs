@@ -1,6 +1,8 @@
 //! Which raw dofs are solved for, and the linear system over them.
 
-use crate::system::linear::{LinearError, LinearSolver, Note, Problem, SolveReport};
+use crate::system::linear::{
+    LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
+};
 use crate::system::sparsity::NONE;
 use crate::system::{Assembler, Assembly, Dof, DofName, Symmetry, System};
 use std::time::Instant;
@@ -96,13 +98,13 @@ impl Equations {
     }
 
     /// Whether the solver asks for the stiffness of the bodies at the start of the run.
-    pub fn wants_start(&self, step: usize) -> bool {
-        self.solver.wants_start(step)
+    pub fn wants_start(&self, which: u64) -> bool {
+        self.solver.wants_start(which)
     }
 
     /// Tells the solver of it.
-    pub fn start_from(&mut self, step: usize, bulk: Option<Vec<f64>>) {
-        self.solver.start_from(step, bulk);
+    pub fn start_from(&mut self, which: u64, bulk: StartStiffness) {
+        self.solver.start_from(which, bulk);
     }
 
     /// Lets the solver take over what that of equations before has left.

@@ -4,7 +4,7 @@ use super::economy::{Economy, Excess};
 use super::equations::{Accuracy, Equations, Factor};
 use super::event::IterationRecord;
 use super::line_search;
-use crate::system::linear::{EXACT, LinearError};
+use crate::system::linear::{EXACT, LinearError, StartStiffness};
 use crate::system::{
     Assembler, Assembly, Dof, DofName, NodeId, Order, State, System, TermError, Verdict,
 };
@@ -500,9 +500,10 @@ impl Newton {
             } else {
                 Accuracy::Residual(EXACT)
             };
-            if self.equations.wants_start(place.step) {
+            let which = self.assembler.start(&system.terms);
+            if self.equations.wants_start(which) {
                 let bulk = self.bulk_at_start(system)?;
-                self.equations.start_from(place.step, bulk);
+                self.equations.start_from(which, bulk);
             }
             let left = self.solve_linear(motion, nearly || serves, accuracy)?;
             if !serves {
@@ -693,10 +694,13 @@ impl Newton {
         Ok(())
     }
 
-    /// The stiffness of the bodies at the start of the run; none where it is the present one at all states.
-    fn bulk_at_start(&mut self, system: &System) -> Result<Option<Vec<f64>>, TermError> {
+    /// The stiffness of the bodies at the start of the run; a tangent is assembled.
+    fn bulk_at_start(&mut self, system: &System) -> Result<StartStiffness, TermError> {
         if self.assembler.is_constant() {
-            return Ok(None);
+            return Ok(StartStiffness::Always);
+        }
+        if self.assembler.is_at_start(&system.terms, &self.trial) {
+            return Ok(StartStiffness::Next);
         }
         let bulk = self.assembler.bulk_at_start(
             &system.layout,
@@ -704,7 +708,7 @@ impl Newton {
             &system.terms,
             &self.trial,
         );
-        bulk.map(Some)
+        bulk.map(StartStiffness::Values)
     }
 
     fn judge(&self, system: &System) -> Judgement {

@@ -14,6 +14,8 @@ use signorini_geometry::mesh::NodeId;
 const PER_THREAD: usize = 4;
 /// Chunks of a wave, at most: bounds the memory, and nothing else.
 const WAVE: usize = 64;
+/// Mixes numbers of terms into one.
+const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
 /// Entries that are set to zero by one task.
 const ENTRIES: usize = 1 << 16;
 
@@ -411,6 +413,22 @@ impl Assembler {
     #[must_use]
     pub fn is_constant(&self) -> bool {
         self.lasts > Lasts::State
+    }
+
+    /// Which stiffness at the start of a run the bulk has in the present step.
+    #[must_use]
+    pub fn start(&self, terms: &[Box<dyn Term>]) -> u64 {
+        let bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
+        bulk.fold(0, |all, term| {
+            all.wrapping_mul(MIX).wrapping_add(term.start())
+        })
+    }
+
+    /// Whether the stiffness of the bulk at a state is that at the start of a run.
+    #[must_use]
+    pub fn is_at_start(&self, terms: &[Box<dyn Term>], trial: &State) -> bool {
+        let mut bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
+        bulk.all(|term| term.is_at_start(trial))
     }
 
     /// The values of the bulk at the start of a run: undeformed, without history.

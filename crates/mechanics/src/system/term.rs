@@ -312,6 +312,16 @@ pub trait Term: Send + Sync {
         Ok(())
     }
 
+    /// Which stiffness at the start it has in the present step: the same number in all steps where it is the same.
+    fn start(&self) -> u64 {
+        0
+    }
+
+    /// Whether its stiffness at this trial state is that at the start, to the last bit; false where this is not known.
+    fn is_at_start(&self, _trial: &State) -> bool {
+        false
+    }
+
     /// The potential energy of one chunk, where the term has one: its forces are the gradient.
     ///
     /// # Errors

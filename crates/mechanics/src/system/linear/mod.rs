@@ -220,6 +220,17 @@ pub struct SolveReport {
     pub negative_pivots: usize,
 }
 
+/// The stiffness of the bodies at the start of a run.
+#[derive(Clone, Debug)]
+pub enum StartStiffness {
+    /// It is that of all states.
+    Always,
+    /// It is that of the next values.
+    Next,
+    /// These values of the bulk.
+    Values(Vec<f64>),
+}
+
 /// What a solver leaves to the one that goes on in its place.
 pub struct Heritage(Box<multigrid::Grid>);
 
@@ -241,14 +252,14 @@ pub trait LinearSolver: Send {
     /// had it just been told of the pattern. A run that is resumed here repeats every bit.
     fn forget(&mut self) {}
 
-    /// Whether it asks for the stiffness of the bodies at the start of the run before the next values, in this step.
-    fn wants_start(&self, _step: usize) -> bool {
+    /// Whether it asks for the stiffness of the bodies at the start of the run before the next values: for `which` one,
+    /// where there are several.
+    fn wants_start(&self, _which: u64) -> bool {
         false
     }
 
-    /// Takes the values of the bulk at the start of the run, undeformed and without history, as this step has them; none
-    /// where they are those of all states.
-    fn start_from(&mut self, _step: usize, _bulk: Option<Vec<f64>>) {}
+    /// Is told that stiffness: of the bodies undeformed and without history.
+    fn start_from(&mut self, _which: u64, _bulk: StartStiffness) {}
 
     /// What it has that depends on the problem and its values alone, not on what was solved before: for a solver that goes
     /// on in its place as if it were new. Nothing unless said.

@@ -43,7 +43,7 @@ mod vectors;
 use super::residual::Residual;
 use super::{
     Condensed, Direct, EXACT, Heritage, Kept, LinearError, LinearSolver, Note, Problem,
-    SolveReport, Symmetry, Values, Why, apply, largest,
+    SolveReport, StartStiffness, Symmetry, Values, Why, apply, largest,
 };
 use crate::system::sparsity::{NONE, Pattern};
 use block::{InterfaceBlock, touched};
@@ -116,10 +116,10 @@ pub(super) struct Grid {
 /// What is known of the stiffness at the start of the run: a hierarchy of it is the same in every run, resumed or not.
 #[derive(Default)]
 struct Start {
-    /// The step in which it was told.
-    step: Option<usize>,
-    /// Its values, until a hierarchy is made of them or of others.
-    values: Option<Vec<f64>>,
+    /// Which one was told.
+    which: Option<u64>,
+    /// What was told, until the next values come.
+    told: Option<StartStiffness>,
     /// It times a vector of signs: the change of this is about that of the stiffness.
     response: Vec<f64>,
     /// Whether the present hierarchy is made of it.
@@ -292,22 +292,29 @@ impl LinearSolver for Multigrid {
         }
     }
 
-    fn wants_start(&self, step: usize) -> bool {
+    fn wants_start(&self, which: u64) -> bool {
         self.grid.as_ref().is_some_and(|grid| {
             let start = &grid.start;
-            let is_known = start.step == Some(step) && (start.is_in_use || start.values.is_some());
+            let is_at_hand = start.is_in_use || start.told.is_some();
+            let is_known = start.which == Some(which) && is_at_hand;
             let suits = grid.fine.floating.is_empty() && !grid.has_failed;
             suits && !grid.is_proven && !is_known
         })
     }
 
-    fn start_from(&mut self, step: usize, bulk: Option<Vec<f64>>) {
+    fn start_from(&mut self, which: u64, bulk: StartStiffness) {
         let (Some(grid), Some(kept)) = (&mut self.grid, &self.kept) else {
             return;
         };
-        match bulk.filter(|bulk| bulk.len() == kept.bulk.nvalue()) {
-            Some(bulk) => grid.take_start(step, bulk, kept),
-            None => grid.start = Start::default(),
+        let suits = match &bulk {
+            StartStiffness::Always => false,
+            StartStiffness::Next => true,
+            StartStiffness::Values(values) => values.len() == kept.bulk.nvalue(),
+        };
+        if suits {
+            (grid.start.which, grid.start.told) = (Some(which), Some(bulk));
+        } else {
+            grid.start = Start::default();
         }
     }
 
@@ -478,16 +485,6 @@ impl Grid {
             .collect()
     }
 
-    /// Takes the stiffness at the start of the run.
-    fn take_start(&mut self, step: usize, bulk: Vec<f64>, kept: &Kept) {
-        let response = self.signed(kept, &bulk);
-        let start = &mut self.start;
-        start.step = Some(step);
-        start.is_in_use &= response == start.response;
-        start.values = Some(bulk).filter(|_| !start.is_in_use);
-        start.response = response;
-    }
-
     /// The stiffness of the bodies times a vector of signs.
     fn signed(&mut self, kept: &Kept, bulk: &[f64]) -> Vec<f64> {
         const FACTOR: u32 = 0x9e37_79b9;
@@ -515,19 +512,32 @@ impl Grid {
 
     /// Lets the hierarchy of the start serve where the stiffness is not far from that, and makes it where there is none.
     fn go_from_start(&mut self, kept: &Kept, values: &Values) -> Option<Note> {
-        let at_start = self.start.values.take();
-        if !self.start.is_in_use && at_start.is_none() {
+        let told = self.start.told.take();
+        if !self.start.is_in_use && told.is_none() {
             return None;
         }
         let now = self.signed(kept, values.bulk);
+        let bulk = match &told {
+            Some(StartStiffness::Values(bulk)) => Some(bulk.as_slice()),
+            Some(StartStiffness::Next) => Some(values.bulk),
+            Some(StartStiffness::Always) | None => None,
+        };
+        if let Some(bulk) = bulk {
+            let response = match &told {
+                Some(StartStiffness::Next) => now.clone(),
+                _ => self.signed(kept, bulk),
+            };
+            self.start.is_in_use &= response == self.start.response;
+            self.start.response = response;
+        }
         let pairs = now.iter().zip(&self.start.response);
         let change: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
         let size: f64 = self.start.response.iter().map(|b| b * b).sum();
         let is_near = change <= DRIFTED * DRIFTED * size;
         self.start.is_in_use &= is_near;
-        let bulk = at_start.filter(|_| is_near)?;
+        let bulk = bulk.filter(|_| is_near && !self.start.is_in_use)?;
         let values = Values {
-            bulk: &bulk,
+            bulk,
             interface: values.interface,
         };
         let (new, note) = self.build(&self.fine.matrix(kept, &values), None)?;

@@ -476,7 +476,7 @@ fn turned_above(placed: &Placed, angle: f64) -> Placed {
 /// Iterations and the solution in an increment of a step, where the solver is told of the stiffness at the start if it
 /// asks.
 fn solve_from(
-    step: usize,
+    which: u64,
     start: &Placed,
     now: &Placed,
     solver: &mut Multigrid,
@@ -486,9 +486,9 @@ fn solve_from(
     let mut x = vec![0.0; rhs.len()];
     solver.forget();
     solver.analyze(&now.problem(&assembled)).unwrap();
-    if solver.wants_start(step) {
-        let at_start = start.system.assemble();
-        solver.start_from(step, Some(at_start.values().bulk.to_vec()));
+    if solver.wants_start(which) {
+        let at_start = start.system.assemble().values().bulk.to_vec();
+        solver.start_from(which, StartStiffness::Values(at_start));
     }
     solver.factorize(&assembled.values()).unwrap();
     let report = solver.solve(&assembled.values(), &rhs, &mut x, 1e-8);
