@@ -98,6 +98,37 @@ fn stiffness_at_the_start_is_that_of_a_body_to_which_nothing_has_happened() {
 }
 
 #[test]
+fn a_body_knows_when_its_stiffness_is_that_at_the_start() {
+    let space = Idealisation::Space;
+    let mesh = one(element::by_name("hex8").unwrap(), space);
+    let wish = Wish::plain(space, Kinematics::Finite);
+    let mut body = body(&mesh, elastic("linear-elastic", 0.3), &wish).unwrap();
+    let mut state = body.state(&vec![0.0; body.layout.ndof()]);
+    assert!(body.solid.is_at_start(&state));
+    state.u[7] = 1e-9;
+    assert!(!body.solid.is_at_start(&state));
+    // what it remembers may count
+    let remembering = remembering("hex8", space, wish);
+    state.u[7] = 0.0;
+    assert!(!remembering.solid.is_at_start(&state));
+    // another material, or another size of strains, is another start
+    let step = |number, nonlinear| StepContext {
+        number,
+        nonlinear,
+        ..StepContext::default()
+    };
+    let softer = elastic("linear-elastic", 0.2);
+    body.solid.change(2, softer).unwrap();
+    let steps = [step(0, true), step(1, true), step(1, false), step(2, true)];
+    let starts = steps.map(|step| {
+        body.solid.begin_step(&step, &state).unwrap();
+        body.solid.start()
+    });
+    assert_eq!(starts[0], starts[1]);
+    assert!(starts[1] != starts[2] && starts[2] != starts[3] && starts[1] != starts[3]);
+}
+
+#[test]
 fn stiffness_at_the_start_is_that_of_the_temperature_at_the_start() {
     let space = Idealisation::Space;
     let mesh = one(element::by_name("hex8").unwrap(), space);

@@ -853,6 +853,39 @@ fn repeated_factorizations_give_the_same_bits() {
 }
 
 #[test]
+fn values_of_another_size_are_solved_after_others() {
+    for symmetry in [
+        Symmetry::Definite,
+        Symmetry::Symmetric,
+        Symmetry::Unsymmetric,
+    ] {
+        let soft = System::random(20, 3, 0, symmetry, 6);
+        let mut stiff = soft.clone();
+        for (number, (_, matrix)) in stiff.bulk.iter_mut().enumerate() {
+            let by = [1e12, 1e3, 1.0, 1e-9][number % 4];
+            matrix.iter_mut().for_each(|a| *a *= by);
+        }
+        let mut solver = Direct::new();
+        check(&soft, &mut solver, 1, 1e-9);
+        let assembled = stiff.assemble();
+        let rhs = Random(3).vector(assembled.nequation);
+        let solve = |solver: &mut Direct| {
+            let mut x = vec![0.0; rhs.len()];
+            solver.analyze(&assembled.problem()).unwrap();
+            solver.factorize(&assembled.values()).unwrap();
+            let report = solver.solve(&assembled.values(), &rhs, &mut x, 1e-12);
+            assert!(report.unwrap().residual < 1e-12);
+            x
+        };
+        // scales that go on from others are as good, and what is forgotten leaves no trace
+        solve(&mut solver);
+        solver.forget();
+        assert_eq!(solve(&mut solver), solve(&mut Direct::new()));
+        check(&soft, &mut solver, 1, 1e-9);
+    }
+}
+
+#[test]
 fn dissection_fills_in_less_than_minimum_degree_on_bricks() {
     let system = clamped_block([9, 9, 10], [1.0; 3]);
     let assembled = system.assemble();
