@@ -40,6 +40,10 @@ impl Material for SaintVenantKirchhoff {
         true
     }
 
+    fn sensitivity(&self) -> f64 {
+        self.lame.sensitivity()
+    }
+
     fn lame(&self) -> Option<Lame> {
         Some(self.lame)
     }

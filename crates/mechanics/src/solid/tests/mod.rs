@@ -15,6 +15,7 @@ use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
 
 mod batch;
+mod change;
 mod derivatives;
 mod history;
 mod locking;
