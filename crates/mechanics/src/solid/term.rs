@@ -948,6 +948,13 @@ impl Term for Solid {
         self.chunks.len()
     }
 
+    fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId])) {
+        if let Some(&(number, first, last)) = self.chunks.get(chunk) {
+            let block = &self.blocks[number];
+            (first..last).for_each(|cell| take(block.nodes_of(cell)));
+        }
+    }
+
     fn evaluate(
         &self,
         chunk: usize,

@@ -2,6 +2,7 @@
 
 use super::elimination::Expanded;
 use super::linear::Values;
+use super::shares::{Share, share_out};
 use super::sparsity::{BlockPattern, NONE, Pattern};
 use super::{
     Dof, Elimination, Lasts, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, Term,
@@ -74,7 +75,10 @@ impl Assembly {
 
 /// Evaluates terms by chunks, in parallel, and adds the results in a fixed order.
 pub struct Assembler {
+    /// Those of the bulk first, and of these first the ones whose elements are known, as far as that has been found out.
     tasks: Vec<Task>,
+    /// The tasks whose elements are known, and who adds them up; `None` where that is to be found out.
+    shared: Option<Shared>,
     bulk: BlockPattern,
     interface: Pattern,
     slots: Vec<Slot>,
@@ -85,10 +89,21 @@ pub struct Assembler {
     period: u64,
 }
 
+/// What is known of the first tasks.
+struct Shared {
+    /// How many they are.
+    ntask: usize,
+    /// The number of threads that they are shared out for.
+    nthread: usize,
+    shares: Vec<Share>,
+}
+
 struct Task {
     term: usize,
     chunk: usize,
     part: Part,
+    /// Whether its elements are known, and none has unknowns that follow others.
+    is_known: bool,
     // where the blocks of each element of the chunk go, in order; found once
     positions: Vec<u32>,
 }
@@ -237,6 +252,7 @@ impl Assembler {
     pub fn new(layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) -> Self {
         let mut assembler = Self {
             tasks: Vec::new(),
+            shared: None,
             bulk: BlockPattern::empty(layout.nnode, layout.ndim),
             interface: Pattern::empty(layout.ndof()),
             slots: Vec::new(),
@@ -267,20 +283,7 @@ impl Assembler {
 
     /// Takes up the chunks of the terms, whose numbers may be others in each increment.
     pub fn begin_increment(&mut self, terms: &[Box<dyn Term>]) {
-        let mut before = std::mem::take(&mut self.tasks).into_iter().peekable();
-        for (number, term) in terms.iter().enumerate() {
-            let mut chunks = 0..term.nchunk();
-            while let Some(task) = before.next_if(|task| task.term == number) {
-                // what is left over is dropped
-                self.tasks.extend(chunks.next().map(|_| task));
-            }
-            self.tasks.extend(chunks.map(|chunk| Task {
-                term: number,
-                chunk,
-                part: term.part(),
-                positions: Vec::new(),
-            }));
-        }
+        self.take_up(terms);
         let bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
         let lasts = bulk.map(|term| term.stiffness_lasts()).min();
         let before = std::mem::replace(&mut self.lasts, lasts.unwrap_or(Lasts::Step));
@@ -290,6 +293,88 @@ impl Assembler {
         let most = wave(Order::Residual).min(self.tasks.len());
         if self.slots.len() < most {
             self.slots.resize_with(most, Slot::default);
+        }
+    }
+
+    fn take_up(&mut self, terms: &[Box<dyn Term>]) {
+        let mut count = vec![0; terms.len()];
+        self.tasks.iter().for_each(|task| count[task.term] += 1);
+        for (number, (term, count)) in terms.iter().zip(count).enumerate() {
+            let (nchunk, part) = (term.nchunk(), term.part());
+            if nchunk == count {
+                continue;
+            }
+            self.tasks
+                .retain(|task| task.term != number || task.chunk < nchunk);
+            self.tasks.extend((count..nchunk).map(|chunk| Task {
+                term: number,
+                chunk,
+                part,
+                is_known: false,
+                positions: Vec::new(),
+            }));
+            if part == Part::Bulk {
+                self.shared = None;
+            }
+        }
+        self.sort();
+    }
+
+    /// Puts tasks into their order, which depends on nothing but what the terms are.
+    fn sort(&mut self) {
+        let order = |task: &Task| {
+            (
+                task.part != Part::Bulk,
+                !task.is_known,
+                task.term,
+                task.chunk,
+            )
+        };
+        self.tasks.sort_by_key(order);
+    }
+
+    /// Finds out which tasks have known elements, where these go, and who adds them up.
+    fn share_out(&mut self, layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) {
+        let nthread = rayon::current_num_threads();
+        let known = self.shared.as_ref().map(|shared| shared.nthread);
+        if known == Some(nthread) {
+            return;
+        }
+        let bulk = &self.bulk;
+        let find = |task: &mut Task| {
+            if task.part != Part::Bulk || !task.positions.is_empty() {
+                return;
+            }
+            let mut depends = false;
+            terms[task.term].elements(task.chunk, &mut |nodes| {
+                let mut dofs = nodes.iter().flat_map(|&node| {
+                    let axes = 0..layout.ndim;
+                    axes.map(move |axis| layout.node(node, axis))
+                });
+                depends |= dofs.any(|dof| elimination.depends(dof, layout));
+                find_blocks(bulk, nodes, &mut task.positions);
+            });
+            task.is_known = !depends && !task.positions.is_empty();
+            if depends {
+                task.positions.clear();
+            }
+        };
+        if known.is_none() {
+            self.tasks.par_iter_mut().for_each(find);
+            self.sort();
+        }
+        let ntask = self.tasks.partition_point(|task| task.is_known);
+        let tasks = &self.tasks[..ntask];
+        let elements = |at: usize, take: &mut dyn FnMut(&[NodeId])| {
+            terms[tasks[at].term].elements(tasks[at].chunk, take);
+        };
+        self.shared = Some(Shared {
+            ntask,
+            nthread,
+            shares: share_out(nthread, layout.nnode, ntask, elements),
+        });
+        if self.slots.len() < nthread {
+            self.slots.resize_with(nthread, Slot::default);
         }
     }
 
@@ -358,6 +443,7 @@ impl Assembler {
         order: Order,
         out: &mut Assembly,
     ) -> Result<(), TermError> {
+        self.share_out(layout, elimination, terms);
         out.reset_forces(layout.ndof());
         let keeps_bulk = std::mem::take(&mut out.keeps_bulk);
         let is_kept = self.has_bulk(out) && (keeps_bulk || self.is_constant());
@@ -379,6 +465,7 @@ impl Assembler {
         };
         let Self {
             tasks,
+            shared,
             bulk,
             interface,
             slots,
@@ -393,6 +480,7 @@ impl Assembler {
             bulk,
             interface,
             order,
+            shared: shared.as_ref(),
         };
         let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
             let term = &terms[task.term];
@@ -512,6 +600,7 @@ impl Assembler {
         reset(&mut out.interface, self.interface.nentry());
         let Self {
             tasks,
+            shared,
             bulk,
             interface,
             slots,
@@ -525,6 +614,7 @@ impl Assembler {
             bulk,
             interface,
             order: Order::Tangent,
+            shared: shared.as_ref(),
         };
         let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| match task.part {
             Part::Bulk => evaluate(task, work, buffer),
@@ -583,11 +673,12 @@ struct Setting<'a> {
     bulk: &'a BlockPattern,
     interface: &'a Pattern,
     order: Order,
+    shared: Option<&'a Shared>,
 }
 
 impl Setting<'_> {
-    /// Evaluates chunks wave by wave, each of chunks of the same part, and adds them; false where stiffness of the bulk
-    /// went into the interface.
+    /// Evaluates chunks and adds them; false where stiffness of the bulk went into the interface. What is shared out is
+    /// left to the threads that have it; all else is evaluated wave by wave, each of chunks of the same part.
     fn run(
         self,
         evaluate: impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync,
@@ -614,6 +705,11 @@ impl Setting<'_> {
         };
         let mut is_apart = true;
         let mut rest = tasks;
+        if let Some(shared) = self.shared.filter(|shared| !shared.shares.is_empty()) {
+            let (tasks, others) = rest.split_at_mut(shared.ntask);
+            self.run_shared(&evaluate, &shared.shares, tasks, slots, out)?;
+            rest = others;
+        }
         while let Some(first) = rest.first() {
             let part = first.part;
             let same = rest.iter().position(|task| task.part != part);
@@ -631,6 +727,36 @@ impl Setting<'_> {
             is_apart &= self.add(slots, tasks, expanded, out);
         }
         Ok(is_apart)
+    }
+
+    /// Evaluates and adds the chunks that are shared out.
+    fn run_shared(
+        self,
+        evaluate: &(impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync),
+        shares: &[Share],
+        tasks: &[Task],
+        slots: &mut [Slot],
+        out: &mut Assembly,
+    ) -> Result<(), TermError> {
+        let ends: Vec<usize> = shares.iter().map(|share| share.end).collect();
+        let strips = self.strips_to(&ends[..ends.len().saturating_sub(1)], out);
+        let all = strips.into_par_iter().zip(shares).zip(slots);
+        let first = all.filter_map(|((mut strip, share), slot)| {
+            let Slot { buffer, work, .. } = slot;
+            share.chunks.iter().find_map(|&chunk| {
+                let task = &tasks[chunk];
+                buffer.clear();
+                if let Err(failure) = evaluate(task, work, buffer) {
+                    return Some((chunk, failure));
+                }
+                self.add_chunk(&mut strip, buffer, task);
+                None
+            })
+        });
+        match first.min_by_key(|(chunk, _)| *chunk) {
+            Some((_, failure)) => Err(failure),
+            None => Ok(()),
+        }
     }
 
     /// Adds chunks, one after the other at every entry; false where stiffness of the bulk went into the interface.
@@ -684,9 +810,15 @@ impl Setting<'_> {
             }
         });
         let ends: Vec<usize> = quantiles.collect();
-        let mut strips = Vec::with_capacity(nstrip);
+        self.strips_to(&ends, out)
+    }
+
+    /// The rows in strips that end before these nodes, and what is left.
+    fn strips_to<'o>(self, ends: &[usize], out: &'o mut Assembly) -> Vec<Strip<'o>> {
+        let ndim = self.bulk.block.max(1);
+        let mut strips = Vec::with_capacity(ends.len() + 1);
         let mut rest = Strip::whole(out);
-        for end in ends {
+        for &end in ends {
             let dof = end * ndim;
             let entries = [
                 self.bulk.row_start.get(end).map(|at| at * ndim * ndim),
@@ -793,17 +925,14 @@ impl Setting<'_> {
         }
     }
 
-    /// Where the blocks of each element of a chunk are in the bulk.
+    /// Where the blocks of each contribution of a chunk are in the bulk.
     fn find(self, buffer: &Buffer, positions: &mut Vec<u32>) {
         let ndim = self.layout.ndim;
-        let node = |d: &[Dof]| d[0] / ndim as u32;
+        let mut nodes: Vec<NodeId> = Vec::new();
         for (_, dofs, ..) in buffer.iter().filter(|(own, ..)| own.nstiffness > 0) {
-            for row in dofs.chunks_exact(ndim) {
-                for column in dofs.chunks_exact(ndim) {
-                    let found = self.bulk.position(node(row), node(column));
-                    positions.push(found.map_or(NONE, |p| p as u32));
-                }
-            }
+            nodes.clear();
+            nodes.extend(dofs.chunks_exact(ndim).map(|dofs| dofs[0] / ndim as u32));
+            find_blocks(self.bulk, &nodes, positions);
         }
     }
 
@@ -985,6 +1114,14 @@ impl<'a> Strip<'a> {
                 }
             }
         }
+    }
+}
+
+/// Where the blocks between nodes are in the bulk, row by row.
+fn find_blocks(bulk: &BlockPattern, nodes: &[NodeId], positions: &mut Vec<u32>) {
+    for &row in nodes {
+        let found = nodes.iter().map(|&column| bulk.position(row, column));
+        positions.extend(found.map(|at| at.map_or(NONE, |at| at as u32)));
     }
 }
 

@@ -41,6 +41,7 @@ mod layout;
 pub mod linear;
 mod lists;
 mod samples;
+mod shares;
 pub mod sparsity;
 mod state;
 mod term;

@@ -294,6 +294,10 @@ pub trait Term: Send + Sync {
     /// The number of chunks, independent of the number of threads; another one from [`Term::begin_increment`] on, at most.
     fn nchunk(&self) -> usize;
 
+    /// The nodes of each element of a chunk of the bulk, one after the other as [`Term::evaluate`] adds these, each with all
+    /// unknowns of its nodes; nothing where a term does not tell.
+    fn elements(&self, _chunk: usize, _take: &mut dyn FnMut(&[NodeId])) {}
+
     /// Adds the forces and stiffness of one chunk. Pure: the same trial gives the same bits.
     ///
     /// # Errors
