@@ -78,7 +78,7 @@ pub struct Assembler {
     /// Those of the bulk first, and of these first the ones whose elements are known, as far as that has been found out.
     tasks: Vec<Task>,
     /// The tasks whose elements are known, and who adds them up; `None` where that is to be found out.
-    shared: Option<Shared>,
+    pub(super) shared: Option<Shared>,
     bulk: BlockPattern,
     interface: Pattern,
     slots: Vec<Slot>,
@@ -90,12 +90,12 @@ pub struct Assembler {
 }
 
 /// What is known of the first tasks.
-struct Shared {
+pub(super) struct Shared {
     /// How many they are.
     ntask: usize,
     /// The number of threads that they are shared out for.
     nthread: usize,
-    shares: Vec<Share>,
+    pub shares: Vec<Share>,
 }
 
 struct Task {

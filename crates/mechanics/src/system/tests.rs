@@ -18,6 +18,10 @@ struct Springs {
     layout: Layout,
     ends: Vec<[NodeId; 2]>,
     rest: Vec<f64>,
+    /// Whether the assembler is told which nodes they have.
+    is_told: bool,
+    /// Chunks that cannot be evaluated.
+    broken: Vec<usize>,
 }
 
 /// Springs of one chunk.
@@ -32,6 +36,8 @@ impl Springs {
             layout,
             ends,
             rest,
+            is_told: true,
+            broken: Vec::new(),
         }
     }
 
@@ -73,6 +79,12 @@ impl Term for Springs {
         self.ends.len().div_ceil(CHUNK)
     }
 
+    fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId])) {
+        self.of(chunk)
+            .filter(|_| self.is_told)
+            .for_each(|(ends, _)| take(ends));
+    }
+
     fn evaluate(
         &self,
         chunk: usize,
@@ -82,6 +94,10 @@ impl Term for Springs {
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         let n = self.layout.ndim;
+        if self.broken.contains(&chunk) {
+            let what = format!("chunk {chunk}");
+            return Err(TermError::NotFinite { what });
+        }
         for (ends, rest) in self.of(chunk) {
             let d = trial.x[ends[1] as usize] - trial.x[ends[0] as usize];
             let stretch = d.norm_squared() - rest * rest;
@@ -407,6 +423,70 @@ fn one_thread_and_two_threads_give_the_same_bits() {
         let one = run(1);
         for threads in [2, 3] {
             assert_eq!(run(threads), one);
+        }
+    }
+}
+
+#[test]
+fn what_threads_share_out_is_the_same_whoever_adds_it_up() {
+    let (nnode, ndim) = (600, 3);
+    let layout = Layout {
+        ndim,
+        nnode,
+        nrigid: 0,
+        nmultiplier: 0,
+    };
+    let at = |k: usize| Vec3::new(noise(3 * k), noise(3 * k + 1), noise(3 * k + 2));
+    let reference: Vec<Vec3> = (0..nnode).map(at).collect();
+    let elimination = Elimination::default();
+    let state = State::initial(&layout, &reference, &elimination);
+    let neighbours: Vec<[NodeId; 2]> = (1..nnode as NodeId).map(|k| [k - 1, k]).collect();
+    let springs = |part, is_told, broken: &[usize]| -> Box<dyn Term> {
+        let all = Springs::new(part, layout, &reference, neighbours.clone());
+        Box::new(Springs {
+            is_told,
+            broken: broken.to_vec(),
+            ..all
+        })
+    };
+    let run = |threads: usize, told: [bool; 2], broken: &[usize]| {
+        let terms = [
+            springs(Part::Interface, true, &[]),
+            springs(Part::Bulk, told[0], &[]),
+            springs(Part::Bulk, told[1], broken),
+        ];
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().unwrap().install(|| {
+            let mut assembler = Assembler::new(&layout, &elimination, &terms);
+            let mut out = Assembly::default();
+            let mut found = Vec::new();
+            for order in [Order::Tangent, Order::Residual, Order::Tangent] {
+                let done =
+                    assembler.assemble(&layout, &elimination, &terms, &state, order, &mut out);
+                found.push((done.map_err(|e| e.to_string()), out.clone()));
+            }
+            let nshare = assembler.shared.map_or(0, |shared| shared.shares.len());
+            (found, nshare)
+        })
+    };
+    for told in [[true, true], [true, false], [false, false]] {
+        let (one, _) = run(1, told, &[]);
+        for threads in [2, 3] {
+            let (several, nshare) = run(threads, told, &[]);
+            assert_eq!(nshare, if told[0] { threads } else { 0 });
+            for ((_, a), (done, b)) in one.iter().zip(&several) {
+                assert_eq!(*done, Ok(()));
+                assert_eq!((&a.residual, &a.magnitude), (&b.residual, &b.magnitude));
+                let [a, b] = [a, b].map(Assembly::values);
+                assert_eq!((a.bulk, a.interface), (b.bulk, b.interface));
+            }
+        }
+    }
+    // of several failures the first one is told
+    for threads in [1, 2, 3] {
+        let (found, _) = run(threads, [true, true], &[290, 140, 7]);
+        for (done, _) in found {
+            assert!(done.unwrap_err().contains("chunk 7"), "{threads}");
         }
     }
 }
