@@ -920,8 +920,8 @@ impl Setting<'_> {
         }
         match (part, self.layout.ndim) {
             (Part::Interface, _) => self.add_entries(strip, dofs, stiffness),
-            (Part::Bulk, 2) => strip.add_blocks::<2>(stiffness, positions, own.is_symmetric),
-            (Part::Bulk, _) => strip.add_blocks::<3>(stiffness, positions, own.is_symmetric),
+            (Part::Bulk, 2) => strip.add_blocks::<2, 4>(stiffness, positions, own.is_symmetric),
+            (Part::Bulk, _) => strip.add_blocks::<3, 9>(stiffness, positions, own.is_symmetric),
         }
     }
 
@@ -1062,54 +1062,44 @@ impl<'a> Strip<'a> {
         }
     }
 
-    /// Adds the blocks of an element where they belong in the bulk.
-    fn add_blocks<const ND: usize>(
+    /// Adds the blocks of an element, of `NN = ND ND` values, where they belong in the bulk.
+    fn add_blocks<const ND: usize, const NN: usize>(
         &mut self,
         stiffness: &[f64],
         positions: &[u32],
         is_symmetric: bool,
     ) {
         let nblock = positions.len().isqrt();
-        let (bulk, first) = (self.bulk.as_chunks_mut::<ND>().0, self.first_bulk / ND);
-        // rows of a block, in a strip that may not have them
-        let range_of = |i: usize, j: usize| {
+        let (bulk, first) = (self.bulk.as_chunks_mut::<NN>().0, self.first_bulk / NN);
+        // a strip may not have it
+        let place = |i: usize, j: usize| {
             let position = positions.get(i * nblock + j).copied().unwrap_or(NONE);
-            let at = (position as usize * ND).wrapping_sub(first);
-            at..at.wrapping_add(ND)
+            (position as usize).wrapping_sub(first)
         };
         if is_symmetric {
             let pairs = (0..nblock).flat_map(|j| (0..=j).map(move |i| (i, j)));
-            let blocks = stiffness.as_chunks::<ND>().0.chunks_exact(ND);
-            for ((i, j), from) in pairs.zip(blocks) {
-                if let Some(to) = bulk.get_mut(range_of(i, j)) {
-                    for (to, from) in to.as_flattened_mut().iter_mut().zip(from.as_flattened()) {
-                        *to += from;
-                    }
+            for ((i, j), from) in pairs.zip(stiffness.as_chunks::<NN>().0) {
+                if let Some(to) = bulk.get_mut(place(i, j)) {
+                    to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
                 }
                 if i == j {
                     continue;
                 }
-                if let Some(to) = bulk.get_mut(range_of(j, i)) {
-                    for (k, to) in to.iter_mut().enumerate() {
-                        for (to, from) in to.iter_mut().zip(from) {
-                            *to += from[k];
-                        }
+                if let Some(to) = bulk.get_mut(place(j, i)) {
+                    for k in 0..NN {
+                        to[k] += from[k % ND * ND + k / ND];
                     }
                 }
             }
             return;
         }
-        for (i, rows) in stiffness
-            .chunks_exact((nblock * ND * ND).max(1))
-            .enumerate()
-        {
+        for (i, rows) in stiffness.chunks_exact((nblock * NN).max(1)).enumerate() {
             let rows = rows.as_chunks::<ND>().0;
             for j in 0..nblock {
-                if let Some(to) = bulk.get_mut(range_of(i, j)) {
-                    for (to, from) in to.iter_mut().zip(rows.iter().skip(j).step_by(nblock)) {
-                        for (to, from) in to.iter_mut().zip(from) {
-                            *to += from;
-                        }
+                if let Some(to) = bulk.get_mut(place(i, j)) {
+                    let rows = rows.iter().skip(j).step_by(nblock);
+                    for (to, from) in to.as_chunks_mut::<ND>().0.iter_mut().zip(rows) {
+                        to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
                     }
                 }
             }
