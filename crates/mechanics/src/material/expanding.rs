@@ -134,10 +134,6 @@ impl Material for Expanding {
         self.inner.is_linear()
     }
 
-    fn sensitivity(&self) -> f64 {
-        self.inner.sensitivity()
-    }
-
     fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
         self.inner.mechanical_strain(&self.elastic(strain))
     }

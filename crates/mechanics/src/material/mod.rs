@@ -183,12 +183,6 @@ pub trait Material: Send + Sync {
         None
     }
 
-    /// About how much of the stiffness of a body at finite strain is another where its displacement gradient is another by
-    /// one, by a small difference: the part, or ∞ where it cannot be told.
-    fn sensitivity(&self) -> f64 {
-        f64::INFINITY
-    }
-
     /// The part of a strain that the law answers with stress: all of it, but for thermal expansion.
     fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
         strain.value
@@ -217,12 +211,6 @@ impl Lame {
             lambda: e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
             mu: e / (2.0 * (1.0 + nu)),
         }
-    }
-
-    /// See [`Material::sensitivity`]: the deformation gradient stands on both sides of the tangent, and stress changes by
-    /// the modulus, while what is softest has the stiffness μ.
-    fn sensitivity(&self) -> f64 {
-        (self.lambda + 2.0 * self.mu) / self.mu + 2.0
     }
 
     /// The isotropic linear law `λ tr(ε) I + 2μ ε`.

@@ -66,10 +66,6 @@ impl Material for NeoHookean {
     fn is_linear(&self) -> bool {
         true
     }
-
-    fn sensitivity(&self) -> f64 {
-        self.lame.sensitivity()
-    }
 }
 
 /// Largest component of `E` at which the logarithm is taken from invariants of `E`, and terms of its series.

@@ -40,10 +40,6 @@ impl Material for SaintVenantKirchhoff {
         true
     }
 
-    fn sensitivity(&self) -> f64 {
-        self.lame.sensitivity()
-    }
-
     fn lame(&self) -> Option<Lame> {
         Some(self.lame)
     }

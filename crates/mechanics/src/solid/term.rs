@@ -453,37 +453,6 @@ impl Solid {
         Ok(())
     }
 
-    /// About the square of the largest change of the displacement gradient of a cell: that along the lines from its first
-    /// node to the others.
-    fn gradient_change(&self, cell: &[NodeId], from: &State, to: &State) -> f64 {
-        let Some((&first, others)) = cell.split_first() else {
-            return 0.0;
-        };
-        let change = |node: NodeId| {
-            let of_axis = |axis: usize| {
-                let dof = self.layout.node(node, axis) as usize;
-                to.u[dof] - from.u[dof]
-            };
-            let [x, y] = [0, 1].map(of_axis);
-            Vec3::new(
-                x,
-                y,
-                if self.layout.ndim > 2 {
-                    of_axis(2)
-                } else {
-                    0.0
-                },
-            )
-        };
-        let place = |node: NodeId| self.reference[node as usize];
-        let (moved, at) = (change(first), place(first));
-        let along = |&node: &NodeId| {
-            let (moved, line) = (change(node) - moved, place(node) - at);
-            moved.dot(moved) / line.dot(line)
-        };
-        others.iter().map(along).fold(0.0, f64::max)
-    }
-
     /// Hands over the forces and the stiffness of a cell.
     fn hand(&self, of: &Scratch, out: &mut dyn Sink) {
         if self.material().is_symmetric() {
@@ -907,27 +876,6 @@ impl Term for Solid {
             (Kinematics::Small, None) => Lasts::Step,
             (Kinematics::Finite, _) => Lasts::State,
         }
-    }
-
-    fn stiffness_change(&self, from: &State, to: &State) -> f64 {
-        if self.stiffness_lasts() > Lasts::State {
-            return 0.0;
-        }
-        let sensitivity = self.material().sensitivity();
-        if sensitivity.is_infinite() {
-            return sensitivity;
-        }
-        let largest = |block: &Cells| {
-            let cells = block.nodes.par_chunks(CHUNK * block.nnode);
-            let of_chunk = |nodes: &[NodeId]| {
-                let cells = nodes.chunks_exact(block.nnode);
-                let changes = cells.map(|cell| self.gradient_change(cell, from, to));
-                changes.fold(0.0, f64::max)
-            };
-            cells.map(of_chunk).reduce(|| 0.0, f64::max)
-        };
-        let largest = self.blocks.iter().map(largest).fold(0.0, f64::max);
-        sensitivity * largest.sqrt()
     }
 
     fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {

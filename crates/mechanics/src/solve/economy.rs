@@ -4,8 +4,6 @@
 //!   contact changes           ──▶ to a tenth of the error, in the norm of the solver, or to 0.3
 //!   it does not, residual r   ──▶ to max(0.3, 0.3 c r²), and to a tenth at least
 //!                                 with the last tangent, where that leaves no more than 0.3
-//!   to the part p             ──▶ with the stiffness that bodies had before in the increment, where no more than OLD p of it
-//!                                 is another now
 //! ```
 //!
 //! Residuals are those of forces, over what they may be: equations of multipliers are solved exactly at each step, and
@@ -24,20 +22,8 @@ use crate::system::linear::EXACT;
 
 /// The part of the error that a rough solution leaves.
 const ROUGH: f64 = 0.1;
-/// The part of the stiffness of bodies that may be another, over the part that a solution leaves. With 0.3 one example took an
-/// iteration more than by direct solution: none until it is known why.
-const OLD: f64 = 0.0;
-/// The part that may be another where it is not known yet how exactly to solve.
-pub(super) const OLD_AT_MOST: f64 = OLD * ROUGH;
 /// What a solution leaves of what need not be smaller.
 const MARGIN: f64 = 0.3;
-
-/// How much of the stiffness of bodies may be another than that of the state, for a solution this exact.
-pub(super) fn old_enough(accuracy: Accuracy) -> f64 {
-    match accuracy {
-        Accuracy::Part { part, .. } | Accuracy::Residual(part) => OLD * part,
-    }
-}
 
 /// The largest residuals, over what is allowed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -101,18 +87,15 @@ impl Economy {
         Accuracy::Residual((left / residual).max(EXACT))
     }
 
-    /// Whether the tangent of the last step, of which about the part `old` is another, leads from these residuals to the
-    /// goal, where contact is as it was.
-    pub fn is_nearly_straight(&self, excess: Excess, old: f64) -> bool {
+    /// Whether the tangent of the last step leads from these residuals to the goal, where contact is as it was.
+    pub fn is_nearly_straight(&self, excess: Excess) -> bool {
         let is_left = |now: f64, before: f64| now <= MARGIN || 2.0 * now * now <= MARGIN * before;
         self.before.is_some_and(|before| {
-            is_left(excess.forces, before.forces)
-                && is_left(excess.multipliers, before.multipliers)
-                && (excess.forces <= MARGIN || old * excess.forces <= MARGIN)
+            is_left(excess.forces, before.forces) && is_left(excess.multipliers, before.multipliers)
         })
     }
 
-    /// A system was solved at these residuals with their own tangent, or nearly; `left` is the part of them that stays.
+    /// A system was solved at these residuals with their own tangent; `left` is the part of them that stayed.
     pub fn solved(&mut self, excess: Excess, left: f64) {
         self.last = (excess.forces > 0.0).then_some((excess, left * excess.forces));
     }
@@ -186,18 +169,16 @@ mod tests {
         let (r0, r) = (residual(0.0), residual(1e4));
         let after = residual(1e4 - r);
         let mut economy = Economy::new(None);
-        assert!(!economy.is_nearly_straight(forces(r0.abs()), 0.0));
+        assert!(!economy.is_nearly_straight(forces(r0.abs())));
         economy.solved(forces(r0.abs()), 0.0);
         economy.reached(forces(r.abs()));
-        assert!(economy.is_nearly_straight(forces(r.abs()), 0.0));
-        // where the tangent was not quite that of its state, not so far
-        assert!(!economy.is_nearly_straight(forces(r.abs()), 0.31 / r.abs()));
+        assert!(economy.is_nearly_straight(forces(r.abs())));
         assert!(after.abs() <= 2.0 * r * r / r0.abs());
         // ten times as far, and it does not
         economy.solved(forces(1e5), 0.0);
         economy.reached(forces(1e3));
-        assert!(!economy.is_nearly_straight(forces(1e3), 0.0));
-        assert!(!economy.is_nearly_straight(forces(f64::NAN), 0.0));
+        assert!(!economy.is_nearly_straight(forces(1e3)));
+        assert!(!economy.is_nearly_straight(forces(f64::NAN)));
         // nor where that of multipliers would stay
         economy.solved(
             Excess {
@@ -211,8 +192,8 @@ mod tests {
             forces: 1.0,
             multipliers,
         };
-        assert!(economy.is_nearly_straight(of_multipliers(3.0), 0.1));
-        assert!(!economy.is_nearly_straight(of_multipliers(5.0), 0.1));
+        assert!(economy.is_nearly_straight(of_multipliers(3.0)));
+        assert!(!economy.is_nearly_straight(of_multipliers(5.0)));
     }
 
     #[test]

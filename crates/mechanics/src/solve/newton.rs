@@ -1,6 +1,6 @@
 //! One increment by Newton's method.
 
-use super::economy::{Economy, Excess, OLD_AT_MOST, old_enough};
+use super::economy::{Economy, Excess};
 use super::equations::{Accuracy, Equations, Factor};
 use super::event::IterationRecord;
 use super::line_search;
@@ -319,9 +319,6 @@ pub(super) struct Newton {
     /// The state of the iterate.
     pub trial: State,
     before: State,
-    /// The state of which the bulk of the tangent is, and about how much of it is another at that of the tangent.
-    bulk_at: State,
-    old: f64,
     du: Vec<f64>,
     /// Dofs at which motions without stiffness are held by the present tangent, each with the stiffness that does.
     held: Vec<(Dof, f64)>,
@@ -343,9 +340,7 @@ impl Newton {
             assembled: None,
             has_tangent: false,
             trial: state.clone(),
-            before: state.clone(),
-            bulk_at: state,
-            old: 0.0,
+            before: state,
             du: Vec::new(),
             held: Vec::new(),
         }
@@ -488,6 +483,12 @@ impl Newton {
             }
             let is_iterative = self.equations.is_iterative();
             let has_none = self.assembled < Some(Order::Tangent);
+            let serves = has_none && self.has_tangent && !motion && settled && flips == 0;
+            // solutions that are not exact need no exact tangent
+            let serves = serves && is_iterative && economy.is_nearly_straight(judgement.excess);
+            if has_none && !serves {
+                self.assemble(system, Order::Tangent)?;
+            }
             // where only the size of the next correction is left to show, the last factor tells it
             let nearly = iterations > 0 && !motion && judgement.small && settled;
             let accuracy = if is_iterative {
@@ -499,16 +500,6 @@ impl Newton {
             } else {
                 Accuracy::Residual(EXACT)
             };
-            // solutions that are not exact need no exact tangent
-            let serves = has_none && self.has_tangent && !motion && settled && flips == 0;
-            let serves =
-                serves && is_iterative && economy.is_nearly_straight(judgement.excess, self.old);
-            let allowed = old_enough(accuracy);
-            if has_none && !serves {
-                self.assemble_tangent(system, allowed)?;
-            } else if !serves && self.old > allowed {
-                self.renew_bulk(system)?;
-            }
             let which = self.assembler.start(&system.terms);
             if self.equations.wants_start(which) {
                 let bulk = self.bulk_at_start(system)?;
@@ -516,7 +507,7 @@ impl Newton {
             }
             let left = self.solve_linear(motion, nearly || serves, accuracy)?;
             if !serves {
-                economy.solved(judgement.excess, left + self.old);
+                economy.solved(judgement.excess, left);
             }
             decrement = self.slope().abs().sqrt();
             let is_last = largest(&self.du[..nmotion]) <= CORRECTION * moved;
@@ -684,34 +675,6 @@ impl Newton {
     }
 
     fn assemble(&mut self, system: &System, order: Order) -> Result<(), TermError> {
-        match order {
-            Order::Residual => self.assemble_plainly(system, order),
-            Order::Tangent => self.assemble_tangent(system, OLD_AT_MOST),
-        }
-    }
-
-    /// Assembles a tangent; the bulk stays where about the part `allowed` of it is another, at most.
-    fn assemble_tangent(&mut self, system: &System, allowed: f64) -> Result<(), TermError> {
-        let (from, to) = (&self.bulk_at, &self.trial);
-        let old = if self.equations.is_iterative() && self.assembler.has_bulk(&self.assembly) {
-            self.assembler.bulk_change(&system.terms, from, to)
-        } else {
-            f64::INFINITY
-        };
-        let keeps = old <= allowed;
-        if keeps {
-            self.assembly.keep_bulk();
-        }
-        self.assemble_plainly(system, Order::Tangent)?;
-        if keeps {
-            self.old = old;
-        } else {
-            self.has_bulk_of_trial();
-        }
-        Ok(())
-    }
-
-    fn assemble_plainly(&mut self, system: &System, order: Order) -> Result<(), TermError> {
         self.assembled = None;
         if order == Order::Tangent {
             self.held.clear();
@@ -729,26 +692,6 @@ impl Newton {
         self.assembled = Some(order);
         self.has_tangent |= order == Order::Tangent;
         Ok(())
-    }
-
-    /// Gives the tangent the bulk of its own state.
-    fn renew_bulk(&mut self, system: &System) -> Result<(), TermError> {
-        self.has_tangent = false;
-        self.assembler.renew_bulk(
-            &system.layout,
-            &system.elimination,
-            &system.terms,
-            &self.trial,
-            &mut self.assembly,
-        )?;
-        self.has_bulk_of_trial();
-        self.has_tangent = true;
-        Ok(())
-    }
-
-    fn has_bulk_of_trial(&mut self) {
-        self.bulk_at.clone_from(&self.trial);
-        self.old = 0.0;
     }
 
     /// The stiffness of the bodies at the start of the run; a tangent is assembled.

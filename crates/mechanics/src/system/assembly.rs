@@ -40,10 +40,8 @@ pub struct Assembly {
     pub uncertainty: Vec<f64>,
     bulk: Vec<f64>,
     interface: Vec<f64>,
-    /// The period of which the bulk is, where it is apart from the interface.
+    /// The period of which the bulk is, where it holds for all states in it.
     bulk_of: Option<u64>,
-    /// Whether the next tangent keeps the bulk.
-    keeps_bulk: bool,
 }
 
 impl Assembly {
@@ -56,11 +54,6 @@ impl Assembly {
         ] {
             reset(values, ndof);
         }
-    }
-
-    /// Lets what is assembled next keep the stiffness of the bulk, if that is one of the same increment.
-    pub const fn keep_bulk(&mut self) {
-        self.keeps_bulk = true;
     }
 
     /// The values of the operator.
@@ -445,8 +438,7 @@ impl Assembler {
     ) -> Result<(), TermError> {
         self.share_out(layout, elimination, terms);
         out.reset_forces(layout.ndof());
-        let keeps_bulk = std::mem::take(&mut out.keeps_bulk);
-        let is_kept = self.has_bulk(out) && (keeps_bulk || self.is_constant());
+        let is_kept = out.bulk_of == Some(self.period);
         if order == Order::Tangent {
             if !is_kept {
                 out.bulk_of = None;
@@ -455,7 +447,7 @@ impl Assembler {
             reset(&mut out.interface, self.interface.nentry());
         }
         // unknowns that follow others put stiffness of the bulk into the interface
-        let mut stays = order == Order::Tangent;
+        let mut stays = self.is_constant() && order == Order::Tangent;
         let order_of = |task: &Task| {
             if is_kept && task.part == Part::Bulk {
                 Order::Residual
@@ -527,44 +519,6 @@ impl Assembler {
         bulk.all(|term| term.is_at_start(trial))
     }
 
-    /// Whether the bulk of an assembly is one of the present increment, and whole.
-    #[must_use]
-    pub fn has_bulk(&self, out: &Assembly) -> bool {
-        out.bulk_of == Some(self.period)
-    }
-
-    /// About how much of the stiffness of the bulk is another at one state of an increment than at another: the part, or ∞
-    /// where it cannot be told.
-    #[must_use]
-    pub fn bulk_change(&self, terms: &[Box<dyn Term>], from: &State, to: &State) -> f64 {
-        let bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
-        let changes = bulk.map(|term| term.stiffness_change(from, to));
-        changes.fold(0.0, f64::max)
-    }
-
-    /// Puts the stiffness of the bulk at a trial state into an assembly that has another one.
-    ///
-    /// # Errors
-    /// The first failure in the order of terms and chunks.
-    pub fn renew_bulk(
-        &mut self,
-        layout: &Layout,
-        elimination: &Elimination,
-        terms: &[Box<dyn Term>],
-        trial: &State,
-        out: &mut Assembly,
-    ) -> Result<(), TermError> {
-        out.bulk_of = None;
-        let values = std::mem::take(&mut out.bulk);
-        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
-            let term = &terms[task.term];
-            term.evaluate(task.chunk, trial, Order::Tangent, work, buffer)
-        };
-        out.bulk = self.bulk_by(layout, elimination, trial, evaluate, values)?;
-        out.bulk_of = Some(self.period);
-        Ok(())
-    }
-
     /// The values of the bulk at the start of a run: undeformed, without history.
     ///
     /// # Errors
@@ -576,25 +530,7 @@ impl Assembler {
         terms: &[Box<dyn Term>],
         state: &State,
     ) -> Result<Vec<f64>, TermError> {
-        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
-            terms[task.term].stiffness_at_start(task.chunk, work, buffer)
-        };
-        self.bulk_by(layout, elimination, state, evaluate, Vec::new())
-    }
-
-    /// The stiffness of the bulk that its chunks are evaluated to, in place of old values.
-    fn bulk_by(
-        &mut self,
-        layout: &Layout,
-        elimination: &Elimination,
-        state: &State,
-        evaluate: impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync,
-        old: Vec<f64>,
-    ) -> Result<Vec<f64>, TermError> {
-        let mut out = Assembly {
-            bulk: old,
-            ..Assembly::default()
-        };
+        let mut out = Assembly::default();
         out.reset_forces(layout.ndof());
         reset(&mut out.bulk, self.bulk.nvalue());
         reset(&mut out.interface, self.interface.nentry());
@@ -617,7 +553,7 @@ impl Assembler {
             shared: shared.as_ref(),
         };
         let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| match task.part {
-            Part::Bulk => evaluate(task, work, buffer),
+            Part::Bulk => terms[task.term].stiffness_at_start(task.chunk, work, buffer),
             Part::Interface => Ok(()),
         };
         let size = wave(Order::Tangent);

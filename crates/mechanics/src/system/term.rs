@@ -255,15 +255,6 @@ pub trait Term: Send + Sync {
         Lasts::State
     }
 
-    /// About how much of its stiffness is another at one state of an increment than at another: the part, or ∞ where it
-    /// cannot be told. Asked of the bulk alone.
-    fn stiffness_change(&self, _from: &State, _to: &State) -> f64 {
-        match self.stiffness_lasts() {
-            Lasts::State => f64::INFINITY,
-            Lasts::Increment | Lasts::Step => 0.0,
-        }
-    }
-
     /// A step begins at this accepted state.
     ///
     /// # Errors

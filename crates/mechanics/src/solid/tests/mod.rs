@@ -15,7 +15,6 @@ use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::sync::Arc;
 
 mod batch;
-mod change;
 mod derivatives;
 mod history;
 mod locking;
