@@ -2,7 +2,7 @@
 
 use super::elimination::Expanded;
 use super::linear::Values;
-use super::shares::{Share, share_out};
+use super::shares::{Share, divide, share_out};
 use super::sparsity::{BlockPattern, NONE, Pattern};
 use super::{
     Dof, Elimination, Lasts, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, Term,
@@ -735,17 +735,9 @@ impl Setting<'_> {
     ) -> Vec<Strip<'o>> {
         let (ndim, nnode) = (self.bulk.block.max(1), self.bulk.nrow());
         let dofs = buffers.iter().flat_map(|buffer| &buffer.dofs);
-        let of_nodes = dofs.step_by(ndim).map(|&dof| dof as usize / ndim);
-        let mut nodes: Vec<usize> = of_nodes.filter(|&node| node < nnode).collect();
-        let quantiles = (1..nstrip).map(|k| {
-            let at = k * nodes.len() / nstrip;
-            if at < nodes.len() {
-                *nodes.select_nth_unstable(at).1
-            } else {
-                nnode
-            }
-        });
-        let ends: Vec<usize> = quantiles.collect();
+        let of_nodes = dofs.step_by(ndim).map(|&dof| dof / ndim as NodeId);
+        let mut nodes: Vec<NodeId> = of_nodes.filter(|&node| (node as usize) < nnode).collect();
+        let ends = divide(nstrip, nnode, &mut nodes);
         self.strips_to(&ends, out)
     }
 

@@ -25,6 +25,19 @@ pub(super) struct Share {
     pub chunks: Vec<usize>,
 }
 
+/// Where to divide rows, so that each of so many parts has about as many of these nodes: the first node of each but the
+/// first part.
+pub(super) fn divide(npart: usize, nnode: usize, nodes: &mut [NodeId]) -> Vec<usize> {
+    let first = |k: usize| {
+        let at = k * nodes.len() / npart;
+        match at < nodes.len() {
+            true => *nodes.select_nth_unstable(at).1 as usize,
+            false => nnode,
+        }
+    };
+    (1..npart).map(first).collect()
+}
+
 /// Shares rows among threads. `elements` hands over the nodes of all elements of a chunk. None where there is too little,
 /// or where too much would be evaluated more than once.
 pub(super) fn share_out(
@@ -40,14 +53,8 @@ pub(super) fn share_out(
     for chunk in 0..nchunk {
         elements(chunk, &mut |nodes| firsts.extend(nodes.first()));
     }
-    let end = |k: usize| {
-        let at = k * firsts.len() / nthread;
-        match at < firsts.len() {
-            true => *firsts.select_nth_unstable(at).1 as usize,
-            false => nnode,
-        }
-    };
-    let ends: Vec<usize> = (1..=nthread).map(end).collect();
+    let mut ends = divide(nthread, nnode, &mut firsts);
+    ends.push(nnode);
     let share = |&end: &usize| Share {
         end,
         chunks: Vec::new(),

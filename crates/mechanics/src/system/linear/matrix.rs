@@ -249,11 +249,7 @@ impl Matrix {
         let measured = shares.into_par_iter().map(|share| {
             let mut column_max = vec![0.0; column_scale.len()];
             let mut is_finite = true;
-            let Share { columns, value, .. } = share;
-            let first = start[columns.start] as usize;
-            for (e, row_max) in columns.zip(share.row_max) {
-                let range = start[e] as usize..start[e + 1] as usize;
-                let own = &mut value[range.start - first..range.end - first];
+            for (e, range, own, row_max) in share.each(start) {
                 is_finite &= add_up(e, range.start, own);
                 let entries = row[range].iter().zip(&*own);
                 *row_max = largest(entries, row_scale[e], column_scale, &mut column_max);
@@ -294,11 +290,7 @@ impl Matrix {
         let (row_scale, column_scale) = (&self.row_scale, &self.column_scale);
         let is_finite = shares.into_par_iter().map(|share| {
             let mut is_finite = true;
-            let Share { columns, value, .. } = share;
-            let first = start[columns.start] as usize;
-            for e in columns {
-                let range = start[e] as usize..start[e + 1] as usize;
-                let own = &mut value[range.start - first..range.end - first];
+            for (e, range, own, _) in share.each(start) {
                 for (&f, a) in row[range].iter().zip(own) {
                     *a *= row_scale[e] * column_scale[f as usize];
                     is_finite &= a.is_finite();
@@ -327,12 +319,8 @@ impl Matrix {
         let (row_scale, column_scale) = (&self.row_scale, &self.column_scale);
         let measured = shares.into_par_iter().map(|share| {
             let mut column_max = vec![0.0; column_scale.len()];
-            let Share { columns, value, .. } = share;
-            let first = start[columns.start] as usize;
-            for (e, row_max) in columns.zip(share.row_max) {
-                let range = start[e] as usize..start[e + 1] as usize;
-                let own = &value[range.start - first..range.end - first];
-                let entries = row[range].iter().zip(own);
+            for (e, range, own, row_max) in share.each(start) {
+                let entries = row[range].iter().zip(&*own);
                 *row_max = largest(entries, row_scale[e], column_scale, &mut column_max);
             }
             column_max
@@ -379,6 +367,21 @@ struct Share<'m> {
     columns: Range<usize>,
     value: &'m mut [f64],
     row_max: &'m mut [f64],
+}
+
+impl<'m> Share<'m> {
+    /// Each column with the places of its entries, their values, and what is measured of it.
+    fn each(
+        self,
+        start: &[u32],
+    ) -> impl Iterator<Item = (usize, Range<usize>, &'m mut [f64], &'m mut f64)> {
+        let mut value = self.value;
+        self.columns.zip(self.row_max).map(move |(e, row_max)| {
+            let range = start[e] as usize..start[e + 1] as usize;
+            let own = value.split_off_mut(..range.len()).unwrap_or_default();
+            (e, range, own, row_max)
+        })
+    }
 }
 
 /// All columns, shared among the threads with about as many entries each.

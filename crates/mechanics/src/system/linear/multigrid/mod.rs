@@ -517,19 +517,16 @@ impl Grid {
             return None;
         }
         let now = self.signed(kept, values.bulk);
-        let bulk = match &told {
-            Some(StartStiffness::Values(bulk)) => Some(bulk.as_slice()),
-            Some(StartStiffness::Next) => Some(values.bulk),
+        let told = match &told {
+            Some(StartStiffness::Values(bulk)) => Some((bulk.as_slice(), self.signed(kept, bulk))),
+            Some(StartStiffness::Next) => Some((values.bulk, now.clone())),
             Some(StartStiffness::Always) | None => None,
         };
-        if let Some(bulk) = bulk {
-            let response = match &told {
-                Some(StartStiffness::Next) => now.clone(),
-                _ => self.signed(kept, bulk),
-            };
+        let bulk = told.map(|(bulk, response)| {
             self.start.is_in_use &= response == self.start.response;
             self.start.response = response;
-        }
+            bulk
+        });
         let pairs = now.iter().zip(&self.start.response);
         let change: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
         let size: f64 = self.start.response.iter().map(|b| b * b).sum();
