@@ -12,7 +12,7 @@
 //! A matrix with a nearly cancelled pivot, and every LU, is examined for free motions.
 
 use super::cholesky::Cholesky;
-use super::fronts::Fronts;
+use super::fronts::{Fronts, Precision};
 use super::gathered::{Breakdown, Gathered, NAMING_SHIFT};
 use super::lu::Lu;
 use super::ordering::{self, Ordering};
@@ -33,6 +33,8 @@ const LU_UP_TO: usize = 60_000;
 pub struct Direct {
     ordering: Ordering,
     threads: bool,
+    /// The precision of factors by fronts, as long as that suffices.
+    precision: Precision,
     analysis: Option<Analysis>,
     /// Whether what earlier values taught is to be forgotten with the next ones.
     forgotten: bool,
@@ -42,6 +44,7 @@ struct Analysis {
     gathered: Gathered,
     factors: Factors,
     ordering: Ordering,
+    precision: Precision,
     par: Par,
     /// The last factor had negative pivots.
     indefinite: bool,
@@ -80,6 +83,7 @@ impl Direct {
         Self {
             ordering: Ordering::Auto,
             threads: true,
+            precision: Precision::Double,
             analysis: None,
             forgotten: false,
         }
@@ -90,6 +94,56 @@ impl Direct {
         Self {
             threads: false,
             ..Self::new()
+        }
+    }
+
+    /// The same, with factors in single precision where the matrix is unsymmetric and that suffices: for preconditioners.
+    pub(super) fn rough() -> Self {
+        Self {
+            precision: Precision::Single,
+            ..Self::reproducible()
+        }
+    }
+
+    /// Whether the current factor is in single precision.
+    pub(super) fn is_rough(&self) -> bool {
+        let precision = |a: &Analysis| {
+            let fronts = a.factors.fronts.as_ref();
+            let current = fronts.filter(|_| a.factors.active == Active::Fronts);
+            current.map(Fronts::precision)
+        };
+        self.analysis.as_ref().and_then(precision) == Some(Precision::Single)
+    }
+
+    /// What is left of a right-hand side of ones and minus ones by a solution with the factor at hand, in equilibrated
+    /// equations: the largest entry.
+    pub(super) fn leaves(&mut self) -> f64 {
+        let Some(Analysis {
+            gathered, factors, ..
+        }) = &mut self.analysis
+        else {
+            return f64::INFINITY;
+        };
+        let matrix = &gathered.matrix;
+        let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
+        let right: Vec<f64> = signs.take(matrix.nequation()).collect();
+        let (mut x, mut product) = (right.clone(), vec![0.0; right.len()]);
+        factors.solve(&mut x);
+        matrix.multiply(&x, &mut product, |a| a);
+        let left = right.iter().zip(&product).map(|(b, y)| (b - y).abs());
+        left.fold(0.0, |most, r| {
+            if r.is_finite() {
+                most.max(r)
+            } else {
+                f64::INFINITY
+            }
+        })
+    }
+
+    /// Has factors in double precision until what values taught is forgotten.
+    pub(super) fn widen(&mut self) {
+        if let Some(analysis) = &mut self.analysis {
+            analysis.precision = Precision::Double;
         }
     }
 
@@ -176,7 +230,11 @@ impl LinearSolver for Direct {
         }
         self.analysis = None;
         problem.check()?;
-        self.analysis = Some(Analysis::new(problem, self.ordering, self.threads)?);
+        let analysis = Analysis::new(problem, self.ordering, self.threads)?;
+        self.analysis = Some(Analysis {
+            precision: self.precision,
+            ..analysis
+        });
         Ok(())
     }
 
@@ -187,6 +245,7 @@ impl LinearSolver for Direct {
             .ok_or(LinearError::Order { before: "analyze" })?;
         if std::mem::take(&mut self.forgotten) {
             analysis.forget();
+            analysis.precision = self.precision;
         }
         analysis.factorize(values)
     }
@@ -236,6 +295,7 @@ impl Analysis {
                 active: Active::None,
             },
             ordering,
+            precision: Precision::Double,
             par,
             indefinite: false,
             prefer_lu: false,
@@ -304,14 +364,19 @@ impl Analysis {
                             let ordering = self.ordering;
                             let order =
                                 || ordering::order_groups(&problem, matrix, &groups, ordering);
-                            let fronts = Fronts::new(matrix, order)?;
+                            let fronts = Fronts::new(matrix, self.precision, order)?;
                             self.factors.groups = groups;
                             fronts
                         }
                     }
                 }
             };
-            if fronts.factorize(matrix) {
+            let mut is_done = fronts.change(self.precision) && fronts.factorize(matrix);
+            if self.precision == Precision::Single && (!is_done || fronts.is_suspicious()) {
+                self.precision = Precision::Double;
+                is_done = fronts.change(self.precision) && fronts.factorize(matrix);
+            }
+            if is_done {
                 let is_suspicious = fronts.is_suspicious();
                 self.factors.fronts = Some(fronts);
                 return Ok(Some(is_suspicious));

@@ -19,6 +19,8 @@
 //! Subtrees without much work are tasks of their own, and above them what is side by side is eliminated at the same time;
 //! sums are formed in an order that does not depend on threads.
 //!
+//! Factors may be in single precision: within a preconditioner they serve as well, and take half the time and memory.
+//!
 //! Source: I. S. Duff and J. K. Reid, The multifrontal solution of unsymmetric sets of linear equations, SIAM J. Sci.
 //! Stat. Comput. 5 (1984) 633–641.
 
@@ -38,15 +40,17 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
+use faer::traits::ComplexField;
 use faer::{Accum, MatMut, Par, Side};
 use pulp::Arch;
 use rayon::prelude::*;
-use std::ops::Range;
+use std::ops::{AddAssign, Div, Mul, Range, Sub, SubAssign};
 
 /// A pivot below it, in units of the largest entry of its row, is none.
 const VANISHING: f64 = 1e-14;
-/// A pivot below it gives reason to look for free motions.
+/// A pivot below it gives reason to look for free motions; in single precision, to do without that.
 const SUSPICIOUS: f64 = 1e-8;
+const SUSPICIOUS_IN_SINGLE: f64 = 1e-5;
 /// A subtree with no more than this part of all work is one task of a factorization, where threads share the nodes above.
 const PART: f64 = 1.0 / 32.0;
 /// A subtree with no more than this part of all entries is one task of a solution: each node above waits for the one below.
@@ -62,12 +66,68 @@ const FEW: usize = 500_000;
 /// Supernodes are merged where they have at most so many columns, and at most this part of their entries is zero.
 const RELAX: [(usize, f64); 3] = [(8, 0.9), (24, 0.4), (64, 0.15)];
 
+/// How many digits factors have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Precision {
+    Single,
+    Double,
+}
+
+/// Numbers that factors are made of.
+trait Number:
+    ComplexField
+    + Copy
+    + Default
+    + AddAssign
+    + SubAssign
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+{
+    fn narrow(value: f64) -> Self;
+
+    fn wide(self) -> f64;
+}
+
+impl Number for f64 {
+    fn narrow(value: f64) -> Self {
+        value
+    }
+
+    fn wide(self) -> f64 {
+        self
+    }
+}
+
+impl Number for f32 {
+    fn narrow(value: f64) -> Self {
+        value as Self
+    }
+
+    fn wide(self) -> f64 {
+        f64::from(self)
+    }
+}
+
 /// The factors, and the tree that they are made along.
 pub(super) struct Fronts {
+    plan: Plan,
+    numbers: Numbers,
+    /// The smallest pivot of the last factorization, in units of the largest entry of its row.
+    smallest: f64,
+}
+
+/// The factors.
+enum Numbers {
+    Single(Store<f32>),
+    Double(Store<f64>),
+}
+
+/// The tree, which is the same whatever the values.
+struct Plan {
     /// The order that became of the one that was asked for, in which supernodes are whole: `order[new] = old`.
     order: Vec<u32>,
     nodes: Vec<Node>,
-    panels: Vec<Panel>,
     /// Ranges of nodes that are subtrees with little work, in their order; what is not in one is above them all.
     tasks: Vec<Range<usize>>,
     /// The same for solutions.
@@ -75,18 +135,22 @@ pub(super) struct Fronts {
     /// The place of each entry of the matrix in its panel, node by node.
     from: Vec<u32>,
     to: Vec<u32>,
-    /// The smallest pivot of the last factorization, in units of the largest entry of its row.
-    smallest: f64,
-    /// What a solution works with: of each branch, then of the nodes above them all.
-    work: Vec<Work>,
+    /// How large the fronts of each branch are together, then of the nodes above them all.
+    size: Vec<usize>,
+}
+
+/// What is kept of each node, and what solutions work with.
+struct Store<T> {
+    panels: Vec<Panel<T>>,
+    /// Of each branch, then of the nodes above them all.
+    work: Vec<Work<T>>,
 }
 
 /// What some nodes work with in a solution.
-#[derive(Default)]
-struct Work {
+struct Work<T> {
     /// Their unknowns, and what is left of the rows below them, node by node.
-    front: Vec<f64>,
-    own: Vec<f64>,
+    front: Vec<T>,
+    own: Vec<T>,
 }
 
 /// A supernode.
@@ -108,9 +172,8 @@ struct Node {
 }
 
 /// What a supernode keeps: `L₁₁∖U₁₁` over `L₂₁`, column by column, then `U₁₂`, column by column.
-#[derive(Default)]
-struct Panel {
-    value: Vec<f64>,
+struct Panel<T> {
+    value: Vec<T>,
     /// Row `pivot[k]` of the block came to place k.
     pivot: Vec<u32>,
 }
@@ -148,6 +211,7 @@ impl Fronts {
     /// `TooLarge`, and those of `find_order`.
     pub fn new(
         matrix: &Matrix,
+        precision: Precision,
         find_order: impl FnOnce() -> Result<Vec<u32>, LinearError> + Send,
     ) -> Result<Self, LinearError> {
         let n = matrix.nequation();
@@ -216,31 +280,79 @@ impl Fronts {
         }
         let tasks = subtrees(&nodes, Node::effort, PART, LITTLE);
         let branches = subtrees(&nodes, |node| node.nentry() as f64, PART_OF_SOLUTION, 0.0);
-        let work = place_fronts(&mut nodes, &branches);
-        let mut fronts = Self {
-            panels: nodes.iter().map(|_| Panel::default()).collect(),
+        let size = place_fronts(&mut nodes, &branches);
+        let mut plan = Plan {
             order: own_order,
             nodes,
             tasks,
             branches,
             from: Vec::new(),
             to: Vec::new(),
-            smallest: 0.0,
-            work,
+            size,
         };
-        fronts
-            .place_entries(matrix, &by_row)
-            .ok_or_else(too_large)?;
-        for (panel, node) in fronts.panels.iter_mut().zip(&fronts.nodes) {
-            if panel.value.try_reserve_exact(node.nentry()).is_err() {
-                return Err(too_large());
-            }
-            panel.value.resize(node.nentry(), 0.0);
-            panel.pivot.resize(node.width(), 0);
-        }
-        Ok(fronts)
+        plan.place_entries(matrix, &by_row).ok_or_else(too_large)?;
+        Ok(Self {
+            numbers: Numbers::new(&plan, precision).ok_or_else(too_large)?,
+            plan,
+            smallest: 0.0,
+        })
     }
 
+    pub const fn precision(&self) -> Precision {
+        match self.numbers {
+            Numbers::Single(_) => Precision::Single,
+            Numbers::Double(_) => Precision::Double,
+        }
+    }
+
+    /// Goes on with numbers of this precision: false where there is no memory for them.
+    pub fn change(&mut self, precision: Precision) -> bool {
+        if self.precision() == precision {
+            return true;
+        }
+        let numbers = Numbers::new(&self.plan, precision);
+        let is_there = numbers.is_some();
+        self.numbers = numbers.unwrap_or(Numbers::Double(Store::empty()));
+        is_there
+    }
+
+    /// Whether some pivot was all but cancelled, so that the matrix may be singular.
+    pub fn is_suspicious(&self) -> bool {
+        match self.precision() {
+            Precision::Single => self.smallest < SUSPICIOUS_IN_SINGLE,
+            Precision::Double => self.smallest < SUSPICIOUS,
+        }
+    }
+
+    /// Factorizes; false where a block has no pivots.
+    pub fn factorize(&mut self, matrix: &Matrix) -> bool {
+        let smallest = match &mut self.numbers {
+            Numbers::Single(store) => store.factorize(&self.plan, matrix),
+            Numbers::Double(store) => store.factorize(&self.plan, matrix),
+        };
+        self.smallest = smallest.unwrap_or(0.0);
+        smallest.is_ok()
+    }
+
+    /// Solves with the factors, in equilibrated unknowns.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        match &mut self.numbers {
+            Numbers::Single(store) => store.solve(&self.plan, x),
+            Numbers::Double(store) => store.solve(&self.plan, x),
+        }
+    }
+}
+
+impl Numbers {
+    fn new(plan: &Plan, precision: Precision) -> Option<Self> {
+        Some(match precision {
+            Precision::Single => Self::Single(Store::new(plan)?),
+            Precision::Double => Self::Double(Store::new(plan)?),
+        })
+    }
+}
+
+impl Plan {
     /// Finds the place of every entry; column e of the matrix holds row e of the operator.
     fn place_entries(&mut self, matrix: &Matrix, by_row: &Lists<[u32; 2]>) -> Option<()> {
         let mut place = vec![0u32; self.order.len()];
@@ -275,22 +387,48 @@ impl Fronts {
         }
         Some(())
     }
+}
 
-    /// Whether some pivot was all but cancelled, so that the matrix may be singular.
-    pub fn is_suspicious(&self) -> bool {
-        self.smallest < SUSPICIOUS
+impl<T: Number> Store<T> {
+    /// Nothing yet; `None` where there is no memory.
+    fn new(plan: &Plan) -> Option<Self> {
+        let panel = |node: &Node| {
+            let mut value = Vec::new();
+            value.try_reserve_exact(node.nentry()).ok()?;
+            value.resize(node.nentry(), T::default());
+            let pivot = vec![0; node.width()];
+            Some(Panel { value, pivot })
+        };
+        let work = |&size: &usize| Work {
+            front: vec![T::default(); size],
+            own: Vec::new(),
+        };
+        Some(Self {
+            panels: plan.nodes.iter().map(panel).collect::<Option<_>>()?,
+            work: plan.size.iter().map(work).collect(),
+        })
     }
 
-    /// Factorizes; false where a block has no pivots.
-    pub fn factorize(&mut self, matrix: &Matrix) -> bool {
-        let Self {
+    const fn empty() -> Self {
+        Self {
+            panels: Vec::new(),
+            work: Vec::new(),
+        }
+    }
+
+    /// Factorizes; the smallest pivot.
+    fn factorize(&mut self, plan: &Plan, matrix: &Matrix) -> Result<f64, NoPivot> {
+        let Plan {
             nodes,
-            panels,
             tasks,
             from,
             to,
             ..
-        } = self;
+        } = plan;
+        let panels = &mut self.panels;
+        if panels.len() != nodes.len() {
+            return Err(NoPivot);
+        }
         let tree = Tree {
             nodes,
             tasks,
@@ -299,7 +437,7 @@ impl Fronts {
             value: &matrix.value,
         };
         // what every node leaves to its parent
-        let mut left: Vec<Vec<f64>> = nodes.iter().map(|_| Vec::new()).collect();
+        let mut left: Vec<Vec<T>> = nodes.iter().map(|_| Vec::new()).collect();
         let mut jobs = Vec::with_capacity(tasks.len());
         let (mut rest, mut rest_left, mut begin) = (panels.as_mut_slice(), &mut left[..], 0);
         for task in tasks.iter() {
@@ -327,34 +465,28 @@ impl Fronts {
             Ok(smallest)
         });
         let done: Result<Vec<f64>, NoPivot> = done.collect();
-        let Ok(smallest) = done else {
-            return false;
-        };
+        let smallest = done?;
         let roots: Vec<u32> = (0..)
             .zip(nodes.iter())
             .filter(|(_, node)| node.parent.is_none())
             .map(|(s, _)| s)
             .collect();
-        let Ok(above) = tree.climb_all(0, &roots, panels, &mut left) else {
-            return false;
-        };
-        self.smallest = smallest.into_iter().fold(above, f64::min);
-        true
+        let above = tree.climb_all(0, &roots, panels, &mut left)?;
+        Ok(smallest.into_iter().fold(above, f64::min))
     }
 
-    /// Solves with the factors, in equilibrated unknowns.
-    pub fn solve(&mut self, x: &mut [f64]) {
+    fn solve(&mut self, plan: &Plan, x: &mut [f64]) {
         let factors = Factors {
-            order: &self.order,
-            nodes: &self.nodes,
+            order: &plan.order,
+            nodes: &plan.nodes,
             panels: &self.panels,
         };
         let Some((above, below)) = self.work.split_last_mut() else {
             return;
         };
-        let branches = &self.branches;
-        let is_little = self.nodes.iter().map(Node::nentry).sum::<usize>() < FEW;
-        let each = |below: &mut [Work], run: &(dyn Fn(&Range<usize>, &mut Work) + Sync)| {
+        let branches = &plan.branches;
+        let is_little = plan.nodes.iter().map(Node::nentry).sum::<usize>() < FEW;
+        let each = |below: &mut [Work<T>], run: &(dyn Fn(&Range<usize>, &mut Work<T>) + Sync)| {
             if is_little {
                 branches.iter().zip(below).for_each(|(b, w)| run(b, w));
             } else {
@@ -388,11 +520,11 @@ impl Fronts {
             };
             arch.dispatch(down);
         });
-        for node in &self.nodes {
+        for node in &plan.nodes {
             let work = below.get(node.branch).unwrap_or(above);
             let found = &work.front[node.front..];
-            for (&old, found) in self.order[node.columns.clone()].iter().zip(found) {
-                x[old as usize] = *found;
+            for (&old, found) in plan.order[node.columns.clone()].iter().zip(found) {
+                x[old as usize] = found.wide();
             }
         }
     }
@@ -450,27 +582,26 @@ impl Placed {
 }
 
 /// What all nodes share in a solution.
-#[derive(Clone, Copy)]
-struct Factors<'a> {
+struct Factors<'a, T> {
     order: &'a [u32],
     nodes: &'a [Node],
-    panels: &'a [Panel],
+    panels: &'a [Panel<T>],
 }
 
-impl Factors<'_> {
+impl<T: Number> Factors<'_, T> {
     /// Solves with the lower factor of a node, and leaves to its parent what remains of the rows below. Children are in the
     /// same work, or in that of their branch.
     #[inline(always)]
-    fn reduce(self, s: usize, right: &[f64], work: &mut Work, branches: &[Work]) {
+    fn reduce(&self, s: usize, right: &[f64], work: &mut Work<T>, branches: &[Work<T>]) {
         let (node, panel) = (&self.nodes[s], &self.panels[s]);
         let (w, m) = (node.width(), node.size());
         let (before, rest) = work.front.split_at_mut(node.front);
         let front = &mut rest[..m];
         let unknowns = &self.order[node.columns.clone()];
         for (y, &old) in front.iter_mut().zip(unknowns) {
-            *y = right[old as usize];
+            *y = T::narrow(right[old as usize]);
         }
-        front[w..].fill(0.0);
+        front[w..].fill(T::default());
         for &child in &node.children {
             let child = &self.nodes[child as usize];
             let home = if child.branch == node.branch {
@@ -480,7 +611,7 @@ impl Factors<'_> {
             };
             let left = &home[child.front + child.width()..];
             for (&place, left) in child.place.iter().zip(left) {
-                front[place as usize] += left;
+                front[place as usize] += *left;
             }
         }
         let (known, below) = front.split_at_mut(w);
@@ -491,7 +622,7 @@ impl Factors<'_> {
             let column = &panel.value[k * m + k + 1..k * m + w];
             let known = own[k];
             for (x, l) in own[k + 1..].iter_mut().zip(column) {
-                *x -= l * known;
+                *x -= *l * known;
             }
         }
         known.copy_from_slice(own);
@@ -500,7 +631,7 @@ impl Factors<'_> {
 
     /// Solves with the upper factor of a node, whose parent is in the same work, or in that of the nodes above.
     #[inline(always)]
-    fn expand(self, s: usize, work: &mut Work, above: Option<&Work>) {
+    fn expand(&self, s: usize, work: &mut Work<T>, above: Option<&Work<T>>) {
         let (node, panel) = (&self.nodes[s], &self.panels[s]);
         let (w, m) = (node.width(), node.size());
         let (fronts, after) = work.front.split_at_mut(node.front + m);
@@ -521,7 +652,7 @@ impl Factors<'_> {
             let known = own[k] / column[k];
             own[k] = known;
             for (x, u) in own[..k].iter_mut().zip(column) {
-                *x -= u * known;
+                *x -= *u * known;
             }
         }
     }
@@ -529,7 +660,7 @@ impl Factors<'_> {
 
 /// `y −= A x` with A by columns, which begin `stride` apart.
 #[inline(always)]
-fn subtract_product(y: &mut [f64], a: &[f64], stride: usize, x: &[f64]) {
+fn subtract_product<T: Number>(y: &mut [T], a: &[T], stride: usize, x: &[T]) {
     let n = y.len();
     if n == 0 {
         return;
@@ -544,7 +675,7 @@ fn subtract_product(y: &mut [f64], a: &[f64], stride: usize, x: &[f64]) {
     }
     for (k, x) in (4 * fours.len()..).zip(others) {
         for (y, a) in y.iter_mut().zip(&a[k * stride..][..n]) {
-            *y -= a * x;
+            *y -= *a * *x;
         }
     }
 }
@@ -563,11 +694,11 @@ impl Node {
 
 /// Memory for pivots.
 #[derive(Default)]
-struct Memory {
+struct Memory<T> {
     buffer: Option<MemBuffer>,
     width: usize,
     inverse: Vec<u32>,
-    column: Vec<f64>,
+    column: Vec<T>,
 }
 
 /// What all nodes share.
@@ -590,12 +721,12 @@ impl Tree<'_> {
 
     /// Eliminates what is above the tasks in the subtrees with these roots, which side by side are the nodes from `begin`
     /// on: at the same time. Returns the smallest pivot.
-    fn climb_all(
+    fn climb_all<T: Number>(
         self,
         mut begin: usize,
         roots: &[u32],
-        mut panels: &mut [Panel],
-        mut left: &mut [Vec<f64>],
+        mut panels: &mut [Panel<T>],
+        mut left: &mut [Vec<T>],
     ) -> Result<f64, NoPivot> {
         let mut jobs = Vec::with_capacity(roots.len());
         for &root in roots {
@@ -614,11 +745,11 @@ impl Tree<'_> {
 
     /// The same of one subtree. A node with two children above the tasks has two subtrees with much work below it, so that
     /// there are never many of them above one another.
-    fn climb(
+    fn climb<T: Number>(
         self,
         subtree: Range<usize>,
-        panels: &mut [Panel],
-        left: &mut [Vec<f64>],
+        panels: &mut [Panel<T>],
+        left: &mut [Vec<T>],
     ) -> Result<f64, NoPivot> {
         let (mut begin, mut lowest) = (subtree.start, subtree.end - 1);
         let children = loop {
@@ -650,23 +781,23 @@ impl Tree<'_> {
 
     /// Eliminates the columns of a node; `children` holds what the nodes from its number on leave, and `left` gets what
     /// this one does. Returns the smallest pivot.
-    fn eliminate(
+    fn eliminate<T: Number>(
         self,
         s: usize,
-        (children, first): (&mut [Vec<f64>], usize),
-        panel: &mut Panel,
-        left: &mut Vec<f64>,
-        memory: &mut Memory,
+        (children, first): (&mut [Vec<T>], usize),
+        panel: &mut Panel<T>,
+        left: &mut Vec<T>,
+        memory: &mut Memory<T>,
     ) -> Result<f64, NoPivot> {
         let node = &self.nodes[s];
         let (w, r) = (node.width(), node.rows.len());
         let m = w + r;
-        panel.value.fill(0.0);
+        panel.value.fill(T::default());
         left.clear();
-        left.resize(r * r, 0.0);
+        left.resize(r * r, T::default());
         let entries = self.from[node.entries.clone()].iter();
         for (&from, &to) in entries.zip(&self.to[node.entries.clone()]) {
-            panel.value[to as usize] += self.value[from as usize];
+            panel.value[to as usize] += T::narrow(self.value[from as usize]);
         }
         let (lower, upper) = panel.value.split_at_mut(w * m);
         for &child in &node.children {
@@ -679,17 +810,17 @@ impl Tree<'_> {
                 if column < w {
                     let to = &mut lower[column * m..(column + 1) * m];
                     for (&row, v) in place.iter().zip(part) {
-                        to[row as usize] += v;
+                        to[row as usize] += *v;
                     }
                 } else {
                     let (above, part) = part.split_at(split);
                     let to = &mut upper[(column - w) * w..(column - w + 1) * w];
                     for (&row, v) in own.iter().zip(above) {
-                        to[row as usize] += v;
+                        to[row as usize] += *v;
                     }
                     let to = &mut left[(column - w) * r..(column - w + 1) * r];
                     for (&row, v) in below.iter().zip(part) {
-                        to[row as usize - w] += v;
+                        to[row as usize - w] += *v;
                     }
                 }
             }
@@ -706,12 +837,19 @@ impl Tree<'_> {
                 Par::Seq,
             );
             let below = below.as_ref();
-            let strip = |(upper, left): (&mut [f64], &mut [f64])| {
+            let strip = |(upper, left): (&mut [T], &mut [T])| {
                 let n = left.len() / r;
                 let mut upper = MatMut::from_column_major_slice_mut(upper, w, n);
                 solve_unit_lower_triangular_in_place(block, upper.as_mut(), Par::Seq);
                 let left = MatMut::from_column_major_slice_mut(left, r, n);
-                matmul(left, Accum::Add, below, upper.as_ref(), -1.0, Par::Seq);
+                matmul(
+                    left,
+                    Accum::Add,
+                    below,
+                    upper.as_ref(),
+                    T::narrow(-1.0),
+                    Par::Seq,
+                );
                 clear_upper_halves();
             };
             if is_little {
@@ -731,19 +869,19 @@ impl Tree<'_> {
 }
 
 /// Factorizes the block of pivots, and exchanges the rows beside it. Returns the smallest pivot.
-fn pivots(
-    lower: &mut [f64],
-    upper: &mut [f64],
+fn pivots<T: Number>(
+    lower: &mut [T],
+    upper: &mut [T],
     (w, r): (usize, usize),
     pivot: &mut [u32],
-    memory: &mut Memory,
+    memory: &mut Memory<T>,
 ) -> Result<f64, NoPivot> {
     let m = w + r;
     let mut block = MatMut::from_column_major_slice_mut(lower, m, w)
         .split_at_row_mut(w)
         .0;
     if memory.width < w {
-        let scratch = lu_in_place_scratch::<u32, f64>(w, w, Par::Seq, Default::default());
+        let scratch = lu_in_place_scratch::<u32, T>(w, w, Par::Seq, Default::default());
         memory.buffer = MemBuffer::try_new(scratch).ok();
         memory.width = w;
     }
@@ -759,7 +897,7 @@ fn pivots(
     );
     let mut smallest = f64::INFINITY;
     for k in 0..w {
-        let size = block[(k, k)].abs();
+        let size = block[(k, k)].wide().abs();
         if size.is_nan() || size < VANISHING {
             return Err(NoPivot);
         }
@@ -857,8 +995,8 @@ fn subtrees(
     subtrees
 }
 
-/// Tells every node which branch it is in, and where its front is in what that works with.
-fn place_fronts(nodes: &mut [Node], branches: &[Range<usize>]) -> Vec<Work> {
+/// Tells every node which branch it is in, and where its front is in what that works with; how large that is.
+fn place_fronts(nodes: &mut [Node], branches: &[Range<usize>]) -> Vec<usize> {
     nodes
         .iter_mut()
         .for_each(|node| node.branch = branches.len());
@@ -872,9 +1010,5 @@ fn place_fronts(nodes: &mut [Node], branches: &[Range<usize>]) -> Vec<Work> {
         node.front = size[node.branch];
         size[node.branch] += node.size();
     }
-    let of_size = |size: usize| Work {
-        front: vec![0.0; size],
-        own: Vec::new(),
-    };
-    size.into_iter().map(of_size).collect()
+    size
 }

@@ -115,3 +115,50 @@ fn blocks_without_pivots_are_left_to_free_choice() {
     let (_, x) = solve(&system, 1e-12);
     assert!(x.iter().all(|x| x.is_finite()));
 }
+
+#[test]
+fn factors_in_single_precision_serve_where_they_suffice() {
+    let system = slipping_blocks([7, 6, 5], 100.0, 0.9);
+    let assembled = system.assemble();
+    let rhs = Random(3).vector(assembled.nequation);
+    let solve = |solver: &mut Direct| {
+        let mut x = vec![0.0; rhs.len()];
+        solver.factorize(&assembled.values()).unwrap();
+        let report = solver.solve(&assembled.values(), &rhs, &mut x, 1e-12);
+        assert!(report.unwrap().residual <= 1e-12);
+        x
+    };
+    let mut solver = Direct::rough();
+    solver.analyze(&assembled.problem()).unwrap();
+    let rough = solve(&mut solver);
+    assert!(solver.is_rough());
+    let left = solver.leaves();
+    assert!((1e-9..1e-3).contains(&left), "{left}");
+    // in double precision until it is told to forget
+    solver.widen();
+    let wide = solve(&mut solver);
+    assert!(!solver.is_rough() && solver.leaves() < 1e-10);
+    let mut plain = Direct::reproducible();
+    plain.analyze(&assembled.problem()).unwrap();
+    assert_eq!(solve(&mut plain), wide);
+    solver.forget();
+    assert_eq!(solve(&mut solver), rough);
+    assert!(solver.is_rough());
+}
+
+#[test]
+fn nearly_cancelled_pivots_are_taken_in_double_precision() {
+    // pairs of unknowns, of which little is left of the second one
+    let n = 40;
+    let mut system = System::new(n, 1, 0, Symmetry::Unsymmetric);
+    for i in 0..n as u32 / 2 {
+        let rows = vec![1.0, 1.0, 1.0, 1.0 + 1e-6];
+        system.interface.push((vec![2 * i, 2 * i + 1], rows));
+    }
+    let assembled = system.assemble();
+    let mut solver = Direct::rough();
+    solver.analyze(&assembled.problem()).unwrap();
+    solver.factorize(&assembled.values()).unwrap();
+    assert!(!solver.is_rough() && !solver.uses_lu());
+    assert!(solver.leaves() < 1e-8);
+}
