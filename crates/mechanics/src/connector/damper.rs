@@ -149,7 +149,7 @@ impl Term for Damper {
         Ok(())
     }
 
-    fn prepare(&mut self, _: &State) -> Result<bool, TermError> {
+    fn prepare(&mut self, _: &State, _: Order) -> Result<bool, TermError> {
         Ok(std::mem::take(&mut self.changed))
     }
 

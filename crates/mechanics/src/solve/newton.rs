@@ -382,7 +382,6 @@ impl Newton {
         let mut iterations = 0;
         let mut residuals = Vec::with_capacity(last + 1);
         loop {
-            self.prepare(system)?;
             let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
             let little = solved && correction <= CORRECTION * moved;
             // after a small correction there is probably no need for a tangent
@@ -391,6 +390,7 @@ impl Newton {
             } else {
                 Order::Tangent
             };
+            self.prepare(system, first)?;
             if self.assembled < Some(first) {
                 self.assemble(system, first)?;
             }
@@ -549,7 +549,8 @@ impl Newton {
             return Start { motion, changes: 0 };
         };
         self.extrapolate(system, base, goal, guess);
-        let is_seen = self.prepare(system).is_ok();
+        // few choices change, as a rule
+        let is_seen = self.prepare(system, Order::Tangent).is_ok();
         let verdicts = verdicts(system, &self.trial);
         // a tangent where the iteration goes on from here
         let order = if verdicts.few {
@@ -573,7 +574,7 @@ impl Newton {
         let better = if motion {
             extrapolated.is_some() && verdicts.closing
         } else {
-            let plain = self.prepare(system).ok();
+            let plain = self.prepare(system, Order::Residual).ok();
             let plain = plain.and_then(|()| self.largest_residual(system, Order::Residual));
             self.forget(system);
             extrapolated.zip(plain).is_some_and(|(e, p)| e < p)
@@ -641,10 +642,10 @@ impl Newton {
         motion
     }
 
-    /// Lets all terms look at the trial state and keeps the pattern up to date.
-    fn prepare(&mut self, system: &mut System) -> Result<(), Failure> {
+    /// Lets all terms look at the trial state and keeps the pattern up to date. `next` is what will be wanted there.
+    fn prepare(&mut self, system: &mut System, next: Order) -> Result<(), Failure> {
         if !self.looked {
-            self.look(system)?;
+            self.look(system, next)?;
         }
         if self.coupled_more {
             let (layout, elimination) = (&system.layout, &system.elimination);
@@ -666,9 +667,9 @@ impl Newton {
     }
 
     /// Lets all terms look at the trial state.
-    fn look(&mut self, system: &mut System) -> Result<(), TermError> {
+    fn look(&mut self, system: &mut System, next: Order) -> Result<(), TermError> {
         for term in &mut system.terms {
-            self.coupled_more |= term.prepare(&self.trial)?;
+            self.coupled_more |= term.prepare(&self.trial, next)?;
         }
         (self.looked, self.assembled) = (true, None);
         Ok(())
@@ -824,7 +825,7 @@ impl Newton {
         let start = self.assembler.energy(&system.terms, &self.before)?;
         if let Some(start) = start.filter(|_| slope < 0.0)
             && self
-                .energy_at(system, first)
+                .energy_at(system, first, next)
                 .is_some_and(|reached| line_search::lowers(start, slope, first, reached))
         {
             return Ok(first);
@@ -832,7 +833,7 @@ impl Newton {
         let mut obstacle = None;
         let alpha = line_search::root(slope, first, |alpha| {
             let tried = self
-                .try_step(system, alpha)
+                .try_step(system, alpha, Order::Residual)
                 .and_then(|()| self.assemble(system, Order::Residual));
             match tried {
                 Ok(()) => Some(self.slope()).filter(|s| s.is_finite()),
@@ -855,7 +856,7 @@ impl Newton {
     fn shorten(&mut self, system: &mut System, first: f64, next: Order) -> Result<f64, Failure> {
         let mut alpha = first;
         for _ in 0..SHORTENINGS {
-            let tried = self.try_step(system, alpha).and_then(|()| {
+            let tried = self.try_step(system, alpha, next).and_then(|()| {
                 let has_place = !self.coupled_more;
                 self.assemble(system, if has_place { next } else { Order::Residual })
             });
@@ -864,21 +865,21 @@ impl Newton {
             }
             alpha *= 0.5;
         }
-        self.try_step(system, alpha)?;
+        self.try_step(system, alpha, next)?;
         Ok(alpha)
     }
 
     /// The energy after a step of `alpha`; `None` where there is none, or no admissible state.
-    fn energy_at(&mut self, system: &mut System, alpha: f64) -> Option<f64> {
-        self.try_step(system, alpha).ok()?;
+    fn energy_at(&mut self, system: &mut System, alpha: f64, next: Order) -> Option<f64> {
+        self.try_step(system, alpha, next).ok()?;
         let energy = self.assembler.energy(&system.terms, &self.trial);
         energy.ok().flatten().filter(|e| e.is_finite())
     }
 
     /// Puts the trial state at `alpha` and lets the terms look at it.
-    fn try_step(&mut self, system: &mut System, alpha: f64) -> Result<(), TermError> {
+    fn try_step(&mut self, system: &mut System, alpha: f64, next: Order) -> Result<(), TermError> {
         self.place(system, alpha);
-        self.look(system)
+        self.look(system, next)
     }
 
     /// Puts the trial state at `alpha` along the step.

@@ -274,11 +274,12 @@ pub trait Term: Send + Sync {
         Ok(())
     }
 
-    /// Once per iterate, before it is evaluated: search, pairing, status. Says whether the pattern changed.
+    /// Once per iterate, before it is evaluated: search, pairing, status. Says whether the pattern changed. `next` is what
+    /// will probably be asked for there.
     ///
     /// # Errors
     /// What the term finds wrong with the configuration.
-    fn prepare(&mut self, _trial: &State) -> Result<bool, TermError> {
+    fn prepare(&mut self, _trial: &State, _next: Order) -> Result<bool, TermError> {
         Ok(false)
     }
 

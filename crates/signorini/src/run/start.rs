@@ -4,7 +4,7 @@ use super::news::Facts;
 use super::{RunOptions, failure};
 use crate::build::Model;
 use signorini_io::diagnostic::Diagnostics;
-use signorini_mechanics::system::{Assembly, Dof, DofName, Frame, StepContext, TermError};
+use signorini_mechanics::system::{Assembly, Dof, DofName, Frame, Order, StepContext, TermError};
 use std::collections::BTreeSet;
 
 /// The undeformed state of a model.
@@ -40,7 +40,7 @@ fn look(model: &mut Model) -> Result<Frame, TermError> {
     for term in &mut model.system.terms {
         term.begin_step(&context, &state)?;
         term.begin_increment(&state)?;
-        term.prepare(&state)?;
+        term.prepare(&state, Order::Residual)?;
     }
     let mut frame = model.system.report(&state, &[], &Assembly::default())?;
     frame.step = first.map_or_else(String::new, |s| s.name.clone());

@@ -21,7 +21,7 @@ pub use nodes::{NodeNormals, NodeToNode};
 pub use points::{OnFacet, PointToSegment, SlidingRange, areas_inside};
 
 use super::mortar::Weights;
-use super::row::{Rows, Wanted};
+use super::row::{RowOrder, Rows, Wanted};
 use projected::Point;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
@@ -165,7 +165,8 @@ pub trait Discretization: Send + Sync {
         stored.is_empty()
     }
 
-    /// Makes all discrete choices at a configuration. `last` holds the choices of a moment ago, as hints.
+    /// Makes all discrete choices at a configuration. `last` holds the choices of a moment ago, as hints; `next` is what
+    /// will probably be asked of rows.
     ///
     /// # Errors
     /// A facet that has no normal.
@@ -175,6 +176,7 @@ pub trait Discretization: Send + Sync {
         at: &Placement,
         near: &Search,
         last: &Pairing,
+        next: RowOrder,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError>;
 

@@ -250,6 +250,7 @@ impl Discretization for NodeToNode {
         at: &Placement,
         _: &Search,
         _: &Pairing,
+        _: RowOrder,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
         out.pairs.clear();

@@ -4,7 +4,7 @@
 use super::cut::{Cutter, FacetPoints};
 use super::projected::{Closest, Place, Point, closest};
 use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
-use crate::contact::row::{Rows, Wanted};
+use crate::contact::row::{RowOrder, Rows, Wanted};
 use rayon::prelude::*;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::mesh::NodeId;
@@ -285,6 +285,7 @@ impl Discretization for PointToSegment {
         at: &Placement,
         near: &Search,
         last: &Pairing,
+        _: RowOrder,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
         out.pairs.resize(self.nrow(), None);

@@ -514,9 +514,10 @@ impl Term for Interface {
         self.stick(&at).map_err(|e| self.failed(&e))
     }
 
-    fn prepare(&mut self, trial: &State) -> Result<bool, TermError> {
+    fn prepare(&mut self, trial: &State, next: Order) -> Result<bool, TermError> {
         let at = trial.placement();
-        self.search(&at).map_err(|e| self.failed(&e))?;
+        self.search_for(&at, rows::row_order(next))
+            .map_err(|e| self.failed(&e))?;
         if let Some(message) = self.passed_through(&at) {
             return Err(TermError::Surface {
                 interface: self.parts.name.clone(),

@@ -4,6 +4,7 @@ use super::{Carrier, ContactSurface, Interface, RESTLESS, dofs_of};
 use crate::contact::discretization::projected::{BEYOND, on_continuation};
 use crate::contact::discretization::{Discretization, NOWHERE, Pair, Pairing, SurfacePair};
 use crate::contact::law::Eval;
+use crate::contact::row::RowOrder;
 use crate::system::{Dof, NO_DOF, PatternSink, State};
 use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{Feature, Placement, SurfaceError, SurfaceJet};
@@ -54,19 +55,30 @@ pub fn closest_points(
     near.update(discretization, pair, at);
     let nothing = Pairing::nothing(discretization.nrow());
     let mut out = nothing.clone();
-    discretization.pair_up(pair, at, &near.search, &nothing, &mut out)?;
+    let order = RowOrder::Gap;
+    discretization.pair_up(pair, at, &near.search, &nothing, order, &mut out)?;
     Ok(out)
 }
 
 impl Interface {
     pub(super) fn search(&mut self, at: &Placement) -> Result<(), SurfaceError> {
+        self.search_for(at, RowOrder::Gap)
+    }
+
+    /// Looks for what is near; `next` is what will probably be asked for there.
+    pub(super) fn search_for(
+        &mut self,
+        at: &Placement,
+        next: RowOrder,
+    ) -> Result<(), SurfaceError> {
         if self.parts.bond.is_some() {
             return self.hold(at);
         }
         let pair = &self.parts.pair;
         let discretization = self.parts.discretization.as_ref();
         self.near.update(discretization, pair, at);
-        discretization.pair_up(pair, at, &self.near.search, &self.now, &mut self.next)?;
+        let (near, last) = (&self.near.search, &self.now);
+        discretization.pair_up(pair, at, near, last, next, &mut self.next)?;
         let (surface, points) = (pair.primary.as_ref(), &self.near.points);
         for (row, changes) in self.changes.iter().enumerate() {
             if *changes >= RESTLESS

@@ -54,6 +54,14 @@ fn even_work(nrow: usize, work: impl Fn(usize) -> usize, ends: &mut Vec<usize>) 
     ends.resize(nchunk, nrow);
 }
 
+/// How far rows are wanted for a response.
+pub(super) fn row_order(order: Order) -> RowOrder {
+    match order {
+        Order::Residual => RowOrder::Gradient,
+        Order::Tangent => RowOrder::Tangent,
+    }
+}
+
 impl Interface {
     /// Shares the rows out among chunks so that each has about as many on which something acts: what a chunk has to do
     /// depends on that, and what comes of it does not.
@@ -186,12 +194,8 @@ impl Interface {
         scratch: &mut Scratch,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
-        let row_order = match order {
-            Order::Residual => RowOrder::Gradient,
-            Order::Tangent => RowOrder::Tangent,
-        };
         let nlambda = self.ncolumn_of_multiplier();
-        let acts = self.acting_row(row, trial, row_order, &mut scratch.rows)?;
+        let acts = self.acting_row(row, trial, row_order(order), &mut scratch.rows)?;
         if !acts {
             if nlambda > 0 {
                 self.release(row, trial, order, scratch, out);

@@ -1,8 +1,9 @@
 use super::basis::{Small, inverse};
-use super::pair::{add, add_rows, zeros};
+use super::pair::{COORDINATES, add, add_rows, zeros};
 use super::{Basis, Facet, Frame, Measure, MortarError, Pair, Transformation};
 use pulp::Arch;
 use signorini_geometry::element::MAX_FACET_NODES;
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 
 /// The part of `D⁰` that must be covered for a node to have a multiplier.
@@ -18,23 +19,60 @@ pub struct Covered {
     measure: Measure,
     basis: Basis,
     nnode: usize,
-    nprimary: usize,
-    ncolumn: usize,
+    /// The primary nodes, by their places in the list of positions.
+    nodes: Vec<usize>,
+    /// The place among these of each node of the facets that count, one facet after the other.
+    places: Vec<usize>,
     lumped: bool,
     normal: Vec3,
-    dnormal: [Vec<f64>; 3],
     /// Pairs that were integrated, of which the first `met.len()` count.
     pairs: Vec<Pair>,
     met: Vec<usize>,
     full: Vec<f64>,
     d: Vec<f64>,
     m: Vec<f64>,
-    dd: Vec<f64>,
-    dm: Vec<f64>,
+    /// ∫N_k N^m_l over all pairs.
+    mixed: Vec<f64>,
+    derivatives: Derivatives,
     /// dG and its product with B, dB.
     dg: Vec<f64>,
     product: Vec<f64>,
     db: Vec<f64>,
+}
+
+/// Derivatives of D, M and ν of a secondary facet, by the coordinates x, y, z of its nodes, then of the primary ones.
+#[derive(Clone, Debug, Default)]
+pub struct Derivatives {
+    nprimary: usize,
+    ncolumn: usize,
+    dnormal: [Vec<f64>; 3],
+    dd: Vec<f64>,
+    dm: Vec<f64>,
+}
+
+impl Derivatives {
+    /// `∂ν_a/∂v` for the columns of the secondary facet; it does not depend on others.
+    #[must_use]
+    pub fn dnormal(&self, a: usize) -> &[f64] {
+        &self.dnormal[a]
+    }
+
+    /// `∂D_j/∂v`; empty where only values were wanted.
+    #[must_use]
+    pub fn dd(&self, j: usize) -> &[f64] {
+        self.line(&self.dd, j)
+    }
+
+    /// `∂M_jl/∂v`; empty where only values were wanted.
+    #[must_use]
+    pub fn dm(&self, j: usize, l: usize) -> &[f64] {
+        self.line(&self.dm, j * self.nprimary + l)
+    }
+
+    fn line<'a>(&self, lines: &'a [f64], number: usize) -> &'a [f64] {
+        let line = number * self.ncolumn..(number + 1) * self.ncolumn;
+        lines.get(line).unwrap_or_default()
+    }
 }
 
 impl Covered {
@@ -53,7 +91,8 @@ impl Covered {
         self.basis = basis;
     }
 
-    /// Integrates over what a secondary facet shares with primary facets near it.
+    /// Integrates over what a secondary facet shares with primary facets near it. `nodes` has the number of each node of
+    /// these, one facet after the other: what facets share has one place in the sums. Without numbers all nodes differ.
     ///
     /// # Errors
     /// A facet is folded, or not as [`Facet`] says. Primary facets that turn away are passed over.
@@ -61,12 +100,13 @@ impl Covered {
         &mut self,
         secondary: &Facet,
         primaries: &[Facet],
+        nodes: &[NodeId],
         derivatives: bool,
     ) -> Result<(), MortarError> {
         let frame = Frame::measured(secondary, self.measure)?;
         self.nnode = secondary.x.len();
         self.normal = frame.normal();
-        for (a, dnormal) in self.dnormal.iter_mut().enumerate() {
+        for (a, dnormal) in self.derivatives.dnormal.iter_mut().enumerate() {
             dnormal.clear();
             dnormal.extend(frame.dnormal(a));
         }
@@ -82,9 +122,7 @@ impl Covered {
                 self.met.push(number);
             }
         }
-        let nprimary = self.pairs[..self.met.len()].iter().map(|p| p.nnode()[1]);
-        self.nprimary = nprimary.sum();
-        self.ncolumn = 3 * (self.nnode + self.nprimary);
+        self.join(primaries, nodes);
         let t = Transformation::of(secondary.element, self.basis);
         self.measure_whole(&frame, secondary, &t);
         Arch::new().dispatch(
@@ -100,16 +138,22 @@ impl Covered {
         self.nnode
     }
 
-    /// The number of nodes of all primary facets it meets; those of several facets count several times.
+    /// The number of nodes of all primary facets it meets.
     #[must_use]
     pub fn nprimary(&self) -> usize {
-        self.nprimary
+        self.nodes.len()
+    }
+
+    /// These nodes, by their places in the list of nodes of all primary facets.
+    #[must_use]
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes
     }
 
     /// The number of columns: x, y, z of the nodes of the secondary facet, then of the primary ones.
     #[must_use]
     pub fn ncolumn(&self) -> usize {
-        self.ncolumn
+        3 * (self.nnode + self.nodes.len())
     }
 
     /// The primary facets it meets, by their places in the list, in its order.
@@ -150,7 +194,7 @@ impl Covered {
     /// `∂ν_a/∂v` for the columns of the secondary facet; it does not depend on others.
     #[must_use]
     pub fn dnormal(&self, a: usize) -> &[f64] {
-        &self.dnormal[a]
+        self.derivatives.dnormal(a)
     }
 
     /// D⁰_j.
@@ -168,24 +212,53 @@ impl Covered {
     /// M_jl, for all l.
     #[must_use]
     pub fn m(&self, j: usize) -> &[f64] {
-        &self.m[j * self.nprimary..][..self.nprimary]
+        &self.m[j * self.nprimary()..][..self.nprimary()]
     }
 
     /// `∂D_j/∂v`; empty without derivatives.
     #[must_use]
     pub fn dd(&self, j: usize) -> &[f64] {
-        self.dd
-            .get(j * self.ncolumn..)
-            .map_or(&[], |d| &d[..self.ncolumn.min(d.len())])
+        self.derivatives.dd(j)
     }
 
     /// `∂M_jl/∂v`; empty without derivatives.
     #[must_use]
     pub fn dm(&self, j: usize, l: usize) -> &[f64] {
-        let first = (j * self.nprimary + l) * self.ncolumn;
-        self.dm
-            .get(first..)
-            .map_or(&[], |d| &d[..self.ncolumn.min(d.len())])
+        self.derivatives.dm(j, l)
+    }
+
+    /// All derivatives.
+    #[must_use]
+    pub fn derivatives(&self) -> &Derivatives {
+        &self.derivatives
+    }
+
+    /// Leaves its derivatives there and has none any longer: what was there lends its memory to the next ones.
+    pub fn leave_derivatives(&mut self, to: &mut Derivatives) {
+        std::mem::swap(&mut self.derivatives, to);
+        self.derivatives.ncolumn = 0;
+    }
+
+    /// Finds the primary nodes: those that facets share are one.
+    fn join(&mut self, primaries: &[Facet], nodes: &[NodeId]) {
+        self.nodes.clear();
+        self.places.clear();
+        let same = |a: usize, b: usize| nodes.get(a).is_some_and(|n| nodes.get(b) == Some(n));
+        let (mut first, mut met) = (0, self.met.iter().peekable());
+        for (number, primary) in primaries.iter().enumerate() {
+            let of_facet = first..first + primary.x.len();
+            first = of_facet.end;
+            if met.next_if_eq(&&number).is_none() {
+                continue;
+            }
+            for node in of_facet {
+                let known = self.nodes.iter().position(|&k| same(k, node));
+                self.places.push(known.unwrap_or(self.nodes.len()));
+                if known.is_none() {
+                    self.nodes.push(node);
+                }
+            }
+        }
     }
 
     /// D⁰, with the rule of the whole facet and areas of the plane.
@@ -260,21 +333,25 @@ impl Covered {
         for (row, _) in b.iter_mut().zip(&self.d).filter(|(_, d)| **d <= 0.0) {
             row.fill(0.0);
         }
-        zeros(&mut self.m, n * self.nprimary);
-        let mut first = 0;
+        let np = self.nodes.len();
+        zeros(&mut self.mixed, n * np);
+        let mut places = &self.places[..];
         for pair in pairs {
-            let nm = pair.nnode()[1];
-            for j in 0..n {
-                for l in 0..nm {
-                    let m = (0..n).map(|k| b[j][k] * pair.nm(k, l)).sum();
-                    self.m[j * self.nprimary + first + l] = m;
+            let of_pair = places.split_off(..pair.nnode()[1]).unwrap_or_default();
+            for k in 0..n {
+                for (l, place) in of_pair.iter().enumerate() {
+                    self.mixed[k * np + place] += pair.nm(k, l);
                 }
             }
-            first += nm;
+        }
+        zeros(&mut self.m, n * np);
+        for j in 0..n {
+            add_rows(&mut self.m[j * np..][..np], &b[j][..n], &self.mixed);
         }
         self.balance(t);
-        self.dd.clear();
-        self.dm.clear();
+        (self.derivatives.nprimary, self.derivatives.ncolumn) = (np, self.ncolumn());
+        self.derivatives.dd.clear();
+        self.derivatives.dm.clear();
         if derivatives {
             self.differentiate(t, &w, &h, &b);
         }
@@ -283,14 +360,12 @@ impl Covered {
     /// What rounding leaves of `Σ_l M_jl = D_j`, as much of it as the condition of S lets through, goes to the primary
     /// nodes as `Ñ_j` would distribute it.
     fn balance(&mut self, t: &Transformation) {
-        let (n, np) = (self.nnode, self.nprimary);
-        let pairs = &self.pairs[..self.met.len()];
+        let (n, np) = (self.nnode, self.nodes.len());
+        let mixed = &self.mixed;
         for (j, &d) in self.d.iter().enumerate().filter(|(_, d)| **d > 0.0) {
             let row = &mut self.m[j * np..][..np];
-            let lumped = pairs.iter().flat_map(|pair| {
-                let of = move |l: usize| (0..n).map(|k| t.get(j, k) * pair.nm(k, l)).sum::<f64>();
-                (0..pair.nnode()[1]).map(of)
-            });
+            let of = |l: usize| (0..n).map(|k| t.get(j, k) * mixed[k * np + l]).sum::<f64>();
+            let lumped = (0..np).map(of);
             let rest = (d - row.iter().sum::<f64>()) / d;
             row.iter_mut()
                 .zip(lumped)
@@ -300,40 +375,39 @@ impl Covered {
 
     #[inline(always)]
     fn differentiate(&mut self, t: &Transformation, w: &Small, h: &Small, b: &Small) {
-        let (n, nc, own) = (self.nnode, self.ncolumn, 3 * self.nnode);
-        zeros(&mut self.dd, n * nc);
+        let (n, np, nc) = (self.nnode, self.nodes.len(), self.ncolumn());
+        let Derivatives { dd, dm, .. } = &mut self.derivatives;
+        zeros(dd, n * nc);
+        zeros(dm, n * np * nc);
         zeros(&mut self.dg, n * n * nc);
         zeros(&mut self.product, n * n * nc);
         zeros(&mut self.db, n * n * nc);
-        zeros(&mut self.dm, n * self.nprimary * nc);
         let at = |j: usize, k: usize| (j * n + k) * nc..(j * n + k + 1) * nc;
         let pairs = &self.pairs[..self.met.len()];
-        let mut first = own;
+        let mut places = &self.places[..];
         for pair in pairs {
+            let of_pair = places.split_off(..pair.nnode()[1]).unwrap_or_default();
+            let scatter = |to: &mut [f64], from: &[f64]| scatter(n, of_pair, to, from);
+            let mut line = [0.0; 2 * COORDINATES];
+            let line = &mut line[..pair.ncolumn()];
             for j in 0..n {
+                line.fill(0.0);
                 for k in 0..n {
-                    scatter(
-                        own,
-                        first,
-                        &mut self.dd[j * nc..][..nc],
-                        t.get(j, k),
-                        pair.dn(k),
-                    );
-                    scatter(own, first, &mut self.dg[at(j, k)], 1.0, pair.dnn(j, k));
+                    add(line, t.get(j, k), pair.dn(k));
+                    scatter(&mut self.dg[at(j, k)], pair.dnn(j, k));
                 }
-                let nm = pair.nnode()[1];
-                let l0 = (first - own) / 3;
-                for l in 0..nm {
-                    let row = (j * self.nprimary + l0 + l) * nc;
-                    for (k, &b) in b[j][..n].iter().enumerate() {
-                        scatter(own, first, &mut self.dm[row..row + nc], b, pair.dnm(k, l));
+                scatter(&mut dd[j * nc..][..nc], line);
+                for (l, place) in of_pair.iter().enumerate() {
+                    line.fill(0.0);
+                    for k in 0..n {
+                        add(line, b[j][k], pair.dnm(k, l));
                     }
+                    scatter(&mut dm[(j * np + place) * nc..][..nc], line);
                 }
             }
-            first += pair.ncolumn() - own;
         }
         for j in (0..n).filter(|&j| self.d[j] <= 0.0) {
-            self.dd[j * nc..][..nc].fill(0.0);
+            dd[j * nc..][..nc].fill(0.0);
         }
         if self.lumped {
             return;
@@ -349,7 +423,7 @@ impl Covered {
         for j in 0..n {
             for k in 0..n {
                 let db = &mut self.db[at(j, k)];
-                add(db, w[j][k], &self.dd[j * nc..][..nc]);
+                add(db, w[j][k], &dd[j * nc..][..nc]);
                 let mut factors = [0.0; MAX_FACET_NODES];
                 for i in 0..n {
                     factors[i] = -h[i][k];
@@ -357,30 +431,32 @@ impl Covered {
                 add_rows(db, &factors[..n], &self.product[all(j)]);
             }
         }
-        let mut first = 0;
-        for pair in pairs {
-            let nm = pair.nnode()[1];
-            for j in 0..n {
-                for l in 0..nm {
-                    let row = (j * self.nprimary + first + l) * nc;
-                    let mut factors = [0.0; MAX_FACET_NODES];
-                    for k in 0..n {
-                        factors[k] = pair.nm(k, l);
-                    }
-                    add_rows(&mut self.dm[row..row + nc], &factors[..n], &self.db[all(j)]);
+        for j in 0..n {
+            for l in 0..np {
+                let mut factors = [0.0; MAX_FACET_NODES];
+                for k in 0..n {
+                    factors[k] = self.mixed[k * np + l];
                 }
+                let line = &mut dm[(j * np + l) * nc..][..nc];
+                add_rows(line, &factors[..n], &self.db[all(j)]);
             }
-            first += nm;
         }
     }
 }
 
-/// Adds columns of a pair: those of the secondary facet, and its own from `first` on.
+/// Adds columns of a pair: those of the secondary facet with its `n` nodes, and those of the primary one where its nodes
+/// are.
 #[inline(always)]
-fn scatter(own: usize, first: usize, to: &mut [f64], factor: f64, from: &[f64]) {
-    let (secondary, primary) = from.split_at(own);
-    add(&mut to[..own], factor, secondary);
-    add(&mut to[first..first + primary.len()], factor, primary);
+fn scatter(n: usize, places: &[usize], to: &mut [f64], from: &[f64]) {
+    let (secondary, primary) = from.split_at(3 * n);
+    let (own, others) = to.split_at_mut(3 * n);
+    add(own, 1.0, secondary);
+    let others = others.as_chunks_mut::<3>().0;
+    for (&place, from) in places.iter().zip(primary.as_chunks::<3>().0) {
+        for (to, from) in others[place].iter_mut().zip(from) {
+            *to += from;
+        }
+    }
 }
 
 /// Sets the entries of a small matrix.

@@ -10,7 +10,7 @@
 //! | symbol | name in code | shape |
 //! |---|---|---|
 //! | j, k | nodes of the secondary facet | `nnode` |
-//! | l | nodes of the primary facets it meets, one facet after the other | `nprimary` |
+//! | l | nodes of the primary facets it meets, each once | `nprimary` |
 //! | v | columns: coordinates x, y, z of the nodes, secondary first | `ncolumn` |
 //! | N_j, N^m_l | shape functions | |
 //! | T, Ñ = T N | [`Transformation`] of quadratic facets | `nnode` × `nnode` |
@@ -117,7 +117,7 @@ mod tests;
 mod transformation;
 mod weights;
 
-pub use covered::{Covered, MIN_COVERAGE};
+pub use covered::{Covered, Derivatives, MIN_COVERAGE};
 pub use pair::{Frame, Pair};
 pub use transformation::{Basis, Transformation};
 pub use weights::{Guests, OfFacet, OfRow, Weights};

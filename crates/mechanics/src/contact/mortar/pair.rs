@@ -27,7 +27,7 @@ pub(super) fn facing(cosine: f64) -> (f64, f64) {
 const NOTHING: f64 = 1e-13;
 
 /// Coordinates of a facet, of which there are at most this many.
-const COORDINATES: usize = 3 * MAX_FACET_NODES;
+pub(super) const COORDINATES: usize = 3 * MAX_FACET_NODES;
 
 /// A vector by the coordinates of a facet: its derivatives, component by component.
 type Slopes = [[f64; COORDINATES]; 3];

@@ -102,7 +102,7 @@ fn measured(
         element: secondary,
         x: &x[0],
     };
-    covered.evaluate(&own, &others, derivatives).unwrap();
+    covered.evaluate(&own, &others, &[], derivatives).unwrap();
     covered
 }
 
@@ -215,7 +215,7 @@ fn surfaces(
     let mut covered = Covered::default();
     for (nodes, x) in secondary.1.iter().zip(&own) {
         covered
-            .evaluate(&Facet { element, x }, &others, false)
+            .evaluate(&Facet { element, x }, &others, &[], false)
             .unwrap();
         let met = covered.met().iter().flat_map(|&f| &primary.1[f]);
         let columns: Vec<usize> = met.copied().collect();
@@ -540,6 +540,52 @@ fn rows_of_both_sides_have_the_same_sum() {
     }
 }
 
+#[test]
+fn a_node_that_facets_share_has_what_it_has_on_each() {
+    let mut random = Random::new(7);
+    for elements in pairings() {
+        let x = random_scene(elements, 0.05, &mut random);
+        let [secondary, primary] = elements;
+        let others = [&x[1], &x[2]].map(|x| Facet {
+            element: primary,
+            x,
+        });
+        let own = Facet {
+            element: secondary,
+            x: &x[0],
+        };
+        // the second facet has the first node of the first one as its last
+        let n = primary.nnode();
+        let nodes: Vec<u32> = (0..2 * n as u32 - 1).chain([0]).collect();
+        let apart = evaluate(elements, &x, true);
+        let mut shared = Covered::default();
+        shared.evaluate(&own, &others, &nodes, true).unwrap();
+        assert_eq!((apart.nprimary(), shared.nprimary()), (2 * n, 2 * n - 1));
+        assert_eq!(shared.nodes(), (0..2 * n - 1).collect::<Vec<_>>());
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{a} {b}");
+        // sums over what is one: the last node of all goes to the first
+        let first = secondary.nnode();
+        let columns = |line: &[f64], v: usize| {
+            let twin = v.checked_sub(3 * first).filter(|c| *c < 3);
+            line[v] + twin.map_or(0.0, |c| line[3 * (first + 2 * n - 1) + c])
+        };
+        for j in 0..first {
+            for v in 0..shared.ncolumn() {
+                close(shared.dd(j)[v], columns(apart.dd(j), v));
+            }
+            for l in 0..2 * n - 1 {
+                let twin = (l == 0).then_some(2 * n - 1);
+                let of_twin = twin.map_or(0.0, |t| apart.m(j)[t]);
+                close(shared.m(j)[l], apart.m(j)[l] + of_twin);
+                for v in 0..shared.ncolumn() {
+                    let of_twin = twin.map_or(0.0, |t| columns(apart.dm(j, t), v));
+                    close(shared.dm(j, l)[v], columns(apart.dm(j, l), v) + of_twin);
+                }
+            }
+        }
+    }
+}
+
 /// What holds of every facet that was integrated over: `Σ_l M_jl = D_j ≥ 0`.
 fn balanced(covered: &Covered, what: &str) {
     for (j, d) in covered.d().iter().enumerate() {
@@ -556,7 +602,7 @@ fn attempt(elements: [Element; 2], x: [&[Vec3]; 2]) -> Result<Covered, MortarErr
         x: x[k],
     });
     let mut covered = Covered::default();
-    covered.evaluate(&own, &[other], true)?;
+    covered.evaluate(&own, &[other], &[], true)?;
     Ok(covered)
 }
 
@@ -656,7 +702,7 @@ fn a_corner_of_a_block_over_the_edge_of_another_covers_what_its_lower_face_does(
             x: &x,
         };
         let mut covered = Covered::default();
-        covered.evaluate(&own, &facets, true).unwrap();
+        covered.evaluate(&own, &facets, &[], true).unwrap();
         balanced(&covered, "a corner");
         let area: f64 = covered.d().iter().sum();
         assert!(
@@ -1070,7 +1116,7 @@ fn what_cannot_be_integrated_over_is_said() {
         element: quad,
         x: &x[..3],
     };
-    let found = covered.evaluate(&short, &[], true);
+    let found = covered.evaluate(&short, &[], &[], true);
     let expected = MortarError::Positions {
         element: "quad4",
         positions: 3,
@@ -1083,6 +1129,7 @@ fn what_cannot_be_integrated_over_is_said() {
             x: &flat,
         },
         &[],
+        &[],
         true,
     );
     assert_eq!(found, Err(MortarError::Secondary));
@@ -1090,7 +1137,7 @@ fn what_cannot_be_integrated_over_is_said() {
         element: quad,
         x: &x,
     };
-    covered.evaluate(&own, &[own], true).unwrap();
+    covered.evaluate(&own, &[own], &[], true).unwrap();
     assert!(covered.met().is_empty() && covered.d().iter().all(|d| *d == 0.0));
     assert!(!covered.lumped());
 }
@@ -1123,7 +1170,7 @@ fn speed() {
                 let start = std::time::Instant::now();
                 for _ in 0..50 {
                     match k {
-                        2 => covered.evaluate(&own, &others, true).unwrap(),
+                        2 => covered.evaluate(&own, &others, &[], true).unwrap(),
                         _ => assert!(pair.integrate(&frame, &others[0], 0, k == 1).unwrap()),
                     }
                 }
@@ -1158,7 +1205,9 @@ fn weights_over_a_whole_facet_are_positive_in_either_basis() {
         let mut covered = Covered::default();
         covered.measured(Measure::Flat, basis);
         let x = element.nodes();
-        covered.evaluate(&Facet { element, x }, &[], false).unwrap();
+        covered
+            .evaluate(&Facet { element, x }, &[], &[], false)
+            .unwrap();
         let area: f64 = covered.full().iter().sum();
         for (k, weight) in covered.full().iter().enumerate() {
             let wanted = if k < element.ncorner() {

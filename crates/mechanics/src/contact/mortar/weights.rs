@@ -10,6 +10,8 @@ use signorini_geometry::tensor::Vec3;
 pub struct Weights {
     /// Tells one configuration from all others.
     pub(crate) stamp: u64,
+    /// Of how many facets derivatives are kept.
+    pub(crate) room: usize,
     pub(crate) rows: Vec<OfRow>,
     pub(crate) facets: Vec<OfFacet>,
     pub(crate) guests: Guests,
@@ -62,6 +64,8 @@ pub struct OfRow {
 pub struct OfFacet {
     /// The primary facets it meets.
     pub met: Vec<u32>,
+    /// Their nodes, each once.
+    pub nodes: Vec<NodeId>,
     /// ν_e.
     pub normal: Vec3,
     /// The cosine of the angle by which these fail to face it, in the mean over what they cover.
@@ -72,6 +76,15 @@ pub struct OfFacet {
     pub full: [f64; MAX_FACET_NODES],
     /// M_jl, row by row.
     pub m: Vec<f64>,
+}
+
+impl OfFacet {
+    /// How many derivatives of M there are.
+    pub(crate) fn nslope(&self) -> usize {
+        let nprimary = self.nodes.len();
+        let nnode = self.m.len() / nprimary.max(1);
+        3 * self.m.len() * (nnode + nprimary)
+    }
 }
 
 impl Weights {
@@ -98,7 +111,7 @@ impl Clone for Weights {
 
     /// Keeps the memory.
     fn clone_from(&mut self, other: &Self) {
-        self.stamp = other.stamp;
+        (self.stamp, self.room) = (other.stamp, other.room);
         self.rows.clone_from(&other.rows);
         self.facets.clone_from(&other.facets);
         self.guests.clone_from(&other.guests);

@@ -119,7 +119,7 @@ impl Scene {
         let elimination = Arc::new(Elimination::default());
         let state = State::initial(&layout, &x, &elimination);
         let mut interface = Interface::new(parts, layout, elimination);
-        interface.prepare(&state).unwrap();
+        interface.prepare(&state, Order::Tangent).unwrap();
         Self {
             interface,
             layout,
@@ -155,7 +155,7 @@ impl Scene {
 
     /// Force and tangent times direction at a state, after a search of its own; the energy.
     fn respond(&mut self, state: &State, direction: &[f64]) -> (Response, f64) {
-        self.interface.prepare(state).unwrap();
+        self.interface.prepare(state, Order::Tangent).unwrap();
         let mut work = Work::default();
         let mut sum = Response::new(direction);
         let mut energy = 0.0;
@@ -431,7 +431,7 @@ fn a_verdict_repeats_until_the_choices_stay() {
                 .iter()
                 .all(|n| scene.interface.parts().pair.points.contains(n))
     );
-    scene.interface.prepare(&state).unwrap();
+    scene.interface.prepare(&state, Order::Tangent).unwrap();
     assert_eq!(scene.interface.verdict(&state), Verdict::Settled);
 
     // one node leaves
@@ -444,7 +444,7 @@ fn a_verdict_repeats_until_the_choices_stay() {
     let mut up = vec![0.0; scene.layout.ndof()];
     up[scene.layout.node(node, 2) as usize] = 0.9;
     let gone = scene.moved(&up, 1.0);
-    scene.interface.prepare(&gone).unwrap();
+    scene.interface.prepare(&gone, Order::Tangent).unwrap();
     let Verdict::Repeat {
         changes,
         closing,
@@ -459,7 +459,7 @@ fn a_verdict_repeats_until_the_choices_stay() {
 
     // an open node that stays open is no news, wherever it goes
     let further = scene.moved(&up, 1.3);
-    scene.interface.prepare(&further).unwrap();
+    scene.interface.prepare(&further, Order::Tangent).unwrap();
     assert_eq!(scene.interface.verdict(&further), Verdict::Settled);
 
     // back to what was accepted: nothing at all

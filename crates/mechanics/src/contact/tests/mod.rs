@@ -129,7 +129,14 @@ pub(crate) fn pair_up(
     search.update(&points, &boxes, range, 0.5 * range, &|_, _| true);
     let mut found = Pairing::default();
     method
-        .pair_up(pair, at, &search, &Pairing::default(), &mut found)
+        .pair_up(
+            pair,
+            at,
+            &search,
+            &Pairing::default(),
+            RowOrder::Gap,
+            &mut found,
+        )
         .unwrap();
     found
 }

@@ -39,9 +39,10 @@ impl Discretization for PrintedSigns {
         at: &Placement,
         near: &Search,
         last: &Pairing,
+        next: RowOrder,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
-        self.inner.pair_up(pair, at, near, last, out)
+        self.inner.pair_up(pair, at, near, last, next, out)
     }
 
     fn row(

@@ -387,7 +387,7 @@ impl Scene {
     }
 
     pub(crate) fn settle(&mut self) {
-        self.interface.prepare(&self.state).unwrap();
+        self.interface.prepare(&self.state, Order::Tangent).unwrap();
         self.interface.verdict(&self.state);
     }
 
@@ -455,7 +455,7 @@ impl Scene {
 
     /// Everything at a state, after a search of its own.
     pub(crate) fn respond(&mut self, state: &State, order: Order) -> Whole {
-        self.interface.prepare(state).unwrap();
+        self.interface.prepare(state, Order::Tangent).unwrap();
         let mut whole = Whole::new(self.layout.ndof(), order);
         let mut work = Work::default();
         for chunk in 0..self.interface.nchunk() {

@@ -125,7 +125,7 @@ impl Slider {
         let mut state = base.clone();
         state.advance_from(&base, &du, 1.0, &self.layout, &self.reference, &nothing);
         state.time = self.time;
-        self.interface.prepare(&state).unwrap();
+        self.interface.prepare(&state, Order::Tangent).unwrap();
         let mut forces = Forces(vec![0.0; self.layout.ndof()]);
         self.interface
             .evaluate(

@@ -433,7 +433,7 @@ impl Term for Late {
         Part::Interface
     }
 
-    fn prepare(&mut self, trial: &State) -> Result<bool, TermError> {
+    fn prepare(&mut self, trial: &State, _: Order) -> Result<bool, TermError> {
         let before = self.coupled;
         self.coupled |= trial.u[x(0) as usize] > 0.05;
         Ok(self.coupled != before)

@@ -1,19 +1,22 @@
-//! The integrals of secondary facets, found when they are needed and kept as long as the next row may need them.
+//! The integrals of secondary facets, and derivatives that are kept for as long as rows may need them.
 
 use super::nodes_of;
 use crate::contact::discretization::SurfacePair;
-use crate::contact::mortar::{Basis, Covered, Facet, Measure, MortarError, OfFacet};
+use crate::contact::mortar::{
+    Basis, Covered, Derivatives, Facet, Measure, MortarError, OfFacet, Weights,
+};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
-use std::cell::RefCell;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Facets whose integrals one thread keeps: two lines of a surface of 30 by 30 at least, where those of a facet take 60 kB;
-/// of quadratic facets they take up to ten times as much.
-const fn nkept(nnode: usize) -> usize {
-    if nnode > 4 { 24 } else { 64 }
-}
+/// Numbers kept, 32 MB: those of 3000 quadrilaterals with four nodes that meet nine others.
+const NUMBERS: usize = 1 << 22;
+
+/// Facets kept at least, for each thread: twice what one needs for two lines of a surface of 30 by 30.
+const LEAST: usize = 128;
 
 /// The integrals of one facet, with the memory they take.
 #[derive(Default)]
@@ -23,6 +26,8 @@ pub(super) struct Integrator {
     pub near: Vec<u32>,
     pub own: Vec<Vec3>,
     others: Vec<Vec3>,
+    /// The nodes of these, one facet after the other.
+    nodes: Vec<NodeId>,
 }
 
 impl Integrator {
@@ -71,10 +76,12 @@ impl Integrator {
         let missing = || SurfaceError::NoSuchFacet { facet };
         let element = facets.element(facet).ok_or_else(missing)?;
         self.place(facets, facet, at.x);
-        self.others.clear();
+        self.nodes.clear();
         for &other in &self.near {
-            positions(nodes_of(pair, other), at.x, &mut self.others);
+            self.nodes.extend_from_slice(nodes_of(pair, other));
         }
+        self.others.clear();
+        positions(&self.nodes, at.x, &mut self.others);
         let mut rest = &self.others[..];
         let primaries: Vec<Facet> = self
             .near
@@ -90,7 +97,9 @@ impl Integrator {
             element,
             x: &self.own,
         };
-        let done = self.covered.evaluate(&own, &primaries, derivatives);
+        let done = self
+            .covered
+            .evaluate(&own, &primaries, &self.nodes, derivatives);
         done.map_err(|error| SurfaceError::Degenerate {
             facet: match error {
                 MortarError::Folded { number } => self.near.get(number).copied().unwrap_or(facet),
@@ -103,6 +112,9 @@ impl Integrator {
         let covered = &self.covered;
         to.met.clear();
         to.met.extend(covered.met().iter().map(|&k| self.near[k]));
+        to.nodes.clear();
+        to.nodes
+            .extend(covered.nodes().iter().map(|&k| self.nodes[k]));
         to.normal = covered.normal();
         to.facing = covered.facing();
         to.m.clear();
@@ -113,75 +125,201 @@ impl Integrator {
     }
 }
 
-thread_local! {
-    /// A thread takes chunks of rows that lie side by side: what the last rows of one needed serves the next.
-    static KEPT: RefCell<Kept> = RefCell::default();
+/// Derivatives of the integrals of facets: found when a row first needs them, and kept for all others that do.
+pub(super) struct Kept {
+    slots: Vec<Mutex<Slot>>,
+    /// The rank of each facet on the way through all rows, which says where its derivatives are kept: facets that a few
+    /// rows in turn need have places of their own however few there are.
+    ranks: Vec<usize>,
+    /// The last configuration where rows asked for any.
+    last: AtomicU64,
 }
 
-/// Lets `take` have the integrals of a facet, which has so many nodes, with derivatives: integrated where this thread does
-/// not keep them. `stamp` is another number for every configuration and every pair of surfaces.
-pub(super) fn with_integrals<T>(
-    stamp: u64,
-    (facet, nnode): (u32, usize),
-    of: (Measure, Basis),
-    integrate: impl FnOnce(&mut Integrator) -> Result<(), SurfaceError>,
-    take: impl FnOnce(&Covered) -> Result<T, SurfaceError>,
-) -> Result<T, SurfaceError> {
-    KEPT.with_borrow_mut(|kept| take(kept.of(stamp, (facet, nnode), of, integrate)?))
-}
-
-/// Integrals with derivatives that one thread keeps for the next row.
-#[derive(Default)]
-struct Kept {
-    slots: Vec<Slot>,
-    clock: u64,
-}
-
+/// The derivatives of a facet.
 #[derive(Default)]
 struct Slot {
-    stamp: u64,
     facet: u32,
-    used: u64,
-    integrator: Integrator,
+    /// The configuration that they are of; none is zero.
+    stamp: u64,
+    /// The last configuration where a row asked for them.
+    asked: u64,
+    derivatives: Derivatives,
 }
 
 impl Kept {
-    /// Those of a facet, integrated where they are not kept.
-    fn of(
-        &mut self,
-        stamp: u64,
-        (facet, nnode): (u32, usize),
-        (measure, basis): (Measure, Basis),
-        integrate: impl FnOnce(&mut Integrator) -> Result<(), SurfaceError>,
-    ) -> Result<&Covered, SurfaceError> {
-        self.clock += 1;
-        let known = |s: &Slot| s.stamp == stamp && s.facet == facet;
-        let found = self.slots.iter().position(known);
-        let place = match found {
-            Some(place) => place,
-            None if self.slots.len() < nkept(nnode) => {
-                self.slots.push(Slot::default());
-                self.slots.len() - 1
+    /// Room for facets that rows need in this order.
+    pub fn new(nfacet: usize, facets: impl Iterator<Item = u32>) -> Self {
+        let mut ranks = vec![usize::MAX; nfacet];
+        let mut next = 0;
+        for facet in facets {
+            if let Some(rank) = ranks.get_mut(facet as usize).filter(|r| **r == usize::MAX) {
+                *rank = next;
+                next += 1;
             }
-            None => {
-                let oldest = self.slots.iter().enumerate().min_by_key(|(_, s)| s.used);
-                oldest.map_or(0, |(place, _)| place)
-            }
-        };
-        let slot = &mut self.slots[place];
-        slot.used = self.clock;
-        if found.is_none() {
-            // not known before it is done
-            slot.stamp = 0;
-            slot.integrator.covered.measured(measure, basis);
-            integrate(&mut slot.integrator)?;
+        }
+        let slots = ranks.iter().map(|_| Mutex::default()).collect();
+        Self {
+            slots,
+            ranks,
+            last: AtomicU64::new(0),
+        }
+    }
+
+    /// The last configuration where rows asked for derivatives.
+    pub fn last(&self) -> u64 {
+        self.last.load(Ordering::Relaxed)
+    }
+
+    /// Whether a row asked for those of a facet at a configuration, as rows probably will at the next one.
+    pub fn asked(&self, facet: u32, stamp: u64) -> bool {
+        let slot = self.slot(facet, usize::MAX).map(lock);
+        stamp > 0 && slot.is_some_and(|slot| (slot.asked, slot.facet) == (stamp, facet))
+    }
+
+    /// Keeps the derivatives that were integrated for a facet.
+    pub fn keep(&self, facet: u32, stamp: u64, integrator: &mut Integrator) {
+        if let Some(mut slot) = self.slot(facet, usize::MAX).map(lock) {
+            integrator.covered.leave_derivatives(&mut slot.derivatives);
             (slot.stamp, slot.facet) = (stamp, facet);
         }
-        Ok(&slot.integrator.covered)
     }
+
+    /// Where those of a facet are kept if there is room for so many.
+    fn slot(&self, facet: u32, room: usize) -> Option<&Mutex<Slot>> {
+        let rank = self.ranks.get(facet as usize)?;
+        self.slots.get(rank % room.max(1))
+    }
+
+    /// How many facets are kept where they are like these; forgets what is kept beyond.
+    pub fn make_room(&self, facets: &[OfFacet]) -> usize {
+        let met = facets.iter().filter(|of| !of.met.is_empty());
+        let (nmet, all) = met.fold((0, 0), |(n, all), of| (n + 1, all + of.nslope()));
+        let enough = LEAST * rayon::current_num_threads();
+        let room = (NUMBERS / (all / nmet.max(1)).max(1)).max(enough);
+        for slot in self.slots.iter().skip(room) {
+            *lock(slot) = Slot::default();
+        }
+        room.min(self.slots.len())
+    }
+
+    /// Lets `take` have the derivatives of a facet at the configuration that these weights are of, integrated where they
+    /// are not kept.
+    pub fn with<T>(
+        &self,
+        (facet, weights): (u32, &Weights),
+        integrator: &mut Integrator,
+        integrate: impl FnOnce(&mut Integrator) -> Result<(), SurfaceError>,
+        take: impl FnOnce(&Derivatives) -> T,
+    ) -> Result<T, SurfaceError> {
+        let Some(slot) = self.slot(facet, weights.room) else {
+            integrate(integrator)?;
+            return Ok(take(integrator.covered.derivatives()));
+        };
+        self.last.store(weights.stamp, Ordering::Relaxed);
+        let mut slot = lock(slot);
+        if (slot.stamp, slot.facet) != (weights.stamp, facet) {
+            // not known before it is done
+            slot.stamp = 0;
+            integrate(integrator)?;
+            integrator.covered.leave_derivatives(&mut slot.derivatives);
+            (slot.stamp, slot.facet) = (weights.stamp, facet);
+        }
+        slot.asked = weights.stamp;
+        Ok(take(&slot.derivatives))
+    }
+}
+
+/// What a thread left behind that panicked is not known to be of any facet.
+fn lock(slot: &Mutex<Slot>) -> MutexGuard<'_, Slot> {
+    slot.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn positions(nodes: &[NodeId], x: &[Vec3], out: &mut Vec<Vec3>) {
     let place = |n: &NodeId| x.get(*n as usize).copied().unwrap_or_default();
     out.extend(nodes.iter().map(place));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Integrator, Kept};
+    use crate::contact::mortar::{Derivatives, Facet, OfFacet, Weights};
+    use signorini_geometry::element::by_name;
+    use signorini_geometry::surface::SurfaceError;
+    use signorini_geometry::tensor::Vec3;
+
+    /// Integrates a square whose size tells the facet and the configuration, as the slopes of its normal do.
+    fn integrate(integrator: &mut Integrator, size: f64) -> Result<(), SurfaceError> {
+        let element = by_name("quad4").ok_or(SurfaceError::NoSuchFacet { facet: 0 })?;
+        let x: Vec<Vec3> = element.nodes().iter().map(|&x| x * size).collect();
+        let own = Facet { element, x: &x };
+        let done = integrator.covered.evaluate(&own, &[], &[], true);
+        done.map_err(|_| SurfaceError::Degenerate { facet: 0 })
+    }
+
+    struct Count {
+        kept: Kept,
+        integrator: Integrator,
+        weights: Weights,
+        done: usize,
+    }
+
+    impl Count {
+        /// Asks for a facet; says how many had to be integrated until now.
+        fn ask(&mut self, facet: u32) -> usize {
+            let size = f64::from(facet + 1) * self.weights.stamp as f64;
+            let done = &mut self.done;
+            let integrate = |integrator: &mut Integrator| {
+                *done += 1;
+                integrate(integrator, size)
+            };
+            let of_facet = (facet, &self.weights);
+            let largest = |d: &Derivatives| d.dnormal(0).iter().fold(0.0, |m, d| d.abs().max(m));
+            let found = self
+                .kept
+                .with(of_facet, &mut self.integrator, integrate, largest);
+            let found = found.unwrap() * size;
+            assert!((found - 0.25).abs() < 1e-12, "{facet}: {found}");
+            self.done
+        }
+    }
+
+    #[test]
+    fn derivatives_are_integrated_once_for_each_configuration_where_there_is_room() {
+        let mut count = Count {
+            kept: Kept::new(3, [2, 0, 2, 1].into_iter()),
+            integrator: Integrator::default(),
+            weights: Weights::default(),
+            done: 0,
+        };
+        (count.weights.stamp, count.weights.room) = (1, 3);
+        assert_eq!([0, 1, 2, 0, 1, 2].map(|f| count.ask(f)), [1, 2, 3, 3, 3, 3]);
+        count.weights.stamp = 2;
+        assert_eq!([0, 1, 1].map(|f| count.ask(f)), [4, 5, 5]);
+        assert_eq!(
+            [0, 1, 2].map(|f| count.kept.asked(f, 2)),
+            [true, true, false]
+        );
+        // what was kept before anyone asked
+        integrate(&mut count.integrator, 9.0).unwrap();
+        count.kept.keep(2, 3, &mut count.integrator);
+        count.weights.stamp = 3;
+        assert_eq!([2, 0].map(|f| count.ask(f)), [5, 6]);
+        // facets with one place for all of them take turns
+        (count.weights.stamp, count.weights.room) = (4, 1);
+        assert_eq!([0, 1, 1, 0].map(|f| count.ask(f)), [7, 8, 8, 9]);
+    }
+
+    #[test]
+    fn there_is_less_room_for_facets_that_meet_many_but_enough_for_the_rows_at_hand() {
+        let kept = Kept::new(100_000, 0..100_000);
+        let meets = |nprimary: usize| OfFacet {
+            met: vec![0],
+            nodes: vec![0; nprimary],
+            m: vec![0.0; 4 * nprimary],
+            ..OfFacet::default()
+        };
+        let room = |nprimary| kept.make_room(&[meets(nprimary), OfFacet::default()]);
+        assert_eq!(room(9), super::NUMBERS / (4 * 9 * 39));
+        assert_eq!(room(1000), super::LEAST * rayon::current_num_threads());
+    }
 }

@@ -62,7 +62,7 @@ use crate::contact::mortar::{
 };
 use crate::contact::row::{Participant, RowOrder, Rows, Wanted};
 use edges::{Part, parts};
-use integrals::Integrator;
+use integrals::{Integrator, Kept};
 use place::{Place, Workspace};
 use rayon::prelude::*;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
@@ -124,6 +124,7 @@ pub struct Mortar {
     form: Form,
     measure: Measure,
     held: Option<Weights>,
+    kept: Kept,
 }
 
 type Inverse = [[f64; MAX_FACET_NODES]; MAX_FACET_NODES];
@@ -174,12 +175,14 @@ impl Mortar {
             };
             let covered = &mut integrator.covered;
             covered
-                .evaluate(&own, &[], false)
+                .evaluate(&own, &[], &[], false)
                 .map_err(|_| SurfaceError::Degenerate { facet })?;
             for (&row, full) in rows[facet as usize].iter().zip(covered.full()) {
                 area[row] += full;
             }
         }
+        let in_turn = around.iter().flatten().map(|&(facet, _)| facet);
+        let kept = Kept::new(facets.nfacet(), in_turn);
         Ok(Self {
             nodes,
             rows,
@@ -191,6 +194,7 @@ impl Mortar {
             form,
             measure,
             held: None,
+            kept,
         })
     }
 
@@ -204,7 +208,7 @@ impl Mortar {
         let boxes: Vec<Aabb> = boxes.collect();
         search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
         let mut weights = Weights::default();
-        self.weigh(pair, at, &search, &mut weights)?;
+        self.weigh(pair, at, &search, RowOrder::Gap, &mut weights)?;
         self.rest(pair, at, &mut weights)?;
         for (row, area) in self.area.iter_mut().enumerate() {
             if let Some(covered) = weights.row(row) {
@@ -242,7 +246,7 @@ impl Mortar {
             return Ok(false);
         }
         weights.guests = guests;
-        self.add_up_all(facets, pair, at, weights)?;
+        self.add_up_all(facets, at, weights)?;
         Ok(true)
     }
 
@@ -255,12 +259,13 @@ impl Mortar {
         self.held.as_ref().unwrap_or(&pairing.weights)
     }
 
-    /// D and M of all facets and rows at a configuration.
+    /// D and M of all facets and rows at a configuration, with derivatives of facets whose will probably be asked for.
     fn weigh(
         &self,
         pair: &SurfacePair,
         at: &Placement,
         search: &Search,
+        next: RowOrder,
         out: &mut Weights,
     ) -> Result<(), SurfaceError> {
         static STAMP: AtomicU64 = AtomicU64::new(1);
@@ -268,6 +273,8 @@ impl Mortar {
         let Some(facets) = &pair.secondary else {
             return Ok(());
         };
+        let stamp = out.stamp;
+        let last = self.kept.last();
         out.facets.resize_with(self.kind.len(), OfFacet::default);
         out.facets
             .par_iter_mut()
@@ -278,18 +285,22 @@ impl Mortar {
                 |integrator, (facet, to)| {
                     let facet = facet as u32;
                     integrator.find(facets, facet, pair, at, search);
-                    integrator.integrate(facets, facet, pair, at, false)?;
+                    let derivatives = next == RowOrder::Tangent && self.kept.asked(facet, last);
+                    integrator.integrate(facets, facet, pair, at, derivatives)?;
                     integrator.store(to);
+                    if derivatives {
+                        self.kept.keep(facet, stamp, integrator);
+                    }
                     Ok(())
                 },
             )?;
-        self.add_up_all(facets, pair, at, out)
+        out.room = self.kept.make_room(&out.facets);
+        self.add_up_all(facets, at, out)
     }
 
     fn add_up_all(
         &self,
         facets: &Facets,
-        pair: &SurfacePair,
         at: &Placement,
         out: &mut Weights,
     ) -> Result<(), SurfaceError> {
@@ -303,7 +314,7 @@ impl Mortar {
         rows.par_iter_mut()
             .enumerate()
             .with_min_len(TASK)
-            .try_for_each(|(row, to)| self.add_up(row, facets, pair, at, (of, guests), to))
+            .try_for_each(|(row, to)| self.add_up(row, facets, at, (of, guests), to))
     }
 
     /// Who takes over whose function, by what is covered: on the facet around a node of which most is, which part of it.
@@ -424,7 +435,6 @@ impl Mortar {
         &self,
         row: usize,
         facets: &Facets,
-        pair: &SurfacePair,
         at: &Placement,
         (of, guests): (&[OfFacet], &Guests),
         to: &mut OfRow,
@@ -463,20 +473,18 @@ impl Mortar {
                     to.vector[k] += covered.normal * (t * d);
                 }
             }
-            let nprimary = covered.m.len() / facets.nodes(facet).len();
-            let mut m = covered.m[place * nprimary..][..nprimary].iter();
-            for &met in &covered.met {
-                for (&node, &m) in nodes_of(pair, met).iter().zip(&mut m) {
-                    let known = to.nodes[nsecondary..].iter().position(|n| *n == node);
-                    let k = known.map_or(to.nodes.len(), |k| nsecondary + k);
-                    if known.is_none() {
-                        to.nodes.push(node);
-                        to.scalar.push(0.0);
-                        to.vector.push(Vec3::ZERO);
-                    }
-                    to.scalar[k] -= share * m;
-                    to.vector[k] -= covered.normal * (share * m);
+            let nprimary = covered.nodes.len();
+            let m = &covered.m[place * nprimary..][..nprimary];
+            for (&node, &m) in covered.nodes.iter().zip(m) {
+                let known = to.nodes[nsecondary..].iter().position(|n| *n == node);
+                let k = known.map_or(to.nodes.len(), |k| nsecondary + k);
+                if known.is_none() {
+                    to.nodes.push(node);
+                    to.scalar.push(0.0);
+                    to.vector.push(Vec3::ZERO);
                 }
+                to.scalar[k] -= share * m;
+                to.vector[k] -= covered.normal * (share * m);
             }
         }
         if self.form.normals == Normals::Nodal {
@@ -580,11 +588,12 @@ impl Discretization for Mortar {
         at: &Placement,
         near: &Search,
         last: &Pairing,
+        next: RowOrder,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
         if self.held.is_none() {
             out.weights.guests.clone_from(&last.weights.guests);
-            self.weigh(pair, at, near, &mut out.weights)?;
+            self.weigh(pair, at, near, next, &mut out.weights)?;
             if out.weights.guests.left.is_empty() && self.has_edges() {
                 self.rest(pair, at, &mut out.weights)?;
             }
@@ -610,7 +619,7 @@ impl Discretization for Mortar {
             .filter(|_| !before.weights.is_empty())
         {
             before.weights.guests.clone_from(&now.weights.guests);
-            self.add_up_all(facets, pair, at, &mut before.weights)?;
+            self.add_up_all(facets, at, &mut before.weights)?;
         }
         Ok(true)
     }

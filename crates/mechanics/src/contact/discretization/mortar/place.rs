@@ -1,9 +1,9 @@
 //! (E1) to (E4) of the room, at one configuration.
 
-use super::integrals::with_integrals;
-use super::{Mortar, Normals, corner_normal, nodes_of};
+use super::integrals::Integrator;
+use super::{Mortar, Normals, corner_normal};
 use crate::contact::discretization::{Anchored, SurfacePair};
-use crate::contact::mortar::{Covered, OfRow, Weights};
+use crate::contact::mortar::{Derivatives, OfFacet, OfRow, Weights};
 use crate::contact::row::{Row, RowOrder, Wanted};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
@@ -20,6 +20,7 @@ pub(super) struct Workspace {
     d: Vec<f64>,
     normal: Vec<Vec3>,
     way: Vec<Vec3>,
+    integrator: Integrator,
 }
 
 /// A row at a configuration.
@@ -155,8 +156,8 @@ impl Place<'_> {
             let known = |node: &NodeId, of: &[NodeId]| of.iter().position(|n| n == node);
             let (secondary, primary) = self.now.nodes.split_at(self.now.nsecondary);
             let own = nodes.iter().map(|n| known(n, secondary));
-            let met = of.met.iter().flat_map(|&m| nodes_of(self.pair, m));
-            let others = met.map(|n| known(n, primary).map(|k| secondary.len() + k));
+            let others = of.nodes.iter();
+            let others = others.map(|n| known(n, primary).map(|k| secondary.len() + k));
             // every node is known: it was collected from the same facets
             let places = own.chain(others).map(Option::unwrap_or_default);
             work.places.extend(places);
@@ -167,16 +168,19 @@ impl Place<'_> {
                 way: &mut work.way,
                 row,
             };
-            with_integrals(
-                self.weights.stamp,
-                (facet, nodes.len()),
-                (self.mortar.measure, self.mortar.form.basis),
-                |integrator| {
-                    integrator.near.clone_from(&of.met);
-                    integrator.integrate(facets, facet, self.pair, self.at, true)
-                },
-                |covered| self.add(sums, facets, (facet, place, share), covered),
-            )?;
+            let integrate = |integrator: &mut Integrator| {
+                let Mortar { measure, form, .. } = self.mortar;
+                integrator.covered.measured(*measure, form.basis);
+                integrator.near.clone_from(&of.met);
+                integrator.integrate(facets, facet, self.pair, self.at, true)
+            };
+            let add =
+                |with: &Derivatives| self.add(sums, facets, (facet, place, share), (of, with));
+            let of_facet = (facet, self.weights);
+            let integrator = &mut work.integrator;
+            self.mortar
+                .kept
+                .with(of_facet, integrator, integrate, add)??;
         }
         let (sum, g) = (self.now.normal.norm(), self.gap());
         let nu = row.normal;
@@ -198,23 +202,17 @@ impl Place<'_> {
         mut to: Sums<'_>,
         facets: &Facets,
         (facet, place, share): (u32, usize, f64),
-        covered: &Covered,
+        (of, with): (&OfFacet, &Derivatives),
     ) -> Result<(), SurfaceError> {
         let (nodes, area) = (facets.nodes(facet), self.mortar.area[self.row]);
         let n = to.row.gradient.len();
         let nodal = self.mortar.form.normals == Normals::Nodal;
-        let (dd, nu) = (covered.dd(place), covered.normal());
-        let d = share * covered.d()[place];
-        let dnu = |i: usize| {
-            Vec3::new(
-                covered.dnormal(0)[i],
-                covered.dnormal(1)[i],
-                covered.dnormal(2)[i],
-            )
-        };
+        let (dd, nu) = (with.dd(place), of.normal);
+        let d = share * of.d[place];
+        let dnu = |i: usize| Vec3::new(with.dnormal(0)[i], with.dnormal(1)[i], with.dnormal(2)[i]);
         scatter(to.d, to.places, share, dd);
         let inverse = &self.mortar.inverse(facet)[place];
-        let m = covered.m(place);
+        let m = &of.m[place * of.nodes.len()..][..of.nodes.len()];
         let own = nodes.len();
         let centre = self.centre();
         let mut way = Vec3::ZERO;
@@ -222,7 +220,7 @@ impl Place<'_> {
             let x = self.x(self.now.nodes[line]) - centre;
             let (c, factor, dc) = match k.checked_sub(own) {
                 None => (inverse[k] * d, share * inverse[k], dd),
-                Some(l) => (-share * m[l], -share, covered.dm(place, l)),
+                Some(l) => (-share * m[l], -share, with.dm(place, l)),
             };
             if factor == 0.0 {
                 continue;
@@ -244,7 +242,7 @@ impl Place<'_> {
             for a in 0..3 {
                 let dweights = &mut to.row.dweights[(3 * line + a) * n..][..n];
                 scatter(dweights, to.places, nu[a] * factor / area, dc);
-                scatter(dweights, to.places, c / area, covered.dnormal(a));
+                scatter(dweights, to.places, c / area, with.dnormal(a));
             }
         }
         if nodal {
