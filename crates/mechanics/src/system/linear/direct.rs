@@ -357,16 +357,16 @@ impl Analysis {
                 Some(fronts) if !is_new => fronts,
                 known => {
                     let problem = kept.problem();
-                    let groups = ordering::groups(&problem, matrix);
-                    match known.filter(|_| groups == self.factors.groups) {
+                    let groups = || ordering::groups(&problem, matrix);
+                    let (known, of_known) = known.map(|fronts| (fronts, groups())).unzip();
+                    match known.filter(|_| of_known.as_ref() == Some(&self.factors.groups)) {
                         Some(fronts) => fronts,
                         None => {
-                            let ordering = self.ordering;
-                            let order =
-                                || ordering::order_groups(&problem, matrix, &groups, ordering);
-                            let fronts = Fronts::new(matrix, self.precision, order)?;
-                            self.factors.groups = groups;
-                            fronts
+                            let (ordering, found) = (self.ordering, &mut self.factors.groups);
+                            Fronts::new(matrix, self.precision, || {
+                                *found = of_known.unwrap_or_else(groups);
+                                ordering::order_groups(&problem, matrix, found, ordering)
+                            })?
                         }
                     }
                 }

@@ -21,6 +21,8 @@ use std::ops::Range;
 
 /// Entries that are worth a task; results do not depend on it.
 const ENTRIES_PER_TASK: usize = 50_000;
+/// Rows that are worth a task.
+const ROWS_PER_TASK: usize = 1000;
 /// How often scales are improved.
 const SWEEPS: usize = 3;
 
@@ -73,82 +75,61 @@ impl Matrix {
             next[e as usize] += 1;
         }
 
-        // the pattern; `seen` holds the last column that met a row, then the place it got there
+        let places = Places {
+            problem,
+            symmetric,
+            nbulk,
+        };
+        let count = parts(bulk.nvalue() + interface.nentry());
+        let part = |k: usize| k * nequation / count..(k + 1) * nequation / count;
+        let found = (0..count).into_par_iter().map(|k| {
+            let of_equation = |e: usize| &dof[dof_start[e] as usize..dof_start[e + 1] as usize];
+            places.rows(part(k), of_equation)
+        });
+        let found: Vec<(Vec<u32>, Vec<usize>)> = found.collect();
+        let nentry = found.iter().map(|(row, _)| row.len()).sum();
+        if nentry >= NONE as usize / 2 {
+            return Err(LinearError::TooLarge { nequation, nentry });
+        }
         let mut start = Vec::with_capacity(nequation + 1);
-        let mut row: Vec<u32> = Vec::new();
+        let mut row: Vec<u32> = Vec::with_capacity(nentry);
+        start.push(0);
+        for (rows, ends) in found {
+            let first = row.len();
+            start.extend(ends.into_iter().map(|end| (first + end) as u32));
+            row.extend(rows);
+        }
         let mut bulk_place = vec![NONE; bulk.nvalue()];
         let mut interface_place = vec![NONE; interface.nentry()];
-        let mut seen = vec![NONE; nequation];
-        let mut place = vec![0u32; nequation];
-        start.push(0);
-        for e in 0..nequation as u32 {
-            let begin = row.len();
-            let kept = |other: u32| other != NONE && !(symmetric && other < e);
-            let mine = &dof[dof_start[e as usize] as usize..dof_start[e as usize + 1] as usize];
-            let mut meet = |other: u32| {
-                if kept(other) && seen[other as usize] != e {
-                    seen[other as usize] = e;
-                    row.push(other);
-                }
+        let (mut of_bulk, mut of_interface) = (&mut bulk_place[..], &mut interface_place[..]);
+        let mut ends = [0; 2];
+        let mut tasks = Vec::with_capacity(count);
+        for k in 0..count {
+            let nodes = k * bulk.nrow() / count..(k + 1) * bulk.nrow() / count;
+            let last = if k + 1 < count {
+                nodes.end * block
+            } else {
+                equation.len()
             };
-            meet(e);
-            for &d in mine {
-                let d = d as usize;
-                if d < nbulk {
-                    let columns =
-                        &bulk.column[bulk.row_start[d / block]..bulk.row_start[d / block + 1]];
-                    for &column in columns {
-                        equation[column as usize * block..][..block]
-                            .iter()
-                            .for_each(|&other| meet(other));
-                    }
-                }
-                if d < interface.nrow {
-                    let columns =
-                        &interface.column[interface.row_start[d]..interface.row_start[d + 1]];
-                    columns
-                        .iter()
-                        .for_each(|&column| meet(equation[column as usize]));
-                }
-            }
-            row[begin..].sort_unstable();
-            if row.len() >= NONE as usize / 2 {
-                return Err(LinearError::TooLarge {
-                    nequation,
-                    nentry: row.len(),
-                });
-            }
-            for (at, &other) in row.iter().enumerate().skip(begin) {
-                place[other as usize] = at as u32;
-            }
-            for &d in mine {
-                let d = d as usize;
-                if d < nbulk {
-                    for k in bulk.row_start[d / block]..bulk.row_start[d / block + 1] {
-                        let others = &equation[bulk.column[k] as usize * block..][..block];
-                        let places = &mut bulk_place[(k * block + d % block) * block..][..block];
-                        for (&other, to) in
-                            others.iter().zip(places).filter(|&(&other, _)| kept(other))
-                        {
-                            *to = place[other as usize];
-                        }
-                    }
-                }
-                if d < interface.nrow {
-                    let entries = interface.row_start[d]..interface.row_start[d + 1];
-                    for (&column, to) in interface.column[entries.clone()]
-                        .iter()
-                        .zip(&mut interface_place[entries])
-                    {
-                        let other = equation[column as usize];
-                        if kept(other) {
-                            *to = place[other as usize];
-                        }
-                    }
-                }
-            }
-            start.push(row.len() as u32);
+            let dofs = nodes.start * block..last;
+            let to = [
+                bulk.row_start[nodes.end] * block * block,
+                interface.row_start[last.min(interface.nrow)],
+            ];
+            let own = (
+                of_bulk.split_off_mut(..to[0] - ends[0]).unwrap_or_default(),
+                of_interface
+                    .split_off_mut(..to[1] - ends[1])
+                    .unwrap_or_default(),
+            );
+            tasks.push((dofs, ends, own));
+            ends = to;
         }
+        tasks
+            .into_par_iter()
+            .for_each(|(dofs, first, (of_bulk, of_interface))| {
+                places.find(dofs, [&start, &row], first, of_bulk, of_interface);
+            });
         Ok(Self {
             value: vec![0.0; row.len()],
             row_scale: vec![1.0; nequation],
@@ -345,18 +326,145 @@ impl Matrix {
     }
 
     /// The equilibrated operator times a vector; with `of` the absolute value, the size of what is added up.
-    pub fn multiply(&self, x: &[f64], y: &mut [f64], of: impl Fn(f64) -> f64) {
+    pub fn multiply(&self, x: &[f64], y: &mut [f64], of: impl Fn(f64) -> f64 + Sync) {
+        let entries = |e: usize| {
+            let range = self.range(e);
+            self.row[range.clone()].iter().zip(&self.value[range])
+        };
+        if !self.symmetric {
+            // column e holds row e
+            let dot = |e: usize| entries(e).map(|(&f, &a)| of(a * x[f as usize])).sum();
+            let each = y.par_iter_mut().enumerate().with_min_len(ROWS_PER_TASK);
+            return each.for_each(|(e, y)| *y = dot(e));
+        }
         y.fill(0.0);
         for e in 0..x.len() {
-            for (&f, &a) in self.row[self.range(e)]
-                .iter()
-                .zip(&self.value[self.range(e)])
-            {
+            for (&f, &a) in entries(e) {
                 let f = f as usize;
                 y[e] += of(a * x[f]);
-                if self.symmetric && f != e {
+                if f != e {
                     y[f] += of(a * x[e]);
                 }
+            }
+        }
+    }
+}
+
+/// Into how many parts as many values are divided: one for each thread, unless there are few.
+fn parts(nvalue: usize) -> usize {
+    (nvalue / ENTRIES_PER_TASK).clamp(1, rayon::current_num_threads())
+}
+
+/// Where the values of a problem go.
+struct Places<'a> {
+    problem: &'a Problem<'a>,
+    symmetric: bool,
+    /// How many raw dofs the bulk has.
+    nbulk: usize,
+}
+
+impl Places<'_> {
+    /// Whether the entry of column `e` at this row is kept.
+    fn keeps(&self, e: u32, other: u32) -> bool {
+        other != NONE && !(self.symmetric && other < e)
+    }
+
+    /// The rows of columns, sorted, and where each column ends; `dofs` are the raw dofs of an equation.
+    fn rows<'d>(
+        &self,
+        columns: Range<usize>,
+        dofs: impl Fn(usize) -> &'d [u32],
+    ) -> (Vec<u32>, Vec<usize>) {
+        let Problem {
+            bulk,
+            interface,
+            equation,
+            nequation,
+            ..
+        } = *self.problem;
+        let block = bulk.block;
+        let (mut row, mut ends) = (Vec::new(), Vec::with_capacity(columns.len()));
+        // the last column that met a row
+        let mut seen = vec![NONE; nequation];
+        for e in columns {
+            let begin = row.len();
+            let mut meet = |other: u32| {
+                if self.keeps(e as u32, other) && seen[other as usize] != e as u32 {
+                    seen[other as usize] = e as u32;
+                    row.push(other);
+                }
+            };
+            meet(e as u32);
+            for &d in dofs(e) {
+                let d = d as usize;
+                if d < self.nbulk {
+                    let entries = bulk.row_start[d / block]..bulk.row_start[d / block + 1];
+                    for &column in &bulk.column[entries] {
+                        let others = &equation[column as usize * block..][..block];
+                        others.iter().for_each(|&other| meet(other));
+                    }
+                }
+                if d < interface.nrow {
+                    let entries = interface.row_start[d]..interface.row_start[d + 1];
+                    let columns = interface.column[entries].iter();
+                    columns.for_each(|&column| meet(equation[column as usize]));
+                }
+            }
+            row[begin..].sort_unstable();
+            ends.push(row.len());
+        }
+        (row, ends)
+    }
+
+    /// The places of the values of raw dofs, which begin at `first` in those of the bulk and of the interface.
+    fn find(
+        &self,
+        dofs: Range<usize>,
+        [start, row]: [&[u32]; 2],
+        first: [usize; 2],
+        of_bulk: &mut [u32],
+        of_interface: &mut [u32],
+    ) {
+        let Problem {
+            bulk,
+            interface,
+            equation,
+            nequation,
+            ..
+        } = *self.problem;
+        let block = bulk.block;
+        // the place of each row of the column at hand
+        let mut place = vec![0u32; nequation];
+        for d in dofs {
+            let e = equation[d];
+            if e == NONE {
+                continue;
+            }
+            for at in start[e as usize]..start[e as usize + 1] {
+                place[row[at as usize] as usize] = at;
+            }
+            let find = |other: u32, to: &mut u32| {
+                if self.keeps(e, other) {
+                    *to = place[other as usize];
+                }
+            };
+            if d < self.nbulk {
+                for k in bulk.row_start[d / block]..bulk.row_start[d / block + 1] {
+                    let others = &equation[bulk.column[k] as usize * block..][..block];
+                    let to = &mut of_bulk[(k * block + d % block) * block - first[0]..][..block];
+                    others
+                        .iter()
+                        .zip(to)
+                        .for_each(|(&other, to)| find(other, to));
+                }
+            }
+            if d < interface.nrow {
+                let entries = interface.row_start[d]..interface.row_start[d + 1];
+                let to = &mut of_interface[entries.start - first[1]..][..entries.len()];
+                let columns = interface.column[entries].iter();
+                columns
+                    .zip(to)
+                    .for_each(|(&column, to)| find(equation[column as usize], to));
             }
         }
     }
@@ -387,7 +495,7 @@ impl<'m> Share<'m> {
 /// All columns, shared among the threads with about as many entries each.
 fn shares<'m>(start: &[u32], value: &'m mut [f64], row_max: &'m mut [f64]) -> Vec<Share<'m>> {
     let (n, nentry) = (row_max.len(), value.len());
-    let count = (nentry / ENTRIES_PER_TASK).clamp(1, rayon::current_num_threads());
+    let count = parts(nentry);
     let (mut first, mut values, mut rows) = (0, value, row_max);
     let share = |k: usize| {
         let last = match k == count {
