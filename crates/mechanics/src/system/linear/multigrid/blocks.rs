@@ -7,7 +7,7 @@ use std::ops::Range;
 /// Blocks of a factor whose rows are handled by one task; results do not depend on it.
 const BLOCKS_PER_TASK: usize = 8192;
 /// Rows of a matrix that are projected at once; sums are in this order.
-const ROWS_PER_STRIP: usize = 16_384;
+const ROWS_PER_STRIP: usize = 4096;
 /// Stands for no place in a row.
 const NOWHERE: u32 = u32::MAX;
 
