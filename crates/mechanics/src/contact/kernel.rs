@@ -3,6 +3,7 @@
 use super::friction::{Coulomb, FrictionLaw, Limit, Sliding, Stick};
 use super::law::{ContactLaw, Eval, Multiplier, Scale};
 use super::row::Row;
+use pulp::Arch;
 use signorini_geometry::tensor::Vec3;
 
 /// The laws of an interface, and the numbers they scale with.
@@ -103,6 +104,8 @@ pub(super) struct Derivatives {
     trial: Vec<Vec3>,
     actual_pressure: Vec<f64>,
     actual_tangential: Vec<Vec3>,
+    /// Those of what acts, component by component: the tangential traction, then the pressure.
+    slopes: [Vec<f64>; 4],
 }
 
 impl Derivatives {
@@ -478,29 +481,18 @@ impl<'a> Laws<'a> {
         } else {
             (&work.pressure, &work.tangential)
         };
-        let lines = target.stiffness.chunks_exact_mut(width).take(n);
-        for (i, line) in lines.enumerate() {
-            let (b, operator) = (row.weights[i], sliding.operator[i]);
-            for (j, k) in line.iter_mut().enumerate() {
-                *k += measure * (operator.dot(dt[j]) - b * dp[j]); // (E4)
-            }
-            let db = &row.dweights[i * n..(i + 1) * n];
-            for (k, db) in line.iter_mut().zip(db) {
-                *k -= measure * acting * db;
-            }
-            if let Some((c, dscale)) = sliding.scaled(i) {
-                let along = measure * acting_tangential[c];
-                for (k, d) in line.iter_mut().zip(dscale) {
-                    *k += along * d;
-                }
-            }
-            for turn in sliding.turns() {
-                let across = measure * turn.across[i].dot(acting_tangential);
-                for (k, along) in line.iter_mut().zip(&turn.along) {
-                    *k += across * along;
-                }
+        for (c, slopes) in work.slopes.iter_mut().enumerate() {
+            slopes.clear();
+            match c {
+                3 => slopes.extend_from_slice(dp),
+                _ => slopes.extend(dt.iter().map(|dt| dt[c])),
             }
         }
+        let acting = (acting, acting_tangential);
+        Arch::new().dispatch(
+            #[inline(always)]
+            || add_stiffness(row, measure, acting, &work.slopes, target.stiffness),
+        );
     }
 
     /// Sides that are joined: (E6).
@@ -540,6 +532,43 @@ impl<'a> Laws<'a> {
                 for (k, along) in line.iter_mut().zip(&turn.along) {
                     *k += across * along;
                 }
+            }
+        }
+    }
+}
+
+/// Adds (E4) of a pressure and a tangential traction with these slopes: lines of columns, in as many lanes as there are.
+#[inline(always)]
+fn add_stiffness(
+    row: &Row,
+    measure: f64,
+    (pressure, tangential): (f64, Vec3),
+    [dx, dy, dz, dp]: &[Vec<f64>; 4],
+    stiffness: &mut [f64],
+) {
+    let (n, width) = (row.weights.len(), dp.len());
+    let (sliding, pressed) = (&row.sliding, measure * pressure);
+    let lines = stiffness.chunks_exact_mut(width).take(n);
+    for (i, line) in lines.enumerate() {
+        let [x, y, z] = (sliding.operator[i] * measure).to_array();
+        let b = measure * row.weights[i];
+        let slopes = dx.iter().zip(dy).zip(dz).zip(dp);
+        for (k, (((dx, dy), dz), dp)) in line.iter_mut().zip(slopes) {
+            *k += (x * dx + y * dy) + (z * dz - b * dp);
+        }
+        for (k, db) in line.iter_mut().zip(&row.dweights[i * n..(i + 1) * n]) {
+            *k -= pressed * db;
+        }
+        if let Some((c, dscale)) = sliding.scaled(i) {
+            let along = measure * tangential[c];
+            for (k, d) in line.iter_mut().zip(dscale) {
+                *k += along * d;
+            }
+        }
+        for turn in sliding.turns() {
+            let across = measure * turn.across[i].dot(tangential);
+            for (k, along) in line.iter_mut().zip(&turn.along) {
+                *k += across * along;
             }
         }
     }

@@ -867,36 +867,45 @@ impl Setting<'_> {
     fn add_entries(self, strip: &mut Strip<'_>, dofs: &[Dof], stiffness: &[f64]) {
         let mut places = std::mem::take(&mut strip.places);
         places.clear();
-        places.resize(dofs.len(), 0);
+        let mut known: &[u32] = &[];
         for (row, values) in dofs.iter().zip(stiffness.chunks_exact(dofs.len().max(1))) {
             if *row == NO_DOF || !strip.has(*row) {
                 continue;
             }
             let (first, columns) = self.interface.row(*row);
-            let mut next = 0;
-            for ((column, value), place) in dofs.iter().zip(values).zip(&mut places) {
-                if *column == NO_DOF || *value == 0.0 {
-                    continue;
-                }
-                // most often where it was in the row before, or right of the one before
-                if columns.get(*place) != Some(column) {
-                    *place = next;
-                    if columns.get(next) != Some(column) {
-                        // a dead force that turns with nothing but itself finds no place, and needs none
-                        let Ok(found) = columns.binary_search(column) else {
-                            continue;
-                        };
-                        *place = found;
-                    }
-                }
-                next = *place + 1;
-                if let Some(to) = strip.entry(first + *place) {
+            // those of one node have the same columns
+            if columns != known {
+                find_places(dofs, columns, &mut places);
+                known = columns;
+            }
+            let to = strip.entries(first, columns.len());
+            for (value, place) in values.iter().zip(&places) {
+                if let Some(to) = to.get_mut(*place as usize) {
                     *to += value;
                 }
             }
         }
         strip.places = places;
     }
+}
+
+/// The places of unknowns among the columns of a row; none for what is left out, nor for a dead force that turns with
+/// nothing but itself, which needs none.
+fn find_places(dofs: &[Dof], columns: &[u32], places: &mut Vec<u32>) {
+    let mut next = 0;
+    places.clear();
+    places.extend(dofs.iter().map(|dof| {
+        // most often right of the one before
+        let is_next = columns.get(next) == Some(dof);
+        let found = match is_next {
+            true => Ok(next),
+            false => columns.binary_search(dof),
+        };
+        found.map_or(NONE, |place| {
+            next = place + 1;
+            place as u32
+        })
+    }));
 }
 
 /// Some rows of what is assembled.
@@ -910,7 +919,7 @@ struct Strip<'a> {
     bulk: &'a mut [f64],
     interface: &'a mut [f64],
     /// Scratch: the places of unknowns in a row of the interface.
-    places: Vec<usize>,
+    places: Vec<u32>,
 }
 
 impl<'a> Strip<'a> {
@@ -965,9 +974,11 @@ impl<'a> Strip<'a> {
         (dof as usize).wrapping_sub(self.first) < self.residual.len()
     }
 
-    fn entry(&mut self, at: usize) -> Option<&mut f64> {
-        self.interface
-            .get_mut(at.wrapping_sub(self.first_interface))
+    /// The values of a row of the interface: so many from this one on.
+    fn entries(&mut self, first: usize, count: usize) -> &mut [f64] {
+        let first = first.wrapping_sub(self.first_interface);
+        let own = first..first.saturating_add(count);
+        self.interface.get_mut(own).unwrap_or_default()
     }
 
     fn add_error(&mut self, dof: Dof, error: f64) {
@@ -1067,11 +1078,7 @@ fn reset(values: &mut Vec<f64>, n: usize) {
         *values = vec![0.0; n];
         return;
     }
-    if values.len() != n {
-        values.clear();
-        values.resize(n, 0.0);
-        return;
-    }
+    values.resize(n, 0.0);
     values
         .par_chunks_mut(ENTRIES)
         .for_each(|some| some.fill(0.0));
