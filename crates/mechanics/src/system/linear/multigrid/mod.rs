@@ -512,12 +512,12 @@ impl Grid {
 
     /// Lets the hierarchy of the start serve where the stiffness is not far from that, and makes it where there is none.
     fn go_from_start(&mut self, kept: &Kept, values: &Values) -> Option<Note> {
-        let told = self.start.told.take();
-        if !self.start.is_in_use && told.is_none() {
+        let start = self.start.told.take();
+        if !self.start.is_in_use && start.is_none() {
             return None;
         }
         let now = self.signed(kept, values.bulk);
-        let told = match &told {
+        let told = match &start {
             Some(StartStiffness::Values(bulk)) => Some((bulk.as_slice(), self.signed(kept, bulk))),
             Some(StartStiffness::Next) => Some((values.bulk, now.clone())),
             Some(StartStiffness::Always) | None => None,
@@ -537,7 +537,10 @@ impl Grid {
             bulk,
             interface: values.interface,
         };
-        let (new, note) = self.build(&self.fine.matrix(kept, &values), None)?;
+        let matrix = self.fine.matrix(kept, &values);
+        // their memory serves the levels
+        drop(start);
+        let (new, note) = self.build(&matrix, None)?;
         self.hierarchy = Some(new);
         self.start.is_in_use = true;
         Some(note)
