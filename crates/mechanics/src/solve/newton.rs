@@ -326,11 +326,39 @@ pub(super) struct Newton {
 
 impl Newton {
     pub fn new(settings: NewtonSettings, system: &System, equations: Equations) -> Self {
+        let assembler = Assembler::new(&system.layout, &system.elimination, &system.terms);
+        Self::with(settings, system, equations, assembler)
+    }
+
+    /// Goes on in the place of this one as a new one does: what never changes is not made again.
+    pub fn renewed(
+        self,
+        settings: NewtonSettings,
+        system: &System,
+        mut equations: Equations,
+    ) -> Self {
+        equations.inherit(self.equations);
+        let System {
+            layout,
+            elimination,
+            terms,
+            ..
+        } = system;
+        let assembler = self.assembler.renewed(layout, elimination, terms);
+        Self::with(settings, system, equations, assembler)
+    }
+
+    fn with(
+        settings: NewtonSettings,
+        system: &System,
+        equations: Equations,
+        assembler: Assembler,
+    ) -> Self {
         let state = system.initial_state();
         Self {
             settings,
             scale: ForceScale::default(),
-            assembler: Assembler::new(&system.layout, &system.elimination, &system.terms),
+            assembler,
             equations,
             assembly: Assembly::default(),
             prescribed: Vec::new(),

@@ -194,8 +194,13 @@ impl Stepper {
     #[must_use]
     pub fn new(system: &System, settings: StepperSettings) -> Self {
         let equations = Equations::new(choose(settings.linear));
+        let newton = Newton::new(settings.newton, system, equations);
+        Self::with(system, settings, newton)
+    }
+
+    fn with(system: &System, settings: StepperSettings, newton: Newton) -> Self {
         Self {
-            newton: Newton::new(settings.newton, system, equations),
+            newton,
             state: system.initial_state(),
             progress: Progress::default(),
             guess: Vec::new(),
@@ -212,16 +217,24 @@ impl Stepper {
         settings: StepperSettings,
         from: &Archive,
     ) -> Result<Self, ArchiveError> {
+        Self::going_on(system, from, |system| Self::new(system, settings))
+    }
+
+    fn going_on(
+        system: &mut System,
+        from: &Archive,
+        make: impl FnOnce(&System) -> Self,
+    ) -> Result<Self, ArchiveError> {
         for term in &mut system.terms {
             term.load(from)?;
         }
-        let mut stepper = Self::new(system, settings);
+        let mut stepper = make(system);
         stepper.load(system, from)?;
         Ok(stepper)
     }
 
-    /// Goes on in the place of this one as [`Stepper::resumed`] does, to the same bits: what the linear solver would make
-    /// again is not made again.
+    /// Goes on in the place of this one as [`Stepper::resumed`] does, to the same bits: what would be made again, of the
+    /// linear solver and of patterns, is not made again.
     ///
     /// # Errors
     /// The archive belongs to another model.
@@ -231,9 +244,11 @@ impl Stepper {
         settings: StepperSettings,
         from: &Archive,
     ) -> Result<Self, ArchiveError> {
-        let mut stepper = Self::resumed(system, settings, from)?;
-        stepper.newton.equations.inherit(self.newton.equations);
-        Ok(stepper)
+        Self::going_on(system, from, |system| {
+            let equations = Equations::new(choose(settings.linear));
+            let newton = self.newton.renewed(settings.newton, system, equations);
+            Self::with(system, settings, newton)
+        })
     }
 
     /// The last accepted state.

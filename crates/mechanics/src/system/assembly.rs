@@ -243,29 +243,40 @@ impl Assembler {
     /// Prepares the assembly of these terms.
     #[must_use]
     pub fn new(layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) -> Self {
+        let cliques = collect(layout, elimination, terms);
+        let bulk = BlockPattern::from_cliques(
+            layout.nnode,
+            layout.ndim,
+            &cliques.bulk,
+            &cliques.bulk_offsets,
+        );
+        Self::with(bulk, &cliques, terms)
+    }
+
+    /// Prepares the assembly of the same terms as if for the first time: their bulk never changes.
+    #[must_use]
+    pub fn renewed(
+        self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+    ) -> Self {
+        Self::with(self.bulk, &collect(layout, elimination, terms), terms)
+    }
+
+    fn with(bulk: BlockPattern, cliques: &Cliques<'_>, terms: &[Box<dyn Term>]) -> Self {
+        let (dofs, offsets) = (&cliques.interface, &cliques.interface_offsets);
         let mut assembler = Self {
             tasks: Vec::new(),
             shared: None,
-            bulk: BlockPattern::empty(layout.nnode, layout.ndim),
-            interface: Pattern::empty(layout.ndof()),
+            bulk,
+            interface: Pattern::from_cliques(cliques.layout.ndof(), dofs, offsets),
             slots: Vec::new(),
             expanded: Expanded::default(),
             lasts: Lasts::State,
             period: 0,
         };
         assembler.begin_increment(terms);
-        let cliques = collect(layout, elimination, terms);
-        assembler.bulk = BlockPattern::from_cliques(
-            layout.nnode,
-            layout.ndim,
-            &cliques.bulk,
-            &cliques.bulk_offsets,
-        );
-        assembler.interface = Pattern::from_cliques(
-            layout.ndof(),
-            &cliques.interface,
-            &cliques.interface_offsets,
-        );
         assembler
     }
 

@@ -66,7 +66,7 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
             clock,
             linear: LinearSeconds::default(),
         }
-        .finish(&start, from.as_ref()),
+        .finish(start, from.as_ref()),
         Err(error) => refuse(not_opened(&error, from.is_some()).into(), listener),
     }
 }
@@ -163,13 +163,13 @@ enum Ending {
 }
 
 impl Run<'_, '_> {
-    fn finish(mut self, start: &Start, from: Option<&Checkpoint>) -> Finished {
+    fn finish(mut self, start: Start, from: Option<&Checkpoint>) -> Finished {
         let mut found = self.model.warnings.clone();
         if let Some(why) = from.and_then(|from| from.passed_over.as_ref()) {
             let message = "one of the two checkpoints is of no use; the run goes on from the other";
             found.push(Diagnostic::warning(&codes::CANNOT_RESUME, message).note(why));
         }
-        let facts = facts(self.model, start, self.options);
+        let facts = facts(self.model, &start, self.options);
         self.recorder.start(&facts, &self.model.case.title, &found);
         self.write_resolved();
         let before = self.recorder.write_seconds;
@@ -193,7 +193,7 @@ impl Run<'_, '_> {
     }
 
     /// Solves until the end, a limit or a failure; saves where it is due.
-    fn solve(&mut self, start: &Start, from: Option<&Checkpoint>) -> Result<Ending, ArchiveError> {
+    fn solve(&mut self, start: Start, from: Option<&Checkpoint>) -> Result<Ending, ArchiveError> {
         let mut stepper = match from {
             Some(from) => {
                 let archive = solution_of(&from.archive);
@@ -204,6 +204,7 @@ impl Run<'_, '_> {
                 Stepper::new(&self.model.system, self.model.settings)
             }
         };
+        drop(start);
         let mut due = from.is_none();
         loop {
             if due && self.recorder.error.is_none() {

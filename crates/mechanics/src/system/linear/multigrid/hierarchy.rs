@@ -61,7 +61,7 @@ impl Hierarchy {
                 (Some(quadratic), next)
             }
         };
-        let mut coarse: Vec<Level<MODES>> = Vec::new();
+        let (mut coarse, mut last): (Vec<Level<MODES>>, _) = (Vec::new(), Dense::default());
         let mut vectors = Vec::new();
         loop {
             let nrow = matrix.nrow();
@@ -79,11 +79,12 @@ impl Hierarchy {
         if matrix.nrow() * MODES > TOO_MANY {
             return None;
         }
+        last.factorize(&matrix);
         Some(Self {
             quadratic,
             fine,
             coarse,
-            last: Dense::new(&matrix),
+            last,
             elastic: matrix,
             vectors,
         })
@@ -107,10 +108,13 @@ impl Hierarchy {
         for level in &mut self.coarse {
             rows = level.hold(rows);
         }
-        self.last = match rows {
-            Some(rows) => Dense::new(&self.elastic.plus(&springs::stiffness(&rows))),
-            None => Dense::new(&self.elastic),
-        };
+        match rows {
+            Some(rows) => {
+                let held = self.elastic.plus(&springs::stiffness(&rows));
+                self.last.factorize(&held);
+            }
+            None => self.last.factorize(&self.elastic),
+        }
     }
 
     /// One V-cycle from zero.
@@ -155,6 +159,7 @@ fn descend(
 }
 
 /// A small matrix with its factor; motions that cost nothing stay zero.
+#[derive(Default)]
 struct Dense {
     y: Vec<f64>,
     /// L D Lᵀ, row-major, the unit diagonal of L not stored.
@@ -183,9 +188,12 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 const FREE: f64 = 1e-12;
 
 impl Dense {
-    fn new(matrix: &Blocks<MODES, MODES>) -> Self {
+    fn factorize(&mut self, matrix: &Blocks<MODES, MODES>) {
         let n = matrix.nrow() * MODES;
-        let mut factor = vec![0.0; n * n];
+        self.n = n;
+        let factor = &mut self.factor;
+        factor.clear();
+        factor.resize(n * n, 0.0);
         for row in 0..matrix.nrow() {
             for (column, block) in matrix.row(row) {
                 for (i, line) in block.iter().enumerate() {
@@ -212,11 +220,6 @@ impl Dense {
                 pivot -= own[j] * scaled[j];
             }
             own[i] = if pivot > FREE * most { pivot } else { 0.0 };
-        }
-        Self {
-            y: vec![0.0; n],
-            factor,
-            n,
         }
     }
 
