@@ -15,8 +15,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Numbers kept, 32 MB: those of 3000 quadrilaterals with four nodes that meet nine others.
 const NUMBERS: usize = 1 << 22;
 
-/// Facets kept at least, for each thread: twice what one needs for two lines of a surface of 30 by 30.
-const LEAST: usize = 128;
+/// Facets kept at least, for each thread: what one needs for two lines of a surface of 30 by 30.
+const LEAST: usize = 64;
 
 /// The integrals of one facet, with the memory they take.
 #[derive(Default)]
