@@ -216,6 +216,14 @@ struct Cliques<'a> {
     dofs: Vec<Dof>,
 }
 
+impl Cliques<'_> {
+    /// The pattern of the interface.
+    fn of_interface(&self) -> Pattern {
+        let (dofs, offsets) = (&self.interface, &self.interface_offsets);
+        Pattern::from_cliques(self.layout.ndof(), dofs, offsets)
+    }
+}
+
 impl PatternSink for Cliques<'_> {
     fn bulk(&mut self, nodes: &[NodeId]) {
         let layout = *self.layout;
@@ -265,12 +273,11 @@ impl Assembler {
     }
 
     fn with(bulk: BlockPattern, cliques: &Cliques<'_>, terms: &[Box<dyn Term>]) -> Self {
-        let (dofs, offsets) = (&cliques.interface, &cliques.interface_offsets);
         let mut assembler = Self {
             tasks: Vec::new(),
             shared: None,
             bulk,
-            interface: Pattern::from_cliques(cliques.layout.ndof(), dofs, offsets),
+            interface: cliques.of_interface(),
             slots: Vec::new(),
             expanded: Expanded::default(),
             lasts: Lasts::State,
@@ -404,9 +411,7 @@ impl Assembler {
         terms: &[Box<dyn Term>],
     ) -> bool {
         // solids with unknowns that follow others have entries here, too
-        let cliques = collect(layout, elimination, terms);
-        let (dofs, offsets) = (&cliques.interface, &cliques.interface_offsets);
-        let now = Pattern::from_cliques(layout.ndof(), dofs, offsets);
+        let now = collect(layout, elimination, terms).of_interface();
         let changed = now != self.interface;
         self.interface = now;
         changed

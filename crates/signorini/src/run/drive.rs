@@ -204,6 +204,7 @@ impl Run<'_, '_> {
                 Stepper::new(&self.model.system, self.model.settings)
             }
         };
+        // its memory serves the run
         drop(start);
         let mut due = from.is_none();
         loop {

@@ -115,9 +115,8 @@ impl Direct {
         self.analysis.as_ref().and_then(precision) == Some(Precision::Single)
     }
 
-    /// What is left of a right-hand side of ones and minus ones by a solution with the factor at hand, in equilibrated
-    /// equations: the largest entry.
-    pub(super) fn leaves(&mut self) -> f64 {
+    /// What is left of a right-hand side by a solution with the factor at hand, in equilibrated equations: the largest entry.
+    pub(super) fn leaves(&mut self, right: &[f64]) -> f64 {
         let Some(Analysis {
             gathered, factors, ..
         }) = &mut self.analysis
@@ -125,9 +124,7 @@ impl Direct {
             return f64::INFINITY;
         };
         let matrix = &gathered.matrix;
-        let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
-        let right: Vec<f64> = signs.take(matrix.nequation()).collect();
-        let (mut x, mut product) = (right.clone(), vec![0.0; right.len()]);
+        let (mut x, mut product) = (right.to_vec(), vec![0.0; right.len()]);
         factors.solve(&mut x);
         matrix.multiply(&x, &mut product, |a| a);
         let left = right.iter().zip(&product).map(|(b, y)| (b - y).abs());

@@ -15,7 +15,7 @@
 //! their size.
 
 use super::{LinearError, Problem, Symmetry, Values};
-use crate::system::sparsity::NONE;
+use crate::system::sparsity::{BlockPattern, NONE, Pattern};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -58,7 +58,6 @@ impl Matrix {
         } = *problem;
         let symmetric = problem.symmetry != Symmetry::Unsymmetric;
         let block = bulk.block;
-        let nbulk = bulk.nrow() * block;
 
         // the raw dofs of each equation, by counting
         let mut dof_start = vec![0u32; nequation + 1];
@@ -76,9 +75,10 @@ impl Matrix {
         }
 
         let places = Places {
-            problem,
+            values: ByRow { bulk, interface },
+            equation,
+            nequation,
             symmetric,
-            nbulk,
         };
         let count = parts(bulk.nvalue() + interface.nentry());
         let part = |k: usize| k * nequation / count..(k + 1) * nequation / count;
@@ -190,8 +190,8 @@ impl Matrix {
     /// # Errors
     /// `NotFinite`, and `Singular` with the equation where a row is zero.
     pub fn gather(&mut self, problem: &super::Kept, values: &Values) -> Result<(), LinearError> {
-        let (bulk, interface, block) = (&problem.bulk, &problem.interface, problem.bulk.block);
-        let nbulk = bulk.nrow() * block;
+        let (bulk, interface) = (&problem.bulk, &problem.interface);
+        let (by_row, block) = (ByRow { bulk, interface }, bulk.block);
         let (dof_start, dof) = (&self.dof_start, &self.dof);
         let (bulk_place, interface_place) = (&self.bulk_place, &self.interface_place);
         let add_up = |e: usize, first: usize, out: &mut [f64]| {
@@ -202,24 +202,18 @@ impl Matrix {
                 }
             };
             for &d in &dof[dof_start[e] as usize..dof_start[e + 1] as usize] {
-                let d = d as usize;
-                if d < nbulk {
-                    for k in bulk.row_start[d / block]..bulk.row_start[d / block + 1] {
-                        let at = (k * block + d % block) * block;
-                        for (&place, &a) in bulk_place[at..at + block]
-                            .iter()
-                            .zip(&values.bulk[at..at + block])
-                        {
-                            add(place, a);
-                        }
-                    }
-                }
-                if d < interface.nrow {
-                    let entries = interface.row_start[d]..interface.row_start[d + 1];
-                    let places = &interface_place[entries.clone()];
-                    for (&place, &a) in places.iter().zip(&values.interface[entries]) {
+                for (_, at) in by_row.blocks(d as usize) {
+                    for (&place, &a) in bulk_place[at..at + block]
+                        .iter()
+                        .zip(&values.bulk[at..at + block])
+                    {
                         add(place, a);
                     }
+                }
+                let entries = by_row.entries(d as usize);
+                let places = &interface_place[entries.clone()];
+                for (&place, &a) in places.iter().zip(&values.interface[entries]) {
+                    add(place, a);
                 }
             }
             out.iter().all(|a| a.is_finite())
@@ -355,12 +349,40 @@ fn parts(nvalue: usize) -> usize {
     (nvalue / ENTRIES_PER_TASK).clamp(1, rayon::current_num_threads())
 }
 
+/// The values of a problem, row by row.
+#[derive(Clone, Copy)]
+struct ByRow<'a> {
+    bulk: &'a BlockPattern,
+    interface: &'a Pattern,
+}
+
+impl<'a> ByRow<'a> {
+    /// The columns of the blocks in the row of a raw dof, and where the values of that row begin in each.
+    fn blocks(self, dof: usize) -> impl Iterator<Item = (usize, usize)> + use<'a> {
+        let Self { bulk, .. } = self;
+        let (node, i) = (dof / bulk.block, dof % bulk.block);
+        let blocks = match node < bulk.nrow() {
+            true => bulk.row_start[node]..bulk.row_start[node + 1],
+            false => 0..0,
+        };
+        blocks.map(move |k| (bulk.column[k] as usize, (k * bulk.block + i) * bulk.block))
+    }
+
+    /// Where the values of the interface are in the row of a raw dof.
+    fn entries(self, dof: usize) -> Range<usize> {
+        match dof < self.interface.nrow {
+            true => self.interface.row_start[dof]..self.interface.row_start[dof + 1],
+            false => 0..0,
+        }
+    }
+}
+
 /// Where the values of a problem go.
 struct Places<'a> {
-    problem: &'a Problem<'a>,
+    values: ByRow<'a>,
+    equation: &'a [u32],
+    nequation: usize,
     symmetric: bool,
-    /// How many raw dofs the bulk has.
-    nbulk: usize,
 }
 
 impl Places<'_> {
@@ -369,23 +391,26 @@ impl Places<'_> {
         other != NONE && !(self.symmetric && other < e)
     }
 
+    /// The equations of the columns of a block.
+    fn of_block(&self, column: usize) -> &[u32] {
+        let block = self.values.bulk.block;
+        &self.equation[column * block..][..block]
+    }
+
+    /// The equation of the column of an entry of the interface.
+    fn of_entry(&self, at: usize) -> u32 {
+        self.equation[self.values.interface.column[at] as usize]
+    }
+
     /// The rows of columns, sorted, and where each column ends; `dofs` are the raw dofs of an equation.
     fn rows<'d>(
         &self,
         columns: Range<usize>,
         dofs: impl Fn(usize) -> &'d [u32],
     ) -> (Vec<u32>, Vec<usize>) {
-        let Problem {
-            bulk,
-            interface,
-            equation,
-            nequation,
-            ..
-        } = *self.problem;
-        let block = bulk.block;
         let (mut row, mut ends) = (Vec::new(), Vec::with_capacity(columns.len()));
         // the last column that met a row
-        let mut seen = vec![NONE; nequation];
+        let mut seen = vec![NONE; self.nequation];
         for e in columns {
             let begin = row.len();
             let mut meet = |other: u32| {
@@ -396,19 +421,11 @@ impl Places<'_> {
             };
             meet(e as u32);
             for &d in dofs(e) {
-                let d = d as usize;
-                if d < self.nbulk {
-                    let entries = bulk.row_start[d / block]..bulk.row_start[d / block + 1];
-                    for &column in &bulk.column[entries] {
-                        let others = &equation[column as usize * block..][..block];
-                        others.iter().for_each(|&other| meet(other));
-                    }
+                for (column, _) in self.values.blocks(d as usize) {
+                    self.of_block(column).iter().for_each(|&other| meet(other));
                 }
-                if d < interface.nrow {
-                    let entries = interface.row_start[d]..interface.row_start[d + 1];
-                    let columns = interface.column[entries].iter();
-                    columns.for_each(|&column| meet(equation[column as usize]));
-                }
+                let entries = self.values.entries(d as usize);
+                entries.for_each(|at| meet(self.of_entry(at)));
             }
             row[begin..].sort_unstable();
             ends.push(row.len());
@@ -425,18 +442,10 @@ impl Places<'_> {
         of_bulk: &mut [u32],
         of_interface: &mut [u32],
     ) {
-        let Problem {
-            bulk,
-            interface,
-            equation,
-            nequation,
-            ..
-        } = *self.problem;
-        let block = bulk.block;
         // the place of each row of the column at hand
-        let mut place = vec![0u32; nequation];
+        let mut place = vec![0u32; self.nequation];
         for d in dofs {
-            let e = equation[d];
+            let e = self.equation[d];
             if e == NONE {
                 continue;
             }
@@ -448,23 +457,13 @@ impl Places<'_> {
                     *to = place[other as usize];
                 }
             };
-            if d < self.nbulk {
-                for k in bulk.row_start[d / block]..bulk.row_start[d / block + 1] {
-                    let others = &equation[bulk.column[k] as usize * block..][..block];
-                    let to = &mut of_bulk[(k * block + d % block) * block - first[0]..][..block];
-                    others
-                        .iter()
-                        .zip(to)
-                        .for_each(|(&other, to)| find(other, to));
-                }
+            for (column, at) in self.values.blocks(d) {
+                let others = self.of_block(column).iter();
+                let to = &mut of_bulk[at - first[0]..][..others.len()];
+                others.zip(to).for_each(|(&other, to)| find(other, to));
             }
-            if d < interface.nrow {
-                let entries = interface.row_start[d]..interface.row_start[d + 1];
-                let to = &mut of_interface[entries.start - first[1]..][..entries.len()];
-                let columns = interface.column[entries].iter();
-                columns
-                    .zip(to)
-                    .for_each(|(&column, to)| find(equation[column as usize], to));
+            for at in self.values.entries(d) {
+                find(self.of_entry(at), &mut of_interface[at - first[1]]);
             }
         }
     }

@@ -146,6 +146,14 @@ struct Slot {
     derivatives: Derivatives,
 }
 
+impl Slot {
+    /// Takes the derivatives that were integrated for a facet.
+    fn take(&mut self, (facet, stamp): (u32, u64), integrator: &mut Integrator) {
+        integrator.covered.leave_derivatives(&mut self.derivatives);
+        (self.facet, self.stamp) = (facet, stamp);
+    }
+}
+
 impl Kept {
     /// Room for facets that rows need in this order.
     pub fn new(nfacet: usize, facets: impl Iterator<Item = u32>) -> Self {
@@ -179,8 +187,7 @@ impl Kept {
     /// Keeps the derivatives that were integrated for a facet.
     pub fn keep(&self, facet: u32, stamp: u64, integrator: &mut Integrator) {
         if let Some(mut slot) = self.slot(facet, usize::MAX).map(lock) {
-            integrator.covered.leave_derivatives(&mut slot.derivatives);
-            (slot.stamp, slot.facet) = (stamp, facet);
+            slot.take((facet, stamp), integrator);
         }
     }
 
@@ -221,8 +228,7 @@ impl Kept {
             // not known before it is done
             slot.stamp = 0;
             integrate(integrator)?;
-            integrator.covered.leave_derivatives(&mut slot.derivatives);
-            (slot.stamp, slot.facet) = (weights.stamp, facet);
+            slot.take((facet, weights.stamp), integrator);
         }
         slot.asked = weights.stamp;
         Ok(take(&slot.derivatives))

@@ -117,17 +117,17 @@ impl InterfaceBlock {
         if self.is_exact.is_some() {
             return Ok(());
         }
+        let signs = [1.0, -1.0, 1.0, 1.0, -1.0];
+        let signs = signs.into_iter().cycle();
+        self.right.iter_mut().zip(signs).for_each(|(b, s)| *b = s);
         if self.direct.is_rough() {
-            if self.direct.leaves() <= ROUGHLY {
+            if self.direct.leaves(&self.right) <= ROUGHLY {
                 self.is_exact = Some(true);
                 return Ok(());
             }
             self.direct.widen();
             self.direct.factorize(&values)?;
         }
-        let signs = [1.0, -1.0, 1.0, 1.0, -1.0];
-        let signs = signs.into_iter().cycle();
-        self.right.iter_mut().zip(signs).for_each(|(b, s)| *b = s);
         let (right, left) = (&self.right, &mut self.left);
         self.is_exact = match self.direct.solve(&values, right, left, TOLERANCE) {
             Ok(report) => Some(report.refinements == 0),
