@@ -15,6 +15,8 @@ from jobs import cards, fields, keywords, parameter
 
 # a pressure below this part of p0 is none
 NO_PRESSURE = 1e-6
+# the part of the radius of contact within which pressures make up p0: at the edge they tell where that is
+INNER = 0.8
 # quarters of the ball, of which the deck has one
 QUARTERS = 4
 # first nodes of a side are its corners
@@ -133,8 +135,10 @@ def beside_hertz(force, radius, modulus, at, pressure):
     p0, a = hertz(force, radius, modulus)
     exact = p0 * np.sqrt(np.maximum(0.0, 1.0 - (at / a) ** 2))
     counts = (at < a) | (pressure > NO_PRESSURE * p0)
+    inner = at < INNER * a
     return {
         "force": force,
+        "fitted": float(pressure[inner] @ exact[inner] / (exact[inner] @ exact[inner])) - 1.0 if inner.any() else math.nan,
         "largest": float(pressure.max()) / p0 - 1.0,
         "centre": float(pressure[at.argmin()]) / p0 - 1.0,
         "rms": float(np.sqrt(np.mean((pressure[counts] - exact[counts]) ** 2))) / p0,

@@ -17,8 +17,9 @@ most memory; iterations of Newton's method; the part of the mean force at which 
 their geometric means; and the exponent with which the cost of one increment grows with the unknowns, from 50,000 on.
 
 The accuracy of `hertz` is that of the pressures at the nodes of the slave surface in the last CONTACT table of the .frd
-files, in parts of p0 of Hertz: the largest one and that of the node on the axis, beside p0, and the root mean square of
-the differences from p0 sqrt(1 - (r/a)^2), over the nodes with r < a or with pressure. p0 and a are those at the force
+files, in parts of p0 of Hertz: the p0 whose p0 sqrt(1 - (r/a)^2) fits those with r < 0.8 a best, by least squares, the
+largest one and that of the node on the axis, beside p0, and the root mean square of the differences from that pressure,
+over the nodes with r < a or with pressure. p0 and a are those at the force
 that the run itself found, four times the last printed reaction, for a ball of the radius in the heading of the deck and
 the moduli of its sections (Johnson 1985, (4.22) to (4.24)). Of `slide` it is the ratio of the last printed reactions
 along x and z beside the deck's coefficient of friction.
@@ -349,12 +350,13 @@ def speeds(outcomes):
 
 def accuracies(outcomes):
     """Errors of all rows."""
-    headings = ["row", "tolerance of forces: ccx", "ours", "largest pressure: ccx", "ours"]
+    headings = ["row", "tolerance of forces: ccx", "ours", "p0 fitted: ccx", "ours", "largest pressure: ccx", "ours"]
     headings += ["in the centre: ccx", "ours", "rms: ccx", "ours", "friction: ccx", "ours"]
     rows = []
     for one in outcomes:
         cells = [one.row.name, *both(one, lambda s: number(s.tolerance, ".0e"))]
-        for key, form in (("largest", "+.2%"), ("centre", "+.2%"), ("rms", ".2%"), ("friction", "+.2%")):
+        signed = ("fitted", "largest", "centre")
+        for key, form in (*((key, "+.2%") for key in signed), ("rms", ".2%"), ("friction", "+.2%")):
             cells += both(one, lambda s, key=key, form=form: number(s.errors.get(key), form))
         rows.append(cells)
     return table(headings, rows)

@@ -672,13 +672,20 @@ class CompareSpeed(unittest.TestCase):
         self.assertAlmostEqual(p0 * np.pi * a**2 / (1.5 * 4.0 * force), 1.0, places=12)
         found = self.accuracy.errors(deck, self.results("deck", -force, exact))
         self.assertEqual((found["force"], found["nodes"]), (4.0 * force, 4))
-        for name in ("largest", "centre", "rms"):
+        for name in ("fitted", "largest", "centre", "rms"):
             self.assertLess(abs(found[name]), 1e-5, name)
         off = {**exact, 1: 0.8 * exact[1], 3: exact[3] + 0.3 * p0}
         found = self.accuracy.errors(deck, self.results("deck", -force, off))
         self.assertAlmostEqual(found["centre"], -0.2, places=4)
         self.assertAlmostEqual(found["largest"], max(off.values()) / p0 - 1.0, places=4)
         self.assertAlmostEqual(found["rms"], np.sqrt((0.2**2 + 0.3**2) / 4.0), places=4)
+        # what is added across the exact pressures does not change the p0 that fits them, and no one at the edge does
+        at = np.array([0.0, 0.5, 0.7, 0.9])
+        shape = np.sqrt(1.0 - at**2)
+        off = np.array([shape[1], -shape[0], 0.0, 5.0])
+        p0, a = self.accuracy.hertz(1.0, 100.0, 1e3)
+        found = self.accuracy.beside_hertz(1.0, 100.0, 1e3, at * a, p0 * (1.1 * shape + off))
+        self.assertAlmostEqual(found["fitted"], 0.1, places=12)
 
     def test_nodes_outside_count_where_they_have_pressure(self):
         at, pressure = np.array([0.0, 2.0, 2.0]), np.array([1.0, 0.0, 0.5])
@@ -782,7 +789,11 @@ open(out + "/summary.json", "w").write(json.dumps(summary))
         speed, errors, phases = rows
         self.assertEqual(speed[1:4] + speed[-1:], ["24", "2 / 2", "7 / 5", "iterativescaling"])
         self.assertAlmostEqual(float(speed[6]), float(speed[4]) / float(speed[5]), delta=0.1 * float(speed[6]))
-        self.assertEqual(errors[1:5], ["5e-03", "1e-07", "+25.00%", "+1.50%"])
+        self.assertEqual(errors[1:3] + errors[5:7], ["5e-03", "1e-07", "+25.00%", "+1.50%"])
+        p0, exact = self.exact(5e4, self.accuracy.Deck(BALL))
+        share = p0**2 / sum(p**2 for p in exact.values())
+        for cell, off in zip(errors[3:5], (0.25, 0.015)):
+            self.assertAlmostEqual(float(cell.rstrip("%")) / 100.0, off * share, places=4)
         self.assertEqual(phases[1:], ["0.25"])
         with open(numbers, encoding="utf-8") as file:
             (row,) = json.load(file)["rows"]

@@ -166,7 +166,7 @@ impl Builder {
         only(
             "area",
             contact.area == Area::Current && method == Method::Mortar,
-            "its pressures are those of the present area: delete `area`",
+            "its areas are those of what is covered: delete `area`",
         );
         if contact.is_with_itself() {
             let mut alone = |key: &str, wrong: bool, remark: &str| {

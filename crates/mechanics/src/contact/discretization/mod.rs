@@ -222,6 +222,22 @@ pub trait Discretization: Send + Sync {
         false
     }
 
+    /// How many times as large the area of a row is as at the start.
+    fn stretch(&self, _row: usize, _pairing: &Pairing) -> f64 {
+        1.0
+    }
+
+    /// Evens out what tractions scatter between the nodes of a facet. `touches` says which rows touch; where both sides are
+    /// `joined`, tractions may pull.
+    fn even_out(
+        &self,
+        _pairing: &Pairing,
+        _touches: &dyn Fn(usize) -> bool,
+        _joined: bool,
+        _on_rows: &mut [OnRow],
+    ) {
+    }
+
     /// Whether rows meet several facets at once, and there is no closest point.
     fn meets_many(&self) -> bool {
         false
@@ -270,6 +286,15 @@ pub trait Discretization: Send + Sync {
     fn is_symmetric(&self) -> bool {
         true
     }
+}
+
+/// What acts on the secondary side at a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OnRow {
+    /// The pressure, ≥ 0 in compression.
+    pub pressure: f64,
+    /// The traction.
+    pub traction: Vec3,
 }
 
 /// To what rows are linked.

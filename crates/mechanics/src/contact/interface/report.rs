@@ -3,6 +3,7 @@
 use super::{
     Contact, Interface, Measure, Order, Participant, RowOrder, Rows, Scratch, State, TermError,
 };
+use crate::contact::discretization::OnRow;
 use crate::contact::kernel::{Lambda, Traction};
 use crate::contact::row::Row;
 use crate::system::{ContactFrame, ContactSample, Footprint, Frame, Resultant, Status};
@@ -32,6 +33,25 @@ struct OfRow {
     /// On the side whose means these are.
     traction: Vec3,
     slip: Vec3,
+    elastic_slip: Vec3,
+}
+
+/// What there is to tell of a row.
+#[derive(Default)]
+struct Told {
+    status: Status,
+    /// Whether its law acts.
+    acts: bool,
+    area: f64,
+    energy: f64,
+    /// None where it meets nothing.
+    found: Option<Found>,
+}
+
+/// What a row tells of what it meets, beside what acts on it.
+struct Found {
+    normal: Vec3,
+    gap: f64,
     elastic_slip: Vec3,
 }
 
@@ -106,77 +126,41 @@ impl Footprint {
 impl Interface {
     pub(super) fn describe(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let mut report = self.new_report(state);
-        let mut scratch = Scratch::default();
         let mut means = Means::new(report.nodes.len());
         // the second pass acts on the nodes of the first, which are its primary side
         let place = |c: &ContactFrame| self.parts.swapped && c.name == report.name;
         let first = frame.contacts.iter().position(place);
         let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
         let mut centre = (Vec3::ZERO, 0.0);
-        let mut gap_min: Option<f64> = None;
         let (mut guests, mut hosted) = (Vec::new(), Vec::new());
         let inside = self.parts.discretization.inside().is_some();
-        for row in 0..self.parts.discretization.nrow() {
-            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
-            let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
-            let area = self.area(row) * coverage;
-            // a point of a rule may have no area at all
-            let per_area = match self.parts.measure {
-                Measure::Area => 1.0,
-                Measure::Node => area.recip(),
-            };
-            let (mut pressure, mut pull, mut status) = (0.0, Vec3::ZERO, Status::Absent);
-            let (mut energy, mut elastic_slip) = (0.0, Vec3::ZERO);
-            let found = scratch.rows.rows().first();
-            if let Some(filled) = found {
-                gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
-                status = Status::Open;
-            }
-            if let Some(filled) = found.filter(|_| acts) {
-                let lambda = self.lambda(row, state);
-                let traction = self.traction(filled, &lambda);
-                energy = self.measure(row) * self.stored(filled, &lambda, &traction);
-                elastic_slip = match self.parts.bond {
-                    Some(_) => filled.within(filled.sliding.slip),
-                    None => self.laws().elastic(&traction),
-                };
-                let measure = self.measure(row) * coverage;
-                pressure = traction.pressure * per_area;
-                let pushed = self.pushed(row, &scratch.rows, filled, state);
-                // facets that do not lie in one plane push in several directions
-                let direction = pushed.force / filled.coverage;
-                pull = (direction * traction.pressure - traction.tangential) * per_area;
-                let push = traction.pressure * self.measure(row);
-                report.force_normal += pushed.force * push;
-                report.moment_normal += pushed.moment * push;
-                report.force_shear -= traction.tangential * measure;
-                status = match traction.state {
-                    _ if pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
-                    Contact::Open => Status::Open,
-                    Contact::Stick if self.parts.bond.is_some() => Status::Tied,
-                    Contact::Stick => Status::Stick,
-                    Contact::Slip => Status::Slip,
-                };
-            }
-            match status {
-                Status::Absent | Status::Open => report.area_open += area,
-                Status::Stick | Status::Tied => report.area_stick += area,
-                Status::Slip => report.area_slip += area,
-            }
+        let (told, mut on_rows) = self.tell(state, (&mut report, first), frame)?;
+        let touches = |row: usize| told.get(row).is_some_and(|t: &Told| t.status.is_closed());
+        let parts = &self.parts;
+        parts
+            .discretization
+            .even_out(&self.now, &touches, parts.bond.is_some(), &mut on_rows);
+        for (row, (told, on_row)) in told.into_iter().zip(on_rows).enumerate() {
+            let Told {
+                status,
+                acts,
+                area,
+                energy,
+                found,
+            } = told;
             let slip = self.history.slip(row);
-            let of_row = found.map(|filled| OfRow {
-                normal: filled.normal,
-                gap: filled.gap,
-                pressure,
-                traction: pull,
+            let of_row = found.map(|found| OfRow {
+                normal: found.normal,
+                gap: found.gap,
+                pressure: on_row.pressure,
+                traction: on_row.traction,
                 slip,
-                elastic_slip,
+                elastic_slip: found.elastic_slip,
             });
-            report.pressure_max = report.pressure_max.max(pressure);
+            report.pressure_max = report.pressure_max.max(on_row.pressure);
             report.slip_max = report.slip_max.max(slip.norm());
-            let point = self.parts.discretization.point(row);
+            let point = parts.discretization.point(row);
             guests.clear();
-            let parts = &self.parts;
             parts
                 .discretization
                 .guests(row, &parts.pair, &self.now, &mut guests);
@@ -190,7 +174,7 @@ impl Interface {
             }
             // shares of a point's area: those of a lumped mass
             let squares: f64 = point.weights.iter().map(|w| w * w).sum();
-            let weight = pressure * area;
+            let weight = on_row.pressure * area;
             let place = point.position(&state.placement());
             centre.0 += place * weight;
             centre.1 += weight;
@@ -200,7 +184,7 @@ impl Interface {
                 report.footprint.normal += of_row.normal * area;
             }
             for (node, shape) in point.nodes.iter().zip(point.weights) {
-                let Ok(k) = self.parts.pair.points.binary_search(node) else {
+                let Ok(k) = parts.pair.points.binary_search(node) else {
                     continue;
                 };
                 let share = area * shape * shape / squares;
@@ -226,11 +210,6 @@ impl Interface {
             if let (Some(first), Some(of_row)) = (first, of_row) {
                 let nodes = &frame.contacts[first].nodes;
                 self.add_across(row, state, area, of_row, nodes, &mut across)?;
-            }
-            if acts {
-                self.add_forces(row, state, Order::Residual, &mut scratch);
-                let forces = (&scratch.rows, &scratch.force[..]);
-                self.distribute(row, forces, state, (&mut report, first), frame);
             }
         }
         for k in 0..report.nodes.len() {
@@ -264,7 +243,6 @@ impl Interface {
             report.center = centre.0 / centre.1;
         }
         report.footprint.divide();
-        report.gap_min = gap_min.unwrap_or(0.0);
         report.work_friction = self.history.work;
         match first.and_then(|c| frame.contacts.get_mut(c)) {
             Some(first) => first.add_pass(&report),
@@ -282,6 +260,91 @@ impl Interface {
             }
         }
         Ok(())
+    }
+
+    /// What rows tell, and what acts on them; adds up their forces.
+    fn tell(
+        &self,
+        state: &State,
+        (report, first): (&mut ContactFrame, Option<usize>),
+        frame: &mut Frame,
+    ) -> Result<(Vec<Told>, Vec<OnRow>), TermError> {
+        let nrow = self.parts.discretization.nrow();
+        let mut scratch = Scratch::default();
+        let mut gap_min: Option<f64> = None;
+        let (mut all, mut on_rows) = (Vec::with_capacity(nrow), Vec::with_capacity(nrow));
+        for row in 0..nrow {
+            let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
+            let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
+            // pressures of small strain are those of the areas at the start
+            let stretch = match self.step.nonlinear {
+                true => 1.0,
+                false => self.parts.discretization.stretch(row, &self.now),
+            };
+            let area = self.area(row) * coverage / stretch;
+            // a point of a rule may have no area at all
+            let per_area = match self.parts.measure {
+                Measure::Area => stretch,
+                Measure::Node => area.recip(),
+            };
+            let mut told = Told {
+                acts,
+                area,
+                ..Told::default()
+            };
+            let mut on_row = OnRow::default();
+            if let Some(filled) = scratch.rows.rows().first() {
+                gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
+                told.status = Status::Open;
+                let mut elastic_slip = Vec3::ZERO;
+                if acts {
+                    let lambda = self.lambda(row, state);
+                    let traction = self.traction(filled, &lambda);
+                    told.energy = self.measure(row) * self.stored(filled, &lambda, &traction);
+                    elastic_slip = match self.parts.bond {
+                        Some(_) => filled.within(filled.sliding.slip),
+                        None => self.laws().elastic(&traction),
+                    };
+                    let measure = self.measure(row) * coverage;
+                    on_row.pressure = traction.pressure * per_area;
+                    let pushed = self.pushed(row, &scratch.rows, filled, state);
+                    // facets that do not lie in one plane push in several directions
+                    let direction = pushed.force / filled.coverage;
+                    let pull = direction * traction.pressure - traction.tangential;
+                    on_row.traction = pull * per_area;
+                    let push = traction.pressure * self.measure(row);
+                    report.force_normal += pushed.force * push;
+                    report.moment_normal += pushed.moment * push;
+                    report.force_shear -= traction.tangential * measure;
+                    told.status = match traction.state {
+                        _ if on_row.pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
+                        Contact::Open => Status::Open,
+                        Contact::Stick if self.parts.bond.is_some() => Status::Tied,
+                        Contact::Stick => Status::Stick,
+                        Contact::Slip => Status::Slip,
+                    };
+                }
+                told.found = Some(Found {
+                    normal: filled.normal,
+                    gap: filled.gap,
+                    elastic_slip,
+                });
+            }
+            match told.status {
+                Status::Absent | Status::Open => report.area_open += area,
+                Status::Stick | Status::Tied => report.area_stick += area,
+                Status::Slip => report.area_slip += area,
+            }
+            if acts {
+                self.add_forces(row, state, Order::Residual, &mut scratch);
+                let forces = (&scratch.rows, &scratch.force[..]);
+                self.distribute(row, forces, state, (report, first), frame);
+            }
+            all.push(told);
+            on_rows.push(on_row);
+        }
+        report.gap_min = gap_min.unwrap_or(0.0);
+        Ok((all, on_rows))
     }
 
     /// Adds a point that touches to the sums over its face.

@@ -31,6 +31,7 @@ pub struct Covered {
     full: Vec<f64>,
     d: Vec<f64>,
     m: Vec<f64>,
+    mass: Vec<f64>,
     /// ∫N_k N^m_l over all pairs.
     mixed: Vec<f64>,
     derivatives: Derivatives,
@@ -125,9 +126,10 @@ impl Covered {
         self.join(primaries, nodes);
         let t = Transformation::of(secondary.element, self.basis);
         self.measure_whole(&frame, secondary, &t);
+        let scatters = secondary.element.ncorner() == 3 && self.nnode > 3;
         Arch::new().dispatch(
             #[inline(always)]
-            || self.combine(&t, derivatives),
+            || self.combine(&t, scatters, derivatives),
         );
         Ok(())
     }
@@ -215,6 +217,12 @@ impl Covered {
         &self.m[j * self.nprimary()..][..self.nprimary()]
     }
 
+    /// S of a quadratic triangle, row by row; empty of other facets.
+    #[must_use]
+    pub fn mass(&self) -> &[f64] {
+        &self.mass
+    }
+
     /// `∂D_j/∂v`; empty without derivatives.
     #[must_use]
     pub fn dd(&self, j: usize) -> &[f64] {
@@ -294,7 +302,7 @@ impl Covered {
     /// (E1) to (E3), with `G = ∫N Nᵀ`, `B = A T` and `ψ = B N`:
     /// `B = D W`, `W = S⁻¹ T`, `dB = dD W − B dG Tᵀ W`.
     #[inline(always)]
-    fn combine(&mut self, t: &Transformation, derivatives: bool) {
+    fn combine(&mut self, t: &Transformation, scatters: bool, derivatives: bool) {
         let n = self.nnode;
         let pairs = &self.pairs[..self.met.len()];
         let zero: Small = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
@@ -315,6 +323,10 @@ impl Covered {
             let over = |i: usize| (0..n).map(|m| t.get(k, m) * g[i][m]).sum::<f64>();
             (0..n).map(|i| t.get(j, i) * over(i)).sum()
         });
+        self.mass.clear();
+        if scatters {
+            self.mass.extend(s[..n].iter().flat_map(|row| &row[..n]));
+        }
         let found = inverse(&s, n);
         self.lumped = found.is_none() && !pairs.is_empty();
         match found {

@@ -76,6 +76,8 @@ pub struct OfFacet {
     pub full: [f64; MAX_FACET_NODES],
     /// M_jl, row by row.
     pub m: Vec<f64>,
+    /// S of quadratic triangles, row by row; empty of other facets.
+    pub mass: Vec<f64>,
 }
 
 impl OfFacet {

@@ -225,7 +225,7 @@ impl Source<'_> {
                 if part.area != AreaPart::Reference || same || part.two_pass {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
-                        what: "mortar contact has one pass between two surfaces, and pressures per present area",
+                        what: "mortar contact has one pass between two surfaces, and areas of what is covered",
                     });
                 }
                 let space = self.one_space(part, facets)?;

@@ -247,9 +247,8 @@ impl Blocks {
         let stress = self.young[0] * stiffness * strain;
         let stretch = 1.0 + gradient[0].rows[0][0];
         let pressure = match self.strains {
-            Strains::Held => -stress,
+            Strains::Held | Strains::Linear => -stress,
             // pressures are per area of the present
-            Strains::Linear => -stress / stretch.powi(up as i32),
             Strains::Finite => -stress * (1.0 + lower) / stretch.powi(up as i32),
         };
         Exact {
@@ -387,8 +386,8 @@ impl Blocks {
     /// Present over first area of the interface, as pressures see it.
     fn area_ratio(&self, exact: &Exact) -> f64 {
         match self.strains {
-            Strains::Held => 1.0,
-            _ => (1.0 + exact.gradient[0].rows[0][0]).powi(self.up() as i32),
+            Strains::Held | Strains::Linear => 1.0,
+            Strains::Finite => (1.0 + exact.gradient[0].rows[0][0]).powi(self.up() as i32),
         }
     }
 

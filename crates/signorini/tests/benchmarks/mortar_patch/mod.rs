@@ -10,7 +10,8 @@
 //!             present weights at small strain; Saint-Venant and Kirchhoff's law at 10 % of strain. Overhanging parts
 //!             carry the pressure as loads, without lateral strain where weights move. Sticking: F = I + 0.25 e1 ⊗ e_up
 //!             − 0.12 e_up ⊗ e_up, sides loaded with P N.
-//! EXPECTED    u = H (X − O) in each block, its stress at all points of cells, pressures per present area, forces at nodes
+//! EXPECTED    u = H (X − O) in each block, its stress at all points of cells, pressures per area (present at finite strain), forces
+//!             at nodes
 //! TOLERANCE   relative to the largest: 1e-12 in the plane, 1e-11 in space. Pressures of nodes that are little covered
 //!             are printed only; in space, where such nodes have no multiplier and nobody has theirs, 1e-8 of their force.
 mod blocks;

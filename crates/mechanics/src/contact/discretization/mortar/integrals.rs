@@ -122,6 +122,8 @@ impl Integrator {
             (to.d[j], to.full[j]) = (*d, *full);
             to.m.extend_from_slice(covered.m(j));
         }
+        to.mass.clear();
+        to.mass.extend_from_slice(covered.mass());
     }
 }
 

@@ -52,11 +52,12 @@
 //! Laursen and Meng, IJNME 62, 2005 (objective slip).
 
 mod edges;
+mod even;
 mod integrals;
 mod place;
 
 use super::projected::Point;
-use super::{Anchored, Discretization, Links, NOWHERE, Pair, Pairing, SurfacePair};
+use super::{Anchored, Discretization, Links, NOWHERE, OnRow, Pair, Pairing, SurfacePair};
 use crate::contact::mortar::{
     Basis, Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights,
 };
@@ -718,6 +719,32 @@ impl Discretization for Mortar {
             let node = facets.nodes(facet).get(place);
             out.extend(node.filter(|n| !out.contains(n)).copied());
         }
+    }
+
+    /// That of the whole facets around the node.
+    fn stretch(&self, row: usize, pairing: &Pairing) -> f64 {
+        let (Some(start), Some(around)) = (self.area.get(row), self.around.get(row)) else {
+            return 1.0;
+        };
+        let facets = &pairing.weights.facets;
+        let full =
+            |&(facet, place): &(u32, usize)| facets.get(facet as usize).map(|of| of.full[place]);
+        let now: f64 = around.iter().filter_map(full).sum();
+        let is_held = self.held.is_some();
+        if is_held || now <= 0.0 || *start <= 0.0 {
+            return 1.0;
+        }
+        now / start
+    }
+
+    fn even_out(
+        &self,
+        pairing: &Pairing,
+        touches: &dyn Fn(usize) -> bool,
+        joined: bool,
+        on_rows: &mut [OnRow],
+    ) {
+        self.exchange(self.weights(pairing), touches, joined, on_rows);
     }
 
     fn meets_many(&self) -> bool {
