@@ -279,15 +279,14 @@ struct BehindLog {
 impl BehindLog {
     fn push(
         &self,
-        bytes: &[u8],
-        act: impl FnOnce(&mut dyn Log, &[u8]) -> Result<(), FsError> + Send + 'static,
+        nbyte: usize,
+        act: impl FnOnce(&mut dyn Log) -> Result<(), FsError> + Send + 'static,
     ) -> Result<(), FsError> {
         let log = Arc::clone(&self.log);
-        self.worker.queue.push(bytes.len(), None, || {
-            let bytes = bytes.to_vec();
+        self.worker.queue.push(nbyte, None, || {
             Box::new(move |_| {
                 let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
-                act(log.as_mut(), &bytes)
+                act(log.as_mut())
             })
         })
     }
@@ -295,7 +294,11 @@ impl BehindLog {
 
 impl Log for BehindLog {
     fn append(&mut self, bytes: &[u8]) -> Result<(), FsError> {
-        self.push(bytes, |log, bytes| log.append(bytes))
+        self.append_owned(bytes.to_vec())
+    }
+
+    fn append_owned(&mut self, bytes: Vec<u8>) -> Result<(), FsError> {
+        self.push(bytes.len(), |log| log.append_owned(bytes))
     }
 
     fn cut(&mut self, keep: u64) -> Result<(), FsError> {
@@ -305,6 +308,6 @@ impl Log for BehindLog {
     }
 
     fn sync(&mut self) -> Result<(), FsError> {
-        self.push(&[], |log, _| log.sync())
+        self.push(0, |log| log.sync())
     }
 }

@@ -105,6 +105,14 @@ pub trait Log: Send {
     /// After an error the end of the file is unknown: [`Log::cut`] it before the next row.
     fn append(&mut self, bytes: &[u8]) -> Result<(), FsError>;
 
+    /// [`Log::append`] of bytes that the caller does not need any longer.
+    ///
+    /// # Errors
+    /// As there.
+    fn append_owned(&mut self, bytes: Vec<u8>) -> Result<(), FsError> {
+        self.append(&bytes)
+    }
+
     /// Cuts the file back to its first `keep` bytes.
     fn cut(&mut self, keep: u64) -> Result<(), FsError>;
 

@@ -413,7 +413,9 @@ impl Assembler {
         // solids with unknowns that follow others have entries here, too
         let now = collect(layout, elimination, terms).of_interface();
         let changed = now != self.interface;
-        self.interface = now;
+        if changed {
+            self.interface = now;
+        }
         changed
     }
 

@@ -21,6 +21,7 @@
 
 use super::lists::Lists;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// "No such number": a degree of freedom without an equation, a node without a body.
 pub const NONE: u32 = u32::MAX;
@@ -28,7 +29,8 @@ pub const NONE: u32 = u32::MAX;
 /// Rows handled by one task; results do not depend on it.
 const ROWS_PER_TASK: usize = 1024;
 
-/// The pattern of the bulk: compressed block rows, both halves, columns sorted; a block row is a mesh node.
+/// The pattern of the bulk: compressed block rows, both halves, columns sorted; a block row is a mesh node. All who keep one
+/// share it.
 ///
 /// # Shapes
 /// `row_start` has `nrow + 1` entries, `column` has `nblock`. The values that belong to it are
@@ -38,9 +40,9 @@ pub struct BlockPattern {
     /// Rows and columns of one block, the number of dimensions.
     pub block: usize,
     /// Where each block row begins in `column`.
-    pub row_start: Vec<usize>,
+    pub row_start: Arc<[usize]>,
     /// The block column of each block.
-    pub column: Vec<u32>,
+    pub column: Arc<[u32]>,
 }
 
 impl BlockPattern {
@@ -48,8 +50,8 @@ impl BlockPattern {
     pub fn empty(nrow: usize, block: usize) -> Self {
         Self {
             block,
-            row_start: vec![0; nrow + 1],
-            column: Vec::new(),
+            row_start: vec![0; nrow + 1].into(),
+            column: Arc::default(),
         }
     }
 
@@ -58,8 +60,8 @@ impl BlockPattern {
         let (row_start, column) = rows_from_cliques(nrow, nodes, offsets);
         Self {
             block,
-            row_start,
-            column,
+            row_start: row_start.into(),
+            column: column.into(),
         }
     }
 
@@ -84,7 +86,8 @@ impl BlockPattern {
     }
 }
 
-/// The pattern of the interface: compressed rows over raw degrees of freedom, both halves, columns sorted.
+/// The pattern of the interface: compressed rows over raw degrees of freedom, both halves, columns sorted. All who keep one
+/// share it.
 ///
 /// # Shapes
 /// `row_start` has `nrow + 1` entries, `column` has one per value.
@@ -93,9 +96,9 @@ pub struct Pattern {
     /// The number of rows, which is the number of raw degrees of freedom.
     pub nrow: usize,
     /// Where each row begins in `column`.
-    pub row_start: Vec<usize>,
+    pub row_start: Arc<[usize]>,
     /// The column of each entry.
-    pub column: Vec<u32>,
+    pub column: Arc<[u32]>,
 }
 
 impl Pattern {
@@ -103,8 +106,8 @@ impl Pattern {
     pub fn empty(nrow: usize) -> Self {
         Self {
             nrow,
-            row_start: vec![0; nrow + 1],
-            column: Vec::new(),
+            row_start: vec![0; nrow + 1].into(),
+            column: Arc::default(),
         }
     }
 
@@ -113,8 +116,8 @@ impl Pattern {
         let (row_start, column) = rows_from_cliques(nrow, dofs, offsets);
         Self {
             nrow,
-            row_start,
-            column,
+            row_start: row_start.into(),
+            column: column.into(),
         }
     }
 
@@ -295,8 +298,8 @@ mod tests {
     #[test]
     fn a_row_outside_all_cliques_is_empty() {
         let pattern = BlockPattern::from_cliques(4, 2, &[1, 3], &[0, 2]);
-        assert_eq!(pattern.row_start, [0, 0, 2, 2, 4]);
-        assert_eq!(pattern.column, [1, 3, 1, 3]);
+        assert_eq!(*pattern.row_start, [0, 0, 2, 2, 4]);
+        assert_eq!(*pattern.column, [1, 3, 1, 3]);
         assert_eq!(
             BlockPattern::from_cliques(0, 2, &[], &[0]),
             BlockPattern::empty(0, 2)

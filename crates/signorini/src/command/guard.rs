@@ -1,17 +1,19 @@
 //! The last line of defence: an error of the program itself ends with exit code 70 and a text worth sending.
 
 use super::console::Console;
-use std::panic;
+use super::stack;
+use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The exit code for an error of the program.
 const INTERNAL: u8 = 70;
 
-/// The stack of the thread that works, in bytes: enough whatever limit the shell has set.
-const STACK: usize = 16 << 20;
+/// The stack of the thread that works, in bytes.
+const STACK: usize = 8 << 20;
 
-/// Runs the program in a thread with a stack of its own, and turns a panic into a message.
+/// Runs the program, in a thread of its own where the shell leaves the first one too little stack, and turns a panic into a
+/// message.
 pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> ExitCode {
     let seen: Arc<Mutex<Option<String>>> = Arc::default();
     let keep = Arc::clone(&seen);
@@ -19,11 +21,15 @@ pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> ExitCode {
         let mut first = keep.lock().unwrap_or_else(PoisonError::into_inner);
         first.get_or_insert_with(|| info.to_string());
     }));
-    let thread = std::thread::Builder::new()
-        .name("signorini".into())
-        .stack_size(STACK)
-        .spawn(program);
-    let code = match thread.map(std::thread::JoinHandle::join) {
+    let outcome = if stack::first_may_take(STACK as u64) {
+        Ok(panic::catch_unwind(AssertUnwindSafe(program)))
+    } else {
+        let thread = std::thread::Builder::new()
+            .name("signorini".into())
+            .stack_size(STACK);
+        thread.spawn(program).map(std::thread::JoinHandle::join)
+    };
+    let code = match outcome {
         Ok(Ok(code)) => code,
         Ok(Err(_)) => {
             let what = seen.lock().unwrap_or_else(PoisonError::into_inner).take();

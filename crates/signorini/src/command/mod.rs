@@ -19,6 +19,7 @@ mod resume;
 mod run;
 mod schema;
 mod signals;
+mod stack;
 mod templates;
 mod terminal;
 mod threads;

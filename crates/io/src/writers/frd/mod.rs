@@ -51,6 +51,9 @@ use std::path::{Path, PathBuf};
 /// The last line.
 const END: &[u8] = b" 9999\n";
 
+/// The last line of a block.
+const TAIL: &[u8] = b" -3\n";
+
 /// Nodes of an element in one line.
 const NODES_IN_LINE: usize = 10;
 
@@ -245,10 +248,6 @@ pub struct FrdFile {
     /// The number of each node.
     labels: Labels,
     at: Mark,
-    /// The frame in the making, kept for its memory.
-    draft: Vec<u8>,
-    /// Its data sets, which are written at the same time.
-    parts: Vec<Vec<u8>>,
 }
 
 impl FrdFile {
@@ -262,13 +261,12 @@ impl FrdFile {
             path: path.to_path_buf(),
             labels: Labels::new(mesh),
             at: Mark::default(),
-            draft: Vec::new(),
-            parts: Vec::new(),
         };
-        push_head(&mut file.draft, title);
-        push_nodes(&mut file.draft, &file.labels, &mesh.points);
-        push_elements(&mut file.draft, &file.labels, mesh);
-        file.append(0)?;
+        let mut mesh_part = Vec::new();
+        push_head(&mut mesh_part, title);
+        push_nodes(&mut mesh_part, &file.labels, &mesh.points);
+        push_elements(&mut mesh_part, &file.labels, mesh);
+        file.append(vec![mesh_part], 0)?;
         Ok(file)
     }
 
@@ -282,10 +280,8 @@ impl FrdFile {
             path: path.to_path_buf(),
             labels: Labels::new(mesh),
             at: mark,
-            draft: Vec::new(),
-            parts: Vec::new(),
         };
-        file.append(0)?;
+        file.append(Vec::new(), 0)?;
         Ok(file)
     }
 
@@ -298,21 +294,19 @@ impl FrdFile {
             self.check(dataset)?;
         }
         let nframe = self.at.nframe + 1;
-        let numbers = self.at.ndataset + 1..;
+        let first = self.at.ndataset + 1;
         let labels = &self.labels;
-        self.parts.resize_with(datasets.len(), Vec::new);
-        let all: Vec<_> = self.parts.iter_mut().zip(numbers).zip(datasets).collect();
-        all.into_par_iter().for_each(|((out, number), dataset)| {
-            out.clear();
-            push_moment(out, moment, [number, nframe], labels.nrow(dataset));
-            push_declaration(out, dataset);
-            push_values(out, labels, dataset);
-        });
-        self.draft.clear();
-        for part in &self.parts {
-            self.draft.extend_from_slice(part);
-        }
-        self.append(datasets.len() as u64)?;
+        let of_dataset = |(k, dataset): (usize, &Dataset<'_>)| {
+            let mut out = Vec::new();
+            let numbers = [first + k as u64, nframe];
+            push_moment(&mut out, moment, numbers, labels.nrow(dataset));
+            push_declaration(&mut out, dataset);
+            push_values(&mut out, labels, dataset);
+            out
+        };
+        let parts = datasets.par_iter().enumerate().map(of_dataset);
+        let parts: Vec<Vec<u8>> = parts.collect();
+        self.append(parts, datasets.len() as u64)?;
         self.at.nframe = nframe;
         Ok(())
     }
@@ -357,13 +351,15 @@ impl FrdFile {
         }
     }
 
-    /// Writes the draft, which holds so many data sets, in the place of the end, and the end after it.
-    fn append(&mut self, ndataset: u64) -> Result<(), FrdError> {
-        let length = self.draft.len() as u64;
-        self.draft.extend_from_slice(END);
+    /// Writes these parts, which hold so many data sets, in the place of the end, and the end after them.
+    fn append(&mut self, parts: Vec<Vec<u8>>, ndataset: u64) -> Result<(), FrdError> {
+        let length: usize = parts.iter().map(Vec::len).sum();
         self.log.cut(self.at.length)?;
-        self.log.append(&self.draft)?;
-        self.at.length += length;
+        for part in parts {
+            self.log.append_owned(part)?;
+        }
+        self.log.append(END)?;
+        self.at.length += length as u64;
         self.at.ndataset += ndataset;
         Ok(())
     }
@@ -468,7 +464,7 @@ fn push_nodes(out: &mut Vec<u8>, labels: &Labels, points: &[Vec3]) {
     for (label, x) in labels.of_elements(points.iter()) {
         push_row(out, label, &x.to_array());
     }
-    out.extend_from_slice(b" -3\n");
+    out.extend_from_slice(TAIL);
 }
 
 fn push_elements(out: &mut Vec<u8>, labels: &Labels, mesh: &Mesh) {
@@ -497,7 +493,7 @@ fn push_elements(out: &mut Vec<u8>, labels: &Labels, mesh: &Mesh) {
         }
         out.push(b'\n');
     }
-    out.extend_from_slice(b" -3\n");
+    out.extend_from_slice(TAIL);
 }
 
 /// The two lines that tell which data set it is; `numbers` counts data sets and frames.
@@ -556,7 +552,7 @@ fn push_values(out: &mut Vec<u8>, labels: &Labels, dataset: &Dataset<'_>) {
             }
         }
     }
-    out.extend_from_slice(b" -3\n");
+    out.extend_from_slice(TAIL);
 }
 
 fn push_rows<const N: usize>(
@@ -564,7 +560,7 @@ fn push_rows<const N: usize>(
     labels: &Labels,
     rows: impl Iterator<Item = [f64; N]>,
 ) {
-    out.reserve(labels.count() * (14 + 12 * N));
+    out.reserve(labels.count() * (14 + 12 * N) + TAIL.len());
     for (label, row) in labels.of_elements(rows) {
         push_row(out, label, &row);
     }

@@ -339,10 +339,10 @@ impl Condensation {
         joins.sort_unstable();
         joins.dedup();
         let mut joins = joins.as_slice();
-        let mut pattern = Pattern::empty(0);
+        let (mut row_start, mut columns) = (vec![0], Vec::new());
         let mut seen = vec![NONE; ndof];
         for row in 0..ndof as u32 {
-            let begin = pattern.column.len();
+            let begin = columns.len();
             let (mine, rest) = joins.split_at(joins.partition_point(|join| join.0 <= row));
             joins = rest;
             if self.equation[row as usize] != NONE {
@@ -353,15 +353,18 @@ impl Condensation {
                 for column in own.chain(added) {
                     if self.equation[column as usize] != NONE && seen[column as usize] != row {
                         seen[column as usize] = row;
-                        pattern.column.push(column);
+                        columns.push(column);
                     }
                 }
-                pattern.column[begin..].sort_unstable();
+                columns[begin..].sort_unstable();
             }
-            pattern.row_start.push(pattern.column.len());
+            row_start.push(columns.len());
         }
-        pattern.nrow = ndof;
-        self.pattern = pattern;
+        self.pattern = Pattern {
+            nrow: ndof,
+            row_start: row_start.into(),
+            column: columns.into(),
+        };
     }
 
     /// Finds pivots and order, and the columns of E.

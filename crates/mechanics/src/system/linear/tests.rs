@@ -1239,23 +1239,21 @@ fn calls_out_of_order_and_lists_that_do_not_fit_are_refused() {
             }),
             LinearError::Shape { .. }
         ));
-        let mut bulk = assembled.bulk.clone();
-        bulk.column[0] = NONE;
-        assert!(matches!(
-            refused(&Problem {
-                bulk: &bulk,
-                ..problem
-            }),
-            LinearError::Range { .. }
-        ));
-        bulk.column[0] = 10;
-        assert!(matches!(
-            refused(&Problem {
-                bulk: &bulk,
-                ..problem
-            }),
-            LinearError::Range { .. }
-        ));
+        for outside in [NONE, 10] {
+            let mut column = assembled.bulk.column.to_vec();
+            column[0] = outside;
+            let bulk = BlockPattern {
+                column: column.into(),
+                ..assembled.bulk.clone()
+            };
+            assert!(matches!(
+                refused(&Problem {
+                    bulk: &bulk,
+                    ..problem
+                }),
+                LinearError::Range { .. }
+            ));
+        }
     }
 }
 

@@ -161,32 +161,41 @@ impl InterfaceBlock {
                 Some((3 * nlocal + at) as u32)
             }
         };
-        self.bulk = BlockPattern::empty(0, 3);
+        let (mut row_start, mut columns) = (vec![0], Vec::new());
         self.bulk_at.clear();
         for &node in &self.nodes {
             let of_row = kept.bulk.row_start[node as usize]..kept.bulk.row_start[node as usize + 1];
             for at in of_row {
                 let column = local_node[kept.bulk.column[at] as usize];
                 if column != NONE {
-                    self.bulk.column.push(column);
+                    columns.push(column);
                     self.bulk_at.push(at);
                 }
             }
-            self.bulk.row_start.push(self.bulk.column.len());
+            row_start.push(columns.len());
         }
-        self.interface = Pattern::empty(raw.len());
+        self.bulk = BlockPattern {
+            block: 3,
+            row_start: row_start.into(),
+            column: columns.into(),
+        };
+        let (mut row_start, mut columns) = (vec![0], Vec::new());
         self.interface_at.clear();
-        self.interface.row_start.truncate(1);
         for &dof in &raw {
             let of_row = kept.interface.row_start.get(dof as usize..dof as usize + 2);
             for at in of_row.map_or(0..0, |ends| ends[0]..ends[1]) {
                 if let Some(column) = local(kept.interface.column[at]) {
-                    self.interface.column.push(column);
+                    columns.push(column);
                     self.interface_at.push(at);
                 }
             }
-            self.interface.row_start.push(self.interface.column.len());
+            row_start.push(columns.len());
         }
+        self.interface = Pattern {
+            nrow: raw.len(),
+            row_start: row_start.into(),
+            column: columns.into(),
+        };
         self.equation.clear();
         self.whole.clear();
         for &dof in &raw {
