@@ -136,9 +136,10 @@ def beside_hertz(force, radius, modulus, at, pressure):
     exact = p0 * np.sqrt(np.maximum(0.0, 1.0 - (at / a) ** 2))
     counts = (at < a) | (pressure > NO_PRESSURE * p0)
     inner = at < INNER * a
+    shape, found = exact[inner], pressure[inner]
     return {
         "force": force,
-        "fitted": float(pressure[inner] @ exact[inner] / (exact[inner] @ exact[inner])) - 1.0 if inner.any() else math.nan,
+        "fitted": float(found @ shape / (shape @ shape)) - 1.0 if inner.any() else None,
         "largest": float(pressure.max()) / p0 - 1.0,
         "centre": float(pressure[at.argmin()]) / p0 - 1.0,
         "rms": float(np.sqrt(np.mean((pressure[counts] - exact[counts]) ** 2))) / p0,

@@ -280,13 +280,15 @@ impl BehindLog {
     fn push(
         &self,
         nbyte: usize,
-        act: impl FnOnce(&mut dyn Log) -> Result<(), FsError> + Send + 'static,
+        bytes: impl FnOnce() -> Vec<u8>,
+        act: impl FnOnce(&mut dyn Log, Vec<u8>) -> Result<(), FsError> + Send + 'static,
     ) -> Result<(), FsError> {
         let log = Arc::clone(&self.log);
         self.worker.queue.push(nbyte, None, || {
+            let bytes = bytes();
             Box::new(move |_| {
                 let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
-                act(log.as_mut())
+                act(log.as_mut(), bytes)
             })
         })
     }
@@ -294,11 +296,12 @@ impl BehindLog {
 
 impl Log for BehindLog {
     fn append(&mut self, bytes: &[u8]) -> Result<(), FsError> {
-        self.append_owned(bytes.to_vec())
+        let copy = || bytes.to_vec();
+        self.push(bytes.len(), copy, |log, bytes| log.append_owned(bytes))
     }
 
     fn append_owned(&mut self, bytes: Vec<u8>) -> Result<(), FsError> {
-        self.push(bytes.len(), |log| log.append_owned(bytes))
+        self.push(bytes.len(), || bytes, |log, bytes| log.append_owned(bytes))
     }
 
     fn cut(&mut self, keep: u64) -> Result<(), FsError> {
@@ -308,6 +311,6 @@ impl Log for BehindLog {
     }
 
     fn sync(&mut self) -> Result<(), FsError> {
-        self.push(0, |log| log.sync())
+        self.push(0, Vec::new, |log, _| log.sync())
     }
 }

@@ -13,7 +13,7 @@
 //! [`BehindFs`] lets any of them work on a thread of its own.
 //!
 //! At any instant a file written by [`Fs::write_atomic`] is either the old one or the new one, whole. Files that grow
-//! (tables, logs) are a [`Log`]: one write per row, so that at most the last row can be torn.
+//! (tables, logs, frames) are a [`Log`]: one write per row, so that at most the last row can be torn.
 //!
 //! Limits: on systems whose folders cannot be synchronized (Windows) step 3 does nothing.
 //!

@@ -96,7 +96,8 @@ pub struct ContactFrame {
     pub normal: Vec<Vec3>,
     /// Gap at each node: positive open, negative penetration. NaN where nothing is within reach.
     pub gap: Vec<f64>,
-    /// Pressure at each node, ≥ 0; force where the secondary side has no area.
+    /// Pressure at each node, ≥ 0; force where the secondary side has no area. By mortar it is that of the present area at
+    /// finite strain, and of the area at the start in linear steps.
     pub pressure: Vec<f64>,
     /// Status at each node.
     pub status: Vec<Status>,

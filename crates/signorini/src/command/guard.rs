@@ -9,8 +9,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The exit code for an error of the program.
 const INTERNAL: u8 = 70;
 
-/// The stack of the thread that works, in bytes.
-const STACK: usize = 8 << 20;
+/// The stack of the thread that works, in bytes, where it is one of its own.
+const STACK: usize = 16 << 20;
+
+/// What the first thread must be allowed, to work itself: about what the other threads of a run have.
+const ENOUGH: u64 = 8 << 20;
 
 /// Runs the program, in a thread of its own where the shell leaves the first one too little stack, and turns a panic into a
 /// message.
@@ -21,7 +24,7 @@ pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> ExitCode {
         let mut first = keep.lock().unwrap_or_else(PoisonError::into_inner);
         first.get_or_insert_with(|| info.to_string());
     }));
-    let outcome = if stack::first_may_take(STACK as u64) {
+    let outcome = if stack::first_may_take(ENOUGH) {
         Ok(panic::catch_unwind(AssertUnwindSafe(program)))
     } else {
         let thread = std::thread::Builder::new()

@@ -28,7 +28,7 @@
 //! | `PE` | equivalent plastic strain | PE |
 //! | `CONTACT` | at the secondary side | COPEN CSLIP1 CSLIP2 CPRESS CSHEAR1 CSHEAR2 |
 //!
-//! The mesh is written once, then the frames, each with one write that also ends the file. The next frame takes that
+//! The mesh is written once, then the frames, data set by data set, and the end of the file. The next frame takes that
 //! end away first: at any instant the file is the mesh with whole frames and at most one that is torn, and a resumed
 //! run cuts it back to the checkpoint's frames. Numbers of elements and nodes are those of the mesh, unless a reader
 //! with numbers of 32 bits could not hold them: then nodes or elements count from 1.

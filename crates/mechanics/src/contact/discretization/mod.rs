@@ -293,8 +293,8 @@ pub trait Discretization: Send + Sync {
 pub struct OnRow {
     /// The pressure, ≥ 0 in compression.
     pub pressure: f64,
-    /// The traction.
-    pub traction: Vec3,
+    /// The tangential traction.
+    pub shear: Vec3,
 }
 
 /// To what rows are linked.

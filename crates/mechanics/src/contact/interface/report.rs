@@ -43,6 +43,8 @@ struct Told {
     /// Whether its law acts.
     acts: bool,
     area: f64,
+    /// Pressures are those of an area so many times as large.
+    stretch: f64,
     energy: f64,
     /// None where it meets nothing.
     found: Option<Found>,
@@ -52,6 +54,8 @@ struct Told {
 struct Found {
     normal: Vec3,
     gap: f64,
+    /// Along which a pressure pushes.
+    direction: Vec3,
     elastic_slip: Vec3,
 }
 
@@ -131,7 +135,6 @@ impl Interface {
         let place = |c: &ContactFrame| self.parts.swapped && c.name == report.name;
         let first = frame.contacts.iter().position(place);
         let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
-        let mut centre = (Vec3::ZERO, 0.0);
         let (mut guests, mut hosted) = (Vec::new(), Vec::new());
         let inside = self.parts.discretization.inside().is_some();
         let (told, mut on_rows) = self.tell(state, (&mut report, first), frame)?;
@@ -145,19 +148,21 @@ impl Interface {
                 status,
                 acts,
                 area,
+                stretch,
                 energy,
                 found,
             } = told;
+            let pressure = on_row.pressure * stretch;
             let slip = self.history.slip(row);
             let of_row = found.map(|found| OfRow {
                 normal: found.normal,
                 gap: found.gap,
-                pressure: on_row.pressure,
-                traction: on_row.traction,
+                pressure,
+                traction: found.direction * pressure + on_row.shear * stretch,
                 slip,
                 elastic_slip: found.elastic_slip,
             });
-            report.pressure_max = report.pressure_max.max(on_row.pressure);
+            report.pressure_max = report.pressure_max.max(pressure);
             report.slip_max = report.slip_max.max(slip.norm());
             let point = parts.discretization.point(row);
             guests.clear();
@@ -174,10 +179,7 @@ impl Interface {
             }
             // shares of a point's area: those of a lumped mass
             let squares: f64 = point.weights.iter().map(|w| w * w).sum();
-            let weight = on_row.pressure * area;
             let place = point.position(&state.placement());
-            centre.0 += place * weight;
-            centre.1 += weight;
             if let Some(of_row) = of_row.as_ref().filter(|_| status.is_closed()) {
                 report.footprint.area += area;
                 report.footprint.center += place * area;
@@ -239,9 +241,6 @@ impl Interface {
                 }
             }
         }
-        if centre.1 > 0.0 {
-            report.center = centre.0 / centre.1;
-        }
         report.footprint.divide();
         report.work_friction = self.history.work;
         match first.and_then(|c| frame.contacts.get_mut(c)) {
@@ -272,31 +271,35 @@ impl Interface {
         let nrow = self.parts.discretization.nrow();
         let mut scratch = Scratch::default();
         let mut gap_min: Option<f64> = None;
+        let mut centre = (Vec3::ZERO, 0.0);
         let (mut all, mut on_rows) = (Vec::with_capacity(nrow), Vec::with_capacity(nrow));
         for row in 0..nrow {
             let acts = self.acting_row(row, state, RowOrder::Gradient, &mut scratch.rows)?;
             let coverage = scratch.rows.rows().first().map_or(1.0, |r| r.coverage);
-            // pressures of small strain are those of the areas at the start
-            let stretch = match self.step.nonlinear {
-                true => 1.0,
-                false => self.parts.discretization.stretch(row, &self.now),
-            };
-            let area = self.area(row) * coverage / stretch;
+            let present = self.area(row) * coverage;
             // a point of a rule may have no area at all
             let per_area = match self.parts.measure {
-                Measure::Area => stretch,
-                Measure::Node => area.recip(),
+                Measure::Area => 1.0,
+                Measure::Node => present.recip(),
             };
+            // pressures of small strain are those of the areas at the start, as areas of rows that do not act are
+            let stretch = if acts && !self.step.nonlinear {
+                self.parts.discretization.stretch(row, &self.now)
+            } else {
+                1.0
+            };
+            let area = present / stretch;
             let mut told = Told {
                 acts,
                 area,
+                stretch,
                 ..Told::default()
             };
             let mut on_row = OnRow::default();
             if let Some(filled) = scratch.rows.rows().first() {
                 gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
                 told.status = Status::Open;
-                let mut elastic_slip = Vec3::ZERO;
+                let (mut elastic_slip, mut direction) = (Vec3::ZERO, Vec3::ZERO);
                 if acts {
                     let lambda = self.lambda(row, state);
                     let traction = self.traction(filled, &lambda);
@@ -309,9 +312,8 @@ impl Interface {
                     on_row.pressure = traction.pressure * per_area;
                     let pushed = self.pushed(row, &scratch.rows, filled, state);
                     // facets that do not lie in one plane push in several directions
-                    let direction = pushed.force / filled.coverage;
-                    let pull = direction * traction.pressure - traction.tangential;
-                    on_row.traction = pull * per_area;
+                    direction = pushed.force / filled.coverage;
+                    on_row.shear = -traction.tangential * per_area;
                     let push = traction.pressure * self.measure(row);
                     report.force_normal += pushed.force * push;
                     report.moment_normal += pushed.moment * push;
@@ -327,9 +329,14 @@ impl Interface {
                 told.found = Some(Found {
                     normal: filled.normal,
                     gap: filled.gap,
+                    direction,
                     elastic_slip,
                 });
             }
+            let weight = on_row.pressure * present;
+            let point = self.parts.discretization.point(row);
+            centre.0 += point.position(&state.placement()) * weight;
+            centre.1 += weight;
             match told.status {
                 Status::Absent | Status::Open => report.area_open += area,
                 Status::Stick | Status::Tied => report.area_stick += area,
@@ -344,6 +351,9 @@ impl Interface {
             on_rows.push(on_row);
         }
         report.gap_min = gap_min.unwrap_or(0.0);
+        if centre.1 > 0.0 {
+            report.center = centre.0 / centre.1;
+        }
         Ok((all, on_rows))
     }
 

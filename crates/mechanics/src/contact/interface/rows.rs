@@ -160,6 +160,7 @@ impl Interface {
         order: RowOrder,
         rows: &mut Rows,
     ) -> Result<bool, TermError> {
+        rows.start([]);
         if !self.is_active() {
             return Ok(false);
         }

@@ -217,7 +217,7 @@ impl Covered {
         &self.m[j * self.nprimary()..][..self.nprimary()]
     }
 
-    /// S of a quadratic triangle, row by row; empty of other facets.
+    /// S of a quadratic triangle, row by row; empty of other facets, and where Ñ is negative beyond a bent edge.
     #[must_use]
     pub fn mass(&self) -> &[f64] {
         &self.mass
@@ -324,7 +324,9 @@ impl Covered {
             (0..n).map(|i| t.get(j, i) * over(i)).sum()
         });
         self.mass.clear();
-        if scatters {
+        let is_positive = |row: &[f64]| row.iter().all(|s| *s >= 0.0);
+        let d_is_positive = self.d.iter().all(|d| *d > 0.0);
+        if scatters && d_is_positive && s[..n].iter().all(|row| is_positive(&row[..n])) {
             self.mass.extend(s[..n].iter().flat_map(|row| &row[..n]));
         }
         let found = inverse(&s, n);

@@ -76,7 +76,7 @@ pub struct OfFacet {
     pub full: [f64; MAX_FACET_NODES],
     /// M_jl, row by row.
     pub m: Vec<f64>,
-    /// S of quadratic triangles, row by row; empty of other facets.
+    /// S of quadratic triangles, row by row; empty of other facets, and where Ñ is negative beyond a bent edge.
     pub mass: Vec<f64>,
 }
 

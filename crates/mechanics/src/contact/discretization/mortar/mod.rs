@@ -34,6 +34,12 @@
 //! or closed, and linear and angular momentum are exact without friction. Instead, [`Normals::Nodal`] has
 //! `n_k = ν c_k` with the mean `ν` of the unit normals at the node, as most of the literature.
 //!
+//! *Areas.* `λ_j` acts on the present area `D_j`. Small-strain theory has one area only, that at the start: linear steps
+//! report `λ_j s_j` on `D_j/s_j`, with the stretch `s_j = Σ_e D⁰_j/A_j` of the whole facets around the node, whose `D_j` now
+//! are `D⁰_j`; held weights have `s_j = 1`. Without it pressures would be off by the strain of the surface, which in the
+//! middle of a Hertzian contact is `−(1 + ν)(1 − 2ν) p0/E` of the area. The start is that of the run, in a linear step after
+//! one at finite strain, too.
+//!
 //! *Guests.* Where little of ψ_a is covered, what it would carry scatters. It leaves its function to others, ψ'_b = ψ_b +
 //! Σ_a s_ab ψ_a with shares s_ab of each facet that add up to 1: pressures are even there, nothing is dropped, and node a
 //! has no row. Who is whose guest is settled at convergence ([`Discretization::settle`]).
@@ -723,18 +729,20 @@ impl Discretization for Mortar {
 
     /// That of the whole facets around the node.
     fn stretch(&self, row: usize, pairing: &Pairing) -> f64 {
+        if self.held.is_some() {
+            return 1.0;
+        }
         let (Some(start), Some(around)) = (self.area.get(row), self.around.get(row)) else {
             return 1.0;
         };
         let facets = &pairing.weights.facets;
-        let full =
-            |&(facet, place): &(u32, usize)| facets.get(facet as usize).map(|of| of.full[place]);
+        let full = |&(facet, place): &(u32, usize)| Some(facets.get(facet as usize)?.full[place]);
         let now: f64 = around.iter().filter_map(full).sum();
-        let is_held = self.held.is_some();
-        if is_held || now <= 0.0 || *start <= 0.0 {
-            return 1.0;
+        if now > 0.0 && *start > 0.0 {
+            now / start
+        } else {
+            1.0
         }
-        now / start
     }
 
     fn even_out(
