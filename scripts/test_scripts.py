@@ -13,6 +13,7 @@ import csv
 import gzip
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -605,6 +606,24 @@ class SpeedFigure(unittest.TestCase):
         self.assertEqual([len(points) for points in found.values()], [3, 4])
         self.assertAlmostEqual(script.exponent(found["CalculiX"]), 1.25, places=9)
         self.assertAlmostEqual(script.exponent(found["signorini"]), 1.0, places=9)
+
+
+class HertzBodies(unittest.TestCase):
+    """The pressure under a ball on a block, as hertz_bodies.py computes it."""
+
+    def test_pressures_come_near_those_of_hertz_with_finer_cells(self):
+        code, said = run("hertz_bodies.py", "--cells", "12")
+        self.assertEqual(code, 0, said)
+        coarse, fine, large = ([float(off) for off in re.findall(r"([+-][0-9.]+)%", line)] for line in said.splitlines())
+        self.assertEqual([len(coarse), len(fine), len(large)], [3, 3, 3])
+        self.assertLess(max(map(abs, fine + large)), 0.8)
+        for one, half in zip(fine, coarse):
+            self.assertLess(abs(one), 0.7 * abs(half))
+
+    def test_too_small_bodies_are_refused(self):
+        code, said = run("hertz_bodies.py", "--size", "12")
+        self.assertEqual(code, 2)
+        self.assertIn("a size above 12", said)
 
 
 class CompareSpeed(unittest.TestCase):
