@@ -6,8 +6,10 @@ use std::ops::Range;
 
 /// Blocks of a factor whose rows are handled by one task; results do not depend on it.
 const BLOCKS_PER_TASK: usize = 8192;
-/// Rows of a matrix that are projected at once; sums are in this order.
+/// Rows of a matrix that are projected at once, at least; sums are in this order.
 const ROWS_PER_STRIP: usize = 4096;
+/// Strips of rows, at most: what comes of each is added to all that came before.
+const STRIPS: usize = 12;
 /// Stands for no place in a row.
 const NOWHERE: u32 = u32::MAX;
 
@@ -114,8 +116,9 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         let mut sum = Self {
             ncolumn: self.ncolumn,
             start: Vec::with_capacity(nrow + 1),
-            column: Vec::with_capacity(self.column.len()),
-            value: Vec::with_capacity(self.column.len()),
+            // what is not needed of it is never touched, and a sum that grew would be copied
+            column: Vec::with_capacity(self.column.len() + other.column.len()),
+            value: Vec::with_capacity(self.column.len() + other.column.len()),
         };
         sum.start.push(0);
         for row in 0..nrow {
@@ -275,8 +278,9 @@ impl<const N: usize> Blocks<N, N> {
     /// `Pᵀ A P`, strip by strip of the rows: what is in between never stands there as a whole, for it is larger than A.
     pub fn projected<const D: usize>(&self, onto: &Blocks<N, D>) -> Blocks<D, D> {
         let mut sum: Option<Blocks<D, D>> = None;
-        for begin in (0..self.nrow()).step_by(ROWS_PER_STRIP) {
-            let strip = begin..self.nrow().min(begin + ROWS_PER_STRIP);
+        let size = self.nrow().div_ceil(STRIPS).max(ROWS_PER_STRIP);
+        for begin in (0..self.nrow()).step_by(size) {
+            let strip = begin..self.nrow().min(begin + size);
             let times = self.rows_times(strip.clone(), onto, |_, _, _| {});
             let blocks = onto.by_column(strip);
             let row_of = |column: usize| {
