@@ -19,10 +19,10 @@ their geometric means; and the exponent with which the cost of one increment gro
 The accuracy of `hertz` is that of the pressures at the nodes of the slave surface in the last CONTACT table of the .frd
 files, in parts of p0 of Hertz: the p0 whose p0 sqrt(1 - (r/a)^2) fits those with r < 0.8 a best, by least squares, the
 largest one and that of the node on the axis, beside p0, and the root mean square of the differences from that pressure,
-over the nodes with r < a or with pressure. p0 and a are those at the force
-that the run itself found, four times the last printed reaction, for a ball of the radius in the heading of the deck and
-the moduli of its sections (Johnson 1985, (4.22) to (4.24)). Of `slide` it is the ratio of the last printed reactions
-along x and z beside the deck's coefficient of friction.
+over the nodes with r < a or with pressure. p0 and a are those at the force that the run itself found, four times the
+last printed reaction, for a ball of the radius in the heading of the deck and the moduli of its sections (Johnson 1985,
+(4.22) to (4.24)). Of `slide` it is the ratio of the last printed reactions along x and z beside the deck's coefficient
+of friction.
 
 Needs: numpy. Exit code: 0, also where nothing is compared; 1 where signorini did not solve a deck; 2 wrong command line
 or missing program.

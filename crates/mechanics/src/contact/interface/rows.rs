@@ -160,11 +160,11 @@ impl Interface {
         order: RowOrder,
         rows: &mut Rows,
     ) -> Result<bool, TermError> {
-        rows.start([]);
-        if !self.is_active() {
+        let laws = self.laws();
+        if !self.is_active() || laws.bond && self.now.pairs[row].is_none() {
+            rows.start([]);
             return Ok(false);
         }
-        let laws = self.laws();
         if !laws.bond {
             // gaps first: most rows are open and need nothing else
             self.fill(row, trial, RowOrder::Gap, rows)?;
@@ -173,8 +173,6 @@ impl Interface {
             if !rows.rows().iter().any(acts) {
                 return Ok(false);
             }
-        } else if self.now.pairs[row].is_none() {
-            return Ok(false);
         }
         self.fill(row, trial, order, rows)?;
         Ok(!rows.rows().is_empty())

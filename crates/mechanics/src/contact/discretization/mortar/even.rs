@@ -28,8 +28,8 @@ use crate::contact::discretization::OnRow;
 use crate::contact::mortar::{OfFacet, Weights};
 use signorini_geometry::element::MAX_FACET_NODES;
 
-/// What is given back of the exchange, first and second.
-const GIVEN_BACK: [f64; 2] = [1.0, 0.5];
+/// The exchanges of (E1) and (E2), in parts of `E_e`; what is given back is limited.
+const EXCHANGES: [f64; 3] = [-1.0, 1.0, 0.5];
 
 impl Mortar {
     /// (E1) and (E2); of what is joined, tractions may pull.
@@ -40,89 +40,79 @@ impl Mortar {
         joined: bool,
         on_rows: &mut [OnRow],
     ) {
-        if weights.facets.iter().all(|of| of.mass.is_empty()) {
+        let has_left = |row: usize| weights.guests.left.get(row) == Some(&true);
+        let takes_part = |&row: &usize| touches(row) && !has_left(row);
+        let with_rows = |(of, rows): (_, _)| Some((of, rows_of(of, rows)?));
+        let facets = weights.facets.iter().zip(&self.rows);
+        let whole: Vec<(&OfFacet, &[usize])> = facets
+            .filter_map(with_rows)
+            .filter(|(_, rows)| rows.iter().all(takes_part))
+            .collect();
+        if whole.is_empty() {
             return;
         }
-        let has_left = |row: usize| weights.guests.left.get(row) == Some(&true);
-        let gives = |&(facet, of): &(usize, &OfFacet)| {
-            let rows = self.rows_of(facet, of);
-            let all = rows.iter().all(|&row| touches(row) && !has_left(row));
-            !of.mass.is_empty() && all
-        };
-        let whole = || weights.facets.iter().enumerate().filter(gives);
-        let before = on_rows.to_vec();
-        for (facet, of) in whole() {
-            self.give(facet, of, weights, -1.0, &before, on_rows);
-        }
-        for most in GIVEN_BACK {
+        for factor in EXCHANGES {
             let before = on_rows.to_vec();
-            for (facet, of) in whole() {
-                let part = match joined {
-                    true => 1.0,
-                    false => self.part(facet, of, &before),
+            for (of, rows) in &whole {
+                let part = if joined || factor < 0.0 {
+                    1.0
+                } else {
+                    largest_part(of, rows, &before)
                 };
-                self.give(facet, of, weights, most * part, &before, on_rows);
+                give((of, rows), weights, factor * part, &before, on_rows);
             }
         }
         if !joined {
             // where a node gives all, rounding is left
-            for (_, on) in on_rows
-                .iter_mut()
-                .enumerate()
-                .filter(|(row, _)| touches(*row))
-            {
-                on.pressure = on.pressure.max(0.0);
+            for &row in whole.iter().flat_map(|(_, rows)| *rows) {
+                if let Some(on) = on_rows.get_mut(row) {
+                    on.pressure = on.pressure.max(0.0);
+                }
             }
         }
     }
+}
 
-    /// The rows of the nodes of a facet.
-    fn rows_of(&self, facet: usize, of: &OfFacet) -> &[usize] {
-        let rows = self.rows.get(facet).map_or(&[][..], |rows| &rows[..]);
-        rows.get(..of.mass.len().isqrt()).unwrap_or_default()
-    }
+/// The rows of the nodes of a facet; none where there is no S.
+fn rows_of<'a>(of: &OfFacet, rows: &'a [usize; MAX_FACET_NODES]) -> Option<&'a [usize]> {
+    rows.get(..of.mass.len().isqrt()).filter(|r| !r.is_empty())
+}
 
-    /// Adds `factor E_e/D` of what is on the rows.
-    fn give(
-        &self,
-        facet: usize,
-        of: &OfFacet,
-        weights: &Weights,
-        factor: f64,
-        from: &[OnRow],
-        to: &mut [OnRow],
-    ) {
-        let rows = self.rows_of(facet, of);
-        for (&row, (d, mass)) in rows.iter().zip(lines(of)) {
-            let (Some(sums), Some(to)) = (weights.row(row), to.get_mut(row)) else {
-                continue;
-            };
-            let terms = rows.iter().zip(mass).filter_map(|(&k, &s)| {
-                let from = from.get(k)?;
-                let e = if k == row { d - s } else { -s };
-                Some((e * factor / sums.d, from))
-            });
-            for (weight, from) in terms {
+/// Adds `factor E_e/D` of what is on the rows.
+fn give(
+    (of, rows): (&OfFacet, &[usize]),
+    weights: &Weights,
+    factor: f64,
+    from: &[OnRow],
+    to: &mut [OnRow],
+) {
+    for (&row, (d, mass)) in rows.iter().zip(lines(of)) {
+        let (Some(sums), Some(to)) = (weights.row(row), to.get_mut(row)) else {
+            continue;
+        };
+        for (&k, s) in rows.iter().zip(mass) {
+            let e = if k == row { d - s } else { -s };
+            if let Some(from) = from.get(k) {
+                let weight = e * factor / sums.d;
                 to.pressure += weight * from.pressure;
                 to.shear += from.shear * weight;
             }
         }
     }
+}
 
-    /// θ_e.
-    fn part(&self, facet: usize, of: &OfFacet, on_rows: &[OnRow]) -> f64 {
-        let rows = self.rows_of(facet, of);
-        let mut b = [0.0; MAX_FACET_NODES];
-        for (b, &row) in b.iter_mut().zip(rows) {
-            *b = on_rows.get(row).map_or(0.0, |on| on.pressure);
-        }
-        let parts = lines(of).zip(b).map(|((d, mass), own)| {
-            let mean: f64 = mass.iter().zip(b).map(|(s, b)| s * b).sum();
-            let (has, gives) = (d * own, mean - d * own);
-            if gives > has { has / gives } else { 1.0 }
-        });
-        parts.fold(1.0, f64::min).max(0.0)
+/// θ_e.
+fn largest_part(of: &OfFacet, rows: &[usize], on_rows: &[OnRow]) -> f64 {
+    let mut b = [0.0; MAX_FACET_NODES];
+    for (b, &row) in b.iter_mut().zip(rows) {
+        *b = on_rows.get(row).map_or(0.0, |on| on.pressure);
     }
+    let parts = lines(of).zip(b).map(|((d, mass), own)| {
+        let mean: f64 = mass.iter().zip(b).map(|(s, b)| s * b).sum();
+        let (has, gives) = (d * own, mean - d * own);
+        if gives > has { has / gives } else { 1.0 }
+    });
+    parts.fold(1.0, f64::min).max(0.0)
 }
 
 /// D_j and S_jk of the nodes of a facet.
@@ -137,7 +127,7 @@ mod tests {
     use crate::contact::discretization::SurfacePair;
     use crate::contact::discretization::mortar::Form;
     use crate::contact::mortar::Measure;
-    use crate::contact::tests::{Random, facets_of, with_mid_nodes};
+    use crate::contact::tests::{Random, facets as surface, with_mid_nodes};
     use signorini_geometry::mesh::NodeId;
     use signorini_geometry::surface::Placement;
     use signorini_geometry::tensor::Vec3;
@@ -161,14 +151,12 @@ mod tests {
         if quadratic {
             with_mid_nodes(&mut x, &mut facets, false);
         }
-        let name = if quadratic { "tri6" } else { "tri3" };
-        let facets: Vec<_> = facets.into_iter().map(|nodes| (name, nodes)).collect();
-        let secondary = facets_of(&mut x, &facets);
+        let secondary = surface(&mut x, &facets);
         let first = x.len() as NodeId;
         let [low, high] = [-0.5, f64::from(n) + 0.5];
         let corners = [(low, low), (high, low), (high, high), (low, high)];
         x.extend(corners.map(|(a, b)| Vec3::new(a, b, 0.0)));
-        let primary = facets_of(&mut x, &[("quad4", (first..first + 4).collect())]);
+        let primary = surface(&mut x, &[(first..first + 4).collect()]);
         let mortar = Mortar::new(&secondary, Form::default(), Measure::Flat, &x).unwrap();
         let pair = SurfacePair {
             secondary: Some(secondary),
