@@ -297,6 +297,14 @@ pub struct OnRow {
     pub shear: Vec3,
 }
 
+impl OnRow {
+    /// Adds so many times what acts elsewhere.
+    pub(super) fn add(&mut self, times: f64, other: Self) {
+        self.pressure += times * other.pressure;
+        self.shear += other.shear * times;
+    }
+}
+
 /// To what rows are linked.
 #[derive(Clone, Copy)]
 pub struct Links<'a> {
