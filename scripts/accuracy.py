@@ -67,7 +67,7 @@ class Deck:
     @functools.cached_property
     def slave(self):
         """Coordinates of the nodes of the slave surface, by their numbers."""
-        nodes, found = self.slave_nodes(), {}
+        nodes, found = {node for side in self.slave_sides for node in side}, {}
         for _, lines in self.all("NODE"):
             for line in lines:
                 number, *at = line.split(",")
@@ -75,20 +75,22 @@ class Deck:
                     found[int(number)] = [float(x) for x in at]
         return found
 
-    def slave_nodes(self):
+    @functools.cached_property
+    def slave_sides(self):
+        """The nodes of each side of the slave surface; all turn alike as seen from outside."""
         name = fields(self.all("CONTACTPAIR")[0][1])[0].upper()
         lines = next(lines for card, lines in self.all("SURFACE") if parameter(card, "NAME") == name)
         sides = {}
         for element, side in (line.split(",")[:2] for line in lines):
             sides.setdefault(int(element), []).append(int(side.strip().lstrip("S")) - 1)
-        nodes = set()
+        found = []
         for card, lines in self.all("ELEMENT"):
             count, corners = SIDES[parameter(card, "TYPE")]
             numbers = fields(lines)
             for first in range(0, len(numbers), count + 1):
                 for side in sides.get(int(numbers[first]), ()):
-                    nodes.update(int(numbers[first + 1 + k]) for k in corners[side])
-        return nodes
+                    found.append([int(numbers[first + 1 + k]) for k in corners[side]])
+        return found
 
 
 def reaction(path, name):
@@ -104,24 +106,40 @@ def reaction(path, name):
     return found
 
 
-def pressures(path):
-    """Pressures at nodes, by their numbers, in the last CONTACT table of an .frd file."""
-    found, column, inside = {}, None, False
+def last(path, table, names):
+    """These components at nodes, by their numbers, in the last such table of an .frd file."""
+    found, inside = {}, False
     with open(path, encoding="ascii", errors="replace") as file:
         for line in file:
             if line.startswith(" -4"):
-                inside = line.split()[1] == "CONTACT"
+                inside = line.split()[1] == table
                 if inside:
-                    found, components = {}, []
+                    found, components, columns = {}, [], []
             elif inside and line.startswith(" -5"):
                 components.append(line.split()[1])
-                column = components.index("CPRESS") if "CPRESS" in components else None
-            elif inside and line.startswith(" -1") and column is not None:
-                at = 13 + 12 * column
-                found[int(line[3:13])] = float(line[at : at + 12])
+                columns = [components.index(name) for name in names if name in components]
+            elif inside and line.startswith(" -1") and len(columns) == len(names):
+                found[int(line[3:13])] = [float(line[13 + 12 * k : 25 + 12 * k]) for k in columns]
     if not found:
-        raise ValueError(f"{path} has no table CONTACT with CPRESS")
+        raise ValueError(f"{path} has no table {table} with {', '.join(names)}")
     return found
+
+
+def pressures(path):
+    """Pressures at nodes, by their numbers, in the last CONTACT table of an .frd file."""
+    return {node: value for node, (value,) in last(path, "CONTACT", ["CPRESS"]).items()}
+
+
+def mean_normal(deck, path):
+    """The mean of the normals of the slave surface where an .frd file ends, weighted with the pressures there."""
+    moved, pressure = last(path, "DISP", ["D1", "D2", "D3"]), pressures(path)
+    total = np.zeros(3)
+    for side in deck.slave_sides:
+        first = side[: 4 if len(side) in (4, 8) else 3]
+        x = np.array([np.add(deck.slave[node], moved[node]) for node in first])
+        across = np.cross(x[2] - x[0], x[-1] - x[1])
+        total += across * np.mean([pressure.get(node, 0.0) for node in first])
+    return total / np.linalg.norm(total)
 
 
 def hertz(force, radius, modulus):
@@ -147,12 +165,24 @@ def beside_hertz(force, radius, modulus, at, pressure):
     }
 
 
+def beside_coulomb(force, normal, friction):
+    """Errors of a force on a surface that slips everywhere: as it is, along x and z, and across and along a normal."""
+    along, _, down = np.abs(force)
+    pressing = force @ normal
+    across = np.linalg.norm(force - pressing * normal)
+    return {
+        "force": float(down),
+        "friction": float(across / abs(pressing) / friction) - 1.0,
+        "axes": float(along / down / friction) - 1.0,
+    }
+
+
 def errors(deck, results):
     """Errors of the results that begin with this path, by name."""
-    along, _, down = (float(abs(one)) for one in reaction(f"{results}.dat", deck.first("NODEPRINT", "NSET")))
+    force = reaction(f"{results}.dat", deck.first("NODEPRINT", "NSET"))
     if deck.radius is None:
-        return {"force": down, "friction": along / down / deck.friction - 1.0}
+        return beside_coulomb(force, mean_normal(deck, f"{results}.frd"), deck.friction)
     found = pressures(f"{results}.frd")
     at = np.array([math.hypot(x, y) for x, y, _ in deck.slave.values()])
     pressure = np.array([found.get(node, 0.0) for node in deck.slave])
-    return beside_hertz(QUARTERS * down, deck.radius, deck.modulus(), at, pressure)
+    return beside_hertz(QUARTERS * abs(float(force[2])), deck.radius, deck.modulus(), at, pressure)

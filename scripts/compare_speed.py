@@ -21,8 +21,9 @@ files, in parts of p0 of Hertz: the p0 whose p0 sqrt(1 - (r/a)^2) fits those wit
 largest one and that of the node on the axis, beside p0, and the root mean square of the differences from that pressure,
 over the nodes with r < a or with pressure. p0 and a are those at the force that the run itself found, four times the
 last printed reaction, for a ball of the radius in the heading of the deck and the moduli of its sections (Johnson 1985,
-(4.22) to (4.24)). Of `slide` it is the ratio of the last printed reactions along x and z beside the deck's coefficient
-of friction.
+(4.22) to (4.24)). Of `slide` it is the part of the last printed reaction along the slave surface over that across it,
+beside the deck's coefficient of friction: across the mean of its normals at the end, weighted with the pressures there.
+The ratio of the reactions along x and z is told, too; it differs as the surface tilts.
 
 Needs: numpy. Exit code: 0, also where nothing is compared; 1 where signorini did not solve a deck; 2 wrong command line
 or missing program.
@@ -351,12 +352,14 @@ def speeds(outcomes):
 def accuracies(outcomes):
     """Errors of all rows."""
     headings = ["row", "tolerance of forces: ccx", "ours", "p0 fitted: ccx", "ours", "largest pressure: ccx", "ours"]
-    headings += ["in the centre: ccx", "ours", "rms: ccx", "ours", "friction: ccx", "ours"]
+    headings += ["in the centre: ccx", "ours", "rms: ccx", "ours"]
+    headings += ["friction along the surface: ccx", "ours", "along the axes: ccx", "ours"]
     rows = []
     for one in outcomes:
         cells = [one.row.name, *both(one, lambda s: number(s.tolerance, ".0e"))]
         signed = ("fitted", "largest", "centre")
-        for key, form in (*((key, "+.2%") for key in signed), ("rms", ".2%"), ("friction", "+.2%")):
+        forms = {**dict.fromkeys(signed, "+.2%"), "rms": ".2%", "friction": "+.4%", "axes": "+.4%"}
+        for key, form in forms.items():
             cells += both(one, lambda s, key=key, form=form: number(s.errors.get(key), form))
         rows.append(cells)
     return table(headings, rows)

@@ -589,6 +589,13 @@ TABLES = """ -4  CONTACT     6    1
  -1         1 9.00000E+09
  -3
 """
+MOTIONS = """ -4  DISP        4    1
+ -5  D1          1    2    1    0
+ -5  D2          1    2    2    0
+ -5  D3          1    2    3    0
+ -5  ALL         1    2    0    0    1ALL
+{rows} -3
+"""
 
 
 class SpeedFigure(unittest.TestCase):
@@ -642,10 +649,11 @@ class CompareSpeed(unittest.TestCase):
             file.write(text)
         return path
 
-    def results(self, name, force, pressures):
-        """A .dat and an .frd file with a force, and pressures by node in the last of two tables."""
+    def results(self, name, force, pressures, tilt=0.0):
+        """A .dat and an .frd file with a force, and pressures by node in the last of two tables; nodes with x = 2 rise."""
         self.write(f"{name}.dat", TOTALS.format(force=force))
-        tables = ""
+        rises = "".join(f" -1{node:10}{0.0:12.5E}{0.0:12.5E}{2.0 * tilt * (node in (2, 3)):12.5E}\n" for node in pressures)
+        tables = MOTIONS.format(rows=rises)
         for scale in (0.5, 1.0):
             rows = "".join(
                 f" -1{node:10}-1.00000E-03 0.00000E+00 0.00000E+00{scale * pressure:12.5E}\n"
@@ -714,10 +722,29 @@ class CompareSpeed(unittest.TestCase):
         self.assertEqual(found["nodes"], 2)
         self.assertAlmostEqual(found["rms"], 0.5 / np.sqrt(2.0), places=12)
 
-    def test_friction_is_judged_by_the_ratio_of_the_reactions(self):
+    def test_friction_is_judged_along_the_surface_where_it_ended(self):
         deck = self.accuracy.Deck(BALL.replace("R=100.0", "mu=0.3").replace("*STEP", "*FRICTION\n0.3,1e6\n*STEP"))
-        found = self.accuracy.errors(deck, self.results("deck", -10.0, {}))
-        self.assertAlmostEqual(found["friction"], 0.01, places=9)
+        results = self.results("deck", -10.0, {node: 7.0 for node in deck.slave}, tilt=0.02)
+        found = self.accuracy.errors(deck, results)
+        self.assertAlmostEqual(found["axes"], 0.01, places=9)
+        normal = np.array([-0.02, 0.0, 1.0]) / np.hypot(1.0, 0.02)
+        for one, wanted in zip(self.accuracy.mean_normal(deck, f"{results}.frd"), -normal):
+            self.assertAlmostEqual(abs(one), abs(wanted), places=9)
+        # a force that slips along a plane is one of Coulomb's there, and not along the axes
+        across = np.array([1.0, 0.0, 0.02]) / np.hypot(1.0, 0.02)
+        found = self.accuracy.beside_coulomb(5.0 * (normal - 0.3 * across), -normal, 0.3)
+        self.assertAlmostEqual(found["friction"], 0.0, places=12)
+        self.assertAlmostEqual(found["axes"], 1.09 * 0.02 / 0.3, places=3)
+
+    def test_pressed_sides_alone_tell_the_normal(self):
+        deck = self.accuracy.Deck(BALL)
+        deck.slave_sides.append([11, 12, 13])
+        deck.slave.update({11: [0, 0, 0], 12: [0, 1, 0], 13: [0, 0, 1]})
+        for pressure, wanted in ((0.0, [0.0, 0.0, 1.0]), (4.0, [4.0, 0.0, 8.0])):
+            given = {**dict.fromkeys((1, 2, 3, 4), 1.0), **dict.fromkeys((11, 12, 13), pressure)}
+            found = self.accuracy.mean_normal(deck, f"{self.results('deck', -1.0, given)}.frd")
+            for one, exact in zip(found, wanted):
+                self.assertAlmostEqual(abs(one), exact / np.linalg.norm(wanted), places=12)
 
     def test_a_solver_takes_the_place_of_another_one(self):
         found = self.script.with_solver("*STEP\n*Static, Solver=PARDISO, DIRECT\n1.,1.\n*STATIC\n", "SPOOLES")

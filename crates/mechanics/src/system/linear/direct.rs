@@ -179,6 +179,13 @@ impl Direct {
         Ok(())
     }
 
+    /// How many entries of the factor by fronts are beyond the range of normal numbers.
+    #[cfg(test)]
+    pub(super) fn nsubnormal(&self) -> usize {
+        let fronts = |a: &Analysis| a.factors.fronts.as_ref().map(Fronts::nsubnormal);
+        self.analysis.as_ref().and_then(fronts).unwrap_or_default()
+    }
+
     /// Whether the current factor is an LU.
     #[cfg(test)]
     pub(super) fn uses_lu(&self) -> bool {

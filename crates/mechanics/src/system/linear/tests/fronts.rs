@@ -169,3 +169,29 @@ fn nearly_cancelled_pivots_are_taken_in_double_precision() {
     assert!(!solver.is_rough() && !solver.uses_lu());
     assert!(solver.leaves(&signs(assembled.nequation)) < 1e-8);
 }
+
+#[test]
+fn couplings_that_fade_leave_normal_numbers() {
+    // a square of unknowns that hardly know those beside them: what fills in are powers of the coupling
+    let n = 24;
+    let mut system = System::new(n * n, 1, 0, Symmetry::Unsymmetric);
+    let at = |i: usize, j: usize| (j * n + i) as u32;
+    for j in 0..n {
+        for i in 0..n {
+            system.interface.push((vec![at(i, j)], vec![1.0]));
+            for other in [(i + 1, j), (i, j + 1)] {
+                if other.0 < n && other.1 < n {
+                    let both = vec![at(i, j), at(other.0, other.1)];
+                    system.interface.push((both, vec![0.0, 3e-9, 2e-9, 0.0]));
+                }
+            }
+        }
+    }
+    let assembled = system.assemble();
+    let mut solver = Direct::rough();
+    solver.analyze(&assembled.problem()).unwrap();
+    solver.factorize(&assembled.values()).unwrap();
+    assert!(solver.is_rough());
+    assert_eq!(solver.nsubnormal(), 0);
+    assert!(solver.leaves(&signs(assembled.nequation)) < 1e-7);
+}
