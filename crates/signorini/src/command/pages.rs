@@ -14,6 +14,10 @@ use std::alloc::{GlobalAlloc, Layout, System};
 #[cfg(any(target_os = "linux", test))]
 const PAGE: usize = 2 << 20;
 
+/// No number is aligned to more.
+#[cfg(target_os = "linux")]
+const OF_NUMBERS: usize = 16;
+
 /// The allocator of the system, which asks for large pages.
 pub struct LargePages;
 
@@ -22,21 +26,21 @@ unsafe impl GlobalAlloc for LargePages {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: as asked of this function
         let memory = unsafe { System.alloc(layout) };
-        advise(memory, layout.size());
+        advise(memory, layout.size(), layout.align());
         memory
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         // SAFETY: as asked of this function
         let memory = unsafe { System.alloc_zeroed(layout) };
-        advise(memory, layout.size());
+        advise(memory, layout.size(), layout.align());
         memory
     }
 
     unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         // SAFETY: as asked of this function
         let memory = unsafe { System.realloc(memory, layout, size) };
-        advise(memory, size);
+        advise(memory, size, layout.align());
         memory
     }
 
@@ -57,11 +61,13 @@ pub fn keep_memory() {
     }
 }
 
-/// Asks for large pages where some fit in whole; a kernel that has none says so, and nothing is lost.
+/// Asks for large pages where some fit in whole; a kernel that has none says so, and nothing is lost. Not for what is
+/// aligned to more than numbers are: matrix products pack into such memory, 64 MiB for each thread, and touch little of it.
 #[cfg_attr(not(target_os = "linux"), expect(unused_variables))]
-fn advise(memory: *mut u8, size: usize) {
+fn advise(memory: *mut u8, size: usize, align: usize) {
     #[cfg(target_os = "linux")]
     if size >= PAGE
+        && align <= OF_NUMBERS
         && !memory.is_null()
         && let Some((skip, length)) = whole_pages(memory.addr(), size)
     {

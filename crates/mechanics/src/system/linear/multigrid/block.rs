@@ -28,9 +28,9 @@ pub(super) struct InterfaceBlock {
     extra: Vec<u32>,
     bulk: BlockPattern,
     interface: Pattern,
-    /// Where the values are in those of the whole.
-    bulk_at: Vec<usize>,
-    interface_at: Vec<usize>,
+    /// Which block, or entry, of the whole each one is: 2³² blocks would take 300 GB.
+    bulk_at: Vec<u32>,
+    interface_at: Vec<u32>,
     bulk_values: Vec<f64>,
     interface_values: Vec<f64>,
     equation: Vec<u32>,
@@ -169,7 +169,7 @@ impl InterfaceBlock {
                 let column = local_node[kept.bulk.column[at] as usize];
                 if column != NONE {
                     columns.push(column);
-                    self.bulk_at.push(at);
+                    self.bulk_at.push(at as u32);
                 }
             }
             row_start.push(columns.len());
@@ -186,7 +186,7 @@ impl InterfaceBlock {
             for at in of_row.map_or(0..0, |ends| ends[0]..ends[1]) {
                 if let Some(column) = local(kept.interface.column[at]) {
                     columns.push(column);
-                    self.interface_at.push(at);
+                    self.interface_at.push(at as u32);
                 }
             }
             row_start.push(columns.len());
@@ -247,13 +247,14 @@ impl InterfaceBlock {
     fn gather(&mut self, values: &Values) {
         self.bulk_values.clear();
         for &at in &self.bulk_at {
-            let block = values.bulk.get(9 * at..9 * at + 9).unwrap_or(&[0.0; 9]);
+            let (blocks, _) = values.bulk.as_chunks::<9>();
+            let block = blocks.get(at as usize).unwrap_or(&[0.0; 9]);
             self.bulk_values.extend_from_slice(block);
         }
         let interface = self.interface_at.iter();
         self.interface_values.clear();
         self.interface_values
-            .extend(interface.map(|&at| values.interface.get(at).copied().unwrap_or(0.0)));
+            .extend(interface.map(|&at| values.interface.get(at as usize).copied().unwrap_or(0.0)));
         let nbulk = values.bulk.len();
         let outer = self.outer_at.iter().map(|&at| {
             let value = if at < nbulk {
