@@ -622,7 +622,7 @@ class HertzBodies(unittest.TestCase):
         code, said = run("hertz_bodies.py", "--cells", "12")
         self.assertEqual(code, 0, said)
         coarse, fine, large = ([float(off) for off in re.findall(r"([+-][0-9.]+)%", line)] for line in said.splitlines())
-        self.assertEqual([len(coarse), len(fine), len(large)], [3, 3, 3])
+        self.assertEqual([len(coarse), len(fine), len(large)], [4, 4, 4])
         self.assertLess(max(map(abs, fine + large)), 0.8)
         for one, half in zip(fine, coarse):
             self.assertLess(abs(one), 0.7 * abs(half))
