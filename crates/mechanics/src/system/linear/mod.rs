@@ -444,8 +444,8 @@ pub enum LinearError {
 /// Which solver to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearKind {
-    /// The one that suits the problem: multigrid in space, from 15,000 equations on, or 3,000 where the matrix is not
-    /// symmetric; the direct one else.
+    /// The one that suits the problem: multigrid in space, from 8,000 equations on, or 3,000 where the matrix is not
+    /// definite; the direct one else.
     #[default]
     Auto,
     /// A sparse factorization, with multipliers condensed where they can be.
@@ -470,9 +470,9 @@ pub struct SolverEntry {
     pub build: fn() -> Box<dyn LinearSolver>,
 }
 
-/// Equations from which on multigrid is faster than a direct solution in space: by Cholesky's factor where the matrix is
-/// symmetric, by LU where it is not.
-const MULTIGRID_FROM: [usize; 2] = [15_000, 3_000];
+/// Equations from which on multigrid is no slower than a direct solution in space: by Cholesky's factor where the matrix is
+/// definite, by L D Lᵀ or LU where it is not.
+const MULTIGRID_FROM: [usize; 2] = [8_000, 3_000];
 
 /// The table of solvers.
 pub const SOLVERS: &[SolverEntry] = &[

@@ -200,7 +200,7 @@ impl Multigrid {
         Self::from_sizes([0; 2])
     }
 
-    /// The same, which leaves problems with fewer equations to the direct solver: symmetric ones, and those that are not.
+    /// The same, which leaves problems with fewer equations to the direct solver: definite ones, and those that are not.
     #[must_use]
     pub fn from_sizes(least: [usize; 2]) -> Self {
         Self {
@@ -765,12 +765,12 @@ impl Kept {
     }
 }
 
-/// Whether multigrid is tried on a problem, where it is for no fewer equations: symmetric ones, and those that are not.
+/// Whether multigrid is tried on a problem, where it is for no fewer equations: definite ones, and those that are not.
 pub(super) fn suits(problem: &Problem, least: [usize; 2]) -> bool {
-    let [symmetric, unsymmetric] = least;
+    let [definite, others] = least;
     let least = match problem.symmetry {
-        Symmetry::Unsymmetric => unsymmetric,
-        Symmetry::Definite | Symmetry::Symmetric => symmetric,
+        Symmetry::Definite => definite,
+        Symmetry::Symmetric | Symmetry::Unsymmetric => others,
     };
     problem.bulk.block == 3
         && problem.nequation >= least
