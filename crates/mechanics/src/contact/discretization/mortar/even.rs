@@ -28,7 +28,7 @@
 use super::Mortar;
 use crate::contact::discretization::OnRow;
 use crate::contact::mortar::{OfFacet, Weights};
-use signorini_geometry::element::MAX_FACET_NODES;
+use signorini_geometry::element::{Element, MAX_FACET_NODES};
 
 /// What nodes of a facet exchange, in parts of `E_e` and of `T_e`.
 struct Exchange {
@@ -56,9 +56,6 @@ const EXCHANGES: [Exchange; 3] = [
     },
 ];
 
-/// A mid node of a quadratic triangle and the corners beside it.
-const EDGES: [(usize, [usize; 2]); 3] = [(3, [0, 1]), (4, [1, 2]), (5, [2, 0])];
-
 impl Mortar {
     /// (E1) and (E2); of what is joined, tractions may pull.
     pub(super) fn exchange(
@@ -70,23 +67,26 @@ impl Mortar {
     ) {
         let has_left = |row: usize| weights.guests.left.get(row) == Some(&true);
         let takes_part = |&row: &usize| touches(row) && !has_left(row);
-        let with_rows = |(of, rows): (_, _)| Some((of, rows_of(of, rows)?));
-        let facets = weights.facets.iter().zip(&self.rows);
-        let whole: Vec<(&OfFacet, &[usize])> = facets
+        let with_rows = |((of, rows), &kind): ((_, _), &usize)| {
+            Some((of, rows_of(of, rows)?, self.kinds[kind].0))
+        };
+        let facets = weights.facets.iter().zip(&self.rows).zip(&self.kind);
+        let whole: Vec<(&OfFacet, &[usize], Element)> = facets
             .filter_map(with_rows)
-            .filter(|(_, rows)| rows.iter().all(takes_part))
+            .filter(|(_, rows, _)| rows.iter().all(takes_part))
             .collect();
         if whole.is_empty() {
             return;
         }
         for exchange in EXCHANGES {
             let before = on_rows.to_vec();
-            for (of, rows) in &whole {
-                let forces = exchange.forces(of, rows, &before);
+            for (of, rows, element) in &whole {
+                let on = on_nodes(rows, &before);
+                let forces = exchange.forces(of, *element, &on);
                 let part = if joined || !exchange.is_limited {
                     1.0
                 } else {
-                    largest_part(of, rows, &before, &forces)
+                    largest_part(of, &on, &forces)
                 };
                 for (&row, force) in rows.iter().zip(forces) {
                     if let (Some(sums), Some(to)) = (weights.row(row), on_rows.get_mut(row)) {
@@ -97,7 +97,7 @@ impl Mortar {
         }
         if !joined {
             // where a node gives all, rounding is left
-            for &row in whole.iter().flat_map(|(_, rows)| *rows) {
+            for &row in whole.iter().flat_map(|(_, rows, _)| *rows) {
                 if let Some(on) = on_rows.get_mut(row) {
                     on.pressure = on.pressure.max(0.0);
                 }
@@ -107,17 +107,17 @@ impl Mortar {
 }
 
 impl Exchange {
-    /// What the nodes of a facet get.
-    fn forces(&self, of: &OfFacet, rows: &[usize], from: &[OnRow]) -> [OnRow; MAX_FACET_NODES] {
-        let from = on_nodes(rows, from);
+    /// What the nodes of a facet get, as forces.
+    fn forces(&self, of: &OfFacet, element: Element, from: &OnNodes) -> OnNodes {
         let mut forces = [OnRow::default(); MAX_FACET_NODES];
-        for ((force, own), (d, mass)) in forces.iter_mut().zip(&from).zip(lines(of)) {
+        for ((force, own), (d, mass)) in forces.iter_mut().zip(from).zip(lines(of)) {
             force.add(self.levels * d, *own);
             for (other, s) in from.iter().zip(mass) {
                 force.add(-self.levels * s, *other);
             }
         }
-        for (mid, [a, b]) in EDGES {
+        // mid nodes follow the corners in the order of the edges
+        for (mid, &[a, b]) in (element.ncorner()..).zip(element.edges()) {
             let d = self.along_edges * of.d.get(mid).copied().unwrap_or_default();
             let mut above = from[mid];
             above.add(-0.5, from[a]);
@@ -135,7 +135,10 @@ fn rows_of<'a>(of: &OfFacet, rows: &'a [usize; MAX_FACET_NODES]) -> Option<&'a [
     rows.get(..of.mass.len().isqrt()).filter(|r| !r.is_empty())
 }
 
-fn on_nodes(rows: &[usize], on_rows: &[OnRow]) -> [OnRow; MAX_FACET_NODES] {
+/// What acts on the nodes of a facet.
+type OnNodes = [OnRow; MAX_FACET_NODES];
+
+fn on_nodes(rows: &[usize], on_rows: &[OnRow]) -> OnNodes {
     let mut on = [OnRow::default(); MAX_FACET_NODES];
     for (on, &row) in on.iter_mut().zip(rows) {
         *on = on_rows.get(row).copied().unwrap_or_default();
@@ -144,8 +147,7 @@ fn on_nodes(rows: &[usize], on_rows: &[OnRow]) -> [OnRow; MAX_FACET_NODES] {
 }
 
 /// θ_e.
-fn largest_part(of: &OfFacet, rows: &[usize], on_rows: &[OnRow], forces: &[OnRow]) -> f64 {
-    let on = on_nodes(rows, on_rows);
+fn largest_part(of: &OfFacet, on: &OnNodes, forces: &OnNodes) -> f64 {
     let parts = of.d.iter().zip(on).zip(forces).map(|((d, own), force)| {
         let (has, gives) = (d * own.pressure, -force.pressure);
         if gives > has { has / gives } else { 1.0 }

@@ -246,8 +246,8 @@ impl InterfaceBlock {
 
     fn gather(&mut self, values: &Values) {
         self.bulk_values.clear();
+        let (blocks, _) = values.bulk.as_chunks::<9>();
         for &at in &self.bulk_at {
-            let (blocks, _) = values.bulk.as_chunks::<9>();
             let block = blocks.get(at as usize).unwrap_or(&[0.0; 9]);
             self.bulk_values.extend_from_slice(block);
         }
