@@ -14,11 +14,13 @@ pub mod mortar;
 pub mod nodes;
 pub mod points;
 pub mod projected;
+mod reach;
 
 pub use cut::{Cutter, FacetPoints};
 pub use mortar::Mortar;
 pub use nodes::{NodeNormals, NodeToNode};
 pub use points::{OnFacet, PointToSegment, SlidingRange, areas_inside};
+pub use reach::{FacetSizes, REACH, local_reach};
 
 use super::mortar::Weights;
 use super::row::{RowOrder, Rows, Wanted};
@@ -40,8 +42,12 @@ pub struct SurfacePair {
     pub secondary: Option<Facets>,
     /// The side that is projected onto.
     pub primary: Arc<dyn ContactSurface>,
-    /// The distance up to which a closest point counts.
+    /// The distance beyond which no closest point counts; what counts within it is [local](Self::reach_between).
     pub reach: f64,
+    /// Sizes of facets, where the reach is local; empty where it is the same everywhere.
+    pub sizes: FacetSizes,
+    /// Positions of all nodes when the increment began; empty where they are not known.
+    pub start: Vec<Vec3>,
     /// Whether both sides are one.
     pub same: bool,
 }
@@ -55,6 +61,8 @@ impl SurfacePair {
             secondary: None,
             primary,
             reach,
+            sizes: FacetSizes::default(),
+            start: Vec::new(),
             same: false,
         }
     }

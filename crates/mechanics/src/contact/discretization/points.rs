@@ -311,7 +311,8 @@ impl Discretization for PointToSegment {
                 });
                 return Ok(());
             }
-            let how = (before.map(|p| p.anchor), pair.reach, self.closest);
+            let reach = |facet| pair.reach_of_row(self, row, facet, at);
+            let how = (before.map(|p| p.anchor), &reach as _, self.closest);
             *found = if self.own.is_empty() {
                 closest(surface, at, point, near.candidates().near(row), how)?
             } else {

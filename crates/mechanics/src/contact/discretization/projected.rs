@@ -137,7 +137,7 @@ pub fn on_continuation(
     }))
 }
 
-/// The closest of the near facets.
+/// The closest of the near facets, if it is within the reach of that facet.
 ///
 /// # Errors
 /// A facet that has no normal.
@@ -146,7 +146,7 @@ pub fn closest(
     at: &Placement,
     point: Vec3,
     near: &[u32],
-    (hint, reach, on): (Option<Anchor>, f64, Closest),
+    (hint, reach, on): (Option<Anchor>, &dyn Fn(u32) -> f64, Closest),
 ) -> Result<Option<Pair>, SurfaceError> {
     let rank = |f: &Feature| match f {
         Feature::Face => 0,
@@ -178,7 +178,8 @@ pub fn closest(
         }
     }
     // candidates further away than the reach may be there or not; results must not depend on them
-    let Some((mut found, _)) = best.filter(|(b, _)| b.distance <= reach) else {
+    let within = |(b, _): &(Projection, f64)| b.distance <= reach(b.anchor.facet);
+    let Some((mut found, _)) = best.filter(within) else {
         return Ok(None);
     };
     let mut outward = surface.outward(at, &found)?;

@@ -481,6 +481,10 @@ impl Term for Interface {
 
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
         let at = from.placement();
+        if !self.parts.pair.sizes.primary.is_empty() {
+            self.parts.pair.start.clear();
+            self.parts.pair.start.extend_from_slice(at.x);
+        }
         let renews = self.parts.discretization.renews();
         let first = !self.started;
         if first {

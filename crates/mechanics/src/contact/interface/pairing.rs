@@ -1,6 +1,6 @@
 //! Search, pairing, where rows stick, and what is coupled with what.
 
-use super::{Carrier, ContactSurface, Interface, RESTLESS, dofs_of};
+use super::{Carrier, ContactSurface, Interface, InterfaceParts, RESTLESS, dofs_of};
 use crate::contact::discretization::projected::{BEYOND, on_continuation};
 use crate::contact::discretization::{Discretization, NOWHERE, Pair, Pairing, SurfacePair};
 use crate::contact::law::Eval;
@@ -169,15 +169,25 @@ impl Interface {
                 } else {
                     continue;
                 };
-            if distance > self.parts.pair.reach && behind > 0.5 * distance {
+            let reach = self.reach_of(row, before, at);
+            if distance > reach && behind > 0.5 * distance {
                 return Some(format!(
                     "a point went through the surface in one increment, {behind:.3} behind it and further than the \
-                     reach of {:.3}; take smaller increments",
-                    self.parts.pair.reach
+                     reach of {reach:.3}; take smaller increments"
                 ));
             }
         }
         None
+    }
+
+    /// How far from its facet the point of a row counts.
+    fn reach_of(&self, row: usize, found: &Pair, at: &Placement) -> f64 {
+        let InterfaceParts {
+            pair,
+            discretization,
+            ..
+        } = &self.parts;
+        pair.reach_of_row(discretization.as_ref(), row, found.anchor.facet, at)
     }
 
     /// The largest part of a step in which no point that is near goes through the surface further than half the reach.
@@ -199,7 +209,7 @@ impl Interface {
         let mut longest = 1.0f64;
         for (row, pair) in self.now.pairs.iter().enumerate() {
             let Some(pair) = pair else { continue };
-            let room = pair.gap.max(0.0) + 0.5 * self.parts.pair.reach;
+            let room = pair.gap.max(0.0) + 0.5 * self.reach_of(row, pair, &at);
             let discretization = self.parts.discretization.as_ref();
             if let Some(closes) = discretization.approach(row, &self.now, &moves) {
                 if closes > room {
@@ -279,7 +289,8 @@ impl Interface {
             let most = lambda.scalar.max(lambda.vector.norm());
             laws.law.pressure(gap, most, laws.scale) != Eval::default()
         };
-        laws.bond || gap < 0.25 * self.parts.pair.reach || acts()
+        let soon = || gap < 0.25 * self.reach_of(row, pair, &trial.placement());
+        laws.bond || soon() || acts()
     }
 
     /// The facets that a row meets and that of its anchor, each once.

@@ -10,7 +10,7 @@ use super::{
     AreaPart, ContactChange, ContactPart, ContactSummary, Context, Enforcement, FrictionPart,
     LimitPart, ModelError, StartSummary, StickPart,
 };
-use crate::contact::discretization::SlidingRange;
+use crate::contact::discretization::{REACH, SlidingRange};
 use crate::contact::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
 use crate::contact::law::Scale;
 use crate::contact::{InterfaceParts, Measure, Phase};
@@ -23,9 +23,6 @@ const PENALTY: f64 = 10.0;
 /// Factor of the automatic parameter of laws that solve for multipliers: it changes the way to the solution only, and
 /// what slips turns round for ever where it is large.
 const COMPLEMENTARITY: f64 = 1.0;
-/// The automatic reach over the largest facet.
-const REACH: f64 = 2.0;
-
 /// What contacts of a model share.
 pub(super) struct Steps<'a> {
     /// Changes of contacts in each step.
@@ -115,6 +112,7 @@ impl Context<'_> {
         };
         let size = if largest > 0.0 { largest } else { length };
         let at = self.placement();
+        sides.reach_locally(&at, part);
         let found = sides
             .look_around(&at, part.reach, REACH * size)
             .map_err(|source| ModelError::Surface {

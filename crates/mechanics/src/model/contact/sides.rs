@@ -2,7 +2,7 @@
 
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
-    Cutter, Discretization, Mortar, NodeNormals, NodeToNode, Pair, Pairing, PointToSegment,
+    Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, Pair, Pairing, PointToSegment,
     SurfacePair, areas_inside,
 };
 use crate::contact::law::{
@@ -260,6 +260,8 @@ impl Source<'_> {
                 secondary,
                 primary: surface,
                 reach: 0.0,
+                sizes: FacetSizes::default(),
+                start: Vec::new(),
                 same,
             },
             facets: primary,
@@ -558,6 +560,21 @@ impl Sides {
         self.pair.secondary.as_ref()
     }
 
+    /// Has the reach follow the sizes of facets. It stays the same everywhere where the primary side has no facets that
+    /// nodes carry, and where what is far apart acts, too: a bond, a clearance that is given, a curve of pressures.
+    pub fn reach_locally(&mut self, at: &Placement, part: &ContactPart) {
+        let acts_far = part.tie.is_some()
+            || part.start.clearance.is_some()
+            || part.enforcement.is_curve()
+            || matches!(self.method, Method::NodeToNode { .. });
+        if let Some(primary) = self.facets.as_ref().filter(|_| !acts_far) {
+            let SurfacePair {
+                points, secondary, ..
+            } = &self.pair;
+            self.pair.sizes = FacetSizes::new(points, secondary.as_ref(), primary, at);
+        }
+    }
+
     /// Chooses the reach, unless it is given, and answers with the closest points at the start. Sides further apart than
     /// the usual reach are looked for further away, so that a body that goes a long way to its contact is seen coming.
     pub fn look_around(
@@ -571,15 +588,21 @@ impl Sides {
         if given.is_some() || found.pairs.iter().any(Option::is_some) {
             return Ok(found);
         }
+        let sizes = std::mem::take(&mut self.pair.sizes);
+        let mut further = None;
         for _ in 0..DOUBLINGS {
             self.pair.reach *= 2.0;
-            let further = self.pair_up(at)?;
-            if further.pairs.iter().any(Option::is_some) {
-                return Ok(further);
+            let pairs = self.pair_up(at)?;
+            if pairs.pairs.iter().any(Option::is_some) {
+                further = Some(pairs);
+                break;
             }
         }
-        self.pair.reach = usual;
-        Ok(found)
+        self.pair.sizes = sizes;
+        if further.is_none() {
+            self.pair.reach = usual;
+        }
+        Ok(further.unwrap_or(found))
     }
 
     /// Makes each point stand for the facet that it was found to meet, as large as it were if it were everywhere as it is

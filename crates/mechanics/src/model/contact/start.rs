@@ -1,7 +1,7 @@
 //! Gaps and overlaps at the start, and what is done about them.
 
 use super::{ContactPart, ModelError, Sides, Source};
-use crate::contact::discretization::{Anchored, Pairing};
+use crate::contact::discretization::{Anchored, Pairing, REACH};
 use crate::contact::{Allowance, Shift};
 use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart};
 use signorini_geometry::mesh::NodeId;
@@ -188,7 +188,7 @@ fn moves(
         sides.pair.reach = if below.is_finite() {
             below
         } else {
-            super::REACH * largest
+            REACH * largest
         };
         let found = sides.pair_up(&at).map_err(surface_error)?;
         let mut jet = SurfaceJet::default();
