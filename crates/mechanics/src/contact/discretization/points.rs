@@ -201,6 +201,57 @@ impl PointToSegment {
         };
         near.iter().copied().filter(faces).collect()
     }
+    /// What the point of a row meets among the facets that are near it; `before` is what it met a moment ago.
+    ///
+    /// # Errors
+    /// A facet that has no normal.
+    pub fn meet(
+        &self,
+        row: usize,
+        pair: &SurfacePair,
+        at: &Placement,
+        near: &[u32],
+        before: Option<Pair>,
+    ) -> Result<Option<Pair>, SurfaceError> {
+        let inside = self.inside.as_ref().and_then(|points| points.get(row));
+        if self.renews() && inside.is_some_and(|point| point.apart) {
+            return Ok(None);
+        }
+        let surface = pair.primary.as_ref();
+        let point = self.point(row).position(at);
+        let mut jet = SurfaceJet::default();
+        if let Some(kept) = before.filter(|p| p.held.is_some()) {
+            surface.jet(at, &kept.anchor, &mut jet)?;
+            let normal = kept.held.unwrap_or_default();
+            return Ok(Some(Pair {
+                gap: (point - jet.position).dot(normal),
+                ..kept
+            }));
+        }
+        let reach = |facet| pair.reach_of_row(self, row, facet, at);
+        let how = (before.map(|p| p.anchor), &reach as _, self.closest);
+        let mut found = if self.own.is_empty() {
+            closest(surface, at, point, near, how)?
+        } else {
+            let facing = self.facing(row, surface, at, near);
+            closest(surface, at, point, &facing, how)?
+        };
+        if let Some(found) = found
+            .as_mut()
+            .filter(|_| self.sliding != SlidingRange::Finite)
+        {
+            surface.jet(at, &found.anchor, &mut jet)?;
+            let away = point - jet.position;
+            let normal = match found.feature {
+                Feature::Face => jet.normal,
+                _ => away
+                    .normalized()
+                    .map_or(jet.normal, |n| n * found.gap.signum()),
+            };
+            found.held = Some(normal);
+        }
+        Ok(found)
+    }
 }
 
 impl Discretization for PointToSegment {
@@ -289,50 +340,10 @@ impl Discretization for PointToSegment {
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
         out.pairs.resize(self.nrow(), None);
-        let surface = pair.primary.as_ref();
-        let apart = |row: usize| {
-            let inside = self.inside.as_ref().and_then(|points| points.get(row));
-            self.renews() && inside.is_some_and(|point| point.apart)
-        };
         let choose = |row: usize, found: &mut Option<Pair>| {
-            if apart(row) {
-                *found = None;
-                return Ok(());
-            }
             let before = last.pairs.get(row).copied().flatten();
-            let point = self.point(row).position(at);
-            let mut jet = SurfaceJet::default();
-            if let Some(kept) = before.filter(|p| p.held.is_some()) {
-                surface.jet(at, &kept.anchor, &mut jet)?;
-                let normal = kept.held.unwrap_or_default();
-                *found = Some(Pair {
-                    gap: (point - jet.position).dot(normal),
-                    ..kept
-                });
-                return Ok(());
-            }
-            let reach = |facet| pair.reach_of_row(self, row, facet, at);
-            let how = (before.map(|p| p.anchor), &reach as _, self.closest);
-            *found = if self.own.is_empty() {
-                closest(surface, at, point, near.candidates().near(row), how)?
-            } else {
-                let facing = self.facing(row, surface, at, near.candidates().near(row));
-                closest(surface, at, point, &facing, how)?
-            };
-            if let Some(found) = found
-                .as_mut()
-                .filter(|_| self.sliding != SlidingRange::Finite)
-            {
-                surface.jet(at, &found.anchor, &mut jet)?;
-                let away = point - jet.position;
-                let normal = match found.feature {
-                    Feature::Face => jet.normal,
-                    _ => away
-                        .normalized()
-                        .map_or(jet.normal, |n| n * found.gap.signum()),
-                };
-                found.held = Some(normal);
-            }
+            let near = near.candidates().near(row);
+            *found = self.meet(row, pair, at, near, before)?;
             Ok(())
         };
         out.pairs
