@@ -69,6 +69,11 @@ impl Scene {
         &self.nodes[label - 1]
     }
 
+    /// How many cells there are.
+    pub fn ncell(&self) -> usize {
+        self.cells.len()
+    }
+
     /// A cell; its label.
     pub fn cell(&mut self, element: &'static str, group: &str, nodes: Vec<usize>) -> usize {
         self.cells.push((element, group.into(), nodes));

@@ -271,7 +271,8 @@ pub trait Discretization: Send + Sync {
     }
 
     /// Makes the choices that hold while an iteration goes on, from those of the present iterate, and in what was before
-    /// likewise; says whether rows now see others.
+    /// likewise; says whether rows now see others. Rows that compare the sides in another way from now on have slipped as
+    /// far from their new anchors as from those before.
     ///
     /// # Errors
     /// A facet that has no normal.
@@ -281,6 +282,7 @@ pub trait Discretization: Send + Sync {
         _at: &Placement,
         _now: &mut Pairing,
         _before: &mut Pairing,
+        _anchors: &mut [Option<Anchored>],
     ) -> Result<bool, SurfaceError> {
         Ok(false)
     }

@@ -387,6 +387,7 @@ impl Interface {
         out.put(name("memory"), &memories.collect::<Vec<f64>>());
         let judged = self.accepted_judged.iter().flat_map(judged_to_numbers);
         out.put(name("judged"), &judged.collect::<Vec<f64>>());
+        out.put(name("choices"), &self.accepted.weights.choices());
         out.put(name("coupled"), &self.coupled.to_numbers());
         let first = self
             .first_step
@@ -431,6 +432,16 @@ impl Interface {
         let judged = values.chunks_exact(JUDGED).map(judged_from_numbers);
         self.accepted_judged = judged.collect();
         self.judged.clone_from(&self.accepted_judged);
+        let mut choices = vec![0.0; from.length(&name("choices"))?];
+        from.get(&name("choices"), &mut choices)?;
+        if !self.accepted.weights.restore_choices(&choices, nrow) {
+            return Err(ArchiveError::Length {
+                name: name("choices"),
+                found: choices.len(),
+                expected: 3 * nrow,
+            });
+        }
+        self.now.weights.clone_from(&self.accepted.weights);
         let mut coupled = vec![0.0; from.length(&name("coupled"))?];
         from.get(&name("coupled"), &mut coupled)?;
         let missing = || ArchiveError::Length {

@@ -425,7 +425,9 @@ impl Interface {
     fn settle(&mut self, at: &Placement) -> Result<bool, TermError> {
         let parts = &self.parts;
         let discretization = parts.discretization.as_ref();
-        let others = discretization.settle(&parts.pair, at, &mut self.now, &mut self.before);
+        let (now, before) = (&mut self.now, &mut self.before);
+        let anchors = self.history.anchors_mut();
+        let others = discretization.settle(&parts.pair, at, now, before, anchors);
         let others = others.map_err(|e| self.failed(&e))?;
         self.sees_others |= others;
         self.settled += u8::from(others);

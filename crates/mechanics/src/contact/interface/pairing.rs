@@ -2,7 +2,9 @@
 
 use super::{Carrier, ContactSurface, Interface, InterfaceParts, RESTLESS, dofs_of};
 use crate::contact::discretization::projected::{BEYOND, on_continuation};
-use crate::contact::discretization::{Discretization, NOWHERE, Pair, Pairing, SurfacePair};
+use crate::contact::discretization::{
+    Anchored, Discretization, NOWHERE, Pair, Pairing, SurfacePair,
+};
 use crate::contact::law::Eval;
 use crate::contact::row::RowOrder;
 use crate::system::{Dof, NO_DOF, PatternSink, State};
@@ -127,7 +129,8 @@ impl Interface {
         Ok(())
     }
 
-    /// Rows that touch, or may, and stick nowhere yet, stick where they are.
+    /// Rows that touch, or may, and stick nowhere yet, stick where they are. So do those that compare the sides in another
+    /// way than when they came to stick.
     pub(super) fn stick(&mut self, at: &Placement) -> Result<(), SurfaceError> {
         let waits = self.parts.remembers_traction;
         if self.parts.bond.is_some() || self.laws().friction.is_none() || waits {
@@ -137,7 +140,9 @@ impl Interface {
         let pair = &self.parts.pair;
         let anchors = self.history.anchors_mut();
         for (row, (found, anchor)) in self.now.pairs.iter().zip(anchors).enumerate() {
-            if let (Some(found), None) = (found, &anchor) {
+            let Some(found) = found else { continue };
+            let fits = |a: &Anchored| (a.anchor == NOWHERE) == (found.anchor == NOWHERE);
+            if !anchor.as_ref().is_some_and(fits) {
                 *anchor = Some(discretization.anchor(row, pair, at, found, Vec3::ZERO)?);
             }
         }

@@ -47,6 +47,8 @@ pub struct Derivatives {
     nprimary: usize,
     ncolumn: usize,
     dnormal: [Vec<f64>; 3],
+    /// Of the mean normal of what covers the facet, where it was asked for.
+    dopposite: [Vec<f64>; 3],
     dd: Vec<f64>,
     dm: Vec<f64>,
 }
@@ -56,6 +58,13 @@ impl Derivatives {
     #[must_use]
     pub fn dnormal(&self, a: usize) -> &[f64] {
         &self.dnormal[a]
+    }
+
+    /// The derivatives of a component of the sum of normals of primary facets, weighted with the areas that they cover, by
+    /// all columns; empty where they were not asked for.
+    #[must_use]
+    pub fn dopposite(&self, a: usize) -> &[f64] {
+        &self.dopposite[a]
     }
 
     /// `∂D_j/∂v`; empty where only values were wanted.
@@ -105,6 +114,7 @@ impl Covered {
         derivatives: bool,
     ) -> Result<(), MortarError> {
         let frame = Frame::measured(secondary, self.measure)?;
+        self.derivatives.dopposite.iter_mut().for_each(Vec::clear);
         self.nnode = secondary.x.len();
         self.normal = frame.normal();
         for (a, dnormal) in self.derivatives.dnormal.iter_mut().enumerate() {
@@ -179,12 +189,18 @@ impl Covered {
     /// The cosine of the angle by which primary facets fail to face it, in the mean over what they cover.
     #[must_use]
     pub fn facing(&self) -> f64 {
-        let area = |pair: &Pair| (0..self.nnode).map(|j| pair.n(j)).sum::<f64>();
-        let parts = self.pairs().iter().map(|pair| (area(pair), pair.cosine()));
+        let parts = self.pairs().iter().map(|pair| (pair.area(), pair.cosine()));
         let [all, facing] = parts.fold([0.0; 2], |[all, facing], (area, cosine)| {
             [all + area, facing + area * cosine]
         });
         if all > 0.0 { facing / all } else { 0.0 }
+    }
+
+    /// The sum of the normals of primary facets, weighted with the areas that they cover.
+    #[must_use]
+    pub fn opposite(&self) -> Vec3 {
+        let pairs = self.pairs().iter();
+        pairs.map(|pair| pair.opposite() * pair.area()).sum()
     }
 
     /// ν.
@@ -239,6 +255,45 @@ impl Covered {
     #[must_use]
     pub fn derivatives(&self) -> &Derivatives {
         &self.derivatives
+    }
+
+    /// Finds the derivatives of the [sum of normals](Self::opposite) of the primary facets that it was integrated against:
+    /// `dm = Σ (A_f dn_f + n_f dA_f)`.
+    ///
+    /// # Errors
+    /// A primary facet without a normal.
+    pub fn differentiate_opposite(&mut self, primaries: &[Facet]) -> Result<(), MortarError> {
+        let (own, ncolumn) = (3 * self.nnode, self.ncolumn());
+        let dopposite = &mut self.derivatives.dopposite;
+        dopposite.iter_mut().for_each(|d| zeros(d, ncolumn));
+        let mut places = &self.places[..];
+        for (pair, &number) in self.pairs.iter().zip(&self.met) {
+            let Some(primary) = primaries.get(number) else {
+                continue;
+            };
+            let of_pair = places.split_off(..primary.x.len()).unwrap_or_default();
+            let column = |i: usize| match i.checked_sub(own) {
+                None => Some(i),
+                Some(i) => of_pair.get(i / 3).map(|place| own + 3 * place + i % 3),
+            };
+            let (frame, area) = (Frame::of(primary)?, pair.area());
+            for (a, to) in dopposite.iter_mut().enumerate() {
+                let n = pair.opposite()[a];
+                let by_area = (0..self.nnode).flat_map(|j| pair.dn(j).iter().enumerate());
+                for (i, d) in by_area {
+                    if let Some(to) = column(i).and_then(|c| to.get_mut(c)) {
+                        *to += n * d;
+                    }
+                }
+                // the frame of a facet has its normal turned round
+                for (i, d) in frame.dnormal(a).enumerate() {
+                    if let Some(to) = column(own + i).and_then(|c| to.get_mut(c)) {
+                        *to -= area * d;
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Leaves its derivatives there and has none any longer: what was there lends its memory to the next ones.

@@ -124,15 +124,6 @@ impl Frame {
         slopes.take(3 * self.element.nnode())
     }
 
-    /// The cosine of the angle by which a facet fails to face this one at its centre.
-    fn faces(&self, other: &Facet) -> f64 {
-        let x = other.x.iter().map(|x| x.to_array());
-        let mut nodes = [[0.0; 3]; MAX_FACET_NODES];
-        nodes.iter_mut().zip(x).for_each(|(node, x)| *node = x);
-        let plane = Plane::of(other.element, &nodes[..other.x.len()]);
-        plane.map_or(0.0, |plane| Vec3::from(plane.normal).dot(self.normal()))
-    }
-
     /// Whether the boxes around places of this facet and of others have nothing in common.
     fn apart(&self, others: &[[f64; 2]]) -> bool {
         let own = &self.places[..self.element.nnode()];
@@ -212,6 +203,15 @@ impl Factor {
 }
 
 impl Facet<'_> {
+    /// Its normal at the centre; zero where it has none.
+    fn normal(&self) -> Vec3 {
+        let x = self.x.iter().map(|x| x.to_array());
+        let mut nodes = [[0.0; 3]; MAX_FACET_NODES];
+        nodes.iter_mut().zip(x).for_each(|(node, x)| *node = x);
+        let plane = Plane::of(self.element, &nodes[..self.x.len()]);
+        plane.map_or(Vec3::ZERO, |plane| Vec3::from(plane.normal))
+    }
+
     pub(super) fn check(&self) -> Result<(), MortarError> {
         let (n, dim) = (self.element.nnode(), self.element.dim());
         if n == self.x.len() && n <= MAX_FACET_NODES && dim < 3 {
@@ -236,6 +236,8 @@ pub struct Pair {
     dim: usize,
     /// Of the angle by which the two fail to face one another.
     cosine: f64,
+    /// Of the primary facet at its centre, out of its body.
+    opposite: Vec3,
     /// All integrals, one kind after the other.
     values: Vec<f64>,
     /// The derivatives of each.
@@ -267,7 +269,8 @@ impl Pair {
         if frame.apart(&places[..self.nprimary]) {
             return Ok(false);
         }
-        self.cosine = frame.faces(primary);
+        self.opposite = primary.normal();
+        self.cosine = self.opposite.dot(frame.normal());
         if self.cosine <= EDGE_ON {
             return Ok(false);
         }
@@ -275,7 +278,7 @@ impl Pair {
         let found = match found {
             Ok(found) => found,
             Err(Fault::Secondary) => return Err(MortarError::Secondary),
-            Err(Fault::Primary) if frame.faces(primary) < FACING => false,
+            Err(Fault::Primary) if self.cosine < FACING => false,
             Err(Fault::Primary) => return Err(MortarError::Folded { number }),
         };
         if found && derivatives {
@@ -429,6 +432,32 @@ impl Pair {
     #[must_use]
     pub fn cosine(&self) -> f64 {
         self.cosine
+    }
+
+    /// The normal of the primary facet at its centre, out of its body; zero where it has none.
+    #[must_use]
+    pub fn opposite(&self) -> Vec3 {
+        self.opposite
+    }
+
+    /// The area that both share.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        (0..self.nsecondary).map(|j| self.n(j)).sum()
+    }
+
+    /// The mean of the way from the primary to the secondary facet, whose nodes are at `primary` and `secondary`.
+    #[must_use]
+    pub fn mean_way(&self, secondary: &[Vec3], primary: &[Vec3]) -> Vec3 {
+        let origin = secondary.first().copied().unwrap_or_default();
+        let mut way = Vec3::ZERO;
+        for (j, &x) in secondary.iter().enumerate().take(self.nsecondary) {
+            way += (x - origin) * self.n(j);
+            for (l, &x) in primary.iter().enumerate().take(self.nprimary) {
+                way -= (x - origin) * self.nm(j, l);
+            }
+        }
+        way / self.area()
     }
 
     /// `∫N_j`.

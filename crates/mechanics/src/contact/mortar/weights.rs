@@ -17,16 +17,37 @@ pub struct Weights {
     pub(crate) guests: Guests,
 }
 
-/// Nodes that are hardly covered leave their function ψ to others.
+/// Nodes that are hardly covered, or that compare points, leave their function ψ to others.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Guests {
     /// Rows that have left it.
     pub(crate) left: Vec<bool>,
+    /// Rows that compare their node with its closest point.
+    pub(crate) pointwise: Vec<bool>,
+    /// How far the normals of a row have turned from those of its facets to those of what they meet; empty where none has.
+    pub(crate) turned: Vec<f64>,
+    /// Facets that any such row acts on; empty where there is none.
+    pub(crate) turning: Vec<bool>,
     /// What each row has taken over: a facet, a place in it, and which part.
     pub(crate) taken: Vec<Vec<(u32, usize, f64)>>,
 }
 
 impl Guests {
+    /// How far the normals of a row have turned.
+    pub(crate) fn turn(&self, row: usize) -> f64 {
+        self.turned.get(row).copied().unwrap_or(0.0)
+    }
+
+    /// Whether a row whose normals have turned acts on a facet.
+    pub(crate) fn turns_on(&self, facet: u32) -> bool {
+        self.turning.get(facet as usize).is_some_and(|t| *t)
+    }
+
+    /// Whether a row compares its node with its closest point.
+    pub(crate) fn is_pointwise(&self, row: usize) -> bool {
+        self.pointwise.get(row).is_some_and(|p| *p)
+    }
+
     /// The functions of a row: those of the facets around its node, and those taken over.
     pub(crate) fn of<'a>(
         &'a self,
@@ -70,6 +91,10 @@ pub struct OfFacet {
     pub normal: Vec3,
     /// The cosine of the angle by which these fail to face it, in the mean over what they cover.
     pub facing: f64,
+    /// The sum of their normals, weighted with the areas that they cover.
+    pub opposite: Vec3,
+    /// The smooth part of the primary side that they belong to.
+    pub part: u32,
     /// D_j.
     pub d: [f64; MAX_FACET_NODES],
     /// D⁰_j.
@@ -81,6 +106,16 @@ pub struct OfFacet {
 }
 
 impl OfFacet {
+    /// The normal along which a row acts whose normals have turned by `s`: `q/|q|`, `q = (1 − s) ν_e + s m/|m|`.
+    pub(crate) fn turned(&self, s: f64) -> Vec3 {
+        if s == 0.0 {
+            return self.normal;
+        }
+        let opposite = self.opposite.normalized().unwrap_or(self.normal);
+        let q = self.normal * (1.0 - s) + opposite * s;
+        q.normalized().unwrap_or(self.normal)
+    }
+
     /// How many derivatives of M there are.
     pub(crate) fn nslope(&self) -> usize {
         let nprimary = self.nodes.len();
@@ -90,6 +125,48 @@ impl OfFacet {
 }
 
 impl Weights {
+    /// The choices that depend on those before, for a checkpoint: the part of the primary side that each facet sees, then of each
+    /// row whether it has left its function, whether it compares points, and how far its normals have turned.
+    #[must_use]
+    pub fn choices(&self) -> Vec<f64> {
+        let flag = |flags: &[bool], row: usize| f64::from(u8::from(flags.get(row) == Some(&true)));
+        let guests = &self.guests;
+        let row = |row| {
+            let turn = guests.turn(row);
+            [flag(&guests.left, row), flag(&guests.pointwise, row), turn]
+        };
+        let parts = self.facets.iter().map(|f| f64::from(f.part));
+        parts.chain((0..guests.left.len()).flat_map(row)).collect()
+    }
+
+    /// Takes the choices of so many rows that were stored; says whether these numbers are such.
+    pub fn restore_choices(&mut self, stored: &[f64], nrow: usize) -> bool {
+        if stored.is_empty() {
+            return true;
+        }
+        let Some(nfacet) = stored.len().checked_sub(3 * nrow) else {
+            return false;
+        };
+        let (parts, rows) = stored.split_at(nfacet);
+        self.facets = parts
+            .iter()
+            .map(|&part| OfFacet {
+                part: part as u32,
+                ..OfFacet::default()
+            })
+            .collect();
+        let (rows, _) = rows.as_chunks::<3>();
+        self.guests = Guests {
+            left: rows.iter().map(|r| r[0] != 0.0).collect(),
+            pointwise: rows.iter().map(|r| r[1] != 0.0).collect(),
+            ..Guests::default()
+        };
+        if rows.iter().any(|r| r[2] != 0.0) {
+            self.guests.turned = rows.iter().map(|r| r[2]).collect();
+        }
+        true
+    }
+
     /// A row, where enough of it is covered for a multiplier.
     #[must_use]
     pub fn row(&self, row: usize) -> Option<&OfRow> {

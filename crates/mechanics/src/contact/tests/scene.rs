@@ -262,8 +262,9 @@ impl Scene {
                     normals,
                     ..Default::default()
                 };
-                let mut mortar =
-                    Mortar::new(second.as_ref().unwrap(), form, Default::default(), &x).unwrap();
+                let (second, primary) = (second.as_ref().unwrap(), pair.primary.as_ref());
+                let measure = Default::default();
+                let mut mortar = Mortar::new(second, primary, form, measure, &x).unwrap();
                 if choice.bond || method == Method::HeldMortar {
                     let (x, poses) = (&x[..], &poses[..]);
                     mortar = mortar.held_at(&pair, &Placement { x, poses }).unwrap();

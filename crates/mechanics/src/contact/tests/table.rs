@@ -162,6 +162,10 @@ fn balance(scene: &mut Scene, method: Method, rubs: bool, bond: bool, name: &str
         if rubs || bond || matches!(method, Method::NodalMortar | Method::HeldMortar) {
             return;
         }
+        // where normals have turned, moments balance to the tilt times the gap
+        if !scene.interface.pairing().weights.guests.turned.is_empty() {
+            return;
+        }
         Vec3::ZERO
     } else {
         scene.moment_of_pairs(&whole.force, method.is_between_nodes())

@@ -2,8 +2,8 @@
 
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
-    Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, Pair, Pairing, PointToSegment,
-    SurfacePair, areas_inside,
+    Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, Pair, Pairing,
+    PointToSegment, SurfacePair, areas_inside,
 };
 use crate::contact::law::{
     Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
@@ -216,7 +216,7 @@ impl Source<'_> {
                 (Box::new(inside), area)
             }
             Method::Mortar(form) => {
-                let (Some(facets), Some(_)) = (&secondary, &primary) else {
+                let (Some(facets), Some(opposite)) = (&secondary, &primary) else {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
                         what: "mortar contact needs two sides made of faces",
@@ -229,7 +229,7 @@ impl Source<'_> {
                     });
                 }
                 let space = self.one_space(part, facets)?;
-                let mortar = Mortar::new(facets, form, measure(space), self.reference)
+                let mortar = Mortar::new(facets, opposite, form, measure(space), self.reference)
                     .map_err(surface_error)?;
                 let area = mortar_areas(&mortar, self.reference, space);
                 (Box::new(mortar), area)
@@ -641,10 +641,12 @@ impl Sides {
         let (&Method::Mortar(form), Some(facets)) = (&self.method, &self.pair.secondary) else {
             return Ok(());
         };
+        let primary = self.pair.primary.as_ref();
         let Some(&space) = spaces.behind(facets).first() else {
             return Ok(());
         };
-        let mortar = Mortar::new(facets, form, measure(space), at.x)?.held_at(&self.pair, at)?;
+        let mortar =
+            Mortar::new(facets, primary, form, measure(space), at.x)?.held_at(&self.pair, at)?;
         self.area = mortar_areas(&mortar, at.x, space);
         self.discretization = Box::new(mortar);
         Ok(())

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 /// The cosine of the largest angle between facets without an edge between them: a little over 30 degrees, so that a circle
 /// of twelve facets has none.
-const SMOOTH: f64 = 0.86;
+pub(super) const SMOOTH: f64 = 0.86;
 
 /// Facets around a node, and its place in them.
 pub(super) type Part = Vec<(u32, usize)>;

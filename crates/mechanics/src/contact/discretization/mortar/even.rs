@@ -197,7 +197,7 @@ mod tests {
         let corners = [(low, low), (high, low), (high, high), (low, high)];
         x.extend(corners.map(|(a, b)| Vec3::new(a, b, 0.0)));
         let primary = surface(&mut x, &[(first..first + 4).collect()]);
-        let mortar = Mortar::new(&secondary, Form::default(), Measure::Flat, &x).unwrap();
+        let mortar = Mortar::new(&secondary, &primary, Form::default(), Measure::Flat, &x).unwrap();
         let pair = SurfacePair {
             secondary: Some(secondary),
             ..SurfacePair::new(mortar.nodes().to_vec(), Arc::new(primary), 1.0)

@@ -1,6 +1,7 @@
 //! The integrals of secondary facets, and derivatives that are kept for as long as rows may need them.
 
 use super::nodes_of;
+use super::sight::{Seen, SmoothParts};
 use crate::contact::discretization::SurfacePair;
 use crate::contact::mortar::{
     Basis, Covered, Derivatives, Facet, Measure, MortarError, OfFacet, Weights,
@@ -18,6 +19,27 @@ const NUMBERS: usize = 1 << 22;
 /// Facets kept at least, for each thread: what one needs for two lines of a surface of 30 by 30.
 const LEAST: usize = 64;
 
+/// How far integrals of a facet are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// Values.
+    Values,
+    /// And derivatives.
+    Derivatives,
+    /// And those of the mean normal of what covers the facet.
+    Turning,
+}
+
+impl Wanted {
+    /// Derivatives of a facet.
+    pub fn derivatives(turning: bool) -> Self {
+        match turning {
+            true => Self::Turning,
+            false => Self::Derivatives,
+        }
+    }
+}
+
 /// The integrals of one facet, with the memory they take.
 #[derive(Default)]
 pub(super) struct Integrator {
@@ -28,6 +50,8 @@ pub(super) struct Integrator {
     others: Vec<Vec3>,
     /// The nodes of these, one facet after the other.
     nodes: Vec<NodeId>,
+    seen: Vec<Seen>,
+    kept: Vec<u32>,
 }
 
 impl Integrator {
@@ -56,12 +80,53 @@ impl Integrator {
         search
             .bvh()
             .overlaps(&own.inflated(search.range()), &mut self.near);
-        let region = own.inflated(pair.reach);
         let nodes = facets.nodes(facet);
         self.near.retain(|&other| {
             let touches = |f: u32| nodes_of(pair, f).iter().any(|n| nodes.contains(n));
+            let region = own.inflated(pair.reach_between(facet, other, at));
             pair.primary.aabb(at, other).overlaps(&region) && !(pair.same && touches(other))
         });
+    }
+
+    /// Integrates a secondary facet against those found of one smooth part of the primary side, and leaves these in `near`;
+    /// answers with the part. `before` is the one that it saw before.
+    pub fn see(
+        &mut self,
+        facets: &Facets,
+        facet: u32,
+        (pair, parts): (&SurfacePair, &SmoothParts),
+        at: &Placement,
+        (before, derivatives): (u32, Wanted),
+    ) -> Result<u32, SurfaceError> {
+        self.integrate(facets, facet, pair, at, derivatives)?;
+        let covered = &self.covered;
+        self.seen.clear();
+        for (of, &number) in covered.pairs().iter().zip(covered.met()) {
+            let Some(&other) = self.near.get(number) else {
+                continue;
+            };
+            let first: usize = self.near[..number]
+                .iter()
+                .map(|&f| nodes_of(pair, f).len())
+                .sum();
+            let primary = self.others.get(first..).unwrap_or_default();
+            self.seen.push(Seen {
+                facet: other,
+                cosine: of.cosine(),
+                area: of.area(),
+                gap: of.mean_way(&self.own, primary).dot(covered.normal()),
+            });
+        }
+        let whole = covered.full().iter().sum();
+        let size = facets.size(at, facet);
+        let met = self.seen.len();
+        let part = parts.choose(&mut self.seen, (whole, size), before, &mut self.kept);
+        if self.seen.len() < met {
+            self.near.clear();
+            self.near.extend(self.seen.iter().map(|s| s.facet));
+            self.integrate(facets, facet, pair, at, derivatives)?;
+        }
+        Ok(part)
     }
 
     /// Integrates a secondary facet against those found.
@@ -71,7 +136,7 @@ impl Integrator {
         facet: u32,
         pair: &SurfacePair,
         at: &Placement,
-        derivatives: bool,
+        derivatives: Wanted,
     ) -> Result<(), SurfaceError> {
         let missing = || SurfaceError::NoSuchFacet { facet };
         let element = facets.element(facet).ok_or_else(missing)?;
@@ -97,9 +162,12 @@ impl Integrator {
             element,
             x: &self.own,
         };
-        let done = self
-            .covered
-            .evaluate(&own, &primaries, &self.nodes, derivatives);
+        let covered = &mut self.covered;
+        let mut done =
+            covered.evaluate(&own, &primaries, &self.nodes, derivatives != Wanted::Values);
+        if derivatives == Wanted::Turning {
+            done = done.and_then(|()| covered.differentiate_opposite(&primaries));
+        }
         done.map_err(|error| SurfaceError::Degenerate {
             facet: match error {
                 MortarError::Folded { number } => self.near.get(number).copied().unwrap_or(facet),
@@ -117,6 +185,7 @@ impl Integrator {
             .extend(covered.nodes().iter().map(|&k| self.nodes[k]));
         to.normal = covered.normal();
         to.facing = covered.facing();
+        to.opposite = covered.opposite();
         to.m.clear();
         for (j, (d, full)) in covered.d().iter().zip(covered.full()).enumerate() {
             (to.d[j], to.full[j]) = (*d, *full);

@@ -57,12 +57,16 @@
 //! Sources: Popp, Gitterle, Gee and Wall, IJNME 83, 2010; Gitterle, Popp, Gee and Wall, IJNME 84, 2010 (friction); Yang,
 //! Laursen and Meng, IJNME 62, 2005 (objective slip).
 
+mod clearance;
 mod edges;
 mod even;
 mod integrals;
 mod place;
+mod pointwise;
+mod sight;
 
-use super::projected::Point;
+use super::points::{PointToSegment, SlidingRange};
+use super::projected::{Closest, Point};
 use super::{Anchored, Discretization, Links, NOWHERE, OnRow, Pair, Pairing, SurfacePair};
 use crate::contact::mortar::{
     Basis, Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights,
@@ -71,7 +75,9 @@ use crate::contact::row::{Participant, RowOrder, Rows, Wanted};
 use edges::{Part, parts};
 use integrals::{Integrator, Kept};
 use place::{Place, Workspace};
+use pointwise::structural;
 use rayon::prelude::*;
+use sight::{NO_PART, SmoothParts};
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::{Aabb, Search};
@@ -124,6 +130,14 @@ pub struct Mortar {
     around: Vec<Part>,
     /// Nodes of those facets, its own first.
     near: Vec<Vec<NodeId>>,
+    /// The nodes of rows as points, for rows that compare these.
+    points: PointToSegment,
+    /// Rows at edges of the secondary side and where it ends.
+    structural: Vec<bool>,
+    /// The smooth parts of the primary side.
+    sight: SmoothParts,
+    /// The largest angle by which the facets around the node of each row turn at the start, in radians.
+    turning: Vec<f64>,
     /// `T⁻ᵀ` of every kind of facet, and the kind of each.
     kinds: Vec<(Element, Inverse)>,
     kind: Vec<usize>,
@@ -139,12 +153,13 @@ type Inverse = [[f64; MAX_FACET_NODES]; MAX_FACET_NODES];
 const ONE: [f64; 1] = [1.0];
 
 impl Mortar {
-    /// Rows of all nodes of these facets, with areas at `x`.
+    /// Rows of all nodes of these facets against a primary side, with areas at `x`.
     ///
     /// # Errors
     /// A facet without a normal.
     pub fn new(
         facets: &Facets,
+        primary: &dyn ContactSurface,
         form: Form,
         measure: Measure,
         x: &[Vec3],
@@ -188,6 +203,13 @@ impl Mortar {
                 area[row] += full;
             }
         }
+        let mut points = PointToSegment::at_nodes(&nodes);
+        points.closest = Closest::Faces;
+        let structural = structural(facets, &nodes, &around);
+        let sight = SmoothParts::of(primary, x)?;
+        let own = SmoothParts::of(facets, x)?;
+        let largest = |part: &Part| part.iter().fold(0.0, |m: f64, p| m.max(own.turning(p.0)));
+        let turning = around.iter().map(largest).collect();
         let in_turn = around.iter().flatten().map(|&(facet, _)| facet);
         let kept = Kept::new(facets.nfacet(), in_turn);
         Ok(Self {
@@ -195,6 +217,10 @@ impl Mortar {
             rows,
             around,
             near,
+            points,
+            structural,
+            sight,
+            turning,
             kinds,
             kind,
             area,
@@ -215,8 +241,10 @@ impl Mortar {
         let boxes: Vec<Aabb> = boxes.collect();
         search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
         let mut weights = Weights::default();
-        self.weigh(pair, at, &search, RowOrder::Gap, &mut weights)?;
+        let nothing = Weights::default();
+        self.weigh(pair, at, &search, (&nothing, RowOrder::Gap), &mut weights)?;
         self.rest(pair, at, &mut weights)?;
+        self.points.sliding = SlidingRange::Small;
         for (row, area) in self.area.iter_mut().enumerate() {
             if let Some(covered) = weights.row(row) {
                 *area = covered.d;
@@ -248,18 +276,17 @@ impl Mortar {
         let Some(facets) = &pair.secondary else {
             return Ok(false);
         };
-        let guests = self.host(facets, weights);
+        let guests = self.host((pair, facets), at, weights);
         if guests == weights.guests {
             return Ok(false);
+        }
+        if guests.turning != weights.guests.turning {
+            // derivatives of other facets are wanted in full
+            weights.stamp = next_stamp();
         }
         weights.guests = guests;
         self.add_up_all(facets, at, weights)?;
         Ok(true)
-    }
-
-    /// Whether nodes of edges have several rows.
-    fn has_edges(&self) -> bool {
-        self.nodes.windows(2).any(|two| two[0] == two[1])
     }
 
     fn weights<'a>(&'a self, pairing: &'a Pairing) -> &'a Weights {
@@ -272,16 +299,16 @@ impl Mortar {
         pair: &SurfacePair,
         at: &Placement,
         search: &Search,
-        next: RowOrder,
+        (before, next): (&Weights, RowOrder),
         out: &mut Weights,
     ) -> Result<(), SurfaceError> {
-        static STAMP: AtomicU64 = AtomicU64::new(1);
-        out.stamp = STAMP.fetch_add(1, Ordering::Relaxed);
+        out.stamp = next_stamp();
         let Some(facets) = &pair.secondary else {
             return Ok(());
         };
         let stamp = out.stamp;
         let last = self.kept.last();
+        let guests = &out.guests;
         out.facets.resize_with(self.kind.len(), OfFacet::default);
         out.facets
             .par_iter_mut()
@@ -293,7 +320,16 @@ impl Mortar {
                     let facet = facet as u32;
                     integrator.find(facets, facet, pair, at, search);
                     let derivatives = next == RowOrder::Tangent && self.kept.asked(facet, last);
-                    integrator.integrate(facets, facet, pair, at, derivatives)?;
+                    let saw = before
+                        .facets
+                        .get(facet as usize)
+                        .map_or(NO_PART, |f| f.part);
+                    let sides = (pair, &self.sight);
+                    let wanted = match derivatives {
+                        true => integrals::Wanted::derivatives(guests.turns_on(facet)),
+                        false => integrals::Wanted::Values,
+                    };
+                    to.part = integrator.see(facets, facet, sides, at, (saw, wanted))?;
                     integrator.store(to);
                     if derivatives {
                         self.kept.keep(facet, stamp, integrator);
@@ -326,7 +362,12 @@ impl Mortar {
 
     /// Who takes over whose function, by what is covered: on the facet around a node of which most is, which part of it.
     /// A node of which little is covered leaves it to those beside it that are covered well, or much better than itself.
-    fn host(&self, facets: &Facets, weights: &Weights) -> Guests {
+    fn host(
+        &self,
+        (pair, facets): (&SurfacePair, &Facets),
+        at: &Placement,
+        weights: &Weights,
+    ) -> Guests {
         let n = self.nodes.len();
         let met = |facet: u32| {
             let of = weights.facets.get(facet as usize);
@@ -341,9 +382,12 @@ impl Mortar {
         let parts: Vec<f64> = (0..n).map(part).collect();
         let mut found = Guests {
             left: vec![false; n],
+            pointwise: vec![false; n],
             taken: vec![Vec::new(); n],
+            ..Guests::default()
         };
-        let aside = self.choose_sides(weights, &mut found);
+        let mut aside = self.choose_sides(weights, &mut found);
+        self.choose_points(pair, at, weights, &mut found, &mut aside);
         let mut weak: Vec<usize> = (0..n)
             .filter(|&r| parts[r] > 0.0 && parts[r] < WEAK && !found.left[r])
             .collect();
@@ -381,6 +425,7 @@ impl Mortar {
         for row in aside {
             self.set_aside(row, facets, &mut found);
         }
+        self.turn(weights, &mut found);
         found
     }
 
@@ -463,6 +508,7 @@ impl Mortar {
         to.vector.resize(nsecondary, Vec3::ZERO);
         for (facet, place, share) in guests.of(row, &self.around[row]) {
             let covered = &of[facet as usize];
+            let nu = covered.turned(guests.turn(row));
             let d = share * covered.d[place];
             to.full += share * covered.full[place];
             if covered.met.is_empty() {
@@ -470,14 +516,14 @@ impl Mortar {
             }
             to.d += d;
             to.normal += match self.form.normals {
-                Normals::Facet => covered.normal * d,
+                Normals::Facet => nu * d,
                 Normals::Nodal => corner_normal(facets, facet, place, at)?.0 * share,
             };
             let t = &self.inverse(facet)[place];
             for (&node, t) in facets.nodes(facet).iter().zip(t) {
                 if let Some(k) = to.nodes[..nsecondary].iter().position(|n| *n == node) {
                     to.scalar[k] += t * d;
-                    to.vector[k] += covered.normal * (t * d);
+                    to.vector[k] += nu * (t * d);
                 }
             }
             let nprimary = covered.nodes.len();
@@ -491,7 +537,7 @@ impl Mortar {
                     to.vector.push(Vec3::ZERO);
                 }
                 to.scalar[k] -= share * m;
-                to.vector[k] -= covered.normal * (share * m);
+                to.vector[k] -= nu * (share * m);
             }
         }
         if self.form.normals == Normals::Nodal {
@@ -503,12 +549,27 @@ impl Mortar {
         Ok(())
     }
 
-    /// Pairs of all rows that are covered.
-    fn choose(&self, at: &Placement, out: &mut Pairing) {
+    /// Pairs of all rows that are covered, and of those that compare points. `near` has the facets near a row, and
+    /// `before` what it met a moment ago.
+    fn choose(
+        &self,
+        pair: &SurfacePair,
+        at: &Placement,
+        near: &dyn Fn(usize, &mut Vec<u32>),
+        before: &dyn Fn(usize) -> Option<Pair>,
+        out: &mut Pairing,
+    ) -> Result<(), SurfaceError> {
         let weights = self.held.as_ref().unwrap_or(&out.weights);
         let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
+        let mut facets = Vec::new();
         out.pairs.resize(self.nodes.len(), None);
         for (row, (found, &node)) in out.pairs.iter_mut().zip(&self.nodes).enumerate() {
+            if weights.guests.is_pointwise(row) {
+                let before = before(row).filter(|p| p.anchor != NOWHERE);
+                near(row, &mut facets);
+                *found = self.points.meet(row, pair, at, &facets, before)?;
+                continue;
+            }
             *found = weights.row(row).map(|of| Pair {
                 anchor: NOWHERE,
                 feature: Feature::Face,
@@ -516,11 +577,18 @@ impl Mortar {
                 held: None,
             });
         }
+        Ok(())
     }
 
     fn inverse(&self, facet: u32) -> &Inverse {
         &self.kinds[self.kind[facet as usize]].1
     }
+}
+
+/// Tells one configuration from all others.
+fn next_stamp() -> u64 {
+    static STAMP: AtomicU64 = AtomicU64::new(1);
+    STAMP.fetch_add(1, Ordering::Relaxed)
 }
 
 /// `T⁻ᵀ` of a kind of facet.
@@ -600,13 +668,17 @@ impl Discretization for Mortar {
     ) -> Result<(), SurfaceError> {
         if self.held.is_none() {
             out.weights.guests.clone_from(&last.weights.guests);
-            self.weigh(pair, at, near, next, &mut out.weights)?;
-            if out.weights.guests.left.is_empty() && self.has_edges() {
+            self.weigh(pair, at, near, (&last.weights, next), &mut out.weights)?;
+            if out.weights.guests.left.is_empty() {
                 self.rest(pair, at, &mut out.weights)?;
             }
         }
-        self.choose(at, out);
-        Ok(())
+        let near = |row: usize, facets: &mut Vec<u32>| {
+            facets.clear();
+            facets.extend_from_slice(near.candidates().near(row));
+        };
+        let before = |row: usize| last.pairs.get(row).copied().flatten();
+        self.choose(pair, at, &near, &before, out)
     }
 
     fn settle(
@@ -615,11 +687,21 @@ impl Discretization for Mortar {
         at: &Placement,
         now: &mut Pairing,
         before: &mut Pairing,
+        anchors: &mut [Option<Anchored>],
     ) -> Result<bool, SurfaceError> {
-        if self.held.is_some() || !self.rest(pair, at, &mut now.weights)? {
+        if self.held.is_some() {
             return Ok(false);
         }
-        self.choose(at, now);
+        let kinds = now.weights.guests.pointwise.clone();
+        let slips = self.slips(at, now, before, anchors);
+        if !self.rest(pair, at, &mut now.weights)? {
+            return Ok(false);
+        }
+        let known = now.pairs.clone();
+        let met = now.weights.clone();
+        let near = |row: usize, facets: &mut Vec<u32>| self.met_around(row, pair, &met, facets);
+        let last = |row: usize| known.get(row).copied().flatten();
+        self.choose(pair, at, &near, &last, now)?;
         if let Some(facets) = pair
             .secondary
             .as_ref()
@@ -627,6 +709,21 @@ impl Discretization for Mortar {
         {
             before.weights.guests.clone_from(&now.weights.guests);
             self.add_up_all(facets, at, &mut before.weights)?;
+        }
+        for (row, anchor) in anchors.iter_mut().enumerate() {
+            let is = now.weights.guests.is_pointwise(row);
+            if anchor.is_none() || kinds.get(row).is_some_and(|was| *was) == is {
+                continue;
+            }
+            let slip = slips.get(row).copied().unwrap_or_default();
+            *anchor = match &now.pairs[row] {
+                Some(found) if is => Some(self.points.anchor(row, pair, at, found, slip)?),
+                Some(_) => Some(Anchored {
+                    anchor: NOWHERE,
+                    offset: Vec3::ZERO,
+                }),
+                None => None,
+            };
         }
         Ok(true)
     }
@@ -641,8 +738,12 @@ impl Discretization for Mortar {
         out: &mut Rows,
     ) -> Result<(), SurfaceError> {
         let weights = self.weights(links.pairing);
-        let met = links.pairing.pairs.get(row).is_some_and(Option::is_some);
-        let Some(now) = weights.row(row).filter(|_| met) else {
+        let found = links.pairing.pairs.get(row).and_then(Option::as_ref);
+        if found.is_some_and(|pair| pair.anchor != NOWHERE) {
+            out.nsecondary = 0;
+            return self.points.row(row, pair, at, links, wanted, out);
+        }
+        let Some(now) = weights.row(row).filter(|_| found.is_some()) else {
             out.start([]);
             return Ok(());
         };
@@ -685,11 +786,14 @@ impl Discretization for Mortar {
     fn anchor(
         &self,
         row: usize,
-        _: &SurfacePair,
+        pair: &SurfacePair,
         at: &Placement,
-        _: &Pair,
+        found: &Pair,
         slip: Vec3,
     ) -> Result<Anchored, SurfaceError> {
+        if found.anchor != NOWHERE {
+            return self.points.anchor(row, pair, at, found, slip);
+        }
         let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
         let held = self.held.as_ref().and_then(|w| w.row(row));
         let way = held.map_or(Vec3::ZERO, |of| of.way(x(self.nodes[row]), &x) / of.d);
@@ -699,8 +803,11 @@ impl Discretization for Mortar {
         })
     }
 
-    fn secondary(&self, rows: &Rows, _: usize) -> Range<usize> {
-        0..rows.nsecondary
+    fn secondary(&self, rows: &Rows, row: usize) -> Range<usize> {
+        match rows.nsecondary {
+            0 => self.points.secondary(rows, row),
+            n => 0..n,
+        }
     }
 
     fn more_nodes<'a>(&'a self, row: usize, pairing: &'a Pairing) -> &'a [NodeId] {
@@ -714,11 +821,12 @@ impl Discretization for Mortar {
         let Some(facets) = &pair.secondary else {
             return;
         };
-        let Guests { left, taken } = &self.weights(pairing).guests;
+        let guests = &self.weights(pairing).guests;
+        let Guests { left, taken, .. } = guests;
         for &(facet, place, _) in taken.get(row).into_iter().flatten() {
             // a node of an edge may have a row of its own on another side
             let own = self.rows.get(facet as usize).map_or(0, |rows| rows[place]);
-            let has = |row: usize| left.get(row) == Some(&false);
+            let has = |row: usize| left.get(row) == Some(&false) || guests.is_pointwise(row);
             if self.of_same_node(own).any(has) {
                 continue;
             }
@@ -729,7 +837,7 @@ impl Discretization for Mortar {
 
     /// That of the whole facets around the node.
     fn stretch(&self, row: usize, pairing: &Pairing) -> f64 {
-        if self.held.is_some() {
+        if self.held.is_some() || pairing.weights.guests.is_pointwise(row) {
             return 1.0;
         }
         let (Some(start), Some(around)) = (self.area.get(row), self.around.get(row)) else {
@@ -761,6 +869,9 @@ impl Discretization for Mortar {
 
     fn more_facets(&self, row: usize, pairing: &Pairing, out: &mut Vec<u32>) {
         let Weights { facets, guests, .. } = self.weights(pairing);
+        if guests.is_pointwise(row) {
+            return;
+        }
         let around = self.around.get(row).map_or(&[][..], Vec::as_slice);
         for (facet, ..) in guests.of(row, around) {
             let of = facets.get(facet as usize);

@@ -1,6 +1,6 @@
 //! (E1) to (E4) of the room, at one configuration.
 
-use super::integrals::Integrator;
+use super::integrals::{self, Integrator};
 use super::{Mortar, Normals, corner_normal};
 use crate::contact::discretization::{Anchored, SurfacePair};
 use crate::contact::mortar::{Derivatives, OfFacet, OfRow, Weights};
@@ -20,6 +20,8 @@ pub(super) struct Workspace {
     d: Vec<f64>,
     normal: Vec<Vec3>,
     way: Vec<Vec3>,
+    /// dν of a facet for rows whose normals have turned, component by component.
+    turned: [Vec<f64>; 3],
     integrator: Integrator,
 }
 
@@ -166,13 +168,16 @@ impl Place<'_> {
                 d: &mut work.d,
                 normal: &mut work.normal,
                 way: &mut work.way,
+                turned: &mut work.turned,
                 row,
             };
             let integrate = |integrator: &mut Integrator| {
                 let Mortar { measure, form, .. } = self.mortar;
                 integrator.covered.measured(*measure, form.basis);
                 integrator.near.clone_from(&of.met);
-                integrator.integrate(facets, facet, self.pair, self.at, true)
+                let turning = self.weights.guests.turns_on(facet);
+                let wanted = integrals::Wanted::derivatives(turning);
+                integrator.integrate(facets, facet, self.pair, self.at, wanted)
             };
             let add =
                 |with: &Derivatives| self.add(sums, facets, (facet, place, share), (of, with));
@@ -207,9 +212,16 @@ impl Place<'_> {
         let (nodes, area) = (facets.nodes(facet), self.mortar.area[self.row]);
         let n = to.row.gradient.len();
         let nodal = self.mortar.form.normals == Normals::Nodal;
-        let (dd, nu) = (with.dd(place), of.normal);
+        let turn = self.weights.guests.turn(self.row);
+        let (dd, nu) = (with.dd(place), of.turned(turn));
         let d = share * of.d[place];
-        let dnu = |i: usize| Vec3::new(with.dnormal(0)[i], with.dnormal(1)[i], with.dnormal(2)[i]);
+        let turned = std::mem::take(to.turned);
+        let turned = differentiate_turned(turned, (of, with), turn);
+        let dnormal = |a: usize| match turn {
+            0.0 => with.dnormal(a),
+            _ => &turned[a],
+        };
+        let dnu = |i: usize| Vec3::new(dnormal(0)[i], dnormal(1)[i], dnormal(2)[i]);
         scatter(to.d, to.places, share, dd);
         let inverse = &self.mortar.inverse(facet)[place];
         let m = &of.m[place * of.nodes.len()..][..of.nodes.len()];
@@ -242,19 +254,20 @@ impl Place<'_> {
             for a in 0..3 {
                 let dweights = &mut to.row.dweights[(3 * line + a) * n..][..n];
                 scatter(dweights, to.places, nu[a] * factor / area, dc);
-                scatter(dweights, to.places, c / area, with.dnormal(a));
+                scatter(dweights, to.places, c / area, dnormal(a));
             }
         }
         if nodal {
             return self.turn(to, facets, (facet, place, share));
         }
-        for (i, column) in columns(&to.places[..own]).enumerate() {
+        for (i, column) in columns(to.places).enumerate().take(dnormal(0).len()) {
             to.row.gradient[column] += dnu(i).dot(way);
             to.normal[column] += dnu(i) * d;
         }
         for (column, dd) in columns(to.places).zip(dd) {
             to.normal[column] += nu * (share * dd);
         }
+        *to.turned = turned;
         Ok(())
     }
 
@@ -334,6 +347,7 @@ struct Sums<'a> {
     d: &'a mut [f64],
     normal: &'a mut [Vec3],
     way: &'a mut [Vec3],
+    turned: &'a mut [Vec<f64>; 3],
     row: &'a mut Row,
 }
 
@@ -348,6 +362,39 @@ impl Sums<'_> {
             }
         }
     }
+}
+
+/// dν of [`OfFacet::turned`], component by component:
+/// `dν = (I − ν νᵀ) ((1 − s) dν_e + s (I − μ μᵀ) dm/|m|)/|q|` with `μ = m/|m|`.
+fn differentiate_turned(
+    mut out: [Vec<f64>; 3],
+    (of, with): (&OfFacet, &Derivatives),
+    s: f64,
+) -> [Vec<f64>; 3] {
+    if s == 0.0 {
+        return out;
+    }
+    let (size, nu) = (of.opposite.norm(), of.turned(s));
+    let mu = of.opposite.normalized().unwrap_or(of.normal);
+    let length = (of.normal * (1.0 - s) + mu * s).norm();
+    let n = with.dopposite(0).len();
+    out.iter_mut().for_each(|d| {
+        d.clear();
+        d.resize(n, 0.0);
+    });
+    let of_component = |lines: [&[f64]; 3], i: usize| {
+        Vec3::from(lines.map(|line| line.get(i).copied().unwrap_or(0.0)))
+    };
+    for i in 0..n {
+        let dm = of_component([0, 1, 2].map(|a| with.dopposite(a)), i);
+        let dmu = (dm - mu * mu.dot(dm)) / size;
+        let dq = of_component([0, 1, 2].map(|a| with.dnormal(a)), i) * (1.0 - s) + dmu * s;
+        let dnu = (dq - nu * nu.dot(dq)) / length;
+        for (a, to) in out.iter_mut().enumerate() {
+            to[i] = dnu[a];
+        }
+    }
+    out
 }
 
 /// Adds a multiple of what is there for nodes, three numbers each, where these are.
