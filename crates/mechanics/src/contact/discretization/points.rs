@@ -2,7 +2,7 @@
 //! differ in nothing but the points.
 
 use super::cut::{Cutter, FacetPoints};
-use super::projected::{Closest, Place, Point, closest};
+use super::projected::{Closest, Place, Point, Sight, closest};
 use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
 use crate::contact::row::{RowOrder, Rows, Wanted};
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{
-    Anchor, ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
+    ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
 };
 use signorini_geometry::tensor::Vec3;
 
@@ -100,8 +100,6 @@ pub struct PointToSegment {
     pub closest: Closest,
     /// How long points keep the tangent plane that they meet.
     pub sliding: SlidingRange,
-    /// A facet that each point is on, where the surface may touch itself; empty elsewhere.
-    own: Vec<u32>,
 }
 
 /// How far a point that slips may leave the facet it is on, in parameters of the facet, within one increment.
@@ -161,45 +159,6 @@ impl PointToSegment {
             self.first.push(self.nodes.len() as u32);
         }
         self.inside = Some(inside);
-    }
-}
-
-impl PointToSegment {
-    /// Tells each point a facet it is on: a surface may touch itself only where its normals oppose each other.
-    pub fn on(&mut self, facets: &Facets) {
-        let holds = |facet: u32, nodes: &[NodeId]| {
-            let of_facet = facets.nodes(facet);
-            nodes.iter().all(|n| of_facet.contains(n))
-        };
-        let facet = |row: usize| {
-            let nodes = self.point(row).nodes;
-            (0..facets.nfacet() as u32).find(|&f| holds(f, nodes))
-        };
-        self.own = (0..self.nrow())
-            .map(|row| facet(row).unwrap_or(0))
-            .collect();
-    }
-
-    /// The facets near a point that face it.
-    fn facing(
-        &self,
-        row: usize,
-        surface: &dyn ContactSurface,
-        at: &Placement,
-        near: &[u32],
-    ) -> Vec<u32> {
-        let normal = |facet: u32| {
-            let local = surface.domain(facet)?.centre();
-            let mut jet = SurfaceJet::default();
-            surface.jet(at, &Anchor { facet, local }, &mut jet).ok()?;
-            Some(jet.normal)
-        };
-        let own = self.own.get(row).copied().and_then(normal);
-        let faces = |f: &u32| {
-            let both = own.zip(normal(*f));
-            both.is_some_and(|(own, other)| own.dot(other) < 0.0)
-        };
-        near.iter().copied().filter(faces).collect()
     }
 }
 
@@ -290,6 +249,7 @@ impl Discretization for PointToSegment {
     ) -> Result<(), SurfaceError> {
         out.pairs.resize(self.nrow(), None);
         let surface = pair.primary.as_ref();
+        let own = pair.own.as_ref().map(|own| own.at(surface, at));
         let apart = |row: usize| {
             let inside = self.inside.as_ref().and_then(|points| points.get(row));
             self.renews() && inside.is_some_and(|point| point.apart)
@@ -311,14 +271,16 @@ impl Discretization for PointToSegment {
                 });
                 return Ok(());
             }
-            let reach = |facet| pair.reach_of_row(self, row, facet, at);
-            let how = (before.map(|p| p.anchor), &reach as _, self.closest);
-            *found = if self.own.is_empty() {
-                closest(surface, at, point, near.candidates().near(row), how)?
-            } else {
-                let facing = self.facing(row, surface, at, near.candidates().near(row));
-                closest(surface, at, point, &facing, how)?
+            let sight = Sight {
+                hint: before.map(|p| p.anchor),
+                on: self.closest,
+                reach: &|facet| pair.reach_of_row(self, row, facet, at),
+                own: own.as_ref().and_then(|now| {
+                    let inside = self.inside.as_ref().and_then(|points| points.get(row));
+                    pair.own_point(self.point(row).nodes, inside, now)
+                }),
             };
+            *found = closest(surface, at, point, near.candidates().near(row), &sight)?;
             if let Some(found) = found
                 .as_mut()
                 .filter(|_| self.sliding != SlidingRange::Finite)
