@@ -70,6 +70,25 @@ impl Aabb {
         self.distance_squared(p) <= distance * distance && !self.is_empty()
     }
 
+    /// Whether the line `origin + s direction`, `0 ≤ s ≤ 1`, has a point in the box.
+    #[must_use]
+    pub fn is_crossed(&self, origin: Vec3, direction: Vec3) -> bool {
+        let (mut first, mut last) = (0.0f64, 1.0f64);
+        for i in 0..3 {
+            let (from, along) = (origin[i], direction[i]);
+            if along == 0.0 {
+                if !(self.min[i] <= from && from <= self.max[i]) {
+                    return false;
+                }
+                continue;
+            }
+            let (a, b) = ((self.min[i] - from) / along, (self.max[i] - from) / along);
+            first = first.max(a.min(b));
+            last = last.min(a.max(b));
+        }
+        first <= last && !self.is_empty()
+    }
+
     /// Whether the box contains nothing: `min > max` along some axis, or a bound that is not a number.
     #[must_use]
     pub fn is_empty(&self) -> bool {

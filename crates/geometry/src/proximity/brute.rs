@@ -14,6 +14,16 @@ pub fn overlaps(boxes: &[Aabb], region: &Aabb, out: &mut Vec<u32>) {
     select(boxes, |b| b.overlaps(region), out);
 }
 
+/// [`Bvh::crossed`](super::Bvh::crossed) by brute force.
+pub fn crossed(boxes: &[Aabb], origin: Vec3, direction: Vec3, out: &mut Vec<u32>) {
+    let asks_something = origin.is_finite() && direction.is_finite();
+    select(
+        boxes,
+        |b| asks_something && b.is_crossed(origin, direction),
+        out,
+    );
+}
+
 /// [`Bvh::visit_near`](super::Bvh::visit_near) by brute force: visits every box that contains something.
 pub fn visit_near(boxes: &[Aabb], point: Vec3, mut visit: impl FnMut(u32) -> f64) {
     if point.is_finite() {

@@ -145,6 +145,16 @@ impl Bvh {
         self.select(|b| b.overlaps(region), out);
     }
 
+    /// Replaces `out` by the sorted numbers of the boxes that the line `origin + s direction`, `0 ≤ s ≤ 1`, has a point in.
+    ///
+    /// A line that is not finite finds nothing.
+    pub fn crossed(&self, origin: Vec3, direction: Vec3, out: &mut Vec<u32>) {
+        out.clear();
+        if origin.is_finite() && direction.is_finite() {
+            self.select(|b| b.is_crossed(origin, direction), out);
+        }
+    }
+
     /// Visits the boxes near a point, the nearer of two subtrees first, and leaves out those that cannot matter.
     ///
     /// `visit` looks at what is in a box and returns the smallest distance found so far, in any box, `∞` while there
@@ -205,6 +215,33 @@ impl Bvh {
                 try_item(item, &mut found);
             }
         }
+    }
+
+    /// As [`Bvh::select`], over two trees of one shape.
+    pub(super) fn select_both(
+        &self,
+        other: &Self,
+        reached: impl Fn(&Aabb, &Aabb) -> bool,
+        out: &mut Vec<u32>,
+    ) {
+        let mut collect = |mine: &[Item], others: &[Item]| {
+            let both = mine.iter().zip(others);
+            let near = both.filter(|(a, b)| reached(&b.bounds, &a.bounds));
+            out.extend(near.map(|(item, _)| item.id));
+        };
+        collect(&self.beside, &other.beside);
+        let mut i = 0;
+        while let (Some(node), Some(of_other)) = (self.nodes.get(i), other.nodes.get(i)) {
+            if !reached(&of_other.bounds, &node.bounds) {
+                i = node.skip as usize;
+                continue;
+            }
+            i += 1;
+            if node.skip as usize == i {
+                collect(self.leaf(node), other.leaf(of_other));
+            }
+        }
+        out.sort_unstable();
     }
 
     /// Adds the sorted numbers of the boxes that are reached, where a box is only if the box around it is.

@@ -49,6 +49,8 @@
 //!
 //! stays below 6/5 of what it was when it was built.
 //!
+//! What moves far within an increment is found by [`Sweep`], along the way (E5), instead of where it ends.
+//!
 //! Boxes that are unbounded, such as those of planes, are kept beside the tree and tested one by one: there should be
 //! few of them. Boxes that contain nothing are near nothing; so are points that are not finite. Results are sorted
 //! and do not depend on the shape of the tree. Coordinates whose squares leave the range of floating point (beyond
@@ -64,9 +66,11 @@ mod aabb;
 pub mod brute;
 mod bvh;
 mod search;
+mod sweep;
 #[cfg(test)]
 mod tests;
 
 pub use aabb::Aabb;
 pub use bvh::Bvh;
 pub use search::{Candidates, Search};
+pub use sweep::Sweep;

@@ -1,4 +1,4 @@
-use super::{Aabb, Bvh, Search, brute, bvh};
+use super::{Aabb, Bvh, Search, Sweep, brute, bvh};
 use crate::random::Random;
 use crate::tensor::Vec3;
 use std::time::Instant;
@@ -96,6 +96,16 @@ fn assert_agrees(name: &str, tree: &Bvh, boxes: &[Aabb], random: &mut Random) {
             brute::overlaps(boxes, &region, &mut expected);
             assert_eq!(found, expected, "{name}: {region:?}");
         }
+        let along = [
+            random.vector() * 2.0,
+            Vec3::unit(k % 3) * size,
+            Vec3::new(nan, 0.0, 1.0),
+        ];
+        for along in along {
+            tree.crossed(point, along, &mut found);
+            brute::crossed(boxes, point, along, &mut expected);
+            assert_eq!(found, expected, "{name}: {point:?} {along:?}");
+        }
         assert_eq!(
             closest(boxes, |visit| tree.visit_near(point, visit), point),
             closest(boxes, |visit| brute::visit_near(boxes, point, visit), point),
@@ -131,6 +141,66 @@ fn distance_to_a_box_is_that_of_its_closest_point() {
         assert_eq!(b.contains(p), b.distance_squared(p) == 0.0);
         let d = (clamped - p).norm();
         assert!(b.within(p, d * 1.000_001) && (d == 0.0 || !b.within(p, d * 0.999_999)));
+    }
+}
+
+#[test]
+fn a_line_crosses_a_box_where_one_of_its_points_is_inside() {
+    let mut random = Random(4);
+    let mut crossings = 0;
+    for _ in 0..2000 {
+        let (b, p, d) = (random.aabb(1.0), random.vector(), random.vector() * 2.0);
+        let mut inside = (0..=1000).map(|k| b.contains(p + d * (f64::from(k) / 1000.0)));
+        let inside = inside.any(|inside| inside);
+        crossings += u32::from(inside);
+        assert!(b.is_crossed(p, d) || !inside);
+        // a line that only grazes the box may pass between two of the samples
+        let grown = b.inflated(0.01);
+        let mut near = (0..=1000).map(|k| grown.contains(p + d * (f64::from(k) / 1000.0)));
+        assert!(!b.is_crossed(p, d) || near.any(|near| near));
+    }
+    assert!(crossings > 50);
+}
+
+#[test]
+fn a_point_meets_the_moving_boxes_that_it_comes_near_on_the_way() {
+    let mut random = Random(5);
+    let carried = Vec3::new(30.0, -7.0, 2.0);
+    for apart in [0.0, 0.1] {
+        let from: Vec<Aabb> = (0..400).map(|_| random.aabb(0.3)).collect();
+        let to: Vec<Aabb> = from
+            .iter()
+            .map(|b| {
+                let by = carried + random.vector() * 0.5;
+                Aabb::around([b.min + by, b.max + by + random.vector() * 0.02])
+            })
+            .collect();
+        let sweep = Sweep::new(&from, &to);
+        let (mut found, mut some) = (Vec::new(), 0);
+        for _ in 0..200 {
+            let p0 = random.vector();
+            let p1 = p0 + carried + random.vector();
+            sweep.met([p0, p1], apart, &mut found);
+            some += found.len();
+            for (id, (a, b)) in from.iter().zip(&to).enumerate() {
+                let near = |grown: f64| {
+                    (0..=400).any(|k| {
+                        let l = f64::from(k) / 400.0;
+                        let at = |a: Vec3, b: Vec3| a + (b - a) * l;
+                        let now = Aabb {
+                            min: at(a.min, b.min),
+                            max: at(a.max, b.max),
+                        };
+                        now.inflated(apart + grown).contains(at(p0, p1))
+                    })
+                };
+                let met = found.contains(&(id as u32));
+                assert!(met || !near(-1e-12));
+                assert!(!met || near(0.01));
+            }
+        }
+        // what is carried along is not met
+        assert!(some > 100 && some < 200 * 100, "{some}");
     }
 }
 

@@ -457,6 +457,10 @@ impl ContactSurface for Facets {
         self.element(facet)
     }
 
+    fn crossing(&self, at: &Placement, facet: u32, origin: Vec3, direction: Vec3) -> Option<f64> {
+        self.crossed_at(at.x, facet, origin, direction)
+    }
+
     fn neighbours(&self, facet: u32) -> &[u32] {
         let f = facet as usize;
         match (self.neighbour_first.get(f), self.neighbour_first.get(f + 1)) {

@@ -53,6 +53,7 @@ mod mount;
 mod plane;
 mod polynomial;
 mod projection;
+mod ray;
 mod signed_distance;
 mod sphere;
 #[cfg(test)]
@@ -280,5 +281,17 @@ pub trait ContactSurface: Send + Sync {
         out: &mut SurfaceJet,
     ) -> Result<Option<Projection>, SurfaceError> {
         projection::closest(self, at, facet, point, hint, out)
+    }
+
+    /// The smallest `s ≥ 0` at which the line `origin + s direction` crosses a facet; `None` where it does not, and on
+    /// surfaces that have no facets.
+    fn crossing(
+        &self,
+        _at: &Placement,
+        _facet: u32,
+        _origin: Vec3,
+        _direction: Vec3,
+    ) -> Option<f64> {
+        None
     }
 }

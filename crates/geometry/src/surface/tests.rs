@@ -6,6 +6,7 @@ use crate::mesh::{Face, Mesh};
 use crate::random::Random;
 
 mod analytical;
+mod ray;
 mod triangulated;
 
 const KINDS: [&str; 7] = ["line2", "tri3", "quad4", "line3", "tri6", "quad8", "quad9"];

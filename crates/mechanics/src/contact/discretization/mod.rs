@@ -12,6 +12,7 @@
 mod cut;
 pub mod mortar;
 pub mod nodes;
+mod own;
 pub mod points;
 pub mod projected;
 mod reach;
@@ -19,6 +20,7 @@ mod reach;
 pub use cut::{Cutter, FacetPoints};
 pub use mortar::Mortar;
 pub use nodes::{NodeNormals, NodeToNode};
+pub use own::{OwnBody, OwnNow, OwnPoint};
 pub use points::{OnFacet, PointToSegment, SlidingRange, areas_inside};
 pub use reach::{FacetSizes, REACH, local_reach};
 
@@ -50,6 +52,8 @@ pub struct SurfacePair {
     pub start: Vec<Vec3>,
     /// Whether both sides are one.
     pub same: bool,
+    /// The body behind a surface that may touch itself.
+    pub own: Option<OwnBody>,
 }
 
 impl SurfacePair {
@@ -64,6 +68,7 @@ impl SurfacePair {
             sizes: FacetSizes::default(),
             start: Vec::new(),
             same: false,
+            own: None,
         }
     }
 }

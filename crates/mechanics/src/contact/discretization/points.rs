@@ -2,15 +2,15 @@
 //! differ in nothing but the points.
 
 use super::cut::{Cutter, FacetPoints};
-use super::projected::{Closest, Place, Point, closest};
-use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
+use super::projected::{Closest, Place, Point, Sight, closest};
+use super::{Anchored, Discretization, Links, OwnNow, Pair, Pairing, SurfacePair};
 use crate::contact::row::{RowOrder, Rows, Wanted};
 use rayon::prelude::*;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{
-    Anchor, ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
+    ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
 };
 use signorini_geometry::tensor::Vec3;
 
@@ -100,8 +100,6 @@ pub struct PointToSegment {
     pub closest: Closest,
     /// How long points keep the tangent plane that they meet.
     pub sliding: SlidingRange,
-    /// A facet that each point is on, where the surface may touch itself; empty elsewhere.
-    own: Vec<u32>,
 }
 
 /// How far a point that slips may leave the facet it is on, in parameters of the facet, within one increment.
@@ -165,50 +163,15 @@ impl PointToSegment {
 }
 
 impl PointToSegment {
-    /// Tells each point a facet it is on: a surface may touch itself only where its normals oppose each other.
-    pub fn on(&mut self, facets: &Facets) {
-        let holds = |facet: u32, nodes: &[NodeId]| {
-            let of_facet = facets.nodes(facet);
-            nodes.iter().all(|n| of_facet.contains(n))
-        };
-        let facet = |row: usize| {
-            let nodes = self.point(row).nodes;
-            (0..facets.nfacet() as u32).find(|&f| holds(f, nodes))
-        };
-        self.own = (0..self.nrow())
-            .map(|row| facet(row).unwrap_or(0))
-            .collect();
-    }
-
-    /// The facets near a point that face it.
-    fn facing(
-        &self,
-        row: usize,
-        surface: &dyn ContactSurface,
-        at: &Placement,
-        near: &[u32],
-    ) -> Vec<u32> {
-        let normal = |facet: u32| {
-            let local = surface.domain(facet)?.centre();
-            let mut jet = SurfaceJet::default();
-            surface.jet(at, &Anchor { facet, local }, &mut jet).ok()?;
-            Some(jet.normal)
-        };
-        let own = self.own.get(row).copied().and_then(normal);
-        let faces = |f: &u32| {
-            let both = own.zip(normal(*f));
-            both.is_some_and(|(own, other)| own.dot(other) < 0.0)
-        };
-        near.iter().copied().filter(faces).collect()
-    }
-    /// What the point of a row meets among the facets that are near it; `before` is what it met a moment ago.
+    /// What the point of a row meets among the facets that are near it; `before` is what it met a moment ago, and `own` what a
+    /// surface that may touch itself knows of its body.
     ///
     /// # Errors
     /// A facet that has no normal.
     pub fn meet(
         &self,
         row: usize,
-        pair: &SurfacePair,
+        (pair, own): (&SurfacePair, Option<&OwnNow>),
         at: &Placement,
         near: &[u32],
         before: Option<Pair>,
@@ -228,14 +191,13 @@ impl PointToSegment {
                 ..kept
             }));
         }
-        let reach = |facet| pair.reach_of_row(self, row, facet, at);
-        let how = (before.map(|p| p.anchor), &reach as _, self.closest);
-        let mut found = if self.own.is_empty() {
-            closest(surface, at, point, near, how)?
-        } else {
-            let facing = self.facing(row, surface, at, near);
-            closest(surface, at, point, &facing, how)?
+        let sight = Sight {
+            hint: before.map(|p| p.anchor),
+            on: self.closest,
+            reach: &|facet| pair.reach_of_row(self, row, facet, at),
+            own: own.and_then(|now| pair.own_point(self.point(row).nodes, inside, now)),
         };
+        let mut found = closest(surface, at, point, near, &sight)?;
         if let Some(found) = found
             .as_mut()
             .filter(|_| self.sliding != SlidingRange::Finite)
@@ -340,10 +302,12 @@ impl Discretization for PointToSegment {
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
         out.pairs.resize(self.nrow(), None);
+        let own = pair.own.as_ref();
+        let own = own.map(|own| own.at(pair.primary.as_ref(), at));
         let choose = |row: usize, found: &mut Option<Pair>| {
             let before = last.pairs.get(row).copied().flatten();
             let near = near.candidates().near(row);
-            *found = self.meet(row, pair, at, near, before)?;
+            *found = self.meet(row, (pair, own.as_ref()), at, near, before)?;
             Ok(())
         };
         out.pairs

@@ -45,10 +45,10 @@
 //! rests on the continuation of a facet that meets there, the one it had before where there is one ([`Closest::Faces`]).
 //!
 //! Limits: `w = 0` on an edge or vertex has no normal and counts as open; a node that lies deeper in the body than
-//! half its thickness is pushed out at the wrong side. Sources: Wriggers 2006, section 6.3; Konyukhov and
+//! half its thickness is pushed out at the wrong side, unless a surface touches itself, where it meets nothing there. Sources: Wriggers 2006, section 6.3; Konyukhov and
 //! Schweizerhof 2013, chapter 5; Wriggers and Krstulović-Opara 2000 (E7).
 
-use super::{Anchored, Pair};
+use super::{Anchored, OwnPoint, Pair};
 use crate::contact::row::{Participant, Row, RowOrder, Rows, Wanted};
 use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::mesh::NodeId;
@@ -83,6 +83,19 @@ pub enum Closest {
     Within,
     /// Anywhere; edges and vertices where the surface ends count as all others do.
     Rims,
+}
+
+/// What a point sees of the primary side.
+#[derive(Clone, Copy)]
+pub struct Sight<'a> {
+    /// Its closest point of a moment ago.
+    pub hint: Option<Anchor>,
+    /// On what its closest point may lie.
+    pub on: Closest,
+    /// The distance up to which a closest point of this facet counts.
+    pub reach: &'a dyn Fn(u32) -> f64,
+    /// What it is where the surface may touch itself.
+    pub own: Option<OwnPoint<'a>>,
 }
 
 /// A point of the secondary side: its nodes, with their weights.
@@ -146,8 +159,14 @@ pub fn closest(
     at: &Placement,
     point: Vec3,
     near: &[u32],
-    (hint, reach, on): (Option<Anchor>, &dyn Fn(u32) -> f64, Closest),
+    sight: &Sight<'_>,
 ) -> Result<Option<Pair>, SurfaceError> {
+    let Sight {
+        hint,
+        on,
+        reach,
+        own,
+    } = *sight;
     let rank = |f: &Feature| match f {
         Feature::Face => 0,
         Feature::Edge { .. } => 1,
@@ -162,10 +181,16 @@ pub fn closest(
                 continue;
             }
         }
+        if own.is_some_and(|own| !own.may_meet(facet)) {
+            continue;
+        }
         let Some(found) = surface.project(at, facet, point, hint, &mut jet)? else {
             continue;
         };
         if on == Closest::Within && found.feature != Feature::Face {
+            continue;
+        }
+        if own.is_some_and(|own| !own.meets(point, &found, &jet)) {
             continue;
         }
         let tie = TIE * (jet.metric[0].max(jet.metric[1])).sqrt();

@@ -130,20 +130,30 @@ impl SurfacePair {
         if self.sizes.primary.is_empty() {
             return self.reach;
         }
-        let point = of.point(row);
+        let motion = || self.motion_of_row(of, row, at);
+        self.reach_from(self.size_of_row(of, row), motion, primary, at)
+    }
+
+    /// The size of the facet that the point of a row is on, or of the largest around it; 0 for bare nodes.
+    #[must_use]
+    pub fn size_of_row(&self, of: &dyn Discretization, row: usize) -> f64 {
         let size = match of.inside().and_then(|points| points.get(row)) {
             Some(point) => self.sizes.secondary.get(point.facet as usize),
             None => {
-                let node = point.nodes.first();
+                let node = of.point(row).nodes.first();
                 let place = node.and_then(|n| self.points.binary_search(n).ok());
                 place.and_then(|k| self.sizes.around.get(k))
             }
         };
-        let motion = || {
-            let of_nodes = point.nodes.iter().zip(point.weights);
-            of_nodes.map(|(&n, &w)| self.motion(n, at) * w).sum()
-        };
-        self.reach_from(size.copied().unwrap_or(0.0), motion, primary, at)
+        size.copied().unwrap_or(0.0)
+    }
+
+    /// How the point of a row has moved since the increment began.
+    #[must_use]
+    pub fn motion_of_row(&self, of: &dyn Discretization, row: usize, at: &Placement) -> Vec3 {
+        let point = of.point(row);
+        let of_nodes = point.nodes.iter().zip(point.weights);
+        of_nodes.map(|(&n, &w)| self.motion(n, at) * w).sum()
     }
 
     /// How a node has moved since the increment began.
@@ -157,7 +167,8 @@ impl SurfacePair {
     }
 
     /// How nodes have moved since the increment began, in the mean.
-    fn mean_motion(&self, nodes: &[NodeId], at: &Placement) -> Vec3 {
+    #[must_use]
+    pub fn mean_motion(&self, nodes: &[NodeId], at: &Placement) -> Vec3 {
         let sum: Vec3 = nodes.iter().map(|&n| self.motion(n, at)).sum();
         sum / nodes.len().max(1) as f64
     }

@@ -2,6 +2,7 @@
 
 mod history;
 mod pairing;
+mod passing;
 mod report;
 mod rows;
 
@@ -206,6 +207,8 @@ pub struct Interface {
     first_step: Option<StepContext>,
     /// What overlaps at the start of the increment and is allowed for; empty where nothing is.
     allowed: Allowed,
+    /// Tributary areas at the start, where what bears of them depends on what is met.
+    whole: Vec<f64>,
     /// Rows that went to and fro between facets keep the one they are on, for the rest of the increment.
     changes: Vec<u8>,
 }
@@ -266,6 +269,7 @@ impl Interface {
             first_step: None,
             allowed: Allowed::default(),
             changes: vec![0; nrow],
+            whole: Vec::new(),
         }
     }
 
@@ -508,6 +512,7 @@ impl Term for Interface {
             self.search(&at).map_err(|e| self.failed(&e))?;
         }
         self.measure_again(&at).map_err(|e| self.failed(&e))?;
+        self.measure_what_bears(&at).map_err(|e| self.failed(&e))?;
         self.allow_for_overlaps(from, renews || first)?;
         if first || others {
             self.judge(from)?;
@@ -524,7 +529,7 @@ impl Term for Interface {
         let at = trial.placement();
         self.search_for(&at, rows::row_order(next))
             .map_err(|e| self.failed(&e))?;
-        if let Some(message) = self.passed_through(&at) {
+        if let Some(message) = self.passed_through(&at).or_else(|| self.went_through(&at)) {
             return Err(TermError::Surface {
                 interface: self.parts.name.clone(),
                 message,

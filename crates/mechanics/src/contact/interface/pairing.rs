@@ -30,13 +30,8 @@ impl Near {
         let facets = 0..surface.nfacet() as u32;
         self.boxes.extend(facets.map(|f| surface.aabb(at, f)));
         let apart = |row: u32, facet: u32| {
-            // a point of a surface that may touch itself never meets the facets around it
-            let nodes = discretization.point(row as usize).nodes;
-            let touches = |f: u32| match surface.carrier(f) {
-                Carrier::Nodes(of) => nodes.iter().any(|n| of.contains(n)),
-                _ => false,
-            };
-            !pair.same || !(touches(facet) || surface.neighbours(facet).iter().any(|&f| touches(f)))
+            let nodes = || discretization.point(row as usize).nodes;
+            !(pair.same && pair.is_beside(nodes(), facet))
         };
         let skin = 0.5 * pair.reach;
         self.search
@@ -174,7 +169,7 @@ impl Interface {
                 } else {
                     continue;
                 };
-            let reach = self.reach_of(row, before, at);
+            let [_, reach] = self.reach_of(row, before, at);
             if distance > reach && behind > 0.5 * distance {
                 return Some(format!(
                     "a point went through the surface in one increment, {behind:.3} behind it and further than the \
@@ -185,14 +180,19 @@ impl Interface {
         None
     }
 
-    /// How far from its facet the point of a row counts.
-    fn reach_of(&self, row: usize, found: &Pair, at: &Placement) -> f64 {
+    /// How far from its facet, and behind it, the point of a row counts.
+    fn reach_of(&self, row: usize, found: &Pair, at: &Placement) -> [f64; 2] {
         let InterfaceParts {
             pair,
             discretization,
             ..
         } = &self.parts;
-        pair.reach_of_row(discretization.as_ref(), row, found.anchor.facet, at)
+        let of = discretization.as_ref();
+        let inside = of.inside().and_then(|points| points.get(row));
+        let facet = found.anchor.facet;
+        let reach = pair.reach_of_row(of, row, facet, at);
+        let deepest = pair.deepest(of.point(row).nodes, inside, facet, at);
+        [reach, reach.min(deepest)]
     }
 
     /// The largest part of a step in which no point that is near goes through the surface further than half the reach.
@@ -214,7 +214,8 @@ impl Interface {
         let mut longest = 1.0f64;
         for (row, pair) in self.now.pairs.iter().enumerate() {
             let Some(pair) = pair else { continue };
-            let room = pair.gap.max(0.0) + 0.5 * self.reach_of(row, pair, &at);
+            let [reach, deepest] = self.reach_of(row, pair, &at);
+            let room = pair.gap.max(0.0) + deepest.min(0.5 * reach);
             let discretization = self.parts.discretization.as_ref();
             if let Some(closes) = discretization.approach(row, &self.now, &moves) {
                 if closes > room {
@@ -294,7 +295,7 @@ impl Interface {
             let most = lambda.scalar.max(lambda.vector.norm());
             laws.law.pressure(gap, most, laws.scale) != Eval::default()
         };
-        let soon = || gap < 0.25 * self.reach_of(row, pair, &trial.placement());
+        let soon = || gap < 0.25 * self.reach_of(row, pair, &trial.placement())[0];
         laws.bond || soon() || acts()
     }
 

@@ -4,7 +4,9 @@
 mod dual;
 mod held;
 mod interface;
+mod own;
 mod paper;
+mod passing;
 pub(crate) mod printed;
 mod reference;
 mod rigid;

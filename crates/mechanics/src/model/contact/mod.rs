@@ -1,5 +1,6 @@
 //! From the parts of a contact to its interface.
 
+mod joined;
 mod sides;
 mod start;
 
@@ -20,6 +21,8 @@ use std::sync::Arc;
 
 /// Factor of the automatic penalty (E1).
 const PENALTY: f64 = 10.0;
+/// The same of a surface that touches itself, for which there is nothing that does not yield.
+const PENALTY_OF_ITSELF: f64 = 30.0;
 /// Factor of the automatic parameter of laws that solve for multipliers: it changes the way to the solution only, and
 /// what slips turns round for ever where it is large.
 const COMPLEMENTARITY: f64 = 1.0;
@@ -149,6 +152,8 @@ impl Context<'_> {
             None if softest.is_finite() => {
                 let factor = if sides.law.multiplier().is_unknown() {
                     COMPLEMENTARITY
+                } else if sides.pair.same {
+                    PENALTY_OF_ITSELF
                 } else {
                     PENALTY
                 };

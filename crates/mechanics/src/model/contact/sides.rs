@@ -1,8 +1,9 @@
 //! From parts to the two sides of an interface, and the way they are compared.
 
+use super::joined;
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
-    Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, Pair, Pairing,
+    Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, OwnBody, Pair, Pairing,
     PointToSegment, SurfacePair, areas_inside,
 };
 use crate::contact::law::{
@@ -250,6 +251,16 @@ impl Source<'_> {
                 ntan: self.space.ndim() - 1,
             }),
         };
+        let own = same.then(|| {
+            let at = Placement {
+                x: self.reference,
+                poses: &[],
+            };
+            let of = |facets: &Facets| {
+                OwnBody::new(&points, facets, &joined::bodies(self.mesh, facets), &at)
+            };
+            secondary.as_ref().map(of)
+        });
         Ok(Sides {
             contact,
             method,
@@ -262,6 +273,7 @@ impl Source<'_> {
                 reach: 0.0,
                 sizes: FacetSizes::default(),
                 start: Vec::new(),
+                own: own.flatten(),
                 same,
             },
             facets: primary,

@@ -567,7 +567,7 @@ impl Mortar {
             if weights.guests.is_pointwise(row) {
                 let before = before(row).filter(|p| p.anchor != NOWHERE);
                 near(row, &mut facets);
-                *found = self.points.meet(row, pair, at, &facets, before)?;
+                *found = self.points.meet(row, (pair, None), at, &facets, before)?;
                 continue;
             }
             *found = weights.row(row).map(|of| Pair {

@@ -1,0 +1,336 @@
+//! What a surface that may touch itself sees of itself.
+//!
+//! | symbol | name in code | shape |
+//! |---|---|---|
+//! | n, n_f | `normal`: of a point (the mean of the facets around it), of a facet | unit vectors |
+//! | t, t_f | `thickness` of the body behind a point (the least of the facets around it), behind a facet | lengths |
+//! | x, ρ | the point, and its closest point on a facet | vectors |
+//!
+//! A facet that shares no node with a point (or with the facet that it is inside, or a mid node, of) is one that the
+//! point may meet where
+//!
+//! ```text
+//! n·n_f < −cos 80°                                                                            (E1)
+//! |ρ − x| ≤ min(t, t_f)/2      where x is behind the facet                                    (E2)
+//! n·(ρ − x) ≥ −min(t, t_f)/2,  and ≥ |ρ − x| cos 80°  where x is in front of the facet        (E3)
+//! ```
+//!
+//! and of those the closest counts. (E1) leaves out the neighbours on smooth and convex parts, (E3) those beside a tip, (E2) and (E3) the far side
+//! of the own body: seen from one side of a slab, the other is at the depth t, and what enters from outside at δ < t/2
+//! is nearer to where it came in than to the other side.
+//!
+//! The line from the middle of a facet into the body tells where it leaves it: the first facet of the same body that faces
+//! the other way. It is found once, in the reference configuration; the thickness is the present
+//! distance of these two places. Behind a facet whose line crosses no such facet the thickness is infinite.
+//!
+//! Limits: an overlap deeper than half the thickness is none. Sharp tips are thin, and rest on others no deeper than that.
+
+use super::{OnFacet, SurfacePair};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::proximity::{Aabb, Bvh};
+use signorini_geometry::surface::{
+    Anchor, Carrier, ContactSurface, Facets, Placement, Projection, SurfaceJet,
+};
+use signorini_geometry::tensor::Vec3;
+
+/// cos 80°, of the angle up to which facets face one another (E1): mortar weights end there, too.
+const FACES: f64 = 0.173_648_177_666_930_33;
+
+/// The cosine of normals at the middle of facets above which no two points of them face one another.
+const ALIKE: f64 = 0.5;
+
+/// The cosine of the angle up to which facets around a node bear what it carries.
+const BEARS: f64 = 0.5;
+
+/// The distance, over the size of a facet, below which a direction is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The part of the thickness up to which a point may have entered (E2).
+const ENTERED: f64 = 0.5;
+
+/// Where lines through the body leave a surface, and which facets are around its points.
+#[derive(Clone, Debug, Default)]
+pub struct OwnBody {
+    /// Where the line into the body from the middle of each facet leaves it.
+    behind: Vec<Option<Anchor>>,
+    /// The area of each facet at the start, its length in the plane.
+    area: Vec<f64>,
+    // facets around point k: around[first[k]..first[k + 1]]
+    first: Vec<u32>,
+    around: Vec<u32>,
+    /// Whether each point is in the middle of an edge or a facet, and a corner of none.
+    middle: Vec<bool>,
+}
+
+/// Normals and thickness of all facets in a configuration.
+#[derive(Clone, Debug, Default)]
+pub struct OwnNow {
+    normal: Vec<Vec3>,
+    thickness: Vec<f64>,
+    /// At the start.
+    area: Vec<f64>,
+}
+
+/// A point of a surface that may touch itself.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnPoint<'a> {
+    /// n.
+    pub normal: Vec3,
+    /// t.
+    pub thickness: f64,
+    around: &'a [u32],
+    of: &'a OwnNow,
+}
+
+impl OwnBody {
+    /// That of a surface with these sorted nodes, in its reference configuration; `body` has a number for the body of each
+    /// facet.
+    #[must_use]
+    pub fn new(points: &[NodeId], facets: &Facets, body: &[u32], at: &Placement) -> Self {
+        let n = facets.nfacet() as u32;
+        let boxes: Vec<Aabb> = (0..n).map(|f| facets.aabb(at, f)).collect();
+        let tree = Bvh::build(&boxes);
+        let extent = boxes
+            .iter()
+            .fold(Aabb::EMPTY, |all, &b| all.union(b))
+            .extent();
+        let normal: Vec<Vec3> = (0..n).map(|f| middle(facets, at, f).1).collect();
+        let mut near = Vec::new();
+        let mut leaves = |facet: u32| {
+            let (from, out) = middle(facets, at, facet);
+            let along = -out * extent.norm();
+            tree.crossed(from, along, &mut near);
+            let mut first: Option<(f64, u32)> = None;
+            for &other in &near {
+                let faces_away = normal.get(other as usize).is_some_and(|n| n.dot(out) < 0.0);
+                let is_own = body.get(other as usize) == body.get(facet as usize);
+                if other != facet
+                    && is_own
+                    && faces_away
+                    && let Some(s) = facets.crossing(at, other, from, along)
+                    && first.is_none_or(|(before, _)| s < before)
+                {
+                    first = Some((s, other));
+                }
+            }
+            let (s, other) = first?;
+            let mut jet = SurfaceJet::default();
+            let found = facets.project(at, other, from + along * s, None, &mut jet);
+            found.ok().flatten().map(|found| found.anchor)
+        };
+        let behind = (0..n).map(&mut leaves).collect();
+        let area = (0..n).map(|f| facets.size(at, f).powi(facets.ntan() as i32));
+        let area = area.collect();
+        let mut of_points = vec![Vec::new(); points.len()];
+        let mut is_middle = vec![true; points.len()];
+        for facet in 0..n {
+            let ncorner = facets.element(facet).map_or(0, |e| e.ncorner());
+            for (place, node) in facets.nodes(facet).iter().enumerate() {
+                if let Ok(k) = points.binary_search(node) {
+                    of_points[k].push(facet);
+                    is_middle[k] &= place >= ncorner;
+                }
+            }
+        }
+        let mut first = vec![0];
+        let mut around = Vec::new();
+        for of_point in of_points {
+            around.extend(of_point);
+            first.push(around.len() as u32);
+        }
+        Self {
+            behind,
+            area,
+            first,
+            around,
+            middle: is_middle,
+        }
+    }
+
+    /// Normals and thickness in a configuration.
+    #[must_use]
+    pub fn at(&self, surface: &dyn ContactSurface, at: &Placement) -> OwnNow {
+        let mut now = OwnNow {
+            area: self.area.clone(),
+            ..OwnNow::default()
+        };
+        for (facet, behind) in (0..).zip(&self.behind) {
+            let (thickness, normal) = self.of_facet(surface, at, facet, *behind);
+            now.normal.push(normal);
+            now.thickness.push(thickness);
+        }
+        now
+    }
+
+    fn of_facet(
+        &self,
+        surface: &dyn ContactSurface,
+        at: &Placement,
+        facet: u32,
+        behind: Option<Anchor>,
+    ) -> (f64, Vec3) {
+        let (from, normal) = middle(surface, at, facet);
+        let mut jet = SurfaceJet::default();
+        let to = behind.and_then(|anchor| {
+            surface.jet(at, &anchor, &mut jet).ok()?;
+            Some(jet.position)
+        });
+        (to.map_or(f64::INFINITY, |to| (to - from).norm()), normal)
+    }
+
+    /// The facets around a point: that of a point inside one, those that meet in a node.
+    fn facets_of<'a>(&'a self, point: Option<usize>, inside: Option<&'a OnFacet>) -> &'a [u32] {
+        if let Some(inside) = inside {
+            return std::slice::from_ref(&inside.facet);
+        }
+        match point.and_then(|k| self.first.get(k..)) {
+            Some([a, b, ..]) => self.around.get(*a as usize..*b as usize).unwrap_or(&[]),
+            _ => &[],
+        }
+    }
+}
+
+impl SurfacePair {
+    /// Whether a facet of a surface that may touch itself is beside the point of a row, and never meets it: it shares a
+    /// node with the point, or with the facets that the point is in the middle of.
+    #[must_use]
+    pub fn is_beside(&self, nodes: &[NodeId], facet: u32) -> bool {
+        let of = |facet: u32| match self.primary.carrier(facet) {
+            Carrier::Nodes(nodes) => nodes,
+            Carrier::Rigid(_) | Carrier::Fixed => &[],
+        };
+        let others = of(facet);
+        let meets = |nodes: &[NodeId]| nodes.iter().any(|n| others.contains(n));
+        let around = || {
+            let (own, [node]) = (self.own.as_ref()?, nodes) else {
+                return None;
+            };
+            let place = self.points.binary_search(node).ok()?;
+            let middle = own.middle.get(place).copied()?;
+            middle.then(|| own.facets_of(Some(place), None))
+        };
+        meets(nodes) || around().unwrap_or(&[]).iter().any(|&f| meets(of(f)))
+    }
+
+    /// The point of a row of a surface that may touch itself, among the normals and thickness that facets have `now`.
+    #[must_use]
+    pub fn own_point<'a>(
+        &'a self,
+        nodes: &[NodeId],
+        inside: Option<&'a OnFacet>,
+        now: &'a OwnNow,
+    ) -> Option<OwnPoint<'a>> {
+        let own = self.own.as_ref()?;
+        let place = nodes
+            .first()
+            .and_then(|n| self.points.binary_search(n).ok());
+        let around = own.facets_of(place, inside);
+        let mut point = OwnPoint {
+            normal: Vec3::ZERO,
+            thickness: f64::INFINITY,
+            around,
+            of: now,
+        };
+        for &facet in around {
+            point.normal += now.normal(facet);
+            point.thickness = point.thickness.min(now.thickness(facet));
+        }
+        point.normal = point.normal.normalized().unwrap_or_default();
+        Some(point)
+    }
+
+    /// How deep the point of a row may enter the facet that it meets (E2); infinite where a surface meets another.
+    #[must_use]
+    pub fn deepest(
+        &self,
+        nodes: &[NodeId],
+        inside: Option<&OnFacet>,
+        facet: u32,
+        at: &Placement,
+    ) -> f64 {
+        let Some(own) = &self.own else {
+            return f64::INFINITY;
+        };
+        let place = nodes
+            .first()
+            .and_then(|n| self.points.binary_search(n).ok());
+        let around = own.facets_of(place, inside).iter().copied();
+        let thickness = around.chain([facet]).map(|f| {
+            let behind = own.behind.get(f as usize).copied().flatten();
+            own.of_facet(self.primary.as_ref(), at, f, behind).0
+        });
+        ENTERED * thickness.fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl OwnPoint<'_> {
+    /// The part of the area around a node that faces what it meets, a facet with this normal: at an edge of the body those
+    /// facets bear nothing that look elsewhere. All of it where none faces that.
+    #[must_use]
+    pub fn bearing(&self, normal: Vec3) -> f64 {
+        let (mut bears, mut all) = (0.0, 0.0);
+        for &facet in self.around {
+            let area = self.of.area(facet);
+            all += area;
+            if self.of.normal(facet).dot(normal) < -BEARS {
+                bears += area;
+            }
+        }
+        if bears > 0.0 { bears / all } else { 1.0 }
+    }
+}
+
+impl OwnNow {
+    fn area(&self, facet: u32) -> f64 {
+        self.area.get(facet as usize).copied().unwrap_or_default()
+    }
+
+    fn normal(&self, facet: u32) -> Vec3 {
+        self.normal.get(facet as usize).copied().unwrap_or_default()
+    }
+
+    fn thickness(&self, facet: u32) -> f64 {
+        let of_facet = self.thickness.get(facet as usize).copied();
+        of_facet.unwrap_or(f64::INFINITY)
+    }
+}
+
+impl OwnPoint<'_> {
+    /// Whether it faces a facet with this normal (E1).
+    #[must_use]
+    pub fn faces(&self, normal: Vec3) -> bool {
+        self.normal.dot(normal) < -FACES
+    }
+
+    /// Whether a facet may have a point that it meets, by the normal at the middle of the facet.
+    #[must_use]
+    pub fn may_meet(&self, facet: u32) -> bool {
+        self.normal.dot(self.of.normal(facet)) < ALIKE
+    }
+
+    /// Whether it meets this closest point: (E1) to (E3).
+    #[must_use]
+    pub fn meets(&self, point: Vec3, found: &Projection, jet: &SurfaceJet) -> bool {
+        let deepest = ENTERED * self.thickness.min(self.of.thickness(found.anchor.facet));
+        let to = jet.position - point;
+        let ahead = self.normal.dot(to);
+        let is_behind = to.dot(jet.normal) > 0.0;
+        let is_reached = if is_behind {
+            found.distance <= deepest
+        } else {
+            ahead >= FACES * found.distance - ROUNDING * jet.metric[0].sqrt()
+        };
+        self.faces(jet.normal) && is_reached && ahead >= -deepest
+    }
+}
+
+/// Place and normal of the middle of a facet; no normal where it has none.
+fn middle(surface: &dyn ContactSurface, at: &Placement, facet: u32) -> (Vec3, Vec3) {
+    let mut jet = SurfaceJet::default();
+    let local = surface.domain(facet).map(|e| e.centre());
+    let found = local.map(|local| surface.jet(at, &Anchor { facet, local }, &mut jet));
+    match found {
+        Some(Ok(())) => (jet.position, jet.normal),
+        _ => (jet.position, Vec3::ZERO),
+    }
+}
