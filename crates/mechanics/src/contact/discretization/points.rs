@@ -2,6 +2,7 @@
 //! differ in nothing but the points.
 
 use super::cut::{Cutter, FacetPoints};
+use super::lean::Lean;
 use super::projected::{Closest, Place, Point, closest};
 use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
 use crate::contact::row::{RowOrder, Rows, Wanted};
@@ -22,7 +23,8 @@ pub enum SlidingRange {
     Finite,
     /// Little within an increment: they keep the tangent plane that they meet at its start.
     Increment,
-    /// Little: they keep the tangent plane that they meet first.
+    /// Little: they keep the tangent plane that they meet first, between the normals of both sides where the secondary side
+    /// has faces.
     Small,
 }
 
@@ -100,6 +102,8 @@ pub struct PointToSegment {
     pub closest: Closest,
     /// How long points keep the tangent plane that they meet.
     pub sliding: SlidingRange,
+    /// The normals of the secondary side, which planes that are kept for good lean towards.
+    lean: Option<Lean>,
     /// A facet that each point is on, where the surface may touch itself; empty elsewhere.
     own: Vec<u32>,
 }
@@ -178,6 +182,16 @@ impl PointToSegment {
         self.own = (0..self.nrow())
             .map(|row| facet(row).unwrap_or(0))
             .collect();
+    }
+
+    /// The normal of a tangent plane that a point keeps, where it meets a facet with this one.
+    fn kept(&self, row: usize, pair: &SurfacePair, at: &Placement, normal: Vec3) -> Vec3 {
+        match (&self.lean, &pair.secondary) {
+            (Some(lean), Some(facets)) if self.sliding == SlidingRange::Small => {
+                lean.normal(row, facets, at, normal)
+            }
+            _ => normal,
+        }
     }
 
     /// The facets near a point that face it.
@@ -275,8 +289,19 @@ impl Discretization for PointToSegment {
         true
     }
 
+    fn keeps(&self) -> bool {
+        self.sliding == SlidingRange::Small
+    }
+
     fn renews(&self) -> bool {
         self.sliding == SlidingRange::Increment
+    }
+
+    fn lean(&mut self, pair: &SurfacePair, share: f64) {
+        self.lean = pair.secondary.as_ref().map(|facets| match &self.inside {
+            Some(points) => Lean::inside(points, share),
+            None => Lean::at_nodes(facets, (0..self.nrow()).map(|row| self.point(row)), share),
+        });
     }
 
     fn pair_up(
@@ -325,12 +350,15 @@ impl Discretization for PointToSegment {
                 surface.jet(at, &found.anchor, &mut jet)?;
                 let away = point - jet.position;
                 let normal = match found.feature {
-                    Feature::Face => jet.normal,
+                    Feature::Face => self.kept(row, pair, at, jet.normal),
                     _ => away
                         .normalized()
                         .map_or(jet.normal, |n| n * found.gap.signum()),
                 };
                 found.held = Some(normal);
+                if found.feature == Feature::Face {
+                    found.gap = away.dot(normal);
+                }
             }
             Ok(())
         };

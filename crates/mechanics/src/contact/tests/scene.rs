@@ -266,7 +266,7 @@ impl Scene {
                     Mortar::new(second.as_ref().unwrap(), form, Default::default(), &x).unwrap();
                 if choice.bond || method == Method::HeldMortar {
                     let (x, poses) = (&x[..], &poses[..]);
-                    mortar = mortar.held_at(&pair, &Placement { x, poses }).unwrap();
+                    mortar = mortar.held_at(&pair, &Placement { x, poses }, 0.5).unwrap();
                 }
                 area = mortar.areas().to_vec();
                 Box::new(mortar)
