@@ -324,7 +324,12 @@ impl Translation<'_> {
     fn contact(&mut self, sides: Sides, place: &Place) -> Contact {
         let name = format!("{}-{}", sides.secondary.value, sides.primary.value);
         let name = Spanned::new(self.fresh(&name), place.clone());
-        Contact::new(name, sides.secondary, sides.primary, place.clone())
+        let mut contact = Contact::new(name, sides.secondary, sides.primary, place.clone());
+        if self.compat == Compat::Ccx {
+            // CalculiX pairs anew where the nodes have moved to, with NLGEOM or without
+            contact.sliding = Sliding::Finite;
+        }
+        contact
     }
 
     /// The law of a contact.

@@ -1,8 +1,8 @@
 use super::*;
 use crate::case::{
     Area, AxesSystem, Body, ConstraintKind, Enforcement, FreeMotions, Geometry, Integration,
-    Interference, LoadKind, Locking, Method, Motion, Offset, Per, SetContent, Space, SpringEnds,
-    SpringLaw, Unstrained,
+    Interference, LoadKind, Locking, Method, Motion, Offset, Per, SetContent, Sliding, Space,
+    SpringEnds, SpringLaw, Unstrained,
 };
 use crate::fs::RealFs;
 use signorini_geometry::tensor::Vec3;
@@ -585,6 +585,24 @@ fn nodes_have_the_rounded_law_of_calculix_and_adjust_by_a_set() {
     for contact in [ours, theirs] {
         let of = contact.start.close_gaps_of.as_ref();
         assert_eq!(of.map(|of| of.value.as_str()), Some("FEET"));
+    }
+}
+
+#[test]
+fn contact_follows_the_motion_as_in_calculix_with_nlgeom_or_without() {
+    let law = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e4";
+    let mortar = BY_FACES.replace("SURFACE TO SURFACE", "MORTAR");
+    for step in [STEP, &STEP.replace("*STEP", "*STEP, NLGEOM")] {
+        for (kind, theirs) in [
+            (BY_NODES, Sliding::Finite),
+            (BY_FACES, Sliding::Increment),
+            (&mortar, Sliding::Finite),
+        ] {
+            let deck = pair(kind, law, step);
+            let sliding = |case: Case| case.contacts[0].sliding;
+            assert_eq!(sliding(case_as(&deck, Compat::Ccx)), theirs, "{kind}");
+            assert_eq!(sliding(case(&deck)), Sliding::Auto, "{kind}");
+        }
     }
 }
 

@@ -330,6 +330,14 @@ codes! {
     ["delete one of the two", "write  passes = 2  to look at the points of both sides",
      "silence with  allow = [\"S0407\"]  where they act in different steps"]
 
+    FAR_FROM_START "S0431" Input "a contact that slid far in the geometry of the start"
+    "A contact whose steps all have linear geometry compares the sides where they were at the start. What touches has moved \
+     along the other side by more than a facet since, so that it presses on facets that are no longer opposite."
+    ["bodies that slide, roll or turn far", "a load that nothing but friction holds"]
+    ["where motions are large:  geometry = \"nonlinear\"  in the steps",
+     "to follow the motion at small strain:  sliding = \"finite\"  of the contact",
+     "silence with  allow = [\"S0431\"]  where both sides are plane and wide"]
+
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \
      before it are saved."

@@ -39,6 +39,7 @@ pub use parts::{
     SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
 
+use crate::contact::discretization::SlidingRange;
 use crate::contact::{Interface, Measure};
 use crate::material::Kinematics;
 use crate::solid::Locking;
@@ -68,6 +69,8 @@ pub struct ContactSummary {
     pub penalty: f64,
     /// What it refers to.
     pub measure: Measure,
+    /// How far its points slide.
+    pub sliding: SlidingRange,
     /// The reach in use.
     pub reach: f64,
     /// Points of the secondary side.

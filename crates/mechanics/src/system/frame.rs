@@ -147,6 +147,9 @@ pub struct ContactFrame {
     pub work_friction: f64,
     /// Characteristic size of the facets, for judging the penetration.
     pub facet_size: f64,
+    /// The largest motion since the start of what touched, along the other side, over that size, and its node; `None` where
+    /// contact follows what moves.
+    pub drift: Option<(f64, u32)>,
 }
 
 impl ContactFrame {

@@ -8,8 +8,8 @@ use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{
-    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Limit, Normals, Offset, Pairs,
-    Per, Sliding, Stick,
+    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Geometry, Limit, Normals,
+    Offset, Pairs, Per, Sliding, Stick,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
@@ -32,6 +32,7 @@ pub(super) fn acting(case: &Case) -> impl Iterator<Item = &Contact> {
 
 pub(super) fn contact(
     part: &Contact,
+    steps: &[case::Step],
     names: &Names<'_>,
     surfaces: &Surfaces,
     found: &mut Diagnostics,
@@ -61,11 +62,7 @@ pub(super) fn contact(
             Per::Area => Measure::Area,
         }),
         friction: part.friction.as_ref().map(friction),
-        sliding: match part.sliding {
-            Sliding::Finite => SlidingRange::Finite,
-            Sliding::Increment => SlidingRange::Increment,
-            Sliding::Small => SlidingRange::Small,
-        },
+        sliding: sliding(part, steps),
         remembers_traction: part.remembers_traction,
         features: match part.features {
             case::Features::Auto => None,
@@ -86,6 +83,36 @@ pub(super) fn contact(
         active: part.active,
         ..ContactPart::new(part.name.value.clone(), secondary, primary)
     })
+}
+
+/// How far points slide. Small-strain theory knows one geometry, that of the start: a contact that acts in linear steps
+/// alone keeps it. After a step at finite strain, bodies may be far from where they started, and contact follows them.
+fn sliding(part: &Contact, steps: &[case::Step]) -> SlidingRange {
+    let mut nonlinear = true;
+    let linear = steps.iter().map(|step| {
+        match step.geometry {
+            Geometry::Auto => {}
+            Geometry::Linear => nonlinear = false,
+            Geometry::Nonlinear => nonlinear = true,
+        }
+        !nonlinear
+    });
+    let mut until_last = part
+        .acting(steps.iter())
+        .zip(linear)
+        .collect::<Vec<_>>()
+        .into_iter()
+        .rev()
+        .skip_while(|(acts, _)| !acts)
+        .peekable();
+    let stays = until_last.peek().is_some() && until_last.all(|(_, linear)| linear);
+    match part.sliding {
+        // what is joined does not slide
+        Sliding::Auto if stays && part.tied.is_none() => SlidingRange::Small,
+        Sliding::Auto | Sliding::Finite => SlidingRange::Finite,
+        Sliding::Increment => SlidingRange::Increment,
+        Sliding::Small => SlidingRange::Small,
+    }
 }
 
 fn primary(
@@ -272,6 +299,28 @@ pub(super) fn words(summary: &ContactSummary) -> String {
         model::Enforcement::Uzawa(_) | model::Enforcement::AugmentedNewton(_) => {
             format!("augmented Lagrangian with {scale} per {per}")
         }
+    }
+}
+
+/// How far its points slide, in words.
+pub(super) fn range(summary: &ContactSummary, tied: bool) -> &'static str {
+    match (&summary.method, summary.sliding) {
+        _ if tied => "joined",
+        (Method::NodeToNode { .. }, _) => "pairs that stay",
+        (_, SlidingRange::Finite) => "finite sliding",
+        (_, SlidingRange::Increment) => "planes of the increment",
+        (_, SlidingRange::Small) => "small sliding",
+    }
+}
+
+/// Writes how far points slide into a contact that leaves it open; pairs of nodes do not.
+pub(super) fn choose_sliding(part: &mut Contact, summary: &ContactSummary) {
+    if part.sliding == Sliding::Auto && !matches!(summary.method, Method::NodeToNode { .. }) {
+        part.sliding = match summary.sliding {
+            SlidingRange::Small => Sliding::Small,
+            SlidingRange::Increment => Sliding::Increment,
+            SlidingRange::Finite => Sliding::Finite,
+        };
     }
 }
 

@@ -85,6 +85,8 @@ pub struct ContactInfo {
     pub method: &'static str,
     /// How penetration is prevented, in words.
     pub enforcement: String,
+    /// How far its points slide, in words.
+    pub sliding: &'static str,
     /// The penalty in use.
     pub penalty: f64,
     /// What it refers to: `"node"` or `"area"`.
@@ -193,6 +195,10 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     found.silence(&allowed);
 
+    let is_tied = |name: &str| {
+        let mut tied = case.contacts.iter().filter(|one| one.tied.is_some());
+        tied.any(|one| one.name.value == name)
+    };
     let contacts: Vec<ContactInfo> = model
         .contacts
         .iter()
@@ -200,6 +206,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
             name: c.name.clone(),
             method: contact::word(&c.method),
             enforcement: contact::words(c),
+            sliding: contact::range(c, is_tied(&c.name)),
             penalty: c.penalty,
             per: contact::per(c.measure),
             npoint: c.npoint,
@@ -261,7 +268,7 @@ fn parts<'a>(
     parts.hold_free = case.solver.free_motions == FreeMotions::Hold;
     let surfaces = Surfaces::new(case, mesh, carriers, found);
     parts.contacts = contact::acting(case)
-        .filter_map(|c| contact::contact(c, names, &surfaces, found))
+        .filter_map(|c| contact::contact(c, &case.steps, names, &surfaces, found))
         .collect();
     let (temperature, start) = temperature::at_start(case, names, mesh, found);
     parts.temperature = temperature;
@@ -318,6 +325,7 @@ fn choose(
         if *part.method == Method::Auto {
             contact::choose(part, &summary.method);
         }
+        contact::choose_sliding(part, summary);
         let chosen = Some(summary.penalty.into());
         match &mut part.enforcement {
             Enforcement::Augmented { penalty, .. } => *penalty = chosen,

@@ -945,6 +945,53 @@ fn a_body_of_revolution_lies_on_one_side_of_its_axis() {
 }
 
 #[test]
+fn what_a_contact_acts_in_says_how_far_it_slides() {
+    let sliding = |keys: &str, steps: &[(&str, &str)]| {
+        let mut text = format!(
+            "{CUBES}{BASE}top = {{ plane = [0, 0, 3], at = 1, of = 'low' }}\n[[body]]\ngroup = 'high'\nmaterial = 'steel'\n\
+             [[contact]]\nname = 'c'\nsecondary = 'high'\nprimary = 'top'\n{keys}\n"
+        );
+        for (number, (geometry, contact)) in steps.iter().enumerate() {
+            text += &format!("[[step]]\nname = 's{number}'\ngeometry = '{geometry}'\n");
+            if number == 0 {
+                text += "[[step.fix]]\non = 'base'\nu = 'all'\n";
+            }
+            text += &format!("[[step.load]]\nname = 'l'\non = 'top'\npressure = {number}.5\n");
+            if !contact.is_empty() {
+                text += &format!("[[step.contact]]\nname = 'c'\nactive = {contact}\n");
+            }
+        }
+        parts_of(&text).contacts[0].sliding
+    };
+    use SlidingRange::{Finite, Increment, Small};
+    let (linear, nonlinear, auto) = (("linear", ""), ("nonlinear", ""), ("auto", ""));
+    for (steps, right) in [
+        (&[linear][..], Small),
+        (&[nonlinear], Finite),
+        (&[auto], Finite),
+        (&[linear, auto, linear], Small),
+        (&[linear, nonlinear], Finite),
+        (&[nonlinear, linear], Finite),
+        // it has gone before anything moves far
+        (&[linear, ("nonlinear", "false")], Small),
+        // bodies have moved before it comes
+        (&[nonlinear, ("linear", "true")], Finite),
+    ] {
+        let inactive = steps.iter().any(|(_, contact)| *contact == "true");
+        let keys = if inactive { "active = false" } else { "" };
+        assert_eq!(sliding(keys, steps), right, "{steps:?}");
+        for (word, given) in [("finite", Finite), ("small", Small)] {
+            let keys = format!("{keys}\nsliding = '{word}'");
+            assert_eq!(sliding(&keys, steps), given, "{steps:?}");
+        }
+    }
+    let points = "method = 'node-to-segment'\nenforcement = { penalty = 9 }\nsliding = 'increment'";
+    assert_eq!(sliding(points, &[linear]), Increment);
+    // what is joined does not slide
+    assert_eq!(sliding("tied = true", &[linear]), Finite);
+}
+
+#[test]
 fn a_resolved_case_becomes_the_same_parts() {
     let text = "[reference.pilot]\nat = [0, 0, 5]\n[[body]]\ngroup = 'high'\nrigid = true\nreference = 'pilot'\n\
         [[spring]]\nname = 's'\nbetween = ['base', 'top']\nstiffness = 3\n\

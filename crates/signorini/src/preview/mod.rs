@@ -64,10 +64,11 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
     }
     for info in &model.contacts {
         lines.push(format!(
-            "contact {}: {}, {}, {} against {} of size {}",
+            "contact {}: {}, {}, {}, {} against {} of size {}",
             info.name,
             info.method,
             info.enforcement,
+            info.sliding,
             plural(info.npoint, "point"),
             plural(info.nfacet, "facet"),
             short(info.facet_size)

@@ -11,7 +11,7 @@ use super::start::{Start, begin, facts};
 use super::tables::Tables;
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
-use super::{Finished, RunOptions, event_of, failure};
+use super::{Finished, RunOptions, drift, event_of, failure};
 use crate::build::Model;
 use signorini_io::case;
 use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
@@ -287,6 +287,7 @@ impl Run<'_, '_> {
                 (code, status)
             }
         };
+        self.far_from_start(&mut found);
         let mut summary = Summary {
             steps: self.recorder.counts.steps.clone(),
             contacts: std::mem::take(&mut self.recorder.contacts),
@@ -383,6 +384,17 @@ impl Run<'_, '_> {
             self.recorder.tell(&event, Detail::Expectation(tolerance));
         }
         verdicts
+    }
+
+    /// Tells of contacts that keep the geometry of the start and slid by more than a facet.
+    fn far_from_start(&mut self, found: &mut Diagnostics) {
+        let mut far: Diagnostics = drift::warnings(&self.recorder.drifts, self.model);
+        let allowed: Vec<&str> = self.model.case.allow.iter().map(String::as_str).collect();
+        far.silence(&allowed);
+        for one in &far {
+            self.recorder.tell(&event_of(one), Detail::Finding(one));
+        }
+        found.append(far);
     }
 
     fn stopped_by_time(&self) -> Diagnostic {

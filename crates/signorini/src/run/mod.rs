@@ -17,6 +17,7 @@
 
 mod cells;
 mod contact_surface;
+mod drift;
 mod drive;
 mod error;
 mod expectations;

@@ -15,6 +15,7 @@ mod enforcement;
 mod friction_loop;
 mod hertz;
 mod ironing;
+mod linear_steps;
 mod mortar_patch;
 mod patch;
 mod rings;

@@ -46,7 +46,8 @@ impl Builder {
             sliding: match fields.text("sliding").value.as_str() {
                 "increment" => Sliding::Increment,
                 "small" => Sliding::Small,
-                _ => Sliding::Finite,
+                "finite" => Sliding::Finite,
+                _ => Sliding::Auto,
             },
             features: match fields.text("features").value.as_str() {
                 "faces" => Features::Faces,
@@ -138,7 +139,8 @@ impl Builder {
         );
         only(
             "sliding",
-            contact.sliding != Sliding::Finite && method == Method::NodeToNode,
+            matches!(contact.sliding, Sliding::Increment | Sliding::Small)
+                && method == Method::NodeToNode,
             "pairs of nodes stay what they are: delete `sliding`",
         );
         only(

@@ -69,7 +69,7 @@ impl Contact {
             per: None,
             friction: None,
             remembers_traction: false,
-            sliding: Sliding::Finite,
+            sliding: Sliding::Auto,
             features: Features::default(),
             tied: None,
             start: Start::default(),
@@ -265,8 +265,10 @@ pub enum Stick {
 /// How far points slide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sliding {
-    /// As far as it goes.
+    /// Little where all steps up to the last one in which the contact acts have linear geometry, else as far as it goes.
     #[default]
+    Auto,
+    /// As far as it goes.
     Finite,
     /// Within an increment, in the tangent plane that each meets at its start.
     Increment,

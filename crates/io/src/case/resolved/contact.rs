@@ -19,6 +19,7 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         Area::Opposite => "opposite",
     };
     let sliding = match contact.sliding {
+        Sliding::Auto => "auto",
         Sliding::Finite => "finite",
         Sliding::Increment => "increment",
         Sliding::Small => "small",

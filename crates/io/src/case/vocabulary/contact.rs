@@ -60,10 +60,10 @@ pub(super) static CONTACT: Table = Table {
         .or(Default::Text("place")),
         key(
             "sliding",
-            Shape::Choice(&[word("finite"), word("increment"), word("small")]),
-            "how far points slide; else each keeps the tangent plane it meets at the start of the increment, or first",
+            Shape::Choice(&[word("auto"), word("finite"), word("increment"), word("small")]),
+            "how far points slide: any way; or each keeps the tangent plane it meets at the start of the increment, or first. auto: \"small\" in linear geometry, else \"finite\"",
         )
-        .or(Default::Text("finite")),
+        .or(Default::Text("auto")),
         key(
             "features",
             Shape::Choice(&[word("auto"), word("faces"), word("edges")]),

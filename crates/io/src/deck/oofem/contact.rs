@@ -271,6 +271,7 @@ impl Translation {
         let name = Spanned::new(self.fresh(&wanted), place.clone());
         let mut contact = Contact::new(name, secondary, primary, place.clone());
         contact.method = Method::NodeToSegment.into();
+        contact.sliding = Sliding::Finite;
         contact
     }
 

@@ -10,6 +10,7 @@
 //! and never sees a law, a penalty or an unknown.
 
 mod cut;
+mod lean;
 pub mod mortar;
 pub mod nodes;
 mod own;
@@ -178,6 +179,9 @@ pub trait Discretization: Send + Sync {
         stored.is_empty()
     }
 
+    /// Lets planes that are kept for good lean towards the normals of the secondary side, of which this part counts.
+    fn lean(&mut self, _pair: &SurfacePair, _share: f64) {}
+
     /// Makes all discrete choices at a configuration. `last` holds the choices of a moment ago, as hints; `next` is what
     /// will probably be asked of rows.
     ///
@@ -290,6 +294,22 @@ pub trait Discretization: Send + Sync {
         _anchors: &mut [Option<Anchored>],
     ) -> Result<bool, SurfaceError> {
         Ok(false)
+    }
+
+    /// Whether what rows meet first is kept for good.
+    fn keeps(&self) -> bool {
+        false
+    }
+
+    /// The motion of a row relative to what it meets where nodes move by `by`, and its normal; `None` where that is told by
+    /// its closest point.
+    fn way(
+        &self,
+        _row: usize,
+        _pairing: &Pairing,
+        _by: &dyn Fn(NodeId) -> Vec3,
+    ) -> Option<(Vec3, Vec3)> {
+        None
     }
 
     /// Whether its weights are those of the start for good: moments of both sides balance there.

@@ -2,6 +2,7 @@
 //! differ in nothing but the points.
 
 use super::cut::{Cutter, FacetPoints};
+use super::lean::Lean;
 use super::projected::{Closest, Place, Point, Sight, closest};
 use super::{Anchored, Discretization, Links, OwnNow, Pair, Pairing, SurfacePair};
 use crate::contact::row::{RowOrder, Rows, Wanted};
@@ -22,7 +23,8 @@ pub enum SlidingRange {
     Finite,
     /// Little within an increment: they keep the tangent plane that they meet at its start.
     Increment,
-    /// Little: they keep the tangent plane that they meet first.
+    /// Little: they keep the tangent plane that they meet first, between the normals of both sides where the secondary side
+    /// has faces.
     Small,
 }
 
@@ -100,6 +102,8 @@ pub struct PointToSegment {
     pub closest: Closest,
     /// How long points keep the tangent plane that they meet.
     pub sliding: SlidingRange,
+    /// The normals of the secondary side, which planes that are kept for good lean towards.
+    lean: Option<Lean>,
 }
 
 /// How far a point that slips may leave the facet it is on, in parameters of the facet, within one increment.
@@ -163,6 +167,16 @@ impl PointToSegment {
 }
 
 impl PointToSegment {
+    /// The normal of a tangent plane that a point keeps, where it meets a facet with this one.
+    fn kept(&self, row: usize, pair: &SurfacePair, at: &Placement, normal: Vec3) -> Vec3 {
+        match (&self.lean, &pair.secondary) {
+            (Some(lean), Some(facets)) if self.sliding == SlidingRange::Small => {
+                lean.normal(row, facets, at, normal)
+            }
+            _ => normal,
+        }
+    }
+
     /// What the point of a row meets among the facets that are near it; `before` is what it met a moment ago, and `own` what a
     /// surface that may touch itself knows of its body.
     ///
@@ -205,12 +219,15 @@ impl PointToSegment {
             surface.jet(at, &found.anchor, &mut jet)?;
             let away = point - jet.position;
             let normal = match found.feature {
-                Feature::Face => jet.normal,
+                Feature::Face => self.kept(row, pair, at, jet.normal),
                 _ => away
                     .normalized()
                     .map_or(jet.normal, |n| n * found.gap.signum()),
             };
             found.held = Some(normal);
+            if found.feature == Feature::Face {
+                found.gap = away.dot(normal);
+            }
         }
         Ok(found)
     }
@@ -288,8 +305,19 @@ impl Discretization for PointToSegment {
         true
     }
 
+    fn keeps(&self) -> bool {
+        self.sliding == SlidingRange::Small
+    }
+
     fn renews(&self) -> bool {
         self.sliding == SlidingRange::Increment
+    }
+
+    fn lean(&mut self, pair: &SurfacePair, share: f64) {
+        self.lean = pair.secondary.as_ref().map(|facets| match &self.inside {
+            Some(points) => Lean::inside(points, share),
+            None => Lean::at_nodes(facets, (0..self.nrow()).map(|row| self.point(row)), share),
+        });
     }
 
     fn pair_up(

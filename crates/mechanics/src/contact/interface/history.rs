@@ -397,6 +397,8 @@ impl Interface {
             name("state"),
             &[self.history.work, started, first[0], first[1], first[2]],
         );
+        let drift = self.drift.map(|(ratio, node)| [ratio, f64::from(node)]);
+        out.put(name("drift"), drift.as_ref().map_or(&[], |d| &d[..]));
         out.put(name("area"), &self.parts.area);
         out.put(name("points"), &self.parts.discretization.store());
         let shifts = self.parts.shifts.iter();
@@ -460,6 +462,14 @@ impl Interface {
             duration: state[4],
             ..self.step
         });
+        let mut drift = [0.0; 2];
+        self.drift = match from.length(&name("drift"))? {
+            0 => None,
+            _ => {
+                from.get(&name("drift"), &mut drift)?;
+                Some((drift[0], drift[1] as u32))
+            }
+        };
         let mut area = std::mem::take(&mut self.parts.area);
         area.resize(if area.is_empty() { 0 } else { nrow }, 0.0);
         from.get(&name("area"), &mut area)?;

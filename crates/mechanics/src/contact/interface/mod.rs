@@ -1,5 +1,6 @@
 //! One pair of surfaces with its choices, as the one contact term there is.
 
+mod drift;
 mod history;
 mod pairing;
 mod passing;
@@ -211,6 +212,9 @@ pub struct Interface {
     whole: Vec<f64>,
     /// Rows that went to and fro between facets keep the one they are on, for the rest of the increment.
     changes: Vec<u8>,
+    /// The largest motion along the other side so far, over the size of the facets, where contact keeps its geometry, and
+    /// its node.
+    drift: Option<(f64, NodeId)>,
 }
 
 /// Overlaps that an increment allows for.
@@ -270,6 +274,7 @@ impl Interface {
             allowed: Allowed::default(),
             changes: vec![0; nrow],
             whole: Vec::new(),
+            drift: None,
         }
     }
 
@@ -646,6 +651,9 @@ impl Term for Interface {
         self.accepted_judged.clone_from(&self.judged);
         self.started = true;
         self.changes.fill(0);
+        if let Some(farthest) = self.farthest(state) {
+            self.drift = self.drift.filter(|d| d.0 >= farthest.0).or(Some(farthest));
+        }
         self.remember(state)
     }
 

@@ -504,11 +504,12 @@ impl Interface {
             faces: self.parts.discretization.inside().map(|_| Vec::new()),
             area: vec![0.0; n],
             facet_size: self.parts.scale.length,
+            drift: self.drift,
             ..ContactFrame::default()
         }
     }
 
-    fn displacement(&self, node: NodeId, state: &State) -> Vec3 {
+    pub(super) fn displacement(&self, node: NodeId, state: &State) -> Vec3 {
         let mut u = Vec3::ZERO;
         for axis in 0..self.layout.ndim {
             let dof = self.layout.node(node, axis) as usize;

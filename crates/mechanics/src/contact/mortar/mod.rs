@@ -107,6 +107,8 @@
 #[allow(clippy::needless_range_loop)] // indices as in the equations
 mod basis;
 #[allow(clippy::needless_range_loop)]
+mod bent;
+#[allow(clippy::needless_range_loop)]
 mod covered;
 mod pair;
 #[allow(clippy::needless_range_loop)]
@@ -117,6 +119,7 @@ mod tests;
 mod transformation;
 mod weights;
 
+pub use bent::{Held, Met, SMOOTH, bend, between};
 pub use covered::{Covered, Derivatives, MIN_COVERAGE};
 pub use pair::{Frame, Pair};
 pub use transformation::{Basis, Transformation};

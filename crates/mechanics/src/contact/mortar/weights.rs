@@ -103,6 +103,9 @@ pub struct OfFacet {
     pub m: Vec<f64>,
     /// S of quadratic triangles, row by row; empty of other facets, and where Ñ is negative beyond a bent edge.
     pub mass: Vec<f64>,
+    /// `∫ψ_j ν N_k` of its own nodes, then `−∫ψ_j ν N^m_l`, row by row, of facets that are [bent](super::bend); empty of
+    /// those with one normal.
+    pub vectors: Vec<Vec3>,
 }
 
 impl OfFacet {

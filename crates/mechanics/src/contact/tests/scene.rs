@@ -267,7 +267,7 @@ impl Scene {
                 let mut mortar = Mortar::new(second, primary, form, measure, &x).unwrap();
                 if choice.bond || method == Method::HeldMortar {
                     let (x, poses) = (&x[..], &poses[..]);
-                    mortar = mortar.held_at(&pair, &Placement { x, poses }).unwrap();
+                    mortar = mortar.held_at(&pair, &Placement { x, poses }, 0.5).unwrap();
                 }
                 area = mortar.areas().to_vec();
                 Box::new(mortar)

@@ -104,6 +104,7 @@ impl Context<'_> {
     ) -> Result<(InterfaceParts, ContactSummary), ModelError> {
         let of = [sides.facets.as_ref(), sides.secondary()];
         let sizes = of.map(|s| s.map(|s| self.sizes(s)));
+        let share = self.share(of);
         let largest = sizes
             .iter()
             .flatten()
@@ -172,7 +173,7 @@ impl Context<'_> {
             }
         };
         if part.sliding == SlidingRange::Small || part.tie.is_some() {
-            let held = sides.hold(&at, self.spaces);
+            let held = sides.hold(&at, self.spaces, share);
             held.map_err(|source| ModelError::Surface {
                 contact: part.name.clone(),
                 source,
@@ -198,6 +199,7 @@ impl Context<'_> {
             method: sides.method,
             penalty,
             measure,
+            sliding: part.sliding,
             reach,
             npoint: sides.pair.points.len(),
             nfacet: sides.pair.primary.nfacet(),
@@ -290,6 +292,27 @@ impl Context<'_> {
             sizes.stiffness = Some(stiffness / f64::from(deformable));
         }
         sizes
+    }
+
+    /// β of (E9) of [`mortar`](crate::contact::mortar): how much of the normals between both sides, the primary one first,
+    /// is that of the secondary one. What is rigid keeps its own.
+    fn share(&self, [primary, secondary]: [Option<&Facets>; 2]) -> f64 {
+        match [primary, secondary].map(|side| side.and_then(|s| self.modulus_behind(s))) {
+            [Some(primary), Some(secondary)] => secondary / (primary + secondary),
+            [Some(_), None] => 1.0,
+            [None, _] => 0.0,
+        }
+    }
+
+    /// The mean modulus of deformable bodies behind a surface.
+    fn modulus_behind(&self, surface: &Facets) -> Option<f64> {
+        let of = |facet| {
+            let body = self.owner.get(&surface.face(facet)?.cell);
+            body.and_then(|&b| self.modulus[b])
+        };
+        let all = (0..surface.nfacet() as u32).filter_map(of);
+        let (n, sum) = all.fold((0, 0.0), |(n, sum), modulus| (n + 1, sum + modulus));
+        (n > 0).then(|| sum / f64::from(n))
     }
 
     /// The stiffness behind bare nodes of deformable bodies.

@@ -648,17 +648,24 @@ impl Sides {
         Ok(())
     }
 
-    /// Keeps what mortar rows see of both sides at this configuration for good.
-    pub fn hold(&mut self, at: &Placement, spaces: &Spaces<'_>) -> Result<(), SurfaceError> {
+    /// Keeps what mortar rows see of both sides at this configuration for good. Normals are between those of both sides,
+    /// points' too: this part is that of the secondary one.
+    pub fn hold(
+        &mut self,
+        at: &Placement,
+        spaces: &Spaces<'_>,
+        share: f64,
+    ) -> Result<(), SurfaceError> {
         let (&Method::Mortar(form), Some(facets)) = (&self.method, &self.pair.secondary) else {
+            self.discretization.lean(&self.pair, share);
             return Ok(());
         };
         let primary = self.pair.primary.as_ref();
         let Some(&space) = spaces.behind(facets).first() else {
             return Ok(());
         };
-        let mortar =
-            Mortar::new(facets, primary, form, measure(space), at.x)?.held_at(&self.pair, at)?;
+        let mortar = Mortar::new(facets, primary, form, measure(space), at.x)?
+            .held_at(&self.pair, at, share)?;
         self.area = mortar_areas(&mortar, at.x, space);
         self.discretization = Box::new(mortar);
         Ok(())

@@ -223,6 +223,7 @@ impl Opened {
             narrator: Narrator::default(),
             listener,
             contacts: BTreeMap::new(),
+            drifts: Vec::new(),
             work_stabilization: 0.0,
             error: None,
             stop: None,

@@ -109,6 +109,8 @@ pub struct Recorder<'l> {
     pub expectations: Expectations,
     /// What every contact carried at the last accepted increment.
     pub contacts: BTreeMap<String, ContactSummary>,
+    /// How far contacts that keep the geometry of the start slid at most, over the size of their facets, and where.
+    pub drifts: Vec<(String, f64, u32)>,
     /// Work spent so far in holding what only contact stops.
     pub work_stabilization: f64,
     /// The first failure of the disk; nothing is written after it.

@@ -167,6 +167,10 @@ impl Recorder<'_> {
         self.contacts = contacts
             .map(|c| (c.name.clone(), summary(c, before.get(&c.name))))
             .collect();
+        let drifts = frame.contacts.iter();
+        let drifts =
+            drifts.filter_map(|c| c.drift.map(|(ratio, node)| (c.name.clone(), ratio, node)));
+        self.drifts = drifts.collect();
         self.work_stabilization = frame.work_stabilization;
         let event = Event::Increment {
             step: name,

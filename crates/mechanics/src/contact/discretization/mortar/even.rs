@@ -203,7 +203,7 @@ mod tests {
             ..SurfacePair::new(mortar.nodes().to_vec(), Arc::new(primary), 1.0)
         };
         let at = Placement { x: &x, poses: &[] };
-        let mortar = mortar.held_at(&pair, &at).unwrap();
+        let mortar = mortar.held_at(&pair, &at, 1.0).unwrap();
         (mortar, x)
     }
 

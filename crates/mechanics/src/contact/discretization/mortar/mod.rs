@@ -60,6 +60,7 @@
 mod clearance;
 mod edges;
 mod even;
+mod held;
 mod integrals;
 mod place;
 mod pointwise;
@@ -231,11 +232,17 @@ impl Mortar {
         })
     }
 
-    /// With the weights of this configuration for good.
+    /// With the weights of this configuration for good, along normals between those of both sides: `share` is the part of
+    /// the secondary one.
     ///
     /// # Errors
     /// Facets that cannot be compared.
-    pub fn held_at(mut self, pair: &SurfacePair, at: &Placement) -> Result<Self, SurfaceError> {
+    pub fn held_at(
+        mut self,
+        pair: &SurfacePair,
+        at: &Placement,
+        share: f64,
+    ) -> Result<Self, SurfaceError> {
         let boxes = (0..pair.primary.nfacet() as u32).map(|f| pair.primary.aabb(at, f));
         let mut search = Search::default();
         let boxes: Vec<Aabb> = boxes.collect();
@@ -243,8 +250,12 @@ impl Mortar {
         let mut weights = Weights::default();
         let nothing = Weights::default();
         self.weigh(pair, at, &search, (&nothing, RowOrder::Gap), &mut weights)?;
-        self.rest(pair, at, &mut weights)?;
+        let bent = self.bend(pair, at, share, &mut weights)?;
         self.points.sliding = SlidingRange::Small;
+        self.rest(pair, at, &mut weights)?;
+        if let Some(facets) = pair.secondary.as_ref().filter(|_| bent) {
+            self.along_normals(facets, &mut weights);
+        }
         for (row, area) in self.area.iter_mut().enumerate() {
             if let Some(covered) = weights.row(row) {
                 *area = covered.d;
@@ -882,6 +893,21 @@ impl Discretization for Mortar {
     fn approach(&self, row: usize, pairing: &Pairing, by: &dyn Fn(NodeId) -> Vec3) -> Option<f64> {
         let of = self.weights(pairing).row(row)?;
         Some(-of.gap(by(self.nodes[row]), by) / of.d)
+    }
+
+    fn keeps(&self) -> bool {
+        self.held.is_some()
+    }
+
+    fn way(
+        &self,
+        row: usize,
+        pairing: &Pairing,
+        by: &dyn Fn(NodeId) -> Vec3,
+    ) -> Option<(Vec3, Vec3)> {
+        let of = self.weights(pairing).row(row)?;
+        let way = of.way(by(self.nodes[row]), by) / of.d;
+        Some((way, of.normal.normalized()?))
     }
 
     fn stays(&self) -> bool {

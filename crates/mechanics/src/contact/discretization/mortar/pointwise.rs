@@ -33,7 +33,7 @@
 use super::clearance::{Flat, least_gap};
 use super::edges::Part;
 use super::{Mortar, NOWHERE, Normals, nodes_of};
-use crate::contact::discretization::{Anchored, Pairing, SurfacePair};
+use crate::contact::discretization::{Anchored, Pairing, SlidingRange, SurfacePair};
 use crate::contact::mortar::{Guests, OfFacet, Weights};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
@@ -48,8 +48,8 @@ const TURNED: f64 = 0.0175;
 const CLOSED: f64 = 1e-4;
 const APART: f64 = 1e-2;
 
-/// Gaps over the size of a facet up to which rows that compare points ask for their means.
-const NEAR: f64 = 0.1;
+/// Gaps over the size of a facet up to which rows that compare points, or hold their weights, ask for their means.
+const NEAR: f64 = 0.5;
 
 /// The least change of a turn that makes a difference.
 const STEP: f64 = 0.1;
@@ -234,7 +234,13 @@ impl Mortar {
                 .row(row)
                 .map(|of| of.gap(x(self.nodes[row]), &x) / of.d),
         };
-        let Some(mean) = mean.filter(|g| *g < if was { NEAR } else { CLOSED } * size) else {
+        // where the geometry is held, all approach alike
+        let keeps = self.points.sliding != SlidingRange::Finite;
+        let near = match was || keeps {
+            true => NEAR,
+            false => CLOSED,
+        };
+        let Some(mean) = mean.filter(|g| *g < near * size) else {
             return false;
         };
         let apart = |gap: f64| mean < gap - APART * size;
