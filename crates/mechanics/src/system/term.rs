@@ -45,6 +45,9 @@ pub enum Verdict {
         changes: usize,
         /// Whether all they did was to close, and the way there leaves no trace: there is no friction.
         closing: bool,
+        /// Whether forces are continuous functions of the state across everything that changed, as they are where rows
+        /// open, close, stick and slip, and are not where a row goes to another facet.
+        continuous: bool,
         /// In the user's words: who, and how.
         why: String,
         /// The nodes concerned, at most a handful.

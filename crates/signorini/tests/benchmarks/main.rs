@@ -18,5 +18,6 @@ mod ironing;
 mod mortar_patch;
 mod patch;
 mod rings;
+mod rotation;
 mod slip;
 mod stack;

@@ -7,7 +7,7 @@ mod rows;
 
 use super::discretization::{Discretization, Pairing, SurfacePair};
 use super::friction::{FrictionLaw, Stick};
-use super::kernel::{Contact, Derivatives, Lambda, Laws};
+use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
 use super::law::{ContactLaw, Multiplier, Penalty, Scale};
 use super::row::{Participant, RowOrder, Rows, Wanted};
 use crate::system::{
@@ -303,6 +303,14 @@ impl Interface {
         }
     }
 
+    /// What a row brings with it from before, with what it did in the iterate before: for what it is called.
+    fn past(&self, row: usize) -> Past {
+        Past {
+            state: self.judged.get(row).map_or(Contact::Open, |j| j.state),
+            ..self.history.past(row)
+        }
+    }
+
     fn nmultiplier(&self) -> usize {
         self.parts.nmultiplier(self.layout.ndim)
     }
@@ -504,7 +512,7 @@ impl Term for Interface {
         self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.allow_for_overlaps(from, renews || first)?;
         if first || others {
-            self.judge(from)?;
+            self.judged = self.judge(from)?;
             self.accepted_judged.clone_from(&self.judged);
         }
         self.before.clone_from(&self.accepted);
@@ -571,13 +579,11 @@ impl Term for Interface {
     }
 
     fn verdict(&mut self, trial: &State) -> Verdict {
-        let before = std::mem::take(&mut self.judged);
-        self.judged = vec![Judged::default(); before.len()];
-        if self.judge(trial).is_err() {
+        let Ok(now) = self.judge(trial) else {
             // what cannot be evaluated fails where it is evaluated
-            self.judged = before;
             return Verdict::Settled;
-        }
+        };
+        let before = std::mem::replace(&mut self.judged, now);
         let mut counts = Changes::default();
         let mut nodes = Vec::new();
         for (row, (now, before)) in self.judged.iter().zip(&before).enumerate() {
@@ -602,6 +608,7 @@ impl Term for Interface {
             return Ok(Verdict::Repeat {
                 changes: 1,
                 closing: false,
+                continuous: false,
                 why: format!("contact \"{}\": other nodes are covered", self.parts.name),
                 nodes: Vec::new(),
             });
@@ -666,11 +673,15 @@ struct Changes {
     slipping: usize,
     sticking: usize,
     moved: usize,
+    /// Whether some row that was closed and still is has gone to another facet, whatever else changed there.
+    elsewhere: bool,
 }
 
 impl Changes {
     /// Counts a change; says whether there is one.
     fn compare(&mut self, now: &Judged, before: &Judged) -> bool {
+        let stays_closed = now.state != Contact::Open && before.state != Contact::Open;
+        self.elsewhere |= stays_closed && now.facet != before.facet;
         match (before.state, now.state) {
             (Contact::Open, Contact::Open) => return false,
             (Contact::Open, _) => self.closed += 1,
@@ -700,6 +711,7 @@ impl Changes {
         Verdict::Repeat {
             changes,
             closing: forgets && changes == self.closed,
+            continuous: !self.elsewhere,
             why: format!("contact \"{name}\": {}", said.join(", ")),
             nodes,
         }
