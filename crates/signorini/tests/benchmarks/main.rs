@@ -21,3 +21,4 @@ mod rings;
 mod rotation;
 mod slip;
 mod stack;
+mod valley;

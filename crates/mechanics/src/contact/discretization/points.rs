@@ -275,6 +275,10 @@ impl Discretization for PointToSegment {
         true
     }
 
+    fn rests_on_edges(&self) -> bool {
+        matches!(self.closest, Closest::Anywhere | Closest::Rims)
+    }
+
     fn renews(&self) -> bool {
         self.sliding == SlidingRange::Increment
     }

@@ -3,9 +3,10 @@
 mod history;
 mod pairing;
 mod report;
+mod restless;
 mod rows;
 
-use super::discretization::{Discretization, Pairing, SurfacePair};
+use super::discretization::{Discretization, Pair, Pairing, SurfacePair};
 use super::friction::{FrictionLaw, Stick};
 use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
 use super::law::{ContactLaw, Multiplier, Penalty, Scale};
@@ -18,7 +19,7 @@ use history::History;
 pub use pairing::closest_points;
 use pairing::{Coupled, Near};
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::{Carrier, ContactSurface, Placement, SurfaceError};
+use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
@@ -206,8 +207,10 @@ pub struct Interface {
     first_step: Option<StepContext>,
     /// What overlaps at the start of the increment and is allowed for; empty where nothing is.
     allowed: Allowed,
-    /// Rows that went to and fro between facets keep the one they are on, for the rest of the increment.
+    /// How often each row went to another facet in this increment. Those that go to and fro are held.
     changes: Vec<u8>,
+    /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
+    astray: Vec<(usize, Pair)>,
 }
 
 /// Overlaps that an increment allows for.
@@ -266,6 +269,7 @@ impl Interface {
             first_step: None,
             allowed: Allowed::default(),
             changes: vec![0; nrow],
+            astray: Vec::new(),
         }
     }
 
@@ -612,6 +616,9 @@ impl Term for Interface {
                 why: format!("contact \"{}\": other nodes are covered", self.parts.name),
                 nodes: Vec::new(),
             });
+        }
+        if let Some(goes_on) = self.let_restless_go() {
+            return Ok(goes_on);
         }
         let limits = self.renew_limits(trial)?;
         if self.parts.law.multiplier() != Multiplier::Frozen {
