@@ -7,7 +7,7 @@
 //!     converged?  r small, nothing changed, du small
 //!     K du = −r − K du_p                           du_p: prescribed motion of nodes, in the first solve only
 //!     line search  u ← u + α du
-//!   accept, or cut the increment, or go through it in slow motion
+//!   accept, or cut the increment, or go through it in parts, or in slow motion
 //! ```
 //!
 //! An increment has converged when
@@ -37,11 +37,13 @@ mod equations;
 mod event;
 mod forecast;
 mod line_search;
+mod nearby;
 mod newton;
 mod stabilization;
 mod stepping;
 #[cfg(test)]
 mod tests;
+mod work;
 
 pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};

@@ -378,6 +378,11 @@ pub trait Term: Send + Sync {
         false
     }
 
+    /// Work spent in viscous forces up to the accepted state.
+    fn work_stabilization(&self) -> f64 {
+        0.0
+    }
+
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     fn has_saddle(&self) -> bool {
         false
@@ -412,6 +417,11 @@ pub trait Term: Send + Sync {
 
     /// Whether its forces come from outside of bodies and what lies between them: loads, and what holds or guides.
     fn is_outside(&self) -> bool {
+        false
+    }
+
+    /// Whether its forces are loads: those do the work that comes from outside, with supports.
+    fn is_load(&self) -> bool {
         false
     }
 

@@ -353,6 +353,7 @@ fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> To
             }
             Event::Cutback { cause, next, .. } => cuts.push([cause.dt, *next]),
             Event::Step { .. }
+            | Event::Followed { .. }
             | Event::Stabilized { .. }
             | Event::Held { .. }
             | Event::Solver { .. } => {}

@@ -224,6 +224,7 @@ impl Opened {
             listener,
             contacts: BTreeMap::new(),
             work_stabilization: 0.0,
+            work_external: 0.0,
             error: None,
             stop: None,
             write_seconds: 0.0,
