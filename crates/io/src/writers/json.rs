@@ -101,6 +101,19 @@ pub enum Event {
         /// Why.
         why: String,
     },
+    /// The increment was gone through in parts: there was an equilibrium nearby.
+    Followed {
+        /// The step.
+        step: String,
+        /// The increment.
+        inc: u64,
+        /// The attempt that succeeded.
+        att: u64,
+        /// Total time at its start.
+        time: f64,
+        /// Parts that it took.
+        parts: u64,
+    },
     /// There was no equilibrium nearby: viscous forces led to another.
     Stabilized {
         /// The step.
@@ -113,6 +126,10 @@ pub enum Event {
         time: f64,
         /// Stages that it took.
         stages: u64,
+        /// Work of the viscous forces in it.
+        work: f64,
+        /// Work of supports and loads since the start of the run.
+        work_external: f64,
     },
     /// Motions that nothing resists and no load acts on were held.
     Held {
@@ -270,6 +287,9 @@ pub struct Summary {
     /// Work spent by viscous forces that hold what only contact stops.
     #[serde(default, deserialize_with = "nan::of_number")]
     pub work_stabilization: f64,
+    /// Work of supports and loads.
+    #[serde(default, deserialize_with = "nan::of_number")]
+    pub work_external: f64,
     /// Wall time of each phase, in seconds.
     #[serde(deserialize_with = "nan::of_map")]
     pub time: BTreeMap<String, f64>,
@@ -555,12 +575,24 @@ mod tests {
                 "cutback",
             ),
             (
+                Event::Followed {
+                    step: text(),
+                    inc: 1,
+                    att: 2,
+                    time: 0.0,
+                    parts: 4,
+                },
+                "followed",
+            ),
+            (
                 Event::Stabilized {
                     step: text(),
                     inc: 1,
                     att: 2,
                     time: 0.0,
                     stages: 9,
+                    work: 0.5,
+                    work_external: 2.0,
                 },
                 "stabilized",
             ),
@@ -646,7 +678,7 @@ mod tests {
         };
         assert_eq!(
             keys(&value),
-            "contacts diagnostics exit_code expectations inputs memory_peak_bytes status steps time unknowns version work_stabilization"
+            "contacts diagnostics exit_code expectations inputs memory_peak_bytes status steps time unknowns version work_external work_stabilization"
         );
         assert_eq!(
             keys(&value["steps"][0]),

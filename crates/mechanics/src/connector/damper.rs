@@ -220,6 +220,10 @@ impl Term for Damper {
         true
     }
 
+    fn work_stabilization(&self) -> f64 {
+        self.work
+    }
+
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.work += self.spent(state);
         if let Strength::UntilHeld { needed, .. } = &mut self.strength {

@@ -27,6 +27,9 @@ static SMOOTH: Coulomb = Coulomb {
     cap: f64::INFINITY,
 };
 
+/// Relative distance from the limit of friction within which sticking and slipping are the same.
+const ON_LIMIT: f64 = 1e-9;
+
 /// The multiplier of a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Lambda {
@@ -55,6 +58,8 @@ pub(super) struct Past {
     pub path: f64,
     /// The limit of friction, where it is held for the sake of convergence.
     pub limit: Option<f64>,
+    /// What it did in the iterate before.
+    pub state: Contact,
 }
 
 impl Past {
@@ -189,7 +194,10 @@ impl<'a> Laws<'a> {
     pub fn limit(&self, row: &Row, lambda: &Lambda, path: f64) -> f64 {
         let scalar = self.scalar(row.normal, lambda);
         let pressure = self.law.trial(row.gap, scalar, self.scale);
-        let past = Past { path, limit: None };
+        let past = Past {
+            path,
+            ..Past::default()
+        };
         let limit = |f: &dyn FrictionLaw| past.limit_of(row, f, pressure.value).value;
         if pressure == Eval::default() {
             return 0.0;
@@ -236,7 +244,7 @@ impl<'a> Laws<'a> {
             };
         };
         let limit = past.limit_of(row, friction, pressure.value);
-        let (tangential, state) = self.returned(self.trial(row, lambda), &limit);
+        let (tangential, state) = self.returned(self.trial(row, lambda), &limit, past.state);
         let limit = limit.value;
         if self.law.multiplier() == Multiplier::Direct {
             let along = lambda.vector.dot(row.normal);
@@ -267,17 +275,30 @@ impl<'a> Laws<'a> {
         }
     }
 
-    /// The return to the limit.
-    fn returned(&self, trial: Vec3, limit: &Limit) -> (Vec3, Contact) {
+    /// The return to the limit. What is on the limit by all that rounding lets one tell does what it did `before`: the
+    /// traction is the same either way, and a state that is found does not change for ever.
+    fn returned(&self, trial: Vec3, limit: &Limit, before: Contact) -> (Vec3, Contact) {
         if *limit == Limit::default() {
             return (Vec3::ZERO, Contact::Slip);
         }
         let (size, limit) = (trial.norm(), limit.value);
-        match self.stick_of() {
-            Stick::Stiffness(_) if size <= limit => (trial, Contact::Stick),
-            Stick::Slip(length) if size <= length => (trial * (limit / length), Contact::Stick),
-            _ => (trial * (limit / size), Contact::Slip),
-        }
+        let (end, sticking) = match self.stick_of() {
+            Stick::Stiffness(_) => (limit, trial),
+            Stick::Slip(length) => (length, trial * (limit / length)),
+        };
+        let slips = size > end;
+        let traction = if slips {
+            trial * (limit / size)
+        } else {
+            sticking
+        };
+        let on_limit = (size - end).abs() < ON_LIMIT * size;
+        let state = match before {
+            Contact::Stick | Contact::Slip if on_limit => before,
+            _ if slips => Contact::Slip,
+            _ => Contact::Stick,
+        };
+        (traction, state)
     }
 
     /// Multipliers stick exactly, whatever the stiffness: theirs is that of the normal direction, so that the tangent of
@@ -420,7 +441,7 @@ impl<'a> Laws<'a> {
         let mut tangential = Vec3::ZERO;
         if !open && limit != Limit::default() {
             let state;
-            (tangential, state) = self.returned(trial, &limit);
+            (tangential, state) = self.returned(trial, &limit, past.state);
             let size = trial.norm();
             for j in 0..width {
                 let dslip = sliding.dslip.get(j).copied().unwrap_or_default();

@@ -50,6 +50,10 @@ pub struct IncrementRecord {
     pub dt: f64,
     /// Largest residual at its end, over the mean force q.
     pub residual: f64,
+    /// Work of viscous forces in it.
+    pub work_stabilization: f64,
+    /// Work of supports and loads in it.
+    pub work_external: f64,
 }
 
 /// Why something was given up: a failure and what it was about.
@@ -87,6 +91,17 @@ pub enum Event<'a> {
         /// The size tried next.
         next: f64,
     },
+    /// The increment was gone through in parts: there was an equilibrium nearby, without a jump.
+    Followed {
+        /// Number of the step, from 0.
+        step: usize,
+        /// Increment within the step, from 1.
+        increment: usize,
+        /// Attempt that succeeded, from 1.
+        attempt: usize,
+        /// Parts that it took.
+        parts: usize,
+    },
     /// There was no equilibrium nearby: the increment was taken in slow motion, with viscous forces.
     Stabilized {
         /// Number of the step, from 0.
@@ -97,6 +112,10 @@ pub enum Event<'a> {
         attempt: usize,
         /// Stages that it took.
         stages: usize,
+        /// Work of the viscous forces.
+        work: f64,
+        /// Work that supports and loads have done since the start of the run.
+        external: f64,
     },
     /// Motions that nothing resists and no load acts on were held, in the first increment of a step.
     Held {

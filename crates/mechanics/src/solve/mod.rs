@@ -7,19 +7,22 @@
 //!     converged?  r small, nothing changed, du small
 //!     K du = −r − K du_p                           du_p: prescribed motion of nodes, in the first solve only
 //!     line search  u ← u + α du
-//!   accept, or cut the increment, or go through it in slow motion
+//!   accept, or cut the increment, or go through it in parts, or in slow motion
 //! ```
 //!
 //! An increment has converged when
 //!
 //! ```text
 //! (a)  max_i |r_i| ≤ max(force_tol · q, 100 eps max_i Σ_e |f_e|_i)
-//! (b)  no term changed its mind in the last update (status, facet, stick or slip)
+//! (b)  no term changed its mind in the last update (status, facet, stick or slip), or (d')
 //! (d)  |du| ≤ 0.01 of the increment's displacement, or r is round-off already
+//! (d') what changed is open, closed, stick or slip alone, and |du| ≤ 1e-6 of the increment's displacement
 //! ```
 //!
 //! with `q` the mean of `Σ_e |f_e|_i` over the loaded components, its maximum over the run so far; rotations and
-//! multipliers have means of their own. Condition (c), on penetrations, belongs to laws with multipliers and comes
+//! multipliers have means of their own. Forces are continuous functions of the state where a row opens, closes, sticks or
+//! slips: the residual is all that is wrong with a state, whatever its rows are called, and rows at their limit may go to
+//! and fro by rounding for ever (d'). They are not where a row goes to another facet. Condition (c), on penetrations, belongs to laws with multipliers and comes
 //! through the verdict of their terms. *Iterations* are linear solves.
 //!
 //! An increment starts from the state extrapolated from the one before, unless that changes more than a few choices of
@@ -34,11 +37,13 @@ mod equations;
 mod event;
 mod forecast;
 mod line_search;
+mod nearby;
 mod newton;
 mod stabilization;
 mod stepping;
 #[cfg(test)]
 mod tests;
+mod work;
 
 pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};

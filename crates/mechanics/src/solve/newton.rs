@@ -256,6 +256,8 @@ const LOADED: f64 = 1e-12;
 const ROUND_OFF: f64 = 100.0 * f64::EPSILON;
 /// Condition (d): the last correction over the increment's displacement.
 const CORRECTION: f64 = 1e-2;
+/// Condition (d'): the same where rows change between states across which forces are continuous, and do not cease to.
+const STILL_MOVED: f64 = 1e-6;
 /// Residual over the mean force at which an iteration has left the realm of the possible.
 const DIVERGED: f64 = 1e12;
 
@@ -427,7 +429,12 @@ impl Newton {
             if iterations == 1 && is_like {
                 first_curvature = economy.curvature();
             }
-            let Verdicts { flips, repeat, .. } = verdicts(system, &self.trial);
+            let Verdicts {
+                flips,
+                repeat,
+                continuous,
+                ..
+            } = verdicts(system, &self.trial);
             let flips = flips + std::mem::take(&mut of_start);
             let closed = nclosed(system);
             report(&IterationRecord {
@@ -443,10 +450,15 @@ impl Newton {
                 closed,
                 flips,
             });
-            let settled = repeat.is_none() || iterations == 0;
+            // where forces are continuous, the residual is what is wrong with the state, whatever it is called
+            let still = || correction <= alpha * (STILL_MOVED * moved).max(self.rounding());
+            let changes = repeat.is_some() && continuous;
+            let indifferent = changes && judgement.small && solved && still();
+            let settled = repeat.is_none() || iterations == 0 || indifferent;
             residuals.push(judgement.residual);
             unsettled = repeat.or(unsettled);
-            let is_found = !motion && judgement.small && settled && (judgement.round_off || little);
+            let known = judgement.round_off || little || indifferent;
+            let is_found = !motion && judgement.small && settled && known;
             // a step that was shortened has not shown yet what else closes
             let is_whole = iterations > 0 && alpha >= 1.0;
             let is_held = !motion && settled && is_whole && closed > 0;
@@ -917,6 +929,12 @@ impl Newton {
         self.moved();
     }
 
+    /// The rounding error of positions.
+    fn rounding(&self) -> f64 {
+        let places = self.trial.x.iter();
+        ROUND_OFF * places.fold(0.0, |most: f64, x| most.max(x.max_abs()))
+    }
+
     /// s = du·r over the unknowns.
     fn slope(&self) -> f64 {
         let product = |&dof: &Dof| self.du[dof as usize] * self.assembly.residual[dof as usize];
@@ -956,6 +974,8 @@ struct Verdicts {
     repeat: Option<(String, Vec<NodeId>)>,
     /// Whether all that changed is contact without friction that closed.
     closing: bool,
+    /// Whether forces are continuous across all that changed.
+    continuous: bool,
 }
 
 fn verdicts(system: &mut System, trial: &State) -> Verdicts {
@@ -964,11 +984,13 @@ fn verdicts(system: &mut System, trial: &State) -> Verdicts {
         few: true,
         repeat: None,
         closing: true,
+        continuous: true,
     };
     for term in &mut system.terms {
         if let Verdict::Repeat {
             changes,
             closing,
+            continuous,
             why,
             nodes,
         } = term.verdict(trial)
@@ -976,6 +998,7 @@ fn verdicts(system: &mut System, trial: &State) -> Verdicts {
             all.flips += changes;
             all.few &= FEW * changes <= term.nactive();
             all.closing &= closing;
+            all.continuous &= continuous;
             all.repeat.get_or_insert((why, nodes));
         }
     }

@@ -12,7 +12,10 @@
 //! have changed by at the rate before the jump; it belongs to the first stage, which takes the loads to the end of the
 //! increment. What slips on the way slips stage by stage. When viscosity has fallen to [`FAINT`], the equilibrium is looked for without it. So the state that is
 //! accepted is one of equilibrium like any other; which of several it is, and what friction dissipates on the way, is
-//! what a slow jump would give. The work of the viscous forces is reported.
+//! what a slow jump would give. The work of the viscous forces is reported, beside that of supports and loads.
+//!
+//! A jump is taken only where no equilibrium is found without it: before, the increment is gone through in parts
+//! ([`super::nearby`]).
 //!
 //! Limits: inertia plays no part. A jump that never comes to rest (a body that falls, a limit load) fails as before.
 
@@ -52,9 +55,7 @@ impl Stepper {
         attempt: usize,
         observer: &mut dyn Observer,
     ) -> Result<Option<Accepted>, TermError> {
-        if !damp(system, 0.0, &[]) {
-            return Ok(None);
-        }
+        let spent = work_of(system);
         let mut before = Archive::default();
         self.save(system, &mut before);
         let iterations = self.newton.settings.max_iterations;
@@ -63,11 +64,7 @@ impl Stepper {
         self.newton.settings.max_iterations = iterations;
         damp(system, 0.0, &[]);
         let Some((accepted, stages)) = found else {
-            reject(system);
-            self.load(system, &before)
-                .map_err(|error| TermError::Refused {
-                    message: error.to_string(),
-                })?;
+            self.back(system, &before)?;
             return Ok(None);
         };
         self.progress.jumped = true;
@@ -76,6 +73,8 @@ impl Stepper {
             increment: self.progress.increment + 1,
             attempt,
             stages,
+            work: work_of(system) - spent,
+            external: self.progress.work.total,
         };
         observer.notice(&event);
         Ok(Some(accepted))
@@ -94,11 +93,7 @@ impl Stepper {
         let mut patience = 0;
         let dt = end - self.progress.time;
         let mut drift: Vec<f64> = self.progress.rate.iter().map(|r| r * dt).collect();
-        let mut accepted = Accepted {
-            iterations: 0,
-            residual: 0.0,
-            flow: Flow::Continue,
-        };
+        let mut accepted = Accepted::default();
         for stage in 1..=MAX_STAGES {
             let last = viscosity < FAINT;
             damp(system, if last { 0.0 } else { viscosity }, &drift);
@@ -140,6 +135,17 @@ impl Stepper {
         }
         None
     }
+}
+
+/// The work of viscous forces since the start of the run.
+pub(super) fn work_of(system: &System) -> f64 {
+    let terms = system.terms.iter();
+    terms.map(|term| term.work_stabilization()).sum()
+}
+
+/// Whether a term has viscous forces.
+pub(super) fn has_brake(system: &mut System) -> bool {
+    damp(system, 0.0, &[])
 }
 
 /// Asks all terms for viscous forces; says whether there are any.

@@ -3,6 +3,8 @@
 use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
+use super::stabilization;
+use super::work::ExternalWork;
 use crate::system::linear::{LinearKind, choose};
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError, interpolate,
@@ -143,14 +145,27 @@ pub struct Stepper {
     pub(super) progress: Progress,
     guess: Vec<f64>,
     stabilize_after: Option<usize>,
+    /// Whether terms go a safer way in the present increment.
+    pub(super) safer: bool,
 }
 
 /// An increment that was accepted.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Accepted {
     pub iterations: usize,
     pub residual: f64,
     /// What the observer said meanwhile.
     pub flow: Flow,
+}
+
+impl Default for Accepted {
+    fn default() -> Self {
+        Self {
+            iterations: 0,
+            residual: 0.0,
+            flow: Flow::Continue,
+        }
+    }
 }
 
 /// Where a run is: with the state and the histories of the terms, all that it needs to go on.
@@ -164,17 +179,19 @@ pub(super) struct Progress {
     /// Time since then.
     pub time: f64,
     /// Size of the next increment; none at the start of a step.
-    dt: Option<f64>,
+    pub dt: Option<f64>,
     /// Accepted increments in a row that were easy.
-    easy: usize,
+    pub easy: usize,
     /// Values of the prescribed dofs at the start of the step.
     origin: Vec<f64>,
     /// Change of the state per time in the last increment of this step that did not jump; empty where there was none.
     pub rate: Vec<f64>,
     /// What the first step of the last increment has shown, where that started from an extrapolation.
-    curvature: Option<f64>,
+    pub curvature: Option<f64>,
     /// Whether the last increment jumped: then the rate before it says nothing of the next start.
     pub jumped: bool,
+    /// What supports and loads have done.
+    pub work: ExternalWork,
 }
 
 /// Iterations up to which an increment counts as easy.
@@ -205,6 +222,7 @@ impl Stepper {
             progress: Progress::default(),
             guess: Vec::new(),
             stabilize_after: settings.stabilize_after,
+            safer: false,
         }
     }
 
@@ -300,6 +318,7 @@ impl Stepper {
             self.progress = Progress {
                 step: number + 1,
                 step_start: self.progress.step_start + step.duration,
+                work: std::mem::take(&mut self.progress.work),
                 ..Progress::default()
             };
         }
@@ -373,6 +392,9 @@ impl Stepper {
             let mut tried = Vec::new();
             let mut attempt = 1;
             let mut failed = 0;
+            let mut owed = false;
+            self.safer = false;
+            let works = [stabilization::work_of(system), self.progress.work.total];
             let (end, accepted) = loop {
                 let end = self.end_of_increment(step, dt);
                 dt = end - self.progress.time;
@@ -391,16 +413,19 @@ impl Stepper {
                 let smaller = dt * severity(&failure);
                 let smallest = min.is_none_or(|m| smaller < m);
                 failed += usize::from(!extrapolated);
+                // terms may know a safer way
+                let again = extrapolated || rescued(system);
+                self.safer |= again && !extrapolated;
                 let due = |n| failed == n + 1 || (smallest && failed <= n);
-                if !extrapolated && self.stabilize_after.is_some_and(due) {
+                owed |= !extrapolated && self.stabilize_after.is_some_and(due);
+                if owed && !again {
+                    owed = false;
                     attempt += 1;
-                    let helped = self.stabilize(system, end, &targets, attempt, observer)?;
+                    let helped = self.help(system, step, end, attempt, observer)?;
                     if let Some(accepted) = helped {
                         break (end, accepted);
                     }
                 }
-                // and terms may know a safer way
-                let again = extrapolated || rescued(system);
                 let next = if again { dt } else { smaller };
                 if !again && smallest {
                     return Err(RunError::NotConverged {
@@ -437,6 +462,8 @@ impl Stepper {
                 step_time: (end, step.duration),
                 dt,
                 residual: accepted.residual,
+                work_stabilization: stabilization::work_of(system) - works[0],
+                work_external: self.progress.work.total - works[1],
             };
             let held: Vec<Dof> = self.newton.held().collect();
             if self.progress.increment == 0 && !held.is_empty() {
@@ -456,6 +483,27 @@ impl Stepper {
             }
         }
         Ok(Outcome::Finished)
+    }
+
+    /// Goes to the step time `end` where sizes of the increment have failed: in parts, and if that does not get there, in
+    /// slow motion; `None` where neither does.
+    fn help(
+        &mut self,
+        system: &mut System,
+        step: &Step,
+        end: f64,
+        attempt: usize,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Accepted>, TermError> {
+        if !stabilization::has_brake(system) {
+            return Ok(None);
+        }
+        if let Some(accepted) = self.follow(system, step, end, attempt, observer)? {
+            return Ok(Some(accepted));
+        }
+        let mut targets = Vec::new();
+        self.targets(step, end, &mut targets);
+        self.stabilize(system, end, &targets, attempt, observer)
     }
 
     /// Tries one increment up to the step time `end`.
@@ -526,6 +574,10 @@ impl Stepper {
 
     /// The trial state becomes the accepted one.
     pub(super) fn accept(&mut self, system: &mut System) -> Result<(), TermError> {
+        let (newton, states) = (&self.newton, [&self.state, &self.newton.trial]);
+        let residual = &newton.assembly.residual;
+        let work = &mut self.progress.work;
+        work.advance(system, &newton.prescribed, residual, states)?;
         self.state.clone_from(&self.newton.trial);
         for term in &mut system.terms {
             term.accept(&self.state)?;
@@ -557,7 +609,7 @@ impl Stepper {
     }
 
     /// Values of the prescribed dofs at a step time.
-    fn targets(&self, step: &Step, time: f64, out: &mut Vec<(Dof, f64)>) {
+    pub(super) fn targets(&self, step: &Step, time: f64, out: &mut Vec<(Dof, f64)>) {
         out.clear();
         let fraction = time / step.duration;
         let total = self.progress.step_start + time;
@@ -608,6 +660,7 @@ impl Stepper {
         let (prescribed, assembly) = (&self.newton.prescribed, &self.newton.assembly);
         let mut frame = system.report(&self.state, prescribed, assembly)?;
         frame.step_number = self.progress.step;
+        frame.work_external = self.progress.work.total;
         frame.increment = self.progress.increment;
         Ok(frame)
     }
@@ -633,6 +686,7 @@ impl Stepper {
         out.put("progress.rate", &p.rate);
         out.put("progress.curvature", p.curvature.as_slice());
         out.put("progress.scale", &self.newton.scale.to_array());
+        p.work.save(out);
         for term in &system.terms {
             term.save(out);
         }
@@ -657,6 +711,8 @@ impl Stepper {
         }
         let mut scale = [0.0; 3];
         from.get("progress.scale", &mut scale)?;
+        let mut work = ExternalWork::default();
+        work.load(system.layout.ndof(), from)?;
         let mut state = system.initial_state();
         state.load(from)?;
         let still = vec![0.0; state.u.len()];
@@ -679,6 +735,7 @@ impl Stepper {
             rate,
             curvature: curvature.first().copied(),
             jumped: jumped != 0.0,
+            work,
         };
         Ok(())
     }
@@ -692,13 +749,13 @@ pub(super) fn reject(system: &mut System) {
 }
 
 /// Whether a term knows a safer way.
-fn rescued(system: &mut System) -> bool {
+pub(super) fn rescued(system: &mut System) -> bool {
     let safer = system.terms.iter_mut().map(|term| term.rescue());
     safer.fold(false, |any, one| any | one)
 }
 
 /// Relative difference below which two times are equal.
-const TIME: f64 = 1e-12;
+pub(super) const TIME: f64 = 1e-12;
 
 /// What is left of an increment after a failure.
 fn severity(failure: &Failure) -> f64 {

@@ -231,6 +231,8 @@ pub struct Frame {
     pub spins: Vec<SpinFrame>,
     /// Work spent so far by viscous forces that hold what only contact stops.
     pub work_stabilization: f64,
+    /// Work that supports and loads have done so far, by the trapezoidal rule over increments.
+    pub work_external: f64,
     /// Potential energy, where every term has one.
     pub energy: Option<f64>,
 }

@@ -45,6 +45,9 @@ pub enum Verdict {
         changes: usize,
         /// Whether all they did was to close, and the way there leaves no trace: there is no friction.
         closing: bool,
+        /// Whether forces are continuous functions of the state across everything that changed, as they are where rows
+        /// open, close, stick and slip, and are not where a row goes to another facet.
+        continuous: bool,
         /// In the user's words: who, and how.
         why: String,
         /// The nodes concerned, at most a handful.
@@ -375,6 +378,11 @@ pub trait Term: Send + Sync {
         false
     }
 
+    /// Work spent in viscous forces up to the accepted state.
+    fn work_stabilization(&self) -> f64 {
+        0.0
+    }
+
     /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
     fn has_saddle(&self) -> bool {
         false
@@ -409,6 +417,11 @@ pub trait Term: Send + Sync {
 
     /// Whether its forces come from outside of bodies and what lies between them: loads, and what holds or guides.
     fn is_outside(&self) -> bool {
+        false
+    }
+
+    /// Whether its forces are loads: those do the work that comes from outside, with supports.
+    fn is_load(&self) -> bool {
         false
     }
 

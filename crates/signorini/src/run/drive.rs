@@ -293,6 +293,7 @@ impl Run<'_, '_> {
             contacts: std::mem::take(&mut self.recorder.contacts),
             expectations: verdicts,
             work_stabilization: self.recorder.work_stabilization,
+            work_external: self.recorder.work_external,
             time: [
                 ("read", self.options.seconds[0]),
                 ("build", self.options.seconds[1]),

@@ -91,20 +91,45 @@ impl Narrator {
                 lines
             }
             (
-                Event::Stabilized {
+                Event::Followed {
                     step,
                     inc,
                     att,
-                    stages,
+                    parts,
                     ..
                 },
                 _,
             ) => {
                 let mut lines = self.head();
                 lines.push(line(
+                    format!(" {step:<12}{inc:>4}  {att:>3}  gone through in {parts} parts"),
+                    Level::Normal,
+                ));
+                lines
+            }
+            (
+                Event::Stabilized {
+                    step,
+                    inc,
+                    att,
+                    stages,
+                    work,
+                    work_external,
+                    ..
+                },
+                _,
+            ) => {
+                let mut lines = self.head();
+                let part = match 100.0 * work / work_external.abs() {
+                    part if part.is_finite() => {
+                        format!(", {part:.2} % of that of supports and loads")
+                    }
+                    _ => String::new(),
+                };
+                lines.push(line(
                     format!(
                         " {step:<12}{inc:>4}  {att:>3}  no equilibrium nearby: led to another by viscous forces, in \
-                         {stages} stages"
+                         {stages} stages; their work is {work:.3e}{part}"
                     ),
                     Level::Normal,
                 ));

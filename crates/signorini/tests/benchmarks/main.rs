@@ -19,6 +19,8 @@ mod linear_steps;
 mod mortar_patch;
 mod patch;
 mod rings;
+mod rotation;
 mod sharp;
 mod slip;
 mod stack;
+mod valley;

@@ -234,6 +234,11 @@ pub trait Discretization: Send + Sync {
     fn guests(&self, _row: usize, _pair: &SurfacePair, _pairing: &Pairing, _out: &mut Vec<NodeId>) {
     }
 
+    /// Whether points may rest on edges and vertices, not on faces alone.
+    fn rests_on_edges(&self) -> bool {
+        false
+    }
+
     /// Whether tangent planes that are held are those at the start of the increment.
     fn renews(&self) -> bool {
         false

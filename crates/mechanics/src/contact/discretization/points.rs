@@ -309,6 +309,10 @@ impl Discretization for PointToSegment {
         self.sliding == SlidingRange::Small
     }
 
+    fn rests_on_edges(&self) -> bool {
+        matches!(self.closest, Closest::Anywhere | Closest::Rims)
+    }
+
     fn renews(&self) -> bool {
         self.sliding == SlidingRange::Increment
     }

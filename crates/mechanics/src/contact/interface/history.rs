@@ -89,6 +89,7 @@ impl History {
         Past {
             path: self.paths.get(row).copied().unwrap_or_default(),
             limit: self.limits.as_ref().and_then(|l| l.get(row).copied()),
+            state: Contact::Open,
         }
     }
 
@@ -292,6 +293,7 @@ impl Interface {
         Verdict::Repeat {
             changes: 1,
             closing: false,
+            continuous: false,
             why: format!("contact \"{}\": its {change}", self.parts.name),
             nodes: nodes.first().copied().into_iter().collect(),
         }

@@ -5,11 +5,12 @@ mod history;
 mod pairing;
 mod passing;
 mod report;
+mod restless;
 mod rows;
 
-use super::discretization::{Discretization, Pairing, SurfacePair};
+use super::discretization::{Discretization, Pair, Pairing, SurfacePair};
 use super::friction::{FrictionLaw, Stick};
-use super::kernel::{Contact, Derivatives, Lambda, Laws};
+use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
 use super::law::{ContactLaw, Multiplier, Penalty, Scale};
 use super::row::{Participant, RowOrder, Rows, Wanted};
 use crate::system::{
@@ -20,7 +21,7 @@ use history::History;
 pub use pairing::closest_points;
 use pairing::{Coupled, Near};
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::{Carrier, ContactSurface, Placement, SurfaceError};
+use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
@@ -210,11 +211,13 @@ pub struct Interface {
     allowed: Allowed,
     /// Tributary areas at the start, where what bears of them depends on what is met.
     whole: Vec<f64>,
-    /// Rows that went to and fro between facets keep the one they are on, for the rest of the increment.
-    changes: Vec<u8>,
     /// The largest motion along the other side so far, over the size of the facets, where contact keeps its geometry, and
     /// its node.
     drift: Option<(f64, NodeId)>,
+    /// How often each row went to another facet in this increment. Those that go to and fro are held.
+    changes: Vec<u8>,
+    /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
+    astray: Vec<(usize, Pair)>,
 }
 
 /// Overlaps that an increment allows for.
@@ -275,6 +278,7 @@ impl Interface {
             changes: vec![0; nrow],
             whole: Vec::new(),
             drift: None,
+            astray: Vec::new(),
         }
     }
 
@@ -309,6 +313,14 @@ impl Interface {
             bond: self.parts.bond.is_some(),
             bond_tangential: self.parts.bond_tangential,
             vectors: self.parts.has_vectors(),
+        }
+    }
+
+    /// What a row brings with it from before, with what it did in the iterate before: for what it is called.
+    fn past(&self, row: usize) -> Past {
+        Past {
+            state: self.judged.get(row).map_or(Contact::Open, |j| j.state),
+            ..self.history.past(row)
         }
     }
 
@@ -520,7 +532,7 @@ impl Term for Interface {
         self.measure_what_bears(&at).map_err(|e| self.failed(&e))?;
         self.allow_for_overlaps(from, renews || first)?;
         if first || others {
-            self.judge(from)?;
+            self.judged = self.judge(from)?;
             self.accepted_judged.clone_from(&self.judged);
         }
         self.before.clone_from(&self.accepted);
@@ -587,13 +599,11 @@ impl Term for Interface {
     }
 
     fn verdict(&mut self, trial: &State) -> Verdict {
-        let before = std::mem::take(&mut self.judged);
-        self.judged = vec![Judged::default(); before.len()];
-        if self.judge(trial).is_err() {
+        let Ok(now) = self.judge(trial) else {
             // what cannot be evaluated fails where it is evaluated
-            self.judged = before;
             return Verdict::Settled;
-        }
+        };
+        let before = std::mem::replace(&mut self.judged, now);
         let mut counts = Changes::default();
         let mut nodes = Vec::new();
         for (row, (now, before)) in self.judged.iter().zip(&before).enumerate() {
@@ -618,9 +628,13 @@ impl Term for Interface {
             return Ok(Verdict::Repeat {
                 changes: 1,
                 closing: false,
+                continuous: false,
                 why: format!("contact \"{}\": other nodes are covered", self.parts.name),
                 nodes: Vec::new(),
             });
+        }
+        if let Some(goes_on) = self.let_restless_go() {
+            return Ok(goes_on);
         }
         let limits = self.renew_limits(trial)?;
         if self.parts.law.multiplier() != Multiplier::Frozen {
@@ -685,11 +699,15 @@ struct Changes {
     slipping: usize,
     sticking: usize,
     moved: usize,
+    /// Whether some row that was closed and still is has gone to another facet, whatever else changed there.
+    elsewhere: bool,
 }
 
 impl Changes {
     /// Counts a change; says whether there is one.
     fn compare(&mut self, now: &Judged, before: &Judged) -> bool {
+        let stays_closed = now.state != Contact::Open && before.state != Contact::Open;
+        self.elsewhere |= stays_closed && now.facet != before.facet;
         match (before.state, now.state) {
             (Contact::Open, Contact::Open) => return false,
             (Contact::Open, _) => self.closed += 1,
@@ -719,6 +737,7 @@ impl Changes {
         Verdict::Repeat {
             changes,
             closing: forgets && changes == self.closed,
+            continuous: !self.elsewhere,
             why: format!("contact \"{name}\": {}", said.join(", ")),
             nodes,
         }

@@ -1,7 +1,6 @@
 //! Search, pairing, where rows stick, and what is coupled with what.
 
-use super::{Carrier, ContactSurface, Interface, InterfaceParts, RESTLESS, dofs_of};
-use crate::contact::discretization::projected::{BEYOND, on_continuation};
+use super::{Carrier, Interface, InterfaceParts, dofs_of};
 use crate::contact::discretization::{
     Anchored, Discretization, NOWHERE, Pair, Pairing, SurfacePair,
 };
@@ -76,14 +75,7 @@ impl Interface {
         self.near.update(discretization, pair, at);
         let (near, last) = (&self.near.search, &self.now);
         discretization.pair_up(pair, at, near, last, next, &mut self.next)?;
-        let (surface, points) = (pair.primary.as_ref(), &self.near.points);
-        for (row, changes) in self.changes.iter().enumerate() {
-            if *changes >= RESTLESS
-                && let Some(kept) = stays(surface, at, points[row], self.now.pairs[row])?
-            {
-                self.next.pairs[row] = Some(kept);
-            }
-        }
+        self.hold_restless(at)?;
         std::mem::swap(&mut self.now, &mut self.next);
         Ok(())
     }
@@ -419,17 +411,4 @@ impl Coupled {
         let whole = found.end.last().is_none_or(|&e| e == found.facets.len());
         (found.end.is_sorted() && whole).then_some(found)
     }
-}
-
-/// The place of a point on the facet it is on, or its continuation.
-fn stays(
-    surface: &dyn ContactSurface,
-    at: &Placement,
-    point: Vec3,
-    before: Option<Pair>,
-) -> Result<Option<Pair>, SurfaceError> {
-    let Some(before) = before.filter(|p| surface.domain(p.anchor.facet).is_some()) else {
-        return Ok(None);
-    };
-    on_continuation(surface, at, before.anchor, point, BEYOND)
 }

@@ -180,8 +180,7 @@ impl Interface {
 
     /// What acts on a filled row.
     pub(super) fn traction(&self, row: &Row, lambda: &Lambda) -> Traction {
-        let past = self.history.past(row.number);
-        self.laws().traction(row, lambda, past)
+        self.laws().traction(row, lambda, self.past(row.number))
     }
 
     /// Adds forces and stiffness of a row.
@@ -232,6 +231,7 @@ impl Interface {
             stiffness: &mut scratch.stiffness,
         };
         let lambda = self.lambda(number, trial);
+        // the tangent is that of the branch that the trial is on, to the last bit
         let (measure, past) = (self.measure(number), self.history.past(number));
         let laws = self.laws();
         for row in scratch.rows.rows() {
@@ -358,11 +358,10 @@ impl Interface {
     }
 
     /// What a verdict compares, at the present iterate.
-    pub(super) fn judge(&mut self, trial: &State) -> Result<(), TermError> {
+    pub(super) fn judge(&self, trial: &State) -> Result<Vec<Judged>, TermError> {
         let mut rows = Rows::default();
-        let mut judged = std::mem::take(&mut self.judged);
+        let mut judged = vec![Judged::default(); self.judged.len()];
         for (row, judged) in judged.iter_mut().enumerate() {
-            *judged = Judged::default();
             let Some(pair) = &self.now.pairs[row] else {
                 continue;
             };
@@ -390,8 +389,7 @@ impl Interface {
                 facet: Some((pair.anchor.facet, feature)),
             };
         }
-        self.judged = judged;
-        Ok(())
+        Ok(judged)
     }
 }
 

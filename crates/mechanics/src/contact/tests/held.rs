@@ -31,8 +31,8 @@ fn traction_is_the_slope_of_the_potential() {
         length: 1.0,
     };
     let held = Past {
-        path: 0.0,
         limit: Some(LIMIT),
+        ..Past::default()
     };
     let laws: [(&dyn ContactLaw, Stick, Vec3); 3] = [
         (&Penalty, Stick::Stiffness(5.0), Vec3::ZERO),
@@ -91,11 +91,75 @@ fn an_infinite_limit_is_sticking() {
     };
     let slip = Vec3::new(3.0, 4.0, 0.0);
     let past = Past {
-        path: 0.0,
         limit: Some(f64::INFINITY),
+        ..Past::default()
     };
     let at = laws.traction(&row(slip), &Lambda::default(), past);
     assert_eq!((at.tangential, at.state), (slip * 5.0, Contact::Stick));
     let energy = laws.friction_energy(&row(slip), &Lambda::default(), f64::INFINITY);
     assert_eq!(energy, 0.5 * 5.0 * 25.0);
+}
+
+#[test]
+fn a_row_on_its_limit_does_what_it_did_before() {
+    let scale = Scale {
+        penalty: 20.0,
+        length: 1.0,
+    };
+    let limit = FRICTION.mu * 20.0 * 0.1;
+    let exact = limit / 5.0;
+    for stick in [Stick::Stiffness(5.0), Stick::Slip(exact)] {
+        let laws = Laws {
+            law: &Penalty,
+            friction: Some(&FRICTION),
+            stick,
+            scale: &scale,
+            bond: false,
+            bond_tangential: None,
+            vectors: false,
+        };
+        for off in [-1e-6, -1e-8, -1e-10, -1e-16, 0.0, 1e-16, 1e-10, 1e-8, 1e-6] {
+            let slip = Vec3::unit(1) * (exact * (1.0 + off));
+            let act = |state| {
+                let past = Past {
+                    state,
+                    ..Past::default()
+                };
+                laws.traction(&row(slip), &Lambda::default(), past)
+            };
+            let [open, stuck, slipped] = [Contact::Open, Contact::Stick, Contact::Slip].map(act);
+            // whatever it is called, the traction is the same
+            assert_eq!(open.tangential, stuck.tangential);
+            assert_eq!(open.tangential, slipped.tangential);
+            assert!((open.tangential.norm() / limit - 1.0).abs() <= off.abs() + 1e-15);
+            let states = (stuck.state, slipped.state);
+            if off.abs() < 1e-9 {
+                assert_eq!(states, (Contact::Stick, Contact::Slip));
+            } else {
+                assert_eq!(states, (open.state, open.state));
+            }
+        }
+    }
+    // no limit, no tie
+    let past = Past {
+        limit: Some(f64::INFINITY),
+        state: Contact::Slip,
+        ..Past::default()
+    };
+    let laws = Laws {
+        law: &Penalty,
+        friction: Some(&FRICTION),
+        stick: Stick::Stiffness(5.0),
+        scale: &scale,
+        bond: false,
+        bond_tangential: None,
+        vectors: false,
+    };
+    let held = laws.traction(&row(Vec3::unit(0)), &Lambda::default(), past);
+    assert_eq!(held.state, Contact::Stick);
+    assert_eq!(
+        laws.traction(&row(Vec3::ZERO), &Lambda::default(), past)
+            .state,
+        Contact::Stick
+    );
 }

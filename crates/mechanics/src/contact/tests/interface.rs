@@ -417,13 +417,14 @@ fn a_verdict_repeats_until_the_choices_stay() {
     let Verdict::Repeat {
         changes,
         closing,
+        continuous,
         why,
         nodes,
     } = scene.interface.verdict(&state)
     else {
         panic!("nodes touch that did not before");
     };
-    assert_eq!((changes, closing), (inside, true));
+    assert_eq!((changes, closing, continuous), (inside, true, true));
     assert!(why.contains("\"touch\"") && why.contains(&format!("{inside} closed")));
     assert!(
         !nodes.is_empty()
@@ -448,13 +449,15 @@ fn a_verdict_repeats_until_the_choices_stay() {
     let Verdict::Repeat {
         changes,
         closing,
+        continuous,
         why,
         nodes,
     } = scene.interface.verdict(&gone)
     else {
         panic!("a node has left");
     };
-    assert_eq!((changes, closing, nodes), (1, false, vec![node]));
+    assert_eq!((changes, closing, continuous), (1, false, true));
+    assert_eq!(nodes, vec![node]);
     assert!(why.contains("1 opened"), "{why}");
 
     // an open node that stays open is no news, wherever it goes

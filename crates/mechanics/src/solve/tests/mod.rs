@@ -132,6 +132,8 @@ struct Fault {
     asked: usize,
     /// How many contacts it claims to have closed.
     nactive: usize,
+    /// Whether what it wavers about changes no force.
+    continuous: bool,
 }
 
 impl Fault {
@@ -142,6 +144,7 @@ impl Fault {
             start: None,
             asked: 0,
             nactive: 0,
+            continuous: false,
         })
     }
 
@@ -152,6 +155,7 @@ impl Fault {
             start: None,
             asked: 0,
             nactive: 0,
+            continuous: false,
         })
     }
 
@@ -163,6 +167,19 @@ impl Fault {
             start: None,
             asked: 0,
             nactive,
+            continuous: false,
+        })
+    }
+
+    /// Is never settled, whether or not that changes any force.
+    fn waver(continuous: bool) -> Box<dyn Term> {
+        Box::new(Self {
+            refuses: |_, _| false,
+            unsettled: |_, _, _| true,
+            start: None,
+            asked: 0,
+            nactive: 0,
+            continuous,
         })
     }
 
@@ -231,6 +248,7 @@ impl Term for Fault {
         self.asked += 1;
         if (self.unsettled)(self.start(), trial, self.asked) {
             return Verdict::Repeat {
+                continuous: self.continuous,
                 changes: 3,
                 closing: false,
                 why: "the fault wavers".into(),
@@ -335,6 +353,7 @@ fn run_with(mut system: System, steps: &[Step], settings: StepperSettings) -> To
             }
             Event::Cutback { cause, next, .. } => cuts.push([cause.dt, *next]),
             Event::Step { .. }
+            | Event::Followed { .. }
             | Event::Stabilized { .. }
             | Event::Held { .. }
             | Event::Solver { .. } => {}

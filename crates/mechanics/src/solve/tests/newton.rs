@@ -104,6 +104,29 @@ fn condition_b_iterates_until_no_term_changes_its_mind() {
 }
 
 #[test]
+fn condition_d_prime_takes_a_state_whose_rows_waver_without_a_change_of_force() {
+    for law in [linear, hardening] {
+        let quiet = run(pulled(law, 5.0), &once());
+        let mut system = pulled(law, 5.0);
+        system.terms.push(Fault::waver(true));
+        let told = run(system, &once());
+        told.assert_finished();
+        assert_close(&told.state.u[..1], &quiet.state.u[..1], 1e-9);
+        // as soon as a correction shows that nothing moves any more
+        let solves = quiet.increments[0].iterations;
+        let taken = told.increments[0].iterations;
+        assert!((solves..=solves + 1).contains(&taken), "{taken}, {solves}");
+        // where forces may jump, never
+        let mut system = pulled(law, 5.0);
+        system.terms.push(Fault::waver(false));
+        assert!(matches!(
+            failure(run(system, &once())),
+            Failure::TooManyIterations { .. }
+        ));
+    }
+}
+
+#[test]
 fn a_term_that_never_settles_is_quoted_in_the_failure() {
     let mut system = pulled(linear, 5.0);
     system.terms.push(Fault::unsettle(|_, _, _| true));

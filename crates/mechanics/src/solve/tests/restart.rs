@@ -112,6 +112,7 @@ fn advance(model: &mut Model, stepper: &mut Stepper) -> Option<Leg> {
                 return Flow::Stop;
             }
             Event::Step { .. }
+            | Event::Followed { .. }
             | Event::Stabilized { .. }
             | Event::Held { .. }
             | Event::Solver { .. } => {}

@@ -4,6 +4,11 @@ use super::super::StepperSettings;
 use super::*;
 use crate::connector::Damper;
 
+/// A spring of unit stiffness.
+fn unit(e: f64) -> [f64; 3] {
+    [0.0, e, 1.0]
+}
+
 /// Force up to 1 at u = 1, down to 0.5 at u = 1.5, and up again: `f = 1.2` at u = 2.2 only.
 fn sawtooth(e: f64) -> [f64; 3] {
     match e {
@@ -115,4 +120,89 @@ fn what_converges_is_not_touched() {
     with.assert_finished();
     assert_eq!(with.u, without.u);
     assert_eq!(with.iterations.len(), without.iterations.len());
+}
+
+#[test]
+fn an_equilibrium_nearby_is_reached_in_parts_without_a_jump() {
+    // what moves by more than 0.2 in one increment never settles: Newton's method fails where nothing jumps
+    let mut system = jumping(unit, true);
+    system
+        .terms
+        .push(Fault::unsettle(|from, now, _| now.u[0] - from.u[0] > 0.2));
+    let mut stepper = Stepper::new(&system, stabilized(Some(0)));
+    let (mut followed, mut jumps) = (Vec::new(), 0);
+    let mut works = Vec::new();
+    let outcome = stepper.run(&mut system, &steps(), &mut |event: &Event<'_>| {
+        match event {
+            Event::Followed { parts, .. } => followed.push(*parts),
+            Event::Stabilized { .. } => jumps += 1,
+            Event::Increment { record, .. } => {
+                works.push([record.work_stabilization, record.work_external]);
+            }
+            _ => {}
+        }
+        Flow::Continue
+    });
+    assert!(matches!(outcome, Ok(Outcome::Finished)), "{outcome:?}");
+    // quarters of 0.225 are too large, sixteenths are not; quarters of 0.075 are not, either
+    assert_eq!((followed, jumps), (vec![16, 4], 0));
+    assert!((stepper.state().u[0] - 1.2).abs() < 1e-12);
+    // the spring holds what the load has done
+    let expected = [[0.0, 0.5 * 0.81], [0.0, 0.5 * (1.44 - 0.81)]];
+    for (found, expected) in works.iter().zip(expected) {
+        assert_eq!(found[0], expected[0]);
+        assert!((found[1] - expected[1]).abs() < 1e-12, "{works:?}");
+    }
+}
+
+#[test]
+fn a_jump_is_taken_where_no_part_of_the_increment_passes_it() {
+    let mut system = jumping(sawtooth, true);
+    let mut stepper = Stepper::new(&system, stabilized(Some(0)));
+    let mut told = Vec::new();
+    let outcome = stepper.run(&mut system, &steps(), &mut |event: &Event<'_>| {
+        match event {
+            Event::Followed { .. } => told.push([f64::NAN; 2]),
+            Event::Stabilized { work, external, .. } => told.push([*work, *external]),
+            _ => {}
+        }
+        Flow::Continue
+    });
+    assert!(matches!(outcome, Ok(Outcome::Finished)), "{outcome:?}");
+    let frame = stepper.report(&system).unwrap();
+    let [[work, external]] = told[..] else {
+        panic!("one jump, and nothing in parts: {told:?}");
+    };
+    assert_eq!(
+        [work, external],
+        [frame.work_stabilization, frame.work_external]
+    );
+    // 0.405 up to the first load, and something between 0.9 and 1.2 over the way of 1.3 from there
+    assert!(external > 0.405 + 0.9 * 1.3 && external < 0.405 + 1.2 * 1.3);
+}
+
+#[test]
+fn the_work_of_supports_and_loads_is_what_springs_store() {
+    // a support pulls one spring, a load another
+    let pair = |to: NodeId| Spring {
+        from: None,
+        to,
+        law: linear,
+        potential: false,
+        max_step: 1.0,
+    };
+    let terms: Vec<Box<dyn Term>> =
+        vec![Box::new(pair(0)), Box::new(pair(1)), load(1, &[5.0, 2.0])];
+    let mut system = system(2, terms);
+    let steps = [0.3, 0.7].map(|to| step(Increments::Fixed(3), &[(0, Motion::Ramp(to))]));
+    let mut stepper = Stepper::new(&system, settings(1e-10, LineSearch::Auto));
+    let outcome = stepper.run(&mut system, &steps, &mut |_: &Event<'_>| Flow::Continue);
+    assert!(matches!(outcome, Ok(Outcome::Finished)), "{outcome:?}");
+    let u = &stepper.state().u;
+    let stored: f64 = [u[0], u[2]]
+        .iter()
+        .map(|u| 0.5 * linear(*u)[2] * u * u)
+        .sum();
+    let frame = stepper.report(&system).unwrap();
+    assert!((frame.work_external - stored).abs() < 1e-12 * stored);
 }

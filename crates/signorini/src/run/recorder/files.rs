@@ -225,6 +225,7 @@ impl Opened {
             contacts: BTreeMap::new(),
             drifts: Vec::new(),
             work_stabilization: 0.0,
+            work_external: 0.0,
             error: None,
             stop: None,
             write_seconds: 0.0,

@@ -113,6 +113,8 @@ pub struct Recorder<'l> {
     pub drifts: Vec<(String, f64, u32)>,
     /// Work spent so far in holding what only contact stops.
     pub work_stabilization: f64,
+    /// Work of supports and loads so far.
+    pub work_external: f64,
     /// The first failure of the disk; nothing is written after it.
     pub error: Option<OutputError>,
     /// Why to stop.
@@ -318,12 +320,20 @@ impl Observer for Recorder<'_> {
                 cause,
                 next,
             } => self.cutback([*step, *increment, *attempt], cause, *next),
+            Happening::Followed {
+                step,
+                increment,
+                attempt,
+                parts,
+            } => self.followed([*step, *increment, *attempt], *parts),
             Happening::Stabilized {
                 step,
                 increment,
                 attempt,
                 stages,
-            } => self.stabilized([*step, *increment, *attempt], *stages),
+                work,
+                external,
+            } => self.stabilized([*step, *increment, *attempt], *stages, [*work, *external]),
             Happening::Held { step, dofs } => self.held(*step, dofs),
             Happening::Solver {
                 step,

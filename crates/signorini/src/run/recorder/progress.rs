@@ -88,13 +88,31 @@ impl Recorder<'_> {
         self.tell(&event, Detail::Cutback(cause));
     }
 
-    pub(super) fn stabilized(&mut self, [step, increment, attempt]: [usize; 3], stages: usize) {
+    pub(super) fn followed(&mut self, [step, increment, attempt]: [usize; 3], parts: usize) {
+        let event = Event::Followed {
+            step: self.step_name(step),
+            inc: increment as u64,
+            att: attempt as u64,
+            time: self.time,
+            parts: parts as u64,
+        };
+        self.tell(&event, Detail::None);
+    }
+
+    pub(super) fn stabilized(
+        &mut self,
+        [step, increment, attempt]: [usize; 3],
+        stages: usize,
+        [work, work_external]: [f64; 2],
+    ) {
         let event = Event::Stabilized {
             step: self.step_name(step),
             inc: increment as u64,
             att: attempt as u64,
             time: self.time,
             stages: stages as u64,
+            work,
+            work_external,
         };
         self.tell(&event, Detail::None);
     }
@@ -172,6 +190,7 @@ impl Recorder<'_> {
             drifts.filter_map(|c| c.drift.map(|(ratio, node)| (c.name.clone(), ratio, node)));
         self.drifts = drifts.collect();
         self.work_stabilization = frame.work_stabilization;
+        self.work_external = frame.work_external;
         let event = Event::Increment {
             step: name,
             inc: record.increment as u64,

@@ -1,0 +1,105 @@
+//! The work of what acts from outside: of supports and loads.
+
+use crate::system::{Archive, ArchiveError, Dof, Order, Sink, State, System, TermError, Work};
+
+/// Work that supports and loads have done since the start of a run.
+///
+/// From one accepted state to the next, it is the motion times the mean of the forces at both: exact where forces are
+/// linear in the motion, of second order elsewhere. Supports count where dofs are prescribed in the present step: what a
+/// support bore that is taken away does no work.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct ExternalWork {
+    /// Force times length; of a moment and a rotation, likewise.
+    pub total: f64,
+    /// What supports and loads exert at the last accepted state, at every raw dof; empty before the first.
+    supports: Vec<f64>,
+    loads: Vec<f64>,
+}
+
+/// The names under which forces are stored.
+const STORED: [&str; 2] = ["progress.supports", "progress.loads"];
+
+impl ExternalWork {
+    /// Adds the work on the way from the accepted state `from` to the one `to`, at which `residual` was assembled.
+    ///
+    /// # Errors
+    /// A load that cannot be evaluated.
+    pub fn advance(
+        &mut self,
+        system: &System,
+        prescribed: &[bool],
+        residual: &[f64],
+        [from, to]: [&State; 2],
+    ) -> Result<(), TermError> {
+        let ndof = system.layout.ndof();
+        let mut loads = Loads(vec![0.0; ndof]);
+        let mut work = Work::default();
+        for term in system.terms.iter().filter(|term| term.is_load()) {
+            for chunk in 0..term.nchunk() {
+                term.evaluate(chunk, to, Order::Residual, &mut work, &mut loads)?;
+            }
+        }
+        let reaction = |(&prescribed, &r): (&bool, &f64)| if prescribed { r } else { 0.0 };
+        let supports: Vec<f64> = prescribed.iter().zip(residual).map(reaction).collect();
+        self.supports.resize(supports.len(), 0.0);
+        self.loads.resize(ndof, 0.0);
+        for (dof, (now, before)) in to.u.iter().zip(&from.u).enumerate() {
+            let at = |forces: &[f64]| forces.get(dof).copied().unwrap_or_default();
+            let mut force = at(&loads.0) + at(&self.loads);
+            if prescribed.get(dof).copied().unwrap_or_default() {
+                force += at(&supports) + at(&self.supports);
+            }
+            self.total += 0.5 * force * (now - before);
+        }
+        (self.supports, self.loads) = (supports, loads.0);
+        Ok(())
+    }
+
+    /// Stores it: of forces those that are not zero, dof and value.
+    pub fn save(&self, out: &mut Archive) {
+        out.put("progress.work", &[self.total]);
+        for (name, forces) in STORED.iter().zip([&self.supports, &self.loads]) {
+            let acting = forces.iter().enumerate().filter(|(_, f)| **f != 0.0);
+            let pairs: Vec<f64> = acting.flat_map(|(dof, f)| [dof as f64, *f]).collect();
+            out.put(*name, &pairs);
+        }
+    }
+
+    /// Takes it back; nothing has been done where the archive is of a version that does not know of it.
+    ///
+    /// # Errors
+    /// An array that is not there.
+    pub fn load(&mut self, ndof: usize, from: &Archive) -> Result<(), ArchiveError> {
+        *self = Self::default();
+        let mut total = [0.0];
+        if from.length("progress.work").is_err() {
+            return Ok(());
+        }
+        from.get("progress.work", &mut total)?;
+        self.total = total[0];
+        for (name, forces) in STORED.iter().zip([&mut self.supports, &mut self.loads]) {
+            let mut pairs = vec![0.0; from.length(name)?];
+            from.get(name, &mut pairs)?;
+            forces.resize(ndof, 0.0);
+            for &[dof, force] in pairs.as_chunks().0 {
+                if let Some(to) = forces.get_mut(dof as usize) {
+                    *to = force;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Takes what loads exert: the residual has it with the other sign.
+struct Loads(Vec<f64>);
+
+impl Sink for Loads {
+    fn add(&mut self, dofs: &[Dof], force: &[f64], _: &[f64]) {
+        for (&dof, f) in dofs.iter().zip(force) {
+            if let Some(to) = self.0.get_mut(dof as usize) {
+                *to -= f;
+            }
+        }
+    }
+}
