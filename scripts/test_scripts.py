@@ -75,7 +75,9 @@ def make_results(folder, body=BRICK, tip=(0.5, 0.25, 1.0), nframe=NFRAME):
         volume.GetPointData().SetActiveVectors("displacement")
         contact = pyvista.UnstructuredGrid(np.array([1, 0]), np.array([1], dtype=np.uint8), points[n : n + 1])
         contact.point_data["contact_gap"] = np.array([-size * 1e-5])
-        contact.point_data["contact_pressure"] = np.array([size])
+        for name in ("contact_pressure", "contact_pressure_max", "contact_multiplier"):
+            contact.point_data[name] = np.array([size])
+        contact.point_data["contact_multiplier_traction"] = np.array([force])
         contact.point_data["contact_status"] = np.array([2 if i else 0], dtype=np.int8)
         contact.point_data["contact_force"] = np.array([force])
         contact.point_data["contact_traction"] = np.array([force])
@@ -203,20 +205,21 @@ class CheckResults(InFolder):
         self.change_grid("volume_0001.vtu", lambda g: g.point_data.remove("reaction_force"))
         self.expect_failure("volume frame 1: there is no point array 'reaction_force'")
 
-    def test_pressures_of_gauss_points_may_exceed_those_of_nodes_but_not_fall_below(self):
-        def scale(factor):
-            def change(grid):
-                grid.point_data["contact_pressure"] = factor * np.array(grid.point_data["contact_pressure"])
+    def scale(self, name, factor):
+        def change(grid):
+            grid.point_data[name] = factor * np.array(grid.point_data[name])
 
-            self.change_grid("contact_0003.vtu", change)
+        self.change_grid("contact_0003.vtu", change)
 
-        scale(0.9)
-        self.expect_failure("contact frame 3: pressure_max of tip")
-        with open(self.path("case.resolved.toml"), "a", encoding="utf-8") as file:
-            file.write('[[contact]]\nname = "tip"\nmethod = "gauss-point"\n')
+    def test_pressures_of_points_may_exceed_those_of_nodes_but_not_fall_below(self):
+        self.scale("contact_pressure", 0.9)
         code, said = run("check_results.py", self.folder)
         self.assertEqual(code, 0, said)
-        scale(1.2)
+        self.scale("contact_pressure", 1.2)
+        self.expect_failure("contact frame 3: a mean pressure at a node is above the largest pressure around it")
+
+    def test_another_largest_pressure_than_that_of_the_history_is_found(self):
+        self.scale("contact_pressure_max", 1.1)
         self.expect_failure("contact frame 3: pressure_max of tip")
 
     def test_stress_in_another_order_is_found(self):
@@ -799,10 +802,10 @@ job = sys.argv[2]
 if job == "-v":
     sys.exit("")
 text = open(job + ".inp").read()
+open("seconds", "w").write("0.1")
 if "SOLVER=PASTIX" in text:
     print(" *ERROR in nonlingeo: the PASTIX library is not linked")
     sys.exit(201)
-open("seconds", "w").write("0.1")
 open("seconds", "w").write("1.5" if "SOLVER=SPOOLES" in text else "0.5")
 open(job + ".sta", "w").write("head\\nhead\\n 1 1 1 4 1. 1. 1.\\n 1 2 1 3 1. 1. 1.\\n")
 for end in (".dat", ".frd"):

@@ -73,6 +73,9 @@ fn frames_have_the_documented_fields() {
     for name in [
         "contact_gap",
         "contact_pressure",
+        "contact_pressure_max",
+        "contact_multiplier",
+        "contact_multiplier_traction",
         "contact_status",
         "contact_force",
         "contact_traction",

@@ -219,6 +219,7 @@ impl Context<'_> {
             first_multiplier,
             gap_tolerance: steps.gap_tol * length,
             traction_tolerance: steps.traction_tol,
+            smooths: part.smooths,
             swapped: sides.swapped,
         };
         Ok((parts, summary))
