@@ -100,6 +100,8 @@ pub struct PointToSegment {
     pub closest: Closest,
     /// How long points keep the tangent plane that they meet.
     pub sliding: SlidingRange,
+    /// What is added to the gap of each row; empty where nothing is.
+    shifts: Vec<f64>,
     /// A facet that each point is on, where the surface may touch itself; empty elsewhere.
     own: Vec<u32>,
 }
@@ -117,6 +119,22 @@ impl PointToSegment {
             weights: vec![1.0; nodes.len()],
             ..Self::default()
         }
+    }
+
+    /// A further row, whose point is a sum of nodes with these factors; `shift` is added to its gap.
+    pub fn push_row(&mut self, point: &[(NodeId, f64)], shift: f64) {
+        if self.first.is_empty() {
+            self.first.push(0);
+        }
+        self.nodes.extend(point.iter().map(|of| of.0));
+        self.weights.extend(point.iter().map(|of| of.1));
+        self.first.push(self.nodes.len() as u32);
+        self.shifts.push(shift);
+    }
+
+    /// What is added to the gap of a row.
+    fn shift(&self, row: usize) -> f64 {
+        self.shifts.get(row).copied().unwrap_or_default()
     }
 
     /// Points inside the facets; `points` gives those of an element.
@@ -306,7 +324,7 @@ impl Discretization for PointToSegment {
                 surface.jet(at, &kept.anchor, &mut jet)?;
                 let normal = kept.held.unwrap_or_default();
                 *found = Some(Pair {
-                    gap: (point - jet.position).dot(normal),
+                    gap: (point - jet.position).dot(normal) + self.shift(row),
                     ..kept
                 });
                 return Ok(());
@@ -331,6 +349,9 @@ impl Discretization for PointToSegment {
                         .map_or(jet.normal, |n| n * found.gap.signum()),
                 };
                 found.held = Some(normal);
+            }
+            if let Some(found) = found {
+                found.gap += self.shift(row);
             }
             Ok(())
         };
@@ -363,7 +384,11 @@ impl Discretization for PointToSegment {
             anchor: links.anchors.get(row).and_then(Option::as_ref),
             bond: links.bond,
         };
-        place.fill(row, wanted, out)
+        place.fill(row, wanted, out)?;
+        if let Some(filled) = out.rows_mut().first_mut() {
+            filled.gap += self.shift(row);
+        }
+        Ok(())
     }
 
     /// The closest point of `ρ − slip`, on the continuation of the facet. Where the tangent plane is held, the point has

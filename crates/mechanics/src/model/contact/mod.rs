@@ -188,7 +188,7 @@ impl Context<'_> {
         let summary = ContactSummary {
             name: part.name.clone(),
             enforcement: match &part.enforcement {
-                Enforcement::Auto if sides.method.takes_multipliers() => Enforcement::Lagrange,
+                Enforcement::Auto if sides.law.multiplier().is_unknown() => Enforcement::Lagrange,
                 Enforcement::Auto => Enforcement::Penalty(Some(penalty)),
                 given => given.clone(),
             },
