@@ -11,8 +11,9 @@ use signorini_io::case::mutate::{Generator, mutate};
 use signorini_io::case::read_case;
 use std::path::Path;
 
-/// Bytes that reading, building and looking at one damaged case may allocate, all together, on the thread that does it.
-const MOST: u64 = 1 << 28;
+/// Bytes that reading, building and looking at one damaged case may allocate, all together, on the thread that does it: readers
+/// refuse what comes to more than a quarter of that.
+const MOST: u64 = 1 << 30;
 
 /// Does what `signorini check` does; says how far it came.
 fn check(bytes: &[u8]) -> usize {

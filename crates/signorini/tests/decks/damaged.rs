@@ -7,8 +7,9 @@ use signorini_io::deck;
 use signorini_io::fs::RealFs;
 use signorini_mechanics::solve::Flow;
 
-/// Bytes that reading and building one damaged deck may allocate, all together, on the thread that does it.
-const MOST: u64 = 1 << 28;
+/// Bytes that reading and building one damaged deck may allocate, all together, on the thread that does it: readers
+/// refuse what comes to more than a quarter of that.
+const MOST: u64 = 1 << 30;
 
 /// Events of a run, such as iterations and increments, after which it is stopped.
 const EVENTS: usize = 300;
