@@ -88,6 +88,8 @@ SOFT = ("--K", "1e6")
 ONCE_SOFT = (*ONE_INCREMENT, *SOFT)
 # signorini has no incompatible modes at finite strain, where they go unstable in compression
 OTHER_MODES = ("body.0.locking=auto", "body.1.locking=auto")
+# multipliers of quadratic triangles scatter, and results show them as they are unless they are asked to smooth them
+SMOOTHED = ("output.contact_pressure=smoothed",)
 ROWS = [
     Row("hertz", "C3D8", 10_000, SOFT),
     Row("slide", "C3D8", 10_000, FRICTION),
@@ -96,7 +98,7 @@ ROWS = [
     Row("hertz", "C3D8", 50_000, ONCE_SOFT),
     Row("slide", "C3D8", 50_000, FRICTION),
     Row("slide", "C3D8I", 50_000, FRICTION, changes=OTHER_MODES),
-    Row("hertz", "C3D10", 50_000, ONCE_SOFT),
+    Row("hertz", "C3D10", 50_000, ONCE_SOFT, changes=SMOOTHED),
     Row("hertz", "C3D8", 150_000, ONCE_SOFT),
     Row("hertz", "C3D8", 300_000, ONCE_SOFT),
     Row("hertz", "C3D8", 1_000_000, ONCE_SOFT, with_ccx=False),

@@ -356,11 +356,17 @@ pub struct Coincident {
 /// the work grows with the number of nodes, however they lie.
 #[must_use]
 pub fn coincident(mesh: &Mesh, used: &[bool], tolerance: f64) -> Option<Coincident> {
+    compared(mesh, used, tolerance).0
+}
+
+/// [`coincident`], and the number of distances that were taken.
+fn compared(mesh: &Mesh, used: &[bool], tolerance: f64) -> (Option<Coincident>, usize) {
     const NONE: u32 = u32::MAX;
-    if !(tolerance > 0.0 && tolerance.is_finite()) {
-        return None;
-    }
-    let (min, _) = mesh.bounds()?;
+    let bounds = mesh.bounds();
+    let Some((min, _)) = bounds.filter(|_| tolerance > 0.0 && tolerance.is_finite()) else {
+        return (None, 0);
+    };
+    let mut compared = 0;
     let width = 4.0 * tolerance;
     let mut grid: HashMap<[i64; 3], u32> = HashMap::new();
     let mut next = vec![NONE; mesh.nnode()];
@@ -379,6 +385,7 @@ pub fn coincident(mesh: &Mesh, used: &[bool], tolerance: f64) -> Option<Coincide
         let earlier = near.into_iter().find_map(|cell| {
             let mut at = grid.get(&cell).copied().unwrap_or(NONE);
             while let Some(&y) = mesh.points.get(at as usize) {
+                compared += 1;
                 if ((x - y) / tolerance).norm() <= 1.0 {
                     return Some(at);
                 }
@@ -399,7 +406,7 @@ pub fn coincident(mesh: &Mesh, used: &[bool], tolerance: f64) -> Option<Coincide
             }
         }
     }
-    pair.map(|pair| Coincident { count, pair })
+    (pair.map(|pair| Coincident { count, pair }), compared)
 }
 
 /// The cells in groups that share no node, each sorted, the groups by their first cell.
@@ -572,13 +579,44 @@ mod tests {
     }
 
     #[test]
-    fn a_hundred_thousand_bricks_take_a_fraction_of_a_second() {
-        let mesh = bricks([50, 50, 40], 1.0);
-        let start = std::time::Instant::now();
-        let all = quality(&mesh, mesh.cells(3)).unwrap();
-        println!("{:?}", start.elapsed());
-        assert_eq!((all.cells.len(), all.nbad), (100_000, 0));
-        assert!(start.elapsed() < std::time::Duration::from_secs(2));
+    fn no_cell_takes_memory_of_its_own() {
+        let judged = |size: [u32; 3]| {
+            let mesh = bricks(size, 1.0);
+            let mut all = None;
+            let taken = allocation_counter::measure(|| all = quality(&mesh, mesh.cells(3)));
+            let all = all.unwrap();
+            let ncell: u32 = size.iter().product();
+            assert_eq!((all.cells.len(), all.nbad), (ncell as usize, 0));
+            taken
+        };
+        let [few, many] = [[10, 10, 10], [50, 50, 40]].map(judged);
+        // a list that doubles when it is full: log2(100) more allocations, twice its length in bytes
+        assert!(many.count_total <= few.count_total + 8, "{few:?}, {many:?}");
+        assert!(
+            many.bytes_total <= 130 * few.bytes_total,
+            "{few:?}, {many:?}"
+        );
+    }
+
+    #[test]
+    fn nodes_are_compared_with_their_neighbours_only_even_where_one_is_far_away() {
+        // the tolerance of a mesh of this size, within which most nodes have an earlier neighbour
+        let tolerance = 1e5;
+        let line = |n: u32| {
+            let points = (0..n).map(|i| Vec3::new(f64::from(i), 0.5, 0.5));
+            let points: Vec<Vec3> = points.chain([Vec3::new(1e14, 0.0, 0.0)]).collect();
+            let mesh = Mesh {
+                node_labels: (1..=points.len() as u64).collect(),
+                points,
+                ..Mesh::default()
+            };
+            compared(&mesh, &vec![true; mesh.nnode()], tolerance)
+        };
+        for n in [20_000, 200_000] {
+            let (found, compared) = line(n);
+            assert!(found.is_some());
+            assert!(compared <= 8 * n as usize, "{compared} for {n}");
+        }
     }
 
     #[test]

@@ -158,7 +158,15 @@ impl Model {
         let mut layout = followers.layout();
         let (elimination, ties) = followers.elimination(&layout)?;
         let poses = elimination.initial_poses();
-        let prescribed = steps::prescribed(mesh.nnode(), space.ndim(), &steps);
+        let joint = contact::Steps {
+            changes: steps.iter().map(|s| s.contacts.clone()).collect(),
+            gap_tol,
+            traction_tol,
+            parts: &contacts,
+        };
+        let rubs: Vec<bool> = (0..contacts.len()).map(|k| joint.rubs(k)).collect();
+        let motions = steps::prescribed(mesh.nnode(), &steps);
+        let prescribed = steps::in_whole(&motions, space.ndim());
         let source = Source {
             mesh,
             reference: &mesh.points,
@@ -166,17 +174,13 @@ impl Model {
             spaces: &spaces,
             elimination: &elimination,
             prescribed: &prescribed,
+            motions: &motions,
+            rubs: &rubs,
         };
         let reference: Arc<[Vec3]> = contact::closed(&source, &contacts, &poses)?.into();
         let source = Source {
             reference: &reference,
             ..source
-        };
-        let joint = contact::Steps {
-            changes: steps.iter().map(|s| s.contacts.clone()).collect(),
-            gap_tol,
-            traction_tol,
-            parts: &contacts,
         };
         let mut sides = Vec::new();
         for (number, part) in contacts.iter().enumerate() {

@@ -10,24 +10,39 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// Component of a carrier along the axis of an axisymmetric model.
 const AXIAL: usize = 1;
 
-/// Of each node, whether some step prescribes its motion along all axes.
-pub(super) fn prescribed(nnode: usize, ndim: usize, steps: &[StepPart]) -> Vec<bool> {
-    let mut axes = vec![[false; 3]; nnode];
+/// What the steps prescribe of the motion of a node along an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Prescribed {
+    /// Whether some step prescribes it.
+    pub is_given: bool,
+    /// Whether some step prescribes a motion, not only that it stays.
+    pub moves: bool,
+}
+
+/// Of each node and axis, what some step prescribes.
+pub(super) fn prescribed(nnode: usize, steps: &[StepPart]) -> Vec<[Prescribed; 3]> {
+    let mut axes = vec![[Prescribed::default(); 3]; nnode];
     for change in steps.iter().flat_map(|step| &step.changes) {
         let Change::Prescribe(Target::Nodes(nodes), motions) = change else {
             continue;
         };
-        for (axis, _) in motions {
+        for (axis, motion) in motions {
             for &node in nodes {
                 let of_node = axes.get_mut(node as usize);
-                if let Some(flag) = of_node.and_then(|of| of.get_mut(*axis)) {
-                    *flag = true;
+                if let Some(of) = of_node.and_then(|of| of.get_mut(*axis)) {
+                    of.is_given = true;
+                    of.moves |= !matches!(motion, Motion::Hold);
                 }
             }
         }
     }
-    let whole = |axes: &[bool; 3]| axes.iter().take(ndim).all(|a| *a);
-    axes.iter().map(whole).collect()
+    axes
+}
+
+/// Of each node, whether its motion is prescribed along all axes.
+pub(super) fn in_whole(motions: &[[Prescribed; 3]], ndim: usize) -> Vec<bool> {
+    let whole = |axes: &[Prescribed; 3]| axes.iter().take(ndim).all(|a| a.is_given);
+    motions.iter().map(whole).collect()
 }
 
 impl Context<'_> {

@@ -99,6 +99,14 @@ pub struct ContactFrame {
     /// Pressure at each node, ≥ 0; force where the secondary side has no area. By mortar it is that of the present area at
     /// finite strain, and of the area at the start in linear steps.
     pub pressure: Vec<f64>,
+    /// The largest pressure of the points around each node, those inside its facets where the method has points there.
+    /// The largest of all is `pressure_max`.
+    pub pressure_peak: Vec<f64>,
+    /// The pressure in the equations at each node, of its multiplier or of its law, before smoothing; a mean over points
+    /// as `pressure` is, which equals it where nothing is smoothed.
+    pub multiplier: Vec<f64>,
+    /// The traction in the equations at each node, likewise; `traction` equals it where nothing is smoothed.
+    pub multiplier_traction: Vec<Vec3>,
     /// Status at each node.
     pub status: Vec<Status>,
     /// Whether something acts at each node: it is closed, or so near that a law acts that pulls at a distance.
@@ -129,7 +137,7 @@ pub struct ContactFrame {
     pub moment_normal: Vec3,
     /// The part that tangential tractions exert.
     pub force_shear: Vec3,
-    /// The largest pressure.
+    /// The largest pressure at a point: the largest of `pressure_peak`.
     pub pressure_max: f64,
     /// The smallest gap; 0 where nothing is within reach.
     pub gap_min: f64,
@@ -167,6 +175,7 @@ impl ContactFrame {
         self.moment_normal -= pass.moment_normal;
         self.force_shear -= pass.force_shear;
         // the sides feel the pressures of both passes
+        self.pressure_peak.clone_from(&self.pressure);
         self.pressure_max = self.pressure.iter().copied().fold(0.0, f64::max);
         self.gap_min = self.gap_min.min(pass.gap_min);
         self.slip_max = self.slip_max.max(pass.slip_max);

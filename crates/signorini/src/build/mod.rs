@@ -270,6 +270,9 @@ fn parts<'a>(
     parts.contacts = contact::acting(case)
         .filter_map(|c| contact::contact(c, &case.steps, names, &surfaces, found))
         .collect();
+    for contact in &mut parts.contacts {
+        contact.smooths = case.output.smooth_pressures;
+    }
     let (temperature, start) = temperature::at_start(case, names, mesh, found);
     parts.temperature = temperature;
     let steps = steps::Builder {

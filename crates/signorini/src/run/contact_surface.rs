@@ -2,6 +2,13 @@
 //!
 //! Points are where the nodes are at the start; facets are cells, bare nodes are vertices. `contact_pair` numbers the
 //! contacts from 0, in the order of the case.
+//!
+//! | field | at each node |
+//! |---|---|
+//! | `contact_pressure` | the mean pressure over the points around the node, smoothed where the case asks for it |
+//! | `contact_pressure_max` | the largest pressure of these points: its maximum is `pressure_max` of terminal, history and summary |
+//! | `contact_multiplier` | the pressure in the equations, of the multiplier or of the law, never smoothed |
+//! | `contact_multiplier_traction` | the traction in the equations, likewise |
 
 use super::cells::Cells;
 use super::volume::{facts, place, vectors};
@@ -54,6 +61,9 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
     let slip = all(|c| &c.slip);
     let gap = scalars(|c| &c.gap);
     let pressure = scalars(|c| &c.pressure);
+    let peak = scalars(|c| &c.pressure_peak);
+    let multiplier = scalars(|c| &c.multiplier);
+    let multiplier_traction = all(|c| &c.multiplier_traction);
     let area = scalars(|c| &c.area);
     let shear: Vec<f64> = frame.contacts.iter().flat_map(shear).collect();
     let status = frame.contacts.iter().flat_map(|c| c.status.iter());
@@ -62,6 +72,12 @@ pub fn encode(mesh: &Mesh, frame: &Frame) -> Result<Vec<u8>, VtuError> {
         Field::new("displacement", Values::Vector(&displacement)),
         Field::new("contact_gap", Values::Scalar(&gap)),
         Field::new("contact_pressure", Values::Scalar(&pressure)),
+        Field::new("contact_pressure_max", Values::Scalar(&peak)),
+        Field::new("contact_multiplier", Values::Scalar(&multiplier)),
+        Field::new(
+            "contact_multiplier_traction",
+            Values::Vector(&multiplier_traction),
+        ),
         Field::new("contact_status", Values::Int8(&status)),
         Field::new("contact_force", Values::Vector(&force)),
         Field::new("contact_traction", Values::Vector(&traction)),

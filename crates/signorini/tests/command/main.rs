@@ -2,7 +2,7 @@
 //!
 //! Numbers behind the names of tests are those of the list of faults that the program has to stand.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod check;
 mod decks;

@@ -5,6 +5,9 @@ use tempfile::TempDir;
 
 const INCREMENTS: usize = 60;
 
+/// How often a run is started again that was over before anyone saw that it could be killed, as on a busy machine.
+const TRIES: usize = 100;
+
 /// The files that a run leaves but for times and logs.
 fn results(folder: &TempDir) -> Vec<(String, Vec<u8>)> {
     let mut names: Vec<String> = [
@@ -50,16 +53,42 @@ fn start(folder: &TempDir) -> Child {
         .unwrap()
 }
 
-/// Waits until a frame is there.
+/// Waits until a frame is there, or the run is over.
 fn wait_for(folder: &TempDir, number: usize, run: &mut Child) {
     let frame = result(folder, &format!("frames/volume_{number:04}.vtu"));
-    while !frame.exists() {
-        assert!(
-            run.try_wait().unwrap().is_none(),
-            "the run ended before frame {number}"
-        );
+    while !frame.exists() && run.try_wait().unwrap().is_none() {
         std::thread::sleep(Duration::from_millis(1));
     }
+}
+
+/// A run that ended as `end` says after each of these frames, when it was resumed after the one before.
+fn ended(case: &str, frames: &[usize], end: &dyn Fn(&mut Child) -> bool) -> TempDir {
+    let once = || {
+        let folder = folder_with(case);
+        for (number, &frame) in frames.iter().enumerate() {
+            let mut run = match number {
+                0 => start(&folder),
+                _ => command(folder.path())
+                    .args(["resume", "case.out"])
+                    .stderr(Stdio::null())
+                    .spawn()
+                    .unwrap(),
+            };
+            wait_for(&folder, frame, &mut run);
+            if !end(&mut run) {
+                return None;
+            }
+        }
+        Some(folder)
+    };
+    let mut tries = (0..TRIES).filter_map(|_| once());
+    tries.next().expect("every run was over too early")
+}
+
+/// Kills a run; says whether it was not over before.
+fn kill(run: &mut Child) -> bool {
+    run.kill().unwrap();
+    !run.wait().unwrap().success()
 }
 
 fn assert_same(reference: &[(String, Vec<u8>)], folder: &TempDir, why: &str) {
@@ -129,20 +158,7 @@ fn is_the_same(case: &str, all_moments: &[Vec<usize>]) {
     run(whole.path(), &["run", "case.toml", "-q"]).says(0, &[]);
     let reference = results(&whole);
     for moments in all_moments {
-        let folder = folder_with(case);
-        let mut child = start(&folder);
-        for (number, &moment) in moments.iter().enumerate() {
-            wait_for(&folder, moment, &mut child);
-            child.kill().unwrap();
-            child.wait().unwrap();
-            if number + 1 < moments.len() {
-                child = command(folder.path())
-                    .args(["resume", "case.out"])
-                    .stderr(Stdio::null())
-                    .spawn()
-                    .unwrap();
-            }
-        }
+        let folder = ended(case, moments, &kill);
         run(folder.path(), &["resume", "case.out"]).says(0, &["✓ solved: 60 increments"]);
         assert_same(&reference, &folder, &format!("{moments:?}"));
     }
@@ -155,15 +171,15 @@ fn f64_signals_end_with_130_and_143_and_the_run_can_go_on() {
     run(whole.path(), &["run", "case.toml", "-q"]).says(0, &[]);
     let reference = results(&whole);
     for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
-        let folder = folder_with(&case());
-        let mut child = start(&folder);
-        wait_for(&folder, 10, &mut child);
-        let sent = std::process::Command::new("kill")
-            .args([signal, &child.id().to_string()])
-            .status()
-            .unwrap();
-        assert!(sent.success());
-        assert_eq!(child.wait().unwrap().code(), Some(code));
+        let folder = ended(&case(), &[10], &|run| {
+            let sent = std::process::Command::new("kill")
+                .args([signal, &run.id().to_string()])
+                .status()
+                .unwrap();
+            let end = run.wait().unwrap().code();
+            assert!(end == Some(code) || end == Some(0), "{end:?}");
+            sent.success() && end == Some(code)
+        });
         let summary = read(&result(&folder, "summary.json"));
         assert!(summary.contains("\"interrupted\""), "{summary}");
         run(folder.path(), &["resume", "case.out"]).says(0, &[]);
@@ -174,20 +190,19 @@ fn f64_signals_end_with_130_and_143_and_the_run_can_go_on() {
 #[test]
 fn a_time_limit_ends_with_8_and_the_run_can_go_on() {
     let folder = folder_with(&case());
-    run(folder.path(), &["run", "case.toml", "--max-wall", "0.1s"])
-        .says(8, &["S0801", "signorini resume case.out"]);
+    // it is over whatever else the machine does
+    run(
+        folder.path(),
+        &["run", "case.toml", "--max-wall", "0.000001s"],
+    )
+    .says(8, &["S0801", "signorini resume case.out"]);
     run(folder.path(), &["resume", "case.out"]).says(0, &["✓ solved"]);
     run(folder.path(), &["resume", "case.out"]).says(0, &["nothing is left to do"]);
 }
 
 /// A run stopped after frame 20.
 fn stopped() -> TempDir {
-    let folder = folder_with(&case());
-    let mut child = start(&folder);
-    wait_for(&folder, 20, &mut child);
-    child.kill().unwrap();
-    child.wait().unwrap();
-    folder
+    ended(&case(), &[20], &kill)
 }
 
 #[test]

@@ -4,13 +4,10 @@ use std::fs::File;
 use std::io::{BufWriter, Result, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Elements along an edge of the cube.
 const N: usize = 100;
-
-/// What reading may take, and how many times that on a machine that has other things to do.
-const LIMIT: (Duration, u32) = (Duration::from_secs(2), 3);
 
 /// Bytes of memory.
 const MEMORY: u64 = 1 << 30;
@@ -86,15 +83,14 @@ fn peak(pid: u32) -> Option<u64> {
 
 /// `convert` reads a deck and its mesh and builds nothing.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "times mean nothing without optimisation")]
-fn a_deck_of_a_million_elements_is_read_in_two_seconds_and_a_gigabyte() {
+#[cfg_attr(debug_assertions, ignore = "takes long without optimisation")]
+fn a_deck_of_a_million_elements_is_read_in_a_gigabyte() {
     let scratch = tempfile::tempdir().unwrap();
     let (deck, case) = (
         scratch.path().join("cube.inp"),
         scratch.path().join("case.toml"),
     );
     write(&deck).unwrap();
-    let clock = Instant::now();
     let mut reading = Command::new(env!("CARGO_BIN_EXE_signorini"))
         .arg("convert")
         .args([&deck, &case])
@@ -110,9 +106,8 @@ fn a_deck_of_a_million_elements_is_read_in_two_seconds_and_a_gigabyte() {
         }
         std::thread::sleep(Duration::from_millis(5));
     };
-    let (spent, bytes) = (clock.elapsed(), std::fs::metadata(&deck).unwrap().len());
-    println!("{bytes} bytes in {spent:.2?} with {memory} bytes of memory");
+    let bytes = std::fs::metadata(&deck).unwrap().len();
+    println!("{bytes} bytes with {memory} bytes of memory");
     assert!(end.success() && case.is_file());
-    assert!(spent < LIMIT.0 * LIMIT.1, "{spent:?}");
     assert!(memory < MEMORY, "{memory}");
 }

@@ -117,6 +117,7 @@ pub(super) fn output(fields: Fields<'_>) -> Output {
     Output {
         format: fields.texts("format"),
         fields: fields.texts("fields"),
+        smooth_pressures: fields.text("contact_pressure").value == "smoothed",
         every,
         history: history.collect(),
     }

@@ -108,6 +108,8 @@ pub struct Output {
     pub format: Vec<Spanned<String>>,
     /// Fields, as in `displacement`.
     pub fields: Vec<Spanned<String>>,
+    /// Whether contact pressures of quadratic triangles are smoothed.
+    pub smooth_pressures: bool,
     /// How often.
     pub every: Every,
     /// Values over time.

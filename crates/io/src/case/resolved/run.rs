@@ -52,6 +52,14 @@ pub(super) fn output(output: &Output) -> Entries {
         ("format", names(&output.format)),
         ("fields", names(&output.fields)),
         (
+            "contact_pressure",
+            if output.smooth_pressures {
+                "smoothed".into()
+            } else {
+                "multiplier".into()
+            },
+        ),
+        (
             "every",
             match output.every {
                 Every::Increments(count) => count.into(),

@@ -98,6 +98,12 @@ pub(super) static OUTPUT: Table = Table {
         .or(Default::Texts(&["displacement", "stress", "contact"]))
         .hints(&["field"]),
         key(
+            "contact_pressure",
+            Shape::Choice(&[word("multiplier"), word("smoothed")]),
+            "pressures and tractions of mortar contact on quadratic triangles: those of the equations, or smoothed over the triangles that touch",
+        )
+        .or(Default::Text("multiplier")),
+        key(
             "every",
             Shape::Either(&[COUNT, Shape::Table(&EVERY)]),
             "write after so many increments, or { time }",

@@ -262,7 +262,15 @@ fn split_line<'t>(text: &'t [u8], at: &mut usize) -> &'t [u8] {
     let (line, after) = rest.split_at(end);
     let newline = if after.starts_with(b"\r\n") { 2 } else { 1 };
     *at += end + newline.min(after.len());
+    #[cfg(test)]
+    SCANNED.set(SCANNED.get() + end as u64);
     line
+}
+
+#[cfg(test)]
+thread_local! {
+    /// Bytes in which ends of lines have been searched for on this thread.
+    pub(super) static SCANNED: std::cell::Cell<u64> = const { std::cell::Cell::new(0) };
 }
 
 fn count_lines(text: &[u8]) -> u32 {

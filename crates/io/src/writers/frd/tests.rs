@@ -275,52 +275,6 @@ fn a_resumed_file_is_the_same_bit_by_bit() {
 }
 
 #[test]
-#[ignore = "a timing"]
-fn a_frame_of_a_million_nodes_is_written_in_a_second_or_two() {
-    let dir = tempfile::tempdir_in("/dev/shm")
-        .or_else(|_| tempfile::tempdir())
-        .unwrap();
-    let path = dir.path().join("t.frd");
-    let n = 1_000_000_u32;
-    let mut mesh = Mesh {
-        points: (0..n)
-            .map(|k| Vec3::new(f64::from(k).sin(), f64::from(k).sqrt(), 0.1))
-            .collect(),
-        node_labels: (1..=u64::from(n)).collect(),
-        ..Mesh::default()
-    };
-    let tet4 = element::by_name("tet4").unwrap();
-    for first in (0..n).step_by(4) {
-        let nodes: [u32; 4] = std::array::from_fn(|i| first + i as u32);
-        mesh.push_cell(tet4, &nodes, u64::from(first) + 1);
-    }
-    let mut file = FrdFile::create(&RealFs, &path, "", &mesh).unwrap();
-    let stress: Vec<Sym3> = mesh
-        .points
-        .iter()
-        .map(|x| Sym3::new(x.x, x.y, x.z, -x.x, -x.y, 1e-9 * x.x))
-        .collect();
-    let clock = std::time::Instant::now();
-    let datasets = [
-        Dataset::Displacement(&mesh.points),
-        Dataset::Stress(&stress),
-        Dataset::Force(&mesh.points),
-    ];
-    file.frame(&at(1.0, 1, 1), &datasets).unwrap();
-    let writing = clock.elapsed();
-    let bytes = RealFs.read(&path).unwrap();
-    let clock = std::time::Instant::now();
-    let frd = frd::parse(&bytes).unwrap();
-    let reading = clock.elapsed();
-    eprintln!(
-        "{} MB written in {writing:?}, read in {reading:?}",
-        bytes.len() >> 20
-    );
-    assert_eq!(frd.datasets[1].values.len(), 6_000_000);
-    assert!(writing.as_secs_f64() < 5.0 && reading.as_secs_f64() < 15.0);
-}
-
-#[test]
 fn nodes_of_no_element_are_left_out() {
     let mut mesh = zoo(3);
     let alone = mesh.nnode() as u32;

@@ -104,6 +104,8 @@ pub struct PointToSegment {
     pub sliding: SlidingRange,
     /// The normals of the secondary side, which planes that are kept for good lean towards.
     lean: Option<Lean>,
+    /// What is added to the gap of each row; empty where nothing is.
+    shifts: Vec<f64>,
 }
 
 /// How far a point that slips may leave the facet it is on, in parameters of the facet, within one increment.
@@ -119,6 +121,22 @@ impl PointToSegment {
             weights: vec![1.0; nodes.len()],
             ..Self::default()
         }
+    }
+
+    /// A further row, whose point is a sum of nodes with these factors; `shift` is added to its gap.
+    pub fn push_row(&mut self, point: &[(NodeId, f64)], shift: f64) {
+        if self.first.is_empty() {
+            self.first.push(0);
+        }
+        self.nodes.extend(point.iter().map(|of| of.0));
+        self.weights.extend(point.iter().map(|of| of.1));
+        self.first.push(self.nodes.len() as u32);
+        self.shifts.push(shift);
+    }
+
+    /// What is added to the gap of a row.
+    fn shift(&self, row: usize) -> f64 {
+        self.shifts.get(row).copied().unwrap_or_default()
     }
 
     /// Points inside the facets; `points` gives those of an element.
@@ -201,7 +219,7 @@ impl PointToSegment {
             surface.jet(at, &kept.anchor, &mut jet)?;
             let normal = kept.held.unwrap_or_default();
             return Ok(Some(Pair {
-                gap: (point - jet.position).dot(normal),
+                gap: (point - jet.position).dot(normal) + self.shift(row),
                 ..kept
             }));
         }
@@ -228,6 +246,9 @@ impl PointToSegment {
             if found.feature == Feature::Face {
                 found.gap = away.dot(normal);
             }
+        }
+        if let Some(found) = found.as_mut() {
+            found.gap += self.shift(row);
         }
         Ok(found)
     }
@@ -371,7 +392,11 @@ impl Discretization for PointToSegment {
             anchor: links.anchors.get(row).and_then(Option::as_ref),
             bond: links.bond,
         };
-        place.fill(row, wanted, out)
+        place.fill(row, wanted, out)?;
+        if let Some(filled) = out.rows_mut().first_mut() {
+            filled.gap += self.shift(row);
+        }
+        Ok(())
     }
 
     /// The closest point of `ρ − slip`, on the continuation of the facet. Where the tangent plane is held, the point has

@@ -114,6 +114,8 @@ pub struct InterfaceParts {
     pub gap_tolerance: f64,
     /// What multipliers that friction limits may be off by, over themselves.
     pub traction_tolerance: f64,
+    /// Whether pressures of quadratic triangles are smoothed in results.
+    pub smooths: bool,
     /// Whether it is the second pass of a contact, whose results belong to the first with the sides swapped.
     pub swapped: bool,
 }
@@ -148,6 +150,7 @@ impl InterfaceParts {
             first_multiplier: 0,
             gap_tolerance: 1e-6,
             traction_tolerance: 1e-7,
+            smooths: false,
             swapped: false,
         }
     }

@@ -21,6 +21,8 @@ struct Means {
     gap: Vec<f64>,
     pressure: Vec<f64>,
     traction: Vec<Vec3>,
+    multiplier: Vec<f64>,
+    multiplier_traction: Vec<Vec3>,
     slip: Vec<Vec3>,
     elastic_slip: Vec<Vec3>,
 }
@@ -32,6 +34,9 @@ struct OfRow {
     pressure: f64,
     /// On the side whose means these are.
     traction: Vec3,
+    /// Both before smoothing.
+    multiplier: f64,
+    multiplier_traction: Vec3,
     slip: Vec3,
     elastic_slip: Vec3,
 }
@@ -68,6 +73,8 @@ impl Means {
             gap: vec![0.0; n],
             pressure: vec![0.0; n],
             traction: vec![Vec3::ZERO; n],
+            multiplier: vec![0.0; n],
+            multiplier_traction: vec![Vec3::ZERO; n],
             slip: vec![Vec3::ZERO; n],
             elastic_slip: vec![Vec3::ZERO; n],
         }
@@ -80,6 +87,8 @@ impl Means {
         self.gap[k] += weight * row.gap;
         self.pressure[k] += weight * row.pressure;
         self.traction[k] += row.traction * weight;
+        self.multiplier[k] += weight * row.multiplier;
+        self.multiplier_traction[k] += row.multiplier_traction * weight;
         self.slip[k] += row.slip * weight;
         self.elastic_slip[k] += row.elastic_slip * weight;
     }
@@ -98,6 +107,8 @@ impl Means {
             gap: self.gap[k] / weight,
             pressure: self.pressure[k] / whole,
             traction: self.traction[k] / whole,
+            multiplier: self.multiplier[k] / whole,
+            multiplier_traction: self.multiplier_traction[k] / whole,
             slip: self.slip[k] / weight,
             elastic_slip: self.elastic_slip[k] / weight,
         })
@@ -140,10 +151,14 @@ impl Interface {
         let (told, mut on_rows) = self.tell(state, (&mut report, first), frame)?;
         let touches = |row: usize| told.get(row).is_some_and(|t: &Told| t.status.is_closed());
         let parts = &self.parts;
-        parts
-            .discretization
-            .even_out(&self.now, &touches, parts.bond.is_some(), &mut on_rows);
-        for (row, (told, on_row)) in told.into_iter().zip(on_rows).enumerate() {
+        let in_equations = on_rows.clone();
+        if parts.smooths {
+            let joined = parts.bond.is_some();
+            let discretization = &parts.discretization;
+            discretization.even_out(&self.now, &touches, joined, &mut on_rows);
+        }
+        let rows = told.into_iter().zip(on_rows).zip(in_equations);
+        for (row, ((told, on_row), raw)) in rows.enumerate() {
             let Told {
                 status,
                 acts,
@@ -159,6 +174,8 @@ impl Interface {
                 gap: found.gap,
                 pressure,
                 traction: found.direction * pressure + on_row.shear * stretch,
+                multiplier: raw.pressure * stretch,
+                multiplier_traction: (found.direction * raw.pressure + raw.shear) * stretch,
                 slip,
                 elastic_slip: found.elastic_slip,
             });
@@ -174,6 +191,7 @@ impl Interface {
                     means.add(k, area, of_row);
                     report.status[k] = status;
                     report.acts[k] = status.is_closed();
+                    report.pressure_peak[k] = report.pressure_peak[k].max(pressure);
                     hosted.push(k);
                 }
             }
@@ -189,6 +207,7 @@ impl Interface {
                 let Ok(k) = parts.pair.points.binary_search(node) else {
                     continue;
                 };
+                report.pressure_peak[k] = report.pressure_peak[k].max(pressure);
                 let share = area * shape * shape / squares;
                 report.area[k] += share;
                 report.energy[k] += energy * shape * shape / squares;
@@ -220,6 +239,8 @@ impl Interface {
                 report.gap[k] = mean.gap;
                 report.pressure[k] = mean.pressure;
                 report.traction[k] = mean.traction;
+                report.multiplier[k] = mean.multiplier;
+                report.multiplier_traction[k] = mean.multiplier_traction;
                 report.slip[k] = mean.slip;
                 report.elastic_slip[k] = mean.elastic_slip;
                 // rows of its node that meet nothing, as on another side of an edge, have no part in the means
@@ -238,6 +259,8 @@ impl Interface {
                 if let Some(mean) = across.of(k) {
                     first.pressure[k] += mean.pressure;
                     first.traction[k] += mean.traction;
+                    first.multiplier[k] += mean.multiplier;
+                    first.multiplier_traction[k] += mean.multiplier_traction;
                 }
             }
         }
@@ -458,6 +481,7 @@ impl Interface {
         };
         let reaction = OfRow {
             traction: -of_row.traction,
+            multiplier_traction: -of_row.multiplier_traction,
             ..of_row
         };
         for (node, shape) in facet.iter().zip(jet.shape) {
@@ -494,6 +518,9 @@ impl Interface {
             normal: vec![Vec3::ZERO; n],
             gap: vec![f64::NAN; n],
             pressure: vec![0.0; n],
+            pressure_peak: vec![0.0; n],
+            multiplier: vec![0.0; n],
+            multiplier_traction: vec![Vec3::ZERO; n],
             status: vec![Status::Absent; n],
             acts: vec![false; n],
             force: vec![Vec3::ZERO; n],

@@ -143,11 +143,18 @@ impl Interface {
         let secondary = discretization.secondary(rows, row);
         for (axis, held) in directions.iter_mut().enumerate().filter(|(_, h)| **h) {
             let others = rows.participants().iter().enumerate();
-            let mut others = others.filter(|(place, _)| !secondary.contains(place));
-            *held = others.any(|(_, p)| match *p {
-                Participant::Node(node) => is_held(node, axis),
-                Participant::Rigid(_) => false,
-            });
+            let others = others.filter(|(place, _)| !secondary.contains(place));
+            let mut others = others.map(|(_, p)| p).peekable();
+            // a surface that is fixed in space has nothing that moves
+            let is_fixed = others.peek().is_none();
+            *held = is_fixed
+                || others.any(|p| match *p {
+                    Participant::Node(node) => is_held(node, axis),
+                    Participant::Rigid(body) => {
+                        let dof = self.layout.translation(body, axis) as usize;
+                        self.held.get(dof).copied().unwrap_or(false)
+                    }
+                });
         }
         directions
     }

@@ -192,7 +192,7 @@ impl Context<'_> {
         let summary = ContactSummary {
             name: part.name.clone(),
             enforcement: match &part.enforcement {
-                Enforcement::Auto if sides.method.takes_multipliers() => Enforcement::Lagrange,
+                Enforcement::Auto if sides.law.multiplier().is_unknown() => Enforcement::Lagrange,
                 Enforcement::Auto => Enforcement::Penalty(Some(penalty)),
                 given => given.clone(),
             },
@@ -224,6 +224,7 @@ impl Context<'_> {
             first_multiplier,
             gap_tolerance: steps.gap_tol * length,
             traction_tolerance: steps.traction_tol,
+            smooths: part.smooths,
             swapped: sides.swapped,
         };
         Ok((parts, summary))

@@ -1,7 +1,9 @@
 //! From parts to the two sides of an interface, and the way they are compared.
 
+mod rigid;
+
 use super::joined;
-use crate::contact::discretization::projected::Closest;
+use crate::contact::discretization::projected::{Closest, Sight};
 use crate::contact::discretization::{
     Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, OwnBody, Pair, Pairing,
     PointToSegment, SurfacePair, areas_inside,
@@ -12,6 +14,7 @@ use crate::contact::law::{
 };
 use crate::contact::{Areas, Measure, closest_points, discretization, mortar};
 use crate::model::bodies::Spaces;
+use crate::model::steps::Prescribed;
 use crate::model::{
     AreaPart, ContactPart, Enforcement, FeaturesPart, Method, ModelError, Normals, PairOrder,
     PointKind, PointRule, PrimaryPart, SidePart, label,
@@ -57,6 +60,10 @@ pub(in crate::model) struct Source<'a> {
     pub elimination: &'a Elimination,
     /// Of each node, whether the steps prescribe its motion along all axes.
     pub prescribed: &'a [bool],
+    /// Of each node and axis, what the steps prescribe of its motion.
+    pub motions: &'a [[Prescribed; 3]],
+    /// Of each contact, whether it has friction in any step.
+    pub rubs: &'a [bool],
 }
 
 impl Source<'_> {
@@ -126,7 +133,13 @@ impl Source<'_> {
         }
         let same = matches!(part.primary, PrimaryPart::Itself);
         let method = self.method(part, secondary.as_ref());
-        let law = law(part, &method)?;
+        let at_nodes = self.nodes_take_multipliers((contact, part), &points);
+        let at_nodes = at_nodes.map_err(surface_error)?;
+        let method = match &part.method {
+            Method::Auto if at_nodes => Method::NodeToSegment,
+            _ => method,
+        };
+        let law = law(part, method.takes_multipliers() || at_nodes)?;
         let exact = law.multiplier() != Multiplier::None;
         if same && exact {
             return Err(ModelError::Unsuited {
@@ -236,10 +249,15 @@ impl Source<'_> {
                 (Box::new(mortar), area)
             }
             Method::NodeToSegment | Method::Auto => {
-                let mut at_nodes = PointToSegment::at_nodes(&points);
+                let blended = secondary.as_ref().filter(|_| law.multiplier().is_unknown());
+                let blended = blended.map(|facets| self.blended(part, facets, &points));
+                let blended = blended.transpose()?.flatten();
+                let (mut at_nodes, area) = match blended {
+                    Some(blended) => blended,
+                    None => (PointToSegment::at_nodes(&points), nodal(&points)?),
+                };
                 at_nodes.closest = closest;
                 at_nodes.sliding = part.sliding;
-                let area = nodal(&points)?;
                 areas = present.map(|facets| self.present_areas(facets, points.clone()));
                 (Box::new(at_nodes), area)
             }
@@ -321,6 +339,7 @@ impl Source<'_> {
     /// Mortar passes on any even pressure and needs no number, but compares two surfaces of deformable solids, with
     /// multipliers at nodes that can follow them. With a penalty, points are cheaper and no worse; nodes alone cannot carry
     /// an even pressure on some facets. Multipliers at points inside facets are more than there are nodes to follow them.
+    /// Against a rigid surface without facets, nodes take multipliers where they can follow, see [`rigid`].
     fn method(&self, part: &ContactPart, secondary: Option<&Facets>) -> Method {
         let penalty = matches!(part.enforcement, Enforcement::Penalty(_));
         let open = !penalty && !part.enforcement.is_curve();
@@ -468,6 +487,21 @@ fn measure(space: Idealisation) -> mortar::Measure {
     }
 }
 
+/// The closest point of a surface without facets, however far.
+fn closest_of_surface(
+    surface: &dyn ContactSurface,
+    at: &Placement,
+    x: Vec3,
+) -> Result<Option<Pair>, SurfaceError> {
+    let sight = Sight {
+        hint: None,
+        on: Closest::Anywhere,
+        reach: &|_| f64::INFINITY,
+        own: None,
+    };
+    discretization::projected::closest(surface, at, x, &[0], &sight)
+}
+
 /// The areas of some nodes, from those of all nodes in their order.
 fn of_points(points: &[NodeId], areas: &[(NodeId, f64)]) -> Vec<f64> {
     let of = |node: &NodeId| {
@@ -525,9 +559,9 @@ fn on_facet(rule: PointRule, element: Element) -> Vec<(Vec3, f64)> {
     quadrature::on_facet(element, &line)
 }
 
-fn law(part: &ContactPart, method: &Method) -> Result<Box<dyn ContactLaw>, ModelError> {
+fn law(part: &ContactPart, takes_multipliers: bool) -> Result<Box<dyn ContactLaw>, ModelError> {
     let law: Box<dyn ContactLaw> = match &part.enforcement {
-        Enforcement::Auto if method.takes_multipliers() => Box::new(Lagrange),
+        Enforcement::Auto if takes_multipliers => Box::new(Lagrange),
         Enforcement::Auto | Enforcement::Penalty(_) => Box::new(Penalty),
         Enforcement::Table(rows) => {
             Box::new(

@@ -305,6 +305,8 @@ pub struct ContactPart {
     pub start: StartPart,
     /// Distance up to which a closest point counts; `None`: chosen.
     pub reach: Option<f64>,
+    /// Whether pressures of mortar contact on quadratic triangles are smoothed in results; the equations know nothing of it.
+    pub smooths: bool,
     /// Whether it acts in the first step.
     pub active: bool,
 }
@@ -340,6 +342,7 @@ impl ContactPart {
             tie: None,
             start: StartPart::default(),
             reach: None,
+            smooths: false,
             active: true,
         }
     }

@@ -1,4 +1,4 @@
-//! Tractions at the nodes of quadratic triangles, as results tell them.
+//! Smoothed tractions at the nodes of quadratic triangles, for results that ask for them (`ContactPart::smooths`).
 //!
 //! What the equations know of a traction is `λ_j`, its mean over `Ñ_j`. Corners of quadratic triangles have no part in an
 //! even traction, `∫N_corner = 0`: what their `λ_j` are is left to what the mid nodes around them carry, and corners and
