@@ -9,6 +9,7 @@ mod large;
 mod laws;
 mod others;
 mod round_trip;
+mod ties;
 
 use common::{Run, relative, repository, run};
 use signorini::{Compat, Diagnostics, Loaded, Reading, build, load};
