@@ -577,6 +577,19 @@ impl Translation<'_> {
         Some(given.unwrap_or_else(one))
     }
 
+    /// The second line of *ORIENTATION: the number of a local axis, the first if it is not given, and the angle by which
+    /// all turn about it.
+    fn turn(&mut self, card: &Statement, row: &[Field<'_>]) -> Option<(usize, f64)> {
+        let axis = self.count(row.first(), 1);
+        let angle = self.real(row.get(1));
+        if !(1..=3).contains(&axis) {
+            let text = format!("*ORIENTATION turns about local axis {axis}");
+            self.error(&codes::OUT_OF_RANGE, text, &card.place, "1, 2 or 3");
+            return None;
+        }
+        Some((axis as usize - 1, angle))
+    }
+
     /// Axes of materials; nothing for those that are not supported, which have been told of.
     fn orientations(&mut self) -> BTreeMap<String, Option<Orientation>> {
         let mut all = BTreeMap::new();
@@ -588,12 +601,15 @@ impl Translation<'_> {
                 .get("SYSTEM")
                 .map(compared)
                 .is_some_and(|s| s.starts_with('C'));
-            let numbers: Vec<_> = card.rows().next().unwrap_or_default();
+            let mut rows = card.rows();
+            let numbers: Vec<_> = rows.next().unwrap_or_default();
             let [a, b, c, d, e, f] = self.reals(&numbers);
             let system = AxesSystem::Rectangular {
                 x: [a, b, c],
                 xy: [d, e, f],
             };
+            let turn = rows.next().filter(|row| !row.is_empty());
+            let turn = turn.and_then(|row| self.turn(card, &row));
             let orientation = if cylindrical {
                 let text = "cylindrical *ORIENTATION is not supported";
                 self.error(&codes::NOT_BUILT, text, &card.place, "");
@@ -603,15 +619,42 @@ impl Translation<'_> {
                 self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
                 None
             } else {
-                Some(Orientation {
+                let place = card.place.clone();
+                let plain = Orientation {
                     x: [a, b, c],
                     y: [d, e, f],
-                    place: card.place.clone(),
+                    place,
+                };
+                let axes = system.at(Vec3::ZERO).zip(turn);
+                Some(match axes {
+                    Some((axes, (axis, angle))) => turned(axes, axis, angle, plain.place),
+                    None => plain,
                 })
             };
             all.insert(compared(name), orientation);
         }
         all
+    }
+}
+
+/// Local axes that turn about one of themselves, counter-clockwise as seen from its tip; degrees.
+fn turned(axes: [Vec3; 3], axis: usize, angle: f64, place: Place) -> Orientation {
+    let about = axes.get(axis).copied().unwrap_or_default();
+    // quarter turns are exact
+    let quarters = (angle / 90.0).rem_euclid(4.0);
+    let (sin, cos) = match quarters {
+        0.0 => (0.0, 1.0),
+        1.0 => (1.0, 0.0),
+        2.0 => (0.0, -1.0),
+        3.0 => (-1.0, 0.0),
+        _ => angle.to_radians().sin_cos(),
+    };
+    let turn = |v: Vec3| v * cos + about.cross(v) * sin + about * (about.dot(v) * (1.0 - cos));
+    let [x, y, _] = axes.map(turn);
+    Orientation {
+        x: x.to_array(),
+        y: y.to_array(),
+        place,
     }
 }
 

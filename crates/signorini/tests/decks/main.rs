@@ -4,6 +4,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod axes;
 mod damaged;
 mod large;
 mod laws;
