@@ -6,6 +6,7 @@
 mod common;
 mod axes;
 mod damaged;
+mod doors;
 mod large;
 mod laws;
 mod others;
