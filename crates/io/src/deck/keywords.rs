@@ -50,7 +50,7 @@ const fn refused(name: &'static str, remark: &'static str) -> Keyword {
 pub const KEYWORDS: &[Keyword] = &[
     read(
         "AMPLITUDE",
-        "NAME, TIME=TOTAL TIME; linear between its rows",
+        "NAME, TIME=TOTAL TIME; linear between its rows; in steps, too",
     ),
     read("ASSEMBLY", "with END ASSEMBLY"),
     refused("BEAM GENERAL SECTION", "beams are not built"),

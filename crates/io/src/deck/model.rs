@@ -6,7 +6,7 @@ use crate::case::{
     Amplitude, AtNodes, AtPoint, AxesSystem, Body, Integration, Locking, MaterialChange, Model,
     Name, Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
 };
-use crate::diagnostic::{Place, Spanned, codes};
+use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -198,8 +198,10 @@ impl Translation<'_> {
         }
     }
 
+    /// Amplitudes, which may stand in a step, too.
     fn amplitudes(&mut self) {
-        for card in self.cards("AMPLITUDE") {
+        let cards = self.deck.statements.iter();
+        for card in cards.filter(|card| card.keyword == "AMPLITUDE") {
             let Some(name) = self.need(card, "NAME") else {
                 continue;
             };
@@ -228,7 +230,7 @@ impl Translation<'_> {
                 .get("TIME")
                 .map(compared)
                 .is_some_and(|t| t.starts_with("TOTAL"));
-            self.case.amplitudes.push(Amplitude {
+            let amplitude = Amplitude {
                 name: Spanned::new(name.to_owned(), card.place.clone()),
                 table,
                 time: if total {
@@ -236,8 +238,32 @@ impl Translation<'_> {
                 } else {
                     TimeBase::Step
                 },
-            });
+            };
+            if !self.is_defined(&amplitude) {
+                self.case.amplitudes.push(amplitude);
+            }
         }
+    }
+
+    /// Whether there is an amplitude of this name, which has to be the same.
+    fn is_defined(&mut self, again: &Amplitude) -> bool {
+        let mut known = self.case.amplitudes.iter();
+        let same_name = |one: &&Amplitude| compared(&one.name) == compared(&again.name);
+        let Some(first) = known.find(same_name) else {
+            return false;
+        };
+        if first.table != again.table || first.time != again.time {
+            let text = format!("amplitude `{}` is defined twice", again.name.value);
+            let twice = Diagnostic::error(&codes::NAME_TWICE, text)
+                .at(&again.name.place, "differently here")
+                .at(
+                    &first.name.place,
+                    "first here: CalculiX would take this one",
+                )
+                .help("remove one of them, or give it another name");
+            self.found.push(twice);
+        }
+        true
     }
 
     /// The name of an amplitude as the case has it.

@@ -2,13 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod axes;
 #[path = "../common/mod.rs"]
 mod common;
-mod axes;
 mod damaged;
 mod doors;
 mod large;
 mod laws;
+mod left_out;
 mod others;
 mod round_trip;
 mod ties;
