@@ -324,7 +324,9 @@ fn faults() -> Vec<(&'static str, Vec<u8>)> {
         ),
         text(
             "friction of what is joined",
-            contact("tied = true\nfriction = 0.3\nstart = { close_gaps_below = 0.1 }"),
+            contact(
+                "tied = true\nfriction = 0.3\nstart = { close_gaps_below = 0.1, clearance = 0.2 }",
+            ),
         ),
         text(
             "a joint that cannot pull",

@@ -443,9 +443,16 @@ impl Translation<'_> {
             let Some(at) = self.pair_of(card, &secondary, &primary) else {
                 continue;
             };
-            if let Some(contact) = self.case.contacts.get_mut(at) {
-                contact.start.clearance = Some(value);
+            let Some(contact) = self.case.contacts.get_mut(at) else {
+                continue;
+            };
+            if contact.tied.is_some() {
+                let text = "*CLEARANCE of a pair that is TIED is not supported";
+                let remark = "it would pull the sides apart or together: move the nodes instead";
+                self.error(&codes::NOT_BUILT, text, &card.place, remark);
+                continue;
             }
+            contact.start.clearance = Some(value);
         }
     }
 
@@ -603,6 +610,9 @@ impl Translation<'_> {
             let Some(contact) = self.case.contacts.get_mut(pair.contact) else {
                 continue;
             };
+            if contact.tied.is_some() {
+                continue;
+            }
             let first = self.case.steps.first();
             let mut changes = first.into_iter().flat_map(|step| &step.contacts);
             let change = changes.find(|change| change.name == contact.name);

@@ -50,7 +50,7 @@ const fn refused(name: &'static str, remark: &'static str) -> Keyword {
 pub const KEYWORDS: &[Keyword] = &[
     read(
         "AMPLITUDE",
-        "NAME, TIME=TOTAL TIME; linear between its rows",
+        "NAME, TIME=TOTAL TIME; linear between its rows; in steps, too",
     ),
     read("ASSEMBLY", "with END ASSEMBLY"),
     refused("BEAM GENERAL SECTION", "beams are not built"),
@@ -163,7 +163,7 @@ pub const KEYWORDS: &[Keyword] = &[
     ignored("NODE OUTPUT", "all fields are written anyway"),
     read("NODE PRINT", "U, RF, NT; TOTALS, FREQUENCY"),
     read("NSET", "GENERATE, ELSET"),
-    read("ORIENTATION", "rectangular"),
+    read("ORIENTATION", "rectangular, with a turn in its second line"),
     ignored("OUTPUT", "all fields are written anyway"),
     read("PART", ""),
     ignored("PHYSICAL CONSTANTS", "only of heat: temperatures are given"),

@@ -6,7 +6,7 @@ use crate::case::{
     Amplitude, AtNodes, AtPoint, AxesSystem, Body, Integration, Locking, MaterialChange, Model,
     Name, Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
 };
-use crate::diagnostic::{Place, Spanned, codes};
+use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -198,8 +198,10 @@ impl Translation<'_> {
         }
     }
 
+    /// Amplitudes, which may stand in a step, too.
     fn amplitudes(&mut self) {
-        for card in self.cards("AMPLITUDE") {
+        let cards = self.deck.statements.iter();
+        for card in cards.filter(|card| card.keyword == "AMPLITUDE") {
             let Some(name) = self.need(card, "NAME") else {
                 continue;
             };
@@ -228,7 +230,7 @@ impl Translation<'_> {
                 .get("TIME")
                 .map(compared)
                 .is_some_and(|t| t.starts_with("TOTAL"));
-            self.case.amplitudes.push(Amplitude {
+            let amplitude = Amplitude {
                 name: Spanned::new(name.to_owned(), card.place.clone()),
                 table,
                 time: if total {
@@ -236,8 +238,32 @@ impl Translation<'_> {
                 } else {
                     TimeBase::Step
                 },
-            });
+            };
+            if !self.is_defined(&amplitude) {
+                self.case.amplitudes.push(amplitude);
+            }
         }
+    }
+
+    /// Whether there is an amplitude of this name, which has to be the same.
+    fn is_defined(&mut self, again: &Amplitude) -> bool {
+        let mut known = self.case.amplitudes.iter();
+        let same_name = |one: &&Amplitude| compared(&one.name) == compared(&again.name);
+        let Some(first) = known.find(same_name) else {
+            return false;
+        };
+        if first.table != again.table || first.time != again.time {
+            let text = format!("amplitude `{}` is defined twice", again.name.value);
+            let twice = Diagnostic::error(&codes::NAME_TWICE, text)
+                .at(&again.name.place, "differently here")
+                .at(
+                    &first.name.place,
+                    "first here: CalculiX would take this one",
+                )
+                .help("remove one of them, or give it another name");
+            self.found.push(twice);
+        }
+        true
     }
 
     /// The name of an amplitude as the case has it.
@@ -577,6 +603,19 @@ impl Translation<'_> {
         Some(given.unwrap_or_else(one))
     }
 
+    /// The second line of *ORIENTATION: the number of a local axis, the first if it is not given, and the angle by which
+    /// all turn about it.
+    fn turn(&mut self, card: &Statement, row: &[Field<'_>]) -> Option<(usize, f64)> {
+        let axis = self.count(row.first(), 1);
+        let angle = self.real(row.get(1));
+        if !(1..=3).contains(&axis) {
+            let text = format!("*ORIENTATION turns about local axis {axis}");
+            self.error(&codes::OUT_OF_RANGE, text, &card.place, "1, 2 or 3");
+            return None;
+        }
+        Some((axis as usize - 1, angle))
+    }
+
     /// Axes of materials; nothing for those that are not supported, which have been told of.
     fn orientations(&mut self) -> BTreeMap<String, Option<Orientation>> {
         let mut all = BTreeMap::new();
@@ -588,12 +627,15 @@ impl Translation<'_> {
                 .get("SYSTEM")
                 .map(compared)
                 .is_some_and(|s| s.starts_with('C'));
-            let numbers: Vec<_> = card.rows().next().unwrap_or_default();
+            let mut rows = card.rows();
+            let numbers: Vec<_> = rows.next().unwrap_or_default();
             let [a, b, c, d, e, f] = self.reals(&numbers);
             let system = AxesSystem::Rectangular {
                 x: [a, b, c],
                 xy: [d, e, f],
             };
+            let turn = rows.next().filter(|row| !row.is_empty());
+            let turn = turn.and_then(|row| self.turn(card, &row));
             let orientation = if cylindrical {
                 let text = "cylindrical *ORIENTATION is not supported";
                 self.error(&codes::NOT_BUILT, text, &card.place, "");
@@ -603,15 +645,42 @@ impl Translation<'_> {
                 self.error(&codes::OUT_OF_RANGE, text, &card.place, "");
                 None
             } else {
-                Some(Orientation {
+                let place = card.place.clone();
+                let plain = Orientation {
                     x: [a, b, c],
                     y: [d, e, f],
-                    place: card.place.clone(),
+                    place,
+                };
+                let axes = system.at(Vec3::ZERO).zip(turn);
+                Some(match axes {
+                    Some((axes, (axis, angle))) => turned(axes, axis, angle, plain.place),
+                    None => plain,
                 })
             };
             all.insert(compared(name), orientation);
         }
         all
+    }
+}
+
+/// Local axes that turn about one of themselves, counter-clockwise as seen from its tip; degrees.
+fn turned(axes: [Vec3; 3], axis: usize, angle: f64, place: Place) -> Orientation {
+    let about = axes.get(axis).copied().unwrap_or_default();
+    // quarter turns are exact
+    let quarters = (angle / 90.0).rem_euclid(4.0);
+    let (sin, cos) = match quarters {
+        0.0 => (0.0, 1.0),
+        1.0 => (1.0, 0.0),
+        2.0 => (0.0, -1.0),
+        3.0 => (-1.0, 0.0),
+        _ => angle.to_radians().sin_cos(),
+    };
+    let turn = |v: Vec3| v * cos + about.cross(v) * sin + about * (about.dot(v) * (1.0 - cos));
+    let [x, y, _] = axes.map(turn);
+    Orientation {
+        x: x.to_array(),
+        y: y.to_array(),
+        place,
     }
 }
 

@@ -11,6 +11,9 @@ use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// How many further lines a note names.
+const LISTED: usize = 8;
+
 /// What a line of a card is about: a set of the mesh, or a single node or element by its number in the mesh.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Target {
@@ -106,16 +109,27 @@ impl<'d> Translation<'d> {
         })
     }
 
-    /// Names cards that are left out, and refuses those that are not built or not known.
+    /// Names cards that are left out and what of others is not read, once each with all places, and refuses those that
+    /// are not built or not known.
     pub fn judge(&mut self) {
         let mut told = BTreeSet::new();
+        let mut unread: BTreeMap<String, Vec<&Place>> = BTreeMap::new();
         for card in &self.deck.statements {
             match Keyword::of(&card.keyword) {
-                Some(known) if known.support == Support::Read => {}
+                Some(known) if known.support == Support::Read => {
+                    let mut add = |text| unread.entry(text).or_default().push(&card.place);
+                    if card.is_unread() {
+                        add(format!("*{} is left out: it is not read here", known.name));
+                        continue;
+                    }
+                    for name in card.unread() {
+                        add(format!("{name} of *{} is not read", known.name));
+                    }
+                }
                 Some(known) if known.support == Support::Ignored => {
-                    if !known.remark.is_empty() && told.insert(known.name) {
+                    if !known.remark.is_empty() {
                         let text = format!("*{} is left out: {}", known.name, known.remark);
-                        self.note(text, &card.place);
+                        unread.entry(text).or_default().push(&card.place);
                     }
                 }
                 Some(known) => {
@@ -133,6 +147,37 @@ impl<'d> Translation<'d> {
                 }
             }
         }
+        for (text, places) in unread {
+            self.note_at(text, &places);
+        }
+    }
+
+    /// A note on something that has no effect, at its first place, with the lines of the others.
+    fn note_at(&mut self, text: String, places: &[&Place]) {
+        let Some((first, others)) = places.split_first() else {
+            return;
+        };
+        let mut note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text).at(first, "");
+        let of = first.get().map(|(file, _)| file.name());
+        let line = |place: &&Place| {
+            let (file, range) = place.get()?;
+            let number = file.line_index(range.start) + 1;
+            Some(match of == Some(file.name()) {
+                true => number.to_string(),
+                false => format!("{number} of {}", file.name()),
+            })
+        };
+        let mut lines: Vec<String> = others.iter().filter_map(line).collect();
+        if !lines.is_empty() {
+            let nleft = lines.len().saturating_sub(LISTED);
+            lines.truncate(LISTED);
+            let more = match nleft {
+                0 => String::new(),
+                count => format!(" and {count} more"),
+            };
+            note = note.note(format!("also in lines {}{more}", lines.join(", ")));
+        }
+        self.found.push(note);
     }
 
     pub fn error(

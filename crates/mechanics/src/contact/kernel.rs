@@ -331,6 +331,7 @@ impl<'a> Laws<'a> {
     fn bonded(&self, row: &Row, lambda: &Lambda) -> Traction {
         let stretched = match self.law.multiplier() {
             Multiplier::Direct => lambda.vector,
+            _ if row.sliding.free => lambda.vector,
             _ => lambda.vector + self.stretched(row, row.sliding.slip),
         };
         let along = stretched.dot(row.normal);
@@ -522,6 +523,7 @@ impl<'a> Laws<'a> {
         let sliding = &row.sliding;
         let stretched = |e: Vec3| match self.law.multiplier() {
             Multiplier::Direct => Vec3::ZERO,
+            _ if sliding.free => Vec3::ZERO,
             _ => self.stretched(row, e),
         };
         let traction = lambda.vector + stretched(sliding.slip);

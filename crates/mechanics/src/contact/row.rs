@@ -78,7 +78,8 @@ pub struct Sliding {
     pub dnormal: Vec<Vec3>,
     /// B: the force at a column is `B·t`.
     pub operator: Vec<Vec3>,
-    /// Whether it slides without friction, for want of a place where it could stick.
+    /// Whether it slides without friction, for want of a place where it could stick; of a bond, whether its multiplier alone
+    /// acts, since other rows say where it is.
     pub free: bool,
     /// Directions along which both sides are held, as by a plane of symmetry: nothing rubs there.
     pub held: [bool; 3],

@@ -354,6 +354,7 @@ impl Stepper {
         }
         for term in &mut system.terms {
             term.hold(&held);
+            term.prescribe(prescribed);
         }
         self.newton.analyzed = false;
         Ok(())

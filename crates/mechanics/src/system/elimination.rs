@@ -282,6 +282,12 @@ impl Elimination {
             .is_none_or(|c| self.pulls.get(c as usize).copied().unwrap_or(false))
     }
 
+    /// The dofs that a dof is a combination of, with their coefficients: itself where it depends on nothing. What turning
+    /// carriers contribute is not among them.
+    pub fn combination(&self, dof: Dof, out: &mut impl FnMut(Dof, f64)) {
+        self.linear(dof, 1.0, out);
+    }
+
     /// The increment of a dof that follows no carrier.
     pub(super) fn increment(&self, dof: Dof, du: &[f64]) -> f64 {
         let mut value = 0.0;

@@ -2,13 +2,17 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod axes;
 #[path = "../common/mod.rs"]
 mod common;
 mod damaged;
+mod doors;
 mod large;
 mod laws;
+mod left_out;
 mod others;
 mod round_trip;
+mod ties;
 
 use common::{Run, relative, repository, run};
 use signorini::{Compat, Diagnostics, Loaded, Reading, build, load};

@@ -254,8 +254,10 @@ impl Builder {
             ),
             (
                 "start",
-                fields.has("start"),
-                "say it by  tied = { offset, within }",
+                ["clearance", "interference"]
+                    .iter()
+                    .any(|key| fields.table("start").has(key)),
+                "gaps may be closed; all else is said by  tied = { offset, within }",
             ),
             (
                 "enforcement",

@@ -69,8 +69,9 @@ pub(super) fn contact(contact: &Contact) -> Entries {
         }
         Method::Auto | Method::NodeToSegment => {}
     }
-    if contact.tied.is_none() {
-        entries.push(("start", start(&contact.start)));
+    match contact.tied {
+        None => entries.push(("start", start(&contact.start))),
+        Some(_) => entries.extend(closing(&contact.start).map(|start| ("start", start))),
     }
     entries
 }
@@ -186,6 +187,16 @@ fn tied(tied: &Tied) -> Value {
     let tangential = tied.penalty_tangential;
     entries.extend(tangential.map(|penalty| ("penalty_tangential", penalty.into())));
     Value::Table(entries)
+}
+
+/// What is closed at the start, of sides that are joined; nothing where nothing is.
+fn closing(start: &Start) -> Option<Value> {
+    let below = Some(start.close_gaps_below).filter(|below| *below != 0.0);
+    let below = below.map(|below| ("close_gaps_below", below.into()));
+    let of = start.close_gaps_of.as_ref();
+    let of = of.map(|of| ("close_gaps_of", (&of.value).into()));
+    let entries: Entries = below.into_iter().chain(of).collect();
+    (!entries.is_empty()).then_some(Value::Table(entries))
 }
 
 fn start(start: &Start) -> Value {

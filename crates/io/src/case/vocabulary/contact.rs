@@ -330,8 +330,8 @@ static START: Table = Table {
         ),
         key(
             "clearance",
-            Shape::Either(&[Shape::Choice(&[word("measured")]), NOT_NEGATIVE]),
-            "gaps are taken to be this, whatever the mesh says",
+            Shape::Either(&[Shape::Choice(&[word("measured")]), ANY]),
+            "gaps are taken to be this, whatever the mesh says; negative: overlaps",
         )
         .or(Default::Text("measured")),
         key(

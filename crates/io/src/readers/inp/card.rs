@@ -3,13 +3,40 @@
 use super::lines::{Lines, Spot};
 use crate::readers::MeshError;
 use crate::readers::error::excerpt;
+use std::cell::Cell;
+
+/// A parameter of a card.
+#[derive(Clone, Debug)]
+pub(super) struct Parameter {
+    /// In capitals and without blanks.
+    pub name: String,
+    /// As written; empty where it has none.
+    pub value: String,
+    /// Whether anybody has asked for it.
+    asked: Cell<bool>,
+}
+
+impl Parameter {
+    /// The value of one of these, which is known to be asked for from now on.
+    pub fn find<'p>(all: &'p [Self], name: &str) -> Option<&'p str> {
+        let found = all.iter().find(|one| one.name == name)?;
+        found.asked.set(true);
+        Some(&found.value)
+    }
+
+    /// The names of those that nobody has asked for.
+    pub fn unread(all: &[Self]) -> impl Iterator<Item = &str> {
+        let unread = all.iter().filter(|one| !one.asked.get());
+        unread.map(|one| one.name.as_str())
+    }
+}
 
 /// A keyword with its parameters.
 pub(super) struct Card {
     /// In capitals, without star and blanks.
     pub keyword: String,
-    /// In capitals and without blanks, with their values as written.
-    pub parameters: Vec<(String, String)>,
+    /// In their order.
+    pub parameters: Vec<Parameter>,
     /// Its line.
     pub spot: Spot,
     /// As it stands there.
@@ -34,7 +61,11 @@ impl Card {
         let parameter = |field| {
             let field = text(field);
             let (name, value) = field.split_once('=').unwrap_or((&field, ""));
-            (key(name), value.trim().trim_matches('"').to_owned())
+            Parameter {
+                name: key(name),
+                value: value.trim().trim_matches('"').to_owned(),
+                asked: Cell::new(false),
+            }
         };
         let parameters = fields.filter(|f| !f.is_empty()).map(parameter).collect();
         Self {
@@ -47,8 +78,7 @@ impl Card {
 
     /// The value of a parameter as it was written; empty where it has none.
     pub fn get(&self, name: &str) -> Option<&str> {
-        let found = self.parameters.iter().find(|(known, _)| known == name);
-        found.map(|(_, value)| value.as_str())
+        Parameter::find(&self.parameters, name)
     }
 
     /// The value of a parameter that must be there.

@@ -1,6 +1,6 @@
 //! What a deck says, card by card, before any number or name in it is looked up.
 
-use super::card::{Card, Fields, key, not_a_number, real, text, whole};
+use super::card::{Card, Fields, Parameter, key, not_a_number, real, text, whole};
 use super::kind::{Kind, supported};
 use super::lines::{Files, Lines, Spot};
 use super::statement::Statement;
@@ -28,6 +28,9 @@ const REFUSED: [(&str, &str); 10] = [
     ),
     ("PARAMETER", "write numbers in place of its names"),
 ];
+/// Parameters with which Abaqus/CAE marks sets of its own, and order that no set here has.
+const INTERNAL: [&str; 2] = ["INTERNAL", "UNSORTED"];
+
 const GENERATED: &str =
     "it makes nodes or elements out of others; export the deck with all of them written out";
 
@@ -175,6 +178,7 @@ pub(super) fn read(files: &Files<'_>, whole: bool) -> Result<Deck> {
         here: 0,
         open: None,
         step: None,
+        unread: BTreeMap::new(),
     };
     reader.cards()?;
     Ok(reader.deck)
@@ -194,6 +198,8 @@ struct Reader<'f> {
     open: Option<(&'static str, Spot)>,
     /// The step that is open.
     step: Option<Spot>,
+    /// Parameters of cards of the mesh that nobody asks for, by keyword and name.
+    unread: BTreeMap<(String, String), Vec<Spot>>,
 }
 
 impl Reader<'_> {
@@ -219,6 +225,9 @@ impl Reader<'_> {
             )),
             _ => {}
         }
+        if self.whole {
+            self.note_unread();
+        }
         if let Some((keyword, spot)) = self.open {
             return Err(MeshError::Truncated {
                 place: self.lines.place_of(spot),
@@ -237,14 +246,21 @@ impl Reader<'_> {
     }
 
     fn card(&mut self, card: &Card) -> Result<()> {
+        let of_mesh = match card.keyword.as_str() {
+            "NODE" => Some(self.nodes(card)),
+            "ELEMENT" => Some(self.elements(card)),
+            "NSET" => Some(self.set(card, Family::Nodes)),
+            "ELSET" => Some(self.set(card, Family::Cells)),
+            "SURFACE" => Some(self.surface(card)),
+            "PART" => Some(self.part(card)),
+            "INSTANCE" => Some(self.instance(card)),
+            _ => None,
+        };
+        if let Some(done) = of_mesh {
+            self.gather_unread(card);
+            return done;
+        }
         match card.keyword.as_str() {
-            "NODE" => return self.nodes(card),
-            "ELEMENT" => return self.elements(card),
-            "NSET" => return self.set(card, Family::Nodes),
-            "ELSET" => return self.set(card, Family::Cells),
-            "SURFACE" => return self.surface(card),
-            "PART" => return self.part(card),
-            "INSTANCE" => return self.instance(card),
             "ENDPART" => self.close(card, "PART")?,
             "ENDINSTANCE" => self.close(card, "INSTANCE")?,
             "INCLUDE" => {
@@ -264,6 +280,31 @@ impl Reader<'_> {
         }
         self.skip();
         Ok(())
+    }
+
+    /// Takes down what a card of the mesh says and nobody has asked for.
+    fn gather_unread(&mut self, card: &Card) {
+        for name in Parameter::unread(&card.parameters).filter(|name| !INTERNAL.contains(name)) {
+            let of = (card.keyword.clone(), name.to_owned());
+            self.unread.entry(of).or_default().push(card.spot);
+        }
+    }
+
+    /// One note for each parameter that was not read, with the first of its lines.
+    fn note_unread(&mut self) {
+        for ((keyword, name), spots) in std::mem::take(&mut self.unread) {
+            let Some((first, others)) = spots.split_first() else {
+                continue;
+            };
+            let more = match others.len() {
+                0 => String::new(),
+                1 => ", and once more below".to_owned(),
+                count => format!(", and {count} times more below"),
+            };
+            let place = self.lines.place_of(*first);
+            let note = format!("{place}: {name} of *{keyword} is not read{more}");
+            self.deck.notes.push(note);
+        }
     }
 
     fn skip(&mut self) {

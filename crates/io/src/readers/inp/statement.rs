@@ -1,9 +1,10 @@
 //! Cards that say something else than the mesh: kept with their data, and with the places of both.
 
-use super::card::{Card, Fields, real, text, whole};
+use super::card::{Card, Fields, Parameter, real, text, whole};
 use super::compared;
 use super::lines::{Lines, Spot};
 use crate::diagnostic::{Place, SourceFile};
+use std::cell::Cell;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -16,8 +17,10 @@ pub struct Statement {
     pub place: Place,
     /// The spaces whose numbers and names it means: see [`super::Directory`].
     pub scope: usize,
-    parameters: Vec<(String, String)>,
+    parameters: Vec<Parameter>,
     rows: Vec<Row>,
+    /// Whether anybody has looked at it.
+    seen: Cell<bool>,
 }
 
 /// A data line.
@@ -79,14 +82,15 @@ impl Statement {
             scope,
             parameters: card.parameters.clone(),
             rows: rows.collect(),
+            seen: Cell::new(false),
         }
     }
 
     /// The value of a parameter as it was written; empty where it has none.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&str> {
-        let found = self.parameters.iter().find(|(known, _)| known == name);
-        found.map(|(_, value)| value.as_str())
+        self.seen.set(true);
+        Parameter::find(&self.parameters, name)
     }
 
     /// Whether a parameter is there.
@@ -97,11 +101,24 @@ impl Statement {
 
     /// The names of its parameters, in capitals and without blanks.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.parameters.iter().map(|(name, _)| name.as_str())
+        self.parameters.iter().map(|one| one.name.as_str())
+    }
+
+    /// The names of parameters that nobody has asked for so far.
+    pub fn unread(&self) -> impl Iterator<Item = &str> {
+        Parameter::unread(&self.parameters)
+    }
+
+    /// Whether it says something, and nobody has looked at that so far.
+    #[must_use]
+    pub fn is_unread(&self) -> bool {
+        let says = !self.rows.is_empty() || !self.parameters.is_empty();
+        says && !self.seen.get()
     }
 
     /// The fields of each data line; those at the end that are empty are left out.
     pub fn rows(&self) -> impl Iterator<Item = Vec<Field<'_>>> {
+        self.seen.set(true);
         self.rows.iter().map(|row| {
             let line = row.text();
             let fields = Fields::of(line.as_bytes()).map(|field| {
@@ -122,6 +139,7 @@ impl Statement {
 
     /// Its data lines as they stand there.
     pub fn lines(&self) -> impl Iterator<Item = &str> {
+        self.seen.set(true);
         self.rows.iter().map(Row::text)
     }
 }

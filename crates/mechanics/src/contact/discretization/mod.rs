@@ -230,6 +230,9 @@ pub trait Discretization: Send + Sync {
         end.saturating_sub(self.point(row).nodes.len())..end
     }
 
+    /// Rows of the nodes that facets around the node of a row share with it, appended; none where rows act at points.
+    fn adjacent(&self, _row: usize, _pair: &SurfacePair, _out: &mut Vec<usize>) {}
+
     /// Nodes of the secondary side without a row of their own that a row speaks for.
     fn guests(&self, _row: usize, _pair: &SurfacePair, _pairing: &Pairing, _out: &mut Vec<NodeId>) {
     }

@@ -2,6 +2,7 @@
 
 mod drift;
 mod history;
+mod lent;
 mod pairing;
 mod passing;
 mod report;
@@ -18,6 +19,7 @@ use crate::system::{
     StepContext, Symmetry, Term, TermError, Verdict, Work,
 };
 use history::History;
+use lent::Lents;
 pub use pairing::closest_points;
 use pairing::{Coupled, Near};
 use signorini_geometry::mesh::NodeId;
@@ -208,6 +210,8 @@ pub struct Interface {
     step: StepContext,
     /// Unknowns that stay where they are in this step.
     held: Vec<bool>,
+    /// Rows of a joint whose nodes cannot follow lend their functions to others.
+    lents: Lents,
     /// The step in which it acts first.
     first_step: Option<StepContext>,
     /// What overlaps at the start of the increment and is allowed for; empty where nothing is.
@@ -245,6 +249,8 @@ struct Scratch {
     dofs: Vec<Dof>,
     force: Vec<f64>,
     stiffness: Vec<f64>,
+    /// Where stiffness is spread over more multipliers.
+    spread: Vec<f64>,
     derivatives: Derivatives,
 }
 
@@ -276,6 +282,7 @@ impl Interface {
             wanted: Coupled::default(),
             step: StepContext::default(),
             held: Vec::new(),
+            lents: Lents::default(),
             first_step: None,
             allowed: Allowed::default(),
             changes: vec![0; nrow],
@@ -337,25 +344,26 @@ impl Interface {
         if n == 0 {
             return self.history.lambda(row);
         }
-        let value = |c: usize| {
-            let dof = self
-                .layout
-                .multiplier(self.parts.first_multiplier + n * row + c);
-            trial.u.get(dof as usize).copied().unwrap_or_default()
-        };
+        let mut lambda = Lambda::default();
         if self.parts.has_vectors() {
-            let mut vector = Vec3::ZERO;
-            (0..n).for_each(|c| vector[c] = value(c));
-            Lambda {
-                scalar: 0.0,
-                vector,
-            }
+            let own = |row: usize| self.own_multiplier(row, trial);
+            lambda.vector = self.lents.effective(row, &own);
         } else {
-            Lambda {
-                scalar: value(0),
-                vector: Vec3::ZERO,
-            }
+            lambda.scalar = self.own_multiplier(row, trial).x;
         }
+        lambda
+    }
+
+    /// The unknowns of a row that are multipliers.
+    fn own_multiplier(&self, row: usize, trial: &State) -> Vec3 {
+        let n = self.nmultiplier();
+        let first = self.parts.first_multiplier + n * row;
+        let mut own = Vec3::ZERO;
+        for c in 0..n {
+            let dof = self.layout.multiplier(first + c);
+            own[c] = trial.u.get(dof as usize).copied().unwrap_or_default();
+        }
+        own
     }
 
     /// The unknowns behind the multiplier columns of a row: three where it is a traction, in the plane too.
@@ -505,6 +513,10 @@ impl Term for Interface {
         self.held.extend_from_slice(held);
     }
 
+    fn prescribe(&mut self, prescribed: &[bool]) {
+        self.lents.prescribe(prescribed);
+    }
+
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
         let at = from.placement();
         if !self.parts.pair.sizes.primary.is_empty() {
@@ -531,6 +543,7 @@ impl Term for Interface {
             self.let_go();
             self.search(&at).map_err(|e| self.failed(&e))?;
         }
+        self.sees_others |= self.lend(from)?;
         self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.measure_what_bears(&at).map_err(|e| self.failed(&e))?;
         self.allow_for_overlaps(from, renews || first)?;

@@ -327,6 +327,10 @@ impl Interface {
             let coupled = self.coupled.row(row);
             of_row.clear();
             self.multiplier_dofs(row, &mut of_row);
+            let hosts = self.lents.of(row).map_or(&[][..], |lent| &lent.hosts);
+            for &(host, _) in hosts {
+                self.multiplier_dofs(host, &mut of_row);
+            }
             of_row.retain(|&d| d != NO_DOF);
             if coupled.is_empty() {
                 if !of_row.is_empty() {

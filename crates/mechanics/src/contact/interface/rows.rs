@@ -117,11 +117,13 @@ impl Interface {
         } else {
             [false; 3]
         };
+        let lends = self.lents.of(row).is_some();
         if let Some(row) = rows.rows_mut().first_mut() {
             row.gap += shift;
             row.sliding.held = held;
             if laws.bond {
                 row.sliding.slip += row.normal * shift;
+                row.sliding.free = lends;
             }
         }
         Ok(())
@@ -211,6 +213,12 @@ impl Interface {
         self.add_forces(row, trial, order, scratch);
         scratch.rows.dofs(&self.layout, &mut scratch.dofs);
         self.multiplier_dofs(row, &mut scratch.dofs);
+        if let Some(lent) = self.lents.of(row) {
+            self.spread(row, lent, self.own_multiplier(row, trial), scratch);
+            for &(host, _) in &lent.hosts {
+                self.multiplier_dofs(host, &mut scratch.dofs);
+            }
+        }
         out.add(&scratch.dofs, &scratch.force, &scratch.stiffness);
         let rounding = self.rounding(&scratch.rows, trial);
         out.uncertain(&scratch.dofs[..ncolumn], rounding);
@@ -264,14 +272,9 @@ impl Interface {
     ) {
         let n = self.ncolumn_of_multiplier();
         let slope = -self.measure(row) / self.parts.scale.penalty;
-        let lambda = self.lambda(row, trial);
+        let lambda = self.own_multiplier(row, trial);
         scratch.force.clear();
-        match n {
-            1 => scratch.force.push(slope * lambda.scalar),
-            _ => scratch
-                .force
-                .extend((0..n).map(|c| slope * lambda.vector[c])),
-        }
+        scratch.force.extend((0..n).map(|c| slope * lambda[c]));
         scratch.stiffness.clear();
         if order == Order::Tangent {
             scratch.stiffness.resize(n * n, 0.0);

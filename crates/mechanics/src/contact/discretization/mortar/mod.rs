@@ -821,6 +821,20 @@ impl Discretization for Mortar {
         }
     }
 
+    fn adjacent(&self, row: usize, pair: &SurfacePair, out: &mut Vec<usize>) {
+        let Some(facets) = &pair.secondary else {
+            return;
+        };
+        for &(facet, _) in self.around.get(row).into_iter().flatten() {
+            let on = self.rows.get(facet as usize).map_or(&[][..], |rows| rows);
+            for &other in on.iter().take(facets.nodes(facet).len()) {
+                if other != row && !out.contains(&other) {
+                    out.push(other);
+                }
+            }
+        }
+    }
+
     fn more_nodes<'a>(&'a self, row: usize, pairing: &'a Pairing) -> &'a [NodeId] {
         match self.weights(pairing).rows.get(row) {
             Some(of) => &of.nodes[..of.nsecondary],

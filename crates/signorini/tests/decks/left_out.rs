@@ -1,0 +1,109 @@
+//! What a deck says and nobody reads is named, once, with all its places; what it says twice and differently is an error.
+
+use signorini::{Diagnostics, Reading, load};
+
+/// A cube that is pulled, with more cards in the model and in the step.
+fn deck(model: &str, step: &str) -> String {
+    format!(
+        "*NODE, NSET=NALL\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n\
+         *ELEMENT, TYPE=C3D8, ELSET=B\n1,1,2,3,4,5,6,7,8\n*NSET, NSET=FOOT\n1,2,3,4\n\
+         *MATERIAL, NAME=M\n*ELASTIC\n210000,0.3\n*SOLID SECTION, ELSET=B, MATERIAL=M\n{model}\
+         *BOUNDARY\nFOOT,1,3\n*STEP\n*STATIC\n{step}*END STEP\n"
+    )
+}
+
+fn read(text: &str) -> (Diagnostics, bool) {
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("deck.inp");
+    std::fs::write(&path, text).unwrap();
+    match load(&path, &Reading::default()) {
+        Ok(loaded) => (loaded.warnings, true),
+        Err(found) => (found, false),
+    }
+}
+
+#[test]
+fn a_plain_deck_has_no_such_notes() {
+    let (found, is_read) = read(&deck("", "*CLOAD\n5, 3, 1.\n"));
+    let notes = found.plain();
+    let says_so = notes.contains("is not read") || notes.contains("is left out");
+    assert!(is_read && !says_so, "{notes}");
+}
+
+#[test]
+fn parameters_that_nobody_reads_are_named_once_with_all_lines() {
+    let model = "*NSET, NSET=HEAD, COLOUR=RED\n5,6,7,8\n*NSET, NSET=TIP, COLOUR=BLUE\n5\n";
+    let step = "*CLOAD, FOLLOWER\n5, 3, 1.\n*CLOAD, FOLLOWER\n6, 3, 1.\n*CLOAD, FOLLOWER, AMPLITUD=A\n7, 3, 1.\n";
+    let (found, is_read) = read(&deck(model, step));
+    let notes = found.plain();
+    assert!(is_read, "{notes}");
+    assert_eq!(
+        notes.matches("FOLLOWER of *CLOAD is not read").count(),
+        1,
+        "{notes}"
+    );
+    assert!(notes.contains("also in lines 28, 30"), "{notes}");
+    assert_eq!(
+        notes.matches("AMPLITUD of *CLOAD is not read").count(),
+        1,
+        "{notes}"
+    );
+    assert_eq!(
+        notes
+            .matches("COLOUR of *NSET is not read, and once more below")
+            .count(),
+        1,
+        "{notes}"
+    );
+}
+
+#[test]
+fn cards_that_have_no_effect_are_named_once_with_all_lines() {
+    let step = "*NODE FILE\nU\n*EL FILE\nS\n*NODE FILE\nRF\n";
+    let notes = read(&deck("", step)).0.plain();
+    assert_eq!(
+        notes.matches("*NODE FILE is left out").count(),
+        1,
+        "{notes}"
+    );
+    assert_eq!(notes.matches("*EL FILE is left out").count(), 1, "{notes}");
+    assert!(notes.contains("also in lines 26"), "{notes}");
+}
+
+#[test]
+fn cards_that_stand_where_they_are_not_read_are_named() {
+    let (found, is_read) = read(&deck("", "*TIE, NAME=T\nA, B\n"));
+    let notes = found.plain();
+    assert!(
+        is_read && notes.contains("*TIE is left out: it is not read here"),
+        "{notes}"
+    );
+}
+
+#[test]
+fn an_amplitude_that_is_defined_twice_is_an_error_with_both_lines() {
+    let first = "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n";
+    let load = "*CLOAD, AMPLITUDE=A\n5, 3, 1.\n";
+    let other = "*AMPLITUDE, NAME=a\n0., 0., 1., 3.\n";
+    for (model, step) in [
+        (format!("{first}{other}"), load.to_owned()),
+        (first.to_owned(), format!("{other}{load}")),
+        (
+            first.to_owned(),
+            format!("*AMPLITUDE, NAME=A, TIME=TOTAL TIME\n0., 0., 1., 1.\n{load}"),
+        ),
+    ] {
+        let (found, is_read) = read(&deck(&model, &step));
+        let notes = found.plain();
+        assert!(!is_read && notes.contains("is defined twice"), "{notes}");
+        assert!(
+            notes.contains("18 │") && notes.contains("first here"),
+            "{notes}"
+        );
+    }
+    let (found, is_read) = read(&deck(&format!("{first}{first}"), load));
+    assert!(is_read, "{}", found.plain());
+    // in a step it is as good as before
+    let (found, is_read) = read(&deck("", &format!("{first}{load}")));
+    assert!(is_read, "{}", found.plain());
+}
