@@ -46,6 +46,7 @@
 //! *Computational Contact Mechanics*, 2013, chapters 2 to 4; Bærentzen and Aanæs, IEEE TVCG 11, 2005 (pseudonormals).
 
 mod analytical;
+mod bent;
 mod cone;
 mod cylinder;
 mod facets;
@@ -61,6 +62,7 @@ mod torus;
 mod triangulated;
 
 pub use analytical::{Analytical, AnalyticalError, Patch, Shape, Side};
+pub use bent::Bent;
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use facets::{Facets, FacetsError};
