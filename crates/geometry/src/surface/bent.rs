@@ -76,8 +76,9 @@ const SWEEPS: usize = 6;
 const ROUNDING: f64 = 1e-14;
 
 /// The rise of a surface above its straight facets.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Bent {
+    facets: Facets,
     /// Of each facet, s_ab at both ends of its edges, in their order.
     slopes: Vec<[[f64; 2]; CORNERS]>,
 }
@@ -92,14 +93,30 @@ impl Bent {
             1 => nfacet.map(|facet| shape.of_line(facet)).collect(),
             _ => shape.of_faces(),
         };
-        Self { slopes }
+        Self {
+            facets: facets.clone(),
+            slopes,
+        }
+    }
+
+    /// The facets.
+    #[must_use]
+    pub fn facets(&self) -> &Facets {
+        &self.facets
+    }
+
+    /// Whether no facet rises by more than rounding.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        let x = self.slopes.as_flattened().as_flattened();
+        x.iter().all(|s| *s == 0.0)
     }
 
     /// δ at a point of a facet, along the outward normal.
     #[must_use]
-    pub fn rise(&self, facets: &Facets, facet: u32, local: Vec3) -> f64 {
+    pub fn rise(&self, facet: u32, local: Vec3) -> f64 {
         let (Some(slopes), Some(element)) =
-            (self.slopes.get(facet as usize), facets.element(facet))
+            (self.slopes.get(facet as usize), self.facets.element(facet))
         else {
             return 0.0;
         };
@@ -125,8 +142,8 @@ impl Bent {
 
     /// The largest |δ| of a facet, as far as its centre and the middles of its edges show it.
     #[must_use]
-    pub fn sagitta(&self, facets: &Facets, facet: u32) -> f64 {
-        let Some(element) = facets.element(facet) else {
+    pub fn sagitta(&self, facet: u32) -> f64 {
+        let Some(element) = self.facets.element(facet) else {
             return 0.0;
         };
         let nodes = element.nodes();
@@ -135,7 +152,7 @@ impl Bent {
             .iter()
             .map(|&[a, b]| (nodes[a] + nodes[b]) * 0.5);
         let points = middles.chain([element.centre()]);
-        let rises = points.map(|local| self.rise(facets, facet, local).abs());
+        let rises = points.map(|local| self.rise(facet, local).abs());
         rises.fold(0.0, f64::max)
     }
 }

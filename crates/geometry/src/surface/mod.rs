@@ -58,6 +58,7 @@ mod signed_distance;
 mod sphere;
 #[cfg(test)]
 mod tests;
+mod thickness;
 mod torus;
 mod triangulated;
 
@@ -72,6 +73,7 @@ pub use polynomial::{Facing, MAX_DEGREE, Polynomial};
 pub use projection::{extended_edge, extended_face};
 pub use signed_distance::{SignedDistance, UserFunction};
 pub use sphere::Sphere;
+pub use thickness::Outline;
 pub use torus::Torus;
 pub use triangulated::Triangulated;
 

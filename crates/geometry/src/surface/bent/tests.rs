@@ -67,7 +67,7 @@ fn errors(facets: &Facets, x: &[Vec3], outside: impl Fn(Vec3) -> f64) -> [f64; 2
                 local: *local,
             };
             facets.jet(&at, &anchor, &mut jet).unwrap();
-            let rise = bent.rise(facets, facet, *local);
+            let rise = bent.rise(facet, *local);
             error = error.max(outside(jet.position + jet.normal * rise).abs());
             due = due.max(outside(jet.position).abs());
         }
@@ -104,7 +104,7 @@ fn a_disc_of_twelve_sides_is_round_and_a_block_is_not() {
     assert!(error < 0.015 * due, "{error:e} of {due:e}");
     let (facets, x) = polyline(&ring(8, 0.5), 0.1, true);
     let bent = Bent::new(&facets, &x);
-    assert!((0..8).all(|f| bent.sagitta(&facets, f) == 0.0));
+    assert!((0..8).all(|f| bent.sagitta(f) == 0.0));
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn flat_faces_and_sides_of_edges_do_not_rise() {
     for surface in [&flat as &dyn Fn(f64, f64) -> (Vec3, Vec3), &roof] {
         let (facets, x) = grid(&us, &us, surface);
         let bent = Bent::new(&facets, &x);
-        let most = (0..facets.nfacet() as u32).map(|f| bent.sagitta(&facets, f));
+        let most = (0..facets.nfacet() as u32).map(|f| bent.sagitta(f));
         assert!(most.fold(0.0, f64::max) < 1e-14);
     }
 }
@@ -216,10 +216,10 @@ fn rises_vanish_at_corners_and_agree_along_shared_edges() {
         let element = facets.element(facet).unwrap();
         let (nodes, local) = (facets.nodes(facet), element.nodes());
         for (k, &at) in local.iter().enumerate() {
-            assert!(bent.rise(&facets, facet, at).abs() < 1e-15, "{k}");
+            assert!(bent.rise(facet, at).abs() < 1e-15, "{k}");
         }
         for &[a, b] in element.edges() {
-            let rise = bent.rise(&facets, facet, (local[a] + local[b]) * 0.5);
+            let rise = bent.rise(facet, (local[a] + local[b]) * 0.5);
             let key = [nodes[a].min(nodes[b]), nodes[a].max(nodes[b])];
             middles.entry(key).or_default().push(rise);
         }

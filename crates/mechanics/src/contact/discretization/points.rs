@@ -3,7 +3,7 @@
 
 use super::cut::{Cutter, FacetPoints};
 use super::projected::{Closest, Place, Point, closest};
-use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
+use super::{Anchored, BentSides, Discretization, Links, Pair, Pairing, SurfacePair};
 use crate::contact::row::{RowOrder, Rows, Wanted};
 use rayon::prelude::*;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
@@ -364,6 +364,25 @@ impl Discretization for PointToSegment {
             bond: links.bond,
         };
         place.fill(row, wanted, out)
+    }
+
+    fn rises(
+        &self,
+        _: &SurfacePair,
+        _: &Placement,
+        pairing: &Pairing,
+        bent: &BentSides,
+    ) -> Result<Vec<f64>, SurfaceError> {
+        let own = |row: usize| {
+            let point = self.inside.as_ref()?.get(row)?;
+            Some(bent.of_secondary(point.facet, point.xi))
+        };
+        let rise = |(row, pair): (usize, &Option<Pair>)| {
+            pair.map_or(0.0, |found| {
+                own(row).unwrap_or(0.0) + bent.of_primary(found.anchor)
+            })
+        };
+        Ok(pairing.pairs.iter().enumerate().map(rise).collect())
     }
 
     /// The closest point of `ρ − slip`, on the continuation of the facet. Where the tangent plane is held, the point has

@@ -111,6 +111,7 @@ mod covered;
 mod pair;
 #[allow(clippy::needless_range_loop)]
 mod products;
+mod rises;
 #[cfg(test)]
 #[allow(clippy::needless_range_loop)]
 mod tests;
@@ -119,6 +120,7 @@ mod weights;
 
 pub use covered::{Covered, Derivatives, MIN_COVERAGE};
 pub use pair::{Frame, Pair};
+pub use rises::rises;
 pub use transformation::{Basis, Transformation};
 pub use weights::{Guests, OfFacet, OfRow, Weights};
 

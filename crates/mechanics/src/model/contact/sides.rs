@@ -3,7 +3,7 @@
 use crate::contact::discretization::projected::Closest;
 use crate::contact::discretization::{
     Cutter, Discretization, Mortar, NodeNormals, NodeToNode, Pair, Pairing, PointToSegment,
-    SurfacePair, areas_inside,
+    SlidingRange, SurfacePair, areas_inside,
 };
 use crate::contact::law::{
     Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
@@ -40,6 +40,7 @@ pub(in crate::model) struct Sides {
     /// Area of each row; empty where the secondary side has none.
     pub area: Vec<f64>,
     pub areas: Option<Areas>,
+    pub sliding: SlidingRange,
     pub swapped: bool,
 }
 
@@ -265,6 +266,7 @@ impl Source<'_> {
             facets: primary,
             area,
             areas,
+            sliding: part.sliding,
             swapped,
         })
     }
