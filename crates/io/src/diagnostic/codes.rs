@@ -346,6 +346,11 @@ codes! {
     ["a shaft in a hole, meshed with linear elements of different sizes"]
     ["nothing; silence with  allow = [\"S0412\"]", "to take the gaps of the facets:  start = { facets = \"straight\" }"]
 
+    NEVER_CLOSED "S0413" Input "a contact that never closed"
+    "The run has ended, and the two sides of the contact have touched in no increment."
+    ["a motion that is too short, or goes the other way", "a set that names other faces", "a mistake in the units of length"]
+    ["look at the largest motions and at the gap in history.csv", "silence with  allow = [\"S0413\"]  if it is meant so"]
+
     PAIR_TWICE "S0407" Input "two contacts of one pair"
     "Two contacts have the same two sides, in one order or the other. Where both act at a time both push, so that the \
      stiffness is that of both."

@@ -11,6 +11,7 @@ pub use files::Opened;
 use files::Files;
 
 use crate::build::Model;
+use crate::run::closure::Closure;
 use crate::run::contact_surface;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
@@ -109,6 +110,8 @@ pub struct Recorder<'l> {
     pub expectations: Expectations,
     /// What every contact carried at the last accepted increment.
     pub contacts: BTreeMap<String, ContactSummary>,
+    /// Which contacts have closed.
+    pub closure: Closure,
     /// Work spent so far in holding what only contact stops.
     pub work_stabilization: f64,
     /// The first failure of the disk; nothing is written after it.
