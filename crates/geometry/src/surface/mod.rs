@@ -46,6 +46,7 @@
 //! *Computational Contact Mechanics*, 2013, chapters 2 to 4; Bærentzen and Aanæs, IEEE TVCG 11, 2005 (pseudonormals).
 
 mod analytical;
+mod bent;
 mod cone;
 mod cylinder;
 mod facets;
@@ -58,10 +59,12 @@ mod signed_distance;
 mod sphere;
 #[cfg(test)]
 mod tests;
+mod thickness;
 mod torus;
 mod triangulated;
 
 pub use analytical::{Analytical, AnalyticalError, Patch, Shape, Side};
+pub use bent::Bent;
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use facets::{Facets, FacetsError};
@@ -71,6 +74,7 @@ pub use polynomial::{Facing, MAX_DEGREE, Polynomial};
 pub use projection::{extended_edge, extended_face};
 pub use signed_distance::{SignedDistance, UserFunction};
 pub use sphere::Sphere;
+pub use thickness::Outline;
 pub use torus::Torus;
 pub use triangulated::Triangulated;
 

@@ -601,8 +601,14 @@ impl Translation<'_> {
 
     /// What becomes of overlaps, as CalculiX has it: surfaces that may touch from the first step on allow for those that
     /// every increment of it begins with, and those that come to act later for those of their first increment; nodes do
-    /// so in the first increment of the first step. All found by decks that overlap by known amounts.
+    /// so in the first increment of the first step. All found by decks that overlap by known amounts. Gaps are those of
+    /// straight facets.
     pub fn overlaps(&mut self) {
+        if self.compat != Compat::None {
+            for contact in &mut self.case.contacts {
+                contact.start.straight_facets = true;
+            }
+        }
         if self.compat != Compat::Ccx {
             return;
         }

@@ -292,6 +292,14 @@ codes! {
     ["a radius of zero", "triangles that are turned inside out", "a shape that is not the same on both sides of a plane model"]
     ["correct the numbers, as the message says", "repair the file of triangles"]
 
+    DEEP_OVERLAP "S0312" Model "sides that overlap too deeply at the start"
+    "Two sides overlap at the start by more than half the thickness of the bodies there, measured along the inward normal to \
+     their other side. An interference within that is resolved over the first step; deeper, nothing says on which side the \
+     bodies are to come apart."
+    ["a body is in the wrong place", "the case mixes units of length", "a contact that is meant for a later step"]
+    ["move the body, or correct the mesh", "switch the contact on later:  active = false  and  [[step.contact]]",
+     "for an interference that is meant so:  start = { interference = \"now\" }  or  \"increments\""]
+
     IMPLAUSIBLE "S0402" Input "a value that does not fit the units"
     "A material value would be far outside of what materials have, if the units of the case are what its label says. \
      Nothing is converted: numbers are used as they are."
@@ -322,6 +330,26 @@ codes! {
     ["a decimal point was forgotten", "a value in percent", "a large number stands for no slip at all"]
     ["correct the value", "for sides that never slip:  tied = true",
      "silence with  allow = [\"S0406\"]  if it is meant so"]
+
+    OVERLAP "S0411" Input "sides that overlap at the start"
+    "Nodes of one side lie inside the other at the start, by more than straight facets of curved surfaces explain. They are \
+     taken for an interference fit, unless `start` says otherwise: it is resolved over the first step in which the contact \
+     acts."
+    ["an interference fit, as it is meant", "bodies that were placed inaccurately"]
+    ["nothing, where it is meant so: silence with  allow = [\"S0411\"]", "without stress:  start = { interference = \"strain-free\" }",
+     "by moving nodes:  start = { close_gaps_below = LENGTH }"]
+
+    FACETED "S0412" Input "gaps that come from straight facets"
+    "Curved surfaces that conform, meshed with linear elements that do not match, have gaps and overlaps of the height of an \
+     arc above its chord. They come from the mesh. Gaps are measured between the curved surfaces that the facets were cut \
+     from, as their neighbours turn; a uniform clearance or interference stays, however small."
+    ["a shaft in a hole, meshed with linear elements of different sizes"]
+    ["nothing; silence with  allow = [\"S0412\"]", "to take the gaps of the facets:  start = { facets = \"straight\" }"]
+
+    NEVER_CLOSED "S0413" Input "a contact that never closed"
+    "The run has ended, and the two sides of the contact have touched in no increment."
+    ["a motion that is too short, or goes the other way", "a set that names other faces", "a mistake in the units of length"]
+    ["look at the largest motions and at the gap in history.csv", "silence with  allow = [\"S0413\"]  if it is meant so"]
 
     PAIR_TWICE "S0407" Input "two contacts of one pair"
     "Two contacts have the same two sides, in one order or the other. Where both act at a time both push, so that the \

@@ -88,6 +88,7 @@ mod row;
 pub(crate) mod tests;
 
 pub use interface::{
-    Allowance, Areas, Interface, InterfaceParts, Measure, Phase, Shift, closest_points, nmultiplier,
+    Allowance, Areas, Bend, Interface, InterfaceParts, Measure, Phase, Shift, closest_points,
+    nmultiplier,
 };
 pub use row::{Participant, Row, RowOrder, Rows, Wanted};

@@ -2,6 +2,7 @@ use super::{ConstraintError, Unheld};
 use crate::contact::law::TableError;
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
+use signorini_geometry::tensor::Vec3;
 use thiserror::Error;
 
 /// Why no model can be made.
@@ -75,6 +76,24 @@ pub enum ModelError {
         count: usize,
         /// One of them, as numbered in the input.
         node: u64,
+    },
+    /// Sides that overlap at the start by more than half the thickness of the bodies.
+    #[error(
+        "contact \"{contact}\": the sides overlap by {overlap:.3} at the start, more than half the thickness of the bodies there ({thickness:.3})"
+    )]
+    TooDeep {
+        /// Name of the contact.
+        contact: String,
+        /// The largest overlap (length).
+        overlap: f64,
+        /// The thickness of the thicker body there (length).
+        thickness: f64,
+        /// Where that is.
+        place: Vec3,
+        /// At how many nodes.
+        count: usize,
+        /// Some of them, as numbered in the input, the deepest first.
+        nodes: Vec<u64>,
     },
     /// A second pass where the sides cannot be swapped.
     #[error("contact \"{contact}\": for two passes both sides are made of faces")]

@@ -86,10 +86,58 @@ pub struct ContactSummary {
 /// Gaps and overlaps at the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StartSummary {
-    /// How many points have something within reach.
+    /// How many rows have something within reach.
     pub near: usize,
-    /// The smallest gap, negative where the sides overlap; `None` where nothing is within reach.
+    /// How many nodes of the secondary side touch or overlap.
+    pub touching: usize,
+    /// The smallest gap at a node of either side that faces the other, negative where the sides overlap (length); of a
+    /// surface with itself and of pairs of nodes, at a row. `None` where nothing is within reach.
     pub gap: Option<f64>,
+    /// Where that is; `None` where it is known by rows alone.
+    pub place: Option<StartPlace>,
+    /// At how many nodes the sides overlap by more than the mesh explains.
+    pub overlapping: usize,
+    /// What becomes of overlaps.
+    pub treatment: Treatment,
+    /// What comes from straight facets, where gaps are measured between the surfaces that these were cut from.
+    pub bent: Option<BentSummary>,
+}
+
+/// A place at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartPlace {
+    /// The node; `None` inside a facet.
+    pub node: Option<NodeId>,
+    /// The position.
+    pub position: Vec3,
+}
+
+/// What becomes of gaps and overlaps at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Treatment {
+    /// Gaps are as measured; overlaps are treated like this.
+    Interference(Interference),
+    /// Gaps are taken to be something else.
+    Given,
+    /// The sides are joined.
+    Joined,
+}
+
+impl Default for Treatment {
+    fn default() -> Self {
+        Self::Interference(Interference::default())
+    }
+}
+
+/// What comes from straight facets of surfaces that conform (lengths).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BentSummary {
+    /// How far gaps between straight facets are from the distance, at most.
+    pub straight: f64,
+    /// How far those between bent facets are.
+    pub bent: f64,
+    /// The distance of the surfaces: the median of the gaps between bent facets.
+    pub distance: f64,
 }
 
 /// What is done against locking in the elements of a body.

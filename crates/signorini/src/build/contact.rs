@@ -404,6 +404,7 @@ fn start(part: &case::Start, names: &Names<'_>, found: &mut Diagnostics) -> Star
             case::Interference::Now => model::Interference::AtOnce,
             case::Interference::StrainFree => model::Interference::StrainFree,
         },
+        bends: !part.straight_facets,
     }
 }
 

@@ -9,6 +9,7 @@ mod carriers;
 mod constraints;
 mod contact;
 mod cuts;
+pub(crate) mod gaps;
 mod loads;
 mod mesh;
 mod names;
@@ -35,7 +36,7 @@ use signorini_io::case::{
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
 use signorini_mechanics::contact::Measure;
-use signorini_mechanics::model::{self, ContactSummary, LockingSummary, Parts};
+use signorini_mechanics::model::{self, ContactSummary, LockingSummary, Parts, StartSummary};
 use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{LineSearch, NewtonSettings, Step, StepperSettings};
 use signorini_mechanics::system::linear::{LinearKind, SOLVERS};
@@ -97,6 +98,8 @@ pub struct ContactInfo {
     pub nfacet: usize,
     /// Size of its facets.
     pub facet_size: f64,
+    /// Gaps and overlaps at the start.
+    pub start: StartSummary,
 }
 
 /// A reference or rigid body, as histories name it.
@@ -159,7 +162,9 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
     let mut model = match signorini_mechanics::model::Model::assemble(parts) {
         Ok(model) => model,
         Err(error) => {
-            found.push(refused::refused(&case, &error));
+            let notes = gaps::where_too_deep(&error, &mesh);
+            let refused = refused::refused(&case, &error);
+            found.push(notes.into_iter().fold(refused, |one, note| one.note(note)));
             return Err(found);
         }
     };
@@ -212,8 +217,12 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
             npoint: c.npoint,
             nfacet: c.nfacet,
             facet_size: c.facet_size,
+            start: c.start,
         })
         .collect();
+    found.append(gaps::findings(&case, &mesh, &contacts));
+    let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
+    found.silence(&allowed);
     choose(&mut case, &carriers, &model.contacts, &model.locking);
     let sets = names.node_sets();
     let labels = mesh.node_labels.iter().enumerate();

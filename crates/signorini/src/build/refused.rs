@@ -59,6 +59,11 @@ pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
             of_contact(contact).map(|c| &c.place),
             "mesh the two bodies apart, without common nodes",
         ),
+        ModelError::TooDeep { contact, .. } => (
+            &codes::DEEP_OVERLAP,
+            of_contact(contact).map(|c| &c.place),
+            "move the bodies apart, or let the contact act from a later step on",
+        ),
         ModelError::TwoPass { contact } => (
             &codes::WRONG_KIND,
             of_contact(contact).map(|c| &c.place),

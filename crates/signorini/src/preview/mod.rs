@@ -6,7 +6,7 @@ mod picture;
 
 pub use picture::picture;
 
-use crate::build::Model;
+use crate::build::{ContactInfo, Model, gaps};
 use crate::run::{Start, begin};
 use crate::text::{count, plural, short};
 use signorini_geometry::mesh::quality::{Quality, quality};
@@ -74,7 +74,7 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
             short(info.facet_size)
         ));
         let contact = start.frame.contacts.iter().find(|c| c.name == info.name);
-        lines.extend(contact.map(|c| gaps(c, model)));
+        lines.extend(contact.map(|c| gaps(c, info, model)));
     }
     lines.extend(cost::line(model));
     Ok(Preview {
@@ -85,7 +85,7 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
 }
 
 /// The gaps of a contact in words.
-fn gaps(contact: &ContactFrame, model: &Model) -> String {
+fn gaps(contact: &ContactFrame, info: &ContactInfo, model: &Model) -> String {
     let near: Vec<(usize, f64)> = contact
         .gap
         .iter()
@@ -93,15 +93,24 @@ fn gaps(contact: &ContactFrame, model: &Model) -> String {
         .enumerate()
         .filter(|(_, gap)| gap.is_finite())
         .collect();
-    let Some(&(at, gap)) = near.iter().min_by(|a, b| a.1.total_cmp(&b.1)) else {
+    let start = &info.start;
+    let (Some(gap), false) = (start.gap, near.is_empty()) else {
         return "  nothing of the other side is within reach".to_owned();
     };
-    let node = contact.nodes.get(at);
-    let label = node.and_then(|&n| model.mesh.node_labels.get(n as usize));
-    let label = label.map_or_else(String::new, |l| format!(" at node {l}"));
-    let touching = near.iter().filter(|(_, gap)| *gap <= 0.0).count();
+    let label = match &start.place {
+        Some(place) => gaps::place(place, &model.mesh),
+        None => {
+            let least = near.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+            let node = least.and_then(|(at, _)| contact.nodes.get(*at));
+            let label = node.and_then(|&n| model.mesh.node_labels.get(n as usize));
+            label.map_or_else(String::new, |l| format!(" at node {l}"))
+        }
+    };
+    let touching = start.touching;
     let gap = if gap < 0.0 {
-        format!("largest initial overlap {}{label}", short(-gap))
+        let what = gaps::treatment(start, &gaps::first_step(&model.case, &info.name));
+        let what = what.map_or_else(String::new, |what| format!(", {what}"));
+        format!("largest initial overlap {}{label}{what}", short(-gap))
     } else {
         format!("smallest gap {}{label}", short(gap))
     };

@@ -260,6 +260,7 @@ impl Run<'_, '_> {
         let (mut exit_code, mut status) = match ending {
             Ending::Solved => {
                 verdicts = self.expectations();
+                self.never_closed(&mut found);
                 let ok = verdicts.iter().all(|v| v.ok);
                 (
                     u8::from(!ok),
@@ -396,6 +397,27 @@ impl Run<'_, '_> {
             self.recorder.tell(&event_of(one), Detail::Finding(one));
         }
         found.append(far);
+    }
+
+    /// Tells of contacts that never closed.
+    fn never_closed(&mut self, found: &mut Diagnostics) {
+        let case = &self.model.case;
+        if case.allow.iter().any(|code| code == codes::NEVER_CLOSED.id) {
+            return;
+        }
+        let acts = |name: &str| {
+            let contact = case.contacts.iter().find(|c| c.name.value == name);
+            let free = contact.filter(|contact| contact.tied.is_none());
+            free.is_some_and(|contact| contact.acting(case.steps.iter()).any(|acts| acts))
+        };
+        let names = self.model.contacts.iter().map(|c| c.name.clone());
+        let names: Vec<(String, bool)> = names.map(|name| (name.clone(), acts(&name))).collect();
+        let mesh = &self.model.mesh;
+        let position = |node: u32| mesh.points.get(node as usize).copied().unwrap_or_default();
+        for one in self.recorder.closure.notes(&names, mesh, position) {
+            self.recorder.tell(&event_of(&one), Detail::Finding(&one));
+            found.push(one);
+        }
     }
 
     fn stopped_by_time(&self) -> Diagnostic {

@@ -16,6 +16,7 @@
 //! To add a file: a line in `tree`, and its writing in `recorder`.
 
 mod cells;
+mod closure;
 mod contact_surface;
 mod drift;
 mod drive;

@@ -4,6 +4,7 @@ use super::news::Facts;
 use super::{RunOptions, failure};
 use crate::build::Model;
 use signorini_io::diagnostic::Diagnostics;
+use signorini_mechanics::model::Treatment;
 use signorini_mechanics::system::{Assembly, Dof, DofName, Frame, Order, StepContext, TermError};
 use std::collections::BTreeSet;
 
@@ -75,8 +76,13 @@ pub fn facts(model: &Model, start: &Start, options: &RunOptions) -> Facts {
         .blocks
         .iter()
         .filter(|b| b.element.dim() == mesh.dim() && b.ncell() > 0);
-    let gaps = start.frame.contacts.iter().flat_map(|c| &c.gap);
-    let gaps = gaps.copied().filter(|gap| gap.is_finite());
+    let gaps = model
+        .contacts
+        .iter()
+        .filter_map(|c| match c.start.treatment {
+            Treatment::Joined => c.start.gap.map(|_| 0.0),
+            _ => c.start.gap,
+        });
     let units = &model.case.units.value;
     Facts {
         name: model.name.clone(),

@@ -226,6 +226,24 @@ impl Scene {
         facets
     }
 
+    /// The faces of a group whose nodes are all at such places: the cell, and the name of its side.
+    pub fn facets_where(
+        &self,
+        group: &str,
+        is_there: impl Fn(&[f64]) -> bool,
+    ) -> Vec<(usize, String)> {
+        let mut faces = Vec::new();
+        let cells = self.cells.iter().enumerate();
+        for (cell, (element, _, nodes)) in cells.filter(|(_, c)| c.1 == group) {
+            for (number, side) in by_name(element).unwrap().sides().iter().enumerate() {
+                if side.nodes.iter().all(|k| is_there(self.at(nodes[*k]))) {
+                    faces.push((cell + 1, format!("S{}", number + 1)));
+                }
+            }
+        }
+        faces
+    }
+
     /// Hex8 over the products of three lists of coordinates.
     pub fn bricks(&mut self, group: &str, axes: [&[f64]; 3]) {
         self.solid(group, "hex8", axes, |x| x);
@@ -333,6 +351,11 @@ impl Case {
         self.0 += text;
         self.0.push('\n');
         self
+    }
+
+    /// What was said so far.
+    pub fn text(&self) -> &str {
+        &self.0
     }
 
     fn table(self, heading: &str, on: &str, keys: &str) -> Self {

@@ -517,5 +517,6 @@ fn start(fields: Fields<'_>) -> Start {
             "strain-free" => Interference::StrainFree,
             _ => Interference::Step,
         },
+        straight_facets: fields.text("facets").value == "straight",
     }
 }

@@ -322,6 +322,8 @@ pub struct Start {
     pub clearance: Option<f64>,
     /// What becomes of overlaps.
     pub interference: Interference,
+    /// Whether gaps are those between straight facets where surfaces conform, too.
+    pub straight_facets: bool,
 }
 
 /// What becomes of overlaps.

@@ -214,6 +214,15 @@ fn start(start: &Start) -> Value {
     entries.extend([
         ("clearance", clearance),
         ("interference", interference.into()),
+        (
+            "facets",
+            if start.straight_facets {
+                "straight"
+            } else {
+                "bent"
+            }
+            .into(),
+        ),
     ]);
     Value::Table(entries)
 }

@@ -348,6 +348,14 @@ static START: Table = Table {
         )
         .or(Default::Text("step"))
         .hints(&["overlap", "shrink"]),
+        key(
+            "facets",
+            Shape::Choice(&[word("bent"), word("straight")]),
+            "gaps of surfaces that conform are measured between the curved surfaces that facets of linear elements were \
+             cut from, or between the facets",
+        )
+        .or(Default::Text("bent"))
+        .hints(&["chord", "faceted"]),
     ],
     rules: &[],
 };

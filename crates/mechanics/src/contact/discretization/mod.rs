@@ -31,7 +31,7 @@ use projected::Point;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
 use signorini_geometry::surface::{
-    Anchor, ContactSurface, Facets, Feature, Placement, SurfaceError,
+    Anchor, Bent, ContactSurface, Facets, Feature, Placement, SurfaceError,
 };
 use signorini_geometry::tensor::Vec3;
 use std::ops::Range;
@@ -133,6 +133,31 @@ impl Clone for Pairing {
     fn clone_from(&mut self, other: &Self) {
         self.pairs.clone_from(&other.pairs);
         self.weights.clone_from(&other.weights);
+    }
+}
+
+/// The surfaces that the straight facets of both sides were cut from, where gaps are measured between these.
+#[derive(Clone, Debug, Default)]
+pub struct BentSides {
+    /// The secondary side; `None` where it is bare nodes.
+    pub secondary: Option<Bent>,
+    /// The primary side; `None` where it is no facets of elements.
+    pub primary: Option<Bent>,
+}
+
+impl BentSides {
+    /// By how much the secondary side lies outside a facet at a point of it (length).
+    #[must_use]
+    pub fn of_secondary(&self, facet: u32, local: Vec3) -> f64 {
+        let bent = self.secondary.as_ref();
+        bent.map_or(0.0, |bent| bent.rise(facet, local))
+    }
+
+    /// By how much the primary side lies outside a facet at a point of it (length).
+    #[must_use]
+    pub fn of_primary(&self, at: Anchor) -> f64 {
+        let bent = self.primary.as_ref();
+        bent.map_or(0.0, |bent| bent.rise(at.facet, at.local))
     }
 }
 
@@ -318,6 +343,21 @@ pub trait Discretization: Send + Sync {
         _by: &dyn Fn(NodeId) -> Vec3,
     ) -> Option<(Vec3, Vec3)> {
         None
+    }
+
+    /// By how much the gaps of rows between straight facets exceed those of the surfaces they were cut from; empty where
+    /// that is nothing.
+    ///
+    /// # Errors
+    /// A facet that has no normal.
+    fn rises(
+        &self,
+        _pair: &SurfacePair,
+        _at: &Placement,
+        _pairing: &Pairing,
+        _bent: &BentSides,
+    ) -> Result<Vec<f64>, SurfaceError> {
+        Ok(Vec::new())
     }
 
     /// Whether its weights are those of the start for good: moments of both sides balance there.

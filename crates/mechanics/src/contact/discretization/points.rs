@@ -4,7 +4,7 @@
 use super::cut::{Cutter, FacetPoints};
 use super::lean::Lean;
 use super::projected::{Closest, Place, Point, Sight, closest};
-use super::{Anchored, Discretization, Links, OwnNow, Pair, Pairing, SurfacePair};
+use super::{Anchored, BentSides, Discretization, Links, OwnNow, Pair, Pairing, SurfacePair};
 use crate::contact::row::{RowOrder, Rows, Wanted};
 use rayon::prelude::*;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
@@ -397,6 +397,25 @@ impl Discretization for PointToSegment {
             filled.gap += self.shift(row);
         }
         Ok(())
+    }
+
+    fn rises(
+        &self,
+        _: &SurfacePair,
+        _: &Placement,
+        pairing: &Pairing,
+        bent: &BentSides,
+    ) -> Result<Vec<f64>, SurfaceError> {
+        let own = |row: usize| {
+            let point = self.inside.as_ref()?.get(row)?;
+            Some(bent.of_secondary(point.facet, point.xi))
+        };
+        let rise = |(row, pair): (usize, &Option<Pair>)| {
+            pair.map_or(0.0, |found| {
+                own(row).unwrap_or(0.0) + bent.of_primary(found.anchor)
+            })
+        };
+        Ok(pairing.pairs.iter().enumerate().map(rise).collect())
     }
 
     /// The closest point of `ρ − slip`, on the continuation of the facet. Where the tangent plane is held, the point has

@@ -124,6 +124,16 @@ impl Interface {
         Ok(())
     }
 
+    /// Finds what straight facets miss where the sides are at the start of an increment, if they slide.
+    pub(super) fn bend_again(&mut self, at: &Placement) -> Result<(), SurfaceError> {
+        let parts = &mut self.parts;
+        if let Some(bend) = parts.bend.as_mut().filter(|bend| bend.slides) {
+            let discretization = parts.discretization.as_ref();
+            bend.rises = discretization.rises(&parts.pair, at, &self.now, &bend.sides)?;
+        }
+        Ok(())
+    }
+
     /// Has so many rows, of which nothing is known.
     fn resize(&mut self, nrow: usize) {
         let nothing = Pairing::nothing(nrow);

@@ -9,7 +9,7 @@ mod report;
 mod restless;
 mod rows;
 
-use super::discretization::{Discretization, Pair, Pairing, SurfacePair};
+use super::discretization::{BentSides, Discretization, Pair, Pairing, SurfacePair};
 use super::friction::{FrictionLaw, Stick};
 use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
 use super::law::{ContactLaw, Multiplier, Penalty, Scale};
@@ -73,6 +73,20 @@ pub enum Allowance {
     Every,
 }
 
+/// Gaps that are measured between the surfaces that straight facets were cut from.
+///
+/// What the facets miss is found between iterations and does not change in one: it is of the size of a sagitta, and so is
+/// what it may be off by where sides slide far in one increment.
+#[derive(Clone, Debug, Default)]
+pub struct Bend {
+    /// These surfaces.
+    pub sides: BentSides,
+    /// By how much the gap of each row exceeds that between these, at the start (length).
+    pub rises: Vec<f64>,
+    /// Whether that is found again at the start of each increment: where sides slide.
+    pub slides: bool,
+}
+
 /// Tributary areas of all rows, from the positions of all nodes.
 pub type Areas =
     Box<dyn Fn(&dyn Discretization, &[Vec3]) -> Result<Vec<f64>, SurfaceError> + Send + Sync>;
@@ -109,6 +123,8 @@ pub struct InterfaceParts {
     pub shifts: Vec<Shift>,
     /// Which increments allow for what overlaps at their start.
     pub allowance: Allowance,
+    /// The surfaces that straight facets were cut from, where gaps are measured between these.
+    pub bend: Option<Bend>,
     /// The first multiplier, where the law solves for them: one for each row, and with friction, or joined, one for each
     /// row and direction.
     pub first_multiplier: usize,
@@ -149,6 +165,7 @@ impl InterfaceParts {
             },
             shifts: Vec::new(),
             allowance: Allowance::default(),
+            bend: None,
             first_multiplier: 0,
             gap_tolerance: 1e-6,
             traction_tolerance: 1e-7,
@@ -399,16 +416,24 @@ impl Interface {
     /// What is added to the gap of a row.
     fn shift(&self, row: usize, time: f64) -> f64 {
         let of_start = self.parts.shifts.get(row).copied().unwrap_or_default();
+        let constant = of_start.constant - self.rise(row);
         let allowed = self.allowed.overlaps.get(row).copied().unwrap_or_default();
         if of_start.fading == 0.0 && allowed == 0.0 {
-            return of_start.constant;
+            return constant;
         }
         let left = self.left_of_first_step(time);
         let of_increment = match allowed {
             0.0 => 0.0,
             overlap => overlap * left / self.allowed.of_step,
         };
-        of_start.constant + of_start.fading * left + of_increment
+        constant + of_start.fading * left + of_increment
+    }
+
+    /// By how much the gap of a row between straight facets exceeds that of the surfaces they were cut from.
+    fn rise(&self, row: usize) -> f64 {
+        let bend = self.parts.bend.as_ref();
+        let rise = bend.and_then(|bend| bend.rises.get(row));
+        rise.copied().unwrap_or_default()
     }
 
     /// How much is left of the first step in which it acts, as a part of it.
@@ -441,11 +466,11 @@ impl Interface {
         }
         let overlap = |row: usize, gap: f64| {
             let constant = self.parts.shifts.get(row).map_or(0.0, |s| s.constant);
-            (-gap - constant).max(0.0)
+            (-gap - constant + self.rise(row)).max(0.0)
         };
         let pairs = self.now.pairs.iter().enumerate();
         let overlaps = pairs.map(|(row, pair)| pair.map_or(0.0, |p| overlap(row, p.gap)));
-        self.allowed.overlaps.extend(overlaps);
+        self.allowed.overlaps = overlaps.collect();
         self.allowed.of_step = left;
         if let Some(kept) = kept {
             self.now = kept;
@@ -546,6 +571,7 @@ impl Term for Interface {
         self.sees_others |= self.lend(from)?;
         self.measure_again(&at).map_err(|e| self.failed(&e))?;
         self.measure_what_bears(&at).map_err(|e| self.failed(&e))?;
+        self.bend_again(&at).map_err(|e| self.failed(&e))?;
         self.allow_for_overlaps(from, renews || first)?;
         if first || others {
             self.judged = self.judge(from)?;

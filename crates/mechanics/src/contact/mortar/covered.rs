@@ -34,6 +34,8 @@ pub struct Covered {
     mass: Vec<f64>,
     /// ∫N_k N^m_l over all pairs.
     mixed: Vec<f64>,
+    /// B of (E1): the dual basis is `ψ = B N`.
+    dual: Small,
     derivatives: Derivatives,
     /// dG and its product with B, dB.
     dg: Vec<f64>,
@@ -233,6 +235,12 @@ impl Covered {
         &self.m[j * self.nprimary()..][..self.nprimary()]
     }
 
+    /// `∫ψ_j f` from `∫N_k f`, over what is covered.
+    pub(super) fn weighted(&self, j: usize, integrals: &[f64]) -> f64 {
+        let row = self.dual.get(j).map_or(&[][..], |row| &row[..self.nnode]);
+        row.iter().zip(integrals).map(|(b, f)| b * f).sum()
+    }
+
     /// S of a quadratic triangle, row by row; empty of other facets, and where Ñ is negative beyond a bent edge.
     #[must_use]
     pub fn mass(&self) -> &[f64] {
@@ -402,6 +410,7 @@ impl Covered {
         for (row, _) in b.iter_mut().zip(&self.d).filter(|(_, d)| **d <= 0.0) {
             row.fill(0.0);
         }
+        self.dual = b;
         let np = self.nodes.len();
         zeros(&mut self.mixed, n * np);
         let mut places = &self.places[..];

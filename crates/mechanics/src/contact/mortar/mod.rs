@@ -113,6 +113,7 @@ mod covered;
 mod pair;
 #[allow(clippy::needless_range_loop)]
 mod products;
+mod rises;
 #[cfg(test)]
 #[allow(clippy::needless_range_loop)]
 mod tests;
@@ -122,6 +123,7 @@ mod weights;
 pub use bent::{Held, Met, SMOOTH, bend, between};
 pub use covered::{Covered, Derivatives, MIN_COVERAGE};
 pub use pair::{Frame, Pair};
+pub use rises::rises;
 pub use transformation::{Basis, Transformation};
 pub use weights::{Guests, OfFacet, OfRow, Weights};
 

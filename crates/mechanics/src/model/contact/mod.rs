@@ -1,6 +1,7 @@
 //! From the parts of a contact to its interface.
 
 mod joined;
+mod probe;
 mod sides;
 mod start;
 
@@ -179,6 +180,13 @@ impl Context<'_> {
                 source,
             })?;
         }
+        let surface_error = |source| ModelError::Surface {
+            contact: part.name.clone(),
+            source,
+        };
+        let look = probe::Look::new(&sides, part, &at).map_err(surface_error)?;
+        start::not_too_deep(self.mesh, &sides, part, &look, (self.reference, size))?;
+        let bend = look.bend(&sides, &at).map_err(surface_error)?;
         let reach = sides.pair.reach;
         let bond = match part.tie {
             None => None,
@@ -204,11 +212,12 @@ impl Context<'_> {
             npoint: sides.pair.points.len(),
             nfacet: sides.pair.primary.nfacet(),
             facet_size: length,
-            start: StartSummary::new(&found),
+            start: StartSummary::new(&found, &look, part, size),
         };
         let parts = InterfaceParts {
             name: part.name.clone(),
-            shifts: start::shifts(&found, part),
+            shifts: start::shifts(&found, bend.as_ref(), part),
+            bend,
             allowance: start::allowance(part),
             discretization: sides.discretization,
             pair: sides.pair,

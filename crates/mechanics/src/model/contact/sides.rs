@@ -6,7 +6,7 @@ use super::joined;
 use crate::contact::discretization::projected::{Closest, Sight};
 use crate::contact::discretization::{
     Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, OwnBody, Pair, Pairing,
-    PointToSegment, SurfacePair, areas_inside,
+    PointToSegment, SlidingRange, SurfacePair, areas_inside,
 };
 use crate::contact::law::{
     Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
@@ -44,6 +44,7 @@ pub(in crate::model) struct Sides {
     /// Area of each row; empty where the secondary side has none.
     pub area: Vec<f64>,
     pub areas: Option<Areas>,
+    pub sliding: SlidingRange,
     pub swapped: bool,
 }
 
@@ -297,6 +298,7 @@ impl Source<'_> {
             facets: primary,
             area,
             areas,
+            sliding: part.sliding,
             swapped,
         })
     }

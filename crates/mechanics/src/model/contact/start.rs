@@ -1,28 +1,184 @@
 //! Gaps and overlaps at the start, and what is done about them.
 
+use super::probe::{Look, Probe};
 use super::{ContactPart, ModelError, Sides, Source};
-use crate::contact::discretization::{Anchored, Pairing, REACH};
-use crate::contact::{Allowance, Shift};
-use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart};
-use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::{Placement, Pose, SurfaceError, SurfaceJet};
+use crate::contact::discretization::{Anchored, Pair, Pairing, REACH};
+use crate::contact::{Allowance, Bend, Shift};
+use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart, Treatment, label};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId, boundary};
+use signorini_geometry::surface::{Facets, Outline, Placement, Pose, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
 
+/// The largest cosine between the outward normals of two sides that face one another.
+pub(super) const OPPOSING: f64 = -0.2;
+
+/// Gaps below this, relative to the largest facet, are nothing.
+const NOTHING: f64 = 1e-9;
+
+/// Overlaps below this, relative to the largest facet, are not told of.
+const SMALL: f64 = 1e-6;
+
 impl StartSummary {
-    pub(super) fn new(found: &Pairing) -> Self {
-        let gaps = found.pairs.iter().flatten().map(|p| p.gap);
-        let smallest = gaps.reduce(f64::min);
-        Self {
-            near: found.pairs.iter().flatten().count(),
-            gap: smallest,
+    /// What is near at the start: by nodes of both sides where they are looked at, by rows elsewhere.
+    pub(super) fn new(found: &Pairing, look: &Look, part: &ContactPart, size: f64) -> Self {
+        let near = found.pairs.iter().flatten().count();
+        let left = look.conforms.map_or(0.0, |bent| bent.bent);
+        let nothing = left.max(NOTHING * size);
+        let plain = |gap: f64| {
+            if gap.abs() <= nothing { 0.0 } else { gap }
+        };
+        let mut summary = Self {
+            near,
+            bent: look.conforms,
+            treatment: part.treatment(),
+            ..Self::default()
+        };
+        if let Some(clearance) = part.start.clearance.filter(|_| near > 0) {
+            summary.gap = Some(clearance);
+            summary.touching = if clearance > 0.0 { 0 } else { near };
+            return summary;
+        }
+        if look.nodes.is_empty() {
+            let gaps = found.pairs.iter().flatten().map(|p| plain(p.gap));
+            summary.gap = gaps.clone().reduce(f64::min);
+            summary.touching = gaps.filter(|gap| *gap <= 0.0).count();
+            return summary;
+        }
+        for probe in look.facing() {
+            let gap = plain(look.gap(probe));
+            summary.touching += usize::from(!probe.of_primary && gap <= 0.0);
+            if summary.gap.is_none_or(|least| gap < least) {
+                summary.gap = Some(gap);
+                summary.place = Some(probe.place());
+            }
+            if gap < -look.mesh_error(probe) - SMALL * size {
+                summary.overlapping += 1;
+            }
+        }
+        summary
+    }
+}
+
+impl ContactPart {
+    /// What becomes of overlaps at the start.
+    fn treatment(&self) -> Treatment {
+        match (self.tie, self.start.clearance) {
+            (Some(_), _) => Treatment::Joined,
+            (None, Some(_)) => Treatment::Given,
+            (None, None) => Treatment::Interference(self.start.interference),
         }
     }
 }
 
-/// What is added to the gaps.
-pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
+/// Refuses overlaps at the start that are deeper than half the thickness of either body there: nothing says on which side a
+/// point is to come out. Where what is known of one body is that its outline is farther away, it is an interference.
+pub(super) fn not_too_deep(
+    mesh: &Mesh,
+    sides: &Sides,
+    part: &ContactPart,
+    look: &Look,
+    (x, size): (&[Vec3], f64),
+) -> Result<(), ModelError> {
+    let ramped = part.treatment() == Treatment::Interference(Interference::Ramped);
+    if !ramped || !part.active {
+        return Ok(());
+    }
+    let surface_error = |source| ModelError::Facets {
+        contact: part.name.clone(),
+        source,
+    };
+    let mut overlapping: Vec<(f64, &Probe)> = look.facing().map(|p| (look.gap(p), p)).collect();
+    overlapping.retain(|(gap, probe)| *gap < -look.mesh_error(probe) - SMALL * size);
+    if overlapping.is_empty() {
+        return Ok(());
+    }
+    overlapping.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let outlines = [sides.secondary(), sides.facets.as_ref()].map(|side| {
+        let side = side?;
+        let faces = boundary(mesh, connected(mesh, side));
+        Some(Facets::new(mesh, &faces).map(|facets| Outline::new(facets, x)))
+    });
+    let [secondary, primary] = outlines.map(Option::transpose);
+    let outlines = [
+        secondary.map_err(surface_error)?,
+        primary.map_err(surface_error)?,
+    ];
+    // how far it is to the other side of a body, where that is less than twice the overlap
+    let thickness = |overlap: f64, probe: &Probe| {
+        let own = usize::from(probe.of_primary);
+        let rays = [
+            (own, look.normal(probe).map(|n| (probe.position, -n))),
+            (1 - own, Some((probe.closest, -probe.towards))),
+        ];
+        let mut thickest = None;
+        for (body, ray) in rays {
+            let (Some(outline), Some((from, along))) = (&outlines[body], ray) else {
+                continue;
+            };
+            let way = outline.leaves(x, from, along, 2.0 * overlap)?;
+            thickest = Some(f64::max(thickest.unwrap_or(0.0), way));
+        }
+        thickest
+    };
+    let deep = overlapping
+        .iter()
+        .filter_map(|&(gap, probe)| Some((-gap, probe, thickness(-gap, probe)?)));
+    let deep: Vec<(f64, &Probe, f64)> = deep.collect();
+    let Some(&(overlap, probe, thickness)) = deep.first() else {
+        return Ok(());
+    };
+    let nodes = deep.iter().filter_map(|(_, probe, _)| probe.node);
+    Err(ModelError::TooDeep {
+        contact: part.name.clone(),
+        overlap,
+        thickness,
+        place: probe.position,
+        count: deep.len(),
+        nodes: nodes.take(NAMED).map(|n| label(mesh, n)).collect(),
+    })
+}
+
+/// The cells that are connected with those behind a surface.
+fn connected(mesh: &Mesh, side: &Facets) -> Vec<CellId> {
+    let mut touched = vec![false; mesh.nnode()];
+    for node in side.all_nodes() {
+        if let Some(touched) = touched.get_mut(node as usize) {
+            *touched = true;
+        }
+    }
+    let mut left: Vec<CellId> = mesh.cells(mesh.dim()).collect();
+    let mut found = Vec::new();
+    loop {
+        let before = found.len();
+        left.retain(|&cell| {
+            let nodes = mesh.cell(cell);
+            let meets = nodes
+                .iter()
+                .any(|n| touched.get(*n as usize) == Some(&true));
+            if meets {
+                found.push(cell);
+                for &node in nodes {
+                    if let Some(touched) = touched.get_mut(node as usize) {
+                        *touched = true;
+                    }
+                }
+            }
+            !meets
+        });
+        if found.len() == before {
+            return found;
+        }
+    }
+}
+
+/// Nodes that an error names.
+const NAMED: usize = 8;
+
+/// What is added to the gaps, beyond what bending does.
+pub(super) fn shifts(found: &Pairing, bend: Option<&Bend>, part: &ContactPart) -> Vec<Shift> {
     let start = &part.start;
+    let rise = |row: usize| bend.and_then(|b| b.rises.get(row)).copied().unwrap_or(0.0);
     let overlap_of = |gap: f64| (-gap).max(0.0);
     let rows = found.pairs.iter();
     if let Some(tie) = part.tie {
@@ -36,7 +192,8 @@ pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
             .map(|p| p.map_or(Shift::default(), |p| shift(p.gap)))
             .collect();
     }
-    let overlap = found.pairs.iter().flatten().any(|p| p.gap < 0.0);
+    let mut gaps = found.pairs.iter().enumerate();
+    let overlap = gaps.any(|(row, p)| p.is_some_and(|p| p.gap < rise(row)));
     let leaves = match start.interference {
         Interference::Ramped | Interference::StrainFree => !overlap,
         Interference::AtOnce | Interference::Increment | Interference::Increments => true,
@@ -66,7 +223,9 @@ pub(super) fn shifts(found: &Pairing, part: &ContactPart) -> Vec<Shift> {
             }
         }
     };
-    rows.map(|p| p.map_or(Shift::default(), |p| shift(p.gap)))
+    let gap = |(row, pair): (usize, &Option<Pair>)| pair.map(|p| p.gap - rise(row));
+    rows.enumerate()
+        .map(|pair| gap(pair).map_or(Shift::default(), shift))
         .collect()
 }
 

@@ -240,6 +240,8 @@ pub struct StartPart {
     pub clearance: Option<f64>,
     /// What becomes of overlaps.
     pub interference: Interference,
+    /// Whether gaps of surfaces that conform are measured between the surfaces that straight facets were cut from.
+    pub bends: bool,
 }
 
 /// What becomes of overlaps at the start.
@@ -267,6 +269,7 @@ impl Default for StartPart {
             close_nodes: Vec::new(),
             clearance: None,
             interference: Interference::default(),
+            bends: true,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The files of a run: begun anew, or gone on with from a checkpoint.
 
 use super::{Counts, Recorder, Setting, frame_file};
+use crate::run::closure::Closure;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
 use crate::run::narration::Narrator;
@@ -37,6 +38,7 @@ pub struct Opened {
     checkpoints: Checkpoints,
     counts: Counts,
     expectations: Expectations,
+    closure: Closure,
     step: Option<usize>,
     time: f64,
     step_time: f64,
@@ -127,6 +129,7 @@ impl Opened {
             frames,
         };
         expectations.load(from.get_f64("run/expectations")?);
+        let closure = Closure::restore(from.get_f64("run/closure").unwrap_or_default());
         let mut clock = [0.0; 3];
         from.copy_f64("run/clock", &mut clock)?;
         let log = path("run.log");
@@ -183,6 +186,7 @@ impl Opened {
             step: (step >= 0.0).then_some(step as usize),
             time,
             step_time,
+            closure,
             ..Self::new(
                 setting,
                 files,
@@ -213,6 +217,7 @@ impl Opened {
             step: None,
             time: 0.0,
             step_time: 0.0,
+            closure: Closure::default(),
         }
     }
 
@@ -224,6 +229,7 @@ impl Opened {
             listener,
             contacts: BTreeMap::new(),
             drifts: Vec::new(),
+            closure: self.closure,
             work_stabilization: 0.0,
             work_external: 0.0,
             error: None,

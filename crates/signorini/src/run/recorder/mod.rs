@@ -11,6 +11,7 @@ pub use files::Opened;
 use files::Files;
 
 use crate::build::Model;
+use crate::run::closure::Closure;
 use crate::run::contact_surface;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
@@ -111,6 +112,8 @@ pub struct Recorder<'l> {
     pub contacts: BTreeMap<String, ContactSummary>,
     /// How far contacts that keep the geometry of the start slid at most, over the size of their facets, and where.
     pub drifts: Vec<(String, f64, u32)>,
+    /// Which contacts have closed.
+    pub closure: Closure,
     /// Work spent so far in holding what only contact stops.
     pub work_stabilization: f64,
     /// Work of supports and loads so far.

@@ -180,6 +180,7 @@ impl Recorder<'_> {
         });
         self.expectations
             .look(self.files.history.nrow(), frame, &row);
+        self.closure.look(frame);
         let before = std::mem::take(&mut self.contacts);
         let contacts = frame.contacts.iter();
         self.contacts = contacts

@@ -2,13 +2,14 @@
 
 use super::nodes_of;
 use super::sight::{Seen, SmoothParts};
-use crate::contact::discretization::SurfacePair;
+use crate::contact::discretization::{BentSides, SurfacePair};
 use crate::contact::mortar::{
-    Basis, Covered, Derivatives, Facet, Measure, MortarError, OfFacet, Weights,
+    Basis, Covered, Derivatives, Facet, Measure, MortarError, OfFacet, Weights, rises,
 };
+use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::Search;
-use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
+use signorini_geometry::surface::{Anchor, ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -174,6 +175,44 @@ impl Integrator {
                 _ => facet,
             },
         })
+    }
+
+    /// `∫ψ_j (δ^s + δ^m)` of a secondary facet that was integrated against those found.
+    pub fn rises(
+        &self,
+        facets: &Facets,
+        facet: u32,
+        pair: &SurfacePair,
+        measure: Measure,
+        bent: &BentSides,
+    ) -> Result<[f64; MAX_FACET_NODES], SurfaceError> {
+        let missing = || SurfaceError::NoSuchFacet { facet };
+        let element = facets.element(facet).ok_or_else(missing)?;
+        let mut rest = &self.others[..];
+        let mut numbers = Vec::with_capacity(self.near.len());
+        let mut primaries = Vec::with_capacity(self.near.len());
+        for &other in &self.near {
+            let Some(element) = pair.primary.domain(other) else {
+                continue;
+            };
+            let split = rest.split_at_checked(nodes_of(pair, other).len());
+            let Some((x, behind)) = split else { continue };
+            rest = behind;
+            numbers.push(other);
+            primaries.push(Facet { element, x });
+        }
+        let own = Facet {
+            element,
+            x: &self.own,
+        };
+        let rise = |of: Option<usize>, local| match of {
+            None => bent.of_secondary(facet, local),
+            Some(number) => numbers
+                .get(number)
+                .map_or(0.0, |&facet| bent.of_primary(Anchor { facet, local })),
+        };
+        let found = rises(&self.covered, measure, &own, &primaries, &rise);
+        found.map_err(|_| SurfaceError::Degenerate { facet })
     }
 
     pub fn store(&self, to: &mut OfFacet) {

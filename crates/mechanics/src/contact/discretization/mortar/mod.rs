@@ -68,7 +68,9 @@ mod sight;
 
 use super::points::{PointToSegment, SlidingRange};
 use super::projected::{Closest, Point};
-use super::{Anchored, Discretization, Links, NOWHERE, OnRow, Pair, Pairing, SurfacePair};
+use super::{
+    Anchored, BentSides, Discretization, Links, NOWHERE, OnRow, Pair, Pairing, SurfacePair,
+};
 use crate::contact::mortar::{
     Basis, Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights,
 };
@@ -886,6 +888,42 @@ impl Discretization for Mortar {
         on_rows: &mut [OnRow],
     ) {
         self.exchange(self.weights(pairing), touches, joined, on_rows);
+    }
+
+    fn rises(
+        &self,
+        pair: &SurfacePair,
+        at: &Placement,
+        pairing: &Pairing,
+        bent: &BentSides,
+    ) -> Result<Vec<f64>, SurfaceError> {
+        let Some(facets) = &pair.secondary else {
+            return Ok(Vec::new());
+        };
+        let boxes = (0..pair.primary.nfacet() as u32).map(|f| pair.primary.aabb(at, f));
+        let boxes: Vec<Aabb> = boxes.collect();
+        let mut search = Search::default();
+        search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
+        let of_facet = |integrator: &mut Integrator, facet: usize| {
+            let facet = facet as u32;
+            integrator.find(facets, facet, pair, at, &search);
+            integrator.integrate(facets, facet, pair, at, integrals::Wanted::Values)?;
+            integrator.rises(facets, facet, pair, self.measure, bent)
+        };
+        let of_facets = (0..self.kind.len())
+            .into_par_iter()
+            .with_min_len(TASK)
+            .map_init(|| Integrator::new(self.measure, self.form.basis), of_facet);
+        let of_facets: Vec<_> = of_facets.collect::<Result<_, SurfaceError>>()?;
+        let weights = self.weights(pairing);
+        let of_row = |row: usize| {
+            let d = weights.row(row)?.d;
+            let of = weights.guests.of(row, &self.around[row]);
+            let sum = of.map(|(facet, place, share)| share * of_facets[facet as usize][place]);
+            Some(sum.sum::<f64>() / d)
+        };
+        let rows = 0..self.nodes.len();
+        Ok(rows.map(|row| of_row(row).unwrap_or(0.0)).collect())
     }
 
     fn meets_many(&self) -> bool {

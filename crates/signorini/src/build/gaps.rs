@@ -1,0 +1,145 @@
+//! What is said about gaps and overlaps at the start.
+
+use super::ContactInfo;
+use crate::text::{plural, short};
+use signorini_geometry::mesh::Mesh;
+use signorini_geometry::tensor::Vec3;
+use signorini_io::case::Case;
+use signorini_io::diagnostic::{Code, Diagnostic, Diagnostics, Severity, codes};
+use signorini_mechanics::model::{Interference, ModelError, StartPlace, StartSummary, Treatment};
+
+/// A position in words: `x = 1.30, y = 0`; in space with z.
+pub fn position(at: Vec3, ndim: usize) -> String {
+    let axes = ["x", "y", "z"].iter().zip(at.to_array()).take(ndim);
+    let axes: Vec<String> = axes
+        .map(|(axis, value)| format!("{axis} = {}", short(value)))
+        .collect();
+    axes.join(", ")
+}
+
+/// A place in words: ` at node 14 (x = 1.30, y = 0)`.
+pub fn place(place: &StartPlace, mesh: &Mesh) -> String {
+    let at = position(place.position, mesh.dim());
+    let label = place.node.and_then(|n| mesh.node_labels.get(n as usize));
+    match label {
+        Some(label) => format!(" at node {label} ({at})"),
+        None => format!(" at {at}"),
+    }
+}
+
+/// What becomes of overlaps, in words; `None` where there is nothing to say.
+pub fn treatment(start: &StartSummary, first_step: &str) -> Option<String> {
+    Some(match start.treatment {
+        Treatment::Interference(Interference::Ramped) => {
+            format!("resolved over step \"{first_step}\"")
+        }
+        Treatment::Interference(Interference::Increment) => {
+            format!("resolved in the first two increments of step \"{first_step}\"")
+        }
+        Treatment::Interference(Interference::Increments) => {
+            format!("resolved over step \"{first_step}\", measured again in every increment")
+        }
+        Treatment::Interference(Interference::AtOnce) => {
+            "resolved in the first increment".to_owned()
+        }
+        Treatment::Interference(Interference::StrainFree) => {
+            "left as it is, without stress".to_owned()
+        }
+        Treatment::Given => "taken to be the gap that the case gives".to_owned(),
+        Treatment::Joined => return None,
+    })
+}
+
+/// The name of the first step in which a contact acts.
+pub fn first_step(case: &Case, contact: &str) -> String {
+    let contact = case.contacts.iter().find(|c| c.name.value == contact);
+    let acting = contact.map(|contact| contact.acting(case.steps.iter()));
+    let steps = acting.into_iter().flatten().zip(&case.steps);
+    let mut acting = steps.filter(|(acts, _)| *acts);
+    acting
+        .next()
+        .map_or_else(String::new, |(_, step)| step.name.value.clone())
+}
+
+/// Findings about all contacts.
+pub(super) fn findings(case: &Case, mesh: &Mesh, contacts: &[ContactInfo]) -> Diagnostics {
+    let mut found = Diagnostics::new();
+    for info in contacts {
+        let own = case.contacts.iter().find(|c| c.name.value == info.name);
+        let note = |code: &'static Code, text: String| {
+            let one = Diagnostic::new(Severity::Note, code, text);
+            match own {
+                Some(contact) => one.at(&contact.place, ""),
+                None => one,
+            }
+        };
+        let start = &info.start;
+        let overlaps = start.overlapping > 0 && start.treatment != Treatment::Joined;
+        if let (true, Some(gap)) = (overlaps, start.gap) {
+            let at = start.place.as_ref().map(|p| place(p, mesh));
+            let text = format!(
+                "contact \"{}\": the sides overlap at the start by up to {}{}",
+                info.name,
+                short(-gap),
+                at.unwrap_or_default()
+            );
+            let mut one = note(&codes::OVERLAP, text);
+            let what = treatment(start, &first_step(case, &info.name));
+            let what = what.map_or_else(String::new, |what| format!("; {what}"));
+            let many = plural(start.overlapping, "node");
+            one = one.note(format!("{many} of both sides overlap{what}"));
+            found.push(one);
+        }
+        if let Some(bent) = &start.bent {
+            let text = format!(
+                "contact \"{}\": gaps of up to {} come from straight facets and are taken as {}",
+                info.name,
+                short(bent.straight),
+                short(bent.bent)
+            );
+            let mut one = note(&codes::FACETED, text);
+            one = one.note(
+                "gaps are measured between the curved surfaces that the facets were cut from",
+            );
+            let distance = bent.distance;
+            if distance.abs() > 2.0 * bent.bent {
+                let kind = if distance > 0.0 {
+                    "clearance"
+                } else {
+                    "interference"
+                };
+                let size = short(distance.abs());
+                one = one.note(format!("a uniform {kind} of {size} stays"));
+            }
+            found.push(one);
+        }
+    }
+    found
+}
+
+/// What an error adds about where bodies overlap too deeply.
+pub(super) fn where_too_deep(error: &ModelError, mesh: &Mesh) -> Vec<String> {
+    let ModelError::TooDeep {
+        overlap,
+        thickness,
+        place,
+        count,
+        nodes,
+        ..
+    } = error
+    else {
+        return Vec::new();
+    };
+    let names: Vec<String> = nodes.iter().map(u64::to_string).collect();
+    let more = if *count > names.len() { ", …" } else { "" };
+    vec![
+        format!(
+            "the deepest is node {} ({}): {} where the bodies are {} thick",
+            names.first().map_or("?", String::as_str),
+            position(*place, mesh.dim()),
+            short(*overlap),
+            short(*thickness)
+        ),
+        format!("{}: {}{more}", plural(*count, "node"), names.join(", ")),
+    ]
+}
