@@ -148,6 +148,10 @@ impl Term for Centrifugal {
         true
     }
 
+    fn is_load(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         self.chunks.len()
     }

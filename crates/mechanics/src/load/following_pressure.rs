@@ -126,6 +126,10 @@ impl Term for FollowingPressure {
         true
     }
 
+    fn is_load(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         self.chunks.len()
     }

@@ -96,6 +96,10 @@ impl Term for NodalForces {
         true
     }
 
+    fn is_load(&self) -> bool {
+        true
+    }
+
     fn nchunk(&self) -> usize {
         1
     }

@@ -39,6 +39,7 @@ mod stabilization;
 mod stepping;
 #[cfg(test)]
 mod tests;
+mod works;
 
 pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};

@@ -3,6 +3,7 @@
 use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
+use super::works::Works;
 use crate::system::linear::{LinearKind, choose};
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError, interpolate,
@@ -141,6 +142,7 @@ pub struct Stepper {
     pub(super) newton: Newton,
     pub(super) state: State,
     pub(super) progress: Progress,
+    works: Works,
     guess: Vec<f64>,
     stabilize_after: Option<usize>,
 }
@@ -203,6 +205,7 @@ impl Stepper {
             newton,
             state: system.initial_state(),
             progress: Progress::default(),
+            works: Works::default(),
             guess: Vec::new(),
             stabilize_after: settings.stabilize_after,
         }
@@ -526,6 +529,10 @@ impl Stepper {
 
     /// The trial state becomes the accepted one.
     pub(super) fn accept(&mut self, system: &mut System) -> Result<(), TermError> {
+        let newton = &self.newton;
+        let forces = (&newton.prescribed[..], &newton.assembly.residual[..]);
+        self.works
+            .accept(system, (&self.state, &newton.trial), forces)?;
         self.state.clone_from(&self.newton.trial);
         for term in &mut system.terms {
             term.accept(&self.state)?;
@@ -609,6 +616,8 @@ impl Stepper {
         let mut frame = system.report(&self.state, prescribed, assembly)?;
         frame.step_number = self.progress.step;
         frame.increment = self.progress.increment;
+        frame.work_external = self.works.external;
+        frame.work_turnover = self.works.turnover;
         Ok(frame)
     }
 
@@ -633,6 +642,7 @@ impl Stepper {
         out.put("progress.rate", &p.rate);
         out.put("progress.curvature", p.curvature.as_slice());
         out.put("progress.scale", &self.newton.scale.to_array());
+        self.works.save(out);
         for term in &system.terms {
             term.save(out);
         }
@@ -665,6 +675,7 @@ impl Stepper {
         for term in &mut system.terms {
             term.load(from)?;
         }
+        self.works.load(from)?;
         self.newton.scale = ForceScale::from_array(scale);
         self.newton.analyzed = false;
         self.newton.coupled_more = true;

@@ -1,5 +1,5 @@
 use super::assembly::fill_up;
-use super::{Dof, Frame, Samples, State, Symmetry};
+use super::{ContactAudit, Dof, Frame, Samples, State, Symmetry};
 use signorini_geometry::mesh::{CellId, NodeId};
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -412,6 +412,11 @@ pub trait Term: Send + Sync {
         false
     }
 
+    /// Whether its forces are given, so that their work comes from outside.
+    fn is_load(&self) -> bool {
+        false
+    }
+
     /// Adds what the term knows at the integration points of these cells, which are sorted, at an accepted state.
     ///
     /// # Errors
@@ -423,6 +428,11 @@ pub trait Term: Send + Sync {
         _out: &mut Samples,
     ) -> Result<(), TermError> {
         Ok(())
+    }
+
+    /// Audits an accepted state, whose results so far are in the frame: of contacts.
+    fn audit(&self, _state: &State, _frame: &Frame) -> Option<ContactAudit> {
+        None
     }
 
     /// Writes what the term knows at an accepted state into a frame.
