@@ -15,6 +15,7 @@
 //!
 //! To add a file: a line in `tree`, and its writing in `recorder`.
 
+mod audit;
 mod cells;
 mod contact_surface;
 mod drive;
@@ -65,6 +66,8 @@ pub struct RunOptions {
     pub fresh: bool,
     /// Go on from the last checkpoint in the folder.
     pub resume: bool,
+    /// Whether a run whose audit finds something wrong ends with exit code 1.
+    pub strict: bool,
     /// What stops it from outside.
     pub limits: Limits,
     /// The disk.
@@ -84,6 +87,7 @@ impl RunOptions {
             source,
             fresh: false,
             resume: false,
+            strict: false,
             limits: Limits::default(),
             fs: Arc::new(RealFs),
             threads: rayon::current_num_threads(),

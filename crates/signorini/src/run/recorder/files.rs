@@ -1,6 +1,7 @@
 //! The files of a run: begun anew, or gone on with from a checkpoint.
 
 use super::{Counts, Recorder, Setting, frame_file};
+use crate::run::audit::Audit;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
 use crate::run::narration::Narrator;
@@ -37,6 +38,7 @@ pub struct Opened {
     checkpoints: Checkpoints,
     counts: Counts,
     expectations: Expectations,
+    audit: Audit,
     step: Option<usize>,
     time: f64,
     step_time: f64,
@@ -180,6 +182,7 @@ impl Opened {
         let [step, time, step_time] = clock;
         setting.fs.settle()?;
         Ok(Self {
+            audit: Audit::restored(from),
             step: (step >= 0.0).then_some(step as usize),
             time,
             step_time,
@@ -210,6 +213,7 @@ impl Opened {
             counts,
             expectations,
             checkpoints,
+            audit: Audit::default(),
             step: None,
             time: 0.0,
             step_time: 0.0,
@@ -224,6 +228,7 @@ impl Opened {
             listener,
             contacts: BTreeMap::new(),
             work_stabilization: 0.0,
+            audit: self.audit,
             error: None,
             stop: None,
             write_seconds: 0.0,

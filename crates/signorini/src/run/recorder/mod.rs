@@ -11,6 +11,7 @@ pub use files::Opened;
 use files::Files;
 
 use crate::build::Model;
+use crate::run::audit::Audit;
 use crate::run::contact_surface;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
@@ -111,6 +112,8 @@ pub struct Recorder<'l> {
     pub contacts: BTreeMap<String, ContactSummary>,
     /// Work spent so far in holding what only contact stops.
     pub work_stabilization: f64,
+    /// What the audits found so far.
+    pub audit: Audit,
     /// The first failure of the disk; nothing is written after it.
     pub error: Option<OutputError>,
     /// Why to stop.

@@ -168,6 +168,7 @@ impl Recorder<'_> {
             .map(|c| (c.name.clone(), summary(c, before.get(&c.name))))
             .collect();
         self.work_stabilization = frame.work_stabilization;
+        self.audit.look(frame);
         let event = Event::Increment {
             step: name,
             inc: record.increment as u64,
