@@ -7,6 +7,7 @@
 //! `solve` knows nothing of solids or contact: all it sees is [`system::Term`]. `material` and `contact::law` have never
 //! heard of a degree of freedom.
 
+pub mod audit;
 pub mod connector;
 pub mod contact;
 pub mod load;

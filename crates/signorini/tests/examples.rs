@@ -1,4 +1,4 @@
-//! Every example is run as a user runs it, and what its case expects is met.
+//! Every example is run as a user runs it, what its case expects is met, and its audit finds nothing wrong.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -16,7 +16,7 @@ const ELSEWHERE: [&str; 5] = [
 ];
 
 #[test]
-fn examples_meet_what_they_expect() {
+fn examples_meet_what_they_expect_and_pass_the_audit() {
     let folder = repository().join("examples");
     let mut names: Vec<String> = std::fs::read_dir(&folder)
         .unwrap()
@@ -33,6 +33,7 @@ fn examples_meet_what_they_expect() {
             .arg(folder.join(&name).join("case.toml"))
             .arg("-o")
             .arg(results.path().join(&name))
+            .arg("--strict")
             .output()
             .unwrap();
         let said = String::from_utf8_lossy(&output.stderr);

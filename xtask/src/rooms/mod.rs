@@ -33,7 +33,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 35] = [
+const ROOMS: [Room; 36] = [
     room("geometry", &[]),
     room("geometry::tensor", &[]),
     room("geometry::element", &["geometry::tensor"]),
@@ -62,7 +62,11 @@ const ROOMS: [Room; 35] = [
     ),
     room("mechanics::load", &["mechanics::system", "geometry"]),
     room("mechanics::connector", &["mechanics::system", "geometry"]),
-    room("mechanics::contact", &["mechanics::system", "geometry"]),
+    room("mechanics::audit", &["mechanics::system", "geometry"]),
+    room(
+        "mechanics::contact",
+        &["mechanics::system", "mechanics::audit", "geometry"],
+    ),
     room("mechanics::contact::law", &[]),
     room("mechanics::contact::friction", &[]),
     room(

@@ -358,6 +358,42 @@ codes! {
     ["delete one of the two", "write  passes = 2  to look at the points of both sides",
      "silence with  allow = [\"S0407\"]  where they act in different steps"]
 
+    PRESSED_APART "S0421" Input "contact pressure where the surfaces are apart"
+    "Accepted states are audited point by point, whatever the method. Nodes carry contact pressure, and nowhere around them \
+     is the gap zero: the pressure is not that of surfaces that touch."
+    ["a corner or an edge of the other side lies over a facet, and a mean over the facet counts as a gap",
+     "a body meets its own far side, or a surface beyond the one in front"]
+    ["compare single points:  method = \"node-to-segment\"", "a smaller `reach`", "smaller facets at corners and edges",
+     "make it an error:  --strict"]
+
+    INSIDE "S0422" Input "one side of a contact is inside the other"
+    "Accepted states are audited point by point. Points of one side are inside the other, by more than the law of the contact \
+     and the facets explain."
+    ["the coarser side is the secondary one, so that corners of the other side are not looked at",
+     "a point went through in one increment", "the penalty is too soft"]
+    ["exchange secondary and primary, or  passes = 2", "smaller increments", "a larger penalty, or  enforcement = \"lagrange\"",
+     "make it an error:  --strict"]
+
+    WRONG_DIRECTION "S0423" Input "contact tractions in a direction that friction does not allow"
+    "Accepted states are audited. Measured along the normal of the primary side at the closest points, tractions have more \
+     shear than friction allows, or less where they slip."
+    ["facets have tilted against the other side, as at a corner that rolls up, and pressure acts along their normals"]
+    ["compare single points:  method = \"node-to-segment\"", "take the faces beside the edge into the secondary side",
+     "smaller facets there", "make it an error:  --strict"]
+
+    NOT_CARRIED "S0424" Input "contact tractions that no stress carries"
+    "Accepted states are audited. Contact exerts tractions that the stress of the elements there does not balance: they go \
+     from the contact into a support, or cancel each other."
+    ["a node is joined and held, or held by two joints", "very few elements at the contact"]
+    ["take the supports off the nodes that are joined, or exchange the sides", "smaller elements at the contact",
+     "make it an error:  --strict"]
+
+    LED_BY_VISCOSITY "S0425" Input "viscous forces did much of the work"
+    "There was no equilibrium nearby, or none was found, and viscous forces led to another one. Their work is a large part of \
+     that of loads and supports: where the structure does not snap, the state that was reached may not be the right one."
+    ["the structure snaps or buckles", "an increment was too large for contact or friction"]
+    ["smaller increments:  increments = { max = ... }", "refuse such steps:  on_trouble = [\"cut\"]", "make it an error:  --strict"]
+
     FAR_FROM_START "S0431" Input "a contact that slid far in the geometry of the start"
     "A contact whose steps all have linear geometry compares the sides where they were at the start. What touches has moved \
      along the other side by more than a facet since, so that it presses on facets that are no longer opposite."

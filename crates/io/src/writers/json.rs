@@ -290,6 +290,9 @@ pub struct Summary {
     /// Work of supports and loads.
     #[serde(default, deserialize_with = "nan::of_number")]
     pub work_external: f64,
+    /// What the audit of all accepted states found.
+    #[serde(default)]
+    pub audit: AuditSummary,
     /// Wall time of each phase, in seconds.
     #[serde(deserialize_with = "nan::of_map")]
     pub time: BTreeMap<String, f64>,
@@ -316,6 +319,42 @@ pub struct StepSummary {
     pub iterations: u64,
     /// Attempts that were given up.
     pub cutbacks: u64,
+}
+
+/// What the audit found in a [`Summary`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AuditSummary {
+    /// Whether all is within its limits in all increments.
+    pub passed: bool,
+    /// Work of loads and supports.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub work_external: f64,
+    /// Work of the viscous forces that led to another equilibrium where there was none nearby, over the sum of the sizes of
+    /// the work of loads and supports in each increment.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub part_viscous: f64,
+    /// The worst of each check, by contact, then check: `apart`, `through`, `direction`, `stress`.
+    pub contacts: BTreeMap<String, BTreeMap<String, AuditEntry>>,
+}
+
+/// What a check found at a contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AuditEntry {
+    /// Whether it is within its limit in all increments.
+    pub passed: bool,
+    /// The largest part that is wrong: of the contact force; for `through`, of the size of a facet.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub part: f64,
+    /// The part up to which it passes.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub limit: f64,
+    /// The time at which it is worst.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub time: f64,
+    /// Increments in which it does not pass.
+    pub increments: u64,
+    /// The worst nodes then, where it does not pass.
+    pub nodes: Vec<u64>,
 }
 
 /// One contact of a [`Summary`], in the quantities of `history.csv`.
@@ -678,7 +717,7 @@ mod tests {
         };
         assert_eq!(
             keys(&value),
-            "contacts diagnostics exit_code expectations inputs memory_peak_bytes status steps time unknowns version work_external work_stabilization"
+            "audit contacts diagnostics exit_code expectations inputs memory_peak_bytes status steps time unknowns version work_external work_stabilization"
         );
         assert_eq!(
             keys(&value["steps"][0]),

@@ -251,6 +251,9 @@ impl Term for Damper {
 
     fn report(&self, _: &State, frame: &mut Frame) -> Result<(), TermError> {
         frame.work_stabilization += self.work;
+        if matches!(self.strength, Strength::Asked(_)) {
+            frame.work_jumps += self.work;
+        }
         Ok(())
     }
 }

@@ -663,6 +663,7 @@ impl Stepper {
         frame.step_number = self.progress.step;
         frame.work_external = self.progress.work.total;
         frame.increment = self.progress.increment;
+        frame.work_turnover = self.progress.work.turnover;
         Ok(frame)
     }
 

@@ -11,6 +11,8 @@ use crate::system::{Archive, ArchiveError, Dof, Order, Sink, State, System, Term
 pub(super) struct ExternalWork {
     /// Force times length; of a moment and a rotation, likewise.
     pub total: f64,
+    /// The sum of the sizes of what it was in each increment: what parts of it refer to, whatever loads give back.
+    pub turnover: f64,
     /// What supports and loads exert at the last accepted state, at every raw dof; empty before the first.
     supports: Vec<f64>,
     loads: Vec<f64>,
@@ -43,21 +45,24 @@ impl ExternalWork {
         let supports: Vec<f64> = prescribed.iter().zip(residual).map(reaction).collect();
         self.supports.resize(supports.len(), 0.0);
         self.loads.resize(ndof, 0.0);
+        let mut work = 0.0;
         for (dof, (now, before)) in to.u.iter().zip(&from.u).enumerate() {
             let at = |forces: &[f64]| forces.get(dof).copied().unwrap_or_default();
             let mut force = at(&loads.0) + at(&self.loads);
             if prescribed.get(dof).copied().unwrap_or_default() {
                 force += at(&supports) + at(&self.supports);
             }
-            self.total += 0.5 * force * (now - before);
+            work += 0.5 * force * (now - before);
         }
+        self.total += work;
+        self.turnover += work.abs();
         (self.supports, self.loads) = (supports, loads.0);
         Ok(())
     }
 
     /// Stores it: of forces those that are not zero, dof and value.
     pub fn save(&self, out: &mut Archive) {
-        out.put("progress.work", &[self.total]);
+        out.put("progress.work", &[self.total, self.turnover]);
         for (name, forces) in STORED.iter().zip([&self.supports, &self.loads]) {
             let acting = forces.iter().enumerate().filter(|(_, f)| **f != 0.0);
             let pairs: Vec<f64> = acting.flat_map(|(dof, f)| [dof as f64, *f]).collect();
@@ -71,12 +76,12 @@ impl ExternalWork {
     /// An array that is not there.
     pub fn load(&mut self, ndof: usize, from: &Archive) -> Result<(), ArchiveError> {
         *self = Self::default();
-        let mut total = [0.0];
+        let mut sums = [0.0; 2];
         if from.length("progress.work").is_err() {
             return Ok(());
         }
-        from.get("progress.work", &mut total)?;
-        self.total = total[0];
+        from.get("progress.work", &mut sums)?;
+        [self.total, self.turnover] = sums;
         for (name, forces) in STORED.iter().zip([&mut self.supports, &mut self.loads]) {
             let mut pairs = vec![0.0; from.length(name)?];
             from.get(name, &mut pairs)?;

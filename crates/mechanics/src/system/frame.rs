@@ -1,4 +1,4 @@
-use super::Samples;
+use super::{ContactAudit, Samples};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::{Sym3, Vec3};
@@ -240,10 +240,16 @@ pub struct Frame {
     pub spins: Vec<SpinFrame>,
     /// Work spent so far by viscous forces that hold what only contact stops.
     pub work_stabilization: f64,
+    /// The part of it that led to another equilibrium where there was none nearby.
+    pub work_jumps: f64,
     /// Work that supports and loads have done so far, by the trapezoidal rule over increments.
     pub work_external: f64,
+    /// The sum of the sizes of what it was in each increment: what parts of it refer to.
+    pub work_turnover: f64,
     /// Potential energy, where every term has one.
     pub energy: Option<f64>,
+    /// What the audits of the contacts found.
+    pub audits: Vec<ContactAudit>,
 }
 
 /// A centrifugal load at an accepted state.

@@ -33,6 +33,7 @@
 //! Results do not depend on the number of threads: chunks are evaluated in parallel and added in a fixed order.
 
 mod assembly;
+mod audited;
 mod course;
 mod elimination;
 mod frame;
@@ -50,6 +51,7 @@ mod tests;
 mod whole;
 
 pub use assembly::{Assembler, Assembly};
+pub use audited::{Check, ContactAudit, Measured};
 pub use course::{NodalField, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{

@@ -1,5 +1,5 @@
 use super::assembly::fill_up;
-use super::{Dof, Frame, Samples, State, Symmetry};
+use super::{ContactAudit, Dof, Frame, Samples, State, Symmetry};
 use signorini_geometry::mesh::{CellId, NodeId};
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -439,6 +439,11 @@ pub trait Term: Send + Sync {
         _out: &mut Samples,
     ) -> Result<(), TermError> {
         Ok(())
+    }
+
+    /// Audits an accepted state, whose results so far are in the frame: of contacts.
+    fn audit(&self, _state: &State, _frame: &Frame) -> Option<ContactAudit> {
+        None
     }
 
     /// Writes what the term knows at an accepted state into a frame.

@@ -1,6 +1,7 @@
 use super::samples::internal_forces;
 use super::{
-    Assembly, Dof, DofName, Elimination, Frame, Layout, Samples, State, Term, TermError, Wanted,
+    Assembly, ContactAudit, Dof, DofName, Elimination, Frame, Layout, Samples, State, Term,
+    TermError, Wanted,
 };
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -89,11 +90,19 @@ impl System {
         for term in &self.terms {
             term.report(state, &mut frame)?;
         }
+        frame.audits = self.audit(state, &frame);
         frame.samples = Samples::take(&self.terms, state, &self.wanted.cells)?;
         if self.wanted.forces {
             frame.internal_force = internal_forces(&self.terms, &self.layout, state)?;
         }
         Ok(frame)
+    }
+
+    /// What the audits of all contacts find at an accepted state with these results.
+    #[must_use]
+    pub fn audit(&self, state: &State, frame: &Frame) -> Vec<ContactAudit> {
+        let terms = self.terms.iter();
+        terms.filter_map(|term| term.audit(state, frame)).collect()
     }
 
     /// The displacement of a node, a vector of space in every dimension.

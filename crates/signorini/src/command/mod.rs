@@ -139,6 +139,9 @@ struct SolveOptions {
     /// Tell where the time went
     #[arg(long)]
     timings: bool,
+    /// Exit code 1 where the audit of the results finds something wrong, not just a warning
+    #[arg(long)]
+    strict: bool,
 }
 
 /// A folder for results.

@@ -115,6 +115,7 @@ impl Job {
         run.folder = self.folder.unwrap_or(run.folder);
         run.fresh = self.fresh;
         run.resume = self.resume;
+        run.strict = options.strict;
         run.threads = self.threads;
         run.seconds = [self.read_seconds, clock.elapsed().as_secs_f64()];
         run.limits = Limits {

@@ -257,6 +257,7 @@ impl Run<'_, '_> {
         self.recorder.finish(solved);
         self.recorder.settle();
         let mut verdicts = Vec::new();
+        let wrong = self.audited(&mut found);
         let (mut exit_code, mut status) = match ending {
             Ending::Solved => {
                 verdicts = self.expectations();
@@ -289,7 +290,11 @@ impl Run<'_, '_> {
             }
         };
         self.far_from_start(&mut found);
+        if exit_code == 0 && wrong && self.options.strict {
+            (exit_code, status) = (1, "audit failed");
+        }
         let mut summary = Summary {
+            audit: self.recorder.audit.summary(&self.model.mesh),
             steps: self.recorder.counts.steps.clone(),
             contacts: std::mem::take(&mut self.recorder.contacts),
             expectations: verdicts,
@@ -360,6 +365,19 @@ impl Run<'_, '_> {
             diagnostics: found,
             summary,
         }
+    }
+
+    /// Tells what the audit found wrong; says whether there is anything.
+    fn audited(&mut self, found: &mut Diagnostics) -> bool {
+        let mut wrong: Diagnostics = self.recorder.audit.warnings(self.model);
+        let allowed: Vec<&str> = self.model.case.allow.iter().map(String::as_str).collect();
+        wrong.silence(&allowed);
+        for one in &wrong {
+            self.recorder.tell(&event_of(one), Detail::Finding(one));
+        }
+        let any = wrong.iter().next().is_some();
+        found.append(wrong);
+        any
     }
 
     fn totals(&self, summary: &Summary) -> Totals {

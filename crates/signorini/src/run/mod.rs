@@ -15,6 +15,7 @@
 //!
 //! To add a file: a line in `tree`, and its writing in `recorder`.
 
+mod audit;
 mod cells;
 mod closure;
 mod contact_surface;
@@ -67,6 +68,8 @@ pub struct RunOptions {
     pub fresh: bool,
     /// Go on from the last checkpoint in the folder.
     pub resume: bool,
+    /// Whether a run whose audit finds something wrong ends with exit code 1.
+    pub strict: bool,
     /// What stops it from outside.
     pub limits: Limits,
     /// The disk.
@@ -86,6 +89,7 @@ impl RunOptions {
             source,
             fresh: false,
             resume: false,
+            strict: false,
             limits: Limits::default(),
             fs: Arc::new(RealFs),
             threads: rayon::current_num_threads(),

@@ -1,5 +1,6 @@
 //! One pair of surfaces with its choices, as the one contact term there is.
 
+mod audited;
 mod drift;
 mod history;
 mod lent;
@@ -15,8 +16,8 @@ use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
 use super::law::{ContactLaw, Multiplier, Penalty, Scale};
 use super::row::{Participant, RowOrder, Rows, Wanted};
 use crate::system::{
-    Archive, ArchiveError, Dof, Elimination, Frame, Layout, Order, Part, PatternSink, Sink, State,
-    StepContext, Symmetry, Term, TermError, Verdict, Work,
+    Archive, ArchiveError, ContactAudit, Dof, Elimination, Frame, Layout, Order, Part, PatternSink,
+    Sink, State, StepContext, Symmetry, Term, TermError, Verdict, Work,
 };
 use history::History;
 use lent::Lents;
@@ -730,6 +731,10 @@ impl Term for Interface {
 
     fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         self.describe(state, frame)
+    }
+
+    fn audit(&self, state: &State, frame: &Frame) -> Option<ContactAudit> {
+        self.audited(state, frame)
     }
 }
 

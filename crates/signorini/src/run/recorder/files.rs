@@ -1,6 +1,7 @@
 //! The files of a run: begun anew, or gone on with from a checkpoint.
 
 use super::{Counts, Recorder, Setting, frame_file};
+use crate::run::audit::Audit;
 use crate::run::closure::Closure;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
@@ -39,6 +40,7 @@ pub struct Opened {
     counts: Counts,
     expectations: Expectations,
     closure: Closure,
+    audit: Audit,
     step: Option<usize>,
     time: f64,
     step_time: f64,
@@ -183,6 +185,7 @@ impl Opened {
         let [step, time, step_time] = clock;
         setting.fs.settle()?;
         Ok(Self {
+            audit: Audit::restored(from),
             step: (step >= 0.0).then_some(step as usize),
             time,
             step_time,
@@ -214,6 +217,7 @@ impl Opened {
             counts,
             expectations,
             checkpoints,
+            audit: Audit::default(),
             step: None,
             time: 0.0,
             step_time: 0.0,
@@ -232,6 +236,7 @@ impl Opened {
             closure: self.closure,
             work_stabilization: 0.0,
             work_external: 0.0,
+            audit: self.audit,
             error: None,
             stop: None,
             write_seconds: 0.0,

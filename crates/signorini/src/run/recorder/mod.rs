@@ -11,6 +11,7 @@ pub use files::Opened;
 use files::Files;
 
 use crate::build::Model;
+use crate::run::audit::Audit;
 use crate::run::closure::Closure;
 use crate::run::contact_surface;
 use crate::run::error::OutputError;
@@ -118,6 +119,8 @@ pub struct Recorder<'l> {
     pub work_stabilization: f64,
     /// Work of supports and loads so far.
     pub work_external: f64,
+    /// What the audits found so far.
+    pub audit: Audit,
     /// The first failure of the disk; nothing is written after it.
     pub error: Option<OutputError>,
     /// Why to stop.

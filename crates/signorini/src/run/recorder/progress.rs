@@ -192,6 +192,7 @@ impl Recorder<'_> {
         self.drifts = drifts.collect();
         self.work_stabilization = frame.work_stabilization;
         self.work_external = frame.work_external;
+        self.audit.look(frame);
         let event = Event::Increment {
             step: name,
             inc: record.increment as u64,

@@ -1,0 +1,156 @@
+//! An audit of accepted states, with other means than those that made them.
+//!
+//! ```text
+//!   ──●────────●────────●──   secondary        ● corners of facets, × corners of the other side: where the smallest
+//!      ╲    ×      ×   ╱      primary            gap of two faceted surfaces is; × between ● is the end of a cell
+//! ```
+//!
+//! A method of contact compares the sides in its own way: by means over facets, at points inside, at nodes. What it found is
+//! looked at here point by point, with nothing but the positions of both sides, the tractions, and the stress of the
+//! elements. An audit sees no row, no multiplier and no mortar integral, so that it can judge all methods, and states from
+//! elsewhere.
+//!
+//! | symbol | name in code | unit |
+//! |---|---|---|
+//! | g | gap of a sample: signed distance from the closest facet that faces it, with what is prescribed | length |
+//! | g*(p) | `Rules::gap`: what the law has at a pressure, −p/ε of a penalty, 0 of a multiplier | length |
+//! | h, θ | size of a facet, turn from one to the next | length, angle |
+//! | s = h θ/8 | `bend`: how far a chord is from the curve that it stands for | length |
+//! | t, A | traction on the secondary side at a node, and its area | |
+//! | ν | the normal of the primary side at the closest point | |
+//! | σ | Cauchy stress at a node, the mean over the elements around it | |
+//!
+//! ```text
+//! (A1) apart       min g over the support of node k  >  max(g*, 0) + tol_k,   tol_k = TOUCH h + s of both sides
+//! (A2) through     g of a sample < 1.5 min(g*, 0) − tol_k − DEEP h
+//! (A3) direction   T = |t − (t·ν)ν| against the limit L(t·ν): T > L anywhere, |T − L| where it slips, T without friction;
+//!                  a node may be off by (t·ν) tan(θ + 1°)
+//! (A4) stress      Σ |S(A t − A σ n)| / Σ A (|t| + |σ|/2) over facets, with means S over the facets around each; and nodes
+//!                  with |t| > STRAINED |σ|
+//! (A5) energy      work of viscous forces in jumps over Σ |ΔW| of loads and supports
+//! ```
+//!
+//! (A1), (A3) and (A4) are judged by the part of the contact force that they concern, so that the last node of an edge does
+//! not cause alarm. Where a method holds the geometry of the start, `g = g₀ + ν₀·(u_s − u_p)` at the closest points of the
+//! start is what it is to be judged by ([`Sides::start`]).
+//!
+//! Limits: (A1) in space takes corners and, where these are apart, a grid of points on each facet, so that two edges that
+//! cross are seen to a part of a facet; in the plane it is exact for straight facets. Joints are checked by (A4) alone. Of a surface that may touch
+//! itself, corners of the other side are left out, and so is depth that was there at the start.
+//!
+//! To add a check: an entry of [`Check`](crate::system::Check), a file here, a line in [`contact`].
+
+mod closest;
+mod direction;
+mod gaps;
+mod stress;
+mod support;
+
+use crate::system::{ContactAudit, ContactFrame, Frame, Measured};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::surface::{ContactSurface, Facets, Placement};
+use signorini_geometry::tensor::Vec3;
+use support::Support;
+
+/// Where the two sides of a contact are.
+#[derive(Clone, Copy)]
+pub struct Sides<'a> {
+    /// The facets of the secondary side; none where it is bare nodes.
+    pub secondary: Option<&'a Facets>,
+    /// The other side.
+    pub primary: &'a dyn ContactSurface,
+    /// Where all is now.
+    pub now: Placement<'a>,
+    /// Where all was at the start, if the geometry of the start is what holds.
+    pub start: Option<Placement<'a>>,
+    /// Where the nodes were at the start.
+    pub reference: &'a [Vec3],
+    /// Whether both sides are one.
+    pub same: bool,
+}
+
+impl<'a> Sides<'a> {
+    /// The configuration in which closest points are looked for.
+    const fn searched(&self) -> Placement<'a> {
+        match self.start {
+            Some(start) => start,
+            None => self.now,
+        }
+    }
+}
+
+/// What a contact is to obey.
+pub trait Rules: Sync {
+    /// Whether the sides are joined.
+    fn joined(&self) -> bool;
+    /// What is prescribed beside the gap at a node of the secondary side, by its place among them.
+    fn shift(&self, node: usize) -> f64;
+    /// The gap that the law has at a pressure on a node.
+    fn gap(&self, node: usize, pressure: f64) -> f64;
+    /// The largest tangential traction at a pressure on a node; `None` without friction.
+    fn limit(&self, node: usize, pressure: f64) -> Option<f64>;
+    /// The node opposite a node, where nodes meet nodes and the other side has no facets.
+    fn partner(&self, node: usize) -> Option<NodeId>;
+    /// Whether a node follows a rigid body, so that no stress carries what acts on it.
+    fn is_rigid(&self, node: NodeId) -> bool;
+}
+
+/// Audits one contact at an accepted state.
+#[must_use]
+pub fn contact(
+    of: &ContactFrame,
+    frame: &Frame,
+    sides: &Sides<'_>,
+    rules: &dyn Rules,
+) -> ContactAudit {
+    let support = Support::new(of, sides, rules.joined());
+    let mut audit = ContactAudit {
+        name: of.name.clone(),
+        nclosed: support.closed.len(),
+        force: support.force,
+        checks: Default::default(),
+    };
+    if support.force <= 0.0 {
+        return audit;
+    }
+    if !rules.joined() {
+        let seen = gaps::look(&support, sides, rules);
+        audit.checks[0] = gaps::apart(&support, sides, rules, &seen);
+        audit.checks[1] = gaps::through(&support, rules, &seen);
+        audit.checks[2] = direction::check(&support, sides, rules, &seen);
+    }
+    audit.checks[3] = stress::check(&support, frame, rules);
+    audit
+}
+
+/// The part of the work of loads and supports that viscous forces may do in jumps.
+const VISCOUS: f64 = 0.05;
+
+/// Audits the work of viscous forces that led to another equilibrium where there was none nearby (A5).
+#[must_use]
+pub fn viscous(frame: &Frame) -> Measured {
+    let mut measured = nothing(VISCOUS);
+    (measured.worst, measured.allowed) = (frame.work_jumps, frame.work_turnover);
+    if frame.work_jumps > 0.0 && frame.work_turnover > 0.0 {
+        measured.part = frame.work_jumps / frame.work_turnover;
+    }
+    measured
+}
+
+/// How many nodes a finding names.
+const NAMED: usize = 4;
+
+/// The worst of these nodes, the worst first.
+fn worst(of: &ContactFrame, mut nodes: Vec<(usize, f64)>) -> Vec<NodeId> {
+    nodes.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let name = |&(k, _): &(usize, f64)| of.nodes.get(k).copied();
+    nodes.iter().take(NAMED).filter_map(name).collect()
+}
+
+/// A check that has nothing to look at.
+fn nothing(limit: f64) -> Measured {
+    Measured {
+        limit,
+        ..Measured::default()
+    }
+}

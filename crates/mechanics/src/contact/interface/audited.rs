@@ -1,0 +1,171 @@
+//! What an audit is to know of a contact.
+
+use super::{Interface, Measure, Multiplier, State};
+use crate::audit::{self, Rules, Sides};
+use crate::contact::friction::Sliding;
+use crate::system::{ContactAudit, ContactFrame, Frame, NodeId};
+use signorini_geometry::surface::Placement;
+use signorini_geometry::tensor::Vec3;
+
+/// Halvings of an interval in which a law is inverted.
+const HALVINGS: usize = 60;
+
+/// The laws of a contact, node by node.
+struct Obeyed<'a> {
+    of: &'a Interface,
+    frame: &'a ContactFrame,
+    /// What is added to gaps; empty where nothing is.
+    shifts: Vec<f64>,
+    /// The nodes opposite; empty where there are facets.
+    partners: Vec<Option<NodeId>>,
+}
+
+impl Interface {
+    /// Audits the contact, where it acts and is not the second pass of another.
+    pub(super) fn audited(&self, state: &State, frame: &Frame) -> Option<ContactAudit> {
+        if !self.is_active() || self.parts.swapped {
+            return None;
+        }
+        let of = frame.contacts.iter().find(|c| c.name == self.parts.name)?;
+        let held = self.holds_start();
+        let nodes = state.x.iter().zip(&frame.displacement);
+        let x: Vec<Vec3> = nodes.map(|(x, u)| *x - *u).collect();
+        let poses = self.elimination.initial_poses();
+        let start = Placement {
+            x: &x,
+            poses: &poses,
+        };
+        let sides = Sides {
+            secondary: self.parts.pair.secondary.as_ref(),
+            primary: self.parts.pair.primary.as_ref(),
+            now: state.placement(),
+            start: held.then_some(start),
+            reference: &x,
+            same: self.parts.pair.same,
+        };
+        let rules = Obeyed {
+            of: self,
+            frame: of,
+            shifts: self.shifts_at_nodes(state.time),
+            partners: self.partners(),
+        };
+        Some(audit::contact(of, frame, &sides, &rules))
+    }
+
+    /// Whether the geometry at the start holds for good.
+    fn holds_start(&self) -> bool {
+        let discretization = self.parts.discretization.as_ref();
+        let mut pairs = self.now.pairs.iter().flatten();
+        let keeps = !discretization.renews() && pairs.any(|pair| pair.held.is_some());
+        discretization.stays() || keeps
+    }
+
+    /// The node opposite each node of the secondary side, where nodes meet nodes.
+    fn partners(&self) -> Vec<Option<NodeId>> {
+        let parts = &self.parts;
+        if parts.pair.primary.nfacet() > 0 {
+            return Vec::new();
+        }
+        let mut partners = vec![None; parts.pair.points.len()];
+        for row in 0..parts.discretization.nrow() {
+            let both = parts.discretization.more_nodes(row, &self.now);
+            if let &[secondary, primary, ..] = both
+                && let Ok(k) = parts.pair.points.binary_search(&secondary)
+            {
+                partners[k] = Some(primary);
+            }
+        }
+        partners
+    }
+
+    /// What is added to the gaps around each node of the secondary side: the mean over its rows.
+    fn shifts_at_nodes(&self, time: f64) -> Vec<f64> {
+        if self.parts.shifts.is_empty() && self.allowed.overlaps.is_empty() {
+            return Vec::new();
+        }
+        let points = &self.parts.pair.points;
+        let mut sums = vec![(0.0, 0.0); points.len()];
+        for row in 0..self.parts.discretization.nrow() {
+            let shift = self.shift(row, time);
+            let point = self.parts.discretization.point(row);
+            for (node, weight) in point.nodes.iter().zip(point.weights) {
+                let place = points.binary_search(node).ok();
+                if let Some((sum, weights)) = place.and_then(|k| sums.get_mut(k)) {
+                    let weight = weight * weight;
+                    *sum += weight * shift;
+                    *weights += weight;
+                }
+            }
+        }
+        let mean = |(sum, weights): (f64, f64)| if weights > 0.0 { sum / weights } else { 0.0 };
+        sums.into_iter().map(mean).collect()
+    }
+}
+
+impl Obeyed<'_> {
+    /// What the laws are asked with a traction: itself, or the force of a node.
+    fn measure(&self, node: usize) -> f64 {
+        match self.of.parts.measure {
+            Measure::Area => 1.0,
+            Measure::Node => self.frame.area.get(node).copied().unwrap_or(1.0),
+        }
+    }
+}
+
+impl Rules for Obeyed<'_> {
+    fn joined(&self) -> bool {
+        self.of.parts.bond.is_some()
+    }
+
+    fn shift(&self, node: usize) -> f64 {
+        self.shifts.get(node).copied().unwrap_or_default()
+    }
+
+    /// By halving: pressures fall with the gap.
+    fn gap(&self, node: usize, pressure: f64) -> f64 {
+        let parts = &self.of.parts;
+        let (law, scale) = (parts.law.as_ref(), &parts.scale);
+        if law.multiplier() != Multiplier::None {
+            return 0.0;
+        }
+        let wanted = pressure * self.measure(node);
+        let stiffer = |gap: f64| law.pressure(gap, 0.0, scale).value >= wanted;
+        let (mut near, mut far) = (-scale.length, scale.length);
+        for _ in 0..HALVINGS {
+            if stiffer(near) {
+                break;
+            }
+            near *= 2.0;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (near + far);
+            if stiffer(middle) {
+                near = middle;
+            } else {
+                far = middle;
+            }
+        }
+        near
+    }
+
+    fn limit(&self, node: usize, pressure: f64) -> Option<f64> {
+        let friction = self.of.phase().and_then(|p| p.friction.as_ref());
+        let path = self.frame.slip.get(node).map_or(0.0, |s: &Vec3| s.norm());
+        friction.map(|(law, _)| {
+            let measure = self.measure(node);
+            let at = Sliding {
+                pressure: pressure * measure,
+                path,
+            };
+            law.limit(&at).value / measure
+        })
+    }
+
+    fn partner(&self, node: usize) -> Option<NodeId> {
+        self.partners.get(node).copied().flatten()
+    }
+
+    fn is_rigid(&self, node: NodeId) -> bool {
+        self.of.elimination.body_of(node).is_some()
+    }
+}

@@ -1,0 +1,397 @@
+//! What the audits of accepted states found in the course of a run, and what is told of it.
+
+use crate::build::Model;
+use signorini_geometry::mesh::{Mesh, NodeId};
+use signorini_io::checkpoint::{Archive, ArchiveError};
+use signorini_io::diagnostic::{Code, Diagnostic, Diagnostics, codes};
+use signorini_io::writers::json::{AuditEntry, AuditSummary};
+use signorini_mechanics::audit::viscous;
+use signorini_mechanics::system::{Check, Frame, Measured};
+use std::collections::BTreeMap;
+
+/// What is kept of each check of a contact.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Worst {
+    /// The worst of all increments.
+    measured: Measured,
+    /// When.
+    time: f64,
+    /// Increments in which it did not pass, and the time of the first.
+    failed: u64,
+    first: f64,
+}
+
+/// What the audits found so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Audit {
+    contacts: BTreeMap<String, [Worst; 4]>,
+    increments: u64,
+    work_external: f64,
+    viscous: Measured,
+}
+
+/// Numbers of a check in a checkpoint, nodes left out.
+const STORED: usize = 8;
+/// Nodes of a check in a checkpoint.
+const NODES: usize = 4;
+
+impl Audit {
+    /// Looks at an accepted increment.
+    pub fn look(&mut self, frame: &Frame) {
+        self.increments += 1;
+        self.work_external = frame.work_external;
+        self.viscous = viscous(frame);
+        for audit in &frame.audits {
+            let kept = self.contacts.entry(audit.name.clone()).or_default();
+            for (kept, measured) in kept.iter_mut().zip(&audit.checks) {
+                kept.take(measured, frame.time);
+            }
+        }
+    }
+
+    /// What `summary.json` has of it.
+    pub fn summary(&self, mesh: &Mesh) -> AuditSummary {
+        let entry = |worst: &Worst| AuditEntry {
+            passed: worst.failed == 0,
+            part: worst.measured.part,
+            limit: worst.measured.limit,
+            time: worst.time,
+            increments: worst.failed,
+            nodes: labels(mesh, &worst.measured.nodes).collect(),
+        };
+        let of = |checks: &[Worst; 4]| {
+            let named = Check::ALL.iter().zip(checks);
+            named
+                .map(|(c, w)| (c.name().to_owned(), entry(w)))
+                .collect()
+        };
+        let contacts = self.contacts.iter();
+        let all = self.contacts.values().flatten();
+        AuditSummary {
+            passed: all.fold(self.viscous.passes(), |ok, w| ok && w.failed == 0),
+            work_external: self.work_external,
+            part_viscous: self.viscous.part,
+            contacts: contacts.map(|(n, c)| (n.clone(), of(c))).collect(),
+        }
+    }
+
+    /// A warning for each check of each contact that did not pass.
+    pub fn warnings(&self, model: &Model) -> Diagnostics {
+        let mut found = Diagnostics::new();
+        for (name, checks) in &self.contacts {
+            for (&check, worst) in Check::ALL.iter().zip(checks) {
+                if worst.failed > 0 {
+                    found.push(self.warning(name, check, worst, model));
+                }
+            }
+        }
+        let viscous = &self.viscous;
+        if !viscous.passes() {
+            let message = format!(
+                "viscous forces that led to another equilibrium did {:.0} % of the work of loads and supports",
+                100.0 * viscous.part
+            );
+            found.push(
+                Diagnostic::warning(&codes::LED_BY_VISCOSITY, message)
+                    .note(format!("their work is {:.3e}; up to {:.0} % is let pass", viscous.worst, 100.0 * viscous.limit))
+                    .help("smaller increments, or  on_trouble = [\"cut\"]  to refuse such steps; where the structure snaps, it is meant so"),
+            );
+        }
+        found
+    }
+
+    fn warning(&self, name: &str, check: Check, worst: &Worst, model: &Model) -> Diagnostic {
+        let m = &worst.measured;
+        let nodes: Vec<String> = labels(&model.mesh, &m.nodes)
+            .map(|n| n.to_string())
+            .collect();
+        let at = match nodes.as_slice() {
+            [] => String::new(),
+            [one] => format!(" at node {one}"),
+            many => format!(" at nodes {}", many.join(", ")),
+        };
+        let percent = 100.0 * m.part;
+        let (code, message): (&'static Code, String) = match check {
+            Check::Apart if m.worst.is_finite() => (
+                &codes::PRESSED_APART,
+                format!(
+                    "contact \"{name}\" presses{at} where the surfaces are {} apart",
+                    number(m.worst)
+                ),
+            ),
+            Check::Apart => (
+                &codes::PRESSED_APART,
+                format!(
+                    "contact \"{name}\" presses{at} where nothing of the other side is in front"
+                ),
+            ),
+            Check::Through => (
+                &codes::INSIDE,
+                format!(
+                    "the sides of contact \"{name}\" are {} inside each other{at}",
+                    number(m.worst)
+                ),
+            ),
+            Check::Direction => (
+                &codes::WRONG_DIRECTION,
+                format!(
+                    "{percent:.0} % of the force of contact \"{name}\" is in a direction that friction does not allow, worst{at}"
+                ),
+            ),
+            Check::Stress => (
+                &codes::NOT_CARRIED,
+                format!(
+                    "the stress beside contact \"{name}\" does not carry {percent:.0} % of its force, worst{at}"
+                ),
+            ),
+        };
+        let fact = match check {
+            Check::Apart => format!(
+                "pressure {} there; these nodes have {percent:.1} % of the contact force",
+                number(m.pressure)
+            ),
+            Check::Through => format!(
+                "{percent:.0} % of a facet deeper than {}, which the law and the facets explain",
+                number(m.allowed)
+            ),
+            Check::Direction => format!(
+                "shear over normal traction {} there, along the normal of the primary side; friction has {}",
+                number(m.worst),
+                number(m.allowed)
+            ),
+            Check::Stress => format!(
+                "traction {} there, stress {}",
+                number(m.worst),
+                number(m.allowed)
+            ),
+        };
+        let times = match worst.failed {
+            1 => format!(
+                "in 1 of {} increments, at time {}",
+                self.increments,
+                number(worst.time)
+            ),
+            n => format!(
+                "in {n} of {} increments, first at time {}, worst at {}",
+                self.increments,
+                number(worst.first),
+                number(worst.time)
+            ),
+        };
+        let diagnostic = Diagnostic::warning(code, message).note(fact).note(times);
+        diagnostic.help(help(name, check, model))
+    }
+
+    /// Stores what was found in a checkpoint.
+    ///
+    /// # Errors
+    /// A name that the archive has.
+    pub fn save(&self, archive: &mut Archive) -> Result<(), ArchiveError> {
+        let names: Vec<u64> = self
+            .contacts
+            .keys()
+            .flat_map(|name| name.bytes().chain([0]))
+            .map(u64::from)
+            .collect();
+        let v = &self.viscous;
+        let works = [self.work_external, v.part, v.limit, v.worst, v.allowed];
+        let mut numbers = works.to_vec();
+        let mut counts = vec![self.increments];
+        for worst in self.contacts.values().flatten() {
+            let m = &worst.measured;
+            let values = [m.part, m.limit, m.worst, m.allowed, m.pressure];
+            numbers.extend(values);
+            numbers.extend([worst.time, worst.first, worst.failed as f64]);
+            counts.extend((0..NODES).map(|k| m.nodes.get(k).map_or(u64::MAX, |n| u64::from(*n))));
+        }
+        archive.put_u64("run/audit.names", &names)?;
+        archive.put_u64("run/audit.counts", &counts)?;
+        archive.put_f64("run/audit.numbers", &numbers)
+    }
+
+    /// What a checkpoint has; nothing where an older run wrote it.
+    pub fn restored(archive: &Archive) -> Self {
+        Self::read(archive).unwrap_or_default()
+    }
+
+    fn read(archive: &Archive) -> Option<Self> {
+        let names = archive.get_u64("run/audit.names").ok()?;
+        let counts = archive.get_u64("run/audit.counts").ok()?;
+        let numbers = archive.get_f64("run/audit.numbers").ok()?;
+        let (&increments, nodes) = counts.split_first()?;
+        let (&[work_external, part, limit, worst, allowed], numbers) =
+            numbers.split_first_chunk()?;
+        let bytes: Vec<u8> = names.iter().filter_map(|b| u8::try_from(*b).ok()).collect();
+        let mut names = bytes.split(|b| *b == 0);
+        let (numbers, nodes) = (
+            numbers.as_chunks::<STORED>().0,
+            nodes.as_chunks::<NODES>().0,
+        );
+        let mut contacts = BTreeMap::new();
+        for (numbers, nodes) in numbers.chunks_exact(4).zip(nodes.chunks_exact(4)) {
+            let name = String::from_utf8_lossy(names.next()?).into_owned();
+            let mut checks = <[Worst; 4]>::default();
+            for ((to, numbers), nodes) in checks.iter_mut().zip(numbers).zip(nodes) {
+                *to = Worst::of(numbers, nodes);
+            }
+            contacts.insert(name, checks);
+        }
+        Some(Self {
+            contacts,
+            increments,
+            work_external,
+            viscous: Measured {
+                part,
+                limit,
+                worst,
+                allowed,
+                ..Measured::default()
+            },
+        })
+    }
+}
+
+impl Worst {
+    fn take(&mut self, measured: &Measured, time: f64) {
+        if !measured.passes() {
+            if self.failed == 0 {
+                self.first = time;
+            }
+            self.failed += 1;
+        }
+        let worse = measured.part > self.measured.part || measured.part.is_nan();
+        if worse || self.measured.limit == 0.0 {
+            self.measured = measured.clone();
+            self.time = time;
+        }
+    }
+
+    fn of(numbers: &[f64; STORED], nodes: &[u64; NODES]) -> Self {
+        let [part, limit, worst, allowed, pressure, time, first, failed] = *numbers;
+        let nodes = nodes.iter().filter_map(|n| NodeId::try_from(*n).ok());
+        Self {
+            measured: Measured {
+                part,
+                limit,
+                worst,
+                allowed,
+                pressure,
+                nodes: nodes.collect(),
+            },
+            time,
+            failed: failed as u64,
+            first,
+        }
+    }
+}
+
+fn labels<'a>(mesh: &'a Mesh, nodes: &'a [NodeId]) -> impl Iterator<Item = u64> + 'a {
+    let label = |&node: &NodeId| mesh.node_labels.get(node as usize).copied();
+    nodes.iter().filter_map(label)
+}
+
+/// What to do.
+fn help(name: &str, check: Check, model: &Model) -> String {
+    let info = model.contacts.iter().find(|c| c.name == name);
+    let is_mortar = info.is_some_and(|c| c.method.contains("mortar"));
+    match check {
+        Check::Apart if is_mortar => {
+            "compare single points:  method = \"node-to-segment\", or give a smaller reach".into()
+        }
+        Check::Apart => "give a smaller reach, or smaller facets at corners and edges".into(),
+        Check::Through => {
+            "make the side with the finer mesh the secondary one, or  passes = 2; smaller increments"
+                .into()
+        }
+        Check::Direction if is_mortar => {
+            "method = \"node-to-segment\", or take the faces beside the edge into the secondary side"
+                .into()
+        }
+        Check::Direction => "smaller facets there, and the faces beside the edge in both sides".into(),
+        Check::Stress => {
+            "take the supports off nodes that are joined, or smaller elements at the contact".into()
+        }
+    }
+}
+
+/// Four digits, without zeros at the end.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || (1e-3..1e5).contains(&size) {
+        let digits = if size > 0.0 {
+            3 - size.log10().floor() as i32
+        } else {
+            0
+        };
+        let text = format!("{value:.*}", digits.max(0) as usize);
+        if text.contains('.') {
+            return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        }
+        return text;
+    }
+    format!("{value:.3e}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_mechanics::system::ContactAudit;
+
+    fn frame(time: f64, part: f64) -> Frame {
+        let measured = |part| Measured {
+            part,
+            limit: 0.01,
+            worst: 0.0024,
+            nodes: vec![3, 1],
+            ..Measured::default()
+        };
+        Frame {
+            time,
+            work_external: 2.0,
+            work_turnover: 4.0,
+            work_jumps: 1.0,
+            audits: vec![ContactAudit {
+                name: "v".into(),
+                checks: [measured(part), measured(0.0), measured(0.0), measured(0.0)],
+                ..ContactAudit::default()
+            }],
+            ..Frame::default()
+        }
+    }
+
+    #[test]
+    fn the_worst_increment_is_kept_and_failures_are_counted() {
+        let mut audit = Audit::default();
+        for (time, part) in [(1.0, 0.0), (2.0, 0.5), (3.0, 0.2)] {
+            audit.look(&frame(time, part));
+        }
+        let worst = &audit.contacts["v"][0];
+        assert_eq!((worst.failed, worst.first, worst.time), (2, 2.0, 2.0));
+        assert_eq!(worst.measured.part, 0.5);
+        assert_eq!(audit.contacts["v"][1].failed, 0);
+        assert_eq!(audit.viscous.part, 0.25);
+    }
+
+    #[test]
+    fn what_a_checkpoint_stores_comes_back() {
+        let mut audit = Audit::default();
+        audit.look(&frame(1.0, 0.5));
+        let mut archive = Archive::new();
+        audit.save(&mut archive).unwrap();
+        assert_eq!(Audit::restored(&archive), audit);
+        assert_eq!(Audit::restored(&Archive::new()), Audit::default());
+    }
+
+    #[test]
+    fn numbers_have_four_digits() {
+        let cases = [
+            (0.0024, "0.0024"),
+            (7739.04, "7739"),
+            (0.386_12, "0.3861"),
+            (2e14, "2.000e14"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(number(value), text);
+        }
+    }
+}
