@@ -384,7 +384,8 @@ fn opposite(
     surface.jet(at, &Anchor { facet, local }, &mut jet).unwrap();
     let (normal, point) = (jet.normal, rows.point(row));
     let x = point.position(at);
-    let facets = (0..surface.nfacet() as u32).filter(|&f| allowed(f));
+    let near = |f: u32| surface.aabb(at, f).distance_squared(x) <= CLOSE * CLOSE;
+    let facets = (0..surface.nfacet() as u32).filter(|&f| near(f) && allowed(f));
     let away = facets
         .filter(|&f| !pair.is_beside(point.nodes, f))
         .filter_map(|f| {
