@@ -464,10 +464,7 @@ mod tests {
                 // all of it is covered; areas of bent facets are no polynomials
                 for (d, full) in of.d.iter().zip(&of.full).take(n) {
                     let rule = if bend == 0.0 { 1e-12 } else { 1e-3 * bend };
-                    assert!(
-                        (d - full).abs() < rule,
-                        "{name} {bend}: {d} {full}"
-                    );
+                    assert!((d - full).abs() < rule, "{name} {bend}: {d} {full}");
                 }
             }
         }
