@@ -48,7 +48,7 @@ const TURNED: f64 = 0.0175;
 const CLOSED: f64 = 1e-4;
 const APART: f64 = 1e-2;
 
-/// Gaps over the size of a facet up to which rows that compare points, or hold their weights, ask for their means.
+/// Gaps over the size of a facet up to which rows that compare points ask for their means.
 const NEAR: f64 = 0.5;
 
 /// The least change of a turn that makes a difference.
@@ -234,11 +234,12 @@ impl Mortar {
                 .row(row)
                 .map(|of| of.gap(x(self.nodes[row]), &x) / of.d),
         };
-        // where the geometry is held, all approach alike
+        // where the geometry is held, means stay below points by as much as at the start
         let keeps = self.points.sliding != SlidingRange::Finite;
-        let near = match was || keeps {
-            true => NEAR,
-            false => CLOSED,
+        let near = match (keeps, was) {
+            (true, _) => f64::INFINITY,
+            (false, true) => NEAR,
+            (false, false) => CLOSED,
         };
         let Some(mean) = mean.filter(|g| *g < near * size) else {
             return false;
