@@ -39,7 +39,7 @@
 //!
 //! for the neighbours (x, y, z) of a corner in a frame whose z axis is the mean normal of the facets there, least squares
 //! with the weight 1/r⁴; the last factor makes it exact for spheres and for circles, whatever the frame. Where neighbours
-//! do not determine it, those of neighbours are taken in, twice at most, and what is still undetermined is zero.
+//! do not determine it, those of neighbours are taken in, a few times, and what is still undetermined is zero.
 //!
 //! *Edges.* Facets that turn by more than some 30 degrees are sides of a structural edge, at which neither bends: each
 //! side has normals of its own. Facets of quadratic elements are bent already, and never rise.
@@ -60,8 +60,8 @@ const SMOOTH: f64 = 0.86;
 /// Corners of a straight facet, at most.
 const CORNERS: usize = 4;
 
-/// How often the neighbours of neighbours are taken in.
-const RINGS: usize = 2;
+/// How often the neighbours of neighbours are taken in: at the corner of a surface, from a single triangle on.
+const RINGS: usize = 4;
 
 /// Unknowns of (E4).
 const UNKNOWNS: usize = 5;

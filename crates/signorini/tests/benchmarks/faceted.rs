@@ -201,7 +201,7 @@ fn tubes(element: &'static str, overlap: f64, swapped: bool) -> Case {
 #[test]
 fn quarters_of_tubes_in_space_are_pressed_as_cylinders() {
     let overlap = 4e-3;
-    for (element, bound) in [("hex8", 0.02), ("tet4", 0.06)] {
+    for (element, bound) in [("hex8", 0.02), ("tet4", 0.03)] {
         for swapped in [false, true] {
             let mean = mean_pressure(&tubes(element, overlap, swapped));
             let error = mean / (LAME * overlap) - 1.0;
@@ -263,10 +263,11 @@ fn caps(element: &'static str, flat: bool, way: [f64; 2]) -> Option<(f64, f64)> 
 #[test]
 fn spheres_conform_and_a_ball_on_a_plane_does_not() {
     for way in [[0.0, 0.0], [PI / 6.0, 0.4]] {
-        for element in ["hex8", "tet4"] {
+        // the worst single point: triangles with one diagonal have it at the rim
+        for (element, bound) in [("hex8", 0.01), ("tet4", 0.2)] {
             let (straight, bent) = caps(element, false, way).unwrap();
             println!("{element} {way:?}: {straight:.2e} {bent:.2e}");
-            assert!(bent < 0.1 * straight, "{element}: {bent} of {straight}");
+            assert!(bent < bound * straight, "{element}: {bent} of {straight}");
             assert_eq!(caps(element, true, way), None, "{element}");
         }
     }

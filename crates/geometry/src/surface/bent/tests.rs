@@ -146,21 +146,24 @@ fn faces_and_triangles_of_a_sphere_bend_to_it() {
     let [error, due] = errors(&facets, &x, |p| p.norm() - 3.0);
     assert!(error < 0.02 * due, "faces: {error:e} of {due:e}");
     let n = n as u32;
-    let mut triangles = Vec::new();
-    for j in 0..n - 1 {
-        for i in 0..n - 1 {
-            let a = i + n * j;
-            let [b, c, d] = [a + 1, a + 1 + n, a + n];
-            triangles.extend(if (i + j) % 2 == 0 {
-                [[a, b, c], [a, c, d]]
-            } else {
-                [[a, b, d], [b, c, d]]
-            });
+    // diagonals in turn, and all the same way, with corners of a single triangle
+    for turn in [2, n * n] {
+        let mut triangles = Vec::new();
+        for j in 0..n - 1 {
+            for i in 0..n - 1 {
+                let a = i + n * j;
+                let [b, c, d] = [a + 1, a + 1 + n, a + n];
+                triangles.extend(if (i + j) % turn == 0 {
+                    [[a, b, c], [a, c, d]]
+                } else {
+                    [[a, b, d], [b, c, d]]
+                });
+            }
         }
+        let facets = Facets::of_triangles(&triangles).unwrap();
+        let [error, due] = errors(&facets, &x, |p| p.norm() - 3.0);
+        assert!(error < 0.02 * due, "triangles: {error:e} of {due:e}");
     }
-    let facets = Facets::of_triangles(&triangles).unwrap();
-    let [error, due] = errors(&facets, &x, |p| p.norm() - 3.0);
-    assert!(error < 0.02 * due, "triangles: {error:e} of {due:e}");
 }
 
 #[test]

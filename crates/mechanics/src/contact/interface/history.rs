@@ -124,7 +124,7 @@ impl Interface {
         Ok(())
     }
 
-    /// Finds what straight facets miss where the sides are at the start of an increment, if they slide.
+    /// Finds what straight facets miss where the sides are now, if they slide.
     pub(super) fn bend_again(&mut self, at: &Placement) -> Result<(), SurfaceError> {
         let parts = &mut self.parts;
         if let Some(bend) = parts.bend.as_mut().filter(|bend| bend.slides) {

@@ -76,15 +76,15 @@ pub enum Allowance {
 
 /// Gaps that are measured between the surfaces that straight facets were cut from.
 ///
-/// What the facets miss is found between iterations and does not change in one: it is of the size of a sagitta, and so is
-/// what it may be off by where sides slide far in one increment.
+/// What the facets miss is found for every iterate, so that residuals know where sides have slid to. Tangents do not know how
+/// it changes: that is less than half the angle by which facets turn, times what slides.
 #[derive(Clone, Debug, Default)]
 pub struct Bend {
     /// These surfaces.
     pub sides: BentSides,
     /// By how much the gap of each row exceeds that between these, at the start (length).
     pub rises: Vec<f64>,
-    /// Whether that is found again at the start of each increment: where sides slide.
+    /// Whether that is found again for each iterate: where sides slide.
     pub slides: bool,
 }
 
@@ -589,6 +589,7 @@ impl Term for Interface {
         let at = trial.placement();
         self.search_for(&at, rows::row_order(next))
             .map_err(|e| self.failed(&e))?;
+        self.bend_again(&at).map_err(|e| self.failed(&e))?;
         if let Some(message) = self.passed_through(&at).or_else(|| self.went_through(&at)) {
             return Err(TermError::Surface {
                 interface: self.parts.name.clone(),

@@ -67,6 +67,23 @@ impl Integrator {
         positions(facets.nodes(facet), x, &mut self.own);
     }
 
+    /// The primary facets that are near a secondary one, in the order of their numbers: within the reach between the two, or,
+    /// where there are none and weights are held for good, within that of the pair.
+    pub fn find_for_good(
+        &mut self,
+        facets: &Facets,
+        facet: u32,
+        pair: &SurfacePair,
+        at: &Placement,
+        search: &Search,
+    ) {
+        self.find(facets, facet, pair, at, search);
+        if self.near.is_empty() {
+            let reach = |_| pair.reach;
+            self.find_within(facets, facet, pair, at, search, &reach);
+        }
+    }
+
     /// The primary facets that are near a secondary one, in the order of their numbers.
     pub fn find(
         &mut self,
@@ -76,6 +93,19 @@ impl Integrator {
         at: &Placement,
         search: &Search,
     ) {
+        let reach = |other| pair.reach_between(facet, other, at);
+        self.find_within(facets, facet, pair, at, search, &reach);
+    }
+
+    fn find_within(
+        &mut self,
+        facets: &Facets,
+        facet: u32,
+        pair: &SurfacePair,
+        at: &Placement,
+        search: &Search,
+        reach: &dyn Fn(u32) -> f64,
+    ) {
         let own = facets.aabb(at, facet);
         // the tree may be as old as the search allows
         search
@@ -84,7 +114,7 @@ impl Integrator {
         let nodes = facets.nodes(facet);
         self.near.retain(|&other| {
             let touches = |f: u32| nodes_of(pair, f).iter().any(|n| nodes.contains(n));
-            let region = own.inflated(pair.reach_between(facet, other, at));
+            let region = own.inflated(reach(other));
             pair.primary.aabb(at, other).overlaps(&region) && !(pair.same && touches(other))
         });
     }

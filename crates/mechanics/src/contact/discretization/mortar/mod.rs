@@ -251,9 +251,9 @@ impl Mortar {
         search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
         let mut weights = Weights::default();
         let nothing = Weights::default();
+        self.points.sliding = SlidingRange::Small;
         self.weigh(pair, at, &search, (&nothing, RowOrder::Gap), &mut weights)?;
         let bent = self.bend(pair, at, share, &mut weights)?;
-        self.points.sliding = SlidingRange::Small;
         self.rest(pair, at, &mut weights)?;
         if let Some(facets) = pair.secondary.as_ref().filter(|_| bent) {
             self.along_normals(facets, &mut weights);
@@ -331,7 +331,10 @@ impl Mortar {
                 || Integrator::new(self.measure, self.form.basis),
                 |integrator, (facet, to)| {
                     let facet = facet as u32;
-                    integrator.find(facets, facet, pair, at, search);
+                    match self.points.sliding {
+                        SlidingRange::Finite => integrator.find(facets, facet, pair, at, search),
+                        _ => integrator.find_for_good(facets, facet, pair, at, search),
+                    }
                     let derivatives = next == RowOrder::Tangent && self.kept.asked(facet, last);
                     let saw = before
                         .facets
