@@ -1,8 +1,10 @@
 //! The closest facet that faces a point.
 
+use super::flat;
+use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::proximity::{Aabb, Bvh};
 use signorini_geometry::surface::{
-    Anchor, ContactSurface, Feature, Placement, Projection, SurfaceJet,
+    Anchor, Carrier, ContactSurface, Feature, Placement, Projection, SurfaceJet,
 };
 use signorini_geometry::tensor::Vec3;
 
@@ -17,6 +19,11 @@ const RIM: f64 = 0.1;
 /// Distances below this part of a size are none: on the surface there is no direction to the closest point.
 const ON: f64 = 1e-9;
 
+/// How many facets are compared by their closest points.
+const NEAR: usize = 4;
+/// How much further away than the closest facet, over the size of the smallest.
+const SLACK: f64 = 0.01;
+
 /// A surface among whose facets the closest is looked for.
 pub struct Finder<'a> {
     surface: &'a dyn ContactSurface,
@@ -27,6 +34,8 @@ pub struct Finder<'a> {
     /// Where all is now, if `at` is the start.
     now: Option<Placement<'a>>,
     same: bool,
+    /// How much further away than the closest facet one may be as a flat one and be looked at.
+    slack: f64,
 }
 
 /// A point that looks for a facet.
@@ -70,8 +79,13 @@ impl<'a> Finder<'a> {
             Some(facets) => facets.iter().map(|&f| aabb(f)).collect(),
             None => (0..surface.nfacet() as u32).map(aabb).collect(),
         };
+        let bounded = boxes.iter().filter(|b| b.is_bounded());
+        let size = bounded
+            .map(|b| b.extent().max_abs())
+            .fold(f64::INFINITY, f64::min);
         Self {
             surface,
+            slack: if size.is_finite() { SLACK * size } else { 0.0 },
             tree: Bvh::build(&boxes),
             only,
             at,
@@ -80,48 +94,76 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// The closest facet that faces a point, within the distance that it looks; what has no normal is not looked at.
+    /// The closest facet that faces a point, within the distance that it looks; what has no normal is not looked at. Facets
+    /// are compared as flat pieces; those that are as close as the closest, but for a little, by their closest points.
     pub fn find(&self, seeker: &Seeker<'_>) -> Option<Met> {
         let mut jet = SurfaceJet::default();
-        let mut best: Option<Projection> = None;
-        let facing = if self.same { FACING_ITSELF } else { FACING };
-        let own = seeker.normal.normalized();
+        let mut near = [(f64::INFINITY, u32::MAX); NEAR];
         self.tree.visit_near(seeker.point, |k| {
-            let within = best.map_or(seeker.within, |b| b.distance);
             let facet = match &self.only {
                 Some(facets) => facets.get(k as usize).copied().unwrap_or(k),
                 None => k,
             };
-            let excluded = seeker.own.contains(&facet);
-            let hint = self.surface.domain(facet).map(|e| Anchor {
-                facet,
-                local: e.centre(),
-            });
-            if excluded {
-                return within;
+            let looked = (!seeker.own.contains(&facet))
+                .then(|| self.look(facet, seeker, &mut jet))
+                .flatten();
+            if let Some(distance) = looked.filter(|d| *d <= seeker.within) {
+                let place = near.partition_point(|n| *n < (distance, facet));
+                // the furthest gives way
+                if place < NEAR {
+                    near[place..].rotate_right(1);
+                    near[place] = (distance, facet);
+                }
             }
-            let found = self
-                .surface
-                .project(&self.at, facet, seeker.point, hint, &mut jet);
-            let Ok(Some(found)) = found else {
-                return within;
-            };
-            if own.is_some_and(|n| n.dot(jet.normal) > facing) {
-                return within;
-            }
-            let closer = found.distance < within
-                || best.is_some_and(|b| {
-                    let ties = found.distance <= b.distance * (1.0 + 1e-12);
-                    let rank = |f: &Projection| u8::from(f.feature != Feature::Face);
-                    ties && (rank(&found), facet) < (rank(&b), b.anchor.facet)
-                });
-            if closer {
-                best = Some(found);
-                return found.distance.min(within);
-            }
-            within
+            near[0].0.min(seeker.within) + self.slack
         });
+        let limit = near[0].0 + self.slack;
+        let mut best: Option<Projection> = None;
+        for &(_, facet) in near.iter().filter(|n| n.0.is_finite() && n.0 <= limit) {
+            let found = self.project(facet, seeker.point, &mut jet);
+            let rank = |f: &Projection| u8::from(f.feature != Feature::Face);
+            if let Some(found) = found
+                && best.is_none_or(|b| {
+                    let ties = found.distance <= b.distance * (1.0 + 1e-12);
+                    let closer = found.distance < b.distance * (1.0 - 1e-12);
+                    closer || ties && rank(&found) < rank(&b)
+                })
+            {
+                best = Some(found);
+            }
+        }
         self.met(best?, seeker, &mut jet)
+    }
+
+    /// The closest point of a facet.
+    fn project(&self, facet: u32, point: Vec3, jet: &mut SurfaceJet) -> Option<Projection> {
+        let hint = self.surface.domain(facet).map(|e| Anchor {
+            facet,
+            local: e.centre(),
+        });
+        let found = self.surface.project(&self.at, facet, point, hint, jet);
+        found.ok().flatten()
+    }
+
+    /// About how far a facet is that faces the point.
+    fn look(&self, facet: u32, seeker: &Seeker<'_>, jet: &mut SurfaceJet) -> Option<f64> {
+        let facing = if self.same { FACING_ITSELF } else { FACING };
+        let faces = |normal: Vec3| {
+            let sizes = (seeker.normal.norm_squared() * normal.norm_squared()).sqrt();
+            sizes == 0.0 || seeker.normal.dot(normal) <= facing * sizes
+        };
+        let (Carrier::Nodes(nodes), Some(element)) =
+            (self.surface.carrier(facet), self.surface.domain(facet))
+        else {
+            let found = self.project(facet, seeker.point, jet)?;
+            return faces(jet.normal).then_some(found.distance);
+        };
+        let mut x = [Vec3::ZERO; MAX_FACET_NODES];
+        for (x, &node) in x.iter_mut().zip(nodes) {
+            *x = *self.at.x.get(node as usize)?;
+        }
+        let (distance, normal) = flat::distance(element, x.get(..nodes.len())?, seeker.point)?;
+        faces(normal).then_some(distance)
     }
 
     /// What is known of a closest point; none past the end of the surface.

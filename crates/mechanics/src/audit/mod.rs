@@ -35,13 +35,15 @@
 //! start is what it is to be judged by ([`Sides::start`]).
 //!
 //! Limits: (A1) in space takes corners and, where these are apart, a grid of points on each facet, so that two edges that
-//! cross are seen to a part of a facet; in the plane it is exact for straight facets. Joints are checked by (A4) alone. Of a surface that may touch
-//! itself, corners of the other side are left out, and so is depth that was there at the start.
+//! cross are seen to a part of a facet; in the plane it is exact for straight facets. Joints are checked by (A4) alone. Of a
+//! surface that may touch itself, corners of the other side are left out, and so is depth that was there at the start. What
+//! never presses is not looked at.
 //!
 //! To add a check: an entry of [`Check`](crate::system::Check), a file here, a line in [`contact`].
 
 mod closest;
 mod direction;
+mod flat;
 mod gaps;
 mod stress;
 mod support;
