@@ -181,9 +181,11 @@ fn pressure_at_a_distance_fails_unless_it_is_prescribed() {
 
 #[test]
 fn one_corner_that_touches_holds_the_nodes_around_it_only() {
-    let mut scene = Scene::default();
-    scene.heights = [0.0, 0.1, 0.2, 0.1, 0.2, 0.3, 0.2, 0.3, 0.4];
-    scene.turn = Mat3::IDENTITY;
+    let scene = Scene {
+        heights: [0.0, 0.1, 0.2, 0.1, 0.2, 0.3, 0.2, 0.3, 0.4],
+        turn: Mat3::IDENTITY,
+        ..Scene::default()
+    };
     let audit = scene.audit();
     // the corner, its two neighbours and the middle have 0.25 + 0.5 + 0.5 + 1 of 4
     assert!(

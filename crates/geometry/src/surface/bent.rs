@@ -477,9 +477,12 @@ fn rotate(
         );
     }
     for matrix in [a, vectors] {
-        for k in 0..UNKNOWNS {
-            let (x, y) = (matrix[p][k], matrix[q][k]);
-            (matrix[p][k], matrix[q][k]) = (cosine * x - sine * y, sine * x + cosine * y);
+        let (first, second) = (matrix[p], matrix[q]);
+        for (to, (x, y)) in matrix[p].iter_mut().zip(first.iter().zip(&second)) {
+            *to = cosine * x - sine * y;
+        }
+        for (to, (x, y)) in matrix[q].iter_mut().zip(first.iter().zip(&second)) {
+            *to = sine * x + cosine * y;
         }
     }
 }

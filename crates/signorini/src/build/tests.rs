@@ -682,6 +682,7 @@ fn contacts_become_what_they_say() {
                 close_nodes: Vec::new(),
                 clearance: Some(0.0),
                 interference: model::Interference::StrainFree,
+                bends: true,
             };
         },
     );

@@ -3,7 +3,7 @@
 //! Every module tells its source, mesh, conditions, expected values and tolerance. Closed forms are ported with their
 //! source. Meshes are made by [`scene`].
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 #[path = "../common/mod.rs"]
 mod common;

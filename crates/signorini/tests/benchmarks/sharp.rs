@@ -294,11 +294,11 @@ fn dragged(element: &'static str, n: usize, mu: f64, method: &str) -> Vec3 {
     scene.place("head", "plane = \"y\", at = 1.0");
     scene.place("base", "plane = \"y\", at = -0.5");
     let case = scene
-        .case_of(&format!(
+        .case_of(
             "[model]\nspace = \"plane-strain\"\n[material.soft]\nmodel = \"neo-hookean\"\nE = 100.0\nnu = 0.3\n\
              [material.hard]\nmodel = \"neo-hookean\"\nE = 1e5\nnu = 0.3\n[[body]]\ngroup = \"block\"\n\
-             material = \"soft\"\n[[body]]\ngroup = \"table\"\nmaterial = \"hard\"\n"
-        ))
+             material = \"soft\"\n[[body]]\ngroup = \"table\"\nmaterial = \"hard\"\n",
+        )
         .contact("foot", "roof", &format!("friction = {mu:?}\n{method}"))
         .also("[[step]]\nname = \"press\"\ngeometry = \"nonlinear\"\nincrements = 5")
         .fix("base", "xy")
