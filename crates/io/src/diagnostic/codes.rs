@@ -351,6 +351,12 @@ codes! {
     ["a motion that is too short, or goes the other way", "a set that names other faces", "a mistake in the units of length"]
     ["look at the largest motions and at the gap in history.csv", "silence with  allow = [\"S0413\"]  if it is meant so"]
 
+    OPEN_EDGE "S0414" Input "a contact that ends at an edge of its body"
+    "The faces of the secondary side end at a convex edge of the body, over a face of the other side. With friction the edge \
+     may roll under; the face next to it is not in the contact, and passes through the other side unseen."
+    ["the set has the lower face of a block, and not its flanks"]
+    ["add the faces next to the edge to the secondary side", "silence with  allow = [\"S0414\"]  where the edge does not roll"]
+
     PAIR_TWICE "S0407" Input "two contacts of one pair"
     "Two contacts have the same two sides, in one order or the other. Where both act at a time both push, so that the \
      stiffness is that of both."

@@ -50,7 +50,7 @@ use constraints::{Followers, Ties};
 use contact::Source;
 use held::Held;
 use loads::Substance;
-use signorini_geometry::mesh::{CellId, Mesh, NodeId};
+use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::surface::Pose;
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
@@ -101,6 +101,19 @@ pub struct StartSummary {
     pub treatment: Treatment,
     /// What comes from straight facets, where gaps are measured between the surfaces that these were cut from.
     pub bent: Option<BentSummary>,
+    /// Edges of the body at which the secondary side ends over the other side, of contacts with friction.
+    pub open_edges: Option<OpenEdges>,
+}
+
+/// Edges of a body at which the secondary side of a contact ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OpenEdges {
+    /// How many there are.
+    pub count: usize,
+    /// A node of one of them.
+    pub node: NodeId,
+    /// The face next to it that the contact does not have.
+    pub face: Face,
 }
 
 /// A place at the start.

@@ -90,6 +90,34 @@ pub(super) fn findings(case: &Case, mesh: &Mesh, contacts: &[ContactInfo]) -> Di
             one = one.note(format!("{many} of both sides overlap{what}"));
             found.push(one);
         }
+        if let Some(edges) = &start.open_edges {
+            let label = |n: u32| {
+                mesh.node_labels
+                    .get(n as usize)
+                    .copied()
+                    .unwrap_or_default()
+            };
+            let text = format!(
+                "contact \"{}\": its secondary side ends at {} of the body",
+                info.name,
+                plural(edges.count, "edge")
+            );
+            let one = Diagnostic::new(Severity::Warning, &codes::OPEN_EDGE, text);
+            let one = match own {
+                Some(contact) => one.at(&contact.place, ""),
+                None => one,
+            };
+            let (cell, side) = (edges.face.cell, edges.face.side + 1);
+            found.push(
+                one.note(format!(
+                    "such as at node {}: face S{side} of element {} next to it is not in the contact, and passes through \
+                     the other side where the edge rolls",
+                    label(edges.node),
+                    mesh.cell_label(cell).unwrap_or_default()
+                ))
+                .help("add the faces next to these edges to the secondary side"),
+            );
+        }
         if let Some(bent) = &start.bent {
             let text = format!(
                 "contact \"{}\": gaps of up to {} come from straight facets and are taken as {}",

@@ -1,6 +1,7 @@
 //! From the parts of a contact to its interface.
 
 mod joined;
+mod open_edges;
 mod probe;
 mod sides;
 mod start;
@@ -187,6 +188,10 @@ impl Context<'_> {
         let look = probe::Look::new(&sides, part, &at).map_err(surface_error)?;
         start::not_too_deep(self.mesh, &sides, part, &look, (self.reference, size))?;
         let bend = look.bend(&sides, &at).map_err(surface_error)?;
+        let open_edges = match part.friction.is_some() && part.tie.is_none() {
+            true => open_edges::open_edges(self.mesh, &sides.pair, &at),
+            false => None,
+        };
         let reach = sides.pair.reach;
         let bond = match part.tie {
             None => None,
@@ -212,7 +217,10 @@ impl Context<'_> {
             npoint: sides.pair.points.len(),
             nfacet: sides.pair.primary.nfacet(),
             facet_size: length,
-            start: StartSummary::new(&found, &look, part, size),
+            start: StartSummary {
+                open_edges,
+                ..StartSummary::new(&found, &look, part, size)
+            },
         };
         let parts = InterfaceParts {
             name: part.name.clone(),
