@@ -229,7 +229,8 @@ fn pressures_of_quadratic_triangles_johnson_4_22() {
         100.0 * mean(&inner)
     );
     assert!(largest.abs() < 0.02 && mean(&inner) < 0.022);
-    assert_eq!(contact.pressure_peak, contact.pressure);
+    let peaks = contact.pressure_peak.iter().zip(&contact.pressure);
+    assert!(peaks.clone().all(|(peak, p)| *peak >= p * (1.0 - 1e-12)));
     let raw = contact.points.iter().zip(&contact.multiplier);
     let raw: Vec<f64> = raw
         .filter(|(x, _)| r(x) < 0.7)

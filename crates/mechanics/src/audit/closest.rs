@@ -64,6 +64,9 @@ pub struct Met {
     pub sharp: bool,
     /// The larger curvature.
     pub curvature: f64,
+    /// Where the geometry of the start is held: the way along the other side times the sine of the angle between the normals
+    /// of both sides. The normal that is held may be either, or between.
+    pub lean: f64,
 }
 
 impl<'a> Finder<'a> {
@@ -178,6 +181,7 @@ impl<'a> Finder<'a> {
             normal: jet.normal,
             sharp: false,
             curvature: curvature(jet),
+            lean: 0.0,
         };
         if found.feature != Feature::Face && found.distance > ON * size {
             let outward = self.surface.outward(&self.at, &found).ok()?;
@@ -199,7 +203,11 @@ impl<'a> Finder<'a> {
         if let Some(now) = &self.now {
             let before = jet.position;
             self.surface.jet(now, &anchor, jet).ok()?;
-            met.gap += met.normal.dot(seeker.moved - (jet.position - before));
+            let way = seeker.moved - (jet.position - before);
+            let along = met.normal.dot(way);
+            met.gap += along;
+            let own = seeker.normal.normalized().unwrap_or(-met.normal);
+            met.lean = (way - met.normal * along).norm() * own.cross(met.normal).norm();
         }
         Some(met)
     }

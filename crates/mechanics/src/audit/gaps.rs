@@ -92,6 +92,7 @@ fn from_partners(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules) ->
             normal,
             sharp: false,
             curvature: 0.0,
+            lean: 0.0,
         })
     };
     Seen {
@@ -243,7 +244,7 @@ fn tolerance(support: &Support<'_>, seen: &Seen, node: usize) -> f64 {
     let mut look = |k: usize| {
         if let Some(met) = seen.nodes.get(k).and_then(Option::as_ref) {
             let curved = met.curvature * of.size * of.size / 8.0;
-            opposite = opposite.max(seen.bend(met).height.max(curved));
+            opposite = opposite.max(seen.bend(met).height.max(curved) + met.lean);
         }
     };
     look(node);

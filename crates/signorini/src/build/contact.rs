@@ -236,7 +236,8 @@ fn method(part: &Contact) -> Method {
         case::Method::Mortar => Method::Mortar(mortar::Form {
             normals: match part.normals {
                 Normals::Nodal => mortar::Normals::Nodal,
-                _ => mortar::Normals::Facet,
+                Normals::Secondary => mortar::Normals::Facet,
+                _ => mortar::Normals::Turning,
             },
             basis: match part.basis {
                 case::Basis::Part => Basis::Part,

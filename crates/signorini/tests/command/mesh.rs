@@ -62,7 +62,7 @@ fn f33_a_mesh_in_space_is_no_plane_model() {
 fn f34_f35_groups_and_sides_that_are_not_there_are_told() {
     run_text(&change(BRICK, "\"+z\"", "\"S9\"")).says(3, &["S9"]);
     let text = change(BRICK, "primary = \"top\"", "primary = \"base\"");
-    run_text(&text).says(0, &[]);
+    run_text(&text).says(4, &["S0312"]);
     let text = change(BRICK, "primary = \"top\"", "primary = \"tip_node\"");
     let ended = run_text(&text);
     assert!(matches!(ended.code, Some(3 | 4)), "{ended:?}");

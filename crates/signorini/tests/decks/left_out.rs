@@ -71,16 +71,6 @@ fn cards_that_have_no_effect_are_named_once_with_all_lines() {
 }
 
 #[test]
-fn cards_that_stand_where_they_are_not_read_are_named() {
-    let (found, is_read) = read(&deck("", "*TIE, NAME=T\nA, B\n"));
-    let notes = found.plain();
-    assert!(
-        is_read && notes.contains("*TIE is left out: it is not read here"),
-        "{notes}"
-    );
-}
-
-#[test]
 fn an_amplitude_that_is_defined_twice_is_an_error_with_both_lines() {
     let first = "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n";
     let load = "*CLOAD, AMPLITUDE=A\n5, 3, 1.\n";

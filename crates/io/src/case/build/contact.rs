@@ -112,10 +112,10 @@ impl Builder {
             fields.has("normals")
                 && match method {
                     Method::NodeToNode => of_mortar,
-                    Method::Mortar => !of_mortar,
+                    Method::Mortar => !of_mortar && contact.normals != Normals::Secondary,
                     _ => true,
                 },
-            "\"nodal\" belongs to  method = \"mortar\", all others to \"node-to-node\"",
+            "\"nodal\" belongs to  method = \"mortar\", which also takes \"secondary\"; all others to \"node-to-node\"",
         );
         only(
             "basis",

@@ -355,12 +355,12 @@ pub enum Basis {
 /// Where node-to-node contact and mortar contact take their normals from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Normals {
-    /// From the primary side; of mortar contact, from the facets of the secondary side.
+    /// From the primary side; of mortar contact, from the facets of the secondary side, turned where these are tilted.
     #[default]
     Primary,
     /// Of mortar contact: means at the nodes of the secondary side.
     Nodal,
-    /// From the secondary side.
+    /// From the secondary side; of mortar contact, from its facets everywhere.
     Secondary,
     /// Given, towards the secondary side; not zero, of any length.
     Given([f64; 3]),

@@ -58,8 +58,10 @@ pub(super) fn contact(contact: &Contact) -> Entries {
             ("pairs", pairs(contact.pairs)),
         ]),
         Method::Mortar => {
-            if contact.normals == Normals::Nodal {
-                entries.push(("normals", "nodal".into()));
+            match contact.normals {
+                Normals::Nodal => entries.push(("normals", "nodal".into())),
+                Normals::Secondary => entries.push(("normals", "secondary".into())),
+                Normals::Primary | Normals::Given(_) => {}
             }
             let basis = match contact.basis {
                 Basis::Part => "part",

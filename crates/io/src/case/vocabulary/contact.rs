@@ -84,7 +84,7 @@ pub(super) static CONTACT: Table = Table {
                 Shape::Choice(&[word("primary"), word("secondary"), word("nodal")]),
                 VECTOR,
             ]),
-            "of node-to-node: those of a side, or a vector towards the secondary side; of mortar: \"nodal\", else those of facets",
+            "of node-to-node: those of a side, or a vector towards the secondary side; of mortar: \"nodal\", or \"secondary\" for those of facets, which turn to the other side otherwise",
         )
         .or(Default::Text("primary"))
         .hints(&["normal"]),

@@ -399,7 +399,7 @@ fn opposite(
 
 #[test]
 fn a_surface_sees_of_itself_what_it_may_touch_and_nothing_else() {
-    for (h, turned) in [(0.6, 0.0), (0.35, std::f64::consts::FRAC_PI_6)] {
+    for (h, turned) in [(0.6, 0.0), (0.6, std::f64::consts::FRAC_PI_6)] {
         for skin in skins(h) {
             for kind in KINDS {
                 let (surface, x, labels, bodies) = surface(&skin, kind, turned);

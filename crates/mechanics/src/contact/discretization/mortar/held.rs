@@ -2,7 +2,7 @@
 
 use super::{Mortar, Normals, nodes_of};
 use crate::contact::discretization::SurfacePair;
-use crate::contact::mortar::{Facet, Held, Met, OfRow, Weights, bend};
+use crate::contact::mortar::{Facet, Held, Measure, Met, OfRow, Weights, bend};
 use signorini_geometry::surface::{Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 
@@ -16,7 +16,10 @@ impl Mortar {
         share: f64,
         weights: &mut Weights,
     ) -> Result<bool, SurfaceError> {
-        let wanted = !self.form.joined && self.form.normals == Normals::Facet;
+        // about an axis, normals at points near it would give its node a pressure apart from those of its neighbours
+        let wanted = !self.form.joined
+            && self.form.normals != Normals::Nodal
+            && self.measure == Measure::Flat;
         let Some(facets) = pair.secondary.as_ref().filter(|_| wanted) else {
             return Ok(false);
         };

@@ -68,23 +68,7 @@ impl Integrator {
     }
 
     /// The primary facets that are near a secondary one, in the order of their numbers: within the reach between the two, or,
-    /// where there are none and weights are held for good, within that of the pair.
-    pub fn find_for_good(
-        &mut self,
-        facets: &Facets,
-        facet: u32,
-        pair: &SurfacePair,
-        at: &Placement,
-        search: &Search,
-    ) {
-        self.find(facets, facet, pair, at, search);
-        if self.near.is_empty() {
-            let reach = |_| pair.reach;
-            self.find_within(facets, facet, pair, at, search, &reach);
-        }
-    }
-
-    /// The primary facets that are near a secondary one, in the order of their numbers.
+    /// where there are none, within that of the pair, so that a body that goes a long way to its contact is seen coming.
     pub fn find(
         &mut self,
         facets: &Facets,
@@ -93,8 +77,12 @@ impl Integrator {
         at: &Placement,
         search: &Search,
     ) {
-        let reach = |other| pair.reach_between(facet, other, at);
-        self.find_within(facets, facet, pair, at, search, &reach);
+        let of_facets = |other| pair.reach_between(facet, other, at);
+        self.find_within(facets, facet, pair, at, search, &of_facets);
+        if self.near.is_empty() {
+            let of_pair = |_| pair.reach;
+            self.find_within(facets, facet, pair, at, search, &of_pair);
+        }
     }
 
     fn find_within(

@@ -106,8 +106,10 @@ const TASK: usize = 16;
 /// Which normals a pressure acts along.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
-    /// Those of the facets: exact momentum.
+    /// Those of the facets, which turn to those of the primary side as these tilt; nodes at tips compare points.
     #[default]
+    Turning,
+    /// Those of the facets everywhere: exact momentum.
     Facet,
     /// Means at the nodes: for comparison with other programs.
     Nodal,
@@ -331,10 +333,7 @@ impl Mortar {
                 || Integrator::new(self.measure, self.form.basis),
                 |integrator, (facet, to)| {
                     let facet = facet as u32;
-                    match self.points.sliding {
-                        SlidingRange::Finite => integrator.find(facets, facet, pair, at, search),
-                        _ => integrator.find_for_good(facets, facet, pair, at, search),
-                    }
+                    integrator.find(facets, facet, pair, at, search);
                     let derivatives = next == RowOrder::Tangent && self.kept.asked(facet, last);
                     let saw = before
                         .facets
@@ -532,7 +531,7 @@ impl Mortar {
             }
             to.d += d;
             to.normal += match self.form.normals {
-                Normals::Facet => nu * d,
+                Normals::Turning | Normals::Facet => nu * d,
                 Normals::Nodal => corner_normal(facets, facet, place, at)?.0 * share,
             };
             let t = &self.inverse(facet)[place];
@@ -583,7 +582,8 @@ impl Mortar {
             if weights.guests.is_pointwise(row) {
                 let before = before(row).filter(|p| p.anchor != NOWHERE);
                 near(row, &mut facets);
-                *found = self.points.meet(row, (pair, None), at, &facets, before)?;
+                let met = self.points.meet(row, (pair, None), at, &facets, before)?;
+                *found = met.filter(|met| self.may_touch(row, pair, at, weights, met));
                 continue;
             }
             *found = weights.row(row).map(|of| Pair {

@@ -33,7 +33,7 @@
 use super::clearance::{Flat, least_gap};
 use super::edges::Part;
 use super::{Mortar, NOWHERE, Normals, nodes_of};
-use crate::contact::discretization::{Anchored, Pairing, SlidingRange, SurfacePair};
+use crate::contact::discretization::{Anchored, Pair, Pairing, SlidingRange, SurfacePair};
 use crate::contact::mortar::{Guests, OfFacet, Weights};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
@@ -44,11 +44,11 @@ use signorini_geometry::tensor::Vec3;
 const UPRIGHT: f64 = 0.0044;
 const TURNED: f64 = 0.0175;
 
-/// Gaps over the size of a facet up to which rows count as closed, and from which on facets are apart.
+/// Gaps over the distance between nodes up to which rows count as closed, and from which on facets are apart.
 const CLOSED: f64 = 1e-4;
 const APART: f64 = 1e-2;
 
-/// Gaps over the size of a facet up to which rows that compare points ask for their means.
+/// Gaps over the distance between nodes up to which rows that compare points ask for their means.
 const NEAR: f64 = 0.5;
 
 /// The least change of a turn that makes a difference.
@@ -186,7 +186,7 @@ impl Mortar {
         found: &mut Guests,
         aside: &mut Vec<usize>,
     ) {
-        if self.form.joined {
+        if self.form.joined || self.form.normals != Normals::Turning {
             return;
         }
         for row in 0..self.nodes.len() {
@@ -224,10 +224,15 @@ impl Mortar {
         let taken = weights.guests.taken.get(row).into_iter().flatten();
         let taken = taken.map(|&(facet, ..)| facet);
         let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
-        let size = match facets.ntan() {
-            1 => self.area[row],
-            _ => self.area[row].sqrt(),
+        // between nodes
+        let between = |facet: u32| match facets.element(facet) {
+            Some(element) if element.nnode() > element.ncorner() => 0.5,
+            _ => 1.0,
         };
+        let sizes = own
+            .iter()
+            .map(|&(facet, _)| facets.size(at, facet) * between(facet));
+        let size = sizes.fold(0.0, f64::max);
         let mean = match was {
             true => self.mean_gap(row, facets, weights, &x),
             false => weights
@@ -268,6 +273,32 @@ impl Mortar {
         least.is_finite() && apart(least)
     }
 
+    /// Whether a node whose facets meet nothing may touch what it is closest to: not where these are flush with it, past
+    /// the rim of the primary side.
+    pub(super) fn may_touch(
+        &self,
+        row: usize,
+        pair: &SurfacePair,
+        at: &Placement,
+        weights: &Weights,
+        met: &Pair,
+    ) -> bool {
+        let of_facet = |facet: u32| weights.facets.get(facet as usize);
+        let around = self.around[row].iter();
+        let mut acts = around
+            .clone()
+            .filter_map(|&(facet, place)| Some(of_facet(facet)?.d[place]));
+        if acts.any(|d| d > 0.0) {
+            return true;
+        }
+        let of = around.filter_map(|&(facet, _)| of_facet(facet));
+        let mut jet = SurfaceJet::default();
+        let own: Vec3 = of.map(|of| of.normal).sum();
+        let known = pair.primary.jet(at, &met.anchor, &mut jet).is_ok();
+        let cosine = own.normalized().map_or(0.0, |own| own.dot(jet.normal));
+        !known || cosine < STEEP.cos()
+    }
+
     /// The mean gap of a row with its own functions.
     fn mean_gap(
         &self,
@@ -299,7 +330,10 @@ impl Mortar {
 
     /// Chooses how far the normals of rows turn to those of what they meet, by their tilt.
     pub(super) fn turn(&self, weights: &Weights, found: &mut Guests) {
-        if self.form.joined || self.form.normals == Normals::Nodal {
+        if self.form.joined
+            || self.form.normals != Normals::Turning
+            || self.points.sliding != SlidingRange::Finite
+        {
             return;
         }
         for row in 0..self.nodes.len() {
@@ -438,7 +472,12 @@ mod tests {
             }
         }
         if nnode > 4 {
+            let ncorner = x.len();
             with_mid_nodes(&mut x, &mut sides, nnode == 9);
+            // derivatives are those of bent edges
+            x[ncorner..]
+                .iter_mut()
+                .for_each(|x| *x += random.vector() * 0.001);
         }
         let secondary = facets(&mut x, &sides);
         let first = x.len() as NodeId;
