@@ -250,7 +250,8 @@ impl Source<'_> {
                 (Box::new(mortar), area)
             }
             Method::NodeToSegment | Method::Auto => {
-                let blended = secondary.as_ref().filter(|_| law.multiplier().is_unknown());
+                let of_auto = exact && matches!(part.method, Method::Auto);
+                let blended = secondary.as_ref().filter(|_| of_auto);
                 let blended = blended.map(|facets| self.blended(part, facets, &points));
                 let blended = blended.transpose()?.flatten();
                 let (mut at_nodes, area) = match blended {
