@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Draw the orders of convergence of mortar contact that docs/convergence.md has in its table.
+"""Draw the orders of convergence of contact that docs/convergence.md has in its tables.
 
     python scripts/convergence_figure.py [docs/convergence.md] [-o docs/figures/convergence.png]
 
-Rows of the table are an element, the kind of contact, the errors in the energy norm (each but the first with its order
-in brackets) under their size of the mesh, and the order of the last three. Every order is found anew from the errors and
-has to be within 0.02 of the one in the table; it has to be 0.95 for linear and 1.4 for quadratic elements. Rows of
-pressures are passed over.
+Rows of a table are an element, the kind of contact, the errors in the energy norm (each but the first with its order
+in brackets) under their size of the mesh, and the order of the last three. A table without a column for the contact is
+that of rigid surfaces. Every order is computed from the errors and has to be within 0.02 of the one in the table; it has
+to be 0.95 for linear and 1.4 for quadratic elements. Rows of pressures are skipped.
 
 Needs: matplotlib. Exit code: 0 drawn, 1 an order is not what it has to be, 2 wrong command line or unreadable page.
 """
@@ -19,6 +19,7 @@ from pathlib import Path
 
 LINEAR = ("tri3", "quad4", "hex8")
 SPACE = ("hex8", "tet10", "hex20", "hex27")
+RIGID = "rigid surface"
 STYLES = {
     "tri3": ("tab:red", "^"),
     "quad4": ("tab:orange", "s"),
@@ -35,9 +36,12 @@ STYLES = {
 class Row:
     """An element with the sizes of its meshes, its errors, and the order of the last three."""
 
-    def __init__(self, sizes, cells):
-        self.element, self.contact = cells[0], cells[1]
-        filled = [(h, cell) for h, cell in zip(sizes, cells[2:-1]) if cell]
+    def __init__(self, head, cells):
+        named = dict(zip(head, cells))
+        self.element, self.contact = named["element"], named.get("contact", RIGID)
+        first = head.index("contact" if "contact" in head else "element") + 1
+        sizes = [Fraction(cell.removeprefix("h = ")) for cell in head[first:-1]]
+        filled = [(h, cell) for h, cell in zip(sizes, cells[first:-1]) if cell]
         self.h = [float(h) for h, _ in filled]
         self.error = [float(cell.split()[0]) for _, cell in filled]
         self.claimed = float(cells[-1])
@@ -50,12 +54,15 @@ class Row:
 
 
 def read(page):
-    """The rows of the table."""
-    lines = [line.strip("| \n").split("|") for line in page.splitlines() if line.startswith("|")]
-    lines = [[cell.strip() for cell in line] for line in lines]
-    head = next(line for line in lines if line[0] == "element")
-    sizes = [Fraction(cell.removeprefix("h = ")) for cell in head[2:-1]]
-    return [Row(sizes, line) for line in lines if line[0] in STYLES]
+    """The rows of all tables."""
+    tables = [line.strip()[1:-1] for line in page.splitlines() if line.startswith("|")]
+    rows, head = [], []
+    for cells in ([cell.strip() for cell in line.split("|")] for line in tables):
+        if cells[0] == "element":
+            head = cells
+        elif cells[0] in STYLES:
+            rows.append(Row(head, cells))
+    return rows
 
 
 def draw(rows, target):
@@ -72,8 +79,10 @@ def draw(rows, target):
         ("plane, small sliding, sides swapped", panel("small sliding, swapped")),
         ("plane, finite sliding", panel("finite sliding")),
         ("space, small sliding", panel("small sliding", space=True)),
+        ("plane, rigid surface", panel(RIGID)),
+        ("space, rigid surface", panel(RIGID, space=True)),
     ]
-    figure, axes = plt.subplots(2, 2, figsize=(11, 8.4), dpi=100, sharex=True, sharey=True)
+    figure, axes = plt.subplots(2, 3, figsize=(15, 8.4), dpi=100, sharex=True, sharey=True)
     for axis, (title, shown) in zip(axes.flat, panels):
         for row in shown:
             colour, marker = STYLES[row.element]
@@ -92,7 +101,7 @@ def draw(rows, target):
     for axis in axes[:, 0]:
         axis.set_ylabel("error in the energy norm, relative")
     for axis in axes[1]:
-        axis.set_xlabel("h, upper layer")
+        axis.set_xlabel("h")
     axes[0, 0].set_xlim(1 / 40, 0.8)
     figure.tight_layout()
     figure.savefig(target)
@@ -105,7 +114,7 @@ def main():
     arguments = parser.parse_args()
     try:
         rows = read(arguments.page.read_text(encoding="utf-8"))
-    except (OSError, ValueError, IndexError, StopIteration) as error:
+    except (OSError, ValueError, IndexError, KeyError) as error:
         print(f"error: the page cannot be read: {error}", file=sys.stderr)
         return 2
     draw(rows, arguments.output)
