@@ -15,11 +15,13 @@
 //! found with it is one of closest points, or the point goes on ([`Interface::let_restless_go`]).
 //!
 //! Across a ridge the closest point jumps, and there may be equilibria on both sides or none: the point stays on the
-//! continuation of its facet until the increment has ended.
+//! continuation of its facet until the increment has ended. So it does where the law presses from a distance: outside
+//! the body the closest point jumps across a valley.
 
 use super::{Interface, Multiplier, NodeId, RESTLESS, Verdict};
 use crate::contact::discretization::Pair;
 use crate::contact::discretization::projected::{BEYOND, on_continuation};
+use crate::contact::kernel::Laws;
 use signorini_geometry::surface::{ContactSurface, Feature, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
@@ -71,10 +73,13 @@ fn is_closest(kept: &Pair, closest: &Pair) -> bool {
 }
 
 impl Interface {
-    /// Whether points may rest on edges and vertices, which have no normal where the gap is zero.
+    /// Whether points may rest on edges and vertices, which have no normal where the gap is zero: only where the law has
+    /// no force there.
     fn rests_on_edges(&self) -> bool {
-        let has_normals = self.parts.law.multiplier() == Multiplier::None;
-        has_normals && self.parts.discretization.rests_on_edges()
+        let Laws { law, scale, .. } = self.laws();
+        let needs_no_normal =
+            law.multiplier() == Multiplier::None && law.pressure(0.0, 0.0, scale).value <= 0.0;
+        needs_no_normal && self.parts.discretization.rests_on_edges()
     }
 
     /// Puts restless points where they are held.
