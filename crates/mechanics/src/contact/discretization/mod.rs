@@ -313,7 +313,8 @@ pub trait Discretization: Send + Sync {
     }
 
     /// Makes the choices that hold while an iteration goes on, from those of the present iterate, and in what was before
-    /// likewise; says whether rows now see others. Rows that compare the sides in another way from now on have slipped as
+    /// likewise; says whether rows now see others. What follows the motion smoothly follows it closely `from_rest`, at the
+    /// start of an increment, and within it only where it lags far behind. Rows that compare the sides in another way from now on have slipped as
     /// far from their new anchors as from those before.
     ///
     /// # Errors
@@ -325,6 +326,7 @@ pub trait Discretization: Send + Sync {
         _now: &mut Pairing,
         _before: &mut Pairing,
         _anchors: &mut [Option<Anchored>],
+        _from_rest: bool,
     ) -> Result<bool, SurfaceError> {
         Ok(false)
     }

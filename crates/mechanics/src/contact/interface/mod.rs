@@ -480,12 +480,12 @@ impl Interface {
     }
 
     /// Makes the choices that hold while an iteration goes on; says whether they are others.
-    fn settle(&mut self, at: &Placement) -> Result<bool, TermError> {
+    fn settle(&mut self, at: &Placement, from_rest: bool) -> Result<bool, TermError> {
         let parts = &self.parts;
         let discretization = parts.discretization.as_ref();
         let (now, before) = (&mut self.now, &mut self.before);
         let anchors = self.history.anchors_mut();
-        let others = discretization.settle(&parts.pair, at, now, before, anchors);
+        let others = discretization.settle(&parts.pair, at, now, before, anchors, from_rest);
         let others = others.map_err(|e| self.failed(&e))?;
         self.sees_others |= others;
         self.settled += u8::from(others);
@@ -551,19 +551,19 @@ impl Term for Interface {
         }
         let renews = self.parts.discretization.renews();
         let first = !self.started;
+        let many = self.parts.discretization.meets_many();
         if first {
             self.search(&at).map_err(|e| self.failed(&e))?;
-            self.settle(&at)?;
-            self.accepted.clone_from(&self.now);
             self.started = true;
-        }
-        if std::mem::take(&mut self.resumed) && self.parts.discretization.meets_many() {
+        } else if std::mem::take(&mut self.resumed) && many {
             // weights are those of where the run stopped, and what they couple is known
             self.search(&at).map_err(|e| self.failed(&e))?;
-            self.settle(&at)?;
-            self.sees_others = false;
             self.accepted.clone_from(&self.now);
+            self.sees_others = false;
         }
+        self.before.clone_from(&self.accepted);
+        let settled = self.settle(&at, true)?;
+        self.accepted.clone_from(&self.now);
         let others = self.renew_rows(from)?;
         if !others && (renews || self.parts.bond_tangential.is_some()) {
             self.let_go();
@@ -574,7 +574,7 @@ impl Term for Interface {
         self.measure_what_bears(&at).map_err(|e| self.failed(&e))?;
         self.bend_again(&at).map_err(|e| self.failed(&e))?;
         self.allow_for_overlaps(from, renews || first)?;
-        if first || others {
+        if first || others || settled {
             self.judged = self.judge(from)?;
             self.accepted_judged.clone_from(&self.judged);
         }
@@ -668,7 +668,7 @@ impl Term for Interface {
     }
 
     fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
-        if self.settled < RESTLESS && self.settle(&trial.placement())? {
+        if self.settled < RESTLESS && self.settle(&trial.placement(), false)? {
             return Ok(Verdict::Repeat {
                 changes: 1,
                 closing: false,

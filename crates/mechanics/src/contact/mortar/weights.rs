@@ -17,6 +17,11 @@ pub struct Weights {
     pub(crate) guests: Guests,
 }
 
+/// Numbers of a facet, a row and a function that a row has taken over, in a checkpoint.
+const FACET: usize = 2;
+const ROW: usize = 4;
+const FUNCTION: usize = 3;
+
 /// Nodes that are hardly covered, or that compare points, leave their function ψ to others.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Guests {
@@ -132,40 +137,74 @@ impl Weights {
     /// row whether it has left its function, whether it compares points, and how far its normals have turned.
     #[must_use]
     pub fn choices(&self) -> Vec<f64> {
-        let flag = |flags: &[bool], row: usize| f64::from(u8::from(flags.get(row) == Some(&true)));
+        let number = |flag: bool| f64::from(u8::from(flag));
+        let flag = |flags: &[bool], k: usize| number(flags.get(k) == Some(&true));
         let guests = &self.guests;
-        let row = |row| {
-            let turn = guests.turn(row);
-            [flag(&guests.left, row), flag(&guests.pointwise, row), turn]
+        let taken = |row: usize| guests.taken.get(row).map_or(&[][..], Vec::as_slice);
+        let facet = |facet: usize| {
+            let part = self.facets.get(facet).map_or(0, |f| f.part);
+            [f64::from(part), flag(&guests.turning, facet)]
         };
-        let parts = self.facets.iter().map(|f| f64::from(f.part));
-        parts.chain((0..guests.left.len()).flat_map(row)).collect()
+        let row = |row: usize| {
+            let [left, pointwise] = [&guests.left, &guests.pointwise].map(|of| flag(of, row));
+            [left, pointwise, guests.turn(row), taken(row).len() as f64]
+        };
+        let nrow = guests.left.len();
+        if self.facets.is_empty() {
+            return Vec::new();
+        }
+        let mut out = vec![self.facets.len() as f64];
+        out.extend((0..self.facets.len()).flat_map(facet));
+        out.extend((0..nrow).flat_map(row));
+        let functions = (0..nrow).flat_map(taken);
+        out.extend(
+            functions.flat_map(|&(facet, place, share)| [f64::from(facet), place as f64, share]),
+        );
+        out
     }
 
     /// Takes the choices of so many rows that were stored; says whether these numbers are such.
     pub fn restore_choices(&mut self, stored: &[f64], nrow: usize) -> bool {
-        if stored.is_empty() {
+        let Some((&nfacet, stored)) = stored.split_first() else {
             return true;
-        }
-        let Some(nfacet) = stored.len().checked_sub(3 * nrow) else {
+        };
+        let Some((facets, stored)) = stored.split_at_checked(FACET * nfacet as usize) else {
             return false;
         };
-        let (parts, rows) = stored.split_at(nfacet);
-        self.facets = parts
-            .iter()
-            .map(|&part| OfFacet {
-                part: part as u32,
-                ..OfFacet::default()
-            })
-            .collect();
-        let (rows, _) = rows.as_chunks::<3>();
+        let Some((rows, functions)) = stored.split_at_checked(ROW * nrow) else {
+            return false;
+        };
+        let (facets, _) = facets.as_chunks::<FACET>();
+        let (rows, _) = rows.as_chunks::<ROW>();
+        let (functions, rest) = functions.as_chunks::<FUNCTION>();
+        let wanted: f64 = rows.iter().map(|r| r[3]).sum();
+        let exists = |&[facet, place, _]: &[f64; FUNCTION]| {
+            (0.0..nfacet).contains(&facet) && (0.0..MAX_FACET_NODES as f64).contains(&place)
+        };
+        if !rest.is_empty() || wanted != functions.len() as f64 || !functions.iter().all(exists) {
+            return false;
+        }
+        let of_part = |&[part, _]: &[f64; FACET]| OfFacet {
+            part: part as u32,
+            ..OfFacet::default()
+        };
+        self.facets = facets.iter().map(of_part).collect();
+        let mut functions = functions.iter().copied();
+        let mut taken = |&[.., n]: &[f64; ROW]| {
+            let of_row = functions.by_ref().take(n as usize);
+            of_row
+                .map(|[f, place, share]| (f as u32, place as usize, share))
+                .collect()
+        };
         self.guests = Guests {
             left: rows.iter().map(|r| r[0] != 0.0).collect(),
             pointwise: rows.iter().map(|r| r[1] != 0.0).collect(),
+            taken: rows.iter().map(&mut taken).collect(),
             ..Guests::default()
         };
         if rows.iter().any(|r| r[2] != 0.0) {
             self.guests.turned = rows.iter().map(|r| r[2]).collect();
+            self.guests.turning = facets.iter().map(|f| f[1] != 0.0).collect();
         }
         true
     }

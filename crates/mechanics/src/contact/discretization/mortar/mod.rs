@@ -256,7 +256,7 @@ impl Mortar {
         self.points.sliding = SlidingRange::Small;
         self.weigh(pair, at, &search, (&nothing, RowOrder::Gap), &mut weights)?;
         let bent = self.bend(pair, at, share, &mut weights)?;
-        self.rest(pair, at, &mut weights)?;
+        self.rest(pair, at, &mut weights, true)?;
         if let Some(facets) = pair.secondary.as_ref().filter(|_| bent) {
             self.along_normals(facets, &mut weights);
         }
@@ -287,11 +287,12 @@ impl Mortar {
         pair: &SurfacePair,
         at: &Placement,
         weights: &mut Weights,
+        from_rest: bool,
     ) -> Result<bool, SurfaceError> {
         let Some(facets) = &pair.secondary else {
             return Ok(false);
         };
-        let guests = self.host((pair, facets), at, weights);
+        let guests = self.host((pair, facets), at, weights, from_rest);
         if guests == weights.guests {
             return Ok(false);
         }
@@ -382,6 +383,7 @@ impl Mortar {
         (pair, facets): (&SurfacePair, &Facets),
         at: &Placement,
         weights: &Weights,
+        from_rest: bool,
     ) -> Guests {
         let n = self.nodes.len();
         let met = |facet: u32| {
@@ -440,7 +442,7 @@ impl Mortar {
         for row in aside {
             self.set_aside(row, facets, &mut found);
         }
-        self.turn(weights, &mut found);
+        self.turn(weights, from_rest, &mut found);
         found
     }
 
@@ -686,7 +688,7 @@ impl Discretization for Mortar {
             out.weights.guests.clone_from(&last.weights.guests);
             self.weigh(pair, at, near, (&last.weights, next), &mut out.weights)?;
             if out.weights.guests.left.is_empty() {
-                self.rest(pair, at, &mut out.weights)?;
+                self.rest(pair, at, &mut out.weights, true)?;
             }
         }
         let near = |row: usize, facets: &mut Vec<u32>| {
@@ -704,13 +706,14 @@ impl Discretization for Mortar {
         now: &mut Pairing,
         before: &mut Pairing,
         anchors: &mut [Option<Anchored>],
+        from_rest: bool,
     ) -> Result<bool, SurfaceError> {
         if self.held.is_some() {
             return Ok(false);
         }
         let kinds = now.weights.guests.pointwise.clone();
         let slips = self.slips(at, now, before, anchors);
-        if !self.rest(pair, at, &mut now.weights)? {
+        if !self.rest(pair, at, &mut now.weights, from_rest)? {
             return Ok(false);
         }
         let known = now.pairs.clone();

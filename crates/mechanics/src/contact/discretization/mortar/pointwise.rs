@@ -16,9 +16,11 @@
 //! *Normals that turn.* From a tilt of [`UPRIGHT`] on, row j acts along
 //!
 //! ```text
-//! ν_ej = q/|q|,  q = (1 − s_j) ν_e + s_j μ_e,  s_j = x² (3 − 2x),  x = (θ_j − θ0)/(θ1 − θ0) within [0, 1]   (E2)
+//! ν_ej = q/|q|,  q = (1 − s_j) ν_e + s_j μ_e,  s_j = x² (3 − 2x) θ_j/∠(N, M),
+//!                                              x = (θ_j − θ0)/(θ1 − θ0) within [0, 1]        (E2)
 //! ```
 //!
+//! by its tilt, which between flat sides is all of the angle, and between curved ones what facets do not turn anyway.
 //! on each facet e. D and M stay, and with them linear momentum; the moment of a pressure is off by the tilt times the
 //! gap.
 //!
@@ -28,7 +30,9 @@
 //! says no less than its points. The function ψ_j of a row that compares its
 //! node goes to the other nodes of each facet, so that uniform pressures and linear gaps are still exact.
 //!
-//! Both are chosen where an iterate has converged, and hold while an iteration goes on: derivatives of `s_j` are none.
+//! Both are chosen where an iterate has converged, and hold while an iteration goes on: derivatives of `s_j` are none. As
+//! the tilt depends on the normals in turn, `s_j` follows it closely at the start of an increment only, and within it where
+//! a normal is off by more than a degree.
 
 use super::clearance::{Flat, least_gap};
 use super::edges::Part;
@@ -51,8 +55,10 @@ const APART: f64 = 1e-2;
 /// Gaps over the distance between nodes up to which rows that compare points ask for their means.
 const NEAR: f64 = 0.5;
 
-/// The least change of a turn that makes a difference.
-const STEP: f64 = 0.1;
+/// Angles, 0.05 and 1 degree, from which on a turn of a normal is taken over: at the start of an increment, and within it.
+/// The tilt depends on the normals in turn, and an iteration for both at once goes on for long.
+const CLOSELY: f64 = 0.00087;
+const FAR_BEHIND: f64 = 0.0175;
 
 /// The tilt from which on they do whether they are closed or not: 30 degrees.
 const STEEP: f64 = 0.52;
@@ -158,8 +164,8 @@ fn normal_of(corners: &[Vec3]) -> Option<Vec3> {
 }
 
 impl Mortar {
-    /// The tilt (E1) of a row; `None` where its facets meet nothing.
-    fn tilt(&self, row: usize, weights: &Weights) -> Option<f64> {
+    /// The tilt (E1) of a row, and the angle between both normals; `None` where its facets meet nothing.
+    fn tilt(&self, row: usize, weights: &Weights) -> Option<(f64, f64)> {
         let (mut own, mut opposite) = (Vec3::ZERO, Vec3::ZERO);
         let mut turning: f64 = 0.0;
         for &(facet, place) in &self.around[row] {
@@ -174,7 +180,8 @@ impl Mortar {
         }
         let (own, opposite) = (own.normalized()?, opposite.normalized()?);
         let angle = own.cross(opposite).norm().atan2(own.dot(opposite));
-        Some((angle - 0.5 * (turning + self.turning[row])).max(0.0))
+        let tilt = angle - 0.5 * (turning + self.turning[row]);
+        Some((tilt.max(0.0), angle))
     }
 
     /// Chooses the rows that compare points, among those in use: they leave their functions to others.
@@ -196,7 +203,11 @@ impl Mortar {
             let was = weights.guests.is_pointwise(row);
             let is = match self.tilt(row, weights) {
                 None => self.structural[row],
-                Some(tilt) if self.structural[row] && (tilt > STEEP || was && tilt > FLUSH) => true,
+                Some((tilt, _))
+                    if self.structural[row] && (tilt > STEEP || was && tilt > FLUSH) =>
+                {
+                    true
+                }
                 Some(_) => self.is_false((row, was), pair, at, weights),
             };
             if is {
@@ -329,7 +340,7 @@ impl Mortar {
     }
 
     /// Chooses how far the normals of rows turn to those of what they meet, by their tilt.
-    pub(super) fn turn(&self, weights: &Weights, found: &mut Guests) {
+    pub(super) fn turn(&self, weights: &Weights, from_rest: bool, found: &mut Guests) {
         if self.form.joined
             || self.form.normals != Normals::Turning
             || self.points.sliding != SlidingRange::Finite
@@ -340,11 +351,16 @@ impl Mortar {
             if found.left[row] {
                 continue;
             }
-            let tilt = self.tilt(row, weights).unwrap_or(0.0);
+            let (tilt, angle) = self.tilt(row, weights).unwrap_or_default();
             let x = ((tilt - UPRIGHT) / (TURNED - UPRIGHT)).clamp(0.0, 1.0);
-            let turn = x * x * (3.0 - 2.0 * x);
+            let turn = if x > 0.0 {
+                x * x * (3.0 - 2.0 * x) * tilt / angle
+            } else {
+                0.0
+            };
             let before = weights.guests.turn(row);
-            let turn = match (turn - before).abs() < STEP && turn > 0.0 && before > 0.0 {
+            let step = if from_rest { CLOSELY } else { FAR_BEHIND };
+            let turn = match (turn - before).abs() * angle < step {
                 true => before,
                 false => turn,
             };
@@ -542,7 +558,7 @@ mod tests {
             let sides = tilted(nnode, 0.03);
             let settled = sides.pair_up(&sides.x, &Pairing::default());
             let turned = settled.weights.guests.turned.iter();
-            assert!(turned.clone().any(|s| *s == 1.0), "{nnode}: {turned:?}");
+            assert!(turned.clone().any(|s| *s > 0.9), "{nnode}: {turned:?}");
             let (mut rows, mut moved) = (Rows::default(), Rows::default());
             let h = 1e-6;
             for row in 0..sides.mortar.nrow() {
@@ -592,7 +608,10 @@ mod tests {
                 };
                 let turn = settled.weights.guests.turn(row);
                 let away = (filled.normal - Vec3::unit(1)).norm();
-                assert!(turn < 1.0 || away < 1e-14, "{nnode}, row {row}: {away}");
+                assert!(
+                    away < (1.0 - turn) * 0.05 + 1e-14,
+                    "{nnode}, row {row}: {turn} {away}"
+                );
             }
         }
     }
@@ -640,6 +659,7 @@ mod tests {
                 .weights
                 .restore_choices(&settled.weights.choices(), nrow)
         );
+        assert_eq!(restored.weights.guests, settled.weights.guests);
         assert_eq!(restored.weights.choices(), settled.weights.choices());
         assert!(!restored.weights.restore_choices(&[0.0], nrow));
         assert!(restored.weights.restore_choices(&[], nrow));
