@@ -19,6 +19,8 @@ pub(super) struct Laws<'a> {
     pub bond_tangential: Option<f64>,
     /// Whether multipliers are tractions.
     pub vectors: bool,
+    /// c_t of the row at hand: the shear traction per slip of an unknown multiplier.
+    pub shear: f64,
 }
 
 /// Stands for no friction where multipliers are tractions all the same.
@@ -49,6 +51,8 @@ pub(super) struct Traction {
     /// The trial, and whether it is beyond the limit.
     pub limit: f64,
     pub state: Contact,
+    /// The direction of the trial of what slips.
+    pub direction: Vec3,
 }
 
 /// What a row brings with it from before.
@@ -244,7 +248,10 @@ impl<'a> Laws<'a> {
             };
         };
         let limit = past.limit_of(row, friction, pressure.value);
-        let (tangential, state) = self.returned(self.trial(row, lambda), &limit, past.state);
+        let trial = self.trial(row, lambda);
+        let (tangential, state) = self.returned(trial, &limit, past.state);
+        let slips = state == Contact::Slip;
+        let direction = trial.normalized().filter(|_| slips).unwrap_or_default();
         let limit = limit.value;
         if self.law.multiplier() == Multiplier::Direct {
             let along = lambda.vector.dot(row.normal);
@@ -253,6 +260,7 @@ impl<'a> Laws<'a> {
                 tangential: lambda.vector - row.normal * along,
                 limit,
                 state,
+                direction,
             };
         }
         Traction {
@@ -260,6 +268,7 @@ impl<'a> Laws<'a> {
             tangential,
             limit,
             state,
+            direction,
         }
     }
 
@@ -301,13 +310,12 @@ impl<'a> Laws<'a> {
         (traction, state)
     }
 
-    /// Multipliers stick exactly, whatever the stiffness: theirs is that of the normal direction, so that the tangent of
-    /// what sticks stays symmetric.
+    /// Multipliers stick exactly, whatever the stiffness.
     fn stick_of(&self) -> Stick {
-        if self.law.multiplier() == Multiplier::None {
-            self.stick
-        } else {
-            Stick::Stiffness(self.scale.penalty)
+        match self.law.multiplier() {
+            Multiplier::None => self.stick,
+            Multiplier::Frozen => Stick::Stiffness(self.scale.penalty),
+            _ => Stick::Stiffness(self.shear),
         }
     }
 
@@ -340,6 +348,7 @@ impl<'a> Laws<'a> {
             tangential: stretched - row.normal * along,
             limit: f64::INFINITY,
             state: Contact::Stick,
+            direction: Vec3::ZERO,
         }
     }
 
@@ -471,11 +480,14 @@ impl<'a> Laws<'a> {
             (pressure.value, tangential)
         };
         if unknown {
-            // λ − that, over c
-            let penalty = self.scale.penalty;
+            // λ − that, over c along the normal and over c_t across it, so that the tangent of what sticks is symmetric
+            let (along_normal, across) = (1.0 / self.scale.penalty, 1.0 / self.shear);
+            let apart = along_normal - across;
             let missing = lambda.vector + nu * pressure.value - tangential;
+            let missed = nu.dot(missing);
+            let scaled = missing * across + nu * (missed * apart);
             for c in 0..width - n {
-                target.force[n + c] -= measure / penalty * missing[c];
+                target.force[n + c] -= measure * scaled[c];
             }
             if wants_tangent {
                 for j in 0..width {
@@ -485,8 +497,10 @@ impl<'a> Laws<'a> {
                     if j >= n {
                         change += Vec3::unit(j - n);
                     }
+                    let turned = nu.dot(change) + dnormal.dot(missing);
+                    let change = change * across + (nu * turned + dnormal * missed) * apart;
                     for c in 0..width - n {
-                        target.stiffness[(n + c) * width + j] -= measure / penalty * change[c];
+                        target.stiffness[(n + c) * width + j] -= measure * change[c];
                     }
                 }
             }

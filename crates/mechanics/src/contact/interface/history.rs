@@ -525,6 +525,7 @@ fn judged_from_numbers(n: &[f64]) -> Judged {
             _ => Contact::Slip,
         },
         facet: (facet >= 0.0).then_some((facet as u32, feature as u8)),
+        direction: Vec3::ZERO,
     }
 }
 

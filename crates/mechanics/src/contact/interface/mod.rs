@@ -8,6 +8,7 @@ mod pairing;
 mod passing;
 mod report;
 mod restless;
+mod reversals;
 mod rows;
 
 use super::discretization::{BentSides, Discretization, Pair, Pairing, SurfacePair};
@@ -23,6 +24,7 @@ use history::History;
 use lent::Lents;
 pub use pairing::closest_points;
 use pairing::{Coupled, Near};
+use reversals::Reversals;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
@@ -162,6 +164,7 @@ impl InterfaceParts {
             areas: None,
             scale: Scale {
                 penalty,
+                shear: penalty,
                 length: 1.0,
             },
             shifts: Vec::new(),
@@ -239,6 +242,8 @@ pub struct Interface {
     /// The largest motion along the other side so far, over the size of the facets, where contact keeps its geometry, and
     /// its node.
     drift: Option<(f64, NodeId)>,
+    /// Rows whose slip turns round from iterate to iterate.
+    reversals: Reversals,
     /// How often each row went to another facet in this increment. Those that go to and fro are held.
     changes: Vec<u8>,
     /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
@@ -259,6 +264,8 @@ struct Allowed {
 struct Judged {
     state: Contact,
     facet: Option<(u32, u8)>,
+    /// The direction in which it slips.
+    direction: Vec3,
 }
 
 #[derive(Default)]
@@ -303,6 +310,7 @@ impl Interface {
             lents: Lents::default(),
             first_step: None,
             allowed: Allowed::default(),
+            reversals: Reversals::new(nrow),
             changes: vec![0; nrow],
             whole: Vec::new(),
             drift: None,
@@ -341,6 +349,16 @@ impl Interface {
             bond: self.parts.bond.is_some(),
             bond_tangential: self.parts.bond_tangential,
             vectors: self.parts.has_vectors(),
+            shear: self.parts.scale.shear,
+        }
+    }
+
+    /// The laws with the c_t of a row.
+    fn laws_of(&self, row: usize) -> Laws<'_> {
+        let laws = self.laws();
+        Laws {
+            shear: laws.shear * self.reversals.factor(row),
+            ..laws
         }
     }
 
@@ -581,6 +599,7 @@ impl Term for Interface {
         self.before.clone_from(&self.accepted);
         self.settled = 0;
         self.changes.fill(0);
+        self.reversals.reset(self.parts.discretization.nrow());
         self.history.begin();
         self.stick(&at).map_err(|e| self.failed(&e))
     }
@@ -649,6 +668,10 @@ impl Term for Interface {
         };
         let before = std::mem::replace(&mut self.judged, now);
         let mut counts = Changes::default();
+        if self.nmultiplier() > 1 {
+            let directions = self.judged.iter().map(|judged| judged.direction);
+            counts.turned = self.reversals.look(directions);
+        }
         let mut nodes = Vec::new();
         for (row, (now, before)) in self.judged.iter().zip(&before).enumerate() {
             if !counts.compare(now, before) {
@@ -720,6 +743,7 @@ impl Term for Interface {
         self.judged.clone_from(&self.accepted_judged);
         self.history.reject();
         self.changes.fill(0);
+        self.reversals.reset(self.parts.discretization.nrow());
     }
 
     fn save(&self, out: &mut Archive) {
@@ -747,6 +771,7 @@ struct Changes {
     slipping: usize,
     sticking: usize,
     moved: usize,
+    turned: usize,
     /// Whether some row that was closed and still is has gone to another facet, whatever else changed there.
     elsewhere: bool,
 }
@@ -775,6 +800,7 @@ impl Changes {
             (self.slipping, "stick -> slip"),
             (self.sticking, "slip -> stick"),
             (self.moved, "went to another facet"),
+            (self.turned, "slip the other way"),
         ];
         let changes = parts.iter().map(|p| p.0).sum();
         if changes == 0 {

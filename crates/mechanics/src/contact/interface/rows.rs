@@ -189,7 +189,8 @@ impl Interface {
 
     /// What acts on a filled row.
     pub(super) fn traction(&self, row: &Row, lambda: &Lambda) -> Traction {
-        self.laws().traction(row, lambda, self.past(row.number))
+        let laws = self.laws_of(row.number);
+        laws.traction(row, lambda, self.past(row.number))
     }
 
     /// Adds forces and stiffness of a row.
@@ -248,7 +249,7 @@ impl Interface {
         let lambda = self.lambda(number, trial);
         // the tangent is that of the branch that the trial is on, to the last bit
         let (measure, past) = (self.measure(number), self.history.past(number));
-        let laws = self.laws();
+        let laws = self.laws_of(number);
         for row in scratch.rows.rows() {
             laws.act(
                 row,
@@ -306,7 +307,8 @@ impl Interface {
         }
         let point = self.parts.discretization.point(row);
         let place = point.position(&trial.placement()).max_abs();
-        let part = self.parts.traction_tolerance * lambda.vector.norm() / self.parts.scale.penalty;
+        let shear = self.laws_of(row).shear;
+        let part = self.parts.traction_tolerance * lambda.vector.norm() / shear;
         self.parts.gap_tolerance.min(part + ROUNDING * place)
     }
 
@@ -379,24 +381,26 @@ impl Interface {
                 continue;
             }
             let lambda = self.lambda(row, trial);
-            let state = rows.rows().first().map(|r| {
+            let acting = rows.rows().first().map(|r| {
                 let traction = self.traction(r, &lambda);
                 // what just touches, without pressure, is open to a verdict
                 let nothing = r.gap >= 0.0 && traction.pressure <= 0.0 && !self.laws().bond;
                 if nothing {
-                    Contact::Open
+                    (Contact::Open, Vec3::ZERO)
                 } else {
-                    traction.state
+                    (traction.state, traction.direction)
                 }
             });
+            let (state, direction) = acting.unwrap_or_default();
             let feature = match pair.feature {
                 Feature::Face => 0,
                 Feature::Edge { .. } => 1,
                 Feature::Vertex => 2,
             };
             *judged = Judged {
-                state: state.unwrap_or_default(),
+                state,
                 facet: Some((pair.anchor.facet, feature)),
+                direction,
             };
         }
         Ok(judged)

@@ -61,6 +61,8 @@ impl Multiplier {
 pub struct Scale {
     /// ε, or c: pressure (or force) per gap.
     pub penalty: f64,
+    /// c_t: shear traction (or force) per slip, of unknown multipliers under friction.
+    pub shear: f64,
     /// Size of the facets.
     pub length: f64,
 }

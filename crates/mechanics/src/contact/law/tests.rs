@@ -2,6 +2,7 @@ use super::*;
 
 const SCALE: Scale = Scale {
     penalty: 7.0,
+    shear: 2.0,
     length: 1.0,
 };
 

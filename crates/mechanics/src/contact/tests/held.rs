@@ -28,6 +28,7 @@ fn row(slip: Vec3) -> Row {
 fn traction_is_the_slope_of_the_potential() {
     let scale = Scale {
         penalty: 20.0,
+        shear: 20.0,
         length: 1.0,
     };
     let held = Past {
@@ -48,6 +49,7 @@ fn traction_is_the_slope_of_the_potential() {
             bond: false,
             bond_tangential: None,
             vectors: vector != Vec3::ZERO,
+            shear: 20.0,
         };
         let lambda = Lambda {
             scalar: 0.0,
@@ -78,6 +80,7 @@ fn traction_is_the_slope_of_the_potential() {
 fn an_infinite_limit_is_sticking() {
     let scale = Scale {
         penalty: 20.0,
+        shear: 20.0,
         length: 1.0,
     };
     let laws = Laws {
@@ -88,6 +91,7 @@ fn an_infinite_limit_is_sticking() {
         bond: false,
         bond_tangential: None,
         vectors: false,
+        shear: 20.0,
     };
     let slip = Vec3::new(3.0, 4.0, 0.0);
     let past = Past {
@@ -104,6 +108,7 @@ fn an_infinite_limit_is_sticking() {
 fn a_row_on_its_limit_does_what_it_did_before() {
     let scale = Scale {
         penalty: 20.0,
+        shear: 20.0,
         length: 1.0,
     };
     let limit = FRICTION.mu * 20.0 * 0.1;
@@ -117,6 +122,7 @@ fn a_row_on_its_limit_does_what_it_did_before() {
             bond: false,
             bond_tangential: None,
             vectors: false,
+            shear: 20.0,
         };
         for off in [-1e-6, -1e-8, -1e-10, -1e-16, 0.0, 1e-16, 1e-10, 1e-8, 1e-6] {
             let slip = Vec3::unit(1) * (exact * (1.0 + off));
@@ -154,6 +160,7 @@ fn a_row_on_its_limit_does_what_it_did_before() {
         bond: false,
         bond_tangential: None,
         vectors: false,
+        shear: 20.0,
     };
     let held = laws.traction(&row(Vec3::unit(0)), &Lambda::default(), past);
     assert_eq!(held.state, Contact::Stick);

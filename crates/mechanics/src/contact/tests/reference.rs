@@ -174,11 +174,13 @@ impl<'a> Case<'a> {
             stick: Stick::Stiffness(number("eT")),
             scale: &Scale {
                 penalty: number("p"),
+                shear: number("p"),
                 length: 1.0,
             },
             bond: false,
             bond_tangential: None,
             vectors: true,
+            shear: number("p"),
         };
         let rows = self.rows();
         let n = rows.ncolumn();

@@ -344,6 +344,7 @@ impl Scene {
             area,
             scale: Scale {
                 penalty: PENALTY,
+                shear: 0.3 * PENALTY,
                 length: 1.0,
             },
             ..InterfaceParts::new("rub", pair, discretization, PENALTY)

@@ -28,6 +28,9 @@ const PENALTY_OF_ITSELF: f64 = 30.0;
 /// Factor of the automatic parameter of laws that solve for multipliers: it changes the way to the solution only, and
 /// what slips turns round for ever where it is large.
 const COMPLEMENTARITY: f64 = 1.0;
+/// The same of slip, over that of gaps: about the shear modulus over that of compression.
+const SHEAR: f64 = 0.3;
+
 /// What contacts of a model share.
 pub(super) struct Steps<'a> {
     /// Changes of contacts in each step.
@@ -237,7 +240,11 @@ impl Context<'_> {
             measure,
             area: sides.area,
             areas: sides.areas,
-            scale: Scale { penalty, length },
+            scale: Scale {
+                penalty,
+                shear: SHEAR * penalty,
+                length,
+            },
             first_multiplier,
             gap_tolerance: steps.gap_tol * length,
             traction_tolerance: steps.traction_tol,
