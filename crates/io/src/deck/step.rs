@@ -156,6 +156,7 @@ impl Translation<'_> {
             }
         }
         self.write_loads(&mut standing.loads, sudden, &mut step);
+        let lines = self.without_replaced(lines);
         self.prescribe(lines, number, sudden, standing, &mut step);
         step
     }
@@ -259,6 +260,54 @@ impl Translation<'_> {
                 }),
             }
         }
+    }
+
+    /// Lines without what later ones prescribe otherwise at the same nodes: the last line counts, of the model or the step.
+    fn without_replaced(&self, lines: Vec<Line>) -> Vec<Line> {
+        let mut last: BTreeMap<(u64, usize), usize> = BTreeMap::new();
+        for (number, line) in lines.iter().enumerate() {
+            for label in line.targets.iter().flat_map(|target| self.labels(target)) {
+                last.extend(line.components.iter().map(|&c| ((label, c), number)));
+            }
+        }
+        let courses: Vec<Course> = lines.iter().map(|line| line.course.clone()).collect();
+        let counts = |line: &Line, label: u64, component: usize| {
+            let by = last.get(&(label, component)).and_then(|&k| courses.get(k));
+            by.is_none_or(|course| *course == line.course)
+        };
+        let mut kept = Vec::new();
+        for line in lines {
+            let mut groups: BTreeMap<Vec<usize>, Vec<Target>> = BTreeMap::new();
+            for target in &line.targets {
+                let labels = self.labels(target);
+                let counting = |&label: &u64| -> Vec<usize> {
+                    let components = line.components.iter().copied();
+                    components.filter(|&c| counts(&line, label, c)).collect()
+                };
+                if labels
+                    .iter()
+                    .all(|label| counting(label) == line.components)
+                {
+                    let whole = groups.entry(line.components.clone()).or_default();
+                    whole.push(target.clone());
+                    continue;
+                }
+                for label in labels {
+                    let of_node = groups.entry(counting(&label)).or_default();
+                    of_node.push(Target::One(label));
+                }
+            }
+            let groups = groups
+                .into_iter()
+                .filter(|(components, _)| !components.is_empty());
+            kept.extend(groups.map(|(components, targets)| Line {
+                targets,
+                components,
+                course: line.course.clone(),
+                place: line.place.clone(),
+            }));
+        }
+        kept
     }
 
     /// Sets everything free that earlier steps have prescribed.

@@ -105,6 +105,43 @@ fn what_is_released_is_free_and_what_is_held_again_goes_back() {
 }
 
 #[test]
+fn the_last_boundary_of_a_node_counts_of_the_model_or_the_step() {
+    let held = "*BOUNDARY\nBASE, 1, 3\nTOP, 2, 3\n*STEP\n*STATIC\n*BOUNDARY\n";
+    let moves_of = |lines: &str| {
+        let case = case(&cube("C3D8", &format!("{held}{lines}\n*END STEP\n")));
+        let nodes = |name: &str| {
+            let set = case.sets.iter().find(|set| set.name == name);
+            match set.map(|set| &set.content) {
+                Some(SetContent::Nodes(nodes)) => nodes.clone(),
+                _ => Vec::new(),
+            }
+        };
+        let step = &case.steps[0];
+        let fixes: Vec<_> = step
+            .fixes
+            .iter()
+            .map(|f| (f.on.value.clone(), f.u))
+            .collect();
+        let moves = step.moves.iter();
+        let moves: Vec<_> = moves
+            .map(|m| (nodes(&m.on.value), m.u[2].clone()))
+            .collect();
+        (fixes, moves)
+    };
+    // all of what the model holds along an axis is moved by the step
+    let (fixes, moves) = moves_of("TOP, 3, 3, -0.001");
+    assert_eq!(fixes.len(), 2, "{fixes:?}");
+    assert_eq!(moves.len(), 1);
+    assert_eq!(moves[0].1, Some(Motion::Ramp(-0.001)));
+    // one node of it: the others stay held
+    let (_, moves) = moves_of("5, 3, 3, -0.001\n5, 3, 3, -0.002");
+    assert_eq!(moves, [(vec![5], Some(Motion::Ramp(-0.002)))]);
+    // the same again is no change
+    let (fixes, moves) = moves_of("TOP, 3, 3");
+    assert_eq!((fixes.len(), moves.len()), (3, 0), "{fixes:?}");
+}
+
+#[test]
 fn loads_of_a_step_add_up_and_later_ones_replace_them() {
     let steps = "*STEP\n*STATIC\n*CLOAD\nTOP, 3, 1.\n5, 3, 10.\n*DLOAD\nCUBE, P2, 1.\nCUBE, P2, 2.\n*END STEP\n\
                  *STEP\n*STATIC\n*CLOAD\n5, 3, 2.\n*END STEP\n*STEP\n*STATIC\n*DLOAD, OP=NEW\n*END STEP\n";
