@@ -8,6 +8,7 @@ use crate::system::linear::{EXACT, LinearError, StartStiffness};
 use crate::system::{
     Assembler, Assembly, Dof, DofName, NodeId, Order, State, System, TermError, Verdict,
 };
+use signorini_geometry::proximity::Aabb;
 use thiserror::Error;
 
 /// Whether and how steps are shortened.
@@ -127,13 +128,15 @@ pub(super) struct ForceScale {
 }
 
 const KINDS: usize = 3;
+const FORCES: usize = 0;
+const ROTATIONS: usize = 1;
 const MULTIPLIERS: usize = 2;
 
 const fn kind(name: Option<DofName>) -> usize {
     match name {
-        Some(DofName::Rotation(..)) => 1,
+        Some(DofName::Rotation(..)) => ROTATIONS,
         Some(DofName::Multiplier(_)) => MULTIPLIERS,
-        _ => 0,
+        _ => FORCES,
     }
 }
 
@@ -173,7 +176,7 @@ impl ForceScale {
         system: &System,
         dofs: &[Dof],
         assembly: &Assembly,
-        force_tol: f64,
+        (force_tol, extent): (f64, f64),
     ) -> Judgement {
         let layout = &system.layout;
         let mut largest = [0.0f64; KINDS];
@@ -219,6 +222,8 @@ impl ForceScale {
             judgement.round_off = false;
             return judgement;
         }
+        // moments are sums of forces times distances, whose rounding stays where they cancel
+        largest[ROTATIONS] += largest[FORCES] * extent;
         let mut least = f64::INFINITY;
         for &dof in dofs {
             let k = kind(layout.name(dof));
@@ -236,8 +241,8 @@ impl ForceScale {
             if r > *excess * limit {
                 *excess = r / limit;
             }
-            // a multiplier's equation may hold nothing but its residual: its mean says nothing
-            let done = r == 0.0 || (k == MULTIPLIERS && r <= floor);
+            // equations of multipliers and moments may hold nothing but their residual: its mean says nothing
+            let done = r == 0.0 || (k != FORCES && r <= floor);
             let relative = if done { 0.0 } else { r / q[k] };
             if relative > judgement.residual {
                 judgement.residual = relative;
@@ -303,6 +308,8 @@ pub(super) struct Goal<'a> {
 pub(super) struct Newton {
     pub settings: NewtonSettings,
     pub scale: ForceScale,
+    /// The largest extent of the model.
+    extent: f64,
     pub assembler: Assembler,
     pub equations: Equations,
     pub assembly: Assembly,
@@ -357,8 +364,10 @@ impl Newton {
         assembler: Assembler,
     ) -> Self {
         let state = system.initial_state();
+        let extent = Aabb::around(state.x.iter().copied()).extent().max_abs();
         Self {
             settings,
+            extent: if extent.is_finite() { extent } else { 0.0 },
             scale: ForceScale::default(),
             assembler,
             equations,
@@ -754,8 +763,12 @@ impl Newton {
 
     fn judge(&self, system: &System) -> Judgement {
         let dofs = self.equations.dofs();
-        self.scale
-            .judge(system, dofs, &self.assembly, self.settings.force_tol)
+        self.scale.judge(
+            system,
+            dofs,
+            &self.assembly,
+            (self.settings.force_tol, self.extent),
+        )
     }
 
     /// Solves for the step; returns the relative residual that is left.
