@@ -344,16 +344,12 @@ impl Stepper {
         let prescribed = &mut self.newton.prescribed;
         prescribed.clear();
         prescribed.resize(system.layout.ndof(), false);
-        let mut held = prescribed.clone();
         for p in &step.prescriptions {
-            let dof = p.dof as usize;
-            if let (Some(prescribed), Some(held)) = (prescribed.get_mut(dof), held.get_mut(dof)) {
+            if let Some(prescribed) = prescribed.get_mut(p.dof as usize) {
                 *prescribed = true;
-                *held |= p.motion == Motion::Hold;
             }
         }
         for term in &mut system.terms {
-            term.hold(&held);
             term.prescribe(prescribed);
         }
         self.newton.analyzed = false;

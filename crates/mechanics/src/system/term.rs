@@ -266,9 +266,6 @@ pub trait Term: Send + Sync {
         Ok(())
     }
 
-    /// These unknowns are held where they are during the step that begins: a flag for each.
-    fn hold(&mut self, _held: &[bool]) {}
-
     /// These unknowns are prescribed during the step that begins, held or moved: a flag for each.
     fn prescribe(&mut self, _prescribed: &[bool]) {}
 

@@ -19,6 +19,7 @@ mod ironing;
 mod linear_steps;
 mod mortar_patch;
 mod patch;
+mod prescribed;
 mod rings;
 mod rotation;
 mod sharp;

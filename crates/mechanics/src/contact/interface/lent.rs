@@ -33,7 +33,7 @@
 
 use super::Interface;
 use crate::contact::row::{Participant, RowOrder, Rows};
-use crate::system::{NO_DOF, State, TermError};
+use crate::system::{Dof, NO_DOF, State, TermError};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::collections::HashMap;
@@ -71,6 +71,11 @@ impl Lents {
         self.prescribed.clear();
         self.prescribed.extend_from_slice(prescribed);
         self.stale = true;
+    }
+
+    /// Whether an unknown is prescribed in the present step.
+    pub fn is_prescribed(&self, dof: Dof) -> bool {
+        self.prescribed.get(dof as usize) == Some(&true)
     }
 
     /// What becomes of a row; `None` where it keeps its multiplier.
@@ -212,7 +217,7 @@ impl Interface {
                 return along;
             }
             self.elimination.combination(dof, &mut |of, coefficient| {
-                let is_free = self.lents.prescribed.get(of as usize) != Some(&true);
+                let is_free = !self.lents.is_prescribed(of);
                 if let Some(axis) = own.iter().position(|d| *d == of).filter(|_| is_free) {
                     along[axis] += coefficient;
                 }

@@ -2,6 +2,7 @@
 
 mod audited;
 mod drift;
+mod freedom;
 mod history;
 mod lent;
 mod pairing;
@@ -229,8 +230,6 @@ pub struct Interface {
     coupled: Coupled,
     wanted: Coupled,
     step: StepContext,
-    /// Unknowns that stay where they are in this step.
-    held: Vec<bool>,
     /// Rows of a joint whose nodes cannot follow lend their functions to others.
     lents: Lents,
     /// The step in which it acts first.
@@ -306,7 +305,6 @@ impl Interface {
             coupled: Coupled::default(),
             wanted: Coupled::default(),
             step: StepContext::default(),
-            held: Vec::new(),
             lents: Lents::default(),
             first_step: None,
             allowed: Allowed::default(),
@@ -550,11 +548,6 @@ impl Term for Interface {
             self.first_step = Some(*step);
         }
         Ok(())
-    }
-
-    fn hold(&mut self, held: &[bool]) {
-        self.held.clear();
-        self.held.extend_from_slice(held);
     }
 
     fn prescribe(&mut self, prescribed: &[bool]) {

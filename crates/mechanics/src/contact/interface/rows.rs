@@ -7,7 +7,6 @@ use super::{
 use crate::contact::discretization::Links;
 use crate::contact::kernel::{Target, Traction};
 use crate::contact::row::Row;
-use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::Feature;
 use signorini_geometry::tensor::Vec3;
 use std::ops::Range;
@@ -129,38 +128,6 @@ impl Interface {
         Ok(())
     }
 
-    /// Along which directions the point of a row is held, and something of the other side, too. A multiplier has nothing to
-    /// act on there, or, of half a model, only half of it.
-    fn held_directions(&self, row: usize, rows: &Rows) -> [bool; 3] {
-        let discretization = self.parts.discretization.as_ref();
-        let is_held = |node: NodeId, axis: usize| {
-            let dof = self.layout.node(node, axis) as usize;
-            self.held.get(dof).copied().unwrap_or(false)
-        };
-        let point = discretization.point(row).nodes;
-        let mut directions = [0, 1, 2].map(|axis| point.iter().all(|&n| is_held(n, axis)));
-        if directions == [false; 3] {
-            return directions;
-        }
-        let secondary = discretization.secondary(rows, row);
-        for (axis, held) in directions.iter_mut().enumerate().filter(|(_, h)| **h) {
-            let others = rows.participants().iter().enumerate();
-            let others = others.filter(|(place, _)| !secondary.contains(place));
-            let mut others = others.map(|(_, p)| p).peekable();
-            // a surface that is fixed in space has nothing that moves
-            let is_fixed = others.peek().is_none();
-            *held = is_fixed
-                || others.any(|p| match *p {
-                    Participant::Node(node) => is_held(node, axis),
-                    Participant::Rigid(body) => {
-                        let dof = self.layout.translation(body, axis) as usize;
-                        self.held.get(dof).copied().unwrap_or(false)
-                    }
-                });
-        }
-        directions
-    }
-
     /// Fills a row where something acts on it; says whether there is one.
     pub(super) fn acting_row(
         &self,
@@ -204,7 +171,9 @@ impl Interface {
     ) -> Result<(), TermError> {
         let nlambda = self.ncolumn_of_multiplier();
         let acts = self.acting_row(row, trial, row_order(order), &mut scratch.rows)?;
-        if !acts {
+        let is_idle =
+            acts && nlambda > 0 && !self.laws().bond && self.acts_on_nothing(&scratch.rows);
+        if !acts || is_idle {
             if nlambda > 0 {
                 self.release(row, trial, order, scratch, out);
             }

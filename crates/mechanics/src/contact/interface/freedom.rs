@@ -1,0 +1,88 @@
+//! What of a row can move: multipliers act on unknowns alone.
+//!
+//! A multiplier whose forces act on nothing but what is prescribed, or follows what is, belongs to an equation that no unknown
+//! can satisfy: either it holds, or it contradicts what is prescribed. Its row is left out, as is friction along directions
+//! in which both sides are prescribed. Forces at prescribed unknowns are then without what such rows would have carried.
+
+use super::{Interface, Participant, Rows};
+use crate::system::{Dof, NO_DOF};
+use signorini_geometry::mesh::NodeId;
+use signorini_geometry::surface::RigidId;
+
+/// Weights of a row over the largest one below which they are rounding.
+const NOTHING: f64 = 1e-9;
+
+impl Interface {
+    /// Whether an unknown moves as the solution wants.
+    fn is_free(&self, dof: Dof) -> bool {
+        dof != NO_DOF && !self.lents.is_prescribed(dof)
+    }
+
+    /// Whether a rigid body moves along an axis, as a whole or because it turns.
+    fn carries(&self, body: RigidId, axis: usize) -> bool {
+        let turns = (0..3).any(|c| self.is_free(self.layout.rotation(body, c)));
+        turns || self.is_free(self.layout.translation(body, axis))
+    }
+
+    /// Whether a node moves along an axis, by an unknown of its own or with what it follows.
+    fn moves(&self, node: NodeId, axis: usize) -> bool {
+        let dof = self.layout.node(node, axis);
+        if dof == NO_DOF {
+            return false;
+        }
+        if let Some(turn) = self.elimination.leader(dof, &self.layout) {
+            return self.carries(turn.carrier, turn.axis);
+        }
+        let mut moves = false;
+        self.elimination.combination(dof, &mut |of, coefficient| {
+            moves |= coefficient != 0.0 && self.is_free(of);
+        });
+        moves
+    }
+
+    /// Whether a column of a participant, of three or six, moves.
+    fn moves_along(&self, participant: Participant, column: usize) -> bool {
+        match participant {
+            Participant::Node(node) => self.moves(node, column),
+            Participant::Rigid(body) if column < 3 => {
+                self.is_free(self.layout.translation(body, column))
+            }
+            Participant::Rigid(body) => self.is_free(self.layout.rotation(body, column - 3)),
+        }
+    }
+
+    /// Whether the pressure of a filled row acts on nothing that moves.
+    pub(super) fn acts_on_nothing(&self, rows: &Rows) -> bool {
+        let Some(row) = rows.rows().first() else {
+            return false;
+        };
+        let largest = row.weights.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
+        let all = rows.participants().iter();
+        let columns = all.flat_map(|&p| (0..p.ncolumn()).map(move |c| (p, c)));
+        let mut acting = columns
+            .zip(&row.weights)
+            .filter(|(_, w)| w.abs() > NOTHING * largest);
+        !acting.any(|((participant, column), _)| self.moves_along(participant, column))
+    }
+
+    /// Along which directions the point of a row does not move, nor something of the other side. Friction has nothing to
+    /// act on there, or, of half a model, only half of it.
+    pub(super) fn held_directions(&self, row: usize, rows: &Rows) -> [bool; 3] {
+        let discretization = self.parts.discretization.as_ref();
+        let point = discretization.point(row).nodes;
+        let mut directions = [0, 1, 2].map(|axis| point.iter().all(|&n| !self.moves(n, axis)));
+        if directions == [false; 3] {
+            return directions;
+        }
+        let secondary = discretization.secondary(rows, row);
+        for (axis, held) in directions.iter_mut().enumerate().filter(|(_, h)| **h) {
+            let others = rows.participants().iter().enumerate();
+            let others = others.filter(|(place, _)| !secondary.contains(place));
+            let mut others = others.map(|(_, p)| *p).peekable();
+            // a surface that is fixed in space has nothing that moves
+            let is_fixed = others.peek().is_none();
+            *held = is_fixed || others.any(|p| !self.moves_along(p, axis));
+        }
+        directions
+    }
+}
