@@ -3,13 +3,14 @@
 use super::constraints::unpaired;
 use super::names::Names;
 use super::quoted;
+use super::steps::nonlinear;
 use super::surfaces::Surfaces;
 use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{
-    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Geometry, Limit, Normals,
-    Offset, Pairs, Per, Sliding, Stick,
+    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Limit, Normals, Offset, Pairs,
+    Per, Sliding, Stick,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::contact::Measure;
@@ -88,24 +89,15 @@ pub(super) fn contact(
 /// How far points slide. Small-strain theory knows one geometry, that of the start: a contact that acts in linear steps
 /// alone keeps it. After a step at finite strain, bodies may be far from where they started, and contact follows them.
 fn sliding(part: &Contact, steps: &[case::Step]) -> SlidingRange {
-    let mut nonlinear = true;
-    let linear = steps.iter().map(|step| {
-        match step.geometry {
-            Geometry::Auto => {}
-            Geometry::Linear => nonlinear = false,
-            Geometry::Nonlinear => nonlinear = true,
-        }
-        !nonlinear
-    });
     let mut until_last = part
         .acting(steps.iter())
-        .zip(linear)
+        .zip(nonlinear(steps))
         .collect::<Vec<_>>()
         .into_iter()
         .rev()
         .skip_while(|(acts, _)| !acts)
         .peekable();
-    let stays = until_last.peek().is_some() && until_last.all(|(_, linear)| linear);
+    let stays = until_last.peek().is_some() && until_last.all(|(_, nonlinear)| !nonlinear);
     match part.sliding {
         // what is joined does not slide
         Sliding::Auto if stays && part.tied.is_none() => SlidingRange::Small,

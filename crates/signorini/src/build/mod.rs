@@ -197,9 +197,6 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
         return Err(found);
     }
     found.append(bodies::stiff_elements(&case, &names, &mesh));
-    let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
-    found.silence(&allowed);
-
     let is_tied = |name: &str| {
         let mut tied = case.contacts.iter().filter(|one| one.tied.is_some());
         tied.any(|one| one.name.value == name)

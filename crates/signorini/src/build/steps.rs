@@ -22,20 +22,27 @@ pub(super) struct Builder<'a> {
     pub bodies: &'a [BodyPart],
 }
 
+/// Whether the geometry of each step is nonlinear: as it says, else as in the step before; it is in the first.
+pub(super) fn nonlinear(steps: &[Step]) -> impl Iterator<Item = bool> {
+    steps.iter().scan(true, |nonlinear, step| {
+        *nonlinear = match step.geometry {
+            Geometry::Auto => *nonlinear,
+            Geometry::Linear => false,
+            Geometry::Nonlinear => true,
+        };
+        Some(*nonlinear)
+    })
+}
+
 impl Builder<'_> {
     /// The steps, and the constraints by which loads keep what they act on together.
     pub fn steps(&self, found: &mut Diagnostics) -> (Vec<StepPart>, Vec<ConstraintPart>) {
-        let mut nonlinear = true;
         let mut goes_on = false;
         let mut couplings = Vec::new();
         let mut contacts = Changes::new(self.case);
         let mut steps = Vec::new();
-        for (number, step) in self.case.steps.iter().enumerate() {
-            match step.geometry {
-                Geometry::Auto => {}
-                Geometry::Linear => nonlinear = false,
-                Geometry::Nonlinear => nonlinear = true,
-            }
+        let cases = &self.case.steps;
+        for (number, (step, nonlinear)) in cases.iter().zip(nonlinear(cases)).enumerate() {
             let part = StepPart {
                 name: step.name.value.clone(),
                 duration: step.duration,

@@ -3,7 +3,7 @@
 use crate::text::short;
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
-use signorini_io::diagnostic::{Diagnostic, Severity, codes};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
 use signorini_mechanics::system::Frame;
 
 /// Numbers of a contact in a checkpoint.
@@ -76,10 +76,10 @@ impl Closure {
         names: &[(String, bool)],
         mesh: &Mesh,
         position: impl Fn(NodeId) -> Vec3,
-    ) -> Vec<Diagnostic> {
+    ) -> Diagnostics {
         let open = self.contacts.iter().zip(names);
         let open = open.filter(|(nearest, (_, acts))| *acts && !nearest.closed);
-        open.map(|(nearest, (name, _))| {
+        let note = |(nearest, (name, _)): (&Nearest, &(String, bool))| {
             let text = format!("contact \"{name}\" never closed");
             let one = Diagnostic::new(Severity::Note, &codes::NEVER_CLOSED, text);
             let Some(node) = nearest.node.filter(|_| nearest.gap.is_finite()) else {
@@ -92,8 +92,10 @@ impl Closure {
                 short(nearest.gap),
                 short(nearest.time)
             ))
-        })
-        .collect()
+        };
+        let mut found = Diagnostics::new();
+        open.map(note).for_each(|one| found.push(one));
+        found
     }
 }
 

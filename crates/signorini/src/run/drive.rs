@@ -257,11 +257,13 @@ impl Run<'_, '_> {
         self.recorder.finish(solved);
         self.recorder.settle();
         let mut verdicts = Vec::new();
-        let wrong = self.audited(&mut found);
+        let audited = self.recorder.audit.warnings(self.model);
+        let wrong = self.report_unless_allowed(audited, &mut found);
         let (mut exit_code, mut status) = match ending {
             Ending::Solved => {
                 verdicts = self.expectations();
-                self.never_closed(&mut found);
+                let open = self.never_closed();
+                self.report_unless_allowed(open, &mut found);
                 let ok = verdicts.iter().all(|v| v.ok);
                 (
                     u8::from(!ok),
@@ -271,16 +273,13 @@ impl Run<'_, '_> {
             Ending::Stopped(stop) => {
                 if stop == Stop::Time {
                     let limit = self.stopped_by_time();
-                    self.recorder
-                        .tell(&event_of(&limit), Detail::Finding(&limit));
-                    found.push(limit);
+                    self.report(limit, &mut found);
                 }
                 (stop.exit_code(), stop.status())
             }
             Ending::Failed(one) => {
                 let code = one.code.class.exit_code();
-                self.recorder.tell(&event_of(&one), Detail::Finding(&one));
-                found.push(one);
+                self.report(one, &mut found);
                 let status = match code {
                     4 => "model ill-posed",
                     7 => "cannot resume",
@@ -289,7 +288,8 @@ impl Run<'_, '_> {
                 (code, status)
             }
         };
-        self.far_from_start(&mut found);
+        let far = drift::warnings(&self.recorder.drifts, self.model);
+        self.report_unless_allowed(far, &mut found);
         if exit_code == 0 && wrong && self.options.strict {
             (exit_code, status) = (1, "audit failed");
         }
@@ -367,16 +367,24 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Tells what the audit found wrong; says whether there is anything.
-    fn audited(&mut self, found: &mut Diagnostics) -> bool {
-        let mut wrong: Diagnostics = self.recorder.audit.warnings(self.model);
+    /// Passes a finding to the files and the listener, and adds it to the summary.
+    fn report(&mut self, one: Diagnostic, found: &mut Diagnostics) {
+        self.recorder.tell(&event_of(&one), Detail::Finding(&one));
+        found.push(one);
+    }
+
+    /// Reports the findings whose codes the case does not silence by `allow`; answers whether there are any.
+    fn report_unless_allowed(
+        &mut self,
+        mut findings: Diagnostics,
+        found: &mut Diagnostics,
+    ) -> bool {
         let allowed: Vec<&str> = self.model.case.allow.iter().map(String::as_str).collect();
-        wrong.silence(&allowed);
-        for one in &wrong {
-            self.recorder.tell(&event_of(one), Detail::Finding(one));
+        findings.silence(&allowed);
+        let any = !findings.is_empty();
+        for one in findings {
+            self.report(one, found);
         }
-        let any = wrong.iter().next().is_some();
-        found.append(wrong);
         any
     }
 
@@ -406,23 +414,9 @@ impl Run<'_, '_> {
         verdicts
     }
 
-    /// Tells of contacts that keep the geometry of the start and slid by more than a facet.
-    fn far_from_start(&mut self, found: &mut Diagnostics) {
-        let mut far: Diagnostics = drift::warnings(&self.recorder.drifts, self.model);
-        let allowed: Vec<&str> = self.model.case.allow.iter().map(String::as_str).collect();
-        far.silence(&allowed);
-        for one in &far {
-            self.recorder.tell(&event_of(one), Detail::Finding(one));
-        }
-        found.append(far);
-    }
-
-    /// Tells of contacts that never closed.
-    fn never_closed(&mut self, found: &mut Diagnostics) {
+    /// Notes on contacts that never closed.
+    fn never_closed(&self) -> Diagnostics {
         let case = &self.model.case;
-        if case.allow.iter().any(|code| code == codes::NEVER_CLOSED.id) {
-            return;
-        }
         let acts = |name: &str| {
             let contact = case.contacts.iter().find(|c| c.name.value == name);
             let free = contact.filter(|contact| contact.tied.is_none());
@@ -432,10 +426,7 @@ impl Run<'_, '_> {
         let names: Vec<(String, bool)> = names.map(|name| (name.clone(), acts(&name))).collect();
         let mesh = &self.model.mesh;
         let position = |node: u32| mesh.points.get(node as usize).copied().unwrap_or_default();
-        for one in self.recorder.closure.notes(&names, mesh, position) {
-            self.recorder.tell(&event_of(&one), Detail::Finding(&one));
-            found.push(one);
-        }
+        self.recorder.closure.notes(&names, mesh, position)
     }
 
     fn stopped_by_time(&self) -> Diagnostic {

@@ -10,7 +10,7 @@
 //! EXPECTED    the force turns with the blocks; friction does no work, nor do viscous forces
 //! TOLERANCE   1e-8 of the force, the residual that is left; work to 1e-8 of the force times the slip
 use crate::common::{Run, model, run};
-use crate::scene::{Scene, Side, equal};
+use crate::scene::{RUBBER, Scene, Side, equal};
 use signorini_geometry::tensor::Vec3;
 
 /// How far the upper block is pressed, and sheared.
@@ -115,10 +115,7 @@ reference = "rb"
 kind = "kinematic"
 on = "head"
 reference = "rh"
-[material.m]
-model = "neo-hookean"
-E = 1000.0
-nu = 0.3
+{RUBBER}
 [[body]]
 group = ["lower", "upper"]
 material = "m"

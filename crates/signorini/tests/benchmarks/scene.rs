@@ -7,6 +7,9 @@ use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
 use std::fmt::Write;
 
+/// The material "m" of bodies at finite strain, as a table of a case.
+pub const RUBBER: &str = "[material.m]\nmodel = \"neo-hookean\"\nE = 1000.0\nnu = 0.3";
+
 /// Nodes, cells and sets.
 #[derive(Default)]
 pub struct Scene {

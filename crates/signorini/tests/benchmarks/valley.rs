@@ -11,7 +11,7 @@
 //!             one parameter after the other; its force is the penalty times that, away from the closest point
 //! TOLERANCE   1e-8 of the gap; 1e-5 in the direction, which is that of a difference of nearly equal places
 use crate::common::{Run, model, run};
-use crate::scene::{Scene, equal};
+use crate::scene::{RUBBER, Scene, equal};
 use signorini_geometry::tensor::Vec3;
 
 /// Force per gap of each node.
@@ -130,10 +130,7 @@ fn dragged(valley: Valley, depth: f64, offset: f64, way: [f64; 2], increments: u
         r#"
 [model]
 space = "{space}"
-[material.m]
-model = "neo-hookean"
-E = 1000.0
-nu = 0.3
+{RUBBER}
 [[body]]
 group = ["lower", "upper"]
 material = "m"

@@ -10,6 +10,8 @@ mod doors;
 mod large;
 mod laws;
 mod left_out;
+#[path = "../common/mutants.rs"]
+mod mutants;
 mod others;
 mod round_trip;
 mod ties;

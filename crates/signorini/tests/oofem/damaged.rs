@@ -1,36 +1,11 @@
-//! Damaged decks: refused, built or solved, never a panic, much memory, or a good end without a result.
+//! Damaged decks of OOFEM.
 
+use crate::mutants::Mutants;
 use crate::{decks_in, own};
-use signorini::{Compat, Listener, Model, News, RunOptions, Source, build};
+use signorini::Compat;
 use signorini_io::case::mutate::{Generator, mutate};
 use signorini_io::deck::oofem;
 use signorini_io::fs::RealFs;
-use signorini_mechanics::solve::Flow;
-
-/// Bytes that reading and building one damaged deck may allocate, all together, on the thread that does it: readers
-/// refuse what comes to more than a quarter of that.
-const MOST: u64 = 1 << 30;
-
-/// Events of a run, such as iterations and increments, after which it is stopped.
-const EVENTS: usize = 300;
-
-/// Stops a run after some events.
-struct Patience(usize);
-
-impl Listener for Patience {
-    fn hear(&mut self, _: &News<'_>) -> Flow {
-        self.0 = self.0.saturating_sub(1);
-        if self.0 > 0 {
-            Flow::Continue
-        } else {
-            Flow::Stop
-        }
-    }
-
-    fn opens_files(&self) -> bool {
-        false
-    }
-}
 
 /// A deck with whole fields changed: a count, a number or a keyword is taken from elsewhere in it, lines are lost,
 /// doubled or change places.
@@ -82,54 +57,23 @@ fn mutants(count: usize, seed: u64) {
     let originals: Vec<Vec<u8>> = (decks_in(&own(".")).iter())
         .map(|path| std::fs::read(path).unwrap())
         .collect();
-    let mut generator = Generator::new(seed);
-    let mut reached = [0usize; 3];
-    let (mut ends, mut most) = ([0usize; 2], 0);
-    for number in 0..count {
-        let original = &originals[number % originals.len()];
-        let mutant = if number % 2 == 0 {
-            mutate(original, &mut generator)
-        } else {
-            mutate_records(original, &mut generator)
-        };
-        let name = own("mutant.in").display().to_string();
-        let mut built = Err(0);
-        let taken = allocation_counter::measure(|| {
-            built = oofem::read(&RealFs, &name, &mutant, Compat::Oofem)
-                .map_err(|_| 0)
-                .and_then(|read| build(read.case, read.mesh).map_err(|_| 1));
-        })
-        .bytes_total;
-        most = most.max(taken);
-        reached[built.as_ref().err().copied().unwrap_or(2)] += 1;
-        let of = format!("mutant {number} of seed {seed}");
-        if let Ok(mut model) = built
-            && ends.iter().sum::<usize>() <= number / 1000
-        {
-            ends[usize::from(solve(&mut model, &of))] += 1;
-        }
-        assert!(taken < MOST, "{of}: {taken} bytes");
-    }
-    println!(
-        "refused as deck, as model; accepted: {reached:?}; ended badly, well: {ends:?}; at most {most} bytes"
+    let name = own("mutant.in").display().to_string();
+    let all = Mutants {
+        count,
+        seed,
+        solved_of: 1000,
+    };
+    all.try_all(
+        |number, generator| {
+            let original = &originals[number % originals.len()];
+            if number % 2 == 0 {
+                mutate(original, generator)
+            } else {
+                mutate_records(original, generator)
+            }
+        },
+        |_, mutant| oofem::read(&RealFs, &name, mutant, Compat::Oofem),
     );
-    assert!(reached.iter().all(|n| *n > 0), "{reached:?}");
-    assert!(ends.iter().sum::<usize>() + 1 >= count / 1000, "{ends:?}");
-}
-
-/// Whether a run ends well; then the end of its last step is among its results.
-fn solve(model: &mut Model, of: &str) -> bool {
-    let scratch = tempfile::tempdir().unwrap();
-    let mut options = RunOptions::new(Source::default());
-    options.folder = scratch.path().join("out");
-    let finished = signorini::run(model, &options, &mut Patience(EVENTS));
-    if finished.exit_code > 1 {
-        return false;
-    }
-    let steps = &finished.summary.steps;
-    assert_eq!(steps.len(), model.steps.len(), "{of}");
-    assert!(steps.iter().all(|step| step.increments > 0), "{of}");
-    true
 }
 
 #[test]

@@ -5,6 +5,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod damaged;
+#[path = "../common/mutants.rs"]
+mod mutants;
 
 use common::{Run, example, relative, repository, run};
 use signorini::{Loaded, Reading, RunOptions, build, load};

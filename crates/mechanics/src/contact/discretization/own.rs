@@ -15,7 +15,7 @@
 //! n·(ρ − x) ≥ −min(t, t_f)/2,  and ≥ |ρ − x| cos 80°  where x is in front of the facet        (E3)
 //! ```
 //!
-//! and of those the closest counts. (E1) leaves out the neighbours on smooth and convex parts, (E3) those beside a tip, (E2) and (E3) the far side
+//! and of those the closest counts. (E1) leaves out the neighbours on smooth and convex parts, (E3) those next to a tip, (E2) and (E3) the far side
 //! of the own body: seen from one side of a slab, the other is at the depth t, and what enters from outside at δ < t/2
 //! is nearer to where it came in than to the other side.
 //!
@@ -67,8 +67,6 @@ pub struct OwnBody {
 pub struct OwnNow {
     normal: Vec<Vec3>,
     thickness: Vec<f64>,
-    /// At the start.
-    area: Vec<f64>,
 }
 
 /// A point of a surface that may touch itself.
@@ -79,6 +77,7 @@ pub struct OwnPoint<'a> {
     /// t.
     pub thickness: f64,
     around: &'a [u32],
+    body: &'a OwnBody,
     of: &'a OwnNow,
 }
 
@@ -150,10 +149,7 @@ impl OwnBody {
     /// Normals and thickness in a configuration.
     #[must_use]
     pub fn at(&self, surface: &dyn ContactSurface, at: &Placement) -> OwnNow {
-        let mut now = OwnNow {
-            area: self.area.clone(),
-            ..OwnNow::default()
-        };
+        let mut now = OwnNow::default();
         for (facet, behind) in (0..).zip(&self.behind) {
             let (thickness, normal) = self.of_facet(surface, at, facet, *behind);
             now.normal.push(normal);
@@ -191,10 +187,10 @@ impl OwnBody {
 }
 
 impl SurfacePair {
-    /// Whether a facet of a surface that may touch itself is beside the point of a row, and never meets it: it shares a
+    /// Whether a facet of a surface that may touch itself is next to the point of a row, and never meets it: it shares a
     /// node with the point, or with the facets that the point is in the middle of.
     #[must_use]
-    pub fn is_beside(&self, nodes: &[NodeId], facet: u32) -> bool {
+    pub fn is_next_to(&self, nodes: &[NodeId], facet: u32) -> bool {
         let of = |facet: u32| match self.primary.carrier(facet) {
             Carrier::Nodes(nodes) => nodes,
             Carrier::Rigid(_) | Carrier::Fixed => &[],
@@ -229,6 +225,7 @@ impl SurfacePair {
             normal: Vec3::ZERO,
             thickness: f64::INFINITY,
             around,
+            body: own,
             of: now,
         };
         for &facet in around {
@@ -270,7 +267,8 @@ impl OwnPoint<'_> {
     pub fn bearing(&self, normal: Vec3) -> f64 {
         let (mut bears, mut all) = (0.0, 0.0);
         for &facet in self.around {
-            let area = self.of.area(facet);
+            let area = self.body.area.get(facet as usize).copied();
+            let area = area.unwrap_or_default();
             all += area;
             if self.of.normal(facet).dot(normal) < -BEARS {
                 bears += area;
@@ -281,10 +279,6 @@ impl OwnPoint<'_> {
 }
 
 impl OwnNow {
-    fn area(&self, facet: u32) -> f64 {
-        self.area.get(facet as usize).copied().unwrap_or_default()
-    }
-
     fn normal(&self, facet: u32) -> Vec3 {
         self.normal.get(facet as usize).copied().unwrap_or_default()
     }

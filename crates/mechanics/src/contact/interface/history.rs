@@ -9,7 +9,7 @@ use crate::contact::discretization::{Anchored, NOWHERE, Pair, Pairing};
 use crate::contact::friction::Stick;
 use crate::contact::kernel::Past;
 use crate::contact::row::{Row, RowOrder};
-use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError};
+use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
 /// What rows remember: the accepted values, and those that the present increment works with. These stay until the next
@@ -388,6 +388,34 @@ impl Interface {
         self.history.accepted = next;
         self.history.work += work;
         self.history.limits = None;
+        Ok(())
+    }
+
+    /// At an edge of a surface that may touch itself, a node stands for those facets alone that face what it meets.
+    pub(super) fn measure_what_bears(&mut self, at: &Placement) -> Result<(), SurfaceError> {
+        let parts = &mut self.parts;
+        let Some(own) = parts.pair.own.as_ref() else {
+            return Ok(());
+        };
+        if parts.discretization.inside().is_some() || parts.area.is_empty() {
+            return Ok(());
+        }
+        if parts.areas.is_none() {
+            if self.whole.is_empty() {
+                self.whole.clone_from(&parts.area);
+            }
+            parts.area.clone_from(&self.whole);
+        }
+        let surface = parts.pair.primary.as_ref();
+        let now = own.at(surface, at);
+        let mut jet = SurfaceJet::default();
+        for (row, (area, found)) in parts.area.iter_mut().zip(&self.accepted.pairs).enumerate() {
+            let Some(found) = found else { continue };
+            surface.jet(at, &found.anchor, &mut jet)?;
+            let nodes = parts.discretization.point(row).nodes;
+            let point = parts.pair.own_point(nodes, None, &now);
+            *area *= point.map_or(1.0, |point| point.bearing(jet.normal));
+        }
         Ok(())
     }
 

@@ -30,7 +30,7 @@ impl Near {
         self.boxes.extend(facets.map(|f| surface.aabb(at, f)));
         let apart = |row: u32, facet: u32| {
             let nodes = || discretization.point(row as usize).nodes;
-            !(pair.same && pair.is_beside(nodes(), facet))
+            !(pair.same && pair.is_next_to(nodes(), facet))
         };
         let skin = 0.5 * pair.reach;
         self.search

@@ -22,7 +22,7 @@
 use super::{Carrier, Interface};
 use crate::contact::discretization::{NOWHERE, OwnPoint, REACH};
 use signorini_geometry::proximity::{Aabb, Sweep};
-use signorini_geometry::surface::{Anchor, Placement, SurfaceError, SurfaceJet};
+use signorini_geometry::surface::{Anchor, Placement, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
 impl Interface {
@@ -76,34 +76,6 @@ impl Interface {
             }
         }
         None
-    }
-
-    /// At an edge of a surface that may touch itself, a node stands for those facets alone that face what it meets.
-    pub(super) fn measure_what_bears(&mut self, at: &Placement) -> Result<(), SurfaceError> {
-        let parts = &mut self.parts;
-        let Some(own) = parts.pair.own.as_ref() else {
-            return Ok(());
-        };
-        if parts.discretization.inside().is_some() || parts.area.is_empty() {
-            return Ok(());
-        }
-        if parts.areas.is_none() {
-            if self.whole.is_empty() {
-                self.whole.clone_from(&parts.area);
-            }
-            parts.area.clone_from(&self.whole);
-        }
-        let surface = parts.pair.primary.as_ref();
-        let now = own.at(surface, at);
-        let mut jet = SurfaceJet::default();
-        for (row, (area, found)) in parts.area.iter_mut().zip(&self.accepted.pairs).enumerate() {
-            let Some(found) = found else { continue };
-            surface.jet(at, &found.anchor, &mut jet)?;
-            let nodes = parts.discretization.point(row).nodes;
-            let point = parts.pair.own_point(nodes, None, &now);
-            *area *= point.map_or(1.0, |point| point.bearing(jet.normal));
-        }
-        Ok(())
     }
 
     /// How a facet has moved since the increment began.
@@ -175,7 +147,7 @@ impl Interface {
         }
         let nodes = self.parts.discretization.point(row).nodes;
         if own.is_some_and(|own| !own.faces(jet.normal))
-            || pair.same && pair.is_beside(nodes, facet)
+            || pair.same && pair.is_next_to(nodes, facet)
         {
             return false;
         }

@@ -33,7 +33,7 @@ use super::pair::facing;
 use super::{Basis, Facet, Measure, OfFacet, Transformation};
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::overlap::{Facing, Flat, Parameters, Plane, Point, integrate};
+use signorini_geometry::overlap::{Facing, Parameters, Point, integrate};
 use signorini_geometry::tensor::Vec3;
 use std::f64::consts::TAU;
 
@@ -147,9 +147,8 @@ impl Sums {
         nodes: &[NodeId],
     ) -> Option<Self> {
         let (n, np) = (secondary.x.len(), nodes.len());
-        let plane = plane(secondary)?;
-        let places = project(&plane, secondary);
-        let flat = Flat::new(secondary.element, places.get(..n)?, Facing::Same)?;
+        let plane = secondary.plane()?;
+        let flat = secondary.flat_on(&plane, Facing::Same)?;
         let mut sums = Self {
             mass: [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES],
             mixed: vec![0.0; n * np],
@@ -157,10 +156,8 @@ impl Sums {
             others: vec![Vec3::ZERO; n * np],
         };
         for (primary, numbers) in primaries {
-            let of_primary = project(&plane, primary);
-            let of_primary = of_primary.get(..primary.x.len())?;
-            let other = Flat::new(primary.element, of_primary, Facing::Opposite)?;
-            let normal = Vec3::from(self::plane(primary)?.normal);
+            let other = primary.flat_on(&plane, Facing::Opposite)?;
+            let normal = Vec3::from(primary.plane()?.normal);
             let (weight, _) = facing(-normal.dot(Vec3::from(plane.normal)));
             let column = |node: &NodeId| nodes.iter().position(|k| k == node);
             let columns: Vec<usize> = numbers.iter().map(column).collect::<Option<_>>()?;
@@ -259,25 +256,6 @@ impl Sums {
             }
         }
     }
-}
-
-fn plane(facet: &Facet) -> Option<Plane<f64>> {
-    let mut x = [[0.0; 3]; MAX_FACET_NODES];
-    for (to, from) in x.iter_mut().zip(facet.x) {
-        *to = from.to_array();
-    }
-    Plane::of(facet.element, x.get(..facet.x.len())?)
-}
-
-fn project(plane: &Plane<f64>, facet: &Facet) -> [[f64; 2]; MAX_FACET_NODES] {
-    let mut places = [[0.0; 2]; MAX_FACET_NODES];
-    for (place, x) in places.iter_mut().zip(facet.x) {
-        *place = plane.project(x.to_array());
-        if facet.element.dim() == 1 {
-            place[1] = 0.0;
-        }
-    }
-    places
 }
 
 /// What both sides see at a point.

@@ -203,13 +203,31 @@ impl Factor {
 }
 
 impl Facet<'_> {
+    /// Its plane at the centre; `None` where it has no normal.
+    pub(super) fn plane(&self) -> Option<Plane<f64>> {
+        let mut nodes = [[0.0; 3]; MAX_FACET_NODES];
+        for (node, x) in nodes.iter_mut().zip(self.x) {
+            *node = x.to_array();
+        }
+        Plane::of(self.element, nodes.get(..self.x.len())?)
+    }
+
+    /// The facet projected onto a plane; `None` where it is folded there, or does not face it in this way.
+    pub(super) fn flat_on(&self, plane: &Plane<f64>, facing: Facing) -> Option<Flat> {
+        let mut places = [[0.0; 2]; MAX_FACET_NODES];
+        for (place, x) in places.iter_mut().zip(self.x) {
+            *place = plane.project(x.to_array());
+            if self.element.dim() == 1 {
+                place[1] = 0.0;
+            }
+        }
+        Flat::new(self.element, places.get(..self.x.len())?, facing)
+    }
+
     /// Its normal at the centre; zero where it has none.
     fn normal(&self) -> Vec3 {
-        let x = self.x.iter().map(|x| x.to_array());
-        let mut nodes = [[0.0; 3]; MAX_FACET_NODES];
-        nodes.iter_mut().zip(x).for_each(|(node, x)| *node = x);
-        let plane = Plane::of(self.element, &nodes[..self.x.len()]);
-        plane.map_or(Vec3::ZERO, |plane| Vec3::from(plane.normal))
+        self.plane()
+            .map_or(Vec3::ZERO, |plane| Vec3::from(plane.normal))
     }
 
     pub(super) fn check(&self) -> Result<(), MortarError> {

@@ -1,7 +1,17 @@
+//! Means of a rise of the surfaces over the facets they were cut from, as mortar rows weigh them.
+//!
+//! ```text
+//! R_j = ∫ψ_j (δ^s + δ^m)
+//! ```
+//!
+//! with the rise δ of either side over its straight facet, along the normal. `R_j/D_j` is what the gap of row j between
+//! straight facets has in excess of the gap between the surfaces. Integrals are over the plane of the secondary facet, with the
+//! basis and the weights (E6) of [`Covered`].
+
 use super::pair::facing;
 use super::{Covered, Facet, Frame, Measure, MortarError};
 use signorini_geometry::element::MAX_FACET_NODES;
-use signorini_geometry::overlap::{Facing, Flat, Plane, integrate};
+use signorini_geometry::overlap::{Facing, integrate};
 use signorini_geometry::tensor::Vec3;
 
 /// What rules need beyond products of shape functions for a rise, which has one degree more than a linear facet along each
@@ -24,27 +34,15 @@ pub fn rises(
     rise: &dyn Fn(Option<usize>, Vec3) -> f64,
 ) -> Result<[f64; MAX_FACET_NODES], MortarError> {
     let frame = Frame::measured(own, measure)?;
-    let nodes = |facet: &Facet| {
-        let mut nodes = [[0.0; 3]; MAX_FACET_NODES];
-        let x = facet.x.iter().map(|x| x.to_array());
-        nodes.iter_mut().zip(x).for_each(|(node, x)| *node = x);
-        nodes
-    };
-    let x = nodes(own);
-    let plane = Plane::of(own.element, &x[..own.x.len()]).ok_or(MortarError::Secondary)?;
-    let flat = |facet: &Facet, way: Facing| {
-        let mut places = nodes(facet).map(|x| plane.project(x));
-        if facet.element.dim() == 1 {
-            places.iter_mut().for_each(|place| place[1] = 0.0);
-        }
-        Flat::new(facet.element, &places[..facet.x.len()], way)
-    };
-    let secondary = flat(own, Facing::Same).ok_or(MortarError::Secondary)?;
+    let plane = own.plane().ok_or(MortarError::Secondary)?;
+    let secondary = own
+        .flat_on(&plane, Facing::Same)
+        .ok_or(MortarError::Secondary)?;
     let (n, factor) = (covered.nnode(), frame.factor());
     let mut integrals = [0.0; MAX_FACET_NODES];
     for (pair, &number) in covered.pairs().iter().zip(covered.met()) {
         let other = others.get(number);
-        let Some(primary) = other.and_then(|other| flat(other, Facing::Opposite)) else {
+        let Some(primary) = other.and_then(|other| other.flat_on(&plane, Facing::Opposite)) else {
             continue;
         };
         let seen = facing(pair.cosine()).0;

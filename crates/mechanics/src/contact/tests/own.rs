@@ -387,7 +387,7 @@ fn opposite(
     let near = |f: u32| surface.aabb(at, f).distance_squared(x) <= CLOSE * CLOSE;
     let facets = (0..surface.nfacet() as u32).filter(|&f| near(f) && allowed(f));
     let away = facets
-        .filter(|&f| !pair.is_beside(point.nodes, f))
+        .filter(|&f| !pair.is_next_to(point.nodes, f))
         .filter_map(|f| {
             let found = surface.project(at, f, x, None, &mut jet).unwrap()?;
             let gap = (x - jet.position).dot(jet.normal);

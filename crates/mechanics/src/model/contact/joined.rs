@@ -1,47 +1,48 @@
-//! Which facets are of one body: what shares nodes.
+//! Bodies behind contact surfaces: the parts of the mesh whose solid cells are connected by nodes, whatever groups they are of.
 
-use signorini_geometry::mesh::{CellId, Mesh};
+use signorini_geometry::mesh::quality::parts;
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::{ContactSurface, Facets};
 
-/// A number for each facet that it shares with all facets of the same body and with no other. A body is what hangs
-/// together by the nodes of solid elements, whatever groups it is of.
+/// A number for each facet that it shares with all facets of the same body and with no other.
 pub(super) fn bodies(mesh: &Mesh, facets: &Facets) -> Vec<u32> {
-    let mut parent: Vec<u32> = (0..mesh.points.len() as u32).collect();
-    let solids = mesh.cells(mesh.dim());
-    for cell in solids {
-        join(mesh, cell, &mut parent);
+    // a node of no solid is a body of its own
+    let mut body: Vec<NodeId> = (0..mesh.nnode() as NodeId).collect();
+    for part in solids(mesh) {
+        let mut nodes = part.iter().flat_map(|&cell| mesh.cell(cell)).peekable();
+        let first = nodes.peek().map_or(0, |&&node| node);
+        for &node in nodes {
+            if let Some(body) = body.get_mut(node as usize) {
+                *body = first;
+            }
+        }
     }
     let of = |facet: u32| {
         let first = facets.nodes(facet).first();
-        first.map_or(0, |&node| root(&mut parent, node))
+        let body = first.and_then(|&node| body.get(node as usize));
+        body.copied().unwrap_or(0)
     };
     (0..facets.nfacet() as u32).map(of).collect()
 }
 
-fn join(mesh: &Mesh, cell: CellId, parent: &mut [u32]) {
-    let Some((&first, others)) = mesh.cell(cell).split_first() else {
-        return;
-    };
-    for &node in others {
-        let (a, b) = (root(parent, first), root(parent, node));
-        if let Some(higher) = parent.get_mut(a.max(b) as usize) {
-            *higher = a.min(b);
+/// The solid cells of the bodies that a surface touches.
+pub(super) fn cells_behind(mesh: &Mesh, side: &Facets) -> Vec<CellId> {
+    let mut touched = vec![false; mesh.nnode()];
+    for node in side.all_nodes() {
+        if let Some(touched) = touched.get_mut(node as usize) {
+            *touched = true;
         }
     }
+    let is_touched = |&node: &NodeId| touched.get(node as usize) == Some(&true);
+    let mut bodies = solids(mesh);
+    bodies.retain(|part| {
+        let mut nodes = part.iter().flat_map(|&cell| mesh.cell(cell));
+        nodes.any(is_touched)
+    });
+    bodies.concat()
 }
 
-/// The lowest node known to hang together with a node.
-fn root(parent: &mut [u32], node: u32) -> u32 {
-    let mut at = node;
-    while let Some(&above) = parent.get(at as usize)
-        && above != at
-    {
-        // every other one on the way is tied to what is above it
-        let next = parent.get(above as usize).copied().unwrap_or(above);
-        if let Some(own) = parent.get_mut(at as usize) {
-            *own = next;
-        }
-        at = next;
-    }
-    at
+fn solids(mesh: &Mesh) -> Vec<Vec<CellId>> {
+    let cells: Vec<CellId> = mesh.cells(mesh.dim()).collect();
+    parts(mesh, &cells)
 }

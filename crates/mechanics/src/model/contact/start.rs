@@ -1,11 +1,12 @@
 //! Gaps and overlaps at the start, and what is done about them.
 
+use super::joined::cells_behind;
 use super::probe::{Look, Probe};
 use super::{ContactPart, ModelError, Sides, Source};
 use crate::contact::discretization::{Anchored, Pair, Pairing, REACH};
 use crate::contact::{Allowance, Bend, Shift};
 use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart, Treatment, label};
-use signorini_geometry::mesh::{CellId, Mesh, NodeId, boundary};
+use signorini_geometry::mesh::{Mesh, NodeId, boundary};
 use signorini_geometry::surface::{Facets, Outline, Placement, Pose, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
@@ -96,7 +97,7 @@ pub(super) fn not_too_deep(
     overlapping.sort_by(|a, b| a.0.total_cmp(&b.0));
     let outlines = [sides.secondary(), sides.facets.as_ref()].map(|side| {
         let side = side?;
-        let faces = boundary(mesh, connected(mesh, side));
+        let faces = boundary(mesh, cells_behind(mesh, side));
         Some(Facets::new(mesh, &faces).map(|facets| Outline::new(facets, x)))
     });
     let [secondary, primary] = outlines.map(Option::transpose);
@@ -137,39 +138,6 @@ pub(super) fn not_too_deep(
         count: deep.len(),
         nodes: nodes.take(NAMED).map(|n| label(mesh, n)).collect(),
     })
-}
-
-/// The cells that are connected with those behind a surface.
-fn connected(mesh: &Mesh, side: &Facets) -> Vec<CellId> {
-    let mut touched = vec![false; mesh.nnode()];
-    for node in side.all_nodes() {
-        if let Some(touched) = touched.get_mut(node as usize) {
-            *touched = true;
-        }
-    }
-    let mut left: Vec<CellId> = mesh.cells(mesh.dim()).collect();
-    let mut found = Vec::new();
-    loop {
-        let before = found.len();
-        left.retain(|&cell| {
-            let nodes = mesh.cell(cell);
-            let meets = nodes
-                .iter()
-                .any(|n| touched.get(*n as usize) == Some(&true));
-            if meets {
-                found.push(cell);
-                for &node in nodes {
-                    if let Some(touched) = touched.get_mut(node as usize) {
-                        *touched = true;
-                    }
-                }
-            }
-            !meets
-        });
-        if found.len() == before {
-            return found;
-        }
-    }
 }
 
 /// Nodes that an error names.

@@ -14,10 +14,10 @@ use signorini_geometry::tensor::Vec3;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Numbers kept, 32 MB: those of 3000 quadrilaterals with four nodes that meet nine others.
+/// The most numbers to keep, 32 MB: the derivatives of 3000 four-node quadrilaterals that meet nine others each.
 const NUMBERS: usize = 1 << 22;
 
-/// Facets kept at least, for each thread: what one needs for two lines of a surface of 30 by 30.
+/// The fewest facets to keep for each thread: two lines of a surface of 30 by 30 facets.
 const LEAST: usize = 64;
 
 /// How far integrals of a facet are wanted.
@@ -52,7 +52,8 @@ pub(super) struct Integrator {
     /// The nodes of these, one facet after the other.
     nodes: Vec<NodeId>,
     seen: Vec<Seen>,
-    kept: Vec<u32>,
+    /// Scratch: some of `near`.
+    some: Vec<u32>,
 }
 
 impl Integrator {
@@ -77,34 +78,27 @@ impl Integrator {
         at: &Placement,
         search: &Search,
     ) {
-        let of_facets = |other| pair.reach_between(facet, other, at);
-        self.find_within(facets, facet, pair, at, search, &of_facets);
-        if self.near.is_empty() {
-            let of_pair = |_| pair.reach;
-            self.find_within(facets, facet, pair, at, search, &of_pair);
-        }
-    }
-
-    fn find_within(
-        &mut self,
-        facets: &Facets,
-        facet: u32,
-        pair: &SurfacePair,
-        at: &Placement,
-        search: &Search,
-        reach: &dyn Fn(u32) -> f64,
-    ) {
         let own = facets.aabb(at, facet);
         // the tree may be as old as the search allows
         search
             .bvh()
             .overlaps(&own.inflated(search.range()), &mut self.near);
         let nodes = facets.nodes(facet);
+        let is_within =
+            |other: u32, reach: f64| pair.primary.aabb(at, other).overlaps(&own.inflated(reach));
         self.near.retain(|&other| {
             let touches = |f: u32| nodes_of(pair, f).iter().any(|n| nodes.contains(n));
-            let region = own.inflated(reach(other));
-            pair.primary.aabb(at, other).overlaps(&region) && !(pair.same && touches(other))
+            is_within(other, pair.reach) && !(pair.same && touches(other))
         });
+        if pair.sizes.primary.is_empty() {
+            return;
+        }
+        let is_close = |other: &u32| is_within(*other, pair.reach_between(facet, *other, at));
+        self.some.clear();
+        self.some.extend(self.near.iter().copied().filter(is_close));
+        if !self.some.is_empty() {
+            std::mem::swap(&mut self.near, &mut self.some);
+        }
     }
 
     /// Integrates a secondary facet against those found of one smooth part of the primary side, and leaves these in `near`;
@@ -120,14 +114,18 @@ impl Integrator {
         self.integrate(facets, facet, pair, at, derivatives)?;
         let covered = &self.covered;
         self.seen.clear();
+        // the facets met are in the order of those found
+        let (mut passed, mut first) = (0, 0);
         for (of, &number) in covered.pairs().iter().zip(covered.met()) {
             let Some(&other) = self.near.get(number) else {
                 continue;
             };
-            let first: usize = self.near[..number]
+            let between = self.near.get(passed..number).unwrap_or_default();
+            first += between
                 .iter()
                 .map(|&f| nodes_of(pair, f).len())
-                .sum();
+                .sum::<usize>();
+            passed = number;
             let primary = self.others.get(first..).unwrap_or_default();
             self.seen.push(Seen {
                 facet: other,
@@ -139,7 +137,7 @@ impl Integrator {
         let whole = covered.full().iter().sum();
         let size = facets.size(at, facet);
         let met = self.seen.len();
-        let part = parts.choose(&mut self.seen, (whole, size), before, &mut self.kept);
+        let part = parts.choose(&mut self.seen, (whole, size), before, &mut self.some);
         if self.seen.len() < met {
             self.near.clear();
             self.near.extend(self.seen.iter().map(|s| s.facet));
@@ -166,17 +164,8 @@ impl Integrator {
         }
         self.others.clear();
         positions(&self.nodes, at.x, &mut self.others);
-        let mut rest = &self.others[..];
-        let primaries: Vec<Facet> = self
-            .near
-            .iter()
-            .filter_map(|&other| {
-                let element = pair.primary.domain(other)?;
-                let (x, behind) = rest.split_at_checked(nodes_of(pair, other).len())?;
-                rest = behind;
-                Some(Facet { element, x })
-            })
-            .collect();
+        let primaries = placed(pair, &self.near, &self.others).map(|(_, facet)| facet);
+        let primaries: Vec<Facet> = primaries.collect();
         let own = Facet {
             element,
             x: &self.own,
@@ -206,19 +195,8 @@ impl Integrator {
     ) -> Result<[f64; MAX_FACET_NODES], SurfaceError> {
         let missing = || SurfaceError::NoSuchFacet { facet };
         let element = facets.element(facet).ok_or_else(missing)?;
-        let mut rest = &self.others[..];
-        let mut numbers = Vec::with_capacity(self.near.len());
-        let mut primaries = Vec::with_capacity(self.near.len());
-        for &other in &self.near {
-            let Some(element) = pair.primary.domain(other) else {
-                continue;
-            };
-            let split = rest.split_at_checked(nodes_of(pair, other).len());
-            let Some((x, behind)) = split else { continue };
-            rest = behind;
-            numbers.push(other);
-            primaries.push(Facet { element, x });
-        }
+        let (numbers, primaries): (Vec<u32>, Vec<Facet>) =
+            placed(pair, &self.near, &self.others).unzip();
         let own = Facet {
             element,
             x: &self.own,
@@ -366,6 +344,21 @@ impl Kept {
 /// What a thread left behind that panicked is not known to be of any facet.
 fn lock(slot: &Mutex<Slot>) -> MutexGuard<'_, Slot> {
     slot.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Primary facets with their numbers; `x` has the positions of the nodes of one after the other.
+fn placed<'a>(
+    pair: &'a SurfacePair,
+    facets: &'a [u32],
+    x: &'a [Vec3],
+) -> impl Iterator<Item = (u32, Facet<'a>)> {
+    let mut rest = x;
+    facets.iter().filter_map(move |&number| {
+        let element = pair.primary.domain(number)?;
+        let (x, behind) = rest.split_at_checked(nodes_of(pair, number).len())?;
+        rest = behind;
+        Some((number, Facet { element, x }))
+    })
 }
 
 fn positions(nodes: &[NodeId], x: &[Vec3], out: &mut Vec<Vec3>) {

@@ -91,13 +91,13 @@ use signorini_geometry::tensor::Vec3;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The part of a node's function, on the facet where most of it is covered, below which others take it over.
+/// The covered part of a node's function, on the facet where it is largest, below which other nodes take the function over.
 const WEAK: f64 = 0.5;
 
-/// How much better others must be covered to take it over where none is covered well.
+/// Where no neighbour is covered by [`WEAK`], the factor by which one must be better covered to take the function over.
 const BETTER: f64 = 4.0;
 
-/// How much better another side of an edge must face what it meets for a node to change over to it.
+/// The factor by which another side of an edge must face the primary side better for a node to change over to it.
 const STAYS: f64 = 2.0;
 
 /// Facets integrated by one task.
@@ -247,10 +247,7 @@ impl Mortar {
         at: &Placement,
         share: f64,
     ) -> Result<Self, SurfaceError> {
-        let boxes = (0..pair.primary.nfacet() as u32).map(|f| pair.primary.aabb(at, f));
-        let mut search = Search::default();
-        let boxes: Vec<Aabb> = boxes.collect();
-        search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
+        let search = search(pair, at);
         let mut weights = Weights::default();
         let nothing = Weights::default();
         self.points.sliding = SlidingRange::Small;
@@ -641,6 +638,15 @@ fn along_a_curve(nodes: Vec<NodeId>, x: &[Vec3]) -> Vec<NodeId> {
     nodes
 }
 
+/// A search among the primary facets in a configuration, as far as the reach of the pair.
+fn search(pair: &SurfacePair, at: &Placement) -> Search {
+    let boxes = (0..pair.primary.nfacet() as u32).map(|f| pair.primary.aabb(at, f));
+    let boxes: Vec<Aabb> = boxes.collect();
+    let mut search = Search::default();
+    search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
+    search
+}
+
 fn nodes_of(pair: &SurfacePair, facet: u32) -> &[NodeId] {
     match pair.primary.carrier(facet) {
         Carrier::Nodes(nodes) => nodes,
@@ -906,10 +912,7 @@ impl Discretization for Mortar {
         let Some(facets) = &pair.secondary else {
             return Ok(Vec::new());
         };
-        let boxes = (0..pair.primary.nfacet() as u32).map(|f| pair.primary.aabb(at, f));
-        let boxes: Vec<Aabb> = boxes.collect();
-        let mut search = Search::default();
-        search.update(&[], &boxes, pair.reach, 0.0, &|_, _| true);
+        let search = search(pair, at);
         let of_facet = |integrator: &mut Integrator, facet: usize| {
             let facet = facet as u32;
             integrator.find(facets, facet, pair, at, &search);

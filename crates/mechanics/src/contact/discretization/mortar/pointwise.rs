@@ -44,26 +44,30 @@ use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Feature, Placement, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
-/// Tilts, a quarter and 1 degree, between which normals turn.
+/// θ0 of (E2): a quarter of a degree. Up to here a row keeps its normals.
 const UPRIGHT: f64 = 0.0044;
+
+/// θ1 of (E2): 1 degree. From here on a row acts along the normals of the primary side.
 const TURNED: f64 = 0.0175;
 
-/// Gaps over the distance between nodes up to which rows count as closed, and from which on facets are apart.
+/// The mean gap, relative to the distance between nodes, below which a row counts as closed.
 const CLOSED: f64 = 1e-4;
+
+/// How far, relative to the distance between nodes, the gap must exceed the mean everywhere for this to be false.
 const APART: f64 = 1e-2;
 
-/// Gaps over the distance between nodes up to which rows that compare points ask for their means.
+/// The mean gap, relative to the distance between nodes, below which a row that compares points is tested for its mean.
 const NEAR: f64 = 0.5;
 
-/// Angles, 0.05 and 1 degree, from which on a turn of a normal is taken over: at the start of an increment, and within it.
-/// The tilt depends on the normals in turn, and an iteration for both at once goes on for long.
+/// The angles, 0.05 and 1 degree, from which on a turn of a normal by (E2) is applied: at the start of an increment, and
+/// within it. The tilt depends on the normals in turn, so that an iteration for both converges slowly.
 const CLOSELY: f64 = 0.00087;
 const FAR_BEHIND: f64 = 0.0175;
 
-/// The tilt from which on they do whether they are closed or not: 30 degrees.
+/// The tilt above which rows at edges and rims compare points: 30 degrees.
 const STEEP: f64 = 0.52;
 
-/// The tilt below which they compare facets: 1.5 degrees.
+/// The tilt below which rows at edges and rims compare facets again: 1.5 degrees.
 const FLUSH: f64 = 0.026;
 
 /// Whether each row is at an edge of the surface or where it ends.
@@ -106,11 +110,15 @@ pub(super) fn structural(facets: &Facets, nodes: &[NodeId], around: &[Part]) -> 
     rows.map(|(row, part)| at_edge(row) || ends(part)).collect()
 }
 
-/// The gap of a point that has its closest point inside a primary facet.
-fn node_gap(pair: &SurfacePair, other: u32, point: Vec3, at: &Placement) -> Option<f64> {
+/// The gap of a point to a facet; `None` where its closest point is not inside the facet.
+fn gap_inside(
+    surface: &dyn ContactSurface,
+    facet: u32,
+    point: Vec3,
+    at: &Placement,
+) -> Option<f64> {
     let mut jet = SurfaceJet::default();
-    let primary = pair.primary.as_ref();
-    let found = primary.project(at, other, point, None, &mut jet).ok()??;
+    let found = surface.project(at, facet, point, None, &mut jet).ok()??;
     let inside = found.feature == Feature::Face;
     inside.then(|| (point - jet.position).dot(jet.normal))
 }
@@ -124,17 +132,15 @@ fn least_gap_of(
     at: &Placement,
 ) -> Option<f64> {
     let x = |n: &NodeId| at.x.get(*n as usize).copied().unwrap_or_default();
-    let mut jet = SurfaceJet::default();
-    let mut gap = |surface: &dyn ContactSurface, facet: u32, point: Vec3| {
-        let found = surface.project(at, facet, point, None, &mut jet).ok()??;
-        let inside = found.feature == Feature::Face;
-        inside.then(|| (point - jet.position).dot(jet.normal))
-    };
     let (own, others) = (facets.nodes(facet), nodes_of(pair, other));
     let primary = pair.primary.as_ref();
-    let of_own = own.iter().filter_map(|n| gap(primary, other, x(n)));
+    let of_own = own
+        .iter()
+        .filter_map(|n| gap_inside(primary, other, x(n), at));
     let least = of_own.fold(f64::INFINITY, f64::min);
-    let of_others = others.iter().filter_map(|n| gap(facets, facet, x(n)));
+    let of_others = others
+        .iter()
+        .filter_map(|n| gap_inside(facets, facet, x(n), at));
     let least = of_others.fold(least, f64::min);
     let flat = || {
         let corners = |element: Option<Element>, nodes: &[NodeId]| -> Vec<Vec3> {
@@ -267,7 +273,8 @@ impl Mortar {
                 .filter_map(|&(f, _)| of_facet(f))
                 .flat_map(|of| &of.met)
         };
-        let gap_of_node = |&other: &u32| node_gap(pair, other, x(self.nodes[row]), at);
+        let primary = pair.primary.as_ref();
+        let gap_of_node = |&other: &u32| gap_inside(primary, other, x(self.nodes[row]), at);
         if met().filter_map(gap_of_node).any(|gap| !apart(gap)) {
             return false;
         }

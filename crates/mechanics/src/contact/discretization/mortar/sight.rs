@@ -19,7 +19,7 @@ use signorini_geometry::surface::{
 };
 use signorini_geometry::tensor::Vec3;
 
-/// Covered areas from this part of a facet on count as much as any.
+/// The covered part of a facet from which on its score (E1) no longer depends on the area.
 const SHARE: f64 = 0.02;
 
 /// No part of the primary side.
