@@ -110,7 +110,7 @@ fn the_last_boundary_of_a_node_counts_of_the_model_or_the_step() {
     let moves_of = |lines: &str| {
         let case = case(&cube("C3D8", &format!("{held}{lines}\n*END STEP\n")));
         let nodes = |name: &str| {
-            let set = case.sets.iter().find(|set| set.name == name);
+            let set = case.sets.iter().find(|set| set.name.value == name);
             match set.map(|set| &set.content) {
                 Some(SetContent::Nodes(nodes)) => nodes.clone(),
                 _ => Vec::new(),

@@ -8,7 +8,6 @@ use crate::system::linear::{EXACT, LinearError, StartStiffness};
 use crate::system::{
     Assembler, Assembly, Dof, DofName, NodeId, Order, State, System, TermError, Verdict,
 };
-use signorini_geometry::proximity::Aabb;
 use thiserror::Error;
 
 /// Whether and how steps are shortened.
@@ -308,7 +307,7 @@ pub(super) struct Goal<'a> {
 pub(super) struct Newton {
     pub settings: NewtonSettings,
     pub scale: ForceScale,
-    /// The largest extent of the model.
+    /// The largest distance of a node from the first one along an axis: the size of the model, to a factor of two.
     extent: f64,
     pub assembler: Assembler,
     pub equations: Equations,
@@ -364,10 +363,12 @@ impl Newton {
         assembler: Assembler,
     ) -> Self {
         let state = system.initial_state();
-        let extent = Aabb::around(state.x.iter().copied()).extent().max_abs();
+        let first = state.x.first().copied().unwrap_or_default();
+        let apart = state.x.iter().map(|x| (*x - first).max_abs());
+        let extent = apart.fold(0.0, f64::max);
         Self {
             settings,
-            extent: if extent.is_finite() { extent } else { 0.0 },
+            extent,
             scale: ForceScale::default(),
             assembler,
             equations,
