@@ -211,7 +211,7 @@ fn pressures_of_a_coarse_circle_johnson_4_22() {
 }
 
 /// The multipliers themselves scatter by 3.6 % over the inner half of the circle, on a mesh like this one. They stay in the
-/// results beside what is smoothed, with the same resultant.
+/// results next to the smoothed ones, with the same resultant.
 #[test]
 fn pressures_of_quadratic_triangles_johnson_4_22() {
     let p0 = 2.0 * COMBINED * A / (PI * R);

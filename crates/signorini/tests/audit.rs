@@ -1,7 +1,7 @@
 //! Recorded states that are wrong cause alarm, each with its cause; states that are right cause none.
 //!
 //! The states in `data/audit` were computed by the program of commit bce21ec, before it was mended: displacements of all
-//! nodes, reactions, and what the contact told of its nodes. `data/audit/make.py` writes the cases. No equation is solved
+//! nodes, reactions, and the contact's report on its nodes. `data/audit/make.py` writes the cases. No equation is solved
 //! here: the state is set, and the audit is run on it.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -50,7 +50,7 @@ fn status(number: f64) -> Status {
     found.unwrap_or(Status::Absent)
 }
 
-/// The state in `data/audit/NAME.json` of the case beside it; `change` spoils or mends it.
+/// The state in `data/audit/NAME.json` of the case next to it; `change` spoils or mends it.
 fn judged(name: &str, change: impl FnOnce(&mut Frame)) -> Judged {
     let folder = repository().join("crates/signorini/tests/data/audit");
     let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();

@@ -199,7 +199,7 @@ fn a_point_meets_the_moving_boxes_that_it_comes_near_on_the_way() {
                 assert!(!met || near(0.01));
             }
         }
-        // what is carried along is not met
+        // boxes that are carried along are not met
         assert!(some > 100 && some < 200 * 100, "{some}");
     }
 }

@@ -39,7 +39,7 @@
 //!
 //! for the neighbours (x, y, z) of a corner in a frame whose z axis is the mean normal of the facets there, least squares
 //! with the weight 1/r⁴; the last factor makes it exact for spheres and for circles, whatever the frame. Where neighbours
-//! do not determine it, those of neighbours are taken in, a few times, and what is still undetermined is zero.
+//! do not determine it, their neighbours are added, a few times; coefficients that stay undetermined are zero.
 //!
 //! *Edges.* Facets that turn by more than some 30 degrees are sides of a structural edge, at which neither bends: each
 //! side has normals of its own. Facets of quadratic elements are bent already, and never rise.
@@ -69,7 +69,7 @@ const UNKNOWNS: usize = 5;
 /// An eigenvalue of the fit, relative to the largest, below which it does not determine what belongs to it.
 const UNDETERMINED: f64 = 1e-3;
 
-/// Passes over all pairs of axes: each squares what is left.
+/// Passes over all pairs of axes: each squares the residual.
 const SWEEPS: usize = 6;
 
 /// One less the cosine of an angle between facets that is nothing but rounding.
@@ -420,7 +420,7 @@ fn fit(points: &[Vec3], mean: Vec3) -> Option<(Vec3, bool)> {
     Some((normal.normalized()?, determined))
 }
 
-/// The least squares solution of a symmetric system, zero in what it does not determine, and whether that is nothing: by
+/// The least squares solution of a symmetric system, zero along undetermined directions, and whether there are none: by
 /// its eigenvectors, which rotations of pairs of axes find (Jacobi).
 fn solve(
     a: &mut [[f64; UNKNOWNS]; UNKNOWNS],

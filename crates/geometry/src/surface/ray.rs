@@ -10,7 +10,7 @@
 //!     g ───── m ───── e
 //! ```
 //!
-//! Bent facets are off by a fourth of what they are off the chord of their nodes. Boundaries belong to all facets that
+//! Of bent facets the error is a quarter of their height above the chord of their nodes. Boundaries belong to all facets that
 //! meet there: no line passes between two neighbours.
 //!
 //! Source: Möller and Trumbore, *Fast, minimum storage ray-triangle intersection*, J. Graphics Tools 2, 1997 (E1).

@@ -10,7 +10,7 @@ use crate::tensor::Vec3;
 const EDGE: f64 = 1e-9;
 
 /// The least cosine of the angle between a ray and the outward normal where it leaves through the other side of a body, and
-/// not through a flank or a plane of symmetry beside it.
+/// not through a flank or a plane of symmetry next to it.
 const ACROSS: f64 = 0.5;
 
 /// The outline of a body, through which rays are sent.

@@ -326,7 +326,7 @@ impl Translation<'_> {
         let name = Spanned::new(self.fresh(&name), place.clone());
         let mut contact = Contact::new(name, sides.secondary, sides.primary, place.clone());
         if self.compat == Compat::Ccx {
-            // CalculiX pairs anew where the nodes have moved to, with NLGEOM or without
+            // CalculiX pairs again where the nodes have moved to, with NLGEOM or without
             contact.sliding = Sliding::Finite;
         }
         contact

@@ -12,7 +12,7 @@ use signorini_geometry::tensor::Vec3;
 const FACING: f64 = 0.3;
 /// The same of a surface that touches itself.
 const FACING_ITSELF: f64 = -0.2;
-/// The same past the end of a surface, where the side of a body may be beside its face.
+/// The same past the end of a surface, where the side of a body may be next to its face.
 const SQUARELY: f64 = -0.5;
 /// How far past the end of a surface a point still meets it, over its size.
 const RIM: f64 = 0.1;
@@ -52,7 +52,7 @@ pub struct Seeker<'a> {
     pub own: &'a [u32],
 }
 
-/// What it has found.
+/// The points found.
 #[derive(Clone, Copy, Debug)]
 pub struct Met {
     pub facet: u32,
@@ -169,7 +169,7 @@ impl<'a> Finder<'a> {
         faces(normal).then_some(distance)
     }
 
-    /// What is known of a closest point; none past the end of the surface.
+    /// A closest point with its gap and normal; none past the end of the surface.
     fn met(&self, found: Projection, seeker: &Seeker<'_>, jet: &mut SurfaceJet) -> Option<Met> {
         let anchor = found.anchor;
         self.surface.jet(&self.at, &anchor, jet).ok()?;

@@ -7,9 +7,9 @@ use crate::system::{Measured, Status};
 use signorini_geometry::tensor::Vec3;
 use std::f64::consts::FRAC_PI_4;
 
-/// The part of the contact force in wrong directions that is let pass.
+/// The allowed part of the contact force in wrong directions.
 const WRONG: f64 = 0.02;
-/// What a direction may be off by beside what facets turn: 1 degree.
+/// The allowed error of a direction in addition to the turn between facets: 1 degree.
 const OFF: f64 = 0.017_453_292_519_943_295;
 /// Shear below this part of its limit is that of a point without friction for the while.
 const FREE: f64 = 0.01;
@@ -36,7 +36,7 @@ pub fn check(support: &Support<'_>, sides: &Sides<'_>, rules: &dyn Rules, seen: 
         let limit = |pressure| rules.limit(k, pressure);
         let judge = |normal| Parts::new(support.traction(k), normal, &limit, (slips, allowance));
         let mut parts = judge(met.normal);
-        // what holds the geometry of the start holds the normals of one side or the other
+        // a method that keeps the geometry of the start keeps the normals of one side or the other
         if let Some(own) = node.normal.normalized().filter(|_| sides.start.is_some()) {
             let others = judge(-own);
             if others.excess < parts.excess {
@@ -68,7 +68,7 @@ struct Parts {
     shear: f64,
     /// The limit of friction; 0 without.
     limit: f64,
-    /// Shear beyond what is allowed.
+    /// Shear beyond the allowed one.
     excess: f64,
 }
 

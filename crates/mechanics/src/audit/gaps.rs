@@ -15,14 +15,14 @@ const TOUCH: f64 = 0.002;
 const DEEP: f64 = 0.05;
 /// How much deeper than its law allows at the mean pressure of its surroundings.
 const SLACK: f64 = 1.5;
-/// The part of the contact force on nodes that are apart up to which they are let pass.
+/// The part of the contact force on nodes that are apart up to which this is allowed.
 const APART: f64 = 0.01;
 /// Points along the edge of a grid on a facet.
 const GRID: usize = 9;
 /// Points looked for by one task.
 const TASK: usize = 32;
 
-/// What was seen from one side or the other.
+/// Whether it was seen from one side or the other.
 pub struct Seen {
     /// From each node of the secondary side, where it looked.
     pub nodes: Vec<Option<Met>>,
@@ -117,7 +117,7 @@ fn from_nodes(support: &Support<'_>, sides: &Sides<'_>, finder: &Finder<'_>) -> 
             ..seeker(of.nodes.get(k).copied()?, node.normal, sides)?
         };
         let met = finder.find(&seeker)?;
-        // what was behind a facet at the start has not gone through it
+        // a point behind a facet at the start has not gone through it
         let was_behind =
             sides.same && met.gap < 0.0 && is_behind(sides, met.facet, *of.nodes.get(k)?);
         (!was_behind).then_some(met)
@@ -255,7 +255,7 @@ fn tolerance(support: &Support<'_>, seen: &Seen, node: usize) -> f64 {
     TOUCH * of.size + of.size * of.turn / 8.0 + of.bulge + opposite
 }
 
-/// The smallest gap over the support of a node, without what is prescribed; `None` where nothing is opposite.
+/// The smallest gap over the support of a node, without the prescribed shift; `None` where nothing is opposite.
 fn smallest(support: &Support<'_>, seen: &Seen, node: usize) -> Option<f64> {
     let mut least: Option<f64> = None;
     let mut take = |gap: f64| least = Some(least.map_or(gap, |l| l.min(gap)));

@@ -1,18 +1,18 @@
-//! An audit of accepted states, with other means than those that made them.
+//! An audit of accepted states, independent of the methods that computed them.
 //!
 //! ```text
 //!   ──●────────●────────●──   secondary        ● corners of facets, × corners of the other side: where the smallest
 //!      ╲    ×      ×   ╱      primary            gap of two faceted surfaces is; × between ● is the end of a cell
 //! ```
 //!
-//! A method of contact compares the sides in its own way: by means over facets, at points inside, at nodes. What it found is
-//! looked at here point by point, with nothing but the positions of both sides, the tractions, and the stress of the
+//! A method of contact compares the sides in its own way: by means over facets, at points inside, at nodes. Its result is
+//! checked here point by point, with nothing but the positions of both sides, the tractions, and the stress of the
 //! elements. An audit sees no row, no multiplier and no mortar integral, so that it can judge all methods, and states from
 //! elsewhere.
 //!
 //! | symbol | name in code | unit |
 //! |---|---|---|
-//! | g | gap of a sample: signed distance from the closest facet that faces it, with what is prescribed | length |
+//! | g | gap of a sample: signed distance from the closest facet that faces it, with the prescribed shift | length |
 //! | g*(p) | `Rules::gap`: what the law has at a pressure, −p/ε of a penalty, 0 of a multiplier | length |
 //! | h, θ | size of a facet, turn from one to the next | length, angle |
 //! | s = h θ/8 | `bend`: how far a chord is from the curve that it stands for | length |
@@ -32,12 +32,12 @@
 //!
 //! (A1), (A3) and (A4) are judged by the part of the contact force that they concern, so that the last node of an edge does
 //! not cause alarm. Where a method holds the geometry of the start, `g = g₀ + ν₀·(u_s − u_p)` at the closest points of the
-//! start is what it is to be judged by ([`Sides::start`]).
+//! start is judged ([`Sides::start`]).
 //!
 //! Limits: (A1) in space takes corners and, where these are apart, a grid of points on each facet, so that two edges that
 //! cross are seen to a part of a facet; in the plane it is exact for straight facets. Joints are checked by (A4) alone. Of a
-//! surface that may touch itself, corners of the other side are left out, and so is depth that was there at the start. What
-//! never presses is not looked at.
+//! surface that may touch itself, corners of the other side are left out, and so is depth that was there at the start. A side
+//! that never presses is not checked.
 //!
 //! To add a check: an entry of [`Check`](crate::system::Check), a file here, a line in [`contact`].
 
@@ -63,7 +63,7 @@ pub struct Sides<'a> {
     pub primary: &'a dyn ContactSurface,
     /// Where all is now.
     pub now: Placement<'a>,
-    /// Where all was at the start, if the geometry of the start is what holds.
+    /// Positions at the start, if the method keeps the geometry of the start.
     pub start: Option<Placement<'a>>,
     /// Where the nodes were at the start.
     pub reference: &'a [Vec3],
@@ -81,11 +81,11 @@ impl<'a> Sides<'a> {
     }
 }
 
-/// What a contact is to obey.
+/// The conditions that a contact has to satisfy.
 pub trait Rules: Sync {
     /// Whether the sides are joined.
     fn joined(&self) -> bool;
-    /// What is prescribed beside the gap at a node of the secondary side, by its place among them.
+    /// The prescribed shift of the gap at a node of the secondary side, by its place among them.
     fn shift(&self, node: usize) -> f64;
     /// The gap that the law has at a pressure on a node.
     fn gap(&self, node: usize, pressure: f64) -> f64;
@@ -93,7 +93,7 @@ pub trait Rules: Sync {
     fn limit(&self, node: usize, pressure: f64) -> Option<f64>;
     /// The node opposite a node, where nodes meet nodes and the other side has no facets.
     fn partner(&self, node: usize) -> Option<NodeId>;
-    /// Whether a node follows a rigid body, so that no stress carries what acts on it.
+    /// Whether a node follows a rigid body, so that no stress carries the forces on it.
     fn is_rigid(&self, node: NodeId) -> bool;
 }
 

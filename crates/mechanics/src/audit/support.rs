@@ -10,7 +10,7 @@ const PRESSED: f64 = 1e-6;
 /// The cosine of the angle beyond which facets meet in an edge: 30 degrees.
 pub const SMOOTH: f64 = 0.866_025_403_784_438_6;
 
-/// What is known of a facet of the secondary side.
+/// A facet of the secondary side.
 #[derive(Clone, Copy, Debug)]
 pub struct OfFacet {
     /// Its size: a length, the root of an area.
@@ -25,7 +25,7 @@ pub struct OfFacet {
     pub supports: bool,
 }
 
-/// What is known of a node of the secondary side.
+/// A node of the secondary side.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OfNode {
     /// The sum of the normals of the facets around it, weighted by their sizes.
@@ -40,7 +40,7 @@ pub struct OfNode {
     pub count: u32,
 }
 
-/// The facets around the nodes under pressure, with what is known of them.
+/// The facets around the nodes under pressure, with their data.
 pub struct Support<'a> {
     pub of: &'a ContactFrame,
     /// The nodes under pressure, by their place among those of the secondary side.

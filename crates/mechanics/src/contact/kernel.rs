@@ -62,7 +62,7 @@ pub(super) struct Past {
     pub path: f64,
     /// The limit of friction, where it is held for the sake of convergence.
     pub limit: Option<f64>,
-    /// What it did in the iterate before.
+    /// Its status in the previous iterate.
     pub state: Contact,
 }
 
@@ -284,7 +284,7 @@ impl<'a> Laws<'a> {
         }
     }
 
-    /// The return to the limit. What is on the limit by all that rounding lets one tell does what it did `before`: the
+    /// The return to the limit. A point on the limit to rounding keeps the status it had `before`: the
     /// traction is the same either way, and a state that is found does not change for ever.
     fn returned(&self, trial: Vec3, limit: &Limit, before: Contact) -> (Vec3, Contact) {
         if *limit == Limit::default() {

@@ -460,7 +460,7 @@ impl Newton {
                 closed,
                 flips,
             });
-            // where forces are continuous, the residual is what is wrong with the state, whatever it is called
+            // where forces are continuous, the residual alone is the error of the state, whatever its status
             let still = || correction <= alpha * (STILL_MOVED * moved).max(self.rounding());
             let changes = repeat.is_some() && continuous;
             let indifferent = changes && judgement.small && solved && still();

@@ -12,7 +12,7 @@
 //! have changed by at the rate before the jump; it belongs to the first stage, which takes the loads to the end of the
 //! increment. What slips on the way slips stage by stage. When viscosity has fallen to [`FAINT`], the equilibrium is looked for without it. So the state that is
 //! accepted is one of equilibrium like any other; which of several it is, and what friction dissipates on the way, is
-//! what a slow jump would give. The work of the viscous forces is reported, beside that of supports and loads.
+//! what a slow jump would give. The work of the viscous forces is reported next to that of supports and loads.
 //!
 //! A jump is taken only where no equilibrium is found without it: before, the increment is gone through in parts
 //! ([`super::nearby`]).

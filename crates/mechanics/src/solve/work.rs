@@ -1,17 +1,17 @@
-//! The work of what acts from outside: of supports and loads.
+//! The work of external forces: of supports and loads.
 
 use crate::system::{Archive, ArchiveError, Dof, Order, Sink, State, System, TermError, Work};
 
 /// Work that supports and loads have done since the start of a run.
 ///
 /// From one accepted state to the next, it is the motion times the mean of the forces at both: exact where forces are
-/// linear in the motion, of second order elsewhere. Supports count where dofs are prescribed in the present step: what a
-/// support bore that is taken away does no work.
+/// linear in the motion, of second order elsewhere. Supports count where dofs are prescribed in the present step: the
+/// force of a support that is removed does no work.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ExternalWork {
     /// Force times length; of a moment and a rotation, likewise.
     pub total: f64,
-    /// The sum of the sizes of what it was in each increment: what parts of it refer to, whatever loads give back.
+    /// The sum of the absolute values of the work of each increment, to which fractions refer: loads may return work.
     pub turnover: f64,
     /// What supports and loads exert at the last accepted state, at every raw dof; empty before the first.
     supports: Vec<f64>,

@@ -40,7 +40,7 @@ pub struct Measured {
     /// The worst value: a distance for the first two checks, shear over normal traction for the third, traction for the
     /// last.
     pub worst: f64,
-    /// What it should be at most.
+    /// Its limit.
     pub allowed: f64,
     /// The pressure where it is worst.
     pub pressure: f64,
@@ -52,7 +52,7 @@ impl Measured {
     /// Whether it is within its limit.
     #[must_use]
     pub fn passes(&self) -> bool {
-        // what is not a number is wrong, too
+        // NaN fails, too
         self.part <= self.limit
     }
 }

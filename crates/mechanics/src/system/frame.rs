@@ -244,7 +244,7 @@ pub struct Frame {
     pub work_jumps: f64,
     /// Work that supports and loads have done so far, by the trapezoidal rule over increments.
     pub work_external: f64,
-    /// The sum of the sizes of what it was in each increment: what parts of it refer to.
+    /// The sum of the absolute values of the work of each increment, to which fractions refer.
     pub work_turnover: f64,
     /// Potential energy, where every term has one.
     pub energy: Option<f64>,

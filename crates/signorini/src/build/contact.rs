@@ -99,7 +99,7 @@ fn sliding(part: &Contact, steps: &[case::Step]) -> SlidingRange {
         .peekable();
     let stays = until_last.peek().is_some() && until_last.all(|(_, nonlinear)| !nonlinear);
     match part.sliding {
-        // what is joined does not slide
+        // joined sides do not slide
         Sliding::Auto if stays && part.tied.is_none() => SlidingRange::Small,
         Sliding::Auto | Sliding::Finite => SlidingRange::Finite,
         Sliding::Increment => SlidingRange::Increment,

@@ -1,4 +1,4 @@
-//! What is said about gaps and overlaps at the start.
+//! Findings about gaps and overlaps at the start.
 
 use super::ContactInfo;
 use crate::text::{plural, short};
@@ -27,7 +27,7 @@ pub fn place(place: &StartPlace, mesh: &Mesh) -> String {
     }
 }
 
-/// What becomes of overlaps, in words; `None` where there is nothing to say.
+/// The treatment of overlaps in words; `None` for joined sides.
 pub fn treatment(start: &StartSummary, first_step: &str) -> Option<String> {
     Some(match start.treatment {
         Treatment::Interference(Interference::Ramped) => {

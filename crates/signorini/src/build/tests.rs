@@ -988,7 +988,7 @@ fn what_a_contact_acts_in_says_how_far_it_slides() {
     }
     let points = "method = 'node-to-segment'\nenforcement = { penalty = 9 }\nsliding = 'increment'";
     assert_eq!(sliding(points, &[linear]), Increment);
-    // what is joined does not slide
+    // joined sides do not slide
     assert_eq!(sliding("tied = true", &[linear]), Finite);
 }
 

@@ -1,4 +1,4 @@
-//! What the audits of accepted states found in the course of a run, and what is told of it.
+//! What the audits of accepted states found in the course of a run, and how it is reported.
 
 use crate::build::Model;
 use signorini_geometry::mesh::{Mesh, NodeId};
@@ -9,7 +9,7 @@ use signorini_mechanics::audit::viscous;
 use signorini_mechanics::system::{Check, Frame, Measured};
 use std::collections::BTreeMap;
 
-/// What is kept of each check of a contact.
+/// The results of one check of a contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Worst {
     /// The worst of all increments.
@@ -49,7 +49,7 @@ impl Audit {
         }
     }
 
-    /// What `summary.json` has of it.
+    /// The entry of `summary.json`.
     pub fn summary(&self, mesh: &Mesh) -> AuditSummary {
         let entry = |worst: &Worst| AuditEntry {
             passed: worst.failed == 0,
@@ -182,7 +182,7 @@ impl Audit {
         diagnostic.help(help(name, check, model))
     }
 
-    /// Stores what was found in a checkpoint.
+    /// Stores the findings in a checkpoint.
     ///
     /// # Errors
     /// A name that the archive has.
@@ -209,7 +209,7 @@ impl Audit {
         archive.put_f64("run/audit.numbers", &numbers)
     }
 
-    /// What a checkpoint has; nothing where an older run wrote it.
+    /// The state in a checkpoint; empty where an older run wrote it.
     pub fn restored(archive: &Archive) -> Self {
         Self::read(archive).unwrap_or_default()
     }

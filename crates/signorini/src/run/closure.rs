@@ -47,7 +47,7 @@ impl Closure {
         }
     }
 
-    /// What is known, for a checkpoint.
+    /// The state, for a checkpoint.
     pub fn save(&self) -> Vec<f64> {
         let numbers = |n: &Nearest| {
             let node = n.node.map_or(-1.0, f64::from);
@@ -56,7 +56,7 @@ impl Closure {
         self.contacts.iter().flat_map(numbers).collect()
     }
 
-    /// What was known when these numbers were saved.
+    /// The state from these numbers.
     pub fn restore(stored: &[f64]) -> Self {
         let (contacts, _) = stored.as_chunks::<STORED>();
         let nearest = |&[closed, gap, node, time]: &[f64; STORED]| Nearest {

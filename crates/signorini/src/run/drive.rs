@@ -373,7 +373,7 @@ impl Run<'_, '_> {
         found.push(one);
     }
 
-    /// Reports the findings whose codes the case does not silence by `allow`; answers whether there are any.
+    /// Reports the findings whose codes the case does not silence by `allow`; returns whether there are any.
     fn report_unless_allowed(
         &mut self,
         mut findings: Diagnostics,

@@ -42,7 +42,7 @@ fn ring(scene: &mut Scene, group: &str, n: usize, radii: &[f64], turn: f64) -> V
     rows.collect()
 }
 
-/// A fit of two rings with so many facets around, the outer one turned by an angle.
+/// A fit of two rings with these numbers of facets, the outer one turned by an angle.
 fn rings(n: [usize; 2], overlap: f64, turn: f64, swapped: bool, by: &str) -> Case {
     let mut scene = Scene::default();
     let half = 0.5 * overlap;

@@ -1,7 +1,7 @@
 //! Overlaps and gaps at the start: how large, where, and what becomes of them.
 //!
 //! SOURCE      by construction: two blocks of height 1 whose faces overlap by a given amount, or are apart by it
-//! GOAL        what is told is the distance of the faces, at a node of one of them, whatever the method; an overlap of more
+//! GOAL        the reported gap is the distance of the faces, at a node of one of them, whatever the method; an overlap of more
 //!             than half the height is refused, with places
 //! MESH        blocks of quad4, tri3, hex8 and tet4, meshes that do not match, either side secondary, turned by 30 degrees
 //! TOLERANCE   1e-9
@@ -135,7 +135,7 @@ fn overlaps_beyond_half_the_height_are_refused_with_places() {
             assert!(text.contains("S0312"), "{text}");
             assert!(text.contains("overlap by 0.600 at the start"), "{text}");
             assert!(text.contains("the deepest is node"), "{text}");
-            // meant so
+            // intended
             let now = format!("{by}\nstart = {{ interference = \"strain-free\" }}");
             assert!(built(&blocks(element, 0.6, turn, swapped, &now)).is_ok());
         }

@@ -2,7 +2,7 @@
 //!
 //! SOURCE      The distance of a point inside a body from its surface is a smooth function across a valley, whose gradient
 //!             points from the closest point, on a facet, an edge or a vertex
-//! GOAL        a node that an iteration takes to and fro between facets does not end on the continuation of one of them
+//! GOAL        a node that alternates between facets in an iteration does not end on the continuation of one of them
 //! MESH        in the plane 4 × 2 quad4 with a vertex, in space 3 × 3 × 1 hex8 with a line or a pit at the crossing of
 //!             facets, below; 3 × 2 quad4 or 2 × 2 × 1 hex8 above
 //! CONDITIONS  finite strain, neo-Hookean, no friction, nodes with penalty; pressed, then dragged so that nodes come to lie on

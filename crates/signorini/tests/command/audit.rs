@@ -1,4 +1,4 @@
-//! What the audit of a run tells, and what it makes of the exit code.
+//! Warnings of the audit of a run, and its exit code.
 
 use crate::support::{folder_with, read, result, run};
 use serde_json::Value;

@@ -85,7 +85,7 @@ fn ended(case: &str, frames: &[usize], end: &dyn Fn(&mut Child) -> bool) -> Temp
     tries.next().expect("every run was over too early")
 }
 
-/// Kills a run; says whether it was not over before.
+/// Kills a run; returns whether it was still running.
 fn kill(run: &mut Child) -> bool {
     run.kill().unwrap();
     !run.wait().unwrap().success()

@@ -12,7 +12,7 @@ const MOST: u64 = 1 << 30;
 /// Events of a run, such as iterations and increments, after which it is stopped.
 const EVENTS: usize = 300;
 
-/// Stops a run when it has heard so many events.
+/// Stops a run after this many events.
 struct Limit(usize);
 
 impl Listener for Limit {

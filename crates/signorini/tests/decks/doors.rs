@@ -30,7 +30,7 @@ fn outside() -> Vec<PathBuf> {
     folders
 }
 
-/// Reads a deck by all doors; says whether it was read, or refused by all of them.
+/// Reads a deck by all doors; returns whether all read it, or all refused it.
 fn is_one_model(deck: &Path, compat: Compat) -> bool {
     let reading = |set: &[(&str, &str)]| Reading {
         set: set

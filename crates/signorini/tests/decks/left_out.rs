@@ -1,4 +1,4 @@
-//! What a deck says and nobody reads is named, once, with all its places; what it says twice and differently is an error.
+//! Parts of a deck that are not read are named, once, with all their places; contradictory repetitions are errors.
 
 use signorini::{Diagnostics, Reading, load};
 

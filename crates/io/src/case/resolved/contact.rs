@@ -191,7 +191,7 @@ fn tied(tied: &Tied) -> Value {
     Value::Table(entries)
 }
 
-/// What is closed at the start, of sides that are joined; nothing where nothing is.
+/// The gaps that joined sides close at the start; nothing where there are none.
 fn closing(start: &Start) -> Option<Value> {
     let below = Some(start.close_gaps_below).filter(|below| *below != 0.0);
     let below = below.map(|below| ("close_gaps_below", below.into()));

@@ -188,8 +188,8 @@ pub trait Discretization: Send + Sync {
         false
     }
 
-    /// Makes its rows anew for an increment that begins at the positions `x`, where it [remakes](Self::remakes) them;
-    /// tells of each the row before that it continues, if there is one. `None` where they stay as they are.
+    /// Makes its rows again for an increment that begins at the positions `x`, where it [remakes](Self::remakes) them;
+    /// returns for each the row before that it continues, if there is one. `None` where they stay as they are.
     fn renew(&mut self, _pair: &SurfacePair, _x: &[Vec3]) -> Option<Vec<Option<u32>>> {
         None
     }
@@ -207,7 +207,7 @@ pub trait Discretization: Send + Sync {
     /// Lets planes that are kept for good lean towards the normals of the secondary side, of which this part counts.
     fn lean(&mut self, _pair: &SurfacePair, _share: f64) {}
 
-    /// Makes all discrete choices at a configuration. `last` holds the choices of a moment ago, as hints; `next` is what
+    /// Makes all discrete choices at a configuration. `last` holds the previous choices, as hints; `next` is what
     /// will probably be asked of rows.
     ///
     /// # Errors
@@ -296,7 +296,7 @@ pub trait Discretization: Send + Sync {
     /// The facets of the primary side that a row meets beyond the one its closest point lies on.
     fn more_facets(&self, _row: usize, _pairing: &Pairing, _out: &mut Vec<u32>) {}
 
-    /// How fast a row closes, positive where its gap shrinks, where nodes move by `by`; `None` where that is told by its
+    /// How fast a row closes, positive where its gap shrinks, where nodes move by `by`; `None` where that follows from its
     /// closest point.
     fn approach(
         &self,
@@ -336,8 +336,8 @@ pub trait Discretization: Send + Sync {
         false
     }
 
-    /// The motion of a row relative to what it meets where nodes move by `by`, and its normal; `None` where that is told by
-    /// its closest point.
+    /// The motion of a row relative to what it meets where nodes move by `by`, and its normal; `None` where its
+    /// closest point determines that.
     fn way(
         &self,
         _row: usize,

@@ -19,7 +19,7 @@
 //! of the own body: seen from one side of a slab, the other is at the depth t, and what enters from outside at δ < t/2
 //! is nearer to where it came in than to the other side.
 //!
-//! The line from the middle of a facet into the body tells where it leaves it: the first facet of the same body that faces
+//! The line from the middle of a facet into the body leaves it at the first facet of the same body that faces
 //! the other way. It is found once, in the reference configuration; the thickness is the present
 //! distance of these two places. Behind a facet whose line crosses no such facet the thickness is infinite.
 //!
@@ -39,7 +39,7 @@ const FACES: f64 = 0.173_648_177_666_930_33;
 /// The cosine of normals at the middle of facets above which no two points of them face one another.
 const ALIKE: f64 = 0.5;
 
-/// The cosine of the angle up to which facets around a node bear what it carries.
+/// The cosine of the angle up to which facets around a node carry its force.
 const BEARS: f64 = 0.5;
 
 /// The distance, over the size of a facet, below which a direction is rounding.
@@ -261,8 +261,8 @@ impl SurfacePair {
 }
 
 impl OwnPoint<'_> {
-    /// The part of the area around a node that faces what it meets, a facet with this normal: at an edge of the body those
-    /// facets bear nothing that look elsewhere. All of it where none faces that.
+    /// The part of the area around a node that faces a facet with this normal, which the node meets: at an edge of the body,
+    /// facets that face elsewhere carry nothing. All of it where none faces that.
     #[must_use]
     pub fn bearing(&self, normal: Vec3) -> f64 {
         let (mut bears, mut all) = (0.0, 0.0);

@@ -96,7 +96,7 @@ pub struct PointToSegment {
     weights: Vec<f64>,
     /// Where each point is inside a facet; `None` where points are nodes.
     inside: Option<Vec<OnFacet>>,
-    /// Makes the points of each increment anew.
+    /// Makes the points again in each increment.
     cutter: Option<Cutter>,
     /// On what closest points may lie.
     pub closest: Closest,
@@ -104,7 +104,7 @@ pub struct PointToSegment {
     pub sliding: SlidingRange,
     /// The normals of the secondary side, which planes that are kept for good lean towards.
     lean: Option<Lean>,
-    /// What is added to the gap of each row; empty where nothing is.
+    /// The shift of the gap of each row; empty where there is none.
     shifts: Vec<f64>,
 }
 
@@ -134,7 +134,7 @@ impl PointToSegment {
         self.shifts.push(shift);
     }
 
-    /// What is added to the gap of a row.
+    /// The shift of the gap of a row.
     fn shift(&self, row: usize) -> f64 {
         self.shifts.get(row).copied().unwrap_or_default()
     }
@@ -195,8 +195,8 @@ impl PointToSegment {
         }
     }
 
-    /// What the point of a row meets among the facets that are near it; `before` is what it met a moment ago, and `own` what a
-    /// surface that may touch itself knows of its body.
+    /// Pairs the point of a row with one of the facets near it. `before` is its previous pair, and `own` holds the normals and
+    /// thickness of a surface that may touch itself.
     ///
     /// # Errors
     /// A facet that has no normal.

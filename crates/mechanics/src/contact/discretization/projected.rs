@@ -88,13 +88,13 @@ pub enum Closest {
 /// What a point sees of the primary side.
 #[derive(Clone, Copy)]
 pub struct Sight<'a> {
-    /// Its closest point of a moment ago.
+    /// Its previous closest point.
     pub hint: Option<Anchor>,
     /// On what its closest point may lie.
     pub on: Closest,
     /// The distance up to which a closest point of this facet counts.
     pub reach: &'a dyn Fn(u32) -> f64,
-    /// What it is where the surface may touch itself.
+    /// The point among its own body, where the surface may touch itself.
     pub own: Option<OwnPoint<'a>>,
 }
 

@@ -14,7 +14,7 @@ const HALVINGS: usize = 60;
 struct Obeyed<'a> {
     of: &'a Interface,
     frame: &'a ContactFrame,
-    /// What is added to gaps; empty where nothing is.
+    /// The shifts of gaps; empty where there are none.
     shifts: Vec<f64>,
     /// The nodes opposite; empty where there are facets.
     partners: Vec<Option<NodeId>>,
@@ -78,7 +78,7 @@ impl Interface {
         partners
     }
 
-    /// What is added to the gaps around each node of the secondary side: the mean over its rows.
+    /// The shift of the gaps around each node of the secondary side: the mean over its rows.
     fn shifts_at_nodes(&self, time: f64) -> Vec<f64> {
         if self.parts.shifts.is_empty() && self.allowed.overlaps.is_empty() {
             return Vec::new();

@@ -25,7 +25,7 @@ impl Interface {
         moved.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// The motion of a row since the start relative to what it meets, and its normal.
+    /// The motion of a row since the start relative to the surface it meets, and its normal.
     fn way(&self, row: usize, state: &State) -> Option<(Vec3, Vec3)> {
         let discretization = self.parts.discretization.as_ref();
         let moves = |node: NodeId| self.displacement(node, state);

@@ -13,7 +13,7 @@ use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError, Surf
 use signorini_geometry::tensor::Vec3;
 
 /// What rows remember: the accepted values, and those that the present increment works with. These stay until the next
-/// begins, so that what is told of an accepted state is what acted in it.
+/// begins, so that the report of an accepted state is of the forces that acted in it.
 pub(super) struct History {
     accepted: Vec<Memory>,
     anchors: Vec<Option<Anchored>>,
@@ -151,7 +151,7 @@ impl Interface {
         self.near.search.forget();
     }
 
-    /// Rows that are made anew for each increment: they go on with what those before them remember, and meet what is
+    /// Rows that are made again for each increment: they go on with what those before them remember, and meet what is
     /// near now. Says whether they are others.
     pub(super) fn renew_rows(&mut self, from: &State) -> Result<bool, TermError> {
         if self.parts.bond.is_some() || !self.parts.discretization.remakes() {
@@ -391,7 +391,7 @@ impl Interface {
         Ok(())
     }
 
-    /// At an edge of a surface that may touch itself, a node stands for those facets alone that face what it meets.
+    /// At an edge of a surface that may touch itself, a node has the area of those facets alone that face the facet it meets.
     pub(super) fn measure_what_bears(&mut self, at: &Placement) -> Result<(), SurfaceError> {
         let parts = &mut self.parts;
         let Some(own) = parts.pair.own.as_ref() else {

@@ -11,7 +11,7 @@
 //! | H_j = I − F_j | | directions along which it lends its function |
 //! | S_a = Σ_b F_b | | over the hosts b adjacent to row a |
 //! | R_a | | projector onto the range of S_a |
-//! | X_ab | `Lent::hosts` | what host b takes over of row a |
+//! | X_ab | `Lent::hosts` | the part of row a that host b takes over |
 //! | μ_a | [`Lents::effective`] | the traction that acts with the function of row a |
 //! | r_a | | the weighted way of row a |
 //!
@@ -21,11 +21,11 @@
 //! row of λ_j:  F_j r_j + Σ_a X_aj r_a − A_j/ε H_j λ_j = 0                    (E3)
 //! ```
 //!
-//! (E3) is the transpose of (E2), so that the tangent stays symmetric; its last part sets to zero what acts on nothing. With
-//! `Σ_b X_ab = H_a` a uniform traction has `μ_a = λ` at every row, and the patch test stays exact. Among all X with that
+//! (E3) is the transpose of (E2), so that the tangent stays symmetric; its last part sets to zero multipliers that act on
+//! nothing. With `Σ_b X_ab = H_a` a uniform traction has `μ_a = λ` at every row, and the patch test stays exact. Among all X with that
 //! property, (E1) has the smallest sum of squares; between free hosts it shares evenly.
 //!
-//! *Rows without hosts.* Where no adjacent node is free, a row stays, if the larger part of what it meets on the primary
+//! *Rows without hosts.* Where no adjacent node is free, a row stays, if the larger part of the nodes it meets on the primary
 //! side is free and has a node that follows no such row yet: then that node follows it. Otherwise it is lent if it finds a
 //! host among such rows, or has no effect: both sides are held.
 //!
@@ -41,7 +41,7 @@ use std::collections::HashMap;
 /// What counts as zero of a projection, over the largest.
 const RANK: f64 = 1e-6;
 
-/// The part of what a row meets that has to be free for the row to stay without hosts.
+/// The part of the nodes a row meets that has to be free for the row to stay without hosts.
 const MAJORITY: f64 = 0.5;
 
 /// Of a row that does not keep all of its multiplier.
@@ -66,7 +66,7 @@ pub(super) struct Lents {
 }
 
 impl Lents {
-    /// Takes what is prescribed in the step that begins.
+    /// Takes the prescribed dofs of the step that begins.
     pub fn prescribe(&mut self, prescribed: &[bool]) {
         self.prescribed.clear();
         self.prescribed.extend_from_slice(prescribed);
@@ -139,7 +139,7 @@ fn pseudo_inverse(s: Mat3) -> (Mat3, Mat3) {
 }
 
 impl Interface {
-    /// Settles which rows lend their functions in the step that begins; says whether that changes what rows see.
+    /// Settles which rows lend their functions in the step that begins; returns whether that changes the nodes that rows see.
     pub(super) fn lend(&mut self, from: &State) -> Result<bool, TermError> {
         if !std::mem::take(&mut self.lents.stale) {
             return Ok(false);
@@ -227,7 +227,7 @@ impl Interface {
         range(Mat3::from_rows(moves))
     }
 
-    /// Rows that find no host keep what nodes of the primary side can follow, each another node.
+    /// Rows that find no host keep the directions in which nodes of the primary side can follow, a node for each row.
     fn keep_without_hosts(
         &self,
         lending: &[usize],
@@ -298,7 +298,7 @@ impl Interface {
         Some(follows)
     }
 
-    /// Spreads what belongs to the multiplier of a row that the scratch holds over those of its hosts: (E3). `lambda` is
+    /// Spreads the columns of the multiplier of a row that the scratch holds over those of its hosts: (E3). `lambda` is
     /// its own.
     pub(super) fn spread(
         &self,

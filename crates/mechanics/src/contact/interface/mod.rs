@@ -208,7 +208,7 @@ pub struct Interface {
     elimination: Arc<Elimination>,
     near: Near,
     /// The choices for the present iterate, those of the last accepted state, and those at the start of the increment:
-    /// these stay until the next begins, so that what is told of an accepted state is what acted in it.
+    /// these stay until the next begins, so that the report of an accepted state is of the forces that acted in it.
     now: Pairing,
     accepted: Pairing,
     before: Pairing,
@@ -224,7 +224,7 @@ pub struct Interface {
     resumed: bool,
     /// Whether rows see others than the pattern knows.
     sees_others: bool,
-    /// How often choices that hold while an iteration goes on were made anew in this increment.
+    /// How often choices that hold while an iteration goes on were made again in this increment.
     settled: u8,
     /// What the pattern couples each row with, and what the present iterate asks for.
     coupled: Coupled,
@@ -236,14 +236,14 @@ pub struct Interface {
     first_step: Option<StepContext>,
     /// What overlaps at the start of the increment and is allowed for; empty where nothing is.
     allowed: Allowed,
-    /// Tributary areas at the start, where what bears of them depends on what is met.
+    /// Tributary areas at the start, where the part that counts depends on the facets met.
     whole: Vec<f64>,
     /// The largest motion along the other side so far, over the size of the facets, where contact keeps its geometry, and
     /// its node.
     drift: Option<(f64, NodeId)>,
     /// Rows whose slip turns round from iterate to iterate.
     reversals: Reversals,
-    /// How often each row went to another facet in this increment. Those that go to and fro are held.
+    /// How often each row went to another facet in this increment. Those that alternate are held.
     changes: Vec<u8>,
     /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
     astray: Vec<(usize, Pair)>,
@@ -360,7 +360,7 @@ impl Interface {
         }
     }
 
-    /// What a row brings with it from before, with what it did in the iterate before: for what it is called.
+    /// The past of a row with its status in the previous iterate.
     fn past(&self, row: usize) -> Past {
         Past {
             state: self.judged.get(row).map_or(Contact::Open, |j| j.state),

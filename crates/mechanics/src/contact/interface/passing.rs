@@ -155,7 +155,7 @@ impl Interface {
         crossed.is_some_and(|s| s <= 1.0) && !self.is_held_back(row, jet.normal, at)
     }
 
-    /// Whether a row is behind what it meets, and that faces the way of a normal.
+    /// Whether a row is behind the facet it meets, and that facet faces the same way as a normal.
     fn is_held_back(&self, row: usize, normal: Vec3, at: &Placement) -> bool {
         let mut jet = SurfaceJet::default();
         self.now.pairs[row].is_some_and(|found| {

@@ -1,4 +1,4 @@
-//! What a contact tells of an accepted state.
+//! The report of a contact on an accepted state.
 
 use super::{
     Contact, Interface, Measure, Order, Participant, RowOrder, Rows, Scratch, State, TermError,
@@ -55,7 +55,7 @@ struct Told {
     found: Option<Found>,
 }
 
-/// What a row tells of what it meets, beside what acts on it.
+/// The report of a row on the facet it meets, without the forces on it.
 struct Found {
     normal: Vec3,
     gap: f64,

@@ -1,4 +1,4 @@
-//! Points that go to and fro between facets.
+//! Points that alternate between facets.
 //!
 //! ```text
 //!    valley: the surface rises beyond the edge          ridge: it falls beyond the edge
@@ -10,7 +10,7 @@
 //!
 //! The distance of a point inside a body from its surface is smooth across a valley: between the facets lies the edge,
 //! over a window as wide as the point is deep times the angle of the edge, and an iteration that steps over the window
-//! goes to and fro between the facets for ever. There the point is held to what the facet it is on has closest, its edge
+//! alternates between the facets for ever. There the point is held to the closest point of the facet it is on, its edge
 //! included: that is the closest point once it is in the window, and a spring to a line on the way there. A state that is
 //! found with it is one of closest points, or the point goes on ([`Interface::let_restless_go`]).
 //!
@@ -29,7 +29,7 @@ use signorini_geometry::tensor::Vec3;
 const SAME: f64 = 1e-9;
 
 /// The place of a restless point: on the facet that it was on `before`, while `closest` is the closest of all. `on_edges`
-/// says whether an edge has a normal.
+/// is whether an edge has a normal.
 pub(super) fn place(
     surface: &dyn ContactSurface,
     at: &Placement,
@@ -103,7 +103,7 @@ impl Interface {
         Ok(())
     }
 
-    /// Points that are held to an edge while another place is closest go there; says whether there are any.
+    /// Points that are held to an edge while another place is closest go there; returns whether there are any.
     pub(super) fn let_restless_go(&mut self) -> Option<Verdict> {
         let rows = std::mem::take(&mut self.astray);
         let discretization = self.parts.discretization.as_ref();

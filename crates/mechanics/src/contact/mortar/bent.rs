@@ -1,4 +1,4 @@
-//! Integrals of one facet along a normal at every point, for weights that stay what they are at the start.
+//! Integrals of one facet along a normal at every point, for weights that stay as they are at the start.
 //!
 //! ```text
 //! a_i = t1 × t2 of side i,  t_a = Σ_k ∂N_k/∂p_a x_k,  ν_i = −a_i/|a_i|       (E8)
@@ -47,7 +47,7 @@ pub const SMOOTH: f64 = 0.866_025_403_784_438_6;
 const ITERATIONS: usize = 8;
 const FAR: f64 = 1.0;
 
-/// What is left of the way across the normal, over the largest coordinate.
+/// The residual distance across the normal, over the largest coordinate.
 const ACROSS: f64 = 1e-15;
 
 /// How facets are weighed.
@@ -258,7 +258,7 @@ impl Sums {
     }
 }
 
-/// What both sides see at a point.
+/// Shape functions, normal and area at a point of both sides.
 struct Seen {
     /// N_k and N^m_l.
     own: [f64; MAX_FACET_NODES],

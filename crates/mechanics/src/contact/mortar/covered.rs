@@ -49,7 +49,7 @@ pub struct Derivatives {
     nprimary: usize,
     ncolumn: usize,
     dnormal: [Vec<f64>; 3],
-    /// Of the mean normal of what covers the facet, where it was asked for.
+    /// Of the mean normal of the covering facets, where requested.
     dopposite: [Vec<f64>; 3],
     dd: Vec<f64>,
     dm: Vec<f64>,
@@ -235,7 +235,7 @@ impl Covered {
         &self.m[j * self.nprimary()..][..self.nprimary()]
     }
 
-    /// `∫ψ_j f` from `∫N_k f`, over what is covered.
+    /// `∫ψ_j f` from `∫N_k f`, over the covered part.
     pub(super) fn weighted(&self, j: usize, integrals: &[f64]) -> f64 {
         let row = self.dual.get(j).map_or(&[][..], |row| &row[..self.nnode]);
         row.iter().zip(integrals).map(|(b, f)| b * f).sum()

@@ -29,7 +29,7 @@ pub struct Guests {
     pub(crate) left: Vec<bool>,
     /// Rows that compare their node with its closest point.
     pub(crate) pointwise: Vec<bool>,
-    /// How far the normals of a row have turned from those of its facets to those of what they meet; empty where none has.
+    /// How far the normals of a row have turned from those of its facets to those of the facets they meet; empty where none has.
     pub(crate) turned: Vec<f64>,
     /// Facets that any such row acts on; empty where there is none.
     pub(crate) turning: Vec<bool>,
@@ -163,7 +163,7 @@ impl Weights {
         out
     }
 
-    /// Takes the choices of so many rows that were stored; says whether these numbers are such.
+    /// Restores the choices of this many rows; returns whether the numbers are valid.
     pub fn restore_choices(&mut self, stored: &[f64], nrow: usize) -> bool {
         let Some((&nfacet, stored)) = stored.split_first() else {
             return true;

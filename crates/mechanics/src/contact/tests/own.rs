@@ -122,7 +122,7 @@ fn hairpin(thickness: f64, gap: f64, n: usize) -> Outline {
     })
 }
 
-/// A spiral of some turns, `gap` between them: labels tell inside (1) from outside (2), and the turn.
+/// A spiral of some turns, `gap` between them: labels give inside (1) or outside (2), and the turn.
 fn spiral(thickness: f64, gap: f64, n: usize) -> Outline {
     let (turns, pitch) = (3.0, thickness + gap);
     let line = move |s: f64| {

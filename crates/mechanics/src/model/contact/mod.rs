@@ -320,7 +320,7 @@ impl Context<'_> {
     }
 
     /// β of (E9) of [`mortar`](crate::contact::mortar): how much of the normals between both sides, the primary one first,
-    /// is that of the secondary one. What is rigid keeps its own.
+    /// is that of the secondary one. A rigid surface keeps its own.
     fn share(&self, [primary, secondary]: [Option<&Facets>; 2]) -> f64 {
         match [primary, secondary].map(|side| side.and_then(|s| self.modulus_behind(s))) {
             [Some(primary), Some(secondary)] => secondary / (primary + secondary),

@@ -46,7 +46,7 @@ const SCATTER: f64 = 0.5;
 /// Points of a facet along each of its directions.
 const POINTS: usize = 2;
 
-/// A point of one side with what it meets of the other.
+/// A point of one side with its closest point of the other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Probe {
     pub position: Vec3,
@@ -65,7 +65,7 @@ pub(super) struct Probe {
     pub of_primary: bool,
 }
 
-/// What is known of the sides of a contact at the start.
+/// The sides of a contact at the start.
 #[derive(Debug, Default)]
 pub(super) struct Look {
     /// Nodes of both sides that meet something.
@@ -76,7 +76,7 @@ pub(super) struct Look {
     around: [BTreeMap<NodeId, Around>; 2],
 }
 
-/// What is around a node on its own side.
+/// The surroundings of a node on its own side.
 #[derive(Clone, Copy, Debug, Default)]
 struct Around {
     /// The sum of the normals of facets.
@@ -250,7 +250,7 @@ impl Look {
         }
     }
 
-    /// The nodes that face what they meet.
+    /// The nodes that face the facets they meet.
     pub fn facing(&self) -> impl Iterator<Item = &Probe> {
         self.nodes.iter().filter(|probe| self.faces(probe))
     }
@@ -302,7 +302,7 @@ fn probes(
     Ok(probes)
 }
 
-/// What is around each node of a side.
+/// The surroundings of each node of a side.
 fn around(bent: &Bent, at: &Placement) -> BTreeMap<NodeId, Around> {
     let facets = bent.facets();
     let mut found: BTreeMap<NodeId, Around> = BTreeMap::new();

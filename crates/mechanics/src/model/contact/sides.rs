@@ -610,7 +610,7 @@ impl Sides {
     }
 
     /// Has the reach follow the sizes of facets. It stays the same everywhere where the primary side has no facets that
-    /// nodes carry, and where what is far apart acts, too: a bond, a clearance that is given, a curve of pressures.
+    /// nodes carry, and where distant points act, too: a bond, a clearance that is given, a curve of pressures.
     pub fn reach_locally(&mut self, at: &Placement, part: &ContactPart) {
         let acts_far = part.tie.is_some()
             || part.start.clearance.is_some()

@@ -17,11 +17,11 @@ pub(super) const OPPOSING: f64 = -0.2;
 /// Gaps below this, relative to the largest facet, are nothing.
 const NOTHING: f64 = 1e-9;
 
-/// Overlaps below this, relative to the largest facet, are not told of.
+/// Overlaps below this, relative to the largest facet, are not reported.
 const SMALL: f64 = 1e-6;
 
 impl StartSummary {
-    /// What is near at the start: by nodes of both sides where they are looked at, by rows elsewhere.
+    /// Gaps and overlaps at the start: by nodes of both sides where they are looked at, by rows elsewhere.
     pub(super) fn new(found: &Pairing, look: &Look, part: &ContactPart, size: f64) -> Self {
         let near = found.pairs.iter().flatten().count();
         let left = look.conforms.map_or(0.0, |bent| bent.bent);
@@ -72,8 +72,8 @@ impl ContactPart {
     }
 }
 
-/// Refuses overlaps at the start that are deeper than half the thickness of either body there: nothing says on which side a
-/// point is to come out. Where what is known of one body is that its outline is farther away, it is an interference.
+/// Refuses overlaps at the start that are deeper than half the thickness of either body there: the side on which a
+/// point is to come out is unknown. Where the outline of one body is known to be farther away, it is an interference.
 pub(super) fn not_too_deep(
     mesh: &Mesh,
     sides: &Sides,
@@ -143,7 +143,7 @@ pub(super) fn not_too_deep(
 /// Nodes that an error names.
 const NAMED: usize = 8;
 
-/// What is added to the gaps, beyond what bending does.
+/// The shifts of gaps, in addition to those by bending.
 pub(super) fn shifts(found: &Pairing, bend: Option<&Bend>, part: &ContactPart) -> Vec<Shift> {
     let start = &part.start;
     let rise = |row: usize| bend.and_then(|b| b.rises.get(row)).copied().unwrap_or(0.0);

@@ -132,7 +132,7 @@ struct Fault {
     asked: usize,
     /// How many contacts it claims to have closed.
     nactive: usize,
-    /// Whether what it wavers about changes no force.
+    /// Whether its changes of status change no force.
     continuous: bool,
 }
 

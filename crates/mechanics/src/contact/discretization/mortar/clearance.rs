@@ -1,6 +1,6 @@
-//! The smallest distance of two facets over what they share, along a normal.
+//! The smallest distance of two facets over their common part, along a normal.
 //!
-//! A row that is a weighted mean may close where no point of its facets does: where what covers a facet ends inside it and is
+//! A row that is a weighted mean may close where no point of its facets does: where the covering facet ends inside it and is
 //! tilted, the mean is an extrapolation. The smallest gap between the planes of two facets is at a corner of the polygon, or
 //! at an end of the interval, that they share in the projection along the normal.
 
@@ -32,7 +32,7 @@ impl Flat<'_> {
     }
 }
 
-/// The smallest gap between a secondary and a primary facet over what they share along `nu`, out of the primary side; `None`
+/// The smallest gap between a secondary and a primary facet over their common part along `nu`, out of the primary side; `None`
 /// where they share nothing.
 pub(super) fn least_gap(secondary: Flat, primary: Flat, nu: Vec3) -> Option<f64> {
     let [first, second, ..] = *secondary.corners else {

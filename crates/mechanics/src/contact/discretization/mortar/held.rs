@@ -8,7 +8,7 @@ use signorini_geometry::tensor::Vec3;
 
 impl Mortar {
     /// Replaces the integrals of facets by those along normals between both sides, with this part of the secondary one; says
-    /// whether there are any. What is joined knows no normal.
+    /// whether there are any. Joined sides have no normal.
     pub(super) fn bend(
         &self,
         pair: &SurfacePair,

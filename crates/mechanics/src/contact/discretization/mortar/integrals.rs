@@ -27,7 +27,7 @@ pub(super) enum Wanted {
     Values,
     /// And derivatives.
     Derivatives,
-    /// And those of the mean normal of what covers the facet.
+    /// And those of the mean normal of the covering facets.
     Turning,
 }
 
@@ -102,7 +102,7 @@ impl Integrator {
     }
 
     /// Integrates a secondary facet against those found of one smooth part of the primary side, and leaves these in `near`;
-    /// answers with the part. `before` is the one that it saw before.
+    /// returns the part. `before` is the part it saw before.
     pub fn see(
         &mut self,
         facets: &Facets,
@@ -374,7 +374,7 @@ mod tests {
     use signorini_geometry::surface::SurfaceError;
     use signorini_geometry::tensor::Vec3;
 
-    /// Integrates a square whose size tells the facet and the configuration, as the slopes of its normal do.
+    /// Integrates a square whose size identifies the facet and the configuration, as the slopes of its normal do.
     fn integrate(integrator: &mut Integrator, size: f64) -> Result<(), SurfaceError> {
         let element = by_name("quad4").ok_or(SurfaceError::NoSuchFacet { facet: 0 })?;
         let x: Vec<Vec3> = element.nodes().iter().map(|&x| x * size).collect();

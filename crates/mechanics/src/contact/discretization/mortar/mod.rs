@@ -47,7 +47,7 @@
 //! *Edges.* A mean over both sides of an edge says little about either: where the lower face of a block is pressed and
 //! what it rests on rises away from its flank, one row would press on half of the flank, too. A node of an edge is the node
 //! of one side of it, that which is covered and faces best what it meets, and keeps it until another one does so twice as
-//! well. What its function is on facets of other sides goes to the nodes beside it there (`edges`).
+//! well. The part of its function on facets of other sides goes to the nodes next to it there (`edges`).
 //!
 //! *Held weights.* For small sliding and for what is joined, c and n are those of the start: all is linear, the tangent
 //! symmetric with `A_j = D_j`, and the slip is `e = P(w/D_j − o)` with the way `o` at the start of the increment.
@@ -374,7 +374,7 @@ impl Mortar {
     }
 
     /// Who takes over whose function, by what is covered: on the facet around a node of which most is, which part of it.
-    /// A node of which little is covered leaves it to those beside it that are covered well, or much better than itself.
+    /// A node of which little is covered leaves it to adjacent nodes that are covered well, or much better than itself.
     fn host(
         &self,
         (pair, facets): (&SurfacePair, &Facets),
@@ -472,7 +472,7 @@ impl Mortar {
         aside
     }
 
-    /// What a row would carry goes to those beside it on the same side of the edge, or across it where there are none.
+    /// The function of a row goes to adjacent nodes on the same side of the edge, or across it where there are none.
     fn set_aside(&self, row: usize, facets: &Facets, found: &mut Guests) {
         for &(facet, place) in &self.around[row] {
             let on = &self.rows[facet as usize][..facets.nodes(facet).len()];
@@ -564,7 +564,7 @@ impl Mortar {
     }
 
     /// Pairs of all rows that are covered, and of those that compare points. `near` has the facets near a row, and
-    /// `before` what it met a moment ago.
+    /// `before` its previous pair.
     fn choose(
         &self,
         pair: &SurfacePair,
@@ -600,7 +600,7 @@ impl Mortar {
     }
 }
 
-/// Tells one configuration from all others.
+/// A number that no other configuration has.
 fn next_stamp() -> u64 {
     static STAMP: AtomicU64 = AtomicU64::new(1);
     STAMP.fetch_add(1, Ordering::Relaxed)

@@ -1,9 +1,9 @@
 //! Rows at tips, rolling edges and rims: normals that follow the tilt, and nodes that are compared with their closest points.
 //!
-//! Where a body rolls over an edge, facets are tilted against what they rest on. A pressure along the normal of a tilted facet
-//! is not one along that of the surface, and friction along the facet not friction along the surface. The tilt of row j
-//! is the angle between the mean normals of the facets around its node and of what they meet, beyond what the facets of both
-//! sides turn at the start,
+//! Where a body rolls over an edge, facets are tilted against the surface they rest on. A pressure along the normal of a
+//! tilted facet is not one along that of the surface, and friction along the facet not friction along the surface. The tilt of row j
+//! is the angle between the mean normals of the facets around its node and of those they meet, beyond the turn between facets
+//! of both sides at the start,
 //!
 //! ```text
 //! N = Σ_e ν_e D_j^e,  M = Σ_e μ_e D_j^e,  θ_j = max(0, ∠(N, M) − τ_j/2)                      (E1)
@@ -267,7 +267,7 @@ impl Mortar {
             return false;
         };
         let apart = |gap: f64| mean < gap - APART * size;
-        // mostly the node itself tells that it is not
+        // in most cases the node itself shows that it is not
         let met = || {
             own.iter()
                 .filter_map(|&(f, _)| of_facet(f))
@@ -291,7 +291,7 @@ impl Mortar {
         least.is_finite() && apart(least)
     }
 
-    /// Whether a node whose facets meet nothing may touch what it is closest to: not where these are flush with it, past
+    /// Whether a node whose facets meet nothing may touch its closest facet: not where these are flush with it, past
     /// the rim of the primary side.
     pub(super) fn may_touch(
         &self,
@@ -346,7 +346,7 @@ impl Mortar {
         (area > 0.0).then(|| sum / area)
     }
 
-    /// Chooses how far the normals of rows turn to those of what they meet, by their tilt.
+    /// Chooses how far the normals of rows turn to those of the primary side, by their tilt.
     pub(super) fn turn(&self, weights: &Weights, from_rest: bool, found: &mut Guests) {
         if self.form.joined
             || self.form.normals != Normals::Turning

@@ -144,7 +144,7 @@ impl SmoothParts {
         }
     }
 
-    /// Leaves in `seen` the facets of one smooth part, (E1), and answers with its number. `whole` is the area of the
+    /// Leaves in `seen` the facets of one smooth part, (E1), and returns its number. `whole` is the area of the
     /// secondary facet, `size` its length, and `before` the part that it saw before.
     pub fn choose(
         &self,
