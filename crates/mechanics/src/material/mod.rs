@@ -168,6 +168,14 @@ pub trait Material: Send + Sync {
     /// The stiffness against uniaxial strain of the undeformed material, λ + 2μ: what automatic penalties scale with.
     fn modulus(&self) -> f64;
 
+    /// The smallest stiffness against shear of the undeformed material: μ where it is isotropic. `None` where it has none,
+    /// or no answer there.
+    fn shear_modulus(&self) -> Option<f64> {
+        let c = undeformed_tangent(self, Kinematics::Small)?;
+        let shear = (3..6).map(|i| c[i][i]).filter(|&g| g > 0.0);
+        shear.reduce(f64::min)
+    }
+
     /// Whether the tangent is symmetric.
     fn is_symmetric(&self) -> bool {
         true
@@ -192,6 +200,20 @@ pub trait Material: Send + Sync {
     fn plastic_strain(&self, _history: &[f64]) -> Option<f64> {
         None
     }
+}
+
+/// The tangent of the undeformed material at temperature zero; `None` where it has no answer there.
+pub(crate) fn undeformed_tangent<M: Material + ?Sized>(
+    material: &M,
+    kinematics: Kinematics,
+) -> Option<[[f64; 6]; 6]> {
+    let mut start = vec![0.0; material.nhistory()];
+    material.start(&mut start);
+    let mut new = start.clone();
+    let mut response = Response::default();
+    let strain = Strain::new(kinematics, Sym3::ZERO);
+    let outcome = material.respond(&strain, &start, &mut new, Order::Tangent, &mut response);
+    outcome.ok().map(|()| response.tangent)
 }
 
 /// Lamé's constants.

@@ -256,6 +256,10 @@ impl Model {
             .iter()
             .map(|b| b.kind.material().map(|m| m.modulus()))
             .collect();
+        let shear_modulus: Vec<Option<f64>> = bodies
+            .iter()
+            .map(|b| b.kind.material().and_then(|m| m.shear_modulus()))
+            .collect();
         if modulus.iter().all(Option::is_none) && springs.is_empty() {
             return Err(ModelError::NothingDeforms);
         }
@@ -270,6 +274,7 @@ impl Model {
             reference: &reference,
             owner: &owner,
             modulus: &modulus,
+            shear_modulus: &shear_modulus,
             substances: &substances,
             elimination: Arc::new(elimination),
             carriers: &carriers,
@@ -379,6 +384,7 @@ struct Context<'a> {
     reference: &'a Arc<[Vec3]>,
     owner: &'a HashMap<CellId, usize>,
     modulus: &'a [Option<f64>],
+    shear_modulus: &'a [Option<f64>],
     substances: &'a [Substance],
     elimination: Arc<Elimination>,
     carriers: &'a [CarrierPart],

@@ -1,9 +1,8 @@
 use super::kernel::Remedy;
-use crate::material::{Kinematics, Material, Order, Response, Strain};
+use crate::material::{Kinematics, Material, undeformed_tangent};
 use crate::system::Idealisation;
 use signorini_geometry::element::ReferenceElement;
 use signorini_geometry::element::quadrature::{self, Rule};
-use signorini_geometry::tensor::Sym3;
 use std::fmt;
 
 /// How many quadrature points an element has.
@@ -71,14 +70,9 @@ pub(super) fn keeps_volume(material: &dyn Material, kinematics: Kinematics) -> b
     if material.plastic_strain(&start).is_some() {
         return true;
     }
-    let mut new = start.clone();
-    let mut response = Response::default();
-    let strain = Strain::new(kinematics, Sym3::ZERO);
-    let outcome = material.respond(&strain, &start, &mut new, Order::Tangent, &mut response);
-    if outcome.is_err() {
+    let Some(c) = undeformed_tangent(material, kinematics) else {
         return false;
-    }
-    let c = &response.tangent;
+    };
     let bulk = (0..3).flat_map(|i| &c[i][..3]).sum::<f64>() / 9.0;
     let shear = (3..6).map(|i| c[i][i]).sum::<f64>() / 3.0;
     // ν = (3K − 2μ)/(2(3K + μ))

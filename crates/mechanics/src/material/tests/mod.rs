@@ -342,3 +342,38 @@ fn linear_laws_have_one_tangent_and_proportional_stress_at_small_strain() {
         assert!(is_linear || !material.is_linear(), "{name}");
     }
 }
+
+#[test]
+fn the_shear_modulus_is_the_least_stress_of_a_small_shear() {
+    for (name, material) in zoo() {
+        let size = 1e-6;
+        let planes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let stiffnesses = planes.map(|[yz, xz, xy]| {
+            let strain = Sym3::new(0.0, 0.0, 0.0, yz, xz, xy) * (0.5 * size);
+            let pairs = fresh(material.as_ref(), &Strain::new(Kinematics::Small, strain));
+            let still = fresh(
+                material.as_ref(),
+                &Strain::new(Kinematics::Small, Sym3::ZERO),
+            );
+            let stress = (pairs.stress - still.stress).to_pairs();
+            stress[3] * yz + stress[4] * xz + stress[5] * xy
+        });
+        let least = stiffnesses
+            .map(|s| s / size)
+            .into_iter()
+            .filter(|s| *s > 0.0);
+        let least = least.fold(f64::INFINITY, f64::min);
+        let Some(modulus) = material.shear_modulus() else {
+            // a law of one direction has none
+            assert!(least.is_infinite(), "{name}");
+            continue;
+        };
+        assert!(
+            (modulus - least).abs() < 1e-5 * least,
+            "{name}: {modulus} {least}"
+        );
+        assert!(modulus < material.modulus(), "{name}");
+    }
+    let isotropic = of_table("linear-elastic");
+    assert_eq!(isotropic.shear_modulus(), isotropic.lame().map(|l| l.mu));
+}
