@@ -209,6 +209,12 @@ impl Term for Damper {
         back
     }
 
+    fn relent(&mut self) {
+        if let Strength::UntilHeld { needed, .. } = &mut self.strength {
+            *needed = false;
+        }
+    }
+
     fn damp(&mut self, asked: f64, drift: &[f64]) -> bool {
         let Strength::Asked(strength) = &mut self.strength else {
             return false;

@@ -147,7 +147,7 @@ pub enum Event<'a> {
 pub enum Flow {
     /// Go on.
     Continue,
-    /// Stop after what is accepted now.
+    /// Stop: before the next iteration of an increment that has not converged, which is then repeated by who goes on.
     Stop,
 }
 

@@ -7,9 +7,9 @@
 //! and none is taken; where it does not, everything is as before.
 
 use super::Step;
-use super::event::{Event, Flow, IterationRecord, Observer};
+use super::event::{Event, IterationRecord, Observer};
 use super::newton::Goal;
-use super::stepping::{Accepted, Stepper, TIME, reject, rescued};
+use super::stepping::{Accepted, Stepper, TIME, reject, relent, rescued};
 use crate::system::{Archive, Dof, System, TermError};
 
 /// The first part of an increment, and by how much smaller parts are after one that failed.
@@ -86,6 +86,7 @@ impl Stepper {
         let mut targets: Vec<(Dof, f64)> = Vec::new();
         let mut pace: Option<Vec<f64>> = None;
         let mut parts = 0;
+        let mut safer = false;
         let mut accepted = Accepted::default();
         while end - reached > TIME * whole {
             let to = if end - reached < 1.5 * size {
@@ -104,11 +105,8 @@ impl Stepper {
             };
             let place = self.place(attempt);
             let from = self.state.u.clone();
-            let mut iteration = |record: &IterationRecord| {
-                if observer.notice(&Event::Iteration(record)) == Flow::Stop {
-                    accepted.flow = Flow::Stop;
-                }
-            };
+            let mut iteration =
+                |record: &IterationRecord| observer.notice(&Event::Iteration(record));
             let solved = self
                 .newton
                 .solve(system, &self.state, &goal, place, &mut iteration);
@@ -118,15 +116,19 @@ impl Stepper {
                 accepted.iterations += solved.iterations;
                 accepted.residual = solved.residual;
                 pace = Some(rate(&from, &self.state.u, dt));
-                (reached, parts) = (to, parts + 1);
+                (reached, parts, safer) = (to, parts + 1, false);
                 continue;
             }
             reject(system);
             // a failure from an extrapolated start says nothing about one from the last state
-            if guess.is_none() && !rescued(system) {
-                size *= PART;
+            if !self.newton.extrapolated {
+                safer = !safer && rescued(system);
+                if !safer {
+                    relent(system);
+                    size *= PART;
+                }
             }
-            if size < LEAST * whole || accepted.flow == Flow::Stop {
+            if size < LEAST * whole || self.newton.stopping {
                 return None;
             }
         }

@@ -2,7 +2,7 @@
 
 use super::economy::{Economy, Excess};
 use super::equations::{Accuracy, Equations, Factor};
-use super::event::IterationRecord;
+use super::event::{Flow, IterationRecord};
 use super::line_search;
 use crate::system::linear::{EXACT, LinearError, StartStiffness};
 use crate::system::{
@@ -23,13 +23,15 @@ pub enum LineSearch {
 /// opens from its rim inwards takes an iteration for every row of them.
 const PATIENCE: usize = 3;
 
-/// Iterations over which the smallest residual has to fall to this part of the smallest before them.
+/// Iterations over which the smallest residual, or the smallest number of discrete choices that change, has to fall to this part
+/// of the smallest before them.
 const FALLS: (usize, f64) = (5, 0.7);
 
 /// The numbers of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonSettings {
-    /// Linear solves after which an increment is given up; three times as many while the residual falls.
+    /// Linear solves after which an increment is given up; three times as many while the residual, or the number of discrete
+    /// choices that change, falls.
     pub max_iterations: usize,
     /// Largest residual over the mean force, condition (a).
     pub force_tol: f64,
@@ -87,6 +89,12 @@ pub enum Failure {
         /// The dof with the largest residual.
         worst: Option<Dof>,
     },
+    /// An observer asked to stop before it had converged.
+    #[error("the run was asked to stop after {iterations} iterations of an increment")]
+    Interrupted {
+        /// Linear solves done.
+        iterations: usize,
+    },
     /// A term could not be evaluated.
     #[error(transparent)]
     Term(#[from] TermError),
@@ -108,14 +116,15 @@ const BORNE: f64 = 1e-6;
 
 /// ... or its motion, by rounding, below this part of the largest one.
 const STILL: f64 = 1e-9;
-/// Whether residuals, one for each iteration, still fall.
-fn falls(residuals: &[f64]) -> bool {
+
+/// Whether a measure of what is wrong, one for each iteration, still falls.
+pub(super) fn falls(measures: &[f64]) -> bool {
     let (window, part) = FALLS;
     let smallest = |some: &[f64]| some.iter().copied().fold(f64::INFINITY, f64::min);
-    let Some(at) = residuals.len().checked_sub(window).filter(|&at| at > 0) else {
+    let Some(at) = measures.len().checked_sub(window).filter(|&at| at > 0) else {
         return false;
     };
-    let (before, since) = residuals.split_at(at);
+    let (before, since) = measures.split_at(at);
     smallest(since) < part * smallest(before)
 }
 
@@ -330,6 +339,10 @@ pub(super) struct Newton {
     du: Vec<f64>,
     /// Dofs at which motions without stiffness are held by the present tangent, each with the stiffness that does.
     held: Vec<(Dof, f64)>,
+    /// Whether the last increment started from an extrapolation.
+    pub extrapolated: bool,
+    /// Whether an observer has asked to stop.
+    pub stopping: bool,
 }
 
 impl Newton {
@@ -383,17 +396,22 @@ impl Newton {
             before: state,
             du: Vec::new(),
             held: Vec::new(),
+            extrapolated: false,
+            stopping: false,
         }
     }
 
     /// Solves one increment from the accepted state `base`. Afterwards `trial` is the new state.
+    ///
+    /// # Errors
+    /// Why it did not converge; `Interrupted` where `report` asks to stop before it has.
     pub fn solve(
         &mut self,
         system: &mut System,
         base: &State,
         goal: &Goal<'_>,
         place: Place,
-        report: &mut dyn FnMut(&IterationRecord),
+        report: &mut dyn FnMut(&IterationRecord) -> Flow,
     ) -> Result<Converged, Failure> {
         for term in &mut system.terms {
             term.begin_increment(base)?;
@@ -404,7 +422,9 @@ impl Newton {
         let Start {
             mut motion,
             changes: mut of_start,
+            extrapolated,
         } = self.start(system, base, goal);
+        self.extrapolated = extrapolated;
         let mut correction = 0.0;
         // whether a correction tells how far off the state is
         let mut solved = false;
@@ -421,6 +441,7 @@ impl Newton {
         let nmotion = system.layout.nmotion();
         let mut iterations = 0;
         let mut residuals = Vec::with_capacity(last + 1);
+        let mut changes_so_far = Vec::with_capacity(last + 1);
         loop {
             let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
             let little = solved && correction <= CORRECTION * moved;
@@ -447,7 +468,7 @@ impl Newton {
             } = verdicts(system, &self.trial);
             let flips = flips + std::mem::take(&mut of_start);
             let closed = nclosed(system);
-            report(&IterationRecord {
+            let flow = report(&IterationRecord {
                 step: place.step,
                 increment: place.increment,
                 attempt: place.attempt,
@@ -460,12 +481,19 @@ impl Newton {
                 closed,
                 flips,
             });
+            self.stopping |= flow == Flow::Stop;
             // where forces are continuous, the residual alone is the error of the state, whatever its status
             let still = || correction <= alpha * (STILL_MOVED * moved).max(self.rounding());
             let changes = repeat.is_some() && continuous;
             let indifferent = changes && judgement.small && solved && still();
             let settled = repeat.is_none() || iterations == 0 || indifferent;
             residuals.push(judgement.residual);
+            // the first iterate has nothing to compare with
+            changes_so_far.push(if iterations == 0 {
+                f64::INFINITY
+            } else {
+                flips as f64
+            });
             unsettled = repeat.or(unsettled);
             let known = judgement.round_off || little || indifferent;
             let is_found = !motion && judgement.small && settled && known;
@@ -476,6 +504,7 @@ impl Newton {
                 (self.assembled, self.has_tangent) = (None, false);
                 last = iterations + self.settings.max_iterations;
                 residuals.clear();
+                changes_so_far.clear();
                 correction = 0.0;
                 solved = false;
                 continue;
@@ -495,6 +524,7 @@ impl Newton {
                         augmentations += 1;
                         last = iterations + self.settings.max_iterations;
                         residuals.clear();
+                        changes_so_far.clear();
                         // the change may be of no account: then the state is judged again as it is, but only once
                         if std::mem::replace(&mut released, true) {
                             correction = 0.0;
@@ -513,6 +543,9 @@ impl Newton {
                     }
                 }
             }
+            if self.stopping {
+                return Err(Failure::Interrupted { iterations });
+            }
             if judgement.residual.is_nan() || judgement.residual > DIVERGED {
                 return Err(Failure::Diverged {
                     iterations,
@@ -521,7 +554,8 @@ impl Newton {
                 });
             }
             let longest = last + (PATIENCE - 1) * self.settings.max_iterations;
-            let goes_on = iterations < longest && falls(&residuals);
+            let progresses = falls(&residuals) || falls(&changes_so_far);
+            let goes_on = iterations < longest && progresses;
             if iterations >= last && !goes_on {
                 return Err(Failure::TooManyIterations {
                     iterations,
@@ -596,7 +630,11 @@ impl Newton {
     fn start(&mut self, system: &mut System, base: &State, goal: &Goal<'_>) -> Start {
         let Some(guess) = goal.guess else {
             let motion = self.begin(system, base, goal);
-            return Start { motion, changes: 0 };
+            return Start {
+                motion,
+                changes: 0,
+                extrapolated: false,
+            };
         };
         self.extrapolate(system, base, goal, guess);
         // few choices change, as a rule
@@ -617,6 +655,7 @@ impl Newton {
             return Start {
                 motion: false,
                 changes: verdicts.flips,
+                extrapolated: true,
             };
         }
         self.forget(system);
@@ -635,6 +674,7 @@ impl Newton {
         Start {
             motion: motion && !better,
             changes: 0,
+            extrapolated: better,
         }
     }
 
@@ -976,6 +1016,8 @@ struct Start {
     motion: bool,
     /// How many discrete choices have changed, as terms have told already.
     changes: usize,
+    /// Whether it is the extrapolation.
+    extrapolated: bool,
 }
 
 /// What all terms say of an iterate.

@@ -19,7 +19,7 @@
 //!
 //! Limits: inertia plays no part. A jump that never comes to rest (a body that falls, a limit load) fails as before.
 
-use super::event::{Event, Flow, Observer};
+use super::event::{Event, Observer};
 use super::newton::Goal;
 use super::stepping::{Accepted, Stepper, reject};
 use crate::system::{Archive, Dof, System, TermError};
@@ -107,15 +107,13 @@ impl Stepper {
             let solved = self
                 .newton
                 .solve(system, &self.state, &goal, place, &mut |record| {
-                    if observer.notice(&Event::Iteration(record)) == Flow::Stop {
-                        accepted.flow = Flow::Stop;
-                    }
+                    observer.notice(&Event::Iteration(record))
                 });
             let Ok(solved) = solved else {
                 reject(system);
                 viscosity = viscosity.max(FAINT) * GROWTH;
                 patience = PATIENCE;
-                if viscosity > STIFF || accepted.flow == Flow::Stop {
+                if viscosity > STIFF || self.newton.stopping {
                     return None;
                 }
                 continue;

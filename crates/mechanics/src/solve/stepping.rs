@@ -150,22 +150,10 @@ pub struct Stepper {
 }
 
 /// An increment that was accepted.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Accepted {
     pub iterations: usize,
     pub residual: f64,
-    /// What the observer said meanwhile.
-    pub flow: Flow,
-}
-
-impl Default for Accepted {
-    fn default() -> Self {
-        Self {
-            iterations: 0,
-            residual: 0.0,
-            flow: Flow::Continue,
-        }
-    }
 }
 
 /// Where a run is: with the state and the histories of the terms, all that it needs to go on.
@@ -302,6 +290,7 @@ impl Stepper {
         steps: &[Step],
         observer: &mut dyn Observer,
     ) -> Result<Outcome, RunError> {
+        self.newton.stopping = false;
         while let Some(step) = steps.get(self.progress.step) {
             let number = self.progress.step;
             let event = Event::Step {
@@ -390,6 +379,7 @@ impl Stepper {
             let mut attempt = 1;
             let mut failed = 0;
             let mut owed = false;
+            let easy = self.progress.easy;
             self.safer = false;
             let works = [stabilization::work_of(system), self.progress.work.total];
             let (end, accepted) = loop {
@@ -405,14 +395,22 @@ impl Stepper {
                     Err(failure) => failure,
                 };
                 reject(system);
+                if self.newton.stopping {
+                    self.progress.easy = easy;
+                    return Ok(Outcome::Stopped);
+                }
                 // a failure from an extrapolated start says nothing about one from the last state
-                let extrapolated = attempt == 1 && self.extrapolates();
+                let extrapolated = self.newton.extrapolated;
                 let smaller = dt * severity(&failure);
                 let smallest = min.is_none_or(|m| smaller < m);
                 failed += usize::from(!extrapolated);
-                // terms may know a safer way
-                let again = extrapolated || rescued(system);
-                self.safer |= again && !extrapolated;
+                // terms may know a safer way, and a smaller increment is tried the usual way first
+                let safer = !extrapolated && !self.safer && rescued(system);
+                let again = extrapolated || safer;
+                if !again {
+                    relent(system);
+                }
+                self.safer = safer || (self.safer && again);
                 let due = |n| failed == n + 1 || (smallest && failed <= n);
                 owed |= !extrapolated && self.stabilize_after.is_some_and(due);
                 if owed && !again {
@@ -421,6 +419,10 @@ impl Stepper {
                     let helped = self.help(system, step, end, attempt, observer)?;
                     if let Some(accepted) = helped {
                         break (end, accepted);
+                    }
+                    if self.newton.stopping {
+                        self.progress.easy = easy;
+                        return Ok(Outcome::Stopped);
                     }
                 }
                 let next = if again { dt } else { smaller };
@@ -475,7 +477,7 @@ impl Stepper {
                 frame: &frame,
             };
             let after = observer.notice(&event);
-            if accepted.flow == Flow::Stop || after == Flow::Stop {
+            if self.newton.stopping || after == Flow::Stop {
                 return Ok(Outcome::Stopped);
             }
         }
@@ -513,7 +515,6 @@ impl Stepper {
         observer: &mut dyn Observer,
     ) -> Result<Accepted, Failure> {
         let place = self.place(attempt);
-        let mut flow = Flow::Continue;
         let time = self.progress.step_start + end;
         let dt = end - self.progress.time;
         self.guess.clear();
@@ -528,9 +529,7 @@ impl Stepper {
         let outcome = self
             .newton
             .solve(system, &self.state, &goal, place, &mut |record| {
-                if observer.notice(&Event::Iteration(record)) == Flow::Stop {
-                    flow = Flow::Stop;
-                }
+                observer.notice(&Event::Iteration(record))
             });
         for note in self.newton.equations.notes() {
             observer.notice(&Event::Solver {
@@ -551,7 +550,6 @@ impl Stepper {
         Ok(Accepted {
             iterations: converged.iterations,
             residual: converged.residual,
-            flow,
         })
     }
 
@@ -750,6 +748,13 @@ pub(super) fn reject(system: &mut System) {
 pub(super) fn rescued(system: &mut System) -> bool {
     let safer = system.terms.iter_mut().map(|term| term.rescue());
     safer.fold(false, |any, one| any | one)
+}
+
+/// Lets all terms go their usual way again.
+pub(super) fn relent(system: &mut System) {
+    for term in &mut system.terms {
+        term.relent();
+    }
 }
 
 /// Relative difference below which two times are equal.

@@ -367,10 +367,13 @@ pub trait Term: Send + Sync {
     }
 
     /// The iteration failed: says whether the term knows a slower and safer way to the same solution, which it then goes
-    /// until the increment is accepted.
+    /// until the increment is accepted, or the term is asked to [`relent`](Term::relent).
     fn rescue(&mut self) -> bool {
         false
     }
+
+    /// The safer way failed, too: the term goes its usual way again.
+    fn relent(&mut self) {}
 
     /// Viscous forces of this strength act from the next increment on, none at 0, against what moves since its start
     /// beyond `drift`: a number for each unknown, or nothing. Says whether the term has any.

@@ -93,6 +93,11 @@ impl History {
         }
     }
 
+    /// Limits of friction are not held any more.
+    pub fn forget_limits(&mut self) {
+        self.limits = None;
+    }
+
     /// Whether limits of friction are held.
     pub fn holds_limits(&self) -> bool {
         self.limits.is_some()
@@ -252,13 +257,38 @@ impl Interface {
         if self.laws().friction.is_none() || self.history.limits.is_some() {
             return false;
         }
-        // everything sticks to begin with, unless sticking itself is given by the limit
-        let start = match self.laws().stick {
-            Stick::Stiffness(_) => f64::INFINITY,
-            Stick::Slip(_) => 0.0,
-        };
-        self.history.limits = Some(vec![start; self.history.accepted.len()]);
+        self.history.limits = Some(Vec::new());
         true
+    }
+
+    /// Limits that are held begin an increment as those of the pressures at its start. Where there are none, everything sticks
+    /// to begin with, unless sticking itself is given by the limit.
+    pub(super) fn begin_limits(&mut self, from: &State) -> Result<(), TermError> {
+        if self.history.limits.is_none() {
+            return Ok(());
+        }
+        let limits = self.limits_at(from)?;
+        let rests = limits.iter().all(|limit| *limit == 0.0);
+        let start = match self.laws().stick {
+            Stick::Stiffness(_) if rests => f64::INFINITY,
+            _ => 0.0,
+        };
+        self.history.limits = Some(limits.into_iter().map(|limit| start.max(limit)).collect());
+        Ok(())
+    }
+
+    /// The limits of friction of the pressures in a state.
+    fn limits_at(&self, state: &State) -> Result<Vec<f64>, TermError> {
+        let mut rows = Rows::default();
+        let mut limits = Vec::with_capacity(self.history.accepted.len());
+        for row in 0..self.history.accepted.len() {
+            let acts = self.acting_row(row, state, RowOrder::Gap, &mut rows)?;
+            let filled = rows.rows().first().filter(|_| acts);
+            let path = self.history.past(row).path;
+            let limit = |r| self.laws().limit(r, &self.lambda(row, state), path);
+            limits.push(filled.map_or(0.0, limit));
+        }
+        Ok(limits)
     }
 
     /// Limits that are held become those of the pressures found with them.
@@ -266,15 +296,7 @@ impl Interface {
         let Some(limits) = &self.history.limits else {
             return Ok(Verdict::Settled);
         };
-        let mut rows = Rows::default();
-        let mut renewed = Vec::with_capacity(limits.len());
-        for row in 0..limits.len() {
-            let acts = self.acting_row(row, trial, RowOrder::Gap, &mut rows)?;
-            let filled = rows.rows().first().filter(|_| acts);
-            let path = self.history.past(row).path;
-            let limit = |r| self.laws().limit(r, &self.lambda(row, trial), path);
-            renewed.push(filled.map_or(0.0, limit));
-        }
+        let renewed = self.limits_at(trial)?;
         let largest = renewed.iter().fold(0.0f64, |m, l| m.max(*l));
         let changes = renewed
             .iter()

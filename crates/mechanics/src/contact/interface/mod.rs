@@ -594,6 +594,7 @@ impl Term for Interface {
         self.changes.fill(0);
         self.reversals.reset(self.parts.discretization.nrow());
         self.history.begin();
+        self.begin_limits(from)?;
         self.stick(&at).map_err(|e| self.failed(&e))
     }
 
@@ -709,6 +710,10 @@ impl Term for Interface {
 
     fn rescue(&mut self) -> bool {
         self.hold_limits()
+    }
+
+    fn relent(&mut self) {
+        self.history.forget_limits();
     }
 
     fn has_saddle(&self) -> bool {
