@@ -6,7 +6,7 @@ use super::event::{Flow, IterationRecord};
 use super::line_search;
 use crate::system::linear::{EXACT, LinearError, StartStiffness};
 use crate::system::{
-    Assembler, Assembly, Dof, DofName, NodeId, Order, State, System, TermError, Verdict,
+    Assembler, Assembly, Dof, DofName, Layout, NodeId, Order, State, System, TermError, Verdict,
 };
 use thiserror::Error;
 
@@ -339,6 +339,8 @@ pub(super) struct Newton {
     du: Vec<f64>,
     /// Dofs at which motions without stiffness are held by the present tangent, each with the stiffness that does.
     held: Vec<(Dof, f64)>,
+    /// Whether multipliers are redundant in this increment, so that tangents let them yield.
+    relaxes: bool,
     /// Whether the last increment started from an extrapolation.
     pub extrapolated: bool,
     /// Whether an observer has asked to stop.
@@ -396,6 +398,7 @@ impl Newton {
             before: state,
             du: Vec::new(),
             held: Vec::new(),
+            relaxes: false,
             extrapolated: false,
             stopping: false,
         }
@@ -418,7 +421,7 @@ impl Newton {
         }
         self.assembler.begin_increment(&system.terms);
         self.equations.forget();
-        self.has_tangent = false;
+        (self.has_tangent, self.relaxes) = (false, false);
         let Start {
             mut motion,
             changes: mut of_start,
@@ -589,7 +592,7 @@ impl Newton {
                 let bulk = self.bulk_at_start(system)?;
                 self.equations.start_from(which, bulk);
             }
-            let left = self.solve_linear(motion, nearly || serves, accuracy)?;
+            let left = self.solve_linear(&system.layout, motion, nearly || serves, accuracy)?;
             if !serves {
                 economy.solved(judgement.excess, left);
             }
@@ -780,6 +783,9 @@ impl Newton {
             order,
             &mut self.assembly,
         )?;
+        if self.relaxes && order == Order::Tangent {
+            self.assembler.relax(&system.layout, &mut self.assembly);
+        }
         self.assembled = Some(order);
         self.has_tangent |= order == Order::Tangent;
         Ok(())
@@ -815,6 +821,7 @@ impl Newton {
     /// Solves for the step; returns the relative residual that is left.
     fn solve_linear(
         &mut self,
+        layout: &Layout,
         motion: bool,
         keep_factor: bool,
         accuracy: Accuracy,
@@ -833,6 +840,14 @@ impl Newton {
                     .solve(assembler, assembly, motion, kept, accuracy, &mut self.du);
         }
         if outcome.is_err() {
+            let new = Factor::New;
+            outcome =
+                self.equations
+                    .solve(assembler, assembly, motion, new, accuracy, &mut self.du);
+        }
+        if !self.relaxes && matches!(outcome, Err(LinearError::Singular { .. })) {
+            self.relaxes = self.assembler.relax(layout, &mut self.assembly) > 0;
+            let (assembler, assembly) = (&self.assembler, &self.assembly);
             let new = Factor::New;
             outcome =
                 self.equations

@@ -11,6 +11,9 @@ use super::{
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
 
+/// Compliance of redundant multipliers over that of what they act on: far below all that is of interest, far above rounding.
+const YIELDING: f64 = 1e-6;
+
 /// Chunks of a wave for each thread, of which stiffness is wanted: the fewer, the more of what is added is in cache.
 const PER_THREAD: usize = 4;
 /// Chunks of a wave, at most: bounds the memory, and nothing else.
@@ -439,6 +442,64 @@ impl Assembler {
         *to? += stiffness;
         out.bulk_of = None;
         Some(stiffness)
+    }
+
+    /// Gives multipliers that act on unknowns with a stiffness a compliance, in the tangent `out` alone: [`YIELDING`] of
+    ///
+    /// ```text
+    /// Σ_j B_j² / K_jj                                                                          (E2)
+    /// ```
+    ///
+    /// with the coefficients `B_j` of the multiplier and the stiffness `K_jj` of what they act on, about that of its own
+    /// equation once displacements are eliminated. Says how many there are.
+    ///
+    /// Where several are redundant, the tangent is singular though the problem is not: with this each takes the share that a
+    /// very stiff joint would give it. Residuals stay as they are, so that the state that is found is not changed.
+    pub fn relax(&self, layout: &Layout, out: &mut Assembly) -> usize {
+        let pattern = &self.interface;
+        let multipliers =
+            layout.multiplier(0) as usize..layout.multiplier(layout.nmultiplier) as usize;
+        let mut added: Vec<(usize, f64)> = Vec::new();
+        for row in multipliers.clone() {
+            let Some(&[begin, end]) = pattern.row_start.get(row..row + 2) else {
+                continue;
+            };
+            let columns = pattern.column.get(begin..end).unwrap_or_default();
+            let coefficients = out.interface.get(begin..end).unwrap_or_default();
+            let mut compliance = 0.0;
+            for (&column, b) in columns.iter().zip(coefficients) {
+                if *b != 0.0 && !multipliers.contains(&(column as usize)) {
+                    let stiffness = self.stiffness_of(column, out);
+                    compliance += if stiffness > 0.0 {
+                        b * b / stiffness
+                    } else {
+                        0.0
+                    };
+                }
+            }
+            let diagonal = pattern.position(row as Dof, row as Dof);
+            if let Some(at) = diagonal.filter(|_| compliance > 0.0) {
+                added.push((at, YIELDING * compliance));
+            }
+        }
+        for &(at, compliance) in &added {
+            if let Some(entry) = out.interface.get_mut(at) {
+                *entry -= compliance;
+            }
+        }
+        added.len()
+    }
+
+    /// The entry of an unknown on the diagonal of a tangent.
+    fn stiffness_of(&self, dof: Dof, of: &Assembly) -> f64 {
+        let (ndim, node) = (self.bulk.block, dof / self.bulk.block.max(1) as u32);
+        let in_bulk = (node as usize) < self.bulk.nrow();
+        let block = in_bulk.then(|| self.bulk.position(node, node)).flatten();
+        let place = block.map(|block| block * ndim * ndim + dof as usize % ndim * (ndim + 1));
+        let of_bulk = place.and_then(|at| of.bulk.get(at));
+        let position = self.interface.position(dof, dof);
+        let of_interface = position.and_then(|at| of.interface.get(at));
+        of_bulk.copied().unwrap_or_default() + of_interface.copied().unwrap_or_default()
     }
 
     /// Evaluates all terms at a trial state into `out`.

@@ -176,6 +176,107 @@ fn what_is_wrong_falls_where_its_least_of_late_is_well_below_the_least_before() 
     assert_eq!(all, [false, true, false, false]);
 }
 
+/// A multiplier that keeps two nodes, or a node and the ground, at the same place along x.
+struct Link {
+    number: usize,
+    nodes: Vec<NodeId>,
+    layout: Layout,
+}
+
+impl Term for Link {
+    fn name(&self) -> &str {
+        "link"
+    }
+
+    fn pattern(&self, out: &mut dyn PatternSink) {
+        let multiplier = self.layout.multiplier(self.number);
+        let dofs: Vec<Dof> = self
+            .nodes
+            .iter()
+            .map(|n| x(*n))
+            .chain([multiplier])
+            .collect();
+        out.interface(&dofs);
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::Symmetric
+    }
+
+    fn part(&self) -> Part {
+        Part::Interface
+    }
+
+    fn nchunk(&self) -> usize {
+        1
+    }
+
+    fn evaluate(
+        &self,
+        _: usize,
+        trial: &State,
+        order: Order,
+        _: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let multiplier = self.layout.multiplier(self.number);
+        let signs = [1.0, -1.0];
+        let n = self.nodes.len();
+        let mut dofs = Vec::new();
+        let (mut force, mut stiffness) = (vec![0.0; n + 1], vec![0.0; (n + 1) * (n + 1)]);
+        for (k, (&node, sign)) in self.nodes.iter().zip(signs).enumerate() {
+            dofs.push(x(node));
+            force[k] = sign * trial.u[multiplier as usize];
+            force[n] += sign * trial.u[x(node) as usize];
+            stiffness[k * (n + 1) + n] = sign;
+            stiffness[n * (n + 1) + k] = sign;
+        }
+        dofs.push(multiplier);
+        if order == Order::Residual {
+            stiffness.clear();
+        }
+        out.add(&dofs, &force, &stiffness);
+        Ok(())
+    }
+
+    fn energy(&self, _: usize, _: &State, _: &mut Work) -> Result<Option<f64>, TermError> {
+        Ok(None)
+    }
+}
+
+#[test]
+fn redundant_multipliers_share_a_force_as_stiff_joints_would() {
+    // three nodes on springs of stiffness 10; node 2 is pulled by 6, and linked all round, with one link twice
+    let all = [vec![0, 1], vec![1, 2], vec![2, 0], vec![1, 2]];
+    let mut system = system(3, vec![load(2, &[6.0])]);
+    system.layout.nmultiplier = all.len();
+    for node in 0..3 {
+        system.terms.push(Spring::between(None, node, linear));
+    }
+    for (number, nodes) in all.into_iter().enumerate() {
+        let layout = system.layout;
+        system.terms.push(Box::new(Link {
+            number,
+            nodes,
+            layout,
+        }));
+    }
+    let layout = system.layout;
+    let told = run(system, &once());
+    told.assert_finished();
+    assert_close(
+        &[0, 1, 2].map(|n| told.state.u[x(n) as usize]),
+        &[0.2; 3],
+        1e-9,
+    );
+    let of = |m: usize| told.state.u[layout.multiplier(m) as usize];
+    let (a, b, c) = (of(0), of(1) + of(3), of(2));
+    // equilibrium of nodes 0 and 1, whose springs bear 2 each
+    assert_close(&[c - a, a - b], &[2.0, 2.0], 1e-9);
+    // the energy of equal compliances, a² + b²/2 + c², is the least
+    assert_close(&[a + 0.5 * b + c, of(1) - of(3)], &[0.0; 2], 1e-5);
+}
+
 #[test]
 fn condition_d_goes_on_where_a_soft_direction_still_moves() {
     // beside forces of a million, a residual of a hundredth is nothing: but it moves the soft node by a tenth

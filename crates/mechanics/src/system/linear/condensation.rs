@@ -59,8 +59,6 @@ pub(super) struct Condensation {
     /// Its equations.
     pub equation: Vec<u32>,
     pub sign: Vec<i8>,
-    /// The equation of the whole problem behind each.
-    pub whole: Vec<u32>,
 }
 
 /// The rows of the operator at the hosts, bulk and interface added up.
@@ -202,12 +200,11 @@ impl Condensation {
                 group_of[m as usize] = g as u32;
             }
         }
-        let (mut equation, mut sign, mut whole) = (vec![NONE; ndof], Vec::new(), Vec::new());
+        let (mut equation, mut sign) = (vec![NONE; ndof], Vec::new());
         for (d, &e) in kept.equation.iter().enumerate() {
             if e != NONE && group_of[d] == NONE {
                 equation[d] = sign.len() as u32;
                 sign.push(kept.sign[e as usize]);
-                whole.push(e);
             }
         }
         let lines = Lines::new(kept, &groups);
@@ -220,7 +217,6 @@ impl Condensation {
             pattern: Pattern::empty(ndof),
             equation,
             sign,
-            whole,
         };
         let columns = |group: &Group| {
             let columns = group.multiplier.iter().map(|&m| multipliers.column(m));

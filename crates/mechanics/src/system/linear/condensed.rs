@@ -353,13 +353,11 @@ impl<S: LinearSolver> LinearSolver for Condensed<S> {
             interface: &self.numbers.interface,
         };
         let outcome = self.inner.factorize(&inner_values);
-        outcome.map_err(|error| match (error, &self.condensation) {
-            (LinearError::Singular { equation: Some(e) }, Some(condensation)) => {
-                let equation = condensation.whole.get(e).map(|&e| e as usize);
-                LinearError::Singular { equation }
-            }
-            (error, _) => error,
-        })
+        match outcome {
+            // what holds a body but little may be lost where multipliers are eliminated
+            Err(LinearError::Singular { .. }) => self.factorize_whole(values),
+            outcome => outcome,
+        }
     }
 
     fn solve(

@@ -13,6 +13,8 @@ use super::{Kept, LinearError, Problem, SolveReport, Values, largest};
 
 /// Refinements of one solution.
 const REFINEMENTS: usize = 3;
+/// A displacement does not take part in a free motion where it is below this part of what moves most, equilibrated.
+const STILL: f64 = 1e-6;
 /// What is left of a free motion after multiplication, relative to what is added up: at most this, or
 const FREE: f64 = 4e-15;
 /// this times the root of the number of equations (measured: a third of it at 30,000).
@@ -121,14 +123,7 @@ impl Gathered {
             let sum = largest(&product);
             self.matrix.multiply(&x, &mut product, |a| a);
             if largest(&product) < free * sum {
-                let moved = x
-                    .iter()
-                    .zip(&self.matrix.column_scale)
-                    .map(|(x, scale)| (x * scale).abs());
-                return Ok(moved
-                    .enumerate()
-                    .max_by(|a, b| a.1.total_cmp(&b.1))
-                    .map(|(e, _)| e));
+                return Ok(self.moves_most(&x));
             }
             // a factor of A + shift gives a motion that is off by the shift: correct it with A itself
             if correction == 0 {
@@ -137,6 +132,19 @@ impl Gathered {
             }
         }
         Ok(None)
+    }
+
+    /// The equation that moves most in a free motion, in equilibrated unknowns: a multiplier where no displacement moves, for
+    /// multipliers are of other units.
+    fn moves_most(&self, motion: &[f64]) -> Option<usize> {
+        let moves = |e: usize| (motion[e] * self.matrix.column_scale[e]).abs();
+        let least = STILL * largest(motion);
+        let displaced = |&e: &usize| self.kept.sign[e] > 0 && motion[e].abs() > least;
+        let all = || 0..motion.len();
+        let displacement = all()
+            .filter(displaced)
+            .max_by(|&a, &b| moves(a).total_cmp(&moves(b)));
+        displacement.or_else(|| all().max_by(|&a, &b| moves(a).total_cmp(&moves(b))))
     }
 
     /// Solves and refines, at least `at_least` times, until the residual of the operator is at most `rtol` or round-off.
