@@ -419,6 +419,7 @@ impl Newton {
         for term in &mut system.terms {
             term.begin_increment(base)?;
         }
+        self.let_pass(system, self.scale.accepted[FORCES]);
         self.assembler.begin_increment(&system.terms);
         self.equations.forget();
         (self.has_tangent, self.relaxes) = (false, false);
@@ -459,6 +460,7 @@ impl Newton {
                 self.assemble(system, first)?;
             }
             let judgement = self.judge(system);
+            self.let_pass(system, judgement.q[FORCES]);
             economy.reached(judgement.excess);
             if iterations == 1 && is_like {
                 first_curvature = economy.curvature();
@@ -609,6 +611,13 @@ impl Newton {
             solved = true;
             released = false;
             iterations += 1;
+        }
+    }
+
+    /// Says to all terms which forces are of no account, where this is the mean one.
+    fn let_pass(&self, system: &mut System, mean: f64) {
+        for term in &mut system.terms {
+            term.let_pass(self.settings.force_tol * mean);
         }
     }
 

@@ -372,6 +372,9 @@ pub trait Term: Send + Sync {
         false
     }
 
+    /// Forces below this one are of no account: equations of multipliers may be off by as much as comes to such a force.
+    fn let_pass(&mut self, _force: f64) {}
+
     /// The safer way failed, too: the term goes its usual way again.
     fn relent(&mut self) {}
 

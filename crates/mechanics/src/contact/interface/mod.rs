@@ -243,6 +243,8 @@ pub struct Interface {
     drift: Option<(f64, NodeId)>,
     /// Rows whose slip turns round from iterate to iterate.
     reversals: Reversals,
+    /// Forces that are of no account.
+    negligible: f64,
     /// How often each row went to another facet in this increment. Those that alternate are held.
     changes: Vec<u8>,
     /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
@@ -309,6 +311,7 @@ impl Interface {
             first_step: None,
             allowed: Allowed::default(),
             reversals: Reversals::new(nrow),
+            negligible: 0.0,
             changes: vec![0; nrow],
             whole: Vec::new(),
             drift: None,
@@ -710,6 +713,10 @@ impl Term for Interface {
 
     fn rescue(&mut self) -> bool {
         self.hold_limits()
+    }
+
+    fn let_pass(&mut self, force: f64) {
+        self.negligible = force;
     }
 
     fn relent(&mut self) {

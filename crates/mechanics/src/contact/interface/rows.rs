@@ -269,7 +269,7 @@ impl Interface {
     }
 
     /// What may be left of the equations of a multiplier, as a gap. A traction that is limited by friction is known to a
-    /// part of itself, too, but not beyond the rounding of positions.
+    /// part of itself, too, but not beyond the rounding of positions, nor where it is no force of account.
     pub(super) fn tolerance(&self, row: usize, lambda: &Lambda, trial: &State) -> f64 {
         if self.parts.bond.is_some() || !self.parts.has_vectors() {
             return self.parts.gap_tolerance;
@@ -278,7 +278,14 @@ impl Interface {
         let place = point.position(&trial.placement()).max_abs();
         let shear = self.laws_of(row).shear;
         let part = self.parts.traction_tolerance * lambda.vector.norm() / shear;
-        self.parts.gap_tolerance.min(part + ROUNDING * place)
+        let stiffness = shear * self.measure(row);
+        let negligible = if stiffness > 0.0 {
+            self.negligible / stiffness
+        } else {
+            0.0
+        };
+        let left = negligible.max(part + ROUNDING * place);
+        self.parts.gap_tolerance.min(left)
     }
 
     /// The rounding error of the forces of a row: that of the positions times the stiffness of the law.
