@@ -2,7 +2,7 @@
 
 use crate::system::{
     Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, StepContext,
-    Symmetry, Term, TermError, Work,
+    Symmetry, Term, TermError, Verdict, Work,
 };
 
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
@@ -17,8 +17,21 @@ pub struct Damper {
     strength: Strength,
     /// Whether it has begun or ceased to act since it was looked at.
     changed: bool,
+    /// Forces that are of no account.
+    negligible: f64,
+    /// The sum of all forces where `start` was renewed last in this increment; infinite before that.
+    renewed_at: f64,
+    /// The work until then.
+    work_before: f64,
     work: f64,
 }
+
+/// What is left of the largest force where renewing is worth it: a motion that nothing resists but a load drives is as fast each
+/// time.
+const RENEWED: f64 = 0.1;
+/// What all viscous forces together may bear in the end, over a force that is of no account: what is left falls by orders of
+/// magnitude each time.
+const BORNE: f64 = 1e-3;
 
 /// How s comes about.
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +80,9 @@ impl Damper {
             dofs,
             strength,
             changed: false,
+            negligible: 0.0,
+            renewed_at: f64::INFINITY,
+            work_before: 0.0,
             work: 0.0,
         }
     }
@@ -91,7 +107,27 @@ impl Damper {
             .map(move |(&(dof, stiffness), &start)| (dof, strength * stiffness, start))
     }
 
-    /// The work of the present increment.
+    /// Viscous forces bear nothing where contact holds the bodies: the rest position is moved to the state that was found with
+    /// them, and the next is sought from there, which is the proximal point method. Says how large the force was, if so.
+    fn renew(&mut self, state: &State) -> Option<f64> {
+        if !matches!(self.strength, Strength::UntilHeld { acts: true, .. }) {
+            return None;
+        }
+        let forces = (0..self.nchunk()).flat_map(|c| self.chunk(c));
+        let forces = forces.map(|(dof, k, start)| (k * (value(state, dof) - start)).abs());
+        let force: f64 = forces.sum();
+        if force <= BORNE * self.negligible || force > RENEWED * self.renewed_at {
+            return None;
+        }
+        self.work_before += self.spent(state);
+        self.renewed_at = force;
+        for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
+            *start = value(state, dof);
+        }
+        Some(force)
+    }
+
+    /// The work of the present increment, since it was renewed last.
     fn spent(&self, state: &State) -> f64 {
         let energy = |(dof, stiffness, start): (Dof, f64, f64)| {
             let moved = value(state, dof) - start;
@@ -142,6 +178,7 @@ impl Term for Damper {
             let over = (from.time - step.start) / step.duration;
             *fading = (1.0 - over).clamp(0.0, 1.0);
         }
+        (self.renewed_at, self.work_before) = (f64::INFINITY, 0.0);
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
             let drift = self.drift.get(dof as usize).copied();
             *start = value(from, dof) + drift.unwrap_or_default();
@@ -187,6 +224,19 @@ impl Term for Damper {
         Ok(Some(self.chunk(chunk).map(energy).sum()))
     }
 
+    fn let_pass(&mut self, force: f64) {
+        self.negligible = force;
+    }
+
+    fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
+        Ok(match self.renew(trial) {
+            None => Verdict::Settled,
+            Some(force) => Verdict::Renewed {
+                why: format!("viscous forces on {} bear {force:.2e}", self.name),
+            },
+        })
+    }
+
     fn let_go(&mut self) -> bool {
         let Strength::UntilHeld {
             acts,
@@ -199,7 +249,7 @@ impl Term for Damper {
         std::mem::take(acts)
     }
 
-    fn rescue(&mut self) -> bool {
+    fn hold_again(&mut self) -> bool {
         let Strength::UntilHeld { acts, needed, .. } = &mut self.strength else {
             return false;
         };
@@ -207,6 +257,10 @@ impl Term for Damper {
         *acts = true;
         *needed |= back;
         back
+    }
+
+    fn rescue(&mut self) -> bool {
+        self.hold_again()
     }
 
     fn relent(&mut self) {
@@ -231,7 +285,7 @@ impl Term for Damper {
     }
 
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
-        self.work += self.spent(state);
+        self.work += self.work_before + self.spent(state);
         if let Strength::UntilHeld { needed, .. } = &mut self.strength {
             *needed = false;
         }

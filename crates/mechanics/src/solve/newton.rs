@@ -108,6 +108,19 @@ pub enum Failure {
     },
 }
 
+impl Failure {
+    /// Whether something moves freely.
+    const fn is_singular(&self) -> bool {
+        matches!(
+            self,
+            Self::Linear {
+                source: LinearError::Singular { .. },
+                ..
+            }
+        )
+    }
+}
+
 /// Free motions that are held at once: a body that is all mechanism is not worth solving.
 const HELD_AT_MOST: usize = 200;
 
@@ -525,13 +538,13 @@ impl Newton {
                         });
                     }
                     Some(changed) if augmentations < MAX_AUGMENTATIONS => {
-                        unsettled = Some(changed);
+                        unsettled = Some(changed.said);
                         augmentations += 1;
                         last = iterations + self.settings.max_iterations;
                         residuals.clear();
                         changes_so_far.clear();
                         // the change may be of no account: then the state is judged again as it is, but only once
-                        if std::mem::replace(&mut released, true) {
+                        if std::mem::replace(&mut released, true) || changed.solve {
                             correction = 0.0;
                             solved = false;
                         }
@@ -543,7 +556,7 @@ impl Newton {
                             residual: judgement.residual,
                             worst: judgement.worst,
                             force: judgement.force,
-                            unsettled: Some(changed),
+                            unsettled: Some(changed.said),
                         });
                     }
                 }
@@ -594,7 +607,14 @@ impl Newton {
                 let bulk = self.bulk_at_start(system)?;
                 self.equations.start_from(which, bulk);
             }
-            let left = self.solve_linear(&system.layout, motion, nearly || serves, accuracy)?;
+            let keeps = nearly || serves;
+            let left = match self.solve_linear(&system.layout, motion, keeps, accuracy) {
+                Err(failure) if failure.is_singular() && hold_again(system) => {
+                    (self.assembled, self.has_tangent) = (None, false);
+                    continue;
+                }
+                solved => solved?,
+            };
             if !serves {
                 economy.solved(judgement.excess, left);
             }
@@ -622,13 +642,20 @@ impl Newton {
     }
 
     /// Lets terms change what they kept frozen; what the first one says that did, so that the iteration goes on.
-    fn release(&mut self, system: &mut System) -> Result<Option<(String, Vec<NodeId>)>, TermError> {
+    fn release(&mut self, system: &mut System) -> Result<Option<Released>, TermError> {
         (self.assembled, self.has_tangent) = (None, false);
-        let mut first = None;
+        let mut first: Option<Released> = None;
         for term in &mut system.terms {
-            if let Verdict::Repeat { why, nodes, .. } = term.converged(&self.trial)? {
-                first.get_or_insert((why, nodes));
-            }
+            let (why, nodes, solve) = match term.converged(&self.trial)? {
+                Verdict::Settled => continue,
+                Verdict::Repeat { why, nodes, .. } => (why, nodes, false),
+                Verdict::Renewed { why } => (why, Vec::new(), true),
+            };
+            let first = first.get_or_insert(Released {
+                said: (why, nodes),
+                solve,
+            });
+            first.solve |= solve;
         }
         Ok(first)
     }
@@ -1032,6 +1059,23 @@ fn let_go(system: &mut System) -> bool {
         some |= term.let_go();
     }
     some
+}
+
+/// Whether some term holds again what it has let go.
+fn hold_again(system: &mut System) -> bool {
+    let mut some = false;
+    for term in &mut system.terms {
+        some |= term.hold_again();
+    }
+    some
+}
+
+/// What terms have changed that they kept frozen.
+struct Released {
+    /// What the first of them says, and its nodes.
+    said: (String, Vec<NodeId>),
+    /// Whether the state has to be solved for again.
+    solve: bool,
 }
 
 /// How an increment starts.

@@ -53,6 +53,11 @@ pub enum Verdict {
         /// The nodes concerned, at most a handful.
         nodes: Vec<NodeId>,
     },
+    /// Something that was kept frozen has changed, and the state has to be solved for again, however small the residual is.
+    Renewed {
+        /// In the user's words: who, and how.
+        why: String,
+    },
 }
 
 /// What can go wrong while a term is evaluated.
@@ -363,6 +368,11 @@ pub trait Term: Send + Sync {
     /// Active sets have settled with something closed, or all has converged: says whether the term lets go of what it has
     /// held so far. The state is then looked for without.
     fn let_go(&mut self) -> bool {
+        false
+    }
+
+    /// Without what was let go, something moves freely: says whether the term holds it again, until the increment is accepted.
+    fn hold_again(&mut self) -> bool {
         false
     }
 

@@ -206,3 +206,25 @@ fn the_work_of_supports_and_loads_is_what_springs_store() {
     let frame = stepper.report(&system).unwrap();
     assert!((frame.work_external - stored).abs() < 1e-12 * stored);
 }
+
+#[test]
+fn what_holds_a_body_that_nothing_else_does_bears_nothing_of_a_load() {
+    // the first node is on a spring of stiffness 10, nothing but the viscous forces holds the second
+    let dofs = vec![(x(0), 1e-3), (x(1), 1e-3)];
+    let damper = crate::connector::Damper::until_held("free bodies", dofs);
+    let terms: Vec<Box<dyn Term>> = vec![
+        Spring::between(None, 0, linear),
+        load(0, &[6.0]),
+        Box::new(damper),
+    ];
+    let told = run(system(2, terms), &[step(Increments::Fixed(2), &[])]);
+    told.assert_finished();
+    assert!(told.cuts.is_empty());
+    assert!((told.state.u[0] - 0.6).abs() < 1e-9, "{}", told.state.u[0]);
+    assert_eq!(told.state.u[2], 0.0);
+    // the viscous forces are renewed until they bear a thousandth of what is of no account
+    for increment in &told.increments {
+        assert!(increment.iterations <= 6, "{increment:?}");
+        assert!(increment.attempts == 1);
+    }
+}
