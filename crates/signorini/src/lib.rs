@@ -1,19 +1,19 @@
 //! Contact mechanics by finite elements: the library's face.
 //!
 //! ```text
-//! case.toml ──load──▶ Case + Mesh ──build──▶ Model ──run──▶ hertz.out/results.pvd, history.csv, …
-//!                                                    │
-//!                                                    └──▶ News ──▶ Listener (terminal, --json, Python)
+//! case.toml ──load──▶ Case + Mesh ──build──▶ Model ──solve──▶ hertz.out/results.pvd, history.csv, …
+//!                                                     │
+//!                                                     └──▶ News ──▶ Listener (terminal, --json, Python)
 //! ```
 //!
 //! # Example
 //! ```no_run
-//! use signorini::{Reading, RunOptions, build, load, run};
+//! use signorini::{Reading, RunOptions, build, load, solve};
 //!
 //! let loaded = load("hertz.toml".as_ref(), &Reading::default())?;
-//! let mut model = build(loaded.case, loaded.mesh)?;
+//! let model = build(loaded.case, loaded.mesh)?;
 //! let options = RunOptions::new(loaded.source);
-//! let finished = run(&mut model, &options, &mut ());
+//! let finished = solve(model, &options, &mut ());
 //! assert_eq!(finished.exit_code, 0);
 //! # Ok::<(), signorini::Diagnostics>(())
 //! ```
@@ -27,7 +27,7 @@ pub mod text;
 
 pub use build::{Model, build};
 pub use load::{Loaded, Opened, Reading, Source, load, load_case, load_mesh};
-pub use run::{Finished, Limits, Listener, News, RunOptions, run};
+pub use run::{Finished, Limits, Listener, News, RunOptions, run, solve};
 pub use signorini_io::deck::Compat;
 pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};
 

@@ -169,6 +169,24 @@ pub fn load_case(path: &Path, reading: &Reading) -> Result<Opened, Diagnostics> 
     })
 }
 
+/// Reads a case and its mesh once more, from the text of its source and with the overrides there.
+///
+/// # Errors
+/// All faults of the case at once; else all faults of the mesh.
+pub fn load_again(mut source: Source) -> Result<Loaded, Diagnostics> {
+    let name = source.path.display().to_string();
+    let (mut case, mut warnings) = case::read_case(&name, &source.text, &source.overrides)?;
+    source.inputs.truncate(1);
+    let (mesh, more) = load_mesh(&mut case, &mut source)?;
+    warnings.append(more);
+    Ok(Loaded {
+        case,
+        mesh,
+        warnings,
+        source,
+    })
+}
+
 /// Reads the mesh of a case, and the surfaces that are given by files.
 ///
 /// # Errors

@@ -1,8 +1,7 @@
 //! Reading what a stopped run started from, out of its output folder.
 
-use crate::load::{Loaded, Source, load_mesh, sha256};
+use crate::load::{Loaded, Source, load_again, sha256};
 use crate::run::{Owner, cannot_resume, case_copy};
-use signorini_io::case::read_case;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_io::fs::Fs;
 use signorini_io::writers::json::{Input, Summary};
@@ -40,8 +39,7 @@ pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
         .into());
     }
     let name = owner.case.display().to_string();
-    let (mut case, mut warnings) = read_case(&name, &text, &owner.overrides)?;
-    let mut source = Source {
+    let loaded = load_again(Source {
         name: owner.name.clone(),
         folder: owner.case.parent().unwrap_or(Path::new(".")).to_path_buf(),
         inputs: vec![Input {
@@ -52,20 +50,13 @@ pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
         text,
         overrides: owner.overrides,
         mesh: None,
-    };
-    let (mesh, more) = load_mesh(&mut case, &mut source)?;
-    warnings.append(more);
-    let hash = source.inputs.get(1).map(|input| &input.sha256);
+    })?;
+    let hash = loaded.source.inputs.get(1).map(|input| &input.sha256);
     if hash != owner.mesh_sha256.as_ref() {
         return Err(cannot_resume(
             "the mesh has changed since the run was stopped; undo the change, or start again with --fresh",
         )
         .into());
     }
-    Ok(Stopped::Open(Box::new(Loaded {
-        case,
-        mesh,
-        warnings,
-        source,
-    })))
+    Ok(Stopped::Open(Box::new(loaded)))
 }

@@ -783,7 +783,8 @@ fn absent_keys_take_the_defaults_of_the_vocabulary() {
     assert_eq!(case.model.thickness, 1.0);
     assert_eq!(case.steps[0].increments, Increments::Count(10));
     assert_eq!(case.steps[0].duration, 1.0);
-    assert_eq!(case.solver.on_trouble, [Remedy::Cut, Remedy::Stabilize]);
+    let all = [Remedy::Cut, Remedy::Stabilize, Remedy::Points];
+    assert_eq!(case.solver.on_trouble, all);
     assert_eq!(case.output.every, Every::Increments(1));
     assert_eq!(case.output.fields.len(), 3);
     let (case, _) = read_with(text, "step.s.increments", "{ initial = 0.1 }").unwrap();

@@ -414,6 +414,13 @@ codes! {
     ["the load is more than the structure bears", "contact status changes back and forth", "the mesh is too coarse at the contact"]
     ["see which contact or element the message names", "smaller `min` in `increments`", "finer mesh, or smoother surfaces"]
 
+    BY_POINTS "S0502" Input "a case that is solved again by Gauss points"
+    "An increment could not be solved with mortar contact, which the program had chosen. Gauss points with a penalty pass over \
+     edges and corners that mortar does not, so the whole case is solved again with them. Forces are as right, pressures less even."
+    ["a sharp edge that slides off the other side, as in a snap-fit", "an edge that is pressed into the other side"]
+    ["nothing, where the second solution is of use", "to start with it:  method = \"gauss-point\"  of the contact",
+     "to do without it:  on_trouble = [\"cut\", \"stabilize\"]"]
+
     NOT_WRITTEN "S0601" Output "results could not be written"
     "Writing a file failed. Frames and checkpoints that were complete before are untouched."
     ["the disk is full", "no permission", "a network drive went away"]

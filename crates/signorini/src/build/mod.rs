@@ -84,6 +84,8 @@ pub struct ContactInfo {
     pub name: String,
     /// The method in use.
     pub method: &'static str,
+    /// Whether the program chose the method, and how penetration is prevented.
+    pub automatic: bool,
     /// How penetration is prevented, in words.
     pub enforcement: String,
     /// How far its points slide, in words.
@@ -201,12 +203,21 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
         let mut tied = case.contacts.iter().filter(|one| one.tied.is_some());
         tied.any(|one| one.name.value == name)
     };
+    let is_automatic = |name: &str| {
+        let mut automatic = case.contacts.iter().filter(|one| {
+            one.tied.is_none()
+                && *one.method == Method::Auto
+                && one.enforcement == Enforcement::Auto
+        });
+        automatic.any(|one| one.name.value == name)
+    };
     let contacts: Vec<ContactInfo> = model
         .contacts
         .iter()
         .map(|c| ContactInfo {
             name: c.name.clone(),
             method: contact::word(&c.method),
+            automatic: is_automatic(&c.name),
             enforcement: contact::words(c),
             sliding: contact::range(c, is_tied(&c.name)),
             penalty: c.penalty,

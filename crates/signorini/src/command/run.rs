@@ -124,7 +124,7 @@ impl Job {
                 .max_wall
                 .map(|s| Instant::now() + Duration::from_secs_f64(s.min(1e9))),
         };
-        let finished = solve(&mut model, &run, options);
+        let finished = solve(model, &run, options);
         if options.timings {
             timings(&finished);
         }
@@ -133,7 +133,7 @@ impl Job {
 }
 
 /// Solves and tells as the options say.
-fn solve(model: &mut Model, run: &RunOptions, options: &SolveOptions) -> Finished {
+fn solve(model: Model, run: &RunOptions, options: &SolveOptions) -> Finished {
     let level = if options.json {
         signorini::run::narration::Level::Important
     } else {
@@ -141,9 +141,9 @@ fn solve(model: &mut Model, run: &RunOptions, options: &SolveOptions) -> Finishe
     };
     let mut terminal = Terminal::new(level, !options.no_progress && !options.json);
     if options.json {
-        signorini::run(model, run, &mut (Ndjson(Console::stdout()), terminal))
+        signorini::solve(model, run, &mut (Ndjson(Console::stdout()), terminal))
     } else {
-        signorini::run(model, run, &mut terminal)
+        signorini::solve(model, run, &mut terminal)
     }
 }
 

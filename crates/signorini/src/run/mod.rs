@@ -16,6 +16,7 @@
 //! To add a file: a line in `tree`, and its writing in `recorder`.
 
 mod audit;
+mod by_points;
 mod cells;
 mod closure;
 mod contact_surface;
@@ -39,6 +40,7 @@ mod tests;
 mod tree;
 mod volume;
 
+pub use by_points::solve;
 pub use drive::run;
 pub use error::{OutputError, bad_checkpoint, cannot_resume};
 pub use fields::Fields;

@@ -50,12 +50,10 @@ impl Builder {
             on_trouble: fields
                 .texts("on_trouble")
                 .iter()
-                .map(|word| {
-                    if word.value == "cut" {
-                        Remedy::Cut
-                    } else {
-                        Remedy::Stabilize
-                    }
+                .map(|word| match word.value.as_str() {
+                    "cut" => Remedy::Cut,
+                    "points" => Remedy::Points,
+                    _ => Remedy::Stabilize,
                 })
                 .collect(),
             threads: fields.count_if("threads").map(|count| count.value),

@@ -99,6 +99,8 @@ pub enum Remedy {
     Cut,
     /// Damping.
     Stabilize,
+    /// The whole case again, with Gauss points in contacts for which the program chose mortar.
+    Points,
 }
 
 /// What is written.

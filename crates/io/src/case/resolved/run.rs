@@ -13,6 +13,7 @@ pub(super) fn solver(solver: &Solver) -> Entries {
     let remedies = solver.on_trouble.iter().map(|remedy| match remedy {
         Remedy::Cut => "cut",
         Remedy::Stabilize => "stabilize",
+        Remedy::Points => "points",
     });
     vec![
         (

@@ -33,10 +33,14 @@ pub(super) static SOLVER: Table = Table {
         .or(Default::Text("refuse")),
         key(
             "on_trouble",
-            Shape::List(&Shape::Choice(&[word("cut"), word("stabilize")]), 0, 2),
-            "what is tried, in order, when an increment does not converge",
+            Shape::List(
+                &Shape::Choice(&[word("cut"), word("stabilize"), word("points")]),
+                0,
+                3,
+            ),
+            "what is tried, in order, when an increment does not converge; points solves the case again from the start, with Gauss points in contacts for which the program chose mortar",
         )
-        .or(Default::Texts(&["cut", "stabilize"])),
+        .or(Default::Texts(&["cut", "stabilize", "points"])),
         key(
             "threads",
             Shape::Either(&[AUTO, Shape::Integer(1, 4096)]),
