@@ -9,6 +9,7 @@
 mod common;
 mod scene;
 
+mod assemblies;
 mod bars;
 mod beam;
 mod enforcement;
