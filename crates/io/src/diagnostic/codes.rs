@@ -364,6 +364,12 @@ codes! {
     ["the set has the lower face of a block, and not its flanks"]
     ["add the faces next to the edge to the secondary side", "silence with  allow = [\"S0414\"]  where the edge does not roll"]
 
+    IDLE_ROWS "S0415" Input "contact at nodes that are prescribed"
+    "Where both sides of a contact are prescribed, or follow what is, a pressure or friction between them acts on nothing that \
+     moves: nothing says how large it is. It is left out, and is in none of the forces of supports and contacts there."
+    ["supports and motions that go up to the edge of a contact", "a block whose sides are held, on another whose sides are"]
+    ["nothing, where those forces are of no interest", "take the supports off the nodes of the contact"]
+
     PRESSED_APART "S0421" Input "contact pressure where the surfaces are apart"
     "Accepted states are audited point by point, whatever the method. Nodes carry contact pressure, and nowhere around them \
      is the gap zero: the pressure is not that of surfaces that touch."

@@ -158,6 +158,27 @@ pub struct ContactFrame {
     /// The largest motion since the start of what touched, along the other side, over that size, and its node; `None` where
     /// contact follows what moves.
     pub drift: Option<(f64, u32)>,
+    /// Rows that touch and whose multipliers act on nothing that moves.
+    pub idle: IdleRows,
+}
+
+/// Rows whose multipliers are left out, as what they act on is prescribed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct IdleRows {
+    /// How many, with all of their multipliers.
+    pub whole: usize,
+    /// How many others without friction along each axis.
+    pub friction: [usize; 3],
+    /// A node of one of them.
+    pub node: Option<u32>,
+}
+
+impl IdleRows {
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 impl ContactFrame {

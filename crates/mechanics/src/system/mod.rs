@@ -55,7 +55,8 @@ pub use audited::{Check, ContactAudit, Measured};
 pub use course::{NodalField, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
-    ContactFrame, ContactSample, Footprint, Frame, Resultant, RigidFrame, SpinFrame, Status,
+    ContactFrame, ContactSample, Footprint, Frame, IdleRows, Resultant, RigidFrame, SpinFrame,
+    Status,
 };
 pub use idealisation::Idealisation;
 pub use layout::{Dof, DofName, Layout, NO_DOF};

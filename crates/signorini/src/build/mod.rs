@@ -10,6 +10,7 @@ mod constraints;
 mod contact;
 mod cuts;
 pub(crate) mod gaps;
+mod held;
 mod loads;
 mod mesh;
 mod names;
@@ -175,26 +176,6 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
     let solids = mesh.cells(case.model.space.ndim());
     let revolves = |cell: &CellId| names.plane(*cell) == Idealisation::Axisymmetric;
     let revolving = solids.filter(revolves).collect();
-    let stabilized = case.solver.stabilize == Stabilize::Auto;
-    for unheld in &model.held_by_contact {
-        let what = format!("{unheld} is held only by contact");
-        let message = if stabilized {
-            Diagnostic::warning(&codes::HELD_BY_CONTACT, what)
-        } else {
-            Diagnostic::error(&codes::HELD_BY_CONTACT, what)
-        };
-        found.push(
-            message
-            .note(format!("without contact it is free to {}", unheld.motion))
-            .note(if stabilized {
-                "until contact holds it, a vanishing viscous force does; its work is in summary.json"
-            } else {
-                "nothing else holds it: stabilize = false"
-            })
-            .help("hold it by a support, or prescribe its motion with `move` instead of `load`"),
-        );
-    }
-
     if found.has_errors() {
         return Err(found);
     }
@@ -228,11 +209,20 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
             start: c.start,
         })
         .collect();
+    let stabilized = case.solver.stabilize == Stabilize::Auto;
+    let sets = names.node_sets();
+    let unheld = &model.held_by_contact;
+    let held = held::by_contact(unheld, &contacts, (&case, &mesh), &sets, stabilized);
+    if let Some(one) = held {
+        found.push(one);
+    }
+    if found.has_errors() {
+        return Err(found);
+    }
     found.append(gaps::findings(&case, &mesh, &contacts));
     let allowed: Vec<&str> = case.allow.iter().map(String::as_str).collect();
     found.silence(&allowed);
     choose(&mut case, &carriers, &model.contacts, &model.locking);
-    let sets = names.node_sets();
     let labels = mesh.node_labels.iter().enumerate();
     let by_label = labels
         .map(|(node, &label)| (label, node as NodeId))

@@ -288,6 +288,9 @@ impl Run<'_, '_> {
                 (code, status)
             }
         };
+        let names: Vec<String> = self.model.contacts.iter().map(|c| c.name.clone()).collect();
+        let idle = self.recorder.idle.notes(&names, &self.model.mesh);
+        self.report_unless_allowed(idle, &mut found);
         let far = drift::warnings(&self.recorder.drifts, self.model);
         self.report_unless_allowed(far, &mut found);
         if exit_code == 0 && wrong && self.options.strict {

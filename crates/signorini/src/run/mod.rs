@@ -28,6 +28,7 @@ mod failure;
 mod fields;
 mod frd;
 mod history;
+mod idle;
 mod limits;
 pub mod narration;
 mod news;

@@ -70,6 +70,9 @@ fn pressed(element: &'static str, swapped: bool, keys: &str) -> (f64, usize) {
     let mut model = case.model(&[]);
     let run = crate::scene::finished(&mut model);
     assert!(run.cutbacks.is_empty());
+    // friction along what is prescribed on both sides acts on nothing
+    let idle = run.frames[run.frames.len() - 1].contacts[0].idle;
+    assert_eq!(idle.is_empty(), !keys.contains("friction"), "{idle:?}");
     let nodes: Vec<NodeId> = model.nodes_of("head").unwrap();
     let reactions = &run.frames[run.frames.len() - 1].reaction_force;
     let force = nodes.iter().map(|&n| reactions[n as usize][up]).sum();

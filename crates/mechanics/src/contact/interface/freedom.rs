@@ -4,8 +4,9 @@
 //! can satisfy: either it holds, or it contradicts what is prescribed. Its row is left out, as is friction along directions
 //! in which both sides are prescribed. Forces at prescribed unknowns are then without what such rows would have carried.
 
-use super::{Interface, Participant, Rows};
-use crate::system::{Dof, NO_DOF};
+use super::{Interface, Participant, Rows, State, TermError};
+use crate::contact::row::RowOrder;
+use crate::system::{Dof, IdleRows, NO_DOF};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 
@@ -49,6 +50,47 @@ impl Interface {
             }
             Participant::Rigid(body) => self.is_free(self.layout.rotation(body, column - 3)),
         }
+    }
+
+    /// The rows that touch in a state and whose multipliers are left out.
+    pub(super) fn idle_rows(&self, state: &State) -> Result<IdleRows, TermError> {
+        let mut idle = IdleRows::default();
+        if self.nmultiplier() == 0 || !self.is_active() || self.parts.bond.is_some() {
+            return Ok(idle);
+        }
+        let discretization = self.parts.discretization.as_ref();
+        let axes = 0..self.layout.ndim;
+        let mut rows = Rows::default();
+        for row in 0..discretization.nrow() {
+            let nodes = discretization.point(row).nodes;
+            // what is free itself acts on itself
+            if nodes
+                .iter()
+                .all(|&n| axes.clone().all(|axis| self.moves(n, axis)))
+            {
+                continue;
+            }
+            self.fill(row, state, RowOrder::Gradient, &mut rows)?;
+            let Some(filled) = rows.rows().first() else {
+                continue;
+            };
+            if filled.gap > self.parts.gap_tolerance {
+                continue;
+            }
+            let held = filled.sliding.held;
+            let is_idle = self.acts_on_nothing(&rows);
+            if is_idle {
+                idle.whole += 1;
+            } else {
+                for (count, held) in idle.friction.iter_mut().zip(held) {
+                    *count += usize::from(held);
+                }
+            }
+            if is_idle || held != [false; 3] {
+                idle.node = idle.node.or(nodes.first().copied());
+            }
+        }
+        Ok(idle)
     }
 
     /// Whether the pressure of a filled row acts on nothing that moves.

@@ -141,6 +141,7 @@ impl Footprint {
 impl Interface {
     pub(super) fn describe(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let mut report = self.new_report(state);
+        report.idle = self.idle_rows(state)?;
         let mut means = Means::new(report.nodes.len());
         // the second pass acts on the nodes of the first, which are its primary side
         let place = |c: &ContactFrame| self.parts.swapped && c.name == report.name;

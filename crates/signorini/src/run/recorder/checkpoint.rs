@@ -104,6 +104,7 @@ impl Recorder<'_> {
         archive.put_f64("run/frames", &self.counts.frames)?;
         archive.put_f64("run/expectations", &self.expectations.save())?;
         archive.put_f64("run/closure", &self.closure.save())?;
+        archive.put_f64("run/idle", &self.idle.save())?;
         self.audit.save(&mut archive)?;
         let step = self.step.unwrap_or(0);
         let stamp = Stamp {

@@ -5,6 +5,7 @@ use crate::run::audit::Audit;
 use crate::run::closure::Closure;
 use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
+use crate::run::idle::Idle;
 use crate::run::narration::Narrator;
 use crate::run::news::Listener;
 use signorini_io::checkpoint::{Archive, Checkpoints};
@@ -40,6 +41,7 @@ pub struct Opened {
     counts: Counts,
     expectations: Expectations,
     closure: Closure,
+    idle: Idle,
     audit: Audit,
     step: Option<usize>,
     time: f64,
@@ -132,6 +134,7 @@ impl Opened {
         };
         expectations.load(from.get_f64("run/expectations")?);
         let closure = Closure::restore(from.get_f64("run/closure").unwrap_or_default());
+        let idle = Idle::restore(from.get_f64("run/idle").unwrap_or_default());
         let mut clock = [0.0; 3];
         from.copy_f64("run/clock", &mut clock)?;
         let log = path("run.log");
@@ -190,6 +193,7 @@ impl Opened {
             time,
             step_time,
             closure,
+            idle,
             ..Self::new(
                 setting,
                 files,
@@ -222,6 +226,7 @@ impl Opened {
             time: 0.0,
             step_time: 0.0,
             closure: Closure::default(),
+            idle: Idle::default(),
         }
     }
 
@@ -234,6 +239,7 @@ impl Opened {
             contacts: BTreeMap::new(),
             drifts: Vec::new(),
             closure: self.closure,
+            idle: self.idle,
             work_stabilization: 0.0,
             work_external: 0.0,
             audit: self.audit,

@@ -19,6 +19,7 @@ use crate::run::expectations::Expectations;
 use crate::run::fields::Fields;
 use crate::run::frd;
 use crate::run::history::History;
+use crate::run::idle::Idle;
 use crate::run::limits::{Limits, Stop};
 use crate::run::narration::{Level, Narrator};
 use crate::run::news::{Detail, Facts, Listener, News};
@@ -115,6 +116,8 @@ pub struct Recorder<'l> {
     pub drifts: Vec<(String, f64, u32)>,
     /// Which contacts have closed.
     pub closure: Closure,
+    /// Which contacts act on nothing that moves somewhere.
+    pub idle: Idle,
     /// Work spent so far in holding what only contact stops.
     pub work_stabilization: f64,
     /// Work of supports and loads so far.

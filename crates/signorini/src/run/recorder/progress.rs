@@ -181,6 +181,7 @@ impl Recorder<'_> {
         self.expectations
             .look(self.files.history.nrow(), frame, &row);
         self.closure.look(frame);
+        self.idle.look(frame);
         let before = std::mem::take(&mut self.contacts);
         let contacts = frame.contacts.iter();
         self.contacts = contacts
