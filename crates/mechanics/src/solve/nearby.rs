@@ -17,6 +17,9 @@ const PART: f64 = 0.25;
 /// The smallest part of an increment that is tried.
 const LEAST: f64 = 1.0 / 64.0;
 
+/// Motions of a part over those at the rate before the increment, from which on an equilibrium is not nearby.
+const FAR: f64 = 10.0;
+
 /// The change from one state to another over the time that it took.
 fn rate(from: &[f64], to: &[f64], dt: f64) -> Vec<f64> {
     let change = to.iter().zip(from);
@@ -57,6 +60,15 @@ impl Stepper {
         Ok(Some(accepted))
     }
 
+    /// Whether nodes of the trial state are much farther from the accepted one than they were going at this rate for so long.
+    fn is_far(&self, nmotion: usize, dt: f64, rate: &[f64]) -> bool {
+        let largest = |most: f64, value: f64| most.max(value.abs());
+        let expected = rate.iter().take(nmotion).copied().fold(0.0, largest) * dt;
+        let pairs = self.newton.trial.u.iter().zip(&self.state.u).take(nmotion);
+        let moved = pairs.map(|(now, before)| now - before).fold(0.0, largest);
+        expected > 0.0 && moved > FAR * expected
+    }
+
     /// Back to a stored state, and to the safer ways that terms went there.
     ///
     /// # Errors
@@ -85,6 +97,8 @@ impl Stepper {
         let mut size = PART * whole;
         let mut targets: Vec<(Dof, f64)> = Vec::new();
         let mut pace: Option<Vec<f64>> = None;
+        let before = self.progress.rate.clone();
+        let nmotion = system.layout.nmotion();
         let mut parts = 0;
         let mut safer = false;
         let mut accepted = Accepted::default();
@@ -110,6 +124,12 @@ impl Stepper {
             let solved = self
                 .newton
                 .solve(system, &self.state, &goal, place, &mut iteration);
+            // an equilibrium that is far away is a jump, which viscous forces take more gently
+            let jumps = solved.is_ok() && self.is_far(nmotion, dt, &before);
+            if jumps {
+                reject(system);
+                return None;
+            }
             if let Ok(solved) = solved {
                 self.newton.scale.accept(solved.q);
                 self.accept(system).ok()?;
