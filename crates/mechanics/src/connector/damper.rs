@@ -1,8 +1,8 @@
 //! What holds a body that nothing but contact stops, until contact does; and what slows a jump.
 
 use crate::system::{
-    Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, StepContext,
-    Symmetry, Term, TermError, Verdict, Work,
+    Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, Symmetry, Term,
+    TermError, Verdict, Work,
 };
 
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
@@ -21,6 +21,8 @@ pub struct Damper {
     negligible: f64,
     /// The sum of all forces where `start` was renewed last in this increment; infinite before that.
     renewed_at: f64,
+    /// How often it was.
+    renewals: u8,
     /// The work until then.
     work_before: f64,
     work: f64,
@@ -28,7 +30,13 @@ pub struct Damper {
 
 /// What is left of the largest force where renewing is worth it: a motion that nothing resists but a load drives is as fast each
 /// time.
-const RENEWED: f64 = 0.1;
+const RENEWED: f64 = 0.8;
+/// Renewals that are made in any case: motions that contact resists bear next to nothing after them, whatever others do.
+const ALWAYS: u8 = 3;
+/// Renewals, at most.
+const AT_MOST: u8 = 8;
+/// By how much viscous forces are stronger where the iteration failed with them.
+const BOOST: f64 = 30.0;
 /// What all viscous forces together may bear in the end, over a force that is of no account: what is left falls by orders of
 /// magnitude each time.
 const BORNE: f64 = 1e-3;
@@ -36,15 +44,14 @@ const BORNE: f64 = 1e-3;
 /// How s comes about.
 #[derive(Clone, Copy, Debug)]
 enum Strength {
-    /// They fade over each step, `s = 1 − τ` with the part `τ` of the step that is over when the increment begins. When
-    /// contact has settled, the solution is looked for without them, and they come back only where that fails: where
-    /// contact holds the bodies they act no more.
+    /// When contact has settled, the solution is looked for without them, and they come back only where something flees: where
+    /// contact holds the bodies they act no more. Where they stay, they are renewed until they bear nothing.
     UntilHeld {
-        fading: f64,
         /// Whether they act, and whether they have to in this increment.
         acts: bool,
         needed: bool,
-        step: StepContext,
+        /// By how much they are stronger, where the iteration failed with them.
+        boost: f64,
     },
     /// As [`Term::damp`] says.
     Asked(f64),
@@ -58,10 +65,9 @@ impl Damper {
     #[must_use]
     pub fn until_held(name: impl Into<String>, dofs: Vec<(Dof, f64)>) -> Self {
         let strength = Strength::UntilHeld {
-            fading: 1.0,
             acts: true,
             needed: false,
-            step: StepContext::default(),
+            boost: 1.0,
         };
         Self::new(name, dofs, strength)
     }
@@ -82,6 +88,7 @@ impl Damper {
             changed: false,
             negligible: 0.0,
             renewed_at: f64::INFINITY,
+            renewals: 0,
             work_before: 0.0,
             work: 0.0,
         }
@@ -91,8 +98,8 @@ impl Damper {
     const fn strength(&self) -> f64 {
         match self.strength {
             Strength::UntilHeld {
-                fading, acts: true, ..
-            } => fading,
+                acts: true, boost, ..
+            } => boost,
             Strength::UntilHeld { acts: false, .. } => 0.0,
             Strength::Asked(strength) => strength,
         }
@@ -116,11 +123,13 @@ impl Damper {
         let forces = (0..self.nchunk()).flat_map(|c| self.chunk(c));
         let forces = forces.map(|(dof, k, start)| (k * (value(state, dof) - start)).abs());
         let force: f64 = forces.sum();
-        if force <= BORNE * self.negligible || force > RENEWED * self.renewed_at {
+        let is_stuck = self.renewals >= ALWAYS && force > RENEWED * self.renewed_at;
+        if force <= BORNE * self.negligible || is_stuck || self.renewals >= AT_MOST {
             return None;
         }
         self.work_before += self.spent(state);
         self.renewed_at = force;
+        self.renewals = self.renewals.saturating_add(1);
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
             *start = value(state, dof);
         }
@@ -166,19 +175,8 @@ impl Term for Damper {
         Part::Interface
     }
 
-    fn begin_step(&mut self, now: &StepContext, _: &State) -> Result<(), TermError> {
-        if let Strength::UntilHeld { step, .. } = &mut self.strength {
-            *step = *now;
-        }
-        Ok(())
-    }
-
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
-        if let Strength::UntilHeld { fading, step, .. } = &mut self.strength {
-            let over = (from.time - step.start) / step.duration;
-            *fading = (1.0 - over).clamp(0.0, 1.0);
-        }
-        (self.renewed_at, self.work_before) = (f64::INFINITY, 0.0);
+        (self.renewed_at, self.renewals, self.work_before) = (f64::INFINITY, 0, 0.0);
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
             let drift = self.drift.get(dof as usize).copied();
             *start = value(from, dof) + drift.unwrap_or_default();
@@ -260,12 +258,20 @@ impl Term for Damper {
     }
 
     fn rescue(&mut self) -> bool {
-        self.hold_again()
+        let again = self.hold_again();
+        let Strength::UntilHeld { needed, boost, .. } = &mut self.strength else {
+            return false;
+        };
+        let stronger = *needed && !again && *boost == 1.0;
+        if stronger {
+            *boost = BOOST;
+        }
+        again || stronger
     }
 
     fn relent(&mut self) {
-        if let Strength::UntilHeld { needed, .. } = &mut self.strength {
-            *needed = false;
+        if let Strength::UntilHeld { needed, boost, .. } = &mut self.strength {
+            (*needed, *boost) = (false, 1.0);
         }
     }
 
@@ -286,8 +292,8 @@ impl Term for Damper {
 
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.work += self.work_before + self.spent(state);
-        if let Strength::UntilHeld { needed, .. } = &mut self.strength {
-            *needed = false;
+        if let Strength::UntilHeld { needed, boost, .. } = &mut self.strength {
+            (*needed, *boost) = (false, 1.0);
         }
         Ok(())
     }

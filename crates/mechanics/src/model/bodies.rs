@@ -137,7 +137,7 @@ pub(super) fn between(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<[u32; 2]> {
 }
 
 /// Stiffness of the viscous forces on a body that only contact holds, over its modulus times its size.
-const DAMPING: f64 = 1e-5;
+const DAMPING: f64 = 1e-3;
 
 impl Context<'_> {
     /// What holds the bodies that nothing but contact stops.

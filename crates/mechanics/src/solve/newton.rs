@@ -291,6 +291,9 @@ const DIVERGED: f64 = 1e12;
 /// Iterations of an ironing by mortar and one by Gauss points where none and where few may change: 690, 579 and 748, 744.
 const FEW: usize = 8;
 
+/// The correction over the increment's displacement from which on something is not held that has just been let go.
+const FLEES: f64 = 1.0;
+
 /// How often a step to a saddle point is halved.
 const SHORTENINGS: usize = 10;
 /// How often terms may change what they keep frozen, in one increment.
@@ -447,6 +450,8 @@ impl Newton {
         let mut solved = false;
         // whether what terms keep frozen has changed since the last solution
         let mut released = false;
+        // the residual where terms have let go of what they held, until a correction has shown whether contact holds it
+        let mut watched: Option<Option<f64>> = None;
         let mut alpha = 1.0;
         let mut decrement = 0.0;
         let mut unsettled = None;
@@ -500,6 +505,18 @@ impl Newton {
                 flips,
             });
             self.stopping |= flow == Flow::Stop;
+            match &mut watched {
+                Some(none @ None) => *none = Some(judgement.residual),
+                Some(Some(left)) => {
+                    let flees = !judgement.small && judgement.residual > *left;
+                    watched = None;
+                    if flees && hold_again(system) {
+                        (self.assembled, self.has_tangent) = (None, false);
+                        continue;
+                    }
+                }
+                None => {}
+            }
             // where forces are continuous, the residual alone is the error of the state, whatever its status
             let still = || correction <= alpha * (STILL_MOVED * moved).max(self.rounding());
             let changes = repeat.is_some() && continuous;
@@ -519,6 +536,7 @@ impl Newton {
             let is_whole = iterations > 0 && alpha >= 1.0;
             let is_held = !motion && settled && is_whole && closed > 0;
             if (is_found || is_held) && let_go(system) {
+                watched = Some(None);
                 (self.assembled, self.has_tangent) = (None, false);
                 last = iterations + self.settings.max_iterations;
                 residuals.clear();
@@ -615,6 +633,13 @@ impl Newton {
                 }
                 solved => solved?,
             };
+            // what contact holds hardly moves when it is let go
+            let flees = watched.is_some() && largest(&self.du[..nmotion]) > FLEES * moved;
+            if flees && hold_again(system) {
+                watched = None;
+                (self.assembled, self.has_tangent) = (None, false);
+                continue;
+            }
             if !serves {
                 economy.solved(judgement.excess, left);
             }

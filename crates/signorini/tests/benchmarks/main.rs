@@ -20,6 +20,7 @@ mod ironing;
 mod linear_steps;
 mod mortar_patch;
 mod patch;
+mod pin;
 mod prescribed;
 mod rings;
 mod rotation;

@@ -6,7 +6,6 @@ use super::{
     TermError, Verdict,
 };
 use crate::contact::discretization::{Anchored, NOWHERE, Pair, Pairing};
-use crate::contact::friction::Stick;
 use crate::contact::kernel::Past;
 use crate::contact::row::{Row, RowOrder};
 use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError, SurfaceJet};
@@ -261,19 +260,11 @@ impl Interface {
         true
     }
 
-    /// Limits that are held begin an increment as those of the pressures at its start. Where there are none, everything sticks
-    /// to begin with, unless sticking itself is given by the limit.
+    /// Limits that are held begin an increment as those of the pressures at its start: where nothing has touched yet, without friction.
     pub(super) fn begin_limits(&mut self, from: &State) -> Result<(), TermError> {
-        if self.history.limits.is_none() {
-            return Ok(());
+        if self.history.limits.is_some() {
+            self.history.limits = Some(self.limits_at(from)?);
         }
-        let limits = self.limits_at(from)?;
-        let rests = limits.iter().all(|limit| *limit == 0.0);
-        let start = match self.laws().stick {
-            Stick::Stiffness(_) if rests => f64::INFINITY,
-            _ => 0.0,
-        };
-        self.history.limits = Some(limits.into_iter().map(|limit| start.max(limit)).collect());
         Ok(())
     }
 

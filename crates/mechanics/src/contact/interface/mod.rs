@@ -245,6 +245,8 @@ pub struct Interface {
     reversals: Reversals,
     /// Forces that are of no account.
     negligible: f64,
+    /// Iterates of this increment with nothing closed.
+    flights: u8,
     /// How often each row went to another facet in this increment. Those that alternate are held.
     changes: Vec<u8>,
     /// Rows that are held where they would not be by themselves in the present iterate, and where they would be.
@@ -312,6 +314,7 @@ impl Interface {
             allowed: Allowed::default(),
             reversals: Reversals::new(nrow),
             negligible: 0.0,
+            flights: 0,
             changes: vec![0; nrow],
             whole: Vec::new(),
             drift: None,
@@ -593,7 +596,7 @@ impl Term for Interface {
             self.accepted_judged.clone_from(&self.judged);
         }
         self.before.clone_from(&self.accepted);
-        self.settled = 0;
+        (self.settled, self.flights) = (0, 0);
         self.changes.fill(0);
         self.reversals.reset(self.parts.discretization.nrow());
         self.history.begin();
@@ -664,6 +667,9 @@ impl Term for Interface {
             return Verdict::Settled;
         };
         let before = std::mem::replace(&mut self.judged, now);
+        if self.judged.iter().all(|j| j.state == Contact::Open) {
+            self.flights = self.flights.saturating_add(1);
+        }
         let mut counts = Changes::default();
         if self.nmultiplier() > 1 {
             let directions = self.judged.iter().map(|judged| judged.direction);
@@ -747,6 +753,7 @@ impl Term for Interface {
         self.now.clone_from(&self.accepted);
         self.judged.clone_from(&self.accepted_judged);
         self.history.reject();
+        self.flights = 0;
         self.changes.fill(0);
         self.reversals.reset(self.parts.discretization.nrow());
     }

@@ -1,6 +1,6 @@
 //! Search, pairing, where rows stick, and what is coupled with what.
 
-use super::{Carrier, Interface, InterfaceParts, dofs_of};
+use super::{Carrier, Contact, Interface, InterfaceParts, Judged, dofs_of};
 use crate::contact::discretization::{
     Anchored, Discretization, NOWHERE, Pair, Pairing, SurfacePair,
 };
@@ -55,6 +55,13 @@ pub fn closest_points(
     discretization.pair_up(pair, at, &near.search, &nothing, order, &mut out)?;
     Ok(out)
 }
+
+/// Where nothing is closed, nor was at the start of the increment, a step ends where something does: what touches first may go past the other side by this part of its
+/// way, and this part of the reach. Where all that a free body could meet closes at once, most of it opens again, to no end.
+const LANDING: f64 = 0.01;
+const DEPTH: f64 = 1e-5;
+/// By how much that grows with each step that has closed nothing.
+const DEEPER: f64 = 4.0;
 
 impl Interface {
     pub(super) fn search(&mut self, at: &Placement) -> Result<(), SurfaceError> {
@@ -203,11 +210,20 @@ impl Interface {
             }
             u
         };
+        let is_open = |judged: &Judged| judged.state == Contact::Open;
+        let mut of_both = self.accepted_judged.iter().chain(&self.judged);
+        let lands = self.nmultiplier() > 0 && of_both.all(is_open);
         let mut longest = 1.0f64;
         for (row, pair) in self.now.pairs.iter().enumerate() {
             let Some(pair) = pair else { continue };
             let [reach, deepest] = self.reach_of(row, pair, &at);
-            let room = pair.gap.max(0.0) + deepest.min(0.5 * reach);
+            let room = if lands {
+                let gap = (pair.gap + self.shift(row, trial.time)).max(0.0);
+                let depth = DEPTH * DEEPER.powi(i32::from(self.flights));
+                (1.0 + LANDING) * gap + depth.min(0.5) * reach
+            } else {
+                pair.gap.max(0.0) + deepest.min(0.5 * reach)
+            };
             let discretization = self.parts.discretization.as_ref();
             if let Some(closes) = discretization.approach(row, &self.now, &moves) {
                 if closes > room {
