@@ -448,6 +448,11 @@ codes! {
     "The run stopped because it reached a limit that was set for it. What had converged is on disk."
     ["the time given with --max-wall is over"]
     ["go on with  signorini resume DIR", "give more time"]
+
+    OUT_OF_MEMORY "S0802" Limit "out of memory"
+    "The machine, or a limit of the shell, gave no more memory. What had converged up to the last checkpoint is on disk."
+    ["a model that is too large for the machine", "a limit of the shell (ulimit -v) or of a container"]
+    ["go on with  signorini resume DIR  on a larger machine", "fewer unknowns, or linear elements", "linear = \"multigrid\""]
 }
 
 #[cfg(test)]

@@ -1,10 +1,13 @@
 //! The last line of defence: an error of the program itself ends with exit code 70 and a text worth sending.
 
 use super::console::Console;
-use super::stack;
+use super::{exhausted, stack};
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// What the standard library says where a thread has no room for its stack.
+const NO_THREAD: &str = "failed to spawn thread";
 
 /// The exit code for an error of the program.
 const INTERNAL: u8 = 70;
@@ -36,12 +39,18 @@ pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> ExitCode {
         Ok(Ok(code)) => code,
         Ok(Err(_)) => {
             let what = seen.lock().unwrap_or_else(PoisonError::into_inner).take();
-            report(&what.unwrap_or_else(|| "a panic".into()));
-            INTERNAL
+            let what = what.unwrap_or_else(|| "a panic".into());
+            if what.contains(NO_THREAD) {
+                exhausted::say("a thread could not be started");
+                exhausted::CODE
+            } else {
+                report(&what);
+                INTERNAL
+            }
         }
         Err(error) => {
-            report(&format!("no thread could be started: {error}"));
-            INTERNAL
+            exhausted::say(&format!("a thread could not be started: {error}"));
+            exhausted::CODE
         }
     };
     ExitCode::from(code)

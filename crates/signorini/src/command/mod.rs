@@ -8,6 +8,7 @@ mod convert;
 mod demo;
 mod diff;
 mod doctor;
+mod exhausted;
 mod explain;
 mod guard;
 mod info;
@@ -155,6 +156,7 @@ struct FolderOption {
 /// Runs the command that the command line names.
 pub fn main() -> ExitCode {
     pages::keep_memory();
+    exhausted::watch();
     guard::guarded(|| {
         let cli = match Cli::try_parse() {
             Ok(cli) => cli,

@@ -65,6 +65,7 @@ pub fn keep_memory() {
 /// aligned to more than numbers are: matrix products pack into such memory, 64 MiB for each thread, and touch little of it.
 #[cfg_attr(not(target_os = "linux"), expect(unused_variables))]
 fn advise(memory: *mut u8, size: usize, align: usize) {
+    super::exhausted::note(memory, size);
     #[cfg(target_os = "linux")]
     if size >= PAGE
         && align <= OF_NUMBERS

@@ -262,3 +262,69 @@ fn a_resumed_run_takes_the_case_as_it_was() {
     std::fs::write(folder.path().join("case.toml"), "no case any more").unwrap();
     run(folder.path(), &["resume", "case.out"]).says(0, &["60 increments"]);
 }
+
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+#[test]
+fn memory_that_is_not_to_be_had_ends_with_8_and_a_message() {
+    // a grid of nodes that needs more than the process may take: from a little to a lot, until it is enough
+    let mut nodes = String::new();
+    let mut elements = String::new();
+    let n = 40;
+    for j in 0..=n {
+        for i in 0..=n {
+            nodes += &format!("[{}, {i}.0, {j}.0], ", j * (n + 1) + i + 1);
+        }
+    }
+    for j in 0..n {
+        for i in 0..n {
+            let a = j * (n + 1) + i + 1;
+            let (id, b) = (j * n + i + 1, a + n + 1);
+            elements += &format!(
+                "{{ id = {id}, type = \"quad4\", group = \"plate\", nodes = [{a}, {}, {}, {b}] }}, ",
+                a + 1,
+                b + 1
+            );
+        }
+    }
+    let case = format!(
+        "format = 1\n[mesh]\nnodes = [{nodes}]\nelements = [{elements}]\n[model]\nspace = \"plane-strain\"\n\
+         [sets]\nbase = {{ plane = \"y\", at = 0.0 }}\nhead = {{ plane = \"y\", at = {n}.0 }}\n\
+         [material.m]\nmodel = \"linear-elastic\"\nE = 1.0\nnu = 0.3\n[[body]]\ngroup = \"plate\"\nmaterial = \"m\"\n\
+         [[step]]\nname = \"s\"\n[[step.fix]]\non = \"base\"\nu = \"all\"\n[[step.move]]\non = \"head\"\nuy = 1.0\n"
+    );
+    let folder = folder_with(&case);
+    let mut codes = Vec::new();
+    for megabytes in (20..400).step_by(10) {
+        let limited = format!(
+            "ulimit -v {}; exec \"$0\" run case.toml -q --fresh -j 1",
+            megabytes * 1024
+        );
+        let ended = std::process::Command::new("sh")
+            .args(["-c", &limited, env!("CARGO_BIN_EXE_signorini")])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+        let code = ended.status.code();
+        if code == Some(8) {
+            assert!(said.contains("S0802") && said.contains("resume"), "{said}");
+        }
+        codes.push((megabytes, code, said));
+        if code == Some(0) {
+            break;
+        }
+    }
+    let of = |wanted| {
+        codes
+            .iter()
+            .filter(|(_, code, _)| *code == Some(wanted))
+            .count()
+    };
+    assert!(of(0) == 1 && of(8) > 0, "{codes:?}");
+    // what is too little to start at all is the system's to say
+    let started = codes.iter().skip_while(|(_, code, _)| *code != Some(8));
+    let odd: Vec<_> = started
+        .filter(|(_, code, _)| !matches!(code, Some(0 | 8)))
+        .collect();
+    assert!(odd.is_empty(), "{odd:?}");
+}
