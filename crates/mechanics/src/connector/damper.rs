@@ -39,7 +39,7 @@ const AT_MOST: u8 = 8;
 const BOOST: f64 = 30.0;
 /// What all viscous forces together may bear in the end, over a force that is of no account: what is left falls by orders of
 /// magnitude each time.
-const BORNE: f64 = 1e-3;
+const BORNE: f64 = 1e-4;
 
 /// How s comes about.
 #[derive(Clone, Copy, Debug)]

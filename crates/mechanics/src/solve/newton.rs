@@ -197,7 +197,7 @@ impl ForceScale {
         system: &System,
         dofs: &[Dof],
         assembly: &Assembly,
-        (force_tol, extent): (f64, f64),
+        (force_tol, extent, rounding): (f64, f64, f64),
     ) -> Judgement {
         let layout = &system.layout;
         let mut largest = [0.0f64; KINDS];
@@ -220,7 +220,13 @@ impl ForceScale {
             } else {
                 0.0
             };
-            mean.max(self.accepted[k])
+            // bodies that move without a force have forces of rounding
+            let least = if k == FORCES {
+                rounding / force_tol
+            } else {
+                0.0
+            };
+            mean.max(self.accepted[k]).max(least)
         });
         let mut judgement = Judgement {
             residual: 0.0,
@@ -355,6 +361,8 @@ pub(super) struct Newton {
     du: Vec<f64>,
     /// Dofs at which motions without stiffness are held by the present tangent, each with the stiffness that does.
     held: Vec<(Dof, f64)>,
+    /// The largest stiffness of the bodies at the first tangent of the increment.
+    stiffest: f64,
     /// Whether multipliers are redundant in this increment, so that tangents let them yield.
     relaxes: bool,
     /// Whether the last increment started from an extrapolation.
@@ -414,6 +422,7 @@ impl Newton {
             before: state,
             du: Vec::new(),
             held: Vec::new(),
+            stiffest: 0.0,
             relaxes: false,
             extrapolated: false,
             stopping: false,
@@ -438,7 +447,7 @@ impl Newton {
         self.let_pass(system, self.scale.accepted[FORCES]);
         self.assembler.begin_increment(&system.terms);
         self.equations.forget();
-        (self.has_tangent, self.relaxes) = (false, false);
+        (self.has_tangent, self.relaxes, self.stiffest) = (false, false, 0.0);
         let Start {
             mut motion,
             changes: mut of_start,
@@ -844,6 +853,9 @@ impl Newton {
             order,
             &mut self.assembly,
         )?;
+        if self.stiffest == 0.0 && order == Order::Tangent {
+            self.stiffest = Assembler::stiffest(&self.assembly);
+        }
         if self.relaxes && order == Order::Tangent {
             self.assembler.relax(&system.layout, &mut self.assembly);
         }
@@ -875,8 +887,18 @@ impl Newton {
             system,
             dofs,
             &self.assembly,
-            (self.settings.force_tol, self.extent),
+            (
+                self.settings.force_tol,
+                self.extent,
+                self.rounding_of_forces(system),
+            ),
         )
+    }
+
+    /// The rounding error of the forces of bodies that move as they do: that of displacements times the stiffness.
+    fn rounding_of_forces(&self, system: &System) -> f64 {
+        let motions = self.trial.u.iter().take(system.layout.nmotion());
+        f64::EPSILON * self.stiffest * motions.fold(0.0, |most: f64, u| most.max(u.abs()))
     }
 
     /// Solves for the step; returns the relative residual that is left.

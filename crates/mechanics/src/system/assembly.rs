@@ -490,6 +490,11 @@ impl Assembler {
         added.len()
     }
 
+    /// The largest entry of the stiffness of the bodies.
+    pub fn stiffest(of: &Assembly) -> f64 {
+        of.bulk.iter().fold(0.0, |most: f64, k| most.max(k.abs()))
+    }
+
     /// The entry of an unknown on the diagonal of a tangent.
     fn stiffness_of(&self, dof: Dof, of: &Assembly) -> f64 {
         let (ndim, node) = (self.bulk.block, dof / self.bulk.block.max(1) as u32);

@@ -9,7 +9,7 @@
 //!             1 % between them. *Caged*: sides and ends are pushed together by prescribed motions, or the top is loaded. *Piled*: nothing holds the sides; the
 //!             base stands, the top is pressed or loaded, and friction holds what is between
 //! EXPECTED    a solution whose forces are in balance
-//! TOLERANCE   95 of 100 solved, with at most two cut-backs; forces 1e-9 of the largest
+//! TOLERANCE   95 of 100 solved, with at most two cut-backs; forces a tenth of force_tol of the largest, 1e-7
 use crate::common::{Run, run};
 use crate::scene::{Case, Scene};
 use signorini_geometry::tensor::Vec3;
@@ -243,7 +243,7 @@ fn solved(seeds: std::ops::Range<u64>) -> (usize, Vec<String>) {
             }
             None => {
                 let left = imbalance(&run, load);
-                assert!(left < 1e-9, "{what}: {left:e}");
+                assert!(left < 1e-7, "{what}: {left:e}");
             }
         }
     }

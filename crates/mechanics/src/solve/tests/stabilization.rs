@@ -222,7 +222,7 @@ fn what_holds_a_body_that_nothing_else_does_bears_nothing_of_a_load() {
     assert!(told.cuts.is_empty());
     assert!((told.state.u[0] - 0.6).abs() < 1e-9, "{}", told.state.u[0]);
     assert_eq!(told.state.u[2], 0.0);
-    // the viscous forces are renewed until they bear a thousandth of what is of no account
+    // the viscous forces are renewed until they bear a part of 1e-4 of what is of no account
     for increment in &told.increments {
         assert!(increment.iterations <= 6, "{increment:?}");
         assert!(increment.attempts == 1);
