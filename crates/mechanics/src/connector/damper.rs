@@ -17,40 +17,39 @@ pub struct Damper {
     strength: Strength,
     /// Whether it has begun or ceased to act since it was looked at.
     changed: bool,
-    /// Forces that are of no account.
+    /// The size up to which a force is negligible.
     negligible: f64,
     /// The sum of all forces where `start` was renewed last in this increment; infinite before that.
     renewed_at: f64,
-    /// How often it was.
+    /// How often `start` was renewed in this increment.
     renewals: u8,
-    /// The work until then.
+    /// The work of this increment up to the last renewal.
     work_before: f64,
     work: f64,
 }
 
-/// What is left of the largest force where renewing is worth it: a motion that nothing resists but a load drives is as fast each
-/// time.
+/// `start` is renewed again only if the forces have fallen to this part since the last renewal. They do not fall where a load
+/// drives a motion that nothing resists.
 const RENEWED: f64 = 0.8;
-/// Renewals that are made in any case: motions that contact resists bear next to nothing after them, whatever others do.
+/// The number of renewals that do not depend on that: after them, motions that contact resists carry almost no viscous force.
 const ALWAYS: u8 = 3;
-/// Renewals, at most.
+/// The largest number of renewals in an increment.
 const AT_MOST: u8 = 8;
-/// By how much viscous forces are stronger where the iteration failed with them.
+/// The factor on viscous forces in a second attempt, after an iteration with them has failed.
 const BOOST: f64 = 30.0;
-/// What all viscous forces together may bear in the end, over a force that is of no account: what is left falls by orders of
-/// magnitude each time.
+/// The sum of the viscous forces, over a negligible force, below which they are not renewed.
 const BORNE: f64 = 1e-4;
 
 /// How s comes about.
 #[derive(Clone, Copy, Debug)]
 enum Strength {
-    /// When contact has settled, the solution is looked for without them, and they come back only where something flees: where
-    /// contact holds the bodies they act no more. Where they stay, they are renewed until they bear nothing.
+    /// Once contact has settled they are removed, and restored where the bodies then move away. Where contact holds the bodies,
+    /// they do not act any more; where they have to stay, they are renewed until their forces are negligible.
     UntilHeld {
         /// Whether they act, and whether they have to in this increment.
         acts: bool,
         needed: bool,
-        /// By how much they are stronger, where the iteration failed with them.
+        /// The factor on them: above one after an iteration with them has failed.
         boost: f64,
     },
     /// As [`Term::damp`] says.
@@ -114,8 +113,8 @@ impl Damper {
             .map(move |(&(dof, stiffness), &start)| (dof, strength * stiffness, start))
     }
 
-    /// Viscous forces bear nothing where contact holds the bodies: the rest position is moved to the state that was found with
-    /// them, and the next is sought from there, which is the proximal point method. Says how large the force was, if so.
+    /// Moves the rest position to the state that was found, so that the next solution starts from there: the proximal point
+    /// method, whose limit has no viscous forces where contact holds the bodies. Returns the sum of the forces, if it does.
     fn renew(&mut self, state: &State) -> Option<f64> {
         if !matches!(self.strength, Strength::UntilHeld { acts: true, .. }) {
             return None;

@@ -22,7 +22,7 @@
 //! with the initial area A_0 of the triangle: g_i is the distance from the plane. In the plane, `e_z` takes the place of
 //! the second edge. The three are those that are spread best.
 //!
-//! A *damper* holds what nothing but contact stops, `f = k s (u − u_n)`, ever more weakly, or slows a jump (E4).
+//! A *damper* holds what nothing but contact stops, `f = k s (u − u_n)`, until contact does, or slows a jump (E4).
 //!
 //! A *distributing* carrier follows the mean motion of its nodes, which stay free to deform (E3):
 //!

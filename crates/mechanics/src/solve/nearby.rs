@@ -4,7 +4,8 @@
 //! equilibrium that is missing. Viscous forces would lead to some equilibrium all the same, but with friction to another
 //! one, for what slips on their way has slipped. So before they act, the increment is gone through in smaller and smaller
 //! parts, each of them an equilibrium at its own loads. Where that leads to the end of the increment, no jump is needed,
-//! and none is taken; where it does not, everything is as before.
+//! and none is taken; where it does not, or where a part moves nodes [`FAR`] times as far as they were going, everything is as
+//! before.
 
 use super::Step;
 use super::event::{Event, IterationRecord, Observer};

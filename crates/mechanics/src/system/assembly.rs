@@ -444,14 +444,14 @@ impl Assembler {
         Some(stiffness)
     }
 
-    /// Gives multipliers that act on unknowns with a stiffness a compliance, in the tangent `out` alone: [`YIELDING`] of
+    /// Adds a compliance to multipliers that act on unknowns with a stiffness, in the tangent `out` alone: [`YIELDING`] times
     ///
     /// ```text
-    /// Σ_j B_j² / K_jj                                                                          (E2)
+    /// Σ_j B_j² / K_jj                                                                          (E4)
     /// ```
     ///
-    /// with the coefficients `B_j` of the multiplier and the stiffness `K_jj` of what they act on, about that of its own
-    /// equation once displacements are eliminated. Says how many there are.
+    /// with the coefficients `B_j` of the multiplier and the stiffness `K_jj` of what they act on, which is about the compliance
+    /// of its equation once displacements are eliminated. Returns the number of these multipliers.
     ///
     /// Where several are redundant, the tangent is singular though the problem is not: with this each takes the share that a
     /// very stiff joint would give it. Residuals stay as they are, so that the state that is found is not changed.

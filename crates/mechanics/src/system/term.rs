@@ -371,7 +371,8 @@ pub trait Term: Send + Sync {
         false
     }
 
-    /// Without what was let go, something moves freely: says whether the term holds it again, until the increment is accepted.
+    /// Something moves freely without what [`Term::let_go`] released: returns whether the term holds it again, until the
+    /// increment is accepted.
     fn hold_again(&mut self) -> bool {
         false
     }
@@ -382,7 +383,7 @@ pub trait Term: Send + Sync {
         false
     }
 
-    /// Forces below this one are of no account: equations of multipliers may be off by as much as comes to such a force.
+    /// Sets the size up to which a force is negligible: the residuals of multipliers may be as large as such a force.
     fn let_pass(&mut self, _force: f64) {}
 
     /// The safer way failed, too: the term goes its usual way again.

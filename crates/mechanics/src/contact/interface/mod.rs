@@ -243,7 +243,7 @@ pub struct Interface {
     drift: Option<(f64, NodeId)>,
     /// Rows whose slip turns round from iterate to iterate.
     reversals: Reversals,
-    /// Forces that are of no account.
+    /// The size up to which a force is negligible.
     negligible: f64,
     /// Iterates of this increment with nothing closed.
     flights: u8,
