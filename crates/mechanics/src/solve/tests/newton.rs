@@ -2,7 +2,7 @@
 
 use super::super::Failure;
 use super::super::equations::Equations;
-use super::super::newton::{Goal, Newton, Place, falls};
+use super::super::newton::{Goal, Newton, Place};
 use super::*;
 use crate::system::linear::{
     LinearError, LinearKind, LinearSolver, Problem, SolveReport, Values, choose,
@@ -164,16 +164,6 @@ fn an_iteration_that_gets_somewhere_takes_longer() {
     let taken = told.increments[0].iterations;
     assert!((22..=24).contains(&taken), "{taken}");
     assert!((told.state.u[0] - 1.0).abs() < 2e-4);
-}
-
-#[test]
-fn what_is_wrong_falls_where_its_least_of_late_is_well_below_the_least_before() {
-    let never = [f64::INFINITY, 9.0, 8.0, 7.0, 8.0, 9.0, 6.5, 8.0];
-    let does = [f64::INFINITY, 9.0, 8.0, 7.0, 8.0, 9.0, 4.0, 8.0];
-    let done = [f64::INFINITY, 9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    let short = [9.0, 1.0, 0.0, 0.0, 0.0];
-    let all = [&never[..], &does, &done, &short].map(falls);
-    assert_eq!(all, [false, true, false, false]);
 }
 
 /// A multiplier that keeps two nodes, or a node and the ground, at the same place along x.

@@ -1,0 +1,74 @@
+//! Why an increment did not converge.
+
+use crate::system::linear::LinearError;
+use crate::system::{Dof, NodeId, TermError};
+use thiserror::Error;
+
+/// Why an increment did not converge.
+#[derive(Clone, Debug, Error)]
+pub enum Failure {
+    /// Too many iterations.
+    #[error(
+        "{iterations} iterations did not suffice: the largest force error is {residual:.3e} of the mean force"
+    )]
+    TooManyIterations {
+        /// Linear solves done.
+        iterations: usize,
+        /// Largest residual over the mean force.
+        residual: f64,
+        /// The dof where it is.
+        worst: Option<Dof>,
+        /// The residual there, a force.
+        force: f64,
+        /// What kept changing: the last verdict that was not settled, and its nodes.
+        unsettled: Option<(String, Vec<NodeId>)>,
+    },
+    /// The residual grew beyond all measure.
+    #[error("the iteration diverged: the largest force error is {residual:.3e} of the mean force")]
+    Diverged {
+        /// Linear solves done.
+        iterations: usize,
+        /// Largest residual over the mean force.
+        residual: f64,
+        /// The dof where it is.
+        worst: Option<Dof>,
+    },
+    /// No multiple of the step lowers the energy.
+    #[error("no multiple of the Newton step lowers the energy: the state may be at a limit load")]
+    NoDescent {
+        /// Linear solves done.
+        iterations: usize,
+        /// The dof with the largest residual.
+        worst: Option<Dof>,
+    },
+    /// An observer asked to stop before it had converged.
+    #[error("the run was asked to stop after {iterations} iterations of an increment")]
+    Interrupted {
+        /// Linear solves done.
+        iterations: usize,
+    },
+    /// A term could not be evaluated.
+    #[error(transparent)]
+    Term(#[from] TermError),
+    /// The linear system could not be solved.
+    #[error("{source}")]
+    Linear {
+        /// Why.
+        source: LinearError,
+        /// The unknown that the solver names.
+        dof: Option<Dof>,
+    },
+}
+
+impl Failure {
+    /// Whether something moves freely.
+    pub(super) const fn is_singular(&self) -> bool {
+        matches!(
+            self,
+            Self::Linear {
+                source: LinearError::Singular { .. },
+                ..
+            }
+        )
+    }
+}
