@@ -1,7 +1,7 @@
 //! What holds a body that nothing but contact stops, until contact does; and what slows a jump.
 
 use crate::system::{
-    Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, Symmetry, Term,
+    Aid, Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, Symmetry, Term,
     TermError, Verdict, Work,
 };
 
@@ -221,7 +221,7 @@ impl Term for Damper {
         Ok(Some(self.chunk(chunk).map(energy).sum()))
     }
 
-    fn let_pass(&mut self, force: f64) {
+    fn set_negligible(&mut self, force: f64) {
         self.negligible = force;
     }
 
@@ -234,43 +234,32 @@ impl Term for Damper {
         })
     }
 
-    fn let_go(&mut self) -> bool {
+    fn aid(&mut self, aid: Aid) -> bool {
         let Strength::UntilHeld {
             acts,
-            needed: false,
+            needed,
+            boost,
             ..
         } = &mut self.strength
         else {
             return false;
         };
-        std::mem::take(acts)
-    }
-
-    fn hold_again(&mut self) -> bool {
-        let Strength::UntilHeld { acts, needed, .. } = &mut self.strength else {
-            return false;
-        };
-        let back = !*acts;
-        *acts = true;
-        *needed |= back;
-        back
-    }
-
-    fn rescue(&mut self) -> bool {
-        let again = self.hold_again();
-        let Strength::UntilHeld { needed, boost, .. } = &mut self.strength else {
-            return false;
-        };
-        let stronger = *needed && !again && *boost == 1.0;
-        if stronger {
-            *boost = BOOST;
-        }
-        again || stronger
-    }
-
-    fn relent(&mut self) {
-        if let Strength::UntilHeld { needed, boost, .. } = &mut self.strength {
-            (*needed, *boost) = (false, 1.0);
+        match aid {
+            Aid::Remove => !*needed && std::mem::take(acts),
+            Aid::Restore | Aid::Safer => {
+                let back = !std::mem::replace(acts, true);
+                *needed |= back;
+                let stronger = aid == Aid::Safer && *needed && !back && *boost == 1.0;
+                if stronger {
+                    *boost = BOOST;
+                }
+                back || stronger
+            }
+            Aid::Usual => {
+                let changes = *needed || *boost != 1.0;
+                (*needed, *boost) = (false, 1.0);
+                changes
+            }
         }
     }
 

@@ -10,8 +10,8 @@
 use super::Step;
 use super::event::{Event, IterationRecord, Observer};
 use super::newton::Goal;
-use super::stepping::{Accepted, Stepper, TIME, reject, relent, rescued};
-use crate::system::{Archive, Dof, System, TermError};
+use super::stepping::{Accepted, Stepper, TIME, reject};
+use crate::system::{Aid, Archive, Dof, System, TermError};
 
 /// The first part of an increment, and by how much smaller parts are after one that failed.
 const PART: f64 = 0.25;
@@ -79,7 +79,7 @@ impl Stepper {
         let refused = |message: String| TermError::Refused { message };
         self.load(system, to).map_err(|e| refused(e.to_string()))?;
         if self.safer {
-            rescued(system);
+            system.aid(Aid::Safer);
         }
         Ok(())
     }
@@ -143,9 +143,9 @@ impl Stepper {
             reject(system);
             // a failure from an extrapolated start says nothing about one from the last state
             if !self.newton.extrapolated {
-                safer = !safer && rescued(system);
+                safer = !safer && system.aid(Aid::Safer);
                 if !safer {
-                    relent(system);
+                    system.aid(Aid::Usual);
                     size *= PART;
                 }
             }

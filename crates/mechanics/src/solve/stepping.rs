@@ -7,7 +7,7 @@ use super::stabilization;
 use super::work::ExternalWork;
 use crate::system::linear::{LinearKind, choose};
 use crate::system::{
-    Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError, interpolate,
+    Aid, Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError, interpolate,
 };
 use thiserror::Error;
 
@@ -405,10 +405,10 @@ impl Stepper {
                 let smallest = min.is_none_or(|m| smaller < m);
                 failed += usize::from(!extrapolated);
                 // terms may know a safer way, and a smaller increment is tried the usual way first
-                let safer = !extrapolated && !self.safer && rescued(system);
+                let safer = !extrapolated && !self.safer && system.aid(Aid::Safer);
                 let again = extrapolated || safer;
                 if !again {
-                    relent(system);
+                    system.aid(Aid::Usual);
                 }
                 self.safer = safer || (self.safer && again);
                 let due = |n| failed == n + 1 || (smallest && failed <= n);
@@ -741,19 +741,6 @@ impl Stepper {
 pub(super) fn reject(system: &mut System) {
     for term in &mut system.terms {
         term.reject();
-    }
-}
-
-/// Whether a term knows a safer way.
-pub(super) fn rescued(system: &mut System) -> bool {
-    let safer = system.terms.iter_mut().map(|term| term.rescue());
-    safer.fold(false, |any, one| any | one)
-}
-
-/// Lets all terms go their usual way again.
-pub(super) fn relent(system: &mut System) {
-    for term in &mut system.terms {
-        term.relent();
     }
 }
 

@@ -65,7 +65,7 @@ pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;
 pub use state::State;
 pub use term::{
-    Archive, ArchiveError, Lasts, Order, Part, PatternSink, Sink, StepContext, Term, TermError,
-    Verdict, Work,
+    Aid, Archive, ArchiveError, Lasts, Order, Part, PatternSink, Sink, StepContext, Term,
+    TermError, Verdict, Work,
 };
 pub use whole::System;

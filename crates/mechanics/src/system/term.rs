@@ -244,6 +244,21 @@ impl Default for StepContext {
     }
 }
 
+/// How terms help an iteration on: what they add for its sake has no part in the solution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aid {
+    /// Active sets have settled with something closed, or all has converged: what holds bodies provisionally is removed, and
+    /// the state is looked for without it.
+    Remove,
+    /// Something moves freely without it: it holds again, until the increment is accepted.
+    Restore,
+    /// The iteration failed: a slower and safer way to the same solution, until the increment is accepted or
+    /// [`Aid::Usual`].
+    Safer,
+    /// The safer way failed, too: the usual way again.
+    Usual,
+}
+
 /// A part of the model that exerts forces: solids, loads, contact interfaces. All that solving ever sees.
 pub trait Term: Send + Sync {
     /// What it is called in messages and files.
@@ -365,29 +380,13 @@ pub trait Term: Send + Sync {
         Ok(Verdict::Settled)
     }
 
-    /// Active sets have settled with something closed, or all has converged: says whether the term lets go of what it has
-    /// held so far. The state is then looked for without.
-    fn let_go(&mut self) -> bool {
-        false
-    }
-
-    /// Something moves freely without what [`Term::let_go`] released: returns whether the term holds it again, until the
-    /// increment is accepted.
-    fn hold_again(&mut self) -> bool {
-        false
-    }
-
-    /// The iteration failed: says whether the term knows a slower and safer way to the same solution, which it then goes
-    /// until the increment is accepted, or the term is asked to [`relent`](Term::relent).
-    fn rescue(&mut self) -> bool {
+    /// Changes how the term helps the iteration on; returns whether anything changed.
+    fn aid(&mut self, _aid: Aid) -> bool {
         false
     }
 
     /// Sets the size up to which a force is negligible: the residuals of multipliers may be as large as such a force.
-    fn let_pass(&mut self, _force: f64) {}
-
-    /// The safer way failed, too: the term goes its usual way again.
-    fn relent(&mut self) {}
+    fn set_negligible(&mut self, _force: f64) {}
 
     /// Viscous forces of this strength act from the next increment on, none at 0, against what moves since its start
     /// beyond `drift`: a number for each unknown, or nothing. Says whether the term has any.

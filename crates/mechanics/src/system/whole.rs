@@ -1,6 +1,6 @@
 use super::samples::internal_forces;
 use super::{
-    Assembly, ContactAudit, Dof, DofName, Elimination, Frame, Layout, Samples, State, Term,
+    Aid, Assembly, ContactAudit, Dof, DofName, Elimination, Frame, Layout, Samples, State, Term,
     TermError, Wanted,
 };
 use signorini_geometry::tensor::Vec3;
@@ -33,6 +33,12 @@ impl System {
     #[must_use]
     pub fn initial_state(&self) -> State {
         State::initial(&self.layout, &self.reference, &self.elimination)
+    }
+
+    /// Changes how all terms help an iteration on; returns whether one changed.
+    pub fn aid(&mut self, aid: Aid) -> bool {
+        let changes = self.terms.iter_mut().map(|term| term.aid(aid));
+        changes.fold(false, |any, one| any | one)
     }
 
     /// Makes `trial` the state `base` advanced by `alpha · du`.

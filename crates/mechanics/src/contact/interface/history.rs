@@ -92,9 +92,9 @@ impl History {
         }
     }
 
-    /// Limits of friction are not held any more.
-    pub fn forget_limits(&mut self) {
-        self.limits = None;
+    /// Limits of friction are not held any more; returns whether they were.
+    pub fn forget_limits(&mut self) -> bool {
+        self.limits.take().is_some()
     }
 
     /// Whether limits of friction are held.

@@ -18,8 +18,8 @@ use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
 use super::law::{ContactLaw, Multiplier, Penalty, Scale};
 use super::row::{Participant, RowOrder, Rows, Wanted};
 use crate::system::{
-    Archive, ArchiveError, ContactAudit, Dof, Elimination, Frame, Layout, Order, Part, PatternSink,
-    Sink, State, StepContext, Symmetry, Term, TermError, Verdict, Work,
+    Aid, Archive, ArchiveError, ContactAudit, Dof, Elimination, Frame, Layout, Order, Part,
+    PatternSink, Sink, State, StepContext, Symmetry, Term, TermError, Verdict, Work,
 };
 use history::History;
 use lent::Lents;
@@ -717,16 +717,16 @@ impl Term for Interface {
         })
     }
 
-    fn rescue(&mut self) -> bool {
-        self.hold_limits()
+    fn aid(&mut self, aid: Aid) -> bool {
+        match aid {
+            Aid::Safer => self.hold_limits(),
+            Aid::Usual => self.history.forget_limits(),
+            Aid::Remove | Aid::Restore => false,
+        }
     }
 
-    fn let_pass(&mut self, force: f64) {
+    fn set_negligible(&mut self, force: f64) {
         self.negligible = force;
-    }
-
-    fn relent(&mut self) {
-        self.history.forget_limits();
     }
 
     fn has_saddle(&self) -> bool {

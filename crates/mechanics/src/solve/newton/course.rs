@@ -16,7 +16,7 @@ const PATIENCE: usize = 3;
 /// of the smallest before them.
 const FALLS: (usize, f64) = (5, 0.7);
 
-/// The correction over the increment's displacement from which on something is not held that has just been let go.
+/// The correction over the increment's displacement from which on contact does not hold what aid held.
 const FLEES: f64 = 1.0;
 
 /// How often terms may change what they keep frozen, in one increment.
@@ -33,15 +33,15 @@ fn falls(measures: &[f64]) -> bool {
     smallest(since) < part * smallest(before)
 }
 
-/// Whether contact holds what terms have let go of.
+/// Whether contact holds bodies without the aid of terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Watch {
-    /// Nothing has been let go.
+    /// No aid has been removed.
     #[default]
     Off,
-    /// Something has, and the state has not been judged since.
-    LetGo,
-    /// Something has, with this residual: the next step shows whether contact holds it.
+    /// Aid has, and the state has not been judged since.
+    Removed,
+    /// Aid has, with this residual: the next step shows whether contact holds what it held.
     From(f64),
 }
 
@@ -51,7 +51,7 @@ impl Watch {
         let before = std::mem::take(self);
         match before {
             Self::Off => false,
-            Self::LetGo => {
+            Self::Removed => {
                 *self = Self::From(judgement.residual);
                 false
             }
@@ -59,7 +59,7 @@ impl Watch {
         }
     }
 
-    /// Whether a correction shows it: what contact holds hardly moves when it is let go.
+    /// Whether a correction shows it: what contact holds hardly moves when aid is removed.
     pub fn sees_correction(&mut self, correction: f64, moved: f64) -> bool {
         let flees = *self != Self::Off && correction > FLEES * moved;
         if flees {
@@ -133,7 +133,7 @@ pub(super) struct Course {
     pub step: LastStep,
     /// How exactly the next one has to be solved for.
     pub economy: Economy,
-    /// Whether contact holds what terms have let go of.
+    /// Whether contact holds bodies without the aid of terms.
     pub watch: Watch,
     /// Discrete choices that the start has changed, until they are counted.
     of_start: usize,
@@ -196,9 +196,9 @@ impl Course {
         self.allowance.is_used_up(self.iterations)
     }
 
-    /// Terms have let go of what they held: the state without it is looked for.
-    pub fn let_go(&mut self) {
-        self.watch = Watch::LetGo;
+    /// Terms have removed their aid: the state without it is looked for.
+    pub fn aid_removed(&mut self) {
+        self.watch = Watch::Removed;
         self.begin_again();
     }
 
@@ -296,9 +296,9 @@ mod tests {
     }
 
     #[test]
-    fn a_residual_that_grows_once_something_is_let_go_shows_that_it_flees() {
+    fn a_residual_that_grows_once_aid_is_removed_shows_that_something_flees() {
         for (after, small, flees) in [(0.9, false, false), (1.1, false, true), (1.1, true, false)] {
-            let mut watch = Watch::LetGo;
+            let mut watch = Watch::Removed;
             assert!(!watch.sees(&residual(1.0, false)));
             assert_eq!(watch, Watch::From(1.0));
             assert_eq!(watch.sees(&residual(after, small)), flees);

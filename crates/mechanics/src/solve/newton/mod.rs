@@ -1,7 +1,7 @@
 //! One increment by Newton's method.
 //!
 //! ```text
-//!   start ──▶ judge ──▶ in contact, or found: do terms let go? ──▶ judge
+//!   start ──▶ judge ──▶ in contact, or found: is aid removed? ──▶ judge
 //!               ▲   ──▶ found: do terms release what is frozen?  ──▶ judge, or accept
 //!               │   ──▶ stopped, diverged, exhausted             ──▶ fail
 //!               │   ──▶ else: tangent, linear solve, line search ─┐
@@ -19,7 +19,9 @@ mod step;
 
 use super::equations::Equations;
 use super::event::{Flow, IterationRecord};
-use crate::system::{Assembler, Assembly, Dof, NodeId, Order, State, System, TermError, Verdict};
+use crate::system::{
+    Aid, Assembler, Assembly, Dof, NodeId, Order, State, System, TermError, Verdict,
+};
 use course::{Course, Released};
 pub use failure::Failure;
 use iterate::{Iterate, Next, Why, is_small};
@@ -203,7 +205,7 @@ impl Newton {
         for term in &mut system.terms {
             term.begin_increment(base)?;
         }
-        self.let_pass(system, self.scale.mean_force());
+        self.set_negligible(system, self.scale.mean_force());
         self.assembler.begin_increment(&system.terms);
         self.equations.forget();
         (self.has_tangent, self.relaxes, self.stiffest) = (false, false, 0.0);
@@ -214,12 +216,12 @@ impl Newton {
         loop {
             let mut iterate = self.judge_iterate(system, base, &mut course)?;
             self.stopping |= report(&record(&course, &iterate, place)) == Flow::Stop;
-            if course.watch.sees(&iterate.judgement) && self.hold_again(system) {
+            if course.watch.sees(&iterate.judgement) && self.aid(system, Aid::Restore) {
                 continue;
             }
             course.note(&mut iterate);
-            if (iterate.is_found() || iterate.is_in_contact()) && self.let_go(system) {
-                course.let_go();
+            if (iterate.is_found() || iterate.is_in_contact()) && self.aid(system, Aid::Remove) {
+                course.aid_removed();
                 continue;
             }
             match iterate.next(self.stopping, course.is_exhausted()) {
@@ -258,7 +260,7 @@ impl Newton {
             self.assemble(system, first)?;
         }
         let judgement = self.judge(system);
-        self.let_pass(system, judgement.q[FORCES]);
+        self.set_negligible(system, judgement.q[FORCES]);
         course.reached(&judgement);
         let verdicts = verdicts(system, &self.trial);
         Ok(Iterate {
@@ -276,36 +278,19 @@ impl Newton {
         })
     }
 
-    /// Whether some term lets go of what it has held so far.
-    fn let_go(&mut self, system: &mut System) -> bool {
-        let mut some = false;
-        for term in &mut system.terms {
-            some |= term.let_go();
-        }
-        self.changed(some)
-    }
-
-    /// Whether some term holds again what it has let go.
-    fn hold_again(&mut self, system: &mut System) -> bool {
-        let mut some = false;
-        for term in &mut system.terms {
-            some |= term.hold_again();
-        }
-        self.changed(some)
-    }
-
-    /// Terms have other forces now, or not: what was assembled holds no more.
-    const fn changed(&mut self, some: bool) -> bool {
-        if some {
+    /// Changes how terms help on; where one does, what was assembled holds no more.
+    fn aid(&mut self, system: &mut System, aid: Aid) -> bool {
+        let changes = system.aid(aid);
+        if changes {
             (self.assembled, self.has_tangent) = (None, false);
         }
-        some
+        changes
     }
 
-    /// Says to all terms which forces are of no account, where this is the mean one.
-    fn let_pass(&self, system: &mut System, mean: f64) {
+    /// Says to all terms which forces are negligible, where this is the mean one.
+    fn set_negligible(&self, system: &mut System, mean: f64) {
         for term in &mut system.terms {
-            term.let_pass(self.settings.force_tol * mean);
+            term.set_negligible(self.settings.force_tol * mean);
         }
     }
 

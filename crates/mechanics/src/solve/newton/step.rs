@@ -6,7 +6,7 @@ use super::{Failure, LineSearch, Newton, largest};
 use crate::solve::equations::{Accuracy, Factor};
 use crate::solve::line_search;
 use crate::system::linear::{EXACT, LinearError, StartStiffness};
-use crate::system::{Dof, Layout, Order, System, TermError};
+use crate::system::{Aid, Dof, Layout, Order, System, TermError};
 
 /// Free motions that are held at once: a body that is all mechanism is not worth solving.
 const HELD_AT_MOST: usize = 200;
@@ -21,8 +21,8 @@ const STILL: f64 = 1e-9;
 const SHORTENINGS: usize = 10;
 
 impl Newton {
-    /// Takes the next step: a tangent, the linear solve, and a part of the way. Where what terms have let go of moves freely,
-    /// they hold it again instead, and the state is judged once more.
+    /// Takes the next step: a tangent, the linear solve, and a part of the way. Where something moves freely without the aid of
+    /// terms, that is restored instead, and the state is judged once more.
     pub(super) fn step(
         &mut self,
         system: &mut System,
@@ -43,13 +43,15 @@ impl Newton {
         let keeps = serves || only_the_correction_is_left(iterate);
         let motion = iterate.moves_nodes;
         let left = match self.solve_linear(&system.layout, motion, keeps, accuracy) {
-            Err(failure) if failure.is_singular() && self.hold_again(system) => return Ok(()),
+            Err(failure) if failure.is_singular() && self.aid(system, Aid::Restore) => {
+                return Ok(());
+            }
             solved => solved?,
         };
         let nmotion = system.layout.nmotion();
         let size = largest(&self.du[..nmotion]);
         let flees = course.watch.sees_correction(size, iterate.moved);
-        if flees && self.hold_again(system) {
+        if flees && self.aid(system, Aid::Restore) {
             return Ok(());
         }
         if !serves {
