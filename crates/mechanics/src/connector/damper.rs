@@ -23,22 +23,21 @@ pub struct Damper {
     renewed_at: f64,
     /// How often `start` was renewed in this increment.
     renewals: u8,
+    /// The factor on the forces since then.
+    weakened: f64,
     /// The work of this increment up to the last renewal.
     work_before: f64,
     work: f64,
 }
 
-/// `start` is renewed again only if the forces have fallen to this part since the last renewal. They do not fall where a load
-/// drives a motion that nothing resists.
-const RENEWED: f64 = 0.8;
-/// The number of renewals that do not depend on that: after them, motions that contact resists carry almost no viscous force.
-const ALWAYS: u8 = 3;
-/// The largest number of renewals in an increment.
-const AT_MOST: u8 = 8;
+/// A load drives a motion that nothing resists so far where the forces have not fallen to this part since the last renewal.
+const RENEWED: f64 = 0.3;
+/// What they are multiplied with then, so that the next solution goes farther.
+const WEAKER: f64 = 0.1;
+/// The number of renewals before that: after them, motions that contact resists carry almost no viscous force.
+const ALWAYS: u8 = 2;
 /// The factor on viscous forces in a second attempt, after an iteration with them has failed.
 const BOOST: f64 = 30.0;
-/// The sum of the viscous forces, over a negligible force, below which they are not renewed.
-const BORNE: f64 = 1e-4;
 
 /// How s comes about.
 #[derive(Clone, Copy, Debug)]
@@ -88,6 +87,7 @@ impl Damper {
             negligible: 0.0,
             renewed_at: f64::INFINITY,
             renewals: 0,
+            weakened: 1.0,
             work_before: 0.0,
             work: 0.0,
         }
@@ -98,7 +98,7 @@ impl Damper {
         match self.strength {
             Strength::UntilHeld {
                 acts: true, boost, ..
-            } => boost,
+            } => boost * self.weakened,
             Strength::UntilHeld { acts: false, .. } => 0.0,
             Strength::Asked(strength) => strength,
         }
@@ -114,7 +114,9 @@ impl Damper {
     }
 
     /// Moves the rest position to the state that was found, so that the next solution starts from there: the proximal point
-    /// method, whose limit has no viscous forces where contact holds the bodies. Returns the sum of the forces, if it does.
+    /// method, whose limit has no viscous forces where contact holds the bodies. Returns the sum of the forces, if it does: as
+    /// long as that is not negligible. Where a load drives a motion that nothing resists, the forces become weaker, up to where
+    /// something does; where nothing ever does, the iteration fails.
     fn renew(&mut self, state: &State) -> Option<f64> {
         if !matches!(self.strength, Strength::UntilHeld { acts: true, .. }) {
             return None;
@@ -122,11 +124,14 @@ impl Damper {
         let forces = (0..self.nchunk()).flat_map(|c| self.chunk(c));
         let forces = forces.map(|(dof, k, start)| (k * (value(state, dof) - start)).abs());
         let force: f64 = forces.sum();
-        let is_stuck = self.renewals >= ALWAYS && force > RENEWED * self.renewed_at;
-        if force <= BORNE * self.negligible || is_stuck || self.renewals >= AT_MOST {
+        if force <= self.negligible {
             return None;
         }
+        let is_driven = self.renewals >= ALWAYS && force > RENEWED * self.renewed_at;
         self.work_before += self.spent(state);
+        if is_driven {
+            self.weakened *= WEAKER;
+        }
         self.renewed_at = force;
         self.renewals = self.renewals.saturating_add(1);
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
@@ -175,7 +180,8 @@ impl Term for Damper {
     }
 
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
-        (self.renewed_at, self.renewals, self.work_before) = (f64::INFINITY, 0, 0.0);
+        (self.renewed_at, self.renewals) = (f64::INFINITY, 0);
+        (self.weakened, self.work_before) = (1.0, 0.0);
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
             let drift = self.drift.get(dof as usize).copied();
             *start = value(from, dof) + drift.unwrap_or_default();

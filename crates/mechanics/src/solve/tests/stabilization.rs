@@ -222,9 +222,40 @@ fn what_holds_a_body_that_nothing_else_does_bears_nothing_of_a_load() {
     assert!(told.cuts.is_empty());
     assert!((told.state.u[0] - 0.6).abs() < 1e-9, "{}", told.state.u[0]);
     assert_eq!(told.state.u[2], 0.0);
-    // the viscous forces are renewed until they bear a part of 1e-4 of what is of no account
+    // the viscous forces are renewed until what they bear is negligible
     for increment in &told.increments {
         assert!(increment.iterations <= 6, "{increment:?}");
         assert!(increment.attempts == 1);
     }
+}
+
+/// A node that viscous forces of stiffness 10 hold, and a load of 1 drives.
+fn driven(stop: Box<dyn Term>) -> Told {
+    let damper = crate::connector::Damper::until_held("free bodies", vec![(x(0), 10.0)]);
+    let terms: Vec<Box<dyn Term>> = vec![stop, load(0, &[1.0]), Box::new(damper)];
+    run(system(1, terms), &[step(Increments::Fixed(1), &[])])
+}
+
+#[test]
+fn a_load_drives_a_body_up_to_what_stops_it() {
+    // nothing up to 3, thirty times as far as the load and the viscous forces go at once
+    fn stop(e: f64) -> [f64; 3] {
+        let inside = (e - 3.0).max(0.0);
+        let stiffness = if e > 3.0 { 100.0 } else { 0.0 };
+        [50.0 * inside * inside, 100.0 * inside, stiffness]
+    }
+    let told = driven(Spring::between(None, 0, stop));
+    told.assert_finished();
+    assert!(told.cuts.is_empty());
+    assert!((told.state.u[0] - 3.01).abs() < 1e-7, "{}", told.state.u[0]);
+}
+
+#[test]
+fn a_body_that_a_load_drives_away_is_no_solution() {
+    let told = driven(Spring::between(None, 0, |_| [0.0; 3]));
+    assert!(
+        matches!(told.outcome, Err(RunError::NotConverged { .. })),
+        "{:?}",
+        told.outcome
+    );
 }
