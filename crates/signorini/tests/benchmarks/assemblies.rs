@@ -11,37 +11,13 @@
 //! EXPECTED    a solution whose forces are in balance
 //! TOLERANCE   95 of 100 solved, with at most two cut-backs; forces a tenth of force_tol of the largest, 1e-7
 use crate::common::{Run, run};
+use crate::random::Random;
 use crate::scene::{Case, Scene};
 use signorini_geometry::tensor::Vec3;
 use std::fmt::Write;
 
 /// The largest number of unknowns.
 const UNKNOWNS: usize = 3000;
-
-/// Numbers that look random (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() * n as f64) as usize
-    }
-
-    fn of<T: Copy>(&mut self, all: &[T]) -> T {
-        all[self.below(all.len())]
-    }
-}
 
 /// An assembly, and what is known of it.
 struct Assembly {
