@@ -67,7 +67,16 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
             of_constraint_error(error),
         ),
         ModelError::OnRigidNode { body, .. } => (&codes::CLASH, of_body(body), ""),
-        other => of_contact_error(case, other),
+        ModelError::Facets { .. }
+        | ModelError::EmptySide { .. }
+        | ModelError::Surface { .. }
+        | ModelError::Glued { .. }
+        | ModelError::TooDeep { .. }
+        | ModelError::TwoPass { .. }
+        | ModelError::Unsuited { .. }
+        | ModelError::PairCount { .. }
+        | ModelError::Table { .. }
+        | ModelError::BothRigid { .. } => of_contact_error(case, error),
     }
 }
 

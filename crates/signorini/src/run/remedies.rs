@@ -43,28 +43,10 @@ pub(super) struct Trouble<'a> {
 impl Trouble<'_> {
     /// What to change, most promising first.
     pub fn remedies(&self) -> Vec<String> {
-        let mut found = match self.cause {
-            Failure::Linear {
-                source: LinearError::Singular { .. },
-                ..
-            } if !self.multiplier => return hold(self.case, self.step),
-            Failure::Linear {
-                source: LinearError::Singular { .. },
-                ..
-            } => self.of_contact(self.contact.and_then(|name| self.contact_called(name))),
-            Failure::TooManyIterations {
-                unsettled: Some((why, _)),
-                ..
-            } => self.of_contact(self.contact_in(why)),
-            Failure::TooManyIterations { .. } => vec![self.more_iterations()],
-            Failure::Term(TermError::Surface { interface, .. }) => {
-                self.of_contact(self.contact_called(interface))
-            }
-            Failure::Term(TermError::Inverted { body, .. }) => {
-                self.of_material(body).into_iter().collect()
-            }
-            _ => Vec::new(),
-        };
+        let (mut found, is_cure) = self.of_cause();
+        if is_cure && !found.is_empty() {
+            return found;
+        }
         found.extend(self.all_remedies());
         found.extend(self.motion_instead());
         let smaller = self.smaller();
@@ -74,6 +56,36 @@ impl Trouble<'_> {
             _ => {}
         }
         found
+    }
+
+    /// What to change because of the cause, and whether nothing else helps.
+    fn of_cause(&self) -> (Vec<String>, bool) {
+        match self.cause {
+            Failure::Linear {
+                source: LinearError::Singular { .. },
+                ..
+            } => {
+                let contact = self.contact.and_then(|name| self.contact_called(name));
+                let found = if self.multiplier {
+                    self.of_contact(contact)
+                } else {
+                    hold(self.case, self.step)
+                };
+                (found, true)
+            }
+            Failure::TooManyIterations {
+                unsettled: Some((why, _)),
+                ..
+            } => (self.of_contact(self.contact_in(why)), false),
+            Failure::TooManyIterations { .. } => (vec![self.more_iterations()], false),
+            Failure::Term(TermError::Surface { interface, .. }) => {
+                (self.of_contact(self.contact_called(interface)), false)
+            }
+            Failure::Term(TermError::Inverted { body, .. }) => {
+                (self.of_material(body).into_iter().collect(), true)
+            }
+            _ => (Vec::new(), false),
+        }
     }
 
     fn step(&self) -> Option<&Step> {

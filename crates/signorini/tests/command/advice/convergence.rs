@@ -7,6 +7,20 @@ use crate::support::change;
 const CUT_ONLY: &str = "[solver]\non_trouble = [\"cut\"]\n";
 const PRESSED: &str = "[[step.move]]\non = \"high_top\"\nux = 0\nuy = -0.1\n";
 
+/// Asserts that a message does not propose what fails, too.
+#[track_caller]
+fn proposes_no_smaller_increments(text: &str) {
+    let failed = ended(text);
+    assert!(
+        !failed
+            .says(5, &["help:"])
+            .err
+            .contains("smaller increments"),
+        "{}",
+        failed.err
+    );
+}
+
 /// Pressed by a tenth, and dragged along.
 fn dragged(along: f64, down: f64, by: f64, contact: &'static str, solver: &'static str) -> Blocks {
     let steps = format!(
@@ -86,6 +100,7 @@ fn a_material_that_collapses() {
         ..BLOCKS
     }
     .text();
+    proposes_no_smaller_increments(&text);
     Trial {
         text,
         code: 5,
@@ -222,6 +237,7 @@ fn mortar_at_an_edge_that_gauss_points_replace() {
         keys: "increments = { fixed = 1 }",
         ..dragged(2.4, -0.1, 1.0, keys, CUT_ONLY)
     };
+    proposes_no_smaller_increments(&in_one.text());
     Trial {
         text: in_one.text(),
         code: 5,
@@ -315,6 +331,7 @@ fn a_body_that_a_load_pulls_off() {
         ..BLOCKS
     }
     .text();
+    proposes_no_smaller_increments(&text);
     Trial {
         text,
         code: 5,
