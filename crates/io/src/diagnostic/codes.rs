@@ -250,12 +250,15 @@ codes! {
     HELD_BY_CONTACT "S0301" Model "a body held only by contact"
     "Nothing but contact keeps the body in place, and the contact is open at the start."
     ["a small gap in the drawing or from meshing", "a support was forgotten"]
-    ["close the gap", "prescribe the motion of the body instead of a load", "hold it by a weak support"]
+    ["close the gap:  start = { close_gaps_below = LENGTH }  of the contact",
+     "prescribe the motion of the body instead of a load", "hold it by a support",
+     "where  stabilize = false  is the reason, delete it"]
 
     FREE_BODY "S0302" Model "a body that nothing holds"
     "The body can move without any force. Its equations have no unique solution."
     ["a support or a contact was forgotten", "a support holds too few directions"]
-    ["fix the body in enough directions", "prescribe its motion", "bring it into contact"]
+    ["fix the body in enough directions", "prescribe its motion", "bring it into contact",
+     "where no load acts on the motion:  free_motions = \"hold\"  in [solver]"]
 
     BAD_SIDES "S0303" Model "two sides of a contact that cannot touch"
     "The sides share nodes, are the same, or are both rigid."
@@ -298,7 +301,7 @@ codes! {
      bodies are to come apart."
     ["a body is in the wrong place", "the case mixes units of length", "a contact that is meant for a later step"]
     ["move the body, or correct the mesh", "switch the contact on later:  active = false  and  [[step.contact]]",
-     "for an interference that is meant so:  start = { interference = \"now\" }  or  \"increments\""]
+     "for an interference that is meant so:  start = { interference = \"now\" }  of the contact, or  \"increments\""]
 
     IMPLAUSIBLE "S0402" Input "a value that does not fit the units"
     "A material value would be far outside of what materials have, if the units of the case are what its label says. \
@@ -390,7 +393,7 @@ codes! {
     "Accepted states are audited. Measured along the normal of the primary side at the closest points, tractions have more \
      shear than friction allows, or less where they slip."
     ["facets have tilted against the other side, as at a corner that rolls up, and pressure acts along their normals"]
-    ["compare single points:  method = \"node-to-segment\"", "take the faces beside the edge into the secondary side",
+    ["compare single points:  method = \"node-to-segment\"", "take the faces next to the edge into the secondary side",
      "smaller facets there", "make it an error:  --strict"]
 
     NOT_CARRIED "S0424" Input "contact tractions that no stress carries"
@@ -404,7 +407,8 @@ codes! {
     "There was no equilibrium nearby, or none was found, and viscous forces led to another one. Their work is a large part of \
      that of loads and supports: where the structure does not snap, the state that was reached may not be the right one."
     ["the structure snaps or buckles", "an increment was too large for contact or friction"]
-    ["smaller increments:  increments = { max = ... }", "refuse such steps:  on_trouble = [\"cut\"]", "make it an error:  --strict"]
+    ["prescribe a motion instead of the load", "hold what is free", "smaller increments:  increments = { max = ... }",
+     "refuse such steps:  on_trouble = [\"cut\"]", "make it an error:  --strict"]
 
     FAR_FROM_START "S0431" Input "a contact that slid far in the geometry of the start"
     "A contact whose steps all have linear geometry compares the sides where they were at the start. What touches has moved \
@@ -418,7 +422,8 @@ codes! {
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \
      before it are saved."
     ["the load is more than the structure bears", "contact status changes back and forth", "the mesh is too coarse at the contact"]
-    ["see which contact or element the message names", "smaller `min` in `increments`", "finer mesh, or smoother surfaces"]
+    ["what the message proposes, for the contact or element that it names", "prescribe a motion instead of a load",
+     "another method of that contact", "finer mesh, or smoother surfaces"]
 
     BY_POINTS "S0502" Input "a case that is solved again by Gauss points"
     "An increment could not be solved with mortar contact, which the program had chosen. Gauss points with a penalty pass over \

@@ -74,7 +74,7 @@ pub enum ConstraintError {
     /// A rotation that would depend on the place of a node that turns with a carrier.
     #[error(
         "constraint \"{constraint}\" would make a rotation of \"{carrier}\" depend on the place of a node that \
-        turns with a carrier; couple the rotations, or free a translation"
+        turns with a carrier"
     )]
     Turning {
         /// Name of the constraint.

@@ -108,6 +108,8 @@ pub enum ModelError {
         contact: String,
         /// Which, and why.
         what: &'static str,
+        /// What to write for the contact instead, as in a case.
+        remedy: &'static str,
     },
     /// Pairs by order of two sides with different numbers of nodes.
     #[error(

@@ -102,6 +102,8 @@ pub enum TermError {
         interface: String,
         /// What the surface said.
         message: String,
+        /// A node of the point that it is about.
+        node: Option<NodeId>,
     },
 }
 
@@ -266,6 +268,11 @@ pub trait Term: Send + Sync {
 
     /// Which unknowns see each other. Asked again when [`Term::prepare`] says that it changed.
     fn pattern(&self, out: &mut dyn PatternSink);
+
+    /// A node of the point that a multiplier acts at; none where it is another term's, or acts at no point.
+    fn node_of(&self, _multiplier: usize) -> Option<NodeId> {
+        None
+    }
 
     /// What its stiffness is at least.
     fn symmetry(&self) -> Symmetry;

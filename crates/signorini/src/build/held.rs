@@ -4,7 +4,7 @@ use super::ContactInfo;
 use super::gaps::place;
 use crate::text::short;
 use signorini_geometry::mesh::{Mesh, NodeId};
-use signorini_io::case::Case;
+use signorini_io::case::{Case, FreeMotions};
 use signorini_io::diagnostic::{Diagnostic, codes};
 use signorini_mechanics::model::Unheld;
 use std::collections::BTreeMap;
@@ -61,16 +61,43 @@ pub(super) fn by_contact(
     } else {
         "nothing else holds it: stabilize = false"
     });
-    let widest = open.iter().map(|(_, gap)| *gap).fold(0.0, f64::max);
-    if widest > 0.0 {
-        message = message.help(format!(
-            "where a gap is meant to be closed:  start = {{ close_gaps_below = {} }}  of the contact",
-            short(1.01 * widest)
-        ));
+    if stabilized {
+        for (contact, gap) in open.iter().take(LISTED) {
+            message = message.help(format!(
+                "where the gap is meant to be closed:  start = {{ close_gaps_below = {} }}  of contact \"{}\"",
+                short(1.01 * gap),
+                contact.name
+            ));
+        }
+    } else {
+        message = message
+            .help("let a vanishing viscous force hold it:  stabilize = \"auto\"  in [solver]");
     }
-    Some(
-        message.help("hold it by a support, or prescribe its motion with `move` instead of `load`"),
+    Some(message.help(hold_it(first_step(case))))
+}
+
+/// The remedy for whatever moves freely in a step.
+pub(crate) fn hold_it(step: &str) -> String {
+    format!(
+        "hold it by [[step.fix]], or prescribe its motion by [[step.move]] instead of a load, in step \"{step}\""
     )
+}
+
+/// The remedies for what nothing holds in a step: to hold it, or to let the program do so.
+pub(crate) fn hold(case: &Case, step: &str) -> Vec<String> {
+    let mut found = vec![hold_it(step)];
+    if case.solver.free_motions != FreeMotions::Hold {
+        found.push(
+            "where no load acts on the motion:  free_motions = \"hold\"  in [solver]".to_owned(),
+        );
+    }
+    found
+}
+
+/// The name of the first step.
+pub(crate) fn first_step(case: &Case) -> &str {
+    let first = case.steps.first();
+    first.map_or("", |step| step.name.value.as_str())
 }
 
 fn and_so_on(message: Diagnostic, n: usize) -> Diagnostic {

@@ -22,6 +22,7 @@ mod temperature;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use held::{first_step, hold};
 pub use mesh::{judge_mesh_of, read_mesh_of, read_surfaces_of};
 pub use prints::{
     ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,

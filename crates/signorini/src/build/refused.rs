@@ -1,5 +1,6 @@
 //! What makes no model, as messages.
 
+use super::held::{first_step, hold};
 use super::{constraints, loads};
 use signorini_io::case::Case;
 use signorini_io::diagnostic::{Code, Diagnostic, Place, codes};
@@ -8,23 +9,26 @@ use signorini_mechanics::solid::SolidError;
 
 /// The message for what makes no model.
 pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
-    let of_contact = |name: &str| case.contacts.iter().find(|c| c.name.value == name);
+    let (code, place, help) = kind(case, error);
+    let mut message = Diagnostic::error(code, error.to_string());
+    if let Some(place) = place {
+        message = message.at(place, "");
+    }
+    let helps = helps(case, error, help).into_iter();
+    helps.fold(message, Diagnostic::help)
+}
+
+/// The code, the place in the case, and what to change.
+type Kind<'a> = (&'static Code, Option<&'a Place>, &'static str);
+
+fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
     let of_body = |name: &str| {
-        case.bodies.iter().find(|b| {
-            b.groups
-                .iter()
-                .any(|g| name.split('+').any(|n| n == g.value))
-        })
+        let has = |group: &str| name.split('+').any(|part| part == group);
+        let mut bodies = case.bodies.iter();
+        let found = bodies.find(|body| body.groups.iter().any(|group| has(&group.value)));
+        found.map(|body| &body.place)
     };
-    let of_step = |name: &str| case.steps.iter().find(|s| s.name.value == name);
-    let of_load = |name: &str| {
-        case.steps.iter().find_map(|step| {
-            let mut loads = step.loads.iter().enumerate();
-            let (_, load) = loads.find(|(at, load)| loads::name(step, *at, load) == name)?;
-            Some(&load.place)
-        })
-    };
-    let (code, place, help) = match error {
+    match error {
         ModelError::NothingDeforms => (
             &codes::NOTHING_TO_SOLVE,
             case.bodies.first().map(|b| &b.place),
@@ -32,90 +36,144 @@ pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
         ),
         ModelError::TwoBodies { second, .. } | ModelError::RigidBodiesShare { second, .. } => (
             &codes::BOTH_BODIES,
-            of_body(second).map(|b| &b.place),
+            of_body(second),
             "name groups that do not overlap",
         ),
         ModelError::EmptyBody { body } => (
             &codes::WRONG_KIND,
-            of_body(body).map(|b| &b.place),
+            of_body(body),
             "name a group of solid elements",
         ),
         ModelError::Solid(error) => {
             let (code, body, help) = of_solid_error(error);
-            (code, of_body(body).map(|b| &b.place), help)
+            (code, of_body(body), help)
         }
-        ModelError::Facets { contact, .. } | ModelError::EmptySide { contact } => (
-            &codes::WRONG_KIND,
-            of_contact(contact).map(|c| &c.place),
-            "name surfaces with faces",
-        ),
-        ModelError::Surface { contact, .. } => (
-            &codes::BAD_ELEMENTS,
-            of_contact(contact).map(|c| &c.place),
-            "look at the mesh: signorini check",
-        ),
-        ModelError::Glued { contact, .. } => (
-            &codes::BAD_SIDES,
-            of_contact(contact).map(|c| &c.place),
-            "mesh the two bodies apart, without common nodes",
-        ),
-        ModelError::TooDeep { contact, .. } => (
-            &codes::DEEP_OVERLAP,
-            of_contact(contact).map(|c| &c.place),
-            "move the bodies apart, or let the contact act from a later step on",
-        ),
-        ModelError::TwoPass { contact } => (
-            &codes::WRONG_KIND,
-            of_contact(contact).map(|c| &c.place),
-            "name surfaces with faces on both sides, or write  passes = 1",
-        ),
-        ModelError::Unsuited { contact, .. } | ModelError::PairCount { contact, .. } => (
-            &codes::BAD_SIDES,
-            of_contact(contact).map(|c| &c.place),
-            "change the sides, or the way they are compared",
-        ),
-        ModelError::Table { contact, .. } => (
-            &codes::BAD_SIDES,
-            of_contact(contact).map(|c| &c.place),
-            "write  penalty = [[gap, pressure], ...]  with rising gaps and falling pressures",
-        ),
-        ModelError::BothRigid { contact } => (
-            &codes::BAD_SIDES,
-            of_contact(contact).map(|c| &c.place),
-            "give one of the bodies a `material`, or a `penalty` to the contact",
-        ),
-        ModelError::FreeBody(free) => (
-            &codes::FREE_BODY,
-            free.bodies
-                .first()
-                .and_then(|b| of_body(b))
-                .map(|b| &b.place),
-            "add a [[step.fix]] or [[step.move]] on it in the first step",
-        ),
-        ModelError::Clash { step, .. } => (
-            &codes::CLASH,
-            of_step(step).map(|s| &s.place),
-            "take the node out of one of the two sets",
-        ),
+        ModelError::FreeBody(free) => {
+            let place = free.bodies.first().and_then(|body| of_body(body));
+            (&codes::FREE_BODY, place, "")
+        }
+        ModelError::Clash { step, .. } => {
+            let found = case.steps.iter().find(|s| s.name.value == *step);
+            let help = "take the node out of one of the two sets";
+            (&codes::CLASH, found.map(|s| &s.place), help)
+        }
         ModelError::Load { load, source } => {
             let (code, help) = of_load_error(source);
-            (code, of_load(load), help)
+            (code, of_load(case, load), help)
         }
         ModelError::Constraint(error) => (
             &codes::BAD_CONSTRAINT,
             of_constraint(case, error),
-            "take out what is said twice, or what cannot be followed",
+            of_constraint_error(error),
         ),
-        ModelError::OnRigidNode { body, .. } => (
-            &codes::CLASH,
-            of_body(body).map(|b| &b.place),
-            "name the rigid body itself in `on`",
+        ModelError::OnRigidNode { body, .. } => (&codes::CLASH, of_body(body), ""),
+        ModelError::Facets { .. }
+        | ModelError::EmptySide { .. }
+        | ModelError::Surface { .. }
+        | ModelError::Glued { .. }
+        | ModelError::TooDeep { .. }
+        | ModelError::TwoPass { .. }
+        | ModelError::Unsuited { .. }
+        | ModelError::PairCount { .. }
+        | ModelError::Table { .. }
+        | ModelError::BothRigid { .. } => of_contact_error(case, error),
+    }
+}
+
+fn of_load<'a>(case: &'a Case, name: &str) -> Option<&'a Place> {
+    case.steps.iter().find_map(|step| {
+        let mut loads = step.loads.iter().enumerate();
+        let (_, load) = loads.find(|(at, load)| loads::name(step, *at, load) == name)?;
+        Some(&load.place)
+    })
+}
+
+fn of_contact_error<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
+    let (code, contact, help): (&'static Code, &str, &str) = match error {
+        ModelError::Facets { contact, .. } | ModelError::EmptySide { contact } => {
+            (&codes::WRONG_KIND, contact, "name surfaces with faces")
+        }
+        ModelError::Surface { contact, .. } => (
+            &codes::BAD_ELEMENTS,
+            contact,
+            "look at the mesh: signorini check",
         ),
+        ModelError::Glued { contact, .. } => (
+            &codes::BAD_SIDES,
+            contact,
+            "mesh the two bodies apart, without common nodes",
+        ),
+        ModelError::TooDeep { contact, .. } => (
+            &codes::DEEP_OVERLAP,
+            contact,
+            "where the overlap is meant so:  start = { interference = \"now\" }",
+        ),
+        ModelError::TwoPass { contact } => (
+            &codes::WRONG_KIND,
+            contact,
+            "name surfaces with faces on both sides, or write  passes = 1",
+        ),
+        ModelError::PairCount { contact, .. } => {
+            (&codes::BAD_SIDES, contact, "write  pairs = \"nearest\"")
+        }
+        ModelError::Table { contact, .. } => (
+            &codes::BAD_SIDES,
+            contact,
+            "write  penalty = [[gap, pressure], ...]  with rising gaps and falling pressures",
+        ),
+        ModelError::BothRigid { contact } => (
+            &codes::BAD_SIDES,
+            contact,
+            "give one of the bodies a `material`, or:  enforcement = { penalty = 1e5 }",
+        ),
+        ModelError::Unsuited { contact, .. } => (&codes::BAD_SIDES, contact, ""),
+        // all others are no matter of contact
+        _ => (&codes::BAD_SIDES, "", ""),
     };
-    let message = Diagnostic::error(code, error.to_string()).help(help);
-    match place {
-        Some(place) => message.at(place, ""),
-        None => message,
+    let found = case.contacts.iter().find(|c| c.name.value == contact);
+    (code, found.map(|c| &c.place), help)
+}
+
+/// What to change; keys of contacts with the contact that they belong to.
+fn helps(case: &Case, error: &ModelError, help: &str) -> Vec<String> {
+    let of_contact = |help: &str, contact: &str| format!("{help}  of contact \"{contact}\"");
+    match error {
+        ModelError::FreeBody(_) => hold(case, first_step(case)),
+        ModelError::Unsuited {
+            contact, remedy, ..
+        } => vec![of_contact(&format!("write  {remedy}"), contact)],
+        ModelError::PairCount { contact, .. } | ModelError::BothRigid { contact } => {
+            vec![of_contact(help, contact)]
+        }
+        ModelError::TooDeep { contact, .. } => vec![
+            "move the bodies apart, or let the contact act from a later step on".to_owned(),
+            of_contact(help, contact),
+        ],
+        ModelError::OnRigidNode { body, .. } => vec![format!("name the body:  on = \"{body}\"")],
+        ModelError::Constraint(ConstraintError::OnFollower { carrier, .. }) => {
+            vec![format!("name what it follows:  on = \"{carrier}\"")]
+        }
+        _ => vec![help.to_owned()],
+    }
+}
+
+/// What to change about a constraint.
+const fn of_constraint_error(error: &ConstraintError) -> &'static str {
+    match error {
+        ConstraintError::Connector { .. } => "name other nodes, or give the spring a `direction`",
+        ConstraintError::TwoLeaders { .. } => "take the node out of one of the two sets",
+        ConstraintError::OnFollower { .. } => "name what the node follows",
+        ConstraintError::Contradictory { .. } => {
+            "take out one of the constraints that speak of the same displacements"
+        }
+        ConstraintError::OverConstrained { .. } => {
+            "take the constrained nodes out of the supports and motions, or leave the constraint away"
+        }
+        ConstraintError::Turning { .. } => "couple the rotations, or free a translation",
+        ConstraintError::Idle { .. } => {
+            "write  reference = \"...\"  in a rigid [[body]] or in a [[constraint]]"
+        }
+        ConstraintError::OffAxis { .. } => "move and load it along y alone",
     }
 }
 

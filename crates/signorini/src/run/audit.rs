@@ -1,7 +1,9 @@
 //! What the audits of accepted states found in the course of a run, and how it is reported.
 
+use super::remedies::MOTION_INSTEAD;
 use crate::build::Model;
 use signorini_geometry::mesh::{Mesh, NodeId};
+use signorini_io::case::Case;
 use signorini_io::checkpoint::{Archive, ArchiveError};
 use signorini_io::diagnostic::{Code, Diagnostic, Diagnostics, codes};
 use signorini_io::writers::json::{AuditEntry, AuditSummary};
@@ -25,10 +27,17 @@ struct Worst {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Audit {
     contacts: BTreeMap<String, [Worst; 4]>,
+    /// The largest force of each contact so far.
+    forces: BTreeMap<String, f64>,
     increments: u64,
     work_external: f64,
     viscous: Measured,
+    /// When viscous forces first led to another equilibrium.
+    jumped: Option<f64>,
 }
+
+/// A force below this part of the largest one of its contact is rounding: nothing is judged by it.
+const OF_ROUNDING: f64 = 1e-9;
 
 /// Numbers of a check in a checkpoint, nodes left out.
 const STORED: usize = 8;
@@ -41,7 +50,15 @@ impl Audit {
         self.increments += 1;
         self.work_external = frame.work_external;
         self.viscous = viscous(frame);
+        if frame.work_jumps > 0.0 {
+            self.jumped.get_or_insert(frame.time);
+        }
         for audit in &frame.audits {
+            let largest = self.forces.entry(audit.name.clone()).or_default();
+            *largest = largest.max(audit.force);
+            if audit.force < OF_ROUNDING * *largest {
+                continue;
+            }
             let kept = self.contacts.entry(audit.name.clone()).or_default();
             for (kept, measured) in kept.iter_mut().zip(&audit.checks) {
                 kept.take(measured, frame.time);
@@ -91,13 +108,27 @@ impl Audit {
                 "viscous forces that led to another equilibrium did {:.0} % of the work of loads and supports",
                 100.0 * viscous.part
             );
-            found.push(
-                Diagnostic::warning(&codes::LED_BY_VISCOSITY, message)
-                    .note(format!("their work is {:.3e}; up to {:.0} % is let pass", viscous.worst, 100.0 * viscous.limit))
-                    .help("smaller increments, or  on_trouble = [\"cut\"]  to refuse such steps; where the structure snaps, it is meant so"),
-            );
+            found.push(self.led_by_viscosity(message, &model.case));
         }
         found
+    }
+
+    fn led_by_viscosity(&self, message: String, case: &Case) -> Diagnostic {
+        let viscous = &self.viscous;
+        let mut one = Diagnostic::warning(&codes::LED_BY_VISCOSITY, message).note(format!(
+            "their work is {:.3e}; up to {:.0} % is let pass",
+            viscous.worst,
+            100.0 * viscous.limit
+        ));
+        if let Some(time) = self.jumped {
+            one = one.note(format!("first at time {}", number(time)));
+        }
+        if case.steps.iter().any(|step| !step.loads.is_empty()) {
+            one = one.help(MOTION_INSTEAD);
+        }
+        one.help("where something is free there: hold it by [[step.fix]]")
+            .help("to refuse such jumps:  on_trouble = [\"cut\"]  in [solver]")
+            .help("where the structure snaps, it is meant so:  allow = [\"S0425\"]")
     }
 
     fn warning(&self, name: &str, check: Check, worst: &Worst, model: &Model) -> Diagnostic {
@@ -111,6 +142,11 @@ impl Audit {
             many => format!(" at nodes {}", many.join(", ")),
         };
         let percent = 100.0 * m.part;
+        let worst_at = if at.is_empty() {
+            String::new()
+        } else {
+            format!(", worst{at}")
+        };
         let (code, message): (&'static Code, String) = match check {
             Check::Apart if m.worst.is_finite() => (
                 &codes::PRESSED_APART,
@@ -135,34 +171,14 @@ impl Audit {
             Check::Direction => (
                 &codes::WRONG_DIRECTION,
                 format!(
-                    "{percent:.0} % of the force of contact \"{name}\" is in a direction that friction does not allow, worst{at}"
+                    "{percent:.0} % of the force of contact \"{name}\" is in a direction that friction does not allow{worst_at}"
                 ),
             ),
             Check::Stress => (
                 &codes::NOT_CARRIED,
                 format!(
-                    "the stress beside contact \"{name}\" does not carry {percent:.0} % of its force, worst{at}"
+                    "the stress next to contact \"{name}\" does not carry {percent:.0} % of its force{worst_at}"
                 ),
-            ),
-        };
-        let fact = match check {
-            Check::Apart => format!(
-                "pressure {} there; these nodes have {percent:.1} % of the contact force",
-                number(m.pressure)
-            ),
-            Check::Through => format!(
-                "{percent:.0} % of a facet deeper than {}, which the law and the facets explain",
-                number(m.allowed)
-            ),
-            Check::Direction => format!(
-                "shear over normal traction {} there, along the normal of the primary side; friction has {}",
-                number(m.worst),
-                number(m.allowed)
-            ),
-            Check::Stress => format!(
-                "traction {} there, stress {}",
-                number(m.worst),
-                number(m.allowed)
             ),
         };
         let times = match worst.failed {
@@ -178,8 +194,11 @@ impl Audit {
                 number(worst.time)
             ),
         };
-        let diagnostic = Diagnostic::warning(code, message).note(fact).note(times);
-        diagnostic.help(help(name, check, model))
+        let diagnostic = Diagnostic::warning(code, message)
+            .note(fact(check, m))
+            .note(times);
+        let helps = help(name, check, model);
+        helps.into_iter().fold(diagnostic, Diagnostic::help)
     }
 
     /// Stores the findings in a checkpoint.
@@ -204,6 +223,9 @@ impl Audit {
             numbers.extend([worst.time, worst.first, worst.failed as f64]);
             counts.extend((0..NODES).map(|k| m.nodes.get(k).map_or(u64::MAX, |n| u64::from(*n))));
         }
+        let forces: Vec<f64> = self.forces.values().copied().collect();
+        archive.put_f64("run/audit.forces", &forces)?;
+        archive.put_f64("run/audit.jumped", self.jumped.as_slice())?;
         archive.put_u64("run/audit.names", &names)?;
         archive.put_u64("run/audit.counts", &counts)?;
         archive.put_f64("run/audit.numbers", &numbers)
@@ -223,6 +245,12 @@ impl Audit {
             numbers.split_first_chunk()?;
         let bytes: Vec<u8> = names.iter().filter_map(|b| u8::try_from(*b).ok()).collect();
         let mut names = bytes.split(|b| *b == 0);
+        let all = names
+            .clone()
+            .map(|name| String::from_utf8_lossy(name).into_owned());
+        let jumped = archive.get_f64("run/audit.jumped").unwrap_or_default();
+        let forces = archive.get_f64("run/audit.forces").unwrap_or_default();
+        let forces = all.zip(forces.iter().copied()).collect();
         let (numbers, nodes) = (
             numbers.as_chunks::<STORED>().0,
             nodes.as_chunks::<NODES>().0,
@@ -238,6 +266,8 @@ impl Audit {
         }
         Some(Self {
             contacts,
+            forces,
+            jumped: jumped.first().copied(),
             increments,
             work_external,
             viscous: Measured {
@@ -290,27 +320,63 @@ fn labels<'a>(mesh: &'a Mesh, nodes: &'a [NodeId]) -> impl Iterator<Item = u64> 
     nodes.iter().filter_map(label)
 }
 
-/// What to do.
-fn help(name: &str, check: Check, model: &Model) -> String {
+/// The numbers of a failed check.
+fn fact(check: Check, m: &Measured) -> String {
+    let percent = 100.0 * m.part;
+    match check {
+        Check::Apart => format!(
+            "pressure {} there; these nodes have {percent:.1} % of the contact force",
+            number(m.pressure)
+        ),
+        Check::Through => format!(
+            "{percent:.0} % of a facet deeper than {}, which the law and the facets explain",
+            number(m.allowed)
+        ),
+        Check::Direction => format!(
+            "shear over normal traction {} there, along the normal of the primary side; friction has {}",
+            number(m.worst),
+            number(m.allowed)
+        ),
+        Check::Stress => format!(
+            "traction {} there, stress {}",
+            number(m.worst),
+            number(m.allowed)
+        ),
+    }
+}
+
+/// What to do about a failed check, most promising first.
+fn help(name: &str, check: Check, model: &Model) -> Vec<String> {
     let info = model.contacts.iter().find(|c| c.name == name);
     let is_mortar = info.is_some_and(|c| c.method.contains("mortar"));
+    let key = |what: &str, key: &str| format!("{what}:  {key}  of contact \"{name}\"");
+    let points = || key("compare single points", "method = \"node-to-segment\"");
     match check {
-        Check::Apart if is_mortar => {
-            "compare single points:  method = \"node-to-segment\", or give a smaller reach".into()
+        Check::Apart if is_mortar => vec![points(), "give a smaller `reach`".into()],
+        Check::Apart => {
+            vec!["give a smaller `reach`, or smaller facets at corners and edges".into()]
         }
-        Check::Apart => "give a smaller reach, or smaller facets at corners and edges".into(),
         Check::Through => {
-            "make the side with the finer mesh the secondary one, or  passes = 2; smaller increments"
-                .into()
+            let exchange = format!("exchange `secondary` and `primary` of contact \"{name}\"");
+            let both = (!is_mortar).then(|| key("look from both sides", "passes = 2"));
+            let smaller = "smaller increments".into();
+            [exchange]
+                .into_iter()
+                .chain(both)
+                .chain([smaller])
+                .collect()
         }
-        Check::Direction if is_mortar => {
-            "method = \"node-to-segment\", or take the faces beside the edge into the secondary side"
-                .into()
+        Check::Direction if is_mortar => vec![
+            points(),
+            "take the faces next to the edge into the secondary side".into(),
+        ],
+        Check::Direction => {
+            vec!["smaller facets there, and the faces next to the edge in both sides".into()]
         }
-        Check::Direction => "smaller facets there, and the faces beside the edge in both sides".into(),
-        Check::Stress => {
-            "take the supports off nodes that are joined, or smaller elements at the contact".into()
-        }
+        Check::Stress => vec![
+            "take the supports off nodes that are joined, or smaller elements at the contact"
+                .into(),
+        ],
     }
 }
 
@@ -370,6 +436,18 @@ mod tests {
         assert_eq!(worst.measured.part, 0.5);
         assert_eq!(audit.contacts["v"][1].failed, 0);
         assert_eq!(audit.viscous.part, 0.25);
+    }
+
+    #[test]
+    fn forces_of_rounding_are_not_judged() {
+        let mut audit = Audit::default();
+        for (time, part, force) in [(1.0, 0.0, 1.0), (2.0, 0.5, 1e-13), (3.0, 0.5, 1e-3)] {
+            let mut frame = frame(time, part);
+            frame.audits[0].force = force;
+            audit.look(&frame);
+        }
+        let worst = &audit.contacts["v"][0];
+        assert_eq!((worst.failed, worst.first), (1, 3.0));
     }
 
     #[test]

@@ -47,7 +47,10 @@ pub fn solve(mut model: Model, options: &RunOptions, listener: &mut dyn Listener
 /// The contacts that are solved by points instead: those by mortar, as the program chose, of a run that did not converge.
 fn contacts_by_mortar(model: &Model, finished: &Finished) -> Vec<String> {
     let wanted = model.case.solver.on_trouble.contains(&Remedy::Points);
-    if !wanted || finished.exit_code != codes::NOT_CONVERGED.class.exit_code() {
+    if !wanted
+        || !finished.in_trouble
+        || finished.exit_code != codes::NOT_CONVERGED.class.exit_code()
+    {
         return Vec::new();
     }
     let all = model.contacts.iter();
@@ -61,11 +64,14 @@ fn note(contacts: &[String]) -> Diagnostic {
         1 => ("contact", names.join("")),
         _ => ("contacts", names.join(", ")),
     };
-    Diagnostic::warning(
+    let message = Diagnostic::warning(
         &codes::BY_POINTS,
         format!(
             "{which} {names}: mortar did not converge, so the case is solved again by Gauss points"
         ),
-    )
-    .help("to start with it:  method = \"gauss-point\"")
+    );
+    let help = |name: &String| {
+        format!("to start with it:  method = \"gauss-point\"  of contact \"{name}\"")
+    };
+    contacts.iter().map(help).fold(message, Diagnostic::help)
 }

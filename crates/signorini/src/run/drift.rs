@@ -19,9 +19,10 @@ pub(super) fn warnings(drifts: &[(String, f64, u32)], model: &Model) -> Diagnost
         );
         let one = Diagnostic::warning(&codes::FAR_FROM_START, text)
             .note("it still presses on the facets that were opposite at the start")
-            .help(
-                "write  sliding = \"finite\"  for it, or  geometry = \"nonlinear\"  in its steps",
-            );
+            .help(format!(
+                "write  sliding = \"finite\"  of contact \"{name}\""
+            ))
+            .help("where displacements are large:  geometry = \"nonlinear\"  of the steps");
         found.push(one);
     }
     found

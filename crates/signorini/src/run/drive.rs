@@ -65,6 +65,7 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
             options,
             clock,
             linear: LinearSeconds::default(),
+            in_trouble: false,
         }
         .finish(start, from.as_ref()),
         Err(error) => refuse(not_opened(&error, from.is_some()).into(), listener),
@@ -99,6 +100,7 @@ fn refused(found: Diagnostics) -> Finished {
             ..Summary::default()
         },
         diagnostics: found,
+        in_trouble: false,
     }
 }
 
@@ -153,6 +155,7 @@ struct Run<'a, 'l> {
     recorder: Recorder<'l>,
     clock: Instant,
     linear: LinearSeconds,
+    in_trouble: bool,
 }
 
 /// How the solution ended.
@@ -235,6 +238,14 @@ impl Run<'_, '_> {
     }
 
     fn failed(&mut self, error: &RunError, stepper: &Stepper) -> Ending {
+        let all_converged = matches!(error, RunError::TooManyIncrements { .. })
+            && self
+                .recorder
+                .counts
+                .steps
+                .iter()
+                .all(|step| step.cutbacks == 0);
+        self.in_trouble = !all_converged;
         self.recorder.gave_up(error);
         self.recorder.failed(&self.model.system, stepper);
         let saved = failure::Saved {
@@ -367,6 +378,7 @@ impl Run<'_, '_> {
             exit_code,
             diagnostics: found,
             summary,
+            in_trouble: self.in_trouble,
         }
     }
 

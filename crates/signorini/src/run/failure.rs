@@ -1,6 +1,8 @@
 //! Why a run failed, in the user's words: names of nodes, bodies, contacts; what was tried; what to change.
 
-use crate::build::Model;
+use super::remedies::{self, Trouble};
+use crate::build::{Model, first_step, hold};
+use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_mechanics::solve::{Failure, RunError};
@@ -33,16 +35,27 @@ pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
                 source: LinearError::Singular { .. },
                 dof,
             } = cause.as_ref()
+                && !dof.is_some_and(|dof| is_multiplier(dof, model))
             {
                 return free_body(*dof, model);
             }
             not_converged(error, model, saved)
         }
         RunError::NotConverged { .. } => not_converged(error, model, saved),
-        RunError::TooManyIncrements { .. } => {
-            Diagnostic::error(&codes::NOT_CONVERGED, error.to_string())
-                .note(saved_so_far(saved))
-                .help("allow more: increments = { …, count_max = 10000 }")
+        RunError::TooManyIncrements {
+            step,
+            count,
+            time,
+            duration,
+        } => {
+            let message = format!(
+                "step \"{step}\" is not done after {count} increments (time {} of {duration})",
+                rounded(*time)
+            );
+            let one = Diagnostic::error(&codes::NOT_CONVERGED, message);
+            let one = at_step(one, step, model).note(converged_so_far(saved));
+            let more = remedies::more_increments(&model.case, step, *count, time / duration);
+            more.into_iter().fold(one, Diagnostic::help)
         }
         RunError::Term(cause) => Diagnostic::error(&codes::NOT_CONVERGED, cause.to_string())
             .note(saved_so_far(saved))
@@ -52,13 +65,6 @@ pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
 
 /// A system that is singular before anything was solved: something is not held.
 fn free_body(dof: Option<Dof>, model: &Model) -> Diagnostic {
-    if let Some(contact) = dof.and_then(|dof| contact_of(dof, model)) {
-        let message = format!("the multipliers of contact \"{contact}\" are too many");
-        return Diagnostic::error(&codes::FREE_BODY, message)
-            .note("the nodes of its secondary side cannot follow: their motion is prescribed, or follows others")
-            .note("nothing was solved")
-            .help("swap `secondary` and `primary`, or write  enforcement = { penalty = \"auto\" }");
-    }
     let motion = dof.and_then(|dof| motion(dof, model));
     let message = match &motion {
         Some((owner, _)) => format!("{owner} can move freely: nothing holds it"),
@@ -68,8 +74,9 @@ fn free_body(dof: Option<Dof>, model: &Model) -> Diagnostic {
     if let Some((_, motion)) = motion {
         one = one.note(format!("free motions: at least {motion}"));
     }
-    one.note("nothing was solved")
-        .help("hold it by [[step.fix]], or prescribe its motion by [[step.move]]")
+    let one = one.note("nothing was solved");
+    let help = hold(&model.case, first_step(&model.case));
+    help.into_iter().fold(one, Diagnostic::help)
 }
 
 /// What moves and how, in words.
@@ -89,8 +96,28 @@ fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
         }
         DofName::Translation(body, k) => (rigid(body), format!("translation along {}", axis(k))),
         DofName::Rotation(body, k) => (rigid(body), format!("rotation about {}", axis(k))),
-        DofName::Multiplier(number) => (constraint(dof, model), format!("multiplier {number}")),
+        DofName::Multiplier(number) => {
+            let term = term_of(dof, model);
+            let owner = term.map_or_else(|| "a constraint".to_owned(), |one| in_words(one, model));
+            let node = term.and_then(|term| term.node_of(number));
+            let at = node.map(|node| format!("at {}", node_in_words(node, model)));
+            (owner, at.unwrap_or_else(|| format!("multiplier {number}")))
+        }
     })
+}
+
+fn is_multiplier(dof: Dof, model: &Model) -> bool {
+    let name = model.system.layout.name(dof);
+    matches!(name, Some(DofName::Multiplier(_)))
+}
+
+/// The contact that a multiplier belongs to.
+fn contact_of(dof: Dof, model: &Model) -> Option<String> {
+    let name = is_multiplier(dof, model)
+        .then(|| term_of(dof, model))??
+        .name();
+    let known = model.contacts.iter().any(|contact| contact.name == name);
+    known.then(|| name.to_owned())
 }
 
 /// The term that a multiplier belongs to.
@@ -110,21 +137,14 @@ fn term_of(multiplier: Dof, model: &Model) -> Option<&dyn Term> {
     model.system.terms.iter().map(AsRef::as_ref).find(has)
 }
 
-fn constraint(multiplier: Dof, model: &Model) -> String {
-    term_of(multiplier, model).map_or_else(
-        || "a constraint".to_owned(),
-        |term| format!("constraint {}", term.name()),
-    )
-}
-
-/// The contact that a multiplier belongs to.
-fn contact_of(dof: Dof, model: &Model) -> Option<&str> {
-    let Some(DofName::Multiplier(_)) = model.system.layout.name(dof) else {
-        return None;
-    };
-    let name = term_of(dof, model)?.name();
-    let known = model.contacts.iter().any(|contact| contact.name == name);
-    known.then_some(name)
+/// `contact "touch"`, or `constraint 1 (plane on "top")`.
+fn in_words(term: &dyn Term, model: &Model) -> String {
+    let name = term.name();
+    if model.contacts.iter().any(|contact| contact.name == name) {
+        format!("contact \"{name}\"")
+    } else {
+        format!("constraint {name}")
+    }
 }
 
 /// The body that a node belongs to.
@@ -159,10 +179,24 @@ fn node_in_words(node: NodeId, model: &Model) -> String {
     text + ")"
 }
 
+/// `node 1042 (…) of body "block"`, or what else has this unknown.
 fn dof_in_words(dof: Dof, model: &Model) -> Option<String> {
     match model.system.layout.name(dof)? {
-        DofName::Node(node, _) => Some(node_in_words(node, model)),
+        DofName::Node(node, _) => Some(format!(
+            "{} of {}",
+            node_in_words(node, model),
+            body_of(node, model)
+        )),
         _ => motion(dof, model).map(|(owner, motion)| format!("{owner}, {motion}")),
+    }
+}
+
+/// The place of a step in the case.
+fn at_step(message: Diagnostic, step: &str, model: &Model) -> Diagnostic {
+    let found = model.case.steps.iter().find(|one| one.name.value == step);
+    match found {
+        Some(step) => message.at(&step.place, ""),
+        None => message,
     }
 }
 
@@ -181,41 +215,93 @@ fn not_converged(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
     };
     let message = format!(
         "increment {increment} of step \"{step}\" did not converge (time {} of {duration})",
-        (time * 1e6).round() / 1e6
+        rounded(*time)
     );
-    let mut one = Diagnostic::error(&codes::NOT_CONVERGED, message).note(sizes(tried, *min));
+    let one = Diagnostic::error(&codes::NOT_CONVERGED, message);
+    let mut one = at_step(one, step, model).note(sizes(tried, *min));
     for fact in facts(cause, model) {
         one = one.note(fact);
     }
     one = one.note(saved_so_far(saved));
-    for help in remedies(cause, min.is_some()) {
+    let multiplier = match cause.as_ref() {
+        Failure::Linear { dof, .. } => dof.filter(|&dof| is_multiplier(dof, model)),
+        _ => None,
+    };
+    let contact = multiplier.and_then(|dof| contact_of(dof, model));
+    let trouble = Trouble {
+        multiplier: multiplier.is_some(),
+        contact: contact.as_deref(),
+        case: &model.case,
+        contacts: &model.contacts,
+        step,
+        tried,
+        cause,
+    };
+    for help in trouble.remedies() {
         one = one.help(help);
     }
     one.help(format!("signorini explain {}", codes::NOT_CONVERGED.id))
 }
 
+fn rounded(time: f64) -> f64 {
+    (time * 1e6).round() / 1e6
+}
+
+/// Three digits of a number.
+fn digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
 fn sizes(tried: &[f64], min: Option<f64>) -> String {
-    let size = |size: Option<&f64>| size.map_or_else(|| "?".into(), |s| format!("{s:.3}"));
-    let few = |s: Option<&f64>| match s {
-        Some(s) if *s < 1e-3 => format!("{s:.1e}"),
-        other => size(other),
-    };
-    match (tried.len(), min) {
-        (1, None) => format!(
-            "tried the size {}; `increments = {{ fixed }}` allows no smaller one",
-            few(tried.first())
+    let text = |size: Option<&f64>| size.map_or_else(|| "?".to_owned(), |size| short(*size));
+    let mut different = tried.to_vec();
+    different.dedup();
+    let (first, last) = (text(different.first()), text(different.last()));
+    match (different.len(), min) {
+        (0 | 1, None) => {
+            format!("tried the size {first}; `increments = {{ fixed }}` allows no smaller one")
+        }
+        (n, None) => format!("tried {n} sizes from {first} down to {last}"),
+        (_, Some(min)) if min.is_infinite() => {
+            format!("tried the size {first}; `on_trouble` allows no smaller one")
+        }
+        (0 | 1, Some(min)) => format!(
+            "tried the size {first}; the next one is below min = {:e}",
+            digits(min)
         ),
-        (n, Some(min)) if n > 1 => format!(
-            "tried {n} sizes from {} down to {}; the limit is min = {min:e}",
-            few(tried.first()),
-            few(tried.last())
-        ),
-        (_, min) => format!(
-            "tried the size {}; half of it is below min = {:e}",
-            few(tried.first()),
-            min.unwrap_or(0.0)
+        (n, Some(min)) => format!(
+            "tried {n} sizes from {first} down to {last}; the limit is min = {:e}",
+            digits(min)
         ),
     }
+}
+
+/// ` (nodes 3, 4)`; nothing where there are none.
+fn nodes_in_words(nodes: &[NodeId], model: &Model) -> String {
+    let mut labels: Vec<u64> = Vec::new();
+    for &node in nodes {
+        let label = model.mesh.node_labels.get(node as usize);
+        labels.extend(label.filter(|label| !labels.contains(label)).copied());
+    }
+    let texts: Vec<String> = labels.iter().map(u64::to_string).collect();
+    match texts.as_slice() {
+        [] => String::new(),
+        [one] => format!(" (node {one})"),
+        many => format!(" (nodes {})", many.join(", ")),
+    }
+}
+
+/// The largest error and its place; that of a multiplier is no force.
+fn largest_error(dof: Option<Dof>, force: f64, residual: f64, model: &Model) -> Option<String> {
+    let dof = dof?;
+    let place = dof_in_words(dof, model)?;
+    if let Some(DofName::Multiplier(_)) = model.system.layout.name(dof) {
+        return Some(format!("largest error in the equations of {place}"));
+    }
+    Some(format!(
+        "largest force error {force:.3e} at {place}, that is {} % of the mean force",
+        short(100.0 * residual)
+    ))
 }
 
 /// What kept it from converging.
@@ -232,27 +318,14 @@ fn facts(cause: &Failure, model: &Model) -> Vec<String> {
             let mut facts = Vec::new();
             match unsettled {
                 Some((why, nodes)) => {
-                    let label = |&n: &NodeId| model.mesh.node_labels.get(n as usize).copied();
-                    let labels: Vec<String> = nodes
-                        .iter()
-                        .filter_map(label)
-                        .map(|l| l.to_string())
-                        .collect();
-                    facts.push(format!(
-                        "what kept it from converging: {why} (nodes {})",
-                        labels.join(", ")
-                    ));
+                    let nodes = nodes_in_words(nodes, model);
+                    facts.push(format!("what kept it from converging: {why}{nodes}"));
                 }
                 None => facts.push(format!(
                     "{iterations} iterations did not suffice; contact did not change any more"
                 )),
             }
-            if let Some(place) = worst(at) {
-                facts.push(format!(
-                    "largest force error {force:.3e} at {place}, that is {:.3} % of the mean force",
-                    100.0 * residual
-                ));
-            }
+            facts.extend(largest_error(*at, *force, *residual, model));
             facts
         }
         Failure::Diverged {
@@ -275,13 +348,25 @@ fn facts(cause: &Failure, model: &Model) -> Vec<String> {
                 "after {iterations} iterations no shorter step lowers the energy: the state may be at a limit load{place}"
             )]
         }
-        Failure::Term(error) => vec![format!("what kept it from converging: {error}")],
+        Failure::Term(error) => {
+            let node = match error {
+                TermError::Surface { node, .. } => *node,
+                _ => None,
+            };
+            let place = node.map(|node| format!(", {}", node_in_words(node, model)));
+            let place = place.unwrap_or_default();
+            vec![format!("what kept it from converging: {error}{place}")]
+        }
         Failure::Linear {
             source: LinearError::Singular { .. },
             dof,
         } => {
             let motion = dof.and_then(|dof| motion(dof, model));
+            let multiplier = dof.is_some_and(|dof| is_multiplier(dof, model));
             vec![match motion {
+                Some((owner, place)) if multiplier => {
+                    format!("the equations of {owner} are singular, {place}")
+                }
                 Some((owner, motion)) => {
                     format!("{owner} has become free: nothing holds it any more, {motion}")
                 }
@@ -289,35 +374,6 @@ fn facts(cause: &Failure, model: &Model) -> Vec<String> {
             }]
         }
         other => vec![format!("what kept it from converging: {other}")],
-    }
-}
-
-/// What to change, most promising first.
-fn remedies(cause: &Failure, adaptive: bool) -> Vec<&'static str> {
-    let smaller = if adaptive {
-        "allow smaller increments: increments = { …, min = 1e-8 }"
-    } else {
-        "let the program cut increments: increments = { initial = 0.1, min = 1e-6, max = 0.1 }"
-    };
-    match cause {
-        Failure::TooManyIterations {
-            unsettled: Some(_), ..
-        } => vec![smaller, "finer mesh where contact changes"],
-        Failure::TooManyIterations { .. } => {
-            vec![
-                "more iterations: [solver] newton = { max_iterations = 50 }",
-                smaller,
-            ]
-        }
-        Failure::NoDescent { .. } => vec!["prescribe a motion instead of a load", smaller],
-        Failure::Linear { .. } => vec![
-            "hold the body by a support, or prescribe its motion",
-            smaller,
-        ],
-        Failure::Term(TermError::Inverted { .. }) => {
-            vec![smaller, "a finer or better shaped mesh there"]
-        }
-        _ => vec![smaller],
     }
 }
 
@@ -329,6 +385,13 @@ fn saved_so_far(saved: &Saved) -> String {
             saved.folder
         ),
     }
+}
+
+fn converged_so_far(saved: &Saved) -> String {
+    format!(
+        "saved: {} converged increments   resume: signorini resume {}",
+        saved.increments, saved.folder
+    )
 }
 
 #[cfg(test)]

@@ -83,6 +83,7 @@ fn note(rows: &IdleRows, name: &str, mesh: &Mesh) -> Diagnostic {
             ));
         }
     }
+    one = one.help("take the supports off the nodes of the contact");
     let label = rows
         .node
         .and_then(|node| mesh.node_labels.get(node as usize));

@@ -34,6 +34,7 @@ pub mod narration;
 mod news;
 mod probe;
 mod recorder;
+mod remedies;
 mod start;
 mod tables;
 #[cfg(test)]
@@ -118,4 +119,6 @@ pub struct Finished {
     pub diagnostics: Diagnostics,
     /// What `summary.json` says.
     pub summary: Summary,
+    /// Whether an attempt at an increment failed.
+    pub(super) in_trouble: bool,
 }

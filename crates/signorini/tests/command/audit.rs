@@ -4,7 +4,7 @@ use crate::support::{folder_with, read, result, run};
 use serde_json::Value;
 
 /// The tip of a wedge over the middle of a facet: only nodes of that facet are looked at, and the tip goes in.
-const WEDGE: &str = r#"format = 1
+pub const WEDGE: &str = r#"format = 1
 units = "mm-N-MPa"
 
 [mesh]

@@ -518,6 +518,7 @@ impl Interface {
         TermError::Surface {
             interface: self.parts.name.clone(),
             message: error.to_string(),
+            node: None,
         }
     }
 }
@@ -529,6 +530,13 @@ impl Term for Interface {
 
     fn pattern(&self, out: &mut dyn PatternSink) {
         self.cliques(out);
+    }
+
+    fn node_of(&self, multiplier: usize) -> Option<NodeId> {
+        let own = multiplier.checked_sub(self.parts.first_multiplier)?;
+        let row = own.checked_div(self.nmultiplier())?;
+        let known = row < self.now.pairs.len();
+        known.then(|| self.parts.discretization.point(row).nodes.first().copied())?
     }
 
     fn symmetry(&self) -> Symmetry {
@@ -609,10 +617,13 @@ impl Term for Interface {
         self.search_for(&at, rows::row_order(next))
             .map_err(|e| self.failed(&e))?;
         self.bend_again(&at).map_err(|e| self.failed(&e))?;
-        if let Some(message) = self.passed_through(&at).or_else(|| self.went_through(&at)) {
+        let through = self.passed_through(&at).or_else(|| self.went_through(&at));
+        if let Some((row, message)) = through {
+            let nodes = self.parts.discretization.point(row).nodes;
             return Err(TermError::Surface {
                 interface: self.parts.name.clone(),
                 message,
+                node: nodes.first().copied(),
             });
         }
         self.stick(&at).map_err(|e| self.failed(&e))?;

@@ -143,9 +143,9 @@ impl Interface {
         Ok(())
     }
 
-    /// Whether a point that was near a facet has jumped through it, out of reach behind it: contact would be lost without
-    /// ever having been noticed.
-    pub(super) fn passed_through(&self, at: &Placement) -> Option<String> {
+    /// The row of a point, and what to say of it, that was near a facet and has jumped through it, out of reach behind
+    /// it: contact would be lost without ever having been noticed.
+    pub(super) fn passed_through(&self, at: &Placement) -> Option<(usize, String)> {
         if !self.is_active() {
             return None;
         }
@@ -170,9 +170,12 @@ impl Interface {
                 };
             let [_, reach] = self.reach_of(row, before, at);
             if distance > reach && behind > 0.5 * distance {
-                return Some(format!(
-                    "a point went through the surface in one increment, {behind:.3} behind it and further than the \
-                     reach of {reach:.3}; take smaller increments"
+                return Some((
+                    row,
+                    format!(
+                        "a point went through the surface in one increment, {behind:.3} behind it and further than \
+                         the reach of {reach:.3}"
+                    ),
                 ));
             }
         }

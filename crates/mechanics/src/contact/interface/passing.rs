@@ -26,8 +26,8 @@ use signorini_geometry::surface::{Anchor, Placement, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
 impl Interface {
-    /// What to say of a point that has gone through the surface within the increment and is not held back.
-    pub(super) fn went_through(&self, at: &Placement) -> Option<String> {
+    /// The row of a point, and what to say of it, that has gone through the surface within the increment and is not held back.
+    pub(super) fn went_through(&self, at: &Placement) -> Option<(usize, String)> {
         let pair = &self.parts.pair;
         let discretization = self.parts.discretization.as_ref();
         let knows = !pair.sizes.primary.is_empty() && pair.start.len() == at.x.len();
@@ -69,9 +69,10 @@ impl Interface {
                 .iter()
                 .any(|&f| self.crosses(row, f, [from, to], own, at));
             if crossed {
-                return Some(format!(
-                    "a point went {:.3} through the surface in one increment; take smaller increments",
-                    (to - from).norm()
+                let way = (to - from).norm();
+                return Some((
+                    row,
+                    format!("a point went {way:.3} through the surface in one increment"),
                 ));
             }
         }

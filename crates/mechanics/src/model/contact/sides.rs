@@ -84,7 +84,8 @@ impl Source<'_> {
         if first.law.multiplier() != Multiplier::None {
             return Err(ModelError::Unsuited {
                 contact: part.name.clone(),
-                what: "two passes by multipliers hold each point twice: take one pass, or a penalty",
+                what: "two passes by multipliers hold each point twice",
+                remedy: "enforcement = { penalty = \"auto\" }",
             });
         }
         let swapped = ContactPart {
@@ -130,6 +131,7 @@ impl Source<'_> {
             return Err(ModelError::Unsuited {
                 contact: part.name.clone(),
                 what: "points stand for facets opposite, and its primary side has none",
+                remedy: "area = \"reference\"",
             });
         }
         let same = matches!(part.primary, PrimaryPart::Itself);
@@ -145,13 +147,15 @@ impl Source<'_> {
         if same && exact {
             return Err(ModelError::Unsuited {
                 contact: part.name.clone(),
-                what: "a surface that touches itself has multipliers on both sides, which hold each point twice: take a penalty",
+                what: "a surface that touches itself has multipliers on both sides, which hold each point twice",
+                remedy: "enforcement = { penalty = \"auto\" }",
             });
         }
         if same && secondary.is_none() {
             return Err(ModelError::Unsuited {
                 contact: part.name.clone(),
                 what: "a surface that may touch itself is given by faces, not by bare nodes",
+                remedy: "secondary = \"a set of faces\"",
             });
         }
         if let Some(primary) = primary.as_ref().filter(|_| !same) {
@@ -192,13 +196,15 @@ impl Source<'_> {
                 if exact {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
-                        what: "points inside facets are too many for multipliers: take nodes, or a penalty",
+                        what: "points inside facets are too many for multipliers",
+                        remedy: "enforcement = { penalty = \"auto\" }",
                     });
                 }
                 let Some(facets) = &secondary else {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
                         what: "points inside facets need a secondary side made of faces",
+                        remedy: "method = \"node-to-segment\"",
                     });
                 };
                 let spaces = self.spaces.behind(facets);
@@ -235,12 +241,14 @@ impl Source<'_> {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
                         what: "mortar contact needs two sides made of faces",
+                        remedy: "method = \"node-to-segment\"",
                     });
                 };
                 if part.area != AreaPart::Reference || same || part.two_pass {
                     return Err(ModelError::Unsuited {
                         contact: part.name.clone(),
                         what: "mortar contact has one pass between two surfaces, and areas of what is covered",
+                        remedy: "method = \"gauss-point\"",
                     });
                 }
                 let space = self.one_space(part, facets)?;
@@ -318,7 +326,8 @@ impl Source<'_> {
         let first = self.spaces.alike(facets);
         first.ok_or_else(|| ModelError::Unsuited {
                 contact: part.name.clone(),
-                what: "bodies of its secondary side differ in thickness or idealisation, which mortar contact does not weigh: write a contact for each, or take points",
+                what: "bodies of its secondary side differ in thickness or idealisation, which mortar contact does not weigh",
+                remedy: "method = \"gauss-point\"",
         })
     }
 
@@ -436,6 +445,7 @@ impl Source<'_> {
                 return Err(ModelError::Unsuited {
                     contact: part.name.clone(),
                     what: "node-to-node contact is between the nodes of two sides",
+                    remedy: "method = \"node-to-segment\"",
                 });
             }
         };
@@ -526,24 +536,23 @@ fn node_normals(
     primary: &Option<Facets>,
     secondary: &Option<Facets>,
 ) -> Result<NodeNormals, ModelError> {
-    let unsuited = |what| ModelError::Unsuited {
+    let none = || ModelError::Unsuited {
         contact: part.name.clone(),
-        what,
+        what: "normals of bare nodes cannot be averaged: a vector towards the secondary side is needed",
+        remedy: "normals = [0, 1, 0]",
+    };
+    let zero = || ModelError::Unsuited {
+        contact: part.name.clone(),
+        what: "the given normal is zero",
+        remedy: "normals = [0, 1, 0]",
     };
     match normals {
-        Normals::Given(normal) => normal
-            .normalized()
-            .map(NodeNormals::Given)
-            .ok_or_else(|| unsuited("the given normal is zero")),
-        Normals::Primary => primary.clone().map(NodeNormals::Primary).ok_or_else(|| {
-            unsuited("normals of bare nodes cannot be averaged: give the normal, or faces")
-        }),
+        Normals::Given(normal) => normal.normalized().map(NodeNormals::Given).ok_or_else(zero),
+        Normals::Primary => primary.clone().map(NodeNormals::Primary).ok_or_else(none),
         Normals::Secondary => secondary
             .clone()
             .map(NodeNormals::Secondary)
-            .ok_or_else(|| {
-                unsuited("normals of bare nodes cannot be averaged: give the normal, or faces")
-            }),
+            .ok_or_else(none),
     }
 }
 
@@ -592,6 +601,7 @@ fn law(part: &ContactPart, takes_multipliers: bool) -> Result<Box<dyn ContactLaw
         return Err(ModelError::Unsuited {
             contact: part.name.clone(),
             what: "sides that are joined pull, too: a curve of pressures says nothing about that",
+            remedy: "enforcement = { penalty = \"auto\" }",
         });
     }
     Ok(law)
