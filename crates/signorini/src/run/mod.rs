@@ -49,7 +49,7 @@ pub use limits::{Limits, Stop};
 pub use news::{Detail, Effort, Facts, Listener, News, Totals, event_of, tell};
 pub use probe::element_named;
 pub use start::{Start, begin, facts};
-pub use tree::{Owner, Tree, case_copy};
+pub use tree::{Owner, Tree, case_copy, process_in};
 pub use volume::Volume;
 
 use crate::build::Model;
