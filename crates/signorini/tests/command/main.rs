@@ -16,5 +16,6 @@ mod model;
 mod numerics;
 mod restart;
 mod results;
+mod stopping;
 mod support;
 mod text;
