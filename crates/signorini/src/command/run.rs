@@ -120,8 +120,8 @@ impl Job {
             Err(found) => return refused(&joined(self.warnings, found), options),
         };
         model.name.clone_from(&self.source.name);
-        model.warnings = joined(self.warnings, std::mem::take(&mut model.warnings));
         let mut run = RunOptions::new(self.source);
+        run.warnings = self.warnings;
         run.folder = self.folder.unwrap_or(run.folder);
         run.fresh = self.fresh;
         run.resume = self.resume;

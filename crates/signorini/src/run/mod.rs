@@ -73,6 +73,8 @@ pub struct RunOptions {
     pub resume: bool,
     /// Whether a run whose audit finds something wrong ends with exit code 1.
     pub strict: bool,
+    /// What was unusual when the case was read.
+    pub warnings: Diagnostics,
     /// What stops it from outside.
     pub limits: Limits,
     /// The disk.
@@ -93,6 +95,7 @@ impl RunOptions {
             fresh: false,
             resume: false,
             strict: false,
+            warnings: Diagnostics::default(),
             limits: Limits::default(),
             fs: Arc::new(RealFs),
             threads: rayon::current_num_threads(),
