@@ -58,7 +58,7 @@ impl CcxCompat {
 /// Solves a deck and copies what CalculiX would leave; the exit code of a run.
 fn solve(deck: &Path, options: &SolveOptions) -> u8 {
     let clock = Instant::now();
-    let signals = Signals::caught();
+    let signals = Signals::taken();
     let reading = Reading {
         set: vec![("output.format".into(), "[\"frd\"]".into())],
         compat: Some(Compat::Ccx),

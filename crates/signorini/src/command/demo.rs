@@ -28,7 +28,7 @@ impl Demo {
             return WRONG_COMMAND;
         };
         let clock = Instant::now();
-        let signals = Signals::caught();
+        let signals = Signals::taken();
         let folder = std::env::temp_dir().join(format!("signorini-demo-{}", std::process::id()));
         let path = folder.join(init::file_name(template));
         if let Err(error) = init::write(&path, template) {

@@ -22,7 +22,7 @@ pub struct Resume {
 impl Resume {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
-        let signals = Signals::caught();
+        let signals = Signals::taken();
         match stopped(&RealFs, &self.folder) {
             Err(found) => refused(&found, &self.solve),
             Ok(Stopped::Done(summary)) => {

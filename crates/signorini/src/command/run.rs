@@ -42,7 +42,7 @@ pub struct Run {
 impl Run {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
-        let signals = Signals::caught();
+        let signals = Signals::taken();
         let mut reading = self.changes.reading();
         if !self.format.is_empty() {
             reading

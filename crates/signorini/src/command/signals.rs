@@ -9,7 +9,6 @@
 
 use super::console::Console;
 use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
 use signorini::Limits;
 use signorini::run::Stop;
 use std::sync::Arc;
@@ -31,27 +30,105 @@ pub struct Signals {
 }
 
 impl Signals {
-    /// Catches the signals: until [`Signals::are_requests`] they end the process with their exit code.
+    /// Takes the signals: until [`Signals::are_requests`] they end the process with their exit code.
     ///
-    /// Signals that cannot be caught end the process, as they do by default.
-    pub fn caught() -> Self {
+    /// To be called while there is one thread only. Signals that cannot be taken end the process, as they do by default.
+    pub fn taken() -> Self {
         let signals = Self {
             seen: Arc::default(),
             ends: Arc::new(AtomicBool::new(true)),
         };
-        for signal in [SIGINT, SIGTERM] {
-            // in this order: the second signal finds what the first one set
-            let ends = &signals.ends;
-            let _ = flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(ends));
-            let _ = flag::register(signal, Arc::clone(ends));
-            let _ = flag::register_usize(signal, Arc::clone(&signals.seen), signal as usize);
-        }
+        signals.take();
         signals
     }
 
     /// From now on the first signal is a request, and only the second one ends the process.
     pub fn are_requests(&self) {
         self.ends.store(false, Ordering::SeqCst);
+    }
+
+    /// Has a thread wait for the signals.
+    #[cfg(target_os = "linux")]
+    fn take(&self) {
+        let own = self.clone();
+        waiting::wait_for(&[SIGINT, SIGTERM], move |signal| own.came(signal));
+    }
+
+    /// What is done when a signal has come.
+    #[cfg(target_os = "linux")]
+    fn came(&self, signal: i32) {
+        if self.ends.swap(true, Ordering::SeqCst) {
+            waiting::end_process(128 + signal);
+        }
+        self.seen.store(signal as usize, Ordering::SeqCst);
+    }
+
+    /// Has handlers wait for the signals.
+    #[cfg(not(target_os = "linux"))]
+    fn take(&self) {
+        for signal in [SIGINT, SIGTERM] {
+            // in this order: the second signal finds what the first one set
+            let ends = &self.ends;
+            let _ = flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(ends));
+            let _ = flag::register(signal, Arc::clone(ends));
+            let _ = flag::register_usize(signal, Arc::clone(&self.seen), signal as usize);
+        }
+    }
+}
+
+/// A thread that waits for signals, which are blocked everywhere: handlers would not do, for METIS has its own for SIGTERM while
+/// it orders, which jumps out of the ordering and forgets the signal, or ends the process where another thread gets it.
+///
+/// Sources: `sigwait(3)`, `pthread_sigmask(3)`; METIS 5.1, GKlib/error.c, `gk_sigtrap`.
+#[cfg(target_os = "linux")]
+mod waiting {
+    #![allow(unsafe_code)]
+
+    /// Blocks signals in this thread and those that it will start, and calls `came` on a thread of its own for each that comes.
+    /// Where there is no such thread, they end the process.
+    pub fn wait_for(signals: &[i32], came: impl Fn(i32) + Send + 'static) {
+        let set = set_of(signals);
+        change(libc::SIG_BLOCK, &set);
+        let wait = move || {
+            loop {
+                let mut signal = 0;
+                // SAFETY: both places are of the types asked for, and outlive the call.
+                let failed = unsafe { libc::sigwait(&raw const set, &raw mut signal) };
+                if failed == 0 {
+                    came(signal);
+                }
+            }
+        };
+        if std::thread::Builder::new().spawn(wait).is_err() {
+            change(libc::SIG_UNBLOCK, &set);
+        }
+    }
+
+    fn set_of(signals: &[i32]) -> libc::sigset_t {
+        // SAFETY: an array of numbers, for which zeros are values; the calls below make it a set.
+        let mut set = unsafe { std::mem::zeroed() };
+        // SAFETY: the set is a place of that type, and outlives the calls.
+        unsafe {
+            libc::sigemptyset(&raw mut set);
+            for &signal in signals {
+                libc::sigaddset(&raw mut set, signal);
+            }
+        }
+        set
+    }
+
+    /// Blocks or unblocks signals in this thread.
+    fn change(how: i32, set: &libc::sigset_t) {
+        // SAFETY: the set is initialized; the old one is not asked for.
+        unsafe {
+            libc::pthread_sigmask(how, set, std::ptr::null_mut());
+        }
+    }
+
+    /// Ends the process at once: nothing that other threads do is waited for.
+    pub fn end_process(code: i32) -> ! {
+        // SAFETY: does not return.
+        unsafe { libc::_exit(code) }
     }
 }
 
