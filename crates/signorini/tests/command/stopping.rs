@@ -179,6 +179,14 @@ fn info_tells_live_killed_and_finished_runs_apart() {
     let mut live = tries.next().expect("every run was over too early");
     halt(&live);
     info().says(0, &[&format!("running: process {}", live.id())]);
+    // before it reads anything
+    std::fs::write(result(&folder, "checkpoint/case.toml"), "no case").unwrap();
+    run(folder.path(), &["resume", "case.out"]).says(6, &["held by another run"]);
+    std::fs::copy(
+        folder.path().join("case.toml"),
+        result(&folder, "checkpoint/case.toml"),
+    )
+    .unwrap();
     live.kill().unwrap();
     live.wait().unwrap();
     info().says(0, &["killed", "signorini resume case.out"]);
