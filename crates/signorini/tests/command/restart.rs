@@ -400,6 +400,7 @@ fn memory_that_is_not_to_be_had_ends_with_8_and_a_message() {
     );
     let folder = folder_with(&case);
     let mut codes = Vec::new();
+    let mut estimates = 0;
     for megabytes in (20..400).step_by(10) {
         let limited = format!(
             "ulimit -v {}; exec \"$0\" run case.toml -q --fresh -j 1",
@@ -413,9 +414,14 @@ fn memory_that_is_not_to_be_had_ends_with_8_and_a_message() {
         let said = String::from_utf8_lossy(&ended.stderr).into_owned();
         let code = ended.status.code();
         if code == Some(8) {
-            for word in ["S0802", "at least", "MB are needed", "resume"] {
-                assert!(said.contains(word), "{word}: {said}");
-            }
+            assert!(said.contains("S0802") && said.contains("resume"), "{said}");
+            let estimate = said.contains("so that at least") && said.contains("MB are needed");
+            // for the stack of a thread the system names no size
+            assert!(
+                estimate || said.contains("thread could not be started"),
+                "{said}"
+            );
+            estimates += usize::from(estimate);
         }
         codes.push((megabytes, code, said));
         if code == Some(0) {
@@ -428,7 +434,7 @@ fn memory_that_is_not_to_be_had_ends_with_8_and_a_message() {
             .filter(|(_, code, _)| *code == Some(wanted))
             .count()
     };
-    assert!(of(0) == 1 && of(8) > 0, "{codes:?}");
+    assert!(of(0) == 1 && estimates > 0, "{codes:?}");
     // what is too little to start at all is the system's to say
     let started = codes.iter().skip_while(|(_, code, _)| *code != Some(8));
     let odd: Vec<_> = started
