@@ -284,6 +284,7 @@ impl Run<'_, '_> {
                 let status = match code {
                     4 => "model ill-posed",
                     7 => "cannot resume",
+                    8 => "out of memory",
                     _ => "not converged",
                 };
                 (code, status)
