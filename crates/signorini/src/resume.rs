@@ -1,9 +1,9 @@
 //! Reading what a stopped run started from, out of its output folder.
 
 use crate::load::{Loaded, Source, load_again, sha256};
-use crate::run::{Owner, cannot_resume, case_copy};
+use crate::run::{OutputError, Owner, cannot_resume, case_copy, process_in};
 use signorini_io::diagnostic::Diagnostics;
-use signorini_io::fs::Fs;
+use signorini_io::fs::{Fs, FsError};
 use signorini_io::writers::json::{Input, Summary};
 use std::path::Path;
 
@@ -18,9 +18,16 @@ pub enum Stopped {
 /// Reads what a stopped run started from. The case is the copy in the folder; the mesh must not have changed.
 ///
 /// # Errors
-/// A folder without results, a mesh that has changed: exit code 7.
+/// A folder without results, a mesh that has changed: exit code 7; a run that still goes on there: exit code 6.
 pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
     let shown = folder.display();
+    // asked before a large mesh is read; the lock itself is taken later
+    if let Ok(Some(_)) = process_in(fs, folder) {
+        let path = folder.to_path_buf();
+        return Err(OutputError::Fs(FsError::Locked { path })
+            .diagnostic()
+            .into());
+    }
     let owner = Owner::read(fs, folder).ok_or_else(|| {
         cannot_resume(format!(
             "{shown} holds no results of a run; start one: signorini run CASE -o {shown}"

@@ -425,7 +425,7 @@ codes! {
     ["what the message proposes, for the contact or element that it names", "prescribe a motion instead of a load",
      "another method of that contact", "finer mesh, or smoother surfaces"]
 
-    BY_POINTS "S0502" Input "a case that is solved again by Gauss points"
+    BY_POINTS "S0502" Convergence "a case that is solved again by Gauss points"
     "An increment could not be solved with mortar contact, which the program had chosen. Gauss points with a penalty pass over \
      edges and corners that mortar does not, so the whole case is solved again with them. Forces are as right, pressures less even."
     ["a sharp edge that slides off the other side, as in a snap-fit", "an edge that is pressed into the other side"]
@@ -488,6 +488,24 @@ mod tests {
                 "{}",
                 code.id
             );
+        }
+    }
+
+    #[test]
+    fn every_code_is_of_a_class_that_its_number_allows() {
+        for code in ALL {
+            let allowed: &[Class] = match &code.id[..3] {
+                "S01" => &[Class::Input],
+                "S02" => &[Class::Input, Class::Model],
+                "S03" => &[Class::Model],
+                "S04" => continue,
+                "S05" => &[Class::Convergence],
+                "S06" => &[Class::Output, Class::Input],
+                "S07" => &[Class::Restart],
+                "S08" => &[Class::Limit],
+                _ => &[],
+            };
+            assert!(allowed.contains(&code.class), "{}", code.id);
         }
     }
 

@@ -255,6 +255,10 @@ impl Fs for BehindFs {
         self.settled()?.lock(path)
     }
 
+    fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
+        self.settled()?.is_locked(path)
+    }
+
     fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
         let Some(Worker { queue, .. }) = self.worker.as_deref() else {
             return self.inner.write_atomic(path, bytes);

@@ -235,6 +235,10 @@ impl<F: Fs, P: Plan> Fs for Faulty<F, P> {
     fn lock(&self, path: &Path) -> Result<Lock, FsError> {
         judged_act(&*self.plan, Action::Lock, path, || self.inner.lock(path))
     }
+
+    fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
+        self.inner.is_locked(path)
+    }
 }
 
 /// A log on a faulty disk.

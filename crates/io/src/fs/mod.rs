@@ -71,6 +71,9 @@ pub trait Fs: Send + Sync {
     /// [`FsError::Locked`] while another process holds it.
     fn lock(&self, path: &Path) -> Result<Lock, FsError>;
 
+    /// Whether a process holds the lock file at `path`; no where there is no such file, or where the disk has no locks.
+    fn is_locked(&self, path: &Path) -> Result<bool, FsError>;
+
     /// Replaces a file as a whole: readers see the old content or the new one, also after a power cut.
     ///
     /// After an error the old content is still there, or the new one if only the last step failed.

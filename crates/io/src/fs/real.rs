@@ -3,6 +3,7 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use super::{Action, Fs, FsError, Lock, Log, folder_of};
 
@@ -94,7 +95,7 @@ impl Fs for RealFs {
             .truncate(false)
             .open(path)
             .map_err(failed)?;
-        match file.try_lock() {
+        match exclusive(&file) {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
                 return Err(FsError::Locked {
@@ -110,6 +111,36 @@ impl Fs for RealFs {
             .map_err(failed)?;
         Ok(Lock { _file: file })
     }
+
+    fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
+        let file = match File::open(path) {
+            Ok(file) => file,
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(false),
+            Err(e) => return Err(FsError::new(Action::Read, path, e)),
+        };
+        // shared, so that two who ask at once do not see each other; it ends with the file
+        match file.try_lock_shared() {
+            Ok(()) => Ok(false),
+            Err(TryLockError::WouldBlock) => Ok(true),
+            Err(TryLockError::Error(e)) if e.kind() == io::ErrorKind::Unsupported => Ok(false),
+            Err(TryLockError::Error(e)) => Err(FsError::new(Action::Lock, path, e)),
+        }
+    }
+}
+
+/// How often a lock is tried, and the pause between: [`Fs::is_locked`] holds it for microseconds.
+const TRIES: usize = 5;
+const PAUSE: Duration = Duration::from_millis(10);
+
+/// Locks a file for this process alone.
+fn exclusive(file: &File) -> Result<(), TryLockError> {
+    for _ in 1..TRIES {
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => std::thread::sleep(PAUSE),
+            done => return done,
+        }
+    }
+    file.try_lock()
 }
 
 /// A growing file on the disk, positioned at its end.

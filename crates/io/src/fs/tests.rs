@@ -175,6 +175,19 @@ fn a_lock_is_held_once_and_let_go_when_dropped() {
 }
 
 #[test]
+fn whether_a_lock_is_held_is_seen_without_taking_it() {
+    let dir = folder();
+    let path = dir.path().join(".lock");
+    assert!(!RealFs.is_locked(&path).unwrap());
+    assert!(!path.exists());
+    let held = RealFs.lock(&path).unwrap();
+    assert!(RealFs.is_locked(&path).unwrap());
+    drop(held);
+    assert!(!RealFs.is_locked(&path).unwrap());
+    RealFs.lock(&path).unwrap();
+}
+
+#[test]
 fn the_failing_disk_fails_exactly_where_told() {
     let dir = folder();
     let write = |fs: &dyn Fs, n: usize| {
@@ -325,6 +338,10 @@ impl Fs for Panicking {
 
     fn lock(&self, path: &Path) -> Result<Lock, FsError> {
         RealFs.lock(path)
+    }
+
+    fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
+        RealFs.is_locked(path)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::SolveOptions;
 use super::console::Console;
 use super::run::{Job, refused};
+use super::signals::Signals;
 use clap::Args;
 use signorini::{Compat, Reading, load};
 use signorini_io::fs::{Fs, RealFs};
@@ -57,6 +58,7 @@ impl CcxCompat {
 /// Solves a deck and copies what CalculiX would leave; the exit code of a run.
 fn solve(deck: &Path, options: &SolveOptions) -> u8 {
     let clock = Instant::now();
+    let signals = Signals::taken();
     let reading = Reading {
         set: vec![("output.format".into(), "[\"frd\"]".into())],
         compat: Some(Compat::Ccx),
@@ -69,7 +71,7 @@ fn solve(deck: &Path, options: &SolveOptions) -> u8 {
     let name = loaded.source.name.clone();
     let job = Job {
         fresh: true,
-        ..Job::new(loaded, clock, options)
+        ..Job::new(loaded, signals, clock, options)
     };
     let code = job.solve(options);
     for kind in LEFT {

@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use super::run::{Job, refused};
+use super::signals::Signals;
 use super::templates::{self, TEMPLATES};
 use super::{SolveOptions, WRONG_COMMAND, init};
 use clap::Args;
@@ -27,6 +28,7 @@ impl Demo {
             return WRONG_COMMAND;
         };
         let clock = Instant::now();
+        let signals = Signals::taken();
         let folder = std::env::temp_dir().join(format!("signorini-demo-{}", std::process::id()));
         let path = folder.join(init::file_name(template));
         if let Err(error) = init::write(&path, template) {
@@ -36,7 +38,7 @@ impl Demo {
         console.line(&format!("{}: {}", template.name, template.about));
         match load(&path, &Reading::default()) {
             Err(found) => refused(&found, &self.solve),
-            Ok(loaded) => Job::new(loaded, clock, &self.solve).solve(&self.solve),
+            Ok(loaded) => Job::new(loaded, signals, clock, &self.solve).solve(&self.solve),
         }
     }
 }

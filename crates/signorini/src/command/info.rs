@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use clap::Args;
+use signorini::run::{Owner, Stop, process_in};
 use signorini::text::{count, plural, short};
 use signorini::{Diagnostics, Reading, load};
 use signorini_geometry::mesh::Mesh;
@@ -148,10 +149,23 @@ fn results(folder: &Path) -> Result<Vec<String>, Diagnostics> {
     };
     let list = Pvd::read(&RealFs, &folder.join("results.pvd"));
     let mut lines = Vec::new();
-    match (Summary::read(&RealFs, &folder.join("summary.json")), &list) {
-        (Ok(summary), _) => lines.extend(ending(&summary)),
-        (Err(_), Ok(_)) => lines.push("not ended yet, or killed".to_owned()),
-        (Err(_), Err(error)) => return Err(no_results(error.to_string()).into()),
+    let process = process_in(&RealFs, folder).map_err(|error| no_results(error.to_string()))?;
+    let summary = Summary::read(&RealFs, &folder.join("summary.json"));
+    let resume = format!("signorini resume {}", folder.display());
+    match (process, summary) {
+        (Some(process), _) => lines.push(format!("running: process {process}")),
+        (None, Ok(summary)) => {
+            lines.extend(ending(&summary));
+            if Stop::STATUSES.contains(&summary.status.as_str()) {
+                lines.push(format!("stopped on request; to go on:  {resume}"));
+            }
+        }
+        (None, Err(_)) if list.is_ok() || Owner::read(&RealFs, folder).is_some() => {
+            lines.push(format!(
+                "killed: no process writes here, and the run has no summary; to go on:  {resume}"
+            ))
+        }
+        (None, Err(error)) => return Err(no_results(error.to_string()).into()),
     }
     // a run that writes no frames for ParaView has no list of them
     let Ok(list) = list else { return Ok(lines) };

@@ -3,6 +3,7 @@
 use super::SolveOptions;
 use super::console::Console;
 use super::run::{Job, refused};
+use super::signals::Signals;
 use clap::Args;
 use signorini::resume::{Stopped, stopped};
 use signorini_io::fs::RealFs;
@@ -21,6 +22,7 @@ pub struct Resume {
 impl Resume {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
+        let signals = Signals::taken();
         match stopped(&RealFs, &self.folder) {
             Err(found) => refused(&found, &self.solve),
             Ok(Stopped::Done(summary)) => {
@@ -34,7 +36,7 @@ impl Resume {
             Ok(Stopped::Open(loaded)) => Job {
                 folder: Some(self.folder),
                 resume: true,
-                ..Job::new(*loaded, clock, &self.solve)
+                ..Job::new(*loaded, signals, clock, &self.solve)
             }
             .solve(&self.solve),
         }

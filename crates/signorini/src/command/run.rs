@@ -2,8 +2,9 @@
 
 use super::console::Console;
 use super::ndjson::Ndjson;
+use super::signals::{Notice, Signals};
 use super::terminal::Terminal;
-use super::{CaseOptions, FolderOption, SolveOptions, signals, threads};
+use super::{CaseOptions, FolderOption, SolveOptions, threads};
 use clap::Args;
 use signorini::run::{Detail, Finished};
 use signorini::{
@@ -13,6 +14,7 @@ use signorini_geometry::mesh::Mesh;
 use signorini_io::case::Case;
 use signorini_io::writers::json::Event;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Solve a case.
@@ -40,6 +42,7 @@ pub struct Run {
 impl Run {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
+        let signals = Signals::taken();
         let mut reading = self.changes.reading();
         if !self.format.is_empty() {
             reading
@@ -64,6 +67,8 @@ impl Run {
             fresh: self.fresh,
             resume: false,
             threads: nthread,
+            signals,
+            clock,
             read_seconds: clock.elapsed().as_secs_f64(),
         };
         if self.dry_run {
@@ -83,13 +88,18 @@ pub struct Job {
     pub fresh: bool,
     pub resume: bool,
     pub threads: usize,
+    pub signals: Signals,
+    /// When the command began.
+    pub clock: Instant,
     pub read_seconds: f64,
 }
 
 impl Job {
     /// What was loaded since `clock`, to be solved in its own folder.
-    pub fn new(loaded: Loaded, clock: Instant, options: &SolveOptions) -> Self {
+    pub fn new(loaded: Loaded, signals: Signals, clock: Instant, options: &SolveOptions) -> Self {
         Self {
+            signals,
+            clock,
             threads: threads::make(options.threads, loaded.case.solver.threads),
             case: loaded.case,
             mesh: loaded.mesh,
@@ -110,8 +120,8 @@ impl Job {
             Err(found) => return refused(&joined(self.warnings, found), options),
         };
         model.name.clone_from(&self.source.name);
-        model.warnings = joined(self.warnings, std::mem::take(&mut model.warnings));
         let mut run = RunOptions::new(self.source);
+        run.warnings = self.warnings;
         run.folder = self.folder.unwrap_or(run.folder);
         run.fresh = self.fresh;
         run.resume = self.resume;
@@ -119,11 +129,12 @@ impl Job {
         run.threads = self.threads;
         run.seconds = [self.read_seconds, clock.elapsed().as_secs_f64()];
         run.limits = Limits {
-            signal: signals::watched(),
+            signal: Arc::clone(&self.signals.seen),
             deadline: options
                 .max_wall
-                .map(|s| Instant::now() + Duration::from_secs_f64(s.min(1e9))),
+                .map(|s| self.clock + Duration::from_secs_f64(s.min(1e9))),
         };
+        self.signals.are_requests();
         let finished = solve(model, &run, options);
         if options.timings {
             timings(&finished);
@@ -139,7 +150,10 @@ fn solve(model: Model, run: &RunOptions, options: &SolveOptions) -> Finished {
     } else {
         Terminal::level(options.quiet, options.verbose)
     };
-    let mut terminal = Terminal::new(level, !options.no_progress && !options.json);
+    let notice = Notice::new(run.limits.clone());
+    let _watch = notice.clone().watch();
+    let progress = !options.no_progress && !options.json;
+    let mut terminal = Terminal::new(level, progress, notice);
     if options.json {
         signorini::solve(model, run, &mut (Ndjson(Console::stdout()), terminal))
     } else {

@@ -5,10 +5,12 @@
 //! ```
 
 use super::console::Console;
-use signorini::run::Detail;
+use super::signals::{self, Notice};
 use signorini::run::narration::{Level, Line, Narrator};
+use signorini::run::{Detail, Stop};
 use signorini::text::clock;
 use signorini::{Diagnostics, Listener, News};
+use signorini_io::writers::json::Event;
 use signorini_mechanics::solve::Flow;
 use std::time::{Duration, Instant};
 
@@ -25,11 +27,12 @@ pub struct Terminal {
     narrator: Narrator,
     level: Level,
     bar: Option<Bar>,
+    notice: Notice,
 }
 
 impl Terminal {
     /// A terminal that shows lines up to a level; with a bar only where someone can see it.
-    pub fn new(level: Level, progress: bool) -> Self {
+    pub fn new(level: Level, progress: bool, notice: Notice) -> Self {
         let console = Console::stderr();
         let wants_bar = progress && console.terminal && level >= Level::Normal;
         Self {
@@ -37,6 +40,7 @@ impl Terminal {
             narrator: Narrator::default(),
             console,
             level,
+            notice,
         }
     }
 
@@ -63,6 +67,11 @@ impl Terminal {
 
 impl Listener for Terminal {
     fn hear(&mut self, news: &News<'_>) -> Flow {
+        if may_stop(news.event)
+            && let Some(line) = self.notice.line()
+        {
+            signals::show(&self.console, &line);
+        }
         let lines = self.narrator.lines(news);
         let wanted = lines.iter().filter(|line| line.level <= self.level);
         let wanted: Vec<&Line> = wanted.collect();
@@ -86,6 +95,15 @@ impl Listener for Terminal {
 
     fn opens_files(&self) -> bool {
         false
+    }
+}
+
+/// Whether a run goes on after an event, or was stopped with it.
+fn may_stop(event: &Event) -> bool {
+    match event {
+        Event::End { status, .. } => Stop::STATUSES.contains(&status.as_str()),
+        Event::Expect { .. } | Event::Diagnostic { .. } => false,
+        _ => true,
     }
 }
 
@@ -123,7 +141,6 @@ impl Default for Bar {
 
 impl Bar {
     fn watch(&mut self, news: &News<'_>) {
-        use signorini_io::writers::json::Event;
         if let Detail::Start(facts) = news.detail {
             self.duration = facts.duration;
         }

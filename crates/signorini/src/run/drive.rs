@@ -167,7 +167,8 @@ enum Ending {
 
 impl Run<'_, '_> {
     fn finish(mut self, start: Start, from: Option<&Checkpoint>) -> Finished {
-        let mut found = self.model.warnings.clone();
+        let mut found = self.options.warnings.clone();
+        found.append(self.model.warnings.clone());
         if let Some(why) = from.and_then(|from| from.passed_over.as_ref()) {
             let message = "one of the two checkpoints is of no use; the run goes on from the other";
             found.push(Diagnostic::warning(&codes::CANNOT_RESUME, message).note(why));
@@ -294,6 +295,7 @@ impl Run<'_, '_> {
                 let status = match code {
                     4 => "model ill-posed",
                     7 => "cannot resume",
+                    8 => "out of memory",
                     _ => "not converged",
                 };
                 (code, status)

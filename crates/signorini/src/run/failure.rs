@@ -29,6 +29,11 @@ pub fn at_start(error: &TermError) -> Diagnostics {
 
 /// The message for a run that failed.
 pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
+    if let RunError::NotConverged { cause, .. } = error
+        && let Some(one) = no_memory(cause, saved)
+    {
+        return one;
+    }
     match error {
         RunError::NotConverged { cause, .. } if saved.increments == 0 => {
             if let Failure::Linear {
@@ -61,6 +66,29 @@ pub fn message(error: &RunError, model: &Model, saved: &Saved) -> Diagnostic {
             .note(saved_so_far(saved))
             .help("smaller increments, or a better mesh there"),
     }
+}
+
+/// Bytes that an entry of a factor takes at least.
+const ENTRY: f64 = 8.0;
+
+/// A system whose factor found no memory: no matter of convergence.
+fn no_memory(cause: &Failure, saved: &Saved) -> Option<Diagnostic> {
+    let Failure::Linear {
+        source: LinearError::TooLarge { nequation, nentry },
+        ..
+    } = cause
+    else {
+        return None;
+    };
+    let megabytes = (ENTRY * *nentry as f64 / 1e6).ceil();
+    let message = format!(
+        "out of memory: the direct solver found none for a system of {nequation} equations, whose {nentry} entries alone need \
+         at least {megabytes} MB"
+    );
+    let one = Diagnostic::error(&codes::OUT_OF_MEMORY, message).note(saved_so_far(saved));
+    Some(
+        one.help("linear = \"multigrid\" needs less; or raise the limit (ulimit -v), or use fewer threads (-j 1) or unknowns"),
+    )
 }
 
 /// A system that is singular before anything was solved: something is not held.

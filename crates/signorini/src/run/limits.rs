@@ -25,6 +25,9 @@ pub enum Stop {
 }
 
 impl Stop {
+    /// All statuses that [`Stop::status`] gives.
+    pub const STATUSES: [&str; 2] = ["interrupted", "time limit reached"];
+
     /// The exit code of the program.
     #[must_use]
     pub fn exit_code(self) -> u8 {
@@ -38,9 +41,10 @@ impl Stop {
     /// The status in the summary.
     #[must_use]
     pub const fn status(self) -> &'static str {
+        let [interrupted, late] = Self::STATUSES;
         match self {
-            Self::Signal(_) | Self::Listener => "interrupted",
-            Self::Time => "time limit reached",
+            Self::Signal(_) | Self::Listener => interrupted,
+            Self::Time => late,
         }
     }
 }

@@ -50,7 +50,7 @@ pub use limits::{Limits, Stop};
 pub use news::{Detail, Effort, Facts, Listener, News, Totals, event_of, tell};
 pub use probe::element_named;
 pub use start::{Start, begin, facts};
-pub use tree::{Owner, Tree, case_copy};
+pub use tree::{Owner, Tree, case_copy, process_in};
 pub use volume::Volume;
 
 use crate::build::Model;
@@ -74,6 +74,8 @@ pub struct RunOptions {
     pub resume: bool,
     /// Whether a run whose audit finds something wrong ends with exit code 1.
     pub strict: bool,
+    /// What was unusual when the case was read.
+    pub warnings: Diagnostics,
     /// What stops it from outside.
     pub limits: Limits,
     /// The disk.
@@ -94,6 +96,7 @@ impl RunOptions {
             fresh: false,
             resume: false,
             strict: false,
+            warnings: Diagnostics::default(),
             limits: Limits::default(),
             fs: Arc::new(RealFs),
             threads: rayon::current_num_threads(),

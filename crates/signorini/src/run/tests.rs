@@ -1,15 +1,18 @@
 //! A disk that fails at every single operation of a whole run.
 
+use super::failure::{Saved, message};
 use super::{Finished, Listener, News, RunOptions, run};
 use crate::build::{Model, build};
 use crate::load::Source;
 use signorini_io::case::read_case;
 use signorini_io::checkpoint::Checkpoints;
+use signorini_io::diagnostic::Diagnostics;
 use signorini_io::fs::{FailingFs, Fs, RealFs};
 use signorini_io::writers::json::Event;
 use signorini_io::writers::pvd::Pvd;
 use signorini_io::writers::vtu;
-use signorini_mechanics::solve::Flow;
+use signorini_mechanics::solve::{Failure, Flow, RunError};
+use signorini_mechanics::system::linear::LinearError;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -264,5 +267,36 @@ fn a_state_that_is_judged_again_is_no_further_iteration() {
     assert!(
         judged > taken,
         "{judged} of {taken}: multipliers are renewed"
+    );
+}
+
+#[test]
+fn a_factor_that_finds_no_memory_is_a_limit_and_no_matter_of_convergence() {
+    let failure = Failure::Linear {
+        source: LinearError::TooLarge {
+            nequation: 45_600,
+            nentry: 3_669_318,
+        },
+        dof: None,
+    };
+    let error = RunError::NotConverged {
+        step: "press".into(),
+        increment: 1,
+        time: 0.0,
+        duration: 1.0,
+        tried: vec![1.0],
+        min: None,
+        cause: Box::new(failure),
+    };
+    let saved = Saved {
+        increments: 0,
+        folder: "case.out".into(),
+    };
+    let one = message(&error, &model_of(CASE), &saved);
+    assert_eq!((one.code.id, one.code.class.exit_code()), ("S0802", 8));
+    let text = Diagnostics::from(one).plain();
+    assert!(
+        text.contains("at least 30 MB") && text.contains("multigrid"),
+        "{text}"
     );
 }

@@ -17,7 +17,7 @@ use crate::load::{Source, sha256};
 use serde::{Deserialize, Serialize};
 use signorini_io::checkpoint::Checkpoints;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
-use signorini_io::fs::{Fs, Lock};
+use signorini_io::fs::{Fs, FsError, Lock};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -168,11 +168,24 @@ fn open(fs: &dyn Fs, folder: &Path) -> Result<Tree, OutputError> {
     })
 }
 
+/// The process that runs in a folder now, as it names itself; none where no process does.
+///
+/// # Errors
+/// A lock file that cannot be read.
+pub fn process_in(fs: &dyn Fs, folder: &Path) -> Result<Option<String>, FsError> {
+    let path = folder.join(LOCK);
+    if !fs.is_locked(&path)? {
+        return Ok(None);
+    }
+    let bytes = fs.read(&path).unwrap_or_default();
+    Ok(Some(String::from_utf8_lossy(&bytes).trim().to_owned()))
+}
+
 /// The bytes of the case that a folder holds results of.
 ///
 /// # Errors
 /// No such copy.
-pub fn case_copy(fs: &dyn Fs, folder: &Path) -> Result<Vec<u8>, signorini_io::fs::FsError> {
+pub fn case_copy(fs: &dyn Fs, folder: &Path) -> Result<Vec<u8>, FsError> {
     fs.read(&folder.join(CASE_COPY))
 }
 

@@ -17,5 +17,6 @@ mod model;
 mod numerics;
 mod restart;
 mod results;
+mod stopping;
 mod support;
 mod text;

@@ -115,3 +115,66 @@ fn f66_the_number_of_threads_does_not_change_a_bit() {
     });
     assert_eq!(histories[0], histories[1]);
 }
+
+/// Two blocks, the upper one pressed through the lower one: no method gets there. A node of no element is a warning of reading.
+const TOO_FAR: &str = r#"
+format = 1
+units = "m-MN-MPa"
+[mesh]
+nodes = [
+  [1, 0, 0, 0], [2, 1, 0, 0], [3, 1, 1, 0], [4, 0, 1, 0],
+  [5, 0, 0, 1], [6, 1, 0, 1], [7, 1, 1, 1], [8, 0, 1, 1],
+  [11, 0, 0, 1], [12, 1, 0, 1], [13, 1, 1, 1], [14, 0, 1, 1],
+  [15, 0, 0, 2], [16, 1, 0, 2], [17, 1, 1, 2], [18, 0, 1, 2],
+  [99, 5, 5, 5],
+]
+elements = [
+  { id = 1, type = "hex8", group = "lower", nodes = [1, 2, 3, 4, 5, 6, 7, 8] },
+  { id = 2, type = "hex8", group = "upper", nodes = [11, 12, 13, 14, 15, 16, 17, 18] },
+]
+[sets]
+base = { nodes = [1, 2, 3, 4] }
+head = { nodes = [15, 16, 17, 18] }
+top = { faces = [[1, "+z"]] }
+foot = { faces = [[2, "-z"]] }
+[material.soft]
+model = "saint-venant-kirchhoff"
+E = 500.0
+nu = 0.0
+[[body]]
+group = ["lower", "upper"]
+material = "soft"
+[[contact]]
+name = "joint"
+secondary = "foot"
+primary = "top"
+[[step]]
+name = "press"
+geometry = "nonlinear"
+increments = { initial = 1.0, min = 0.5, max = 1.0 }
+[[step.fix]]
+on = "base"
+u = "all"
+[[step.move]]
+on = "head"
+ux = 0.0
+uy = 0.0
+uz = -2.5
+"#;
+
+#[test]
+fn a_case_that_is_solved_again_by_points_keeps_the_warnings_of_reading() {
+    let folder = folder_with(TOO_FAR);
+    run(folder.path(), &["run", "case.toml"]).says(5, &["S0502", "solved again by Gauss points"]);
+    let summary: serde_json::Value =
+        serde_json::from_str(&read(&result(&folder, "summary.json"))).unwrap();
+    let found = summary["diagnostics"].as_array().unwrap();
+    assert!(found.iter().any(|one| one["code"] == "S0502"), "{summary}");
+    let lone = |one: &&serde_json::Value| {
+        one["message"]
+            .as_str()
+            .unwrap()
+            .contains("nodes without elements")
+    };
+    assert_eq!(found.iter().filter(lone).count(), 1, "{summary}");
+}

@@ -41,6 +41,8 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
     let _guard = ONE_AT_A_TIME
         .lock()
         .unwrap_or_else(|poisoned| poisoned.into_inner());
+    #[cfg(target_os = "linux")]
+    let _handlers = handlers::Kept::new();
     // SAFETY: every pointer is to a live, exclusively borrowed buffer of the length METIS documents: `options` has
     // METIS_NOPTIONS entries, `start` nvertex + 1 entries that rise from 0 to the length of `neighbour`, `weight`,
     // `order` and `place` nvertex entries. `Graph` keeps every neighbour below nvertex, without loops, both ways.
@@ -60,6 +62,47 @@ pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
     };
     (status == metis_sys::rstatus_et_METIS_OK)
         .then(|| order.into_iter().map(|v| v as u32).collect())
+}
+
+/// METIS handles SIGABRT and SIGTERM itself while it works, and gives the handlers of the program back without their flags: for
+/// one signal only, after which the default action ends the process. So the program keeps them.
+///
+/// Source: METIS 5.1, GKlib/error.c, `gk_sigtrap` and `gk_siguntrap`; `signal(2)` on the two meanings of `signal`.
+#[cfg(target_os = "linux")]
+mod handlers {
+    const SIGNALS: [libc::c_int; 2] = [libc::SIGABRT, libc::SIGTERM];
+
+    /// The handlers of the program, which come back when this is dropped.
+    pub(super) struct Kept([Option<libc::sigaction>; 2]);
+
+    impl Kept {
+        pub(super) fn new() -> Self {
+            Self(SIGNALS.map(of))
+        }
+    }
+
+    impl Drop for Kept {
+        fn drop(&mut self) {
+            for (signal, kept) in SIGNALS.iter().zip(&self.0) {
+                if let Some(kept) = kept {
+                    // SAFETY: what is set is what was set before; the old one is not asked for.
+                    unsafe {
+                        libc::sigaction(*signal, kept, std::ptr::null_mut());
+                    }
+                }
+            }
+        }
+    }
+
+    /// The handler of a signal with its flags.
+    pub(super) fn of(signal: libc::c_int) -> Option<libc::sigaction> {
+        // SAFETY: zeros are a value of this type; the call sets nothing, and writes to a place of that type.
+        unsafe {
+            let mut action: libc::sigaction = std::mem::zeroed();
+            let failed = libc::sigaction(signal, std::ptr::null(), &raw mut action);
+            (failed == 0).then_some(action)
+        }
+    }
 }
 
 #[cfg(test)]
@@ -103,5 +146,27 @@ mod tests {
     fn a_graph_without_edges_is_left_to_others() {
         assert!(nested_dissection(&Graph::from_pairs(vec![1; 5], &[])).is_none());
         assert!(nested_dissection(&Graph::from_pairs(Vec::new(), &[])).is_none());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn handlers_of_signals_are_the_same_afterwards() {
+        extern "C" fn nothing(_: libc::c_int) {}
+        // SAFETY: the handler does nothing, and no test raises the signal.
+        unsafe {
+            let mut action: libc::sigaction = std::mem::zeroed();
+            action.sa_sigaction = nothing as extern "C" fn(libc::c_int) as libc::sighandler_t;
+            action.sa_flags = libc::SA_RESTART;
+            libc::sigaction(libc::SIGTERM, &raw const action, std::ptr::null_mut());
+        }
+        let seen = || {
+            [libc::SIGABRT, libc::SIGTERM].map(|s| {
+                let action = handlers::of(s).unwrap();
+                (action.sa_sigaction, action.sa_flags)
+            })
+        };
+        let before = seen();
+        nested_dissection(&grid(20)).unwrap();
+        assert_eq!(seen(), before);
     }
 }

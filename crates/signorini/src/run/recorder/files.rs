@@ -186,6 +186,11 @@ impl Opened {
         let has_contact = setting.has_vtu && setting.has_contact;
         let contact = list("contact.pvd", "contact", has_contact)?;
         let [step, time, step_time] = clock;
+        // how the run ended before says nothing about it now
+        let summary = path("summary.json");
+        if fs.exists(&summary)? {
+            fs.remove(&summary)?;
+        }
         setting.fs.settle()?;
         Ok(Self {
             audit: Audit::restored(from),
