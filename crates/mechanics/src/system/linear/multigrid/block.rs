@@ -1,6 +1,7 @@
 //! The equations around the interface, solved directly.
 
 use super::super::{Direct, Kept, LinearError, LinearSolver, Problem, Values};
+use super::alone::{coupled, touched};
 use crate::system::sparsity::{BlockPattern, NONE, Pattern};
 
 /// What is asked of its solutions: they serve within a preconditioner.
@@ -336,27 +337,6 @@ impl InterfaceBlock {
     }
 }
 
-/// Whether interface values act on each node.
-pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
-    let mut touched = vec![false; kept.bulk.nrow()];
-    let rows = kept.interface.row_start.windows(2);
-    for (dof, ends) in rows.enumerate().take(3 * touched.len()) {
-        let of_row = values.interface.get(ends[0]..ends[1]).unwrap_or_default();
-        touched[dof / 3] |= of_row.iter().any(|v| *v != 0.0);
-    }
-    touched
-}
-
-/// Whether interface values have a place at each node.
-fn coupled(kept: &Kept) -> Vec<bool> {
-    let start = &kept.interface.row_start;
-    let of_node = |node: usize| {
-        let [first, last] = [3 * node, 3 * node + 3].map(|dof| start[dof.min(start.len() - 1)]);
-        first < last
-    };
-    (0..kept.bulk.nrow()).map(of_node).collect()
-}
-
 /// Nodes and other raw dofs that interface values act on, and layers of nodes around, where they are not too many. Where
 /// values act on nearly all that they have a place at, these are taken: then what opens and closes costs no new order.
 fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
@@ -365,7 +345,8 @@ fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
     let all = coupled(kept);
     let [some, most] = [&inside, &all].map(|some| some.iter().filter(|is_in| **is_in).count());
     if some > 0 && most as f64 <= NEARLY * some as f64 {
-        inside = all;
+        let both = inside.iter_mut().zip(all);
+        both.for_each(|(is_in, may_be)| *is_in |= may_be);
     }
     let beyond = 3 * nnode..kept.equation.len();
     let extra: Vec<u32> = beyond

@@ -10,6 +10,9 @@
 //! Corners of quadratic elements are a level of their own: there stand the linear elements on the same places, which are
 //! aggregated.
 //!
+//! What holds single unknowns, and is little in comparison with the bodies, is in the hierarchy and not in the block ([`alone`]): viscous
+//! forces on bodies that float would make the block the whole model.
+//!
 //! Contact never enters the hierarchy, so that no change of contact costs a new one, and no stiffness of contact makes
 //! iterations more. Of multipliers its levels know by springs beside their stiffness ([`springs`]), which are told anew
 //! with every tangent. The smoother is an incomplete factor by blocks of nodes. It outlives patterns: nothing but the
@@ -27,6 +30,7 @@
 //! Methods Appl. Mech. Engrg.* 2022 (multigrid and contact); the interface apart: Nataf and others, AMG with filtering.
 
 mod aggregation;
+mod alone;
 mod block;
 mod blocks;
 mod fine;
@@ -46,7 +50,8 @@ use super::{
     SolveReport, StartStiffness, Symmetry, Values, Why, apply, largest,
 };
 use crate::system::sparsity::{NONE, Pattern};
-use block::{InterfaceBlock, touched};
+use alone::touched;
+use block::InterfaceBlock;
 use blocks::Blocks;
 use fine::{Fine, hold};
 use hierarchy::Hierarchy;
@@ -62,6 +67,8 @@ const STRICTER: f64 = 0.1;
 const WORN: f64 = 1.6;
 /// A hierarchy is made anew where contact holds bodies that float at so many times as many nodes, or the fewer.
 const GROWN: usize = 2;
+/// A hierarchy is made anew where viscous forces are so many times as strong or as weak, if nothing else holds bodies.
+const CHANGED: f64 = 10.0;
 /// A hierarchy of the bodies at the start serves as long as their stiffness has changed by no more than this part, in
 /// about the norm of Frobenius. Iterations where one of two bodies has turned by 0.1 and 0.2, which changes 0.08 and
 /// 0.16: 22 and 25, in place of 19 with a hierarchy of their own.
@@ -100,6 +107,8 @@ pub(super) struct Grid {
     is_proven: bool,
     /// Rows of bodies that float which are held by springs in the hierarchy.
     springs: Vec<u32>,
+    /// The mean of what holds single unknowns of these bodies there, over their stiffness.
+    damping: f64,
     start: Start,
     /// Whether iterations did not come to an end in this increment: the next ones would not, either.
     has_failed: bool,
@@ -218,6 +227,13 @@ impl Multigrid {
     #[cfg(test)]
     pub(super) fn is_multigrid(&self) -> bool {
         self.way == Some(Way::Grid)
+    }
+
+    /// How many equations are solved directly, at the interface.
+    #[cfg(test)]
+    pub(super) fn nblock(&self) -> usize {
+        let grid = self.grid.as_ref();
+        grid.map_or(0, |grid| grid.block.whole.len())
     }
 
     /// Whether the hierarchy is that of the stiffness at the start.
@@ -437,6 +453,7 @@ impl Grid {
             source: 0,
             is_proven: false,
             springs: Vec::new(),
+            damping: 0.0,
             start: Start::default(),
             has_failed: false,
             block: InterfaceBlock::new(),
@@ -578,21 +595,27 @@ impl Grid {
         let springs = self.springs(kept, values);
         let [few, many] = [&springs, &self.springs].map(Vec::len);
         let (few, many) = (few.min(many), few.max(many));
-        if self.hierarchy.is_some() && self.is_proven && !is_worn && many <= GROWN * few {
+        let damping = alone::strength(kept, values, &self.fine);
+        // where springs hold bodies, it does not matter
+        let (weak, strong) = (damping.min(self.damping), damping.max(self.damping));
+        let is_like = !springs.is_empty() || strong <= CHANGED * weak;
+        if self.hierarchy.is_some() && self.is_proven && !is_worn && many <= GROWN * few && is_like
+        {
             return None;
         }
         let source = fingerprint(values.bulk);
-        let is_same = self.source == source && self.springs == springs;
+        let is_same = self.source == source && self.springs == springs && self.damping == damping;
         let worn = self.base.filter(|_| is_worn).map(|base| [self.rate, base]);
         // that of an increment before is not known to a run that is resumed here
         let of_increment = std::mem::replace(&mut self.is_proven, true);
-        (self.source, self.springs) = (source, springs);
+        (self.source, self.springs, self.damping) = (source, springs, damping);
         (self.base, self.worn) = (None, 0);
         if is_same && self.hierarchy.is_some() {
             return None;
         }
         let mut matrix = self.fine.matrix(kept, values);
         hold(&mut matrix, &self.springs);
+        alone::add(kept, values, &self.fine, &mut matrix);
         let (new, note) = self.build(&matrix, worn).unzip();
         let before = self.hierarchy.take().filter(|_| of_increment);
         self.start.is_in_use &= new.is_none() && before.is_some();

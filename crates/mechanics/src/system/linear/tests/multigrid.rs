@@ -130,6 +130,46 @@ fn iterations_grow_slowly_with_size() {
     }
 }
 
+/// Holds every unknown of the upper block by a spring to the ground, as viscous forces do.
+fn damp(placed: &mut Placed, n: [usize; 3], stiffness: f64) {
+    for dof in 3 * nnode(n) as u32..placed.system.ndof as u32 {
+        placed.system.interface.push((vec![dof], vec![stiffness]));
+    }
+}
+
+#[test]
+fn viscous_forces_on_a_body_are_no_part_of_the_block() {
+    let n = [10, 9, 8];
+    let held = pressed(n, 10.0, true, true);
+    let mut solver = Multigrid::new();
+    let (multigrid, bare, _) = solve(&held, &mut solver);
+    let block = solver.nblock();
+    assert!(multigrid && block > 0);
+    for stiffness in [1e-5, 1e-3, 3e-2] {
+        let mut placed = pressed(n, 10.0, true, true);
+        damp(&mut placed, n, stiffness);
+        let (multigrid, report, _) = solve(&placed, &mut solver);
+        println!("{stiffness:e}: {block} equations, {bare:?}, {report:?}");
+        assert!(multigrid && solver.nblock() == block, "{stiffness:e}");
+        assert!(report.iterations <= bare.iterations + 5, "{stiffness:e}");
+    }
+}
+
+#[test]
+fn a_body_that_nothing_but_viscous_forces_hold_takes_few_iterations() {
+    let n = [10, 9, 8];
+    // one solver for all: the hierarchy follows the strength of the forces
+    let mut solver = Multigrid::new();
+    for stiffness in [1e-3, 3e-2, 1e-4, 1e-6] {
+        let mut placed = pressed(n, 0.0, false, true);
+        damp(&mut placed, n, stiffness);
+        let (multigrid, report, _) = solve(&placed, &mut solver);
+        println!("{stiffness:e}: {report:?}");
+        assert!(multigrid && solver.nblock() == 0, "{stiffness:e}");
+        assert!(report.iterations <= 30, "{stiffness:e}: {report:?}");
+    }
+}
+
 /// Lines of `even` cells of a size, and of others that grow up to an end.
 fn graded(size: f64, even: usize, others: usize, end: f64) -> Vec<f64> {
     let reach = |growth: f64| {
