@@ -27,6 +27,7 @@ mod keywords;
 mod load;
 mod material;
 mod model;
+mod names;
 pub mod oofem;
 mod print;
 mod spring;

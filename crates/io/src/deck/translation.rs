@@ -1,6 +1,7 @@
 //! What all stages of the translation share: the deck, the case so far, names, messages.
 
 use super::keywords::{Keyword, Support};
+use super::names::Names;
 use super::{Compat, constraint, contact, material};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
@@ -39,7 +40,7 @@ pub(super) struct Translation<'d> {
     /// Places of elements among those of the mesh's dimension.
     elements: Lookup,
     cells: Vec<CellId>,
-    taken: BTreeSet<String>,
+    names: Names,
     /// Sets of nodes of the case, by the numbers in them.
     sets: BTreeMap<Vec<u64>, String>,
     /// The outer faces of the mesh, once somebody asks.
@@ -91,7 +92,7 @@ impl<'d> Translation<'d> {
             nodes: Lookup::new(&mesh.node_labels),
             elements: Lookup::new(&labels),
             cells,
-            taken: mesh.sets.keys().cloned().collect(),
+            names: Names::new(mesh.sets.keys().cloned()),
             sets: BTreeMap::new(),
             outer: None,
             faced: BTreeMap::new(),
@@ -416,13 +417,7 @@ impl<'d> Translation<'d> {
 
     /// A name that nothing has: `wanted`, or with a number behind.
     pub fn fresh(&mut self, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut number = 1;
-        while !self.taken.insert(name.clone()) {
-            number += 1;
-            name = format!("{wanted}-{number}");
-        }
-        name
+        self.names.fresh(wanted)
     }
 
     /// The name of all these targets together.

@@ -32,6 +32,7 @@ mod model;
 #[cfg(test)]
 mod tests;
 
+use super::names::Names;
 use super::{Compat, Read};
 use crate::case::{Case, MeshSource, Name, Set, SetContent};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
@@ -93,7 +94,7 @@ struct Translation {
     first: crate::case::Step,
     /// Sets of nodes of the case, by the numbers in them.
     sets: BTreeMap<Vec<u64>, String>,
-    taken: BTreeSet<String>,
+    names: Names,
 }
 
 impl Translation {
@@ -106,7 +107,7 @@ impl Translation {
         let title = parts.description.chars().filter(|c| !c.is_control());
         case.title = title.take(200).collect();
         Self {
-            taken: meshed.mesh.sets.keys().cloned().collect(),
+            names: Names::new(meshed.mesh.sets.keys().cloned()),
             meshed,
             parts,
             compat,
@@ -172,14 +173,7 @@ impl Translation {
 
     /// A name that nothing has yet.
     fn fresh(&mut self, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut number = 2;
-        while self.taken.contains(&name) {
-            name = format!("{wanted}-{number}");
-            number += 1;
-        }
-        self.taken.insert(name.clone());
-        name
+        self.names.fresh(wanted)
     }
 
     /// A set of these nodes, in this order.
