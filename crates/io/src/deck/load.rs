@@ -10,7 +10,8 @@ use super::translation::{Target, Translation};
 use crate::case::{Course, Load, LoadKind, Name, Step};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Where something acts.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -280,21 +281,15 @@ impl Translation<'_> {
             }
             stays
         });
-        let mut fresh: Vec<(BTreeSet<Where>, What)> = Vec::new();
-        for (at, what) in left {
-            let alike = |(members, known): &&mut (BTreeSet<Where>, What)| {
-                *known == what && members.first().is_some_and(|one| goes_with(one, &at))
-            };
-            match fresh.iter_mut().rev().find(alike) {
-                Some((members, _)) => {
-                    members.insert(at);
-                }
-                None => fresh.push((BTreeSet::from([at]), what)),
-            }
-        }
-        for (members, what) in fresh {
-            let before = ended.iter().position(|group| group.members == members);
-            let group = match before.map(|at| ended.swap_remove(at)) {
+        let firsts = ended.iter().zip(0..);
+        let firsts = firsts.filter_map(|(group, k)| Some((group.members.first()?.clone(), k)));
+        let firsts: BTreeMap<Where, usize> = firsts.collect();
+        let mut ended: Vec<Option<Group>> = ended.into_iter().map(Some).collect();
+        for (members, what) in together(left) {
+            let before = members.first().and_then(|first| firsts.get(first));
+            let before = before.and_then(|at| ended.get_mut(*at));
+            let before = before.and_then(|group| group.take_if(|g| g.members == members));
+            let group = match before {
                 Some(group) => Group { what, ..group },
                 None => {
                     let name = self.fresh("load");
@@ -309,7 +304,7 @@ impl Translation<'_> {
             step.loads.push(load_of(&group, sudden, step.duration));
             loads.groups.push(group);
         }
-        for mut group in ended {
+        for mut group in ended.into_iter().flatten() {
             group.what.kind = nothing(&group.what.kind);
             group.what.amplitude = None;
             step.loads.push(load_of(&group, sudden, step.duration));
@@ -342,6 +337,57 @@ impl Translation<'_> {
     }
 }
 
+/// What acts alike, together, in the order of the first of each.
+fn together(all: BTreeMap<Where, What>) -> Vec<(BTreeSet<Where>, What)> {
+    let mut groups: Vec<(BTreeSet<Where>, What)> = Vec::new();
+    // those that may be alike, by a number that these share
+    let mut places: HashMap<u64, Vec<usize>> = HashMap::new();
+    for (at, what) in all {
+        let near = places.entry(likeness(&what)).or_default();
+        let alike = |&&k: &&usize| {
+            groups.get(k).is_some_and(|(members, known)| {
+                *known == what && members.first().is_some_and(|one| goes_with(one, &at))
+            })
+        };
+        let known = near.iter().rev().find(alike).copied();
+        match known.and_then(|k| groups.get_mut(k)) {
+            Some((members, _)) => {
+                members.insert(at);
+            }
+            None => {
+                near.push(groups.len());
+                groups.push((BTreeSet::from([at]), what));
+            }
+        }
+    }
+    groups
+}
+
+/// A number that all loads have that are equal, and hardly others.
+fn likeness(what: &What) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    std::mem::discriminant(&what.kind).hash(&mut hasher);
+    what.amplitude
+        .as_ref()
+        .map(|name| &name.value)
+        .hash(&mut hasher);
+    let numbers: &[f64] = match &what.kind {
+        LoadKind::PerNode(v)
+        | LoadKind::Force(v)
+        | LoadKind::Traction(v)
+        | LoadKind::Moment(v)
+        | LoadKind::BodyForce(v)
+        | LoadKind::Gravity(v) => v,
+        LoadKind::Pressure(p) => std::slice::from_ref(p),
+        LoadKind::Centrifugal { speed, .. } => std::slice::from_ref(speed),
+    };
+    for number in numbers {
+        // zeros of both signs are equal
+        (number + 0.0).to_bits().hash(&mut hasher);
+    }
+    hasher.finish()
+}
+
 /// Whether two may be one load.
 fn goes_with(a: &Where, b: &Where) -> bool {
     match (a, b) {
@@ -370,5 +416,35 @@ fn load_of(group: &Group, sudden: bool, duration: f64) -> Load {
             None => Course::Ramp,
         },
         place,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn what(kind: LoadKind) -> What {
+        What {
+            kind,
+            amplitude: None,
+            place: Place::nowhere(),
+        }
+    }
+
+    #[test]
+    fn equal_loads_are_one_and_others_differ_by_a_number() {
+        let force = |k: u64| LoadKind::PerNode([(k % 40) as f64, 0.0, -1.0]);
+        let all = (0..400).map(|k| (Where::Node(k, 0), what(force(k))));
+        let groups = together(all.collect());
+        assert_eq!(groups.len(), 40);
+        for (k, (members, what)) in (0..).zip(&groups) {
+            let expected = (0..10).map(|n| Where::Node(k + 40 * n, 0));
+            assert_eq!(*members, expected.collect());
+            assert_eq!(what.kind, force(k));
+        }
+        let numbers: BTreeSet<u64> = groups.iter().map(|(_, what)| likeness(what)).collect();
+        assert_eq!(numbers.len(), 40);
+        let zero = |z: f64| likeness(&what(LoadKind::Pressure(z)));
+        assert_eq!(zero(0.0), zero(-0.0));
     }
 }
