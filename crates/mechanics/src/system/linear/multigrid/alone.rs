@@ -29,12 +29,13 @@ fn row<'a>(kept: &'a Kept, values: &'a Values<'_>, dof: usize) -> impl Iterator<
 
 /// Whether interface values act on each node, but for what is little and acts on single unknowns.
 pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
+    let counts = |dof: usize, (column, v): (u32, f64)| {
+        let is_alone = column as usize == dof;
+        v != 0.0 && !(is_alone && v.abs() <= little(kept, values, dof / 3))
+    };
     let is_touched = |node: usize| {
-        let little = little(kept, values, node);
-        (3 * node..3 * node + 3).any(|dof| {
-            row(kept, values, dof)
-                .any(|(column, v)| v != 0.0 && (column as usize != dof || v.abs() > little))
-        })
+        let mut dofs = 3 * node..3 * node + 3;
+        dofs.any(|dof| row(kept, values, dof).any(|entry| counts(dof, entry)))
     };
     (0..kept.bulk.nrow()).map(is_touched).collect()
 }
