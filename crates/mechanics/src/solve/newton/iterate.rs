@@ -105,6 +105,11 @@ impl Iterate {
         !self.moves_nodes && self.judgement.small && self.is_settled()
     }
 
+    /// Whether nothing changed: no choice of a term, nor what is prescribed.
+    pub fn is_quiet(&self) -> bool {
+        !self.moves_nodes && self.is_settled() && self.flips == 0
+    }
+
     /// Whether contact has settled with something closed, after a whole step: one that was shortened has not shown yet
     /// what else closes.
     pub fn is_in_contact(&self) -> bool {

@@ -62,7 +62,7 @@ impl Default for NewtonSettings {
     }
 }
 
-/// Choices of a term that an extrapolated start has changed are few where it has so many times as many closed contacts.
+/// An extrapolated start changes few choices of a term where the term has this many times as many closed contacts.
 /// Iterations of an ironing by mortar and one by Gauss points where none and where few may change: 690, 579 and 748, 744.
 const FEW: usize = 8;
 
@@ -429,7 +429,7 @@ const fn record(course: &Course, iterate: &Iterate, place: Place) -> IterationRe
 struct Verdicts {
     /// How many discrete choices changed.
     flips: usize,
-    /// Whether these are few beside the closed contacts of every term.
+    /// Whether these are few in comparison with the closed contacts of every term.
     few: bool,
     /// What the first term that is not settled says.
     repeat: Option<(String, Vec<NodeId>)>,

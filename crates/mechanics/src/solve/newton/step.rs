@@ -39,7 +39,7 @@ impl Newton {
             let bulk = self.bulk_at_start(system)?;
             self.equations.start_from(which, bulk);
         }
-        // where only the size of the next correction is left to show, the last factor tells it
+        // where only the size of the next correction is left to show, the last factor shows it
         let keeps = serves || only_the_correction_is_left(iterate);
         let motion = iterate.moves_nodes;
         let left = match self.solve_linear(&system.layout, motion, keeps, accuracy) {
@@ -72,10 +72,9 @@ impl Newton {
     /// Whether the last tangent serves once more: solutions that are not exact need no exact one.
     fn tangent_serves(&self, course: &Course, iterate: &Iterate) -> bool {
         let has_one = self.assembled < Some(Order::Tangent) && self.has_tangent;
-        let is_quiet = !iterate.moves_nodes && iterate.is_settled() && iterate.flips == 0;
         let excess = iterate.judgement.excess;
         has_one
-            && is_quiet
+            && iterate.is_quiet()
             && self.equations.is_iterative()
             && course.economy.is_nearly_straight(excess)
     }
@@ -87,11 +86,10 @@ impl Newton {
         }
         let judgement = &iterate.judgement;
         let is_unknown = iterate.iterations == 0 && course.economy.curvature().is_none();
-        let is_quiet = !iterate.moves_nodes && iterate.is_settled() && iterate.flips == 0;
         let nearly = only_the_correction_is_left(iterate);
         // forces that are small already tell nothing of the correction unless they are solved for
         let allowed = if nearly { 0.0 } else { judgement.allowed };
-        let is_rough = is_unknown || !is_quiet || nearly;
+        let is_rough = is_unknown || !iterate.is_quiet() || nearly;
         let residual = judgement.excess.forces;
         course.economy.accuracy(residual, allowed, is_rough)
     }
