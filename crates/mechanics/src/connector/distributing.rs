@@ -155,7 +155,7 @@ impl Distributing {
         if point || line {
             return Err(ConnectorError::Narrow {
                 point,
-                what: "they carry no moment; add nodes beside them",
+                what: "they carry no moment",
             });
         }
         Ok(())

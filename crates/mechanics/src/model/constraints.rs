@@ -26,13 +26,35 @@ use thiserror::Error;
 /// Why a constraint, spring or reference makes no sense.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ConstraintError {
-    /// A connector that cannot be made.
-    #[error("\"{name}\": {source}")]
-    Connector {
-        /// Name of the constraint or spring.
-        name: String,
+    /// A spring that cannot be made.
+    #[error("spring \"{spring}\": {source}")]
+    Spring {
+        /// Its name.
+        spring: String,
         /// Why.
         source: ConnectorError,
+    },
+    /// A constraint by multipliers that cannot be made.
+    #[error("constraint \"{constraint}\": {source}")]
+    Connector {
+        /// Name of the constraint.
+        constraint: String,
+        /// Why.
+        source: ConnectorError,
+    },
+    /// A node that is not in the plane, or on the line, of the others at the start.
+    #[error(
+        "constraint \"{constraint}\": its nodes are not {what} at the start: node {node} is {distance:.3e} away from it"
+    )]
+    Uneven {
+        /// Name of the constraint.
+        constraint: String,
+        /// The node, as numbered in the input.
+        node: u64,
+        /// Where it should be.
+        what: &'static str,
+        /// Its distance.
+        distance: f64,
     },
     /// A node that follows two carriers.
     #[error(
@@ -101,15 +123,6 @@ pub enum ConstraintError {
         /// Name of the reference.
         reference: String,
     },
-}
-
-impl ConstraintError {
-    fn connector(name: &str) -> impl Fn(ConnectorError) -> Self {
-        move |source| Self::Connector {
-            name: name.to_string(),
-            source,
-        }
-    }
 }
 
 /// What constraints mean for carriers and for numbers of unknowns.
@@ -604,17 +617,18 @@ impl Followers<'_> {
                 reference,
                 layout: *layout,
             });
-            terms.push(Box::new(
-                springs.map_err(ConstraintError::connector(&spring.name))?,
-            ));
+            let spring = spring.name.clone();
+            let failed = |source| ConstraintError::Spring { spring, source };
+            terms.push(Box::new(springs.map_err(failed)?));
         }
         for (constraint, &first) in self.constraints.iter().zip(&ties.first) {
             let name = &constraint.name;
+            let failed = |source| self.no_connector(name, source);
             match &constraint.kind {
                 ConstraintKind::Line { nodes } => {
                     let nodes = distinct(nodes);
                     let line = Line::new(name, &nodes, reference.clone(), *layout, first);
-                    terms.push(Box::new(line.map_err(ConstraintError::connector(name))?));
+                    terms.push(Box::new(line.map_err(failed)?));
                 }
                 ConstraintKind::Distance { nodes, most } => {
                     let rod = Distance::new(&DistanceParts {
@@ -626,7 +640,7 @@ impl Followers<'_> {
                         layout: *layout,
                         first,
                     });
-                    terms.push(Box::new(rod.map_err(ConstraintError::connector(name))?));
+                    terms.push(Box::new(rod.map_err(failed)?));
                 }
                 ConstraintKind::Twist {
                     nodes,
@@ -642,12 +656,12 @@ impl Followers<'_> {
                         layout: *layout,
                         first,
                     });
-                    terms.push(Box::new(twist.map_err(ConstraintError::connector(name))?));
+                    terms.push(Box::new(twist.map_err(failed)?));
                 }
                 ConstraintKind::Plane { nodes } => {
                     let nodes = distinct(nodes);
                     let plane = Plane::new(name, &nodes, reference.clone(), *layout, first);
-                    terms.push(Box::new(plane.map_err(ConstraintError::connector(name))?));
+                    terms.push(Box::new(plane.map_err(failed)?));
                 }
                 ConstraintKind::Distributing { nodes, carrier } => {
                     let body = elimination.bodies().get(*carrier as usize);
@@ -661,14 +675,30 @@ impl Followers<'_> {
                         space: self.space,
                         first,
                     });
-                    terms.push(Box::new(
-                        coupling.map_err(ConstraintError::connector(name))?,
-                    ));
+                    terms.push(Box::new(coupling.map_err(failed)?));
                 }
                 _ => {}
             }
         }
         Ok(terms)
+    }
+
+    /// Why a constraint cannot be made, with the node as the input numbers it.
+    fn no_connector(&self, constraint: &str, source: ConnectorError) -> ConstraintError {
+        let constraint = constraint.to_owned();
+        match source {
+            ConnectorError::Uneven {
+                node,
+                what,
+                distance,
+            } => ConstraintError::Uneven {
+                constraint,
+                node: label(self.mesh, node),
+                what,
+                distance: distance.abs(),
+            },
+            source => ConstraintError::Connector { constraint, source },
+        }
     }
 
     /// The largest modulus times the distance of two nodes: how stiff the model may be between them.

@@ -4,6 +4,7 @@ use super::held::{first_step, hold};
 use super::{constraints, loads};
 use signorini_io::case::Case;
 use signorini_io::diagnostic::{Code, Diagnostic, Place, codes};
+use signorini_mechanics::connector::ConnectorError;
 use signorini_mechanics::model::{ConstraintError, LoadError, ModelError};
 use signorini_mechanics::solid::SolidError;
 
@@ -160,7 +161,10 @@ fn helps(case: &Case, error: &ModelError, help: &str) -> Vec<String> {
 /// What to change about a constraint.
 const fn of_constraint_error(error: &ConstraintError) -> &'static str {
     match error {
-        ConstraintError::Connector { .. } => "name other nodes, or give the spring a `direction`",
+        ConstraintError::Spring { source, .. } | ConstraintError::Connector { source, .. } => {
+            of_connector_error(source)
+        }
+        ConstraintError::Uneven { .. } => "take the node out of the set, or correct its place",
         ConstraintError::TwoLeaders { .. } => "take the node out of one of the two sets",
         ConstraintError::OnFollower { .. } => "name what the node follows",
         ConstraintError::Contradictory { .. } => {
@@ -174,6 +178,19 @@ const fn of_constraint_error(error: &ConstraintError) -> &'static str {
             "write  reference = \"...\"  in a rigid [[body]] or in a [[constraint]]"
         }
         ConstraintError::OffAxis { .. } => "move and load it along y alone",
+    }
+}
+
+/// What to change about the nodes or numbers of a spring or constraint.
+const fn of_connector_error(error: &ConnectorError) -> &'static str {
+    match error {
+        ConnectorError::NoLength { .. } | ConnectorError::NoDirection { .. } => {
+            "write  direction = \"x\", \"y\", \"z\" or a vector"
+        }
+        ConnectorError::Number { .. } => "correct the number",
+        ConnectorError::Narrow { point: true, .. } => "name nodes at different places",
+        ConnectorError::Narrow { point: false, .. } => "name nodes that do not lie on one line",
+        ConnectorError::Uneven { .. } => "take the node out of the set, or correct its place",
     }
 }
 
@@ -258,8 +275,10 @@ fn of_constraint<'a>(case: &'a Case, error: &ConstraintError) -> Option<&'a Plac
         step.map(|step| &step.place)
     };
     match error {
-        ConstraintError::Connector { name, .. } => of_constraint(name),
-        ConstraintError::TwoLeaders { constraint, .. }
+        ConstraintError::Spring { spring, .. } => of_constraint(spring),
+        ConstraintError::Connector { constraint, .. }
+        | ConstraintError::Uneven { constraint, .. }
+        | ConstraintError::TwoLeaders { constraint, .. }
         | ConstraintError::Contradictory { constraint }
         | ConstraintError::OverConstrained { constraint, .. }
         | ConstraintError::Turning { constraint, .. } => of_constraint(constraint),
