@@ -67,26 +67,26 @@ impl fmt::Display for Sample {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum MeshIssue {
     /// Coordinates that are infinite or not numbers.
-    #[error("coordinates are not finite at nodes {nodes}; correct them")]
+    #[error("coordinates are not finite at nodes {nodes}")]
     NotFinite {
         /// The nodes.
         nodes: Sample,
     },
     /// Coordinates whose squares overflow.
-    #[error("coordinates exceed 1e150 at nodes {nodes}; use other units")]
+    #[error("coordinates exceed 1e150 at nodes {nodes}")]
     TooLarge {
         /// The nodes.
         nodes: Sample,
     },
     /// A mesh whose squares vanish.
-    #[error("the whole mesh is {extent:e} long; use other units")]
+    #[error("the whole mesh is {extent:e} long")]
     TooSmall {
         /// Length of the diagonal of its box.
         extent: f64,
     },
     /// A mesh so far away that its coordinates lose digits.
     #[error(
-        "the mesh is {extent:e} long but {distance:e} from the origin; move it nearer, its coordinates lose digits"
+        "the mesh is {extent:e} long but {distance:e} from the origin; its coordinates lose digits"
     )]
     FarAway {
         /// Length of the diagonal of its box.
@@ -95,49 +95,43 @@ pub enum MeshIssue {
         distance: f64,
     },
     /// All cells are numbered the other way round.
-    #[error(
-        "all {ncell} elements have a negative volume: the whole mesh is mirrored; reverse the order of the nodes in every element, or mirror the coordinates"
-    )]
+    #[error("all {ncell} elements have a negative volume: the whole mesh is mirrored")]
     Mirrored {
         /// How many.
         ncell: usize,
     },
     /// Cells numbered the other way round.
-    #[error("negative volume: elements {elements}; reverse the order of their nodes")]
+    #[error("negative volume: elements {elements}")]
     Inverted {
         /// The cells.
         elements: Sample,
     },
     /// Cells whose Jacobian changes sign.
-    #[error(
-        "elements {elements} are folded: the Jacobian is negative at some points; move their nodes or mesh again"
-    )]
+    #[error("elements {elements} are folded: the Jacobian is negative at some points")]
     Folded {
         /// The cells.
         elements: Sample,
     },
     /// Cells whose Jacobian vanishes at some or all points.
-    #[error(
-        "zero volume: elements {elements}, in whole or at a corner; remove them or move their nodes"
-    )]
+    #[error("zero volume: elements {elements}, in whole or at a corner")]
     Flat {
         /// The cells.
         elements: Sample,
     },
     /// Cells with the same node twice.
-    #[error("elements {elements} have a node twice; use a type with fewer nodes")]
+    #[error("elements {elements} have a node twice")]
     RepeatedNode {
         /// The cells.
         elements: Sample,
     },
     /// Solids on the same nodes as another.
-    #[error("elements {elements} have the same nodes as another element; remove one of each")]
+    #[error("elements {elements} have the same nodes as another element")]
     Duplicate {
         /// The cells.
         elements: Sample,
     },
     /// Nodes at the same place that are not the same node.
-    #[error("nodes within {tolerance:e} of another one: {count}, such as {} and {}; merge them, unless bodies or a crack meet there", pair[0], pair[1])]
+    #[error("nodes within {tolerance:e} of another one: {count}, such as {} and {}", pair[0], pair[1])]
     Coincident {
         /// Nodes that coincide with an earlier one.
         count: usize,
@@ -164,6 +158,39 @@ impl MeshIssue {
                 Severity::Warning
             }
             _ => Severity::Error,
+        }
+    }
+
+    /// What to change; `None` where nothing has to be.
+    #[must_use]
+    pub const fn remedy(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::NotFinite { .. } => "correct the coordinates",
+            Self::TooLarge { .. } | Self::TooSmall { .. } => "use other units",
+            Self::FarAway { .. } => "move the mesh nearer to the origin",
+            Self::Mirrored { .. } => {
+                "reverse the order of the nodes in every element, or mirror the coordinates"
+            }
+            Self::Inverted { .. } => "reverse the order of their nodes",
+            Self::Folded { .. } => "move their nodes, or mesh again",
+            Self::Flat { .. } => "remove them, or move their nodes",
+            Self::RepeatedNode { .. } => "use a type with fewer nodes",
+            Self::Duplicate { .. } => "remove one of each",
+            Self::Coincident { .. } => "merge them, unless bodies or a crack meet there",
+            Self::Unreferenced { .. } => return None,
+        })
+    }
+
+    /// The first elements that it names.
+    #[must_use]
+    pub fn elements(&self) -> &[u64] {
+        match self {
+            Self::Inverted { elements }
+            | Self::Folded { elements }
+            | Self::Flat { elements }
+            | Self::RepeatedNode { elements }
+            | Self::Duplicate { elements } => &elements.first,
+            _ => &[],
         }
     }
 }

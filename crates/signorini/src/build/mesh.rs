@@ -1,7 +1,8 @@
 //! The mesh of a case, from its text or from a file, and whether it can be used.
 
+use super::quoted;
 use signorini_geometry::mesh::Mesh;
-use signorini_io::case::{Case, MeshSource, Shape, Space};
+use signorini_io::case::{Case, MeshSource, Name, Shape, Space};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_io::readers::{self, MeshIssue, Severity};
 use std::path::Path;
@@ -103,12 +104,31 @@ pub fn judge_mesh_of(case: &Case, mesh: &Mesh) -> Result<Diagnostics, Diagnostic
     };
     let mut found = Diagnostics::new();
     for issue in readers::validate(mesh) {
-        found.push(judged(&issue, place));
+        let mut one = judged(&issue, place);
+        let element = issue.elements().first();
+        if let Some((element, body)) = element.and_then(|e| Some((e, body_of(*e, case, mesh)?))) {
+            one = one.note(format!(
+                "element {element} belongs to body {}",
+                quoted(body)
+            ));
+        }
+        found.push(issue.remedy().into_iter().fold(one, Diagnostic::help));
     }
     if found.has_errors() {
         return Err(found);
     }
     Ok(found)
+}
+
+/// The group of a body that an element belongs to.
+pub(super) fn body_of<'a>(element: u64, case: &'a Case, mesh: &Mesh) -> Option<&'a Name> {
+    let has = |group: &str| {
+        let cells = mesh.sets.get(group).map(|set| set.cells.iter());
+        let labels = cells.into_iter().flatten().map(|c| mesh.cell_label(*c));
+        labels.flatten().any(|label| label == element)
+    };
+    let mut groups = case.bodies.iter().flat_map(|body| &body.groups);
+    groups.find(|group| has(&group.value))
 }
 
 fn inline(

@@ -134,7 +134,9 @@ fn mesh(mesh: &Mesh) -> Vec<String> {
             Severity::Warning => "warning",
             Severity::Note => "note",
         };
-        lines.push(format!("{kind}: {issue}"));
+        let remedy = issue.remedy();
+        let remedy = remedy.map_or_else(String::new, |remedy| format!("; {remedy}"));
+        lines.push(format!("{kind}: {issue}{remedy}"));
     }
     lines
 }

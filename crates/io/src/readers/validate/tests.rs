@@ -114,7 +114,7 @@ fn zero_volume_and_folds_are_named() {
     assert_eq!(issues[0].severity(), Severity::Error);
     assert_eq!(
         issues[0].to_string(),
-        "zero volume: elements 2, in whole or at a corner; remove them or move their nodes"
+        "zero volume: elements 2, in whole or at a corner"
     );
 
     let mut folded = cubes(1, true);
