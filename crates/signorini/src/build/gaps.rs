@@ -1,6 +1,7 @@
 //! Findings about gaps and overlaps at the start.
 
-use super::ContactInfo;
+use super::mesh::body_of;
+use super::{ContactInfo, quoted};
 use crate::text::{plural, short};
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::Vec3;
@@ -88,7 +89,14 @@ pub(super) fn findings(case: &Case, mesh: &Mesh, contacts: &[ContactInfo]) -> Di
             let what = what.map_or_else(String::new, |what| format!("; {what}"));
             let many = plural(start.overlapping, "node");
             one = one.note(format!("{many} of both sides overlap{what}"));
-            found.push(one);
+            found.push(
+                one.help(format!(
+                    "where the sides are meant to touch:  start = {{ close_gaps_below = {} }}  of contact \"{}\"",
+                    short(-1.01 * gap),
+                    info.name
+                ))
+                .help("where the overlap is an interference fit:  allow = [\"S0411\"]"),
+            );
         }
         if let Some(edges) = &start.open_edges {
             let label = |n: u32| {
@@ -97,25 +105,31 @@ pub(super) fn findings(case: &Case, mesh: &Mesh, contacts: &[ContactInfo]) -> Di
                     .copied()
                     .unwrap_or_default()
             };
+            let (cell, side) = (edges.face.cell, edges.face.side + 1);
+            let element = mesh.cell_label(cell).unwrap_or_default();
+            let body = body_of(element, case, mesh);
             let text = format!(
-                "contact \"{}\": its secondary side ends at {} of the body",
+                "contact \"{}\": its secondary side ends at {} of {}",
                 info.name,
-                plural(edges.count, "edge")
+                plural(edges.count, "edge"),
+                body.map_or_else(
+                    || "the body".to_owned(),
+                    |body| format!("body {}", quoted(body))
+                )
             );
             let one = Diagnostic::new(Severity::Warning, &codes::OPEN_EDGE, text);
             let one = match own {
                 Some(contact) => one.at(&contact.place, ""),
                 None => one,
             };
-            let (cell, side) = (edges.face.cell, edges.face.side + 1);
             found.push(
                 one.note(format!(
-                    "such as at node {}: face S{side} of element {} next to it is not in the contact, and passes through \
-                     the other side where the edge rolls",
+                    "such as at node {}: face S{side} of element {element} next to it is not in the contact, and passes \
+                     through the other side where the edge rolls",
                     label(edges.node),
-                    mesh.cell_label(cell).unwrap_or_default()
                 ))
-                .help("add the faces next to these edges to the secondary side"),
+                .help("add the faces next to these edges to the secondary side")
+                .help("where the edges do not roll:  allow = [\"S0414\"]"),
             );
         }
         if let Some(bent) = &start.bent {
@@ -139,7 +153,10 @@ pub(super) fn findings(case: &Case, mesh: &Mesh, contacts: &[ContactInfo]) -> Di
                 let size = short(distance.abs());
                 one = one.note(format!("a uniform {kind} of {size} stays"));
             }
-            found.push(one);
+            found.push(one.help(format!(
+                "to take the gaps of the facets:  start = {{ facets = \"straight\" }}  of contact \"{}\"",
+                info.name
+            )));
         }
     }
     found
