@@ -33,9 +33,8 @@ impl Surfaces {
                 Ok(made) => Some(made),
                 Err(error) => {
                     let message = format!("surface {}: {error}", quoted(&one.name));
-                    found.push(
-                        Diagnostic::error(&codes::BAD_SURFACE, message).at(&one.place, "this one"),
-                    );
+                    let message = Diagnostic::error(&codes::BAD_SURFACE, message);
+                    found.push(message.at(&one.place, "this one").help(remedy(&error)));
                     None
                 }
             };
@@ -47,6 +46,29 @@ impl Surfaces {
     /// What a name stands for; outside nothing where it is no surface.
     pub fn get(&self, name: &Name) -> Option<Option<Arc<dyn ContactSurface>>> {
         self.0.get(&name.value).cloned()
+    }
+}
+
+/// What to change about a surface that cannot be made.
+const fn remedy(error: &AnalyticalError) -> &'static str {
+    match error {
+        AnalyticalError::Degree { .. } => "write fewer `coefficients`",
+        AnalyticalError::NoTriangles
+        | AnalyticalError::NoSuchPoint { .. }
+        | AnalyticalError::Flat { .. } => {
+            "take the triangle out of the file, or correct its corners"
+        }
+        AnalyticalError::SameWay { .. } => {
+            "reverse the order of the corners of one of them, or take it out of the file"
+        }
+        AnalyticalError::NotFinite { .. }
+        | AnalyticalError::NotPositive { .. }
+        | AnalyticalError::NoDirection { .. }
+        | AnalyticalError::HalfAngle { .. }
+        | AnalyticalError::Tube { .. }
+        | AnalyticalError::NoCoefficients
+        | AnalyticalError::OutOfPlane { .. }
+        | AnalyticalError::Tangents { .. } => "correct the numbers of its `shape`",
     }
 }
 
