@@ -191,7 +191,7 @@ const EASY_ROW: usize = 2;
 const GROWTH: f64 = 1.5;
 /// What is left of an increment that failed.
 const CUT: f64 = 0.5;
-/// The same where it failed badly: the iteration diverged or an element turned inside out.
+/// The same where it failed badly: a force was not a finite number or an element turned inside out.
 const CUT_HARD: f64 = 0.25;
 
 impl Stepper {
@@ -750,7 +750,7 @@ pub(super) const TIME: f64 = 1e-12;
 /// What is left of an increment after a failure.
 fn severity(failure: &Failure) -> f64 {
     match failure {
-        Failure::Diverged { .. } | Failure::Term(_) => CUT_HARD,
+        Failure::NotFinite { .. } | Failure::Term(_) => CUT_HARD,
         _ => CUT,
     }
 }

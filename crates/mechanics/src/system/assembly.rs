@@ -14,6 +14,9 @@ use signorini_geometry::mesh::NodeId;
 /// Compliance of redundant multipliers over that of what they act on: far below all that is of interest, far above rounding.
 const YIELDING: f64 = 1e-6;
 
+/// How many times the largest stiffness of bodies another may be before rounding errors hide theirs.
+const HIDING: f64 = 1e13;
+
 /// Chunks of a wave for each thread, of which stiffness is wanted: the fewer, the more of what is added is in cache.
 const PER_THREAD: usize = 4;
 /// Chunks of a wave, at most: bounds the memory, and nothing else.
@@ -420,6 +423,33 @@ impl Assembler {
             self.interface = now;
         }
         changed
+    }
+
+    /// The dof in whose row of the operator the largest number is; one that is not finite is the largest.
+    pub fn largest_entry(&self, out: &Assembly) -> Option<Dof> {
+        let row = |starts: &[usize], at: usize| {
+            let begun = starts.partition_point(|&start| start <= at);
+            begun.checked_sub(1)
+        };
+        let (bulk, interface) = (largest(&out.bulk), largest(&out.interface));
+        let of_interface = match (bulk, interface) {
+            (Some((_, k)), Some((_, i))) => i.total_cmp(&k).is_gt(),
+            (_, other) => other.is_some(),
+        };
+        let ndim = self.bulk.block;
+        let dof = if of_interface {
+            row(&self.interface.row_start, interface?.0)?
+        } else {
+            let (node, within) = (bulk?.0 / (ndim * ndim), bulk?.0 % (ndim * ndim));
+            row(&self.bulk.row_start, node)? * ndim + within / ndim
+        };
+        Some(dof as Dof)
+    }
+
+    /// Whether the stiffness of bodies is lost in the rounding errors of that of what acts between them.
+    pub fn hides_bodies(&self, out: &Assembly) -> bool {
+        let [bulk, interface] = [&out.bulk, &out.interface].map(|values| largest(values));
+        bulk.zip(interface).is_some_and(|(k, i)| i.1 > HIDING * k.1)
     }
 
     /// Adds the largest stiffness there is to the diagonal at a dof, and returns it; `None` where it has no place.
@@ -1156,6 +1186,12 @@ pub(super) fn fill_up(blocks: &[f64], n: usize, ndim: usize, full: &mut Vec<f64>
 }
 
 /// Sets `n` values to zero.
+/// The place and the size of the largest value; one that is not finite is the largest.
+fn largest(values: &[f64]) -> Option<(usize, f64)> {
+    let sizes = values.iter().map(|value| value.abs()).enumerate();
+    sizes.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
 fn reset(values: &mut Vec<f64>, n: usize) {
     if values.capacity() < n {
         // not touched: threads find the pages of what they add to

@@ -94,6 +94,8 @@ pub struct ContactInfo {
     pub sliding: &'static str,
     /// The penalty in use.
     pub penalty: f64,
+    /// Whether the case gives it as a number.
+    pub is_given: bool,
     /// What it refers to: `"node"` or `"area"`.
     pub per: &'static str,
     /// Points of the secondary side.
@@ -193,6 +195,11 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
         });
         automatic.any(|one| one.name.value == name)
     };
+    let gives_penalty = |name: &str| {
+        let mut contacts = case.contacts.iter();
+        let own = contacts.find(|one| one.name.value == name);
+        own.is_some_and(|one| matches!(one.enforcement, Enforcement::Penalty(Some(_))))
+    };
     let contacts: Vec<ContactInfo> = model
         .contacts
         .iter()
@@ -203,6 +210,7 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
             enforcement: contact::words(c),
             sliding: contact::range(c, is_tied(&c.name)),
             penalty: c.penalty,
+            is_given: gives_penalty(&c.name),
             per: contact::per(c.measure),
             npoint: c.npoint,
             nfacet: c.nfacet,

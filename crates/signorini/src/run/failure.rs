@@ -332,9 +332,14 @@ fn largest_error(dof: Option<Dof>, force: f64, residual: f64, model: &Model) -> 
     ))
 }
 
+/// ` at node 1042 (…) of body "block"`; nothing where the unknown is not known.
+fn at_dof(dof: Option<Dof>, model: &Model) -> String {
+    let place = dof.and_then(|dof| dof_in_words(dof, model));
+    place.map_or_else(String::new, |place| format!(" at {place}"))
+}
+
 /// What kept it from converging.
 fn facts(cause: &Failure, model: &Model) -> Vec<String> {
-    let worst = |worst: &Option<Dof>| worst.and_then(|dof| dof_in_words(dof, model));
     match cause {
         Failure::TooManyIterations {
             iterations,
@@ -356,26 +361,28 @@ fn facts(cause: &Failure, model: &Model) -> Vec<String> {
             facts.extend(largest_error(*at, *force, *residual, model));
             facts
         }
-        Failure::Diverged {
-            iterations,
-            residual,
-            worst: at,
-        } => {
-            let place = worst(at).map_or_else(String::new, |p| format!(", most of all at {p}"));
-            vec![format!(
-                "the forces grew to {residual:.1e} of the mean force within {iterations} iterations{place}"
-            )]
-        }
-        Failure::NoDescent {
-            iterations,
-            worst: at,
-        } => {
-            let place =
-                worst(at).map_or_else(String::new, |p| format!("; largest force error at {p}"));
-            vec![format!(
-                "after {iterations} iterations no shorter step lowers the energy: the state may be at a limit load{place}"
-            )]
-        }
+        Failure::NotFinite { iterations, dof } => vec![format!(
+            "the force{} is not a finite number after {iterations} iterations",
+            at_dof(*dof, model)
+        )],
+        Failure::TooStiff { dof } => vec![format!(
+            "the stiffness{} is so large that rounding errors hide the others",
+            at_dof(*dof, model)
+        )],
+        Failure::Linear {
+            source: LinearError::Inaccurate { residual, .. },
+            dof,
+        } => vec![format!(
+            "the linear equations are solved only up to {residual:.1e} of the forces; the largest stiffness is{}",
+            at_dof(*dof, model)
+        )],
+        Failure::Linear {
+            source: LinearError::NotFinite,
+            dof,
+        } => vec![format!(
+            "the stiffness{} is not a finite number",
+            at_dof(*dof, model)
+        )],
         Failure::Term(error) => {
             let node = match error {
                 TermError::Surface { node, .. } => *node,

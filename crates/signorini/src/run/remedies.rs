@@ -25,6 +25,9 @@ const ITERATIONS: u64 = 50;
 pub(super) const MOTION_INSTEAD: &str = "where the load is more than the structure bears: \
     prescribe a motion by [[step.move]] instead of the load";
 
+/// What to do about forces and stiffnesses that are too large for the precision of numbers.
+const TOO_LARGE: &str = "write a smaller number: a load, a motion, a stiffness or a penalty is too large to compute with";
+
 /// An increment that failed.
 pub(super) struct Trouble<'a> {
     pub case: &'a Case,
@@ -81,8 +84,22 @@ impl Trouble<'_> {
             Failure::Term(TermError::Surface { interface, .. }) => {
                 (self.of_contact(self.contact_called(interface)), false)
             }
-            Failure::Term(TermError::Inverted { body, .. }) => {
+            Failure::Term(TermError::Inverted { ratio, .. }) if !ratio.is_finite() => {
+                (vec![TOO_LARGE.to_owned()], true)
+            }
+            Failure::Term(TermError::Inverted { body, .. } | TermError::Material { body, .. }) => {
                 (self.of_material(body).into_iter().collect(), true)
+            }
+            Failure::NotFinite { .. } | Failure::Term(TermError::NotFinite { .. }) => {
+                (vec![TOO_LARGE.to_owned()], true)
+            }
+            Failure::TooStiff { .. }
+            | Failure::Linear {
+                source: LinearError::NotFinite | LinearError::Inaccurate { .. },
+                ..
+            } => {
+                let chosen = self.contacts.iter().filter_map(chosen_penalty);
+                (chosen.chain([TOO_LARGE.to_owned()]).collect(), true)
             }
             _ => (Vec::new(), false),
         }
@@ -163,20 +180,20 @@ impl Trouble<'_> {
         contacts.find(|contact| why.starts_with(&format!("contact \"{}\"", contact.name)))
     }
 
-    /// Another method for a contact.
+    /// Another method and another penalty for a contact.
     fn of_contact(&self, contact: Option<&ContactInfo>) -> Vec<String> {
         let Some(contact) = contact else {
             return Vec::new();
         };
         let other = match contact.method {
-            "mortar" => "gauss-point",
-            "gauss-point" => "mortar",
-            _ => return Vec::new(),
+            "mortar" => Some("gauss-point"),
+            "gauss-point" => Some("mortar"),
+            _ => None,
         };
-        vec![format!(
-            "another method:  method = \"{other}\"  of contact \"{}\"",
-            contact.name
-        )]
+        let name = &contact.name;
+        let method = other
+            .map(|other| format!("another method:  method = \"{other}\"  of contact \"{name}\""));
+        method.into_iter().chain(chosen_penalty(contact)).collect()
     }
 
     /// A law that does not collapse, for a body of one that does.
@@ -190,11 +207,21 @@ impl Trouble<'_> {
         let collapses = own.model.value == "saint-venant-kirchhoff";
         collapses.then(|| {
             format!(
-                "a law that does not collapse under pressure:  model = \"neo-hookean\"  of material \"{}\"",
+                "a law that does not collapse:  model = \"neo-hookean\"  of material \"{}\"",
                 material.value
             )
         })
     }
+}
+
+/// The penalty that the program chooses, for a contact to which the case gives another.
+fn chosen_penalty(contact: &ContactInfo) -> Option<String> {
+    contact.is_given.then(|| {
+        format!(
+            "the penalty that suits the bodies:  enforcement = {{ penalty = \"auto\" }}  of contact \"{}\"",
+            contact.name
+        )
+    })
 }
 
 /// Increments that suffice, where a step has come to this part of its duration by `count`.

@@ -257,10 +257,9 @@ impl Course {
         } = at.judgement;
         match why {
             Why::Interrupted => Failure::Interrupted { iterations },
-            Why::Diverged => Failure::Diverged {
+            Why::NotFinite => Failure::NotFinite {
                 iterations,
-                residual,
-                worst,
+                dof: worst,
             },
             Why::Exhausted => Failure::TooManyIterations {
                 iterations,

@@ -23,23 +23,13 @@ pub enum Failure {
         /// What kept changing: the last verdict that was not settled, and its nodes.
         unsettled: Option<(String, Vec<NodeId>)>,
     },
-    /// The residual grew beyond all measure.
-    #[error("the iteration diverged: the largest force error is {residual:.3e} of the mean force")]
-    Diverged {
+    /// A force is infinite or not a number.
+    #[error("a force is not a finite number after {iterations} iterations")]
+    NotFinite {
         /// Linear solves done.
         iterations: usize,
-        /// Largest residual over the mean force.
-        residual: f64,
-        /// The dof where it is.
-        worst: Option<Dof>,
-    },
-    /// No multiple of the step lowers the energy.
-    #[error("no multiple of the Newton step lowers the energy: the state may be at a limit load")]
-    NoDescent {
-        /// Linear solves done.
-        iterations: usize,
-        /// The dof with the largest residual.
-        worst: Option<Dof>,
+        /// The dof where it acts.
+        dof: Option<Dof>,
     },
     /// An observer asked to stop before it had converged.
     #[error("the run was asked to stop after {iterations} iterations of an increment")]
@@ -50,12 +40,18 @@ pub enum Failure {
     /// A term could not be evaluated.
     #[error(transparent)]
     Term(#[from] TermError),
+    /// Rounding errors of a stiffness hide that of the bodies next to it.
+    #[error("a stiffness is so large that rounding errors hide the others")]
+    TooStiff {
+        /// The dof with the largest.
+        dof: Option<Dof>,
+    },
     /// The linear system could not be solved.
     #[error("{source}")]
     Linear {
         /// Why.
         source: LinearError,
-        /// The unknown that the solver names.
+        /// The unknown that the solver names, or else the one with the largest stiffness.
         dof: Option<Dof>,
     },
 }

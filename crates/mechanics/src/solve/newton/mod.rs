@@ -3,7 +3,7 @@
 //! ```text
 //!   start ──▶ judge ──▶ in contact, or found: is aid removed? ──▶ judge
 //!               ▲   ──▶ found: do terms release what is frozen?  ──▶ judge, or accept
-//!               │   ──▶ stopped, diverged, exhausted             ──▶ fail
+//!               │   ──▶ stopped, not finite, exhausted           ──▶ fail
 //!               │   ──▶ else: tangent, linear solve, line search ─┐
 //!               └─────────────────────────────────────────────────┘
 //! ```

@@ -63,8 +63,7 @@ impl Newton {
         } else {
             Order::Tangent
         };
-        let (iterations, worst) = (course.iterations + 1, iterate.judgement.worst);
-        let alpha = self.advance(system, motion, next, iterations, worst)?;
+        let alpha = self.advance(system, motion, next, course.iterations + 1)?;
         course.stepped(alpha, alpha * size, decrement);
         Ok(())
     }
@@ -190,14 +189,16 @@ impl Newton {
     }
 
     pub(super) fn linear_failure(&self, source: LinearError) -> Failure {
-        let equation = match &source {
-            LinearError::Singular { equation } => *equation,
+        let stiffest = || self.assembler.largest_entry(&self.assembly);
+        let dof = match &source {
+            LinearError::Singular { .. } if self.assembler.hides_bodies(&self.assembly) => {
+                return Failure::TooStiff { dof: stiffest() };
+            }
+            LinearError::Singular { equation } => self.equations.dof(*equation),
+            LinearError::NotFinite | LinearError::Inaccurate { .. } => stiffest(),
             _ => None,
         };
-        Failure::Linear {
-            dof: self.equations.dof(equation),
-            source,
-        }
+        Failure::Linear { source, dof }
     }
 
     /// Moves the trial state along `du`, as far as the line search says, and returns how far. `next` is what will be
@@ -208,7 +209,6 @@ impl Newton {
         motion: bool,
         next: Order,
         iterations: usize,
-        worst: Option<Dof>,
     ) -> Result<f64, Failure> {
         self.before.clone_from(&self.trial);
         let du = &self.du;
@@ -247,7 +247,12 @@ impl Newton {
         });
         let Some(alpha) = alpha else {
             let in_the_way = obstacle.map(Failure::Term);
-            return Err(in_the_way.unwrap_or(Failure::NoDescent { iterations, worst }));
+            let residual = &self.assembly.residual;
+            let dof = residual.iter().position(|r| !r.is_finite());
+            return Err(in_the_way.unwrap_or(Failure::NotFinite {
+                iterations,
+                dof: dof.map(|dof| dof as Dof),
+            }));
         };
         self.place(system, alpha);
         Ok(alpha)

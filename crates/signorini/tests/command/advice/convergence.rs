@@ -109,7 +109,7 @@ fn a_material_that_collapses() {
             "step \"press\"",
             "of body \"low\" is turned inside out",
         ],
-        help: "a law that does not collapse under pressure:",
+        help: "a law that does not collapse:",
         remedy: Remedy::Key,
         gone: None,
     }
