@@ -723,3 +723,6 @@ impl Sides {
         closest_points(self.discretization.as_ref(), &self.pair, at)
     }
 }
+
+#[cfg(test)]
+mod tests;
