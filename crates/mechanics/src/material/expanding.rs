@@ -107,7 +107,7 @@ impl Material for Expanding {
     ) -> Result<(), MaterialError> {
         let stretch = self.stretch(strain);
         if stretch.is_nan() || stretch <= 0.0 {
-            return Err(MaterialError::Inverted { ratio: stretch });
+            return Err(MaterialError::Shrunk { stretch });
         }
         let elastic = self.elastic(strain);
         self.inner.respond(&elastic, old, new, order, out)?;

@@ -134,6 +134,12 @@ pub enum MaterialError {
         /// Determinant of the deformation gradient.
         ratio: f64,
     },
+    /// A temperature at which nothing is left of a length.
+    #[error("its temperature would shrink the material to {stretch:.3e} of its length")]
+    Shrunk {
+        /// The thermal stretch.
+        stretch: f64,
+    },
     /// An iteration at a point did not converge.
     #[error("the material finds no {what} at this strain")]
     NotConverged {

@@ -19,12 +19,16 @@ pub struct Saved {
 
 /// The message for an undeformed state that cannot be looked at; exit code 4.
 pub fn at_start(error: &TermError) -> Diagnostics {
-    Diagnostic::error(
-        &codes::BAD_ELEMENTS,
-        format!("{error}, before anything moves"),
-    )
-    .help("look at the mesh: signorini check CASE -o DIR writes DIR/check.vtu")
-    .into()
+    let help = match error {
+        TermError::Material { .. } => {
+            "correct the `expansion` of its material, or the temperature at the start"
+        }
+        _ => "look at the mesh: signorini check CASE -o DIR writes DIR/check.vtu",
+    };
+    let message = format!("{error}, before anything moves");
+    Diagnostic::error(&codes::BAD_ELEMENTS, message)
+        .help(help)
+        .into()
 }
 
 /// The message for a run that failed.
@@ -463,11 +467,34 @@ on = "base"
 u = "all"
 "#;
 
-    #[test]
-    fn a_multiplier_is_named_by_its_constraint() {
+    fn model() -> Model {
         let (case, _) = read_case("case.toml", CASE.as_bytes(), &[]).unwrap();
         let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
-        let model = build(case, mesh).unwrap_or_else(|all| panic!("{all}"));
+        build(case, mesh).unwrap_or_else(|all| panic!("{all}"))
+    }
+
+    #[test]
+    fn equations_that_are_solved_badly_are_named_by_the_largest_stiffness() {
+        let model = model();
+        let cause = Failure::Linear {
+            source: LinearError::Inaccurate {
+                residual: 1e-3,
+                wanted: 1e-10,
+            },
+            dof: Some(model.system.layout.node(4, 2)),
+        };
+        assert_eq!(
+            facts(&cause, &model),
+            [
+                "the linear equations are solved only up to 1.0e-3 of the forces; the largest stiffness is \
+                 at node 5 (x = 0, y = 0, z = 1) of body \"block\""
+            ]
+        );
+    }
+
+    #[test]
+    fn a_multiplier_is_named_by_its_constraint() {
+        let model = model();
         let words = dof_in_words(model.system.layout.multiplier(0), &model);
         assert_eq!(
             words.unwrap(),
