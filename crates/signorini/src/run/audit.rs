@@ -3,7 +3,7 @@
 use super::remedies::MOTION_INSTEAD;
 use crate::build::Model;
 use signorini_geometry::mesh::{Mesh, NodeId};
-use signorini_io::case::Case;
+use signorini_io::case::{Case, Enforcement};
 use signorini_io::checkpoint::{Archive, ArchiveError};
 use signorini_io::diagnostic::{Code, Diagnostic, Diagnostics, codes};
 use signorini_io::writers::json::{AuditEntry, AuditSummary};
@@ -347,18 +347,25 @@ fn fact(check: Check, m: &Measured) -> String {
 
 /// What to do about a failed check, most promising first.
 fn help(name: &str, check: Check, model: &Model) -> Vec<String> {
-    let info = model.contacts.iter().find(|c| c.name == name);
-    let is_mortar = info.is_some_and(|c| c.method.contains("mortar"));
+    let method = model.contacts.iter().find(|c| c.name == name);
+    let method = method.map_or("", |contact| contact.method);
+    let mut own = model.case.contacts.iter().filter(|c| c.name.value == name);
+    let has_multipliers = own.any(|contact| {
+        let law = &contact.enforcement;
+        matches!(law, Enforcement::Lagrange | Enforcement::Augmented { .. })
+    });
     let key = |what: &str, key: &str| format!("{what}:  {key}  of contact \"{name}\"");
+    let at_nodes = method == "node-to-segment";
     let points = || key("compare single points", "method = \"node-to-segment\"");
     match check {
-        Check::Apart if is_mortar => vec![points(), "give a smaller `reach`".into()],
-        Check::Apart => {
+        Check::Apart if at_nodes => {
             vec!["give a smaller `reach`, or smaller facets at corners and edges".into()]
         }
+        Check::Apart => vec![points(), "give a smaller `reach`".into()],
         Check::Through => {
             let exchange = format!("exchange `secondary` and `primary` of contact \"{name}\"");
-            let both = (!is_mortar).then(|| key("look from both sides", "passes = 2"));
+            let has_passes = (at_nodes || method == "gauss-point") && !has_multipliers;
+            let both = has_passes.then(|| key("look from both sides", "passes = 2"));
             let smaller = "smaller increments".into();
             [exchange]
                 .into_iter()
@@ -366,13 +373,13 @@ fn help(name: &str, check: Check, model: &Model) -> Vec<String> {
                 .chain([smaller])
                 .collect()
         }
-        Check::Direction if is_mortar => vec![
+        Check::Direction if at_nodes => {
+            vec!["smaller facets there, and the faces next to the edge in both sides".into()]
+        }
+        Check::Direction => vec![
             points(),
             "take the faces next to the edge into the secondary side".into(),
         ],
-        Check::Direction => {
-            vec!["smaller facets there, and the faces next to the edge in both sides".into()]
-        }
         Check::Stress => vec![
             "take the supports off nodes that are joined, or smaller elements at the contact"
                 .into(),
