@@ -243,9 +243,11 @@ codes! {
     ["look at it: signorini check CASE", "silence with  allow = [\"S0204\"]  if it is meant so"]
 
     BAD_ELEMENTS "S0211" Model "elements with zero or negative volume"
-    "Elements are turned inside out or flat. No solver can use them."
-    ["nodes in another order than the format says", "mid-side nodes of curved elements moved too far", "a mirrored mesh"]
-    ["look at the elements in check.vtu", "remesh, or curve the elements less"]
+    "Elements are turned inside out or flat, or their temperature at the start would shrink them to nothing. No solver can use \
+     them."
+    ["nodes in another order than the format says", "mid-side nodes of curved elements moved too far", "a mirrored mesh",
+     "an expansion in other units than temperatures"]
+    ["look at the elements in check.vtu", "remesh, or curve the elements less", "correct the expansion of the material"]
 
     HELD_BY_CONTACT "S0301" Model "a body held only by contact"
     "Nothing but contact keeps the body in place, and the contact is open at the start."
@@ -261,9 +263,11 @@ codes! {
      "where no load acts on the motion:  free_motions = \"hold\"  in [solver]"]
 
     BAD_SIDES "S0303" Model "two sides of a contact that cannot touch"
-    "The sides share nodes, are the same, or are both rigid."
-    ["the meshes of the two bodies were merged", "the same set was named twice", "a rigid tool against a rigid base"]
-    ["mesh the bodies apart, without common nodes", "name two different sides", "give one body a material"]
+    "The sides share nodes, are the same, are both rigid, or are not what the method of the contact needs."
+    ["the meshes of the two bodies were merged", "the same set was named twice", "a rigid tool against a rigid base",
+     "bare nodes where a method averages normals of faces"]
+    ["mesh the bodies apart, without common nodes", "name two different sides", "give one body a material",
+     "the key that the message proposes"]
 
     NOTHING_TO_SOLVE "S0304" Model "nothing to solve for"
     "No body has a material, so that nothing can deform."
@@ -287,12 +291,13 @@ codes! {
 
     BAD_CONSTRAINT "S0308" Model "constraints that cannot hold"
     "Constraints, supports and rigid bodies contradict each other, or bind the same displacement twice."
-    ["a node is bound by two constraints", "a bound node is supported too", "a reference without nodes"]
-    ["take the node out of one of the sets", "support the reference, not the nodes that follow it"]
+    ["a node is bound by two constraints", "a bound node is supported too", "a reference without nodes",
+     "nodes at one place, or on one line, that cannot turn", "nodes of a plane or line that are not on it"]
+    ["take the node out of one of the sets", "support the reference, not the nodes that follow it", "name other nodes"]
 
     BAD_SURFACE "S0309" Model "a surface that cannot be"
     "The numbers or triangles of a [[surface]] describe no surface with an outside."
-    ["a radius of zero", "triangles that are turned inside out", "a shape that is not the same on both sides of a plane model"]
+    ["a polynomial of a high degree", "triangles that are turned inside out", "triangles whose corners lie on a line"]
     ["correct the numbers, as the message says", "repair the file of triangles"]
 
     DEEP_OVERLAP "S0312" Model "sides that overlap too deeply at the start"
@@ -421,7 +426,8 @@ codes! {
     NOT_CONVERGED "S0501" Convergence "an increment did not converge"
     "The equations of an increment could not be solved, with increments down to the smallest one allowed. All increments \
      before it are saved."
-    ["the load is more than the structure bears", "contact status changes back and forth", "the mesh is too coarse at the contact"]
+    ["the load is more than the structure bears", "contact status changes back and forth", "the mesh is too coarse at the contact",
+     "a penalty or spring that is far stiffer than the bodies"]
     ["what the message proposes, for the contact or element that it names", "prescribe a motion instead of a load",
      "another method of that contact", "finer mesh, or smoother surfaces"]
 
