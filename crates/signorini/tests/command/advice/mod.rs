@@ -2,7 +2,14 @@
 //!
 //! Each test provokes a message, reads the remedy from it, puts it into the case, and runs that.
 
+mod audits;
 mod blocks;
+mod choices;
+mod constraints;
 mod convergence;
+mod loads;
 mod model;
+mod numbers;
+mod start;
+mod surfaces;
 mod trial;
