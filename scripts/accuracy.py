@@ -32,7 +32,8 @@ class Deck:
 
     def __init__(self, text):
         self.cards = [(keywords(card)[0], card, lines) for card, lines in cards(text)]
-        self.dof = 3 * sum(len(lines) for _, lines in self.all("NODE"))
+        # a line has the number of a node and its coordinates
+        self.dof = sum(line.count(",") for _, lines in self.all("NODE") for line in lines)
         self.heading = " ".join(line for _, lines in self.all("HEADING") for line in lines)
 
     def all(self, keyword):
@@ -47,6 +48,12 @@ class Deck:
         """That of the ball; none where there is no ball."""
         found = re.search(r"\bR=([0-9.]+)", self.heading)
         return float(found.group(1)) if found else None
+
+    @property
+    def applied(self):
+        """The sum of all external loads, where the heading has it."""
+        found = re.search(r"\bapplied=([-+.\deE ]+)", self.heading)
+        return np.array([float(word) for word in found.group(1).split()]) if found else np.zeros(3)
 
     @property
     def friction(self):
@@ -186,3 +193,30 @@ def errors(deck, results):
     at = np.array([math.hypot(x, y) for x, y, _ in deck.slave.values()])
     pressure = np.array([found.get(node, 0.0) for node in deck.slave])
     return beside_hertz(QUARTERS * abs(float(force[2])), deck.radius, deck.modulus(), at, pressure)
+
+
+def printed_sets(deck):
+    """The sets of nodes whose total reactions a deck of generated families prints; none of other decks."""
+    names = [parameter(card, "NSET") for card, _ in deck.all("NODEPRINT")]
+    return list(dict.fromkeys(names)) if "applied=" in deck.heading else []
+
+
+def forces(deck, results):
+    """The last total reactions of all printed sets, in results that begin with this path."""
+    return {name: [float(value) for value in reaction(f"{results}.dat", name)] for name in printed_sets(deck)}
+
+
+def largest(found):
+    return max(abs(value) for force in found.values() for value in force)
+
+
+def difference(found, wanted):
+    """The largest difference of a component of the forces, relative to the largest component of those wanted."""
+    off = [abs(a - b) for name in wanted for a, b in zip(found[name], wanted[name])]
+    return max(off) / largest(wanted)
+
+
+def imbalance(found, applied):
+    """The largest component of the sum of reactions and loads, relative to the largest component of a reaction."""
+    total = np.sum(list(found.values()), axis=0) + applied
+    return float(np.abs(total).max()) / largest(found)

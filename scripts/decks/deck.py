@@ -1,6 +1,5 @@
 """A CalculiX deck: its parts, contact pairs, supports and steps, and how it is written."""
 
-import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -143,8 +142,3 @@ def in_rows(values):
 
 def numbers(values):
     return ",".join(f"{float(value):.9g}" for value in values)
-
-
-def applied(text):
-    """The sum of the external loads of a deck that `Deck` wrote, from its heading."""
-    return np.array([float(word) for word in re.search(r"applied=([^;\n]*)", text).group(1).split()])

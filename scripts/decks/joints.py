@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from decks.blocks import METALS, STICK, metal, near, softest, use
+from decks.blocks import STICK, metal, near, softest, use
 from decks.deck import Deck, Step
-from decks.mesh import box, grid, join, spaced
+from decks.mesh import grid, join, spaced
 
 EXPANSION = 1.2e-5
 
