@@ -6,7 +6,8 @@
 The results look like those of a run that presses a tip into one cell: a bilinear motion of its top, a tetrahedron that
 moves along, a stress that is linear in the displacement. Every test either finds them in order or damages one thing
 and expects that very thing to be named. Where pvpython is installed, it reads the same files;
-where it is not, that test is skipped, which is a failure with --nothing-skipped.
+where it is not, that test is skipped, which is a failure with --nothing-skipped. So is the test that runs generated
+decks, where there is no target/release/signorini; the variable SIGNORINI names another program.
 """
 
 import contextlib
@@ -28,6 +29,7 @@ import numpy as np
 import pyvista
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+SIGNORINI = os.environ.get("SIGNORINI", os.path.join(HERE, "..", "target", "release", "signorini"))
 NFRAME = 4
 BRICK = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
 WEDGE = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]]
@@ -645,7 +647,8 @@ class CompareSpeed(unittest.TestCase):
 
     def setUp(self):
         sys.path.insert(0, HERE)
-        self.script, self.accuracy, self.jobs = map(__import__, ("compare_speed", "accuracy", "jobs"))
+        names = ("compare_speed", "speed_runs", "speed_tables", "accuracy", "jobs")
+        self.script, self.runs, self.tables, self.accuracy, self.jobs = map(__import__, names)
         holder = tempfile.TemporaryDirectory()
         self.addCleanup(holder.cleanup)
         self.folder = holder.name
@@ -754,16 +757,16 @@ class CompareSpeed(unittest.TestCase):
                 self.assertAlmostEqual(abs(one), exact / np.linalg.norm(wanted), places=12)
 
     def test_a_solver_takes_the_place_of_another_one(self):
-        found = self.script.with_solver("*STEP\n*Static, Solver=PARDISO, DIRECT\n1.,1.\n*STATIC\n", "SPOOLES")
+        found = self.runs.with_solver("*STEP\n*Static, Solver=PARDISO, DIRECT\n1.,1.\n*STATIC\n", "SPOOLES")
         self.assertEqual(found, "*STEP\n*Static, DIRECT,SOLVER=SPOOLES\n1.,1.\n*STATIC,SOLVER=SPOOLES\n")
 
     def test_exponents_are_those_of_powers(self):
         costs = {n: self.jobs.Cost(3e-6 * n**1.25, 1e-6 * n**1.1, round(100.0 * n)) for n in (50_000, 150_000, 900_000)}
-        found = self.script.exponents(costs)
+        found = self.tables.exponents(costs)
         self.assertEqual((found["from"], found["to"]), (50_000, 900_000))
         for name, power in (("wall", 1.25), ("processors", 1.1), ("memory", 1.0)):
             self.assertAlmostEqual(found[name], power, places=9)
-        self.assertIsNone(self.script.exponents({50_000: costs[50_000]}))
+        self.assertIsNone(self.tables.exponents({50_000: costs[50_000]}))
 
     def test_costs_are_those_of_the_program_and_not_of_who_asks(self):
         ballast = b"x" * 300_000_000
@@ -782,12 +785,13 @@ class CompareSpeed(unittest.TestCase):
         """Measures programs that pretend by the seconds that they leave in a file, and stops them by these."""
         code, said, cost = self.jobs.measured(command, folder, 600.0, threads)
         with open(os.path.join(folder, "seconds"), encoding="ascii") as file:
-            cost = dataclasses.replace(cost, wall=float(file.read()))
+            seconds = float(file.read())
+            cost = dataclasses.replace(cost, wall=seconds, processors=seconds)
         if cost.wall > limit:
             return None, "", dataclasses.replace(cost, wall=limit)
         return code, said, cost
 
-    def compare(self, *more):
+    def compare(self, *more, families=False):
         """A row through programs that pretend; CalculiX has two solvers, and the second one is faster."""
         generator = self.write("generator.py", f"import sys\nopen(sys.argv[2], 'w').write({BALL!r})\n")
         deck, force = self.accuracy.Deck(BALL), 5e4
@@ -832,12 +836,13 @@ summary = {{"steps": [{{"iterations": 5, "increments": 2}}], "time": {{"solve": 
 open(out + "/summary.json", "w").write(json.dumps(summary))
 """,
         )
-        command = ["--generator", generator, "--ccx", ccx, "--signorini", signorini, "--rows", "hertz-C3D8-10000"]
+        command = ["--ccx", ccx, "--signorini", signorini]
+        command += [] if families else ["--generator", generator, "--rows", "hertz-C3D8-10000"]
         solvers = ["--ccx-solvers", "SPOOLES", "ITERATIVESCALING", "PASTIX"]
         argv = ["compare_speed.py", *command, *solvers, *more]
         said = io.StringIO()
         with (
-            mock.patch.object(self.script, "measured", self.by_their_own_account),
+            mock.patch.object(self.runs, "measured", self.by_their_own_account),
             mock.patch.object(sys, "argv", argv),
             contextlib.redirect_stdout(said),
             contextlib.redirect_stderr(said),
@@ -847,10 +852,10 @@ open(out + "/summary.json", "w").write(json.dumps(summary))
 
     def test_costs_and_errors_stand_side_by_side(self):
         page, numbers = os.path.join(self.folder, "page.md"), os.path.join(self.folder, "numbers.json")
-        self.write("page.md", f"before\n{self.script.BEGIN}\nold\n{self.script.END}\nafter\n")
+        self.write("page.md", f"before\n{self.script.MARKERS[0]}\nold\n{self.script.MARKERS[1]}\nafter\n")
         code, said = self.compare("--markdown", page, "--json", numbers)
         self.assertEqual(code, 0, said)
-        self.assertIn("This ccx has no PASTIX", said)
+        self.assertIn("has no PASTIX", said)
         with open(page, encoding="utf-8") as file:
             text = file.read()
         self.assertTrue(text.startswith("before\n") and text.endswith("after\n"), text)
@@ -872,18 +877,78 @@ open(out + "/summary.json", "w").write(json.dumps(summary))
     def test_a_slower_solver_is_stopped(self):
         code, said = self.compare("--ccx-solvers", "ITERATIVESCALING", "SPOOLES")
         self.assertEqual(code, 0, said)
-        self.assertIn("ccx: SPOOLES stopped after", said)
+        self.assertIn("CalculiX: SPOOLES stopped after", said)
 
-    def test_what_is_not_solved_is_a_failure_that_is_told(self):
+    def test_what_is_not_solved_is_a_failure_that_is_reported(self):
         code, said = self.compare("--set", "x=2")
         self.assertEqual(code, 1, said)
-        self.assertIn("signorini: exit code 3, error: there is no x", said)
+        self.assertIn("NOT SOLVED by signorini: exit code 3, error: there is no x", said)
+        self.assertIn("1 of 1 rows NOT SOLVED: hertz-C3D8-10000", said)
 
-    def test_without_a_generator_it_says_that_it_is_skipped(self):
-        program = pretending(self.folder, "signorini", "")
-        code, said = run("compare_speed.py", "--signorini", program)
+    def make_forces(self, name, held, loaded):
+        """A .dat file with the reactions of two sets, as a family has them, and an empty .frd file."""
+        text = ""
+        for one, force in (("HELD", held), ("LOADED", loaded)):
+            text += f"\n total force (fx,fy,fz) for set {one} and time  0.1000000E+01\n\n"
+            text += "".join(f"{x:15.6E}" for x in force) + "\n"
+        self.write(f"{name}.dat", text)
+        self.write(f"{name}.frd", "")
+
+    def compare_forces(self, ccx, ours, *more):
+        """A family's row, whose forces on a loaded set of nodes differ."""
+        run = self.by_their_own_account
+
+        def measure(command, folder, limit, threads):
+            self.make_forces("bad", [-value for value in ccx], ccx)
+            self.make_forces("good", [0.0, 0.0, 100.0], ours)
+            return run(command, folder, limit, threads)
+
+        with mock.patch.object(self, "by_their_own_account", measure):
+            return self.compare("--rows", "tet10-*-1", "--quick", *more, families=True)
+
+    def test_forces_of_both_programs_are_compared_relative_to_the_largest(self):
+        page = self.write("page.md", "{}\n{}\n".format(*self.script.FAMILY_MARKERS))
+        code, said = self.compare_forces([1.0, 0.0, -101.0], [0.0, 0.0, -100.0], "--markdown", page)
         self.assertEqual(code, 0, said)
-        self.assertIn("skipped", said)
+        self.assertIn("ratio 2.50 in CPU s, forces differ by 0.99%", said)
+        with open(page, encoding="utf-8") as file:
+            costs, forces, _ = [line.strip("| \n").split(" | ") for line in file if line.startswith("| tet10")]
+        self.assertEqual(costs[2:7], ["2 / 2", "7 / 5", "0.50", "0.20", "2.50"])
+        self.assertEqual((forces[1], forces[3:]), ("0.99%", ["0e+00", "yes"]))
+
+    def test_forces_that_differ_or_do_not_balance_are_a_failure(self):
+        for ccx, ours, words in (
+            ([0.0, 0.0, -150.0], [0.0, 0.0, -100.0], "FORCES DIFFER by 33.33%"),
+            ([0.0, 0.0, -100.0], [0.1, 0.0, -100.0], "FORCES OF SIGNORINI NOT IN BALANCE"),
+        ):
+            with tempfile.TemporaryDirectory() as kept:
+                code, said = self.compare_forces(ccx, ours, "--keep", kept)
+                self.assertEqual((code, len(os.listdir(kept))), (1, 1), said)
+            self.assertIn(words, said)
+
+    def test_loads_count_in_the_balance_of_forces(self):
+        found = {"A": [1.0, 0.0, 30.0], "B": [-1.0, 0.0, 69.0]}
+        self.assertAlmostEqual(self.accuracy.imbalance(found, np.array([0.0, 0.0, -100.0])), 1.0 / 69.0, places=12)
+
+    def test_all_builds_of_calculix_on_the_search_path_are_found_once(self):
+        names = ["ccx", "ccx_2.22", "ccx_2.21_MT", "ccx_pastix", "ccx2.19"]
+        others = ["ccx2paraview", "ccxtool", "cgx"]
+        for name in [*names, *others]:
+            pretending(self.folder, name, "print('This is Version 2.22')")
+        os.symlink(os.path.join(self.folder, "ccx"), os.path.join(self.folder, "ccx_link"))
+        with mock.patch.dict(os.environ, PATH=self.folder + os.pathsep + os.environ["PATH"]):
+            found = self.runs.builds([])
+        here = [one for one in found if os.path.dirname(one.path) == self.folder]
+        self.assertEqual(sorted(os.path.basename(one.path) for one in here), sorted(names))
+        self.assertEqual({one.version for one in here}, {"2.22"})
+        (one,) = self.runs.builds([os.path.join(self.folder, "cgx")])
+        self.assertEqual(os.path.basename(one.path), "cgx")
+
+    def test_each_measure_counts_for_the_solver_that_needs_least_of_it(self):
+        slow = self.runs.Solution(solver="A", cost=self.jobs.Cost(3.0, 5.0, 70))
+        fast = self.runs.Solution(solver="B", cost=self.jobs.Cost(4.0, 4.5, 90))
+        for found in (self.runs.better(slow, fast), self.runs.better(fast, slow)):
+            self.assertEqual((found.solver, found.cost), ("B", self.jobs.Cost(3.0, 4.5, 90)))
 
     def test_what_the_command_line_lacks_is_named(self):
         program = pretending(self.folder, "signorini", "")
@@ -892,10 +957,106 @@ open(out + "/summary.json", "w").write(json.dumps(summary))
             (["--rows", "odd"], "no row is called odd"),
             (["--markdown", page], "has no lines"),
             (["--signorini", os.path.join(self.folder, "none")], "there is no program"),
+            (["--ccx", os.path.join(self.folder, "none")], "there is no program"),
+            (["--generator", os.path.join(self.folder, "none")], "there is no generator"),
         ):
             code, said = run("compare_speed.py", "--signorini", program, *arguments)
             self.assertEqual(code, 2, said)
             self.assertIn(word, said)
+
+
+class SpeedDecks(InFolder):
+    """Decks of the ten families, as text, and small ones through signorini where there is a build of it."""
+
+    SMALL = 300
+
+    def setUp(self):
+        super().setUp()
+        sys.path.insert(0, HERE)
+        self.script, self.jobs = map(__import__, ("speed_decks", "jobs"))
+
+    def make(self, family, seed, dof=SMALL):
+        return self.script.make(family, dof, seed).text()
+
+    def test_a_seed_gives_the_same_deck_again_and_another_seed_another_one(self):
+        for family in self.script.FAMILIES:
+            decks = [self.make(family, seed) for seed in (1, 2, 3, 4)]
+            self.assertEqual(decks[0], self.make(family, 1), family)
+            bodies = {deck.split("*NODE", 1)[1] for deck in decks}
+            self.assertEqual(len(bodies), len(decks), family)
+
+    def test_nodes_are_finite_and_used_and_surfaces_and_sets_are_not_empty(self):
+        for family in self.script.FAMILIES:
+            for seed in (1, 2, 3):
+                with self.subTest(family=family, seed=seed):
+                    self.check(self.jobs.cards(self.make(family, seed)))
+
+    def check(self, cards):
+        nodes, used, surfaces, pairs = {}, set(), {}, []
+        for card, lines in cards:
+            (keyword,) = self.jobs.keywords(card)
+            if keyword == "NODE":
+                for line in lines:
+                    number, *at = line.split(",")
+                    self.assertNotIn(int(number), nodes)
+                    nodes[int(number)] = [float(x) for x in at]
+            elif keyword == "ELEMENT":
+                used |= {int(number) for line in lines for number in line.split(",")[1:]}
+            elif keyword == "SURFACE":
+                surfaces[self.jobs.parameter(card, "NAME")] = lines
+            elif keyword == "CONTACTPAIR":
+                pairs += [line.split(",") for line in lines]
+            elif keyword == "NSET":
+                self.assertTrue(self.jobs.fields(lines), card)
+        self.assertTrue(np.isfinite(list(nodes.values())).all())
+        self.assertEqual(used, set(nodes))
+        self.assertTrue(pairs)
+        for slave, master in pairs:
+            self.assertTrue(surfaces[slave] and surfaces[master], (slave, master))
+
+    def test_elements_are_right_handed(self):
+        for family in self.script.FAMILIES:
+            for seed in (1, 2, 3):
+                for part in self.script.make(family, 2 * self.SMALL, seed).parts:
+                    corners = part.mesh.points[part.mesh.cells]
+                    last = {"hex": (1, 3, 4), "tet": (1, 2, 3), "quad": (1, 3)}[part.mesh.shape]
+                    edges = np.stack([corners[:, one] - corners[:, 0] for one in last], axis=1)
+                    self.assertGreater(np.linalg.det(edges).min(), 0.0, (family, seed, part.name))
+
+    def test_printed_sets_share_no_node_so_that_their_forces_add_up(self):
+        for family in self.script.FAMILIES:
+            deck = self.script.make(family, self.SMALL, 1)
+            nodes = [node for name in deck.printed for node in deck.sets[name]]
+            self.assertEqual(len(nodes), len(set(nodes)), family)
+            named = {name for name, *_ in deck.supports} | {name for step in deck.steps for name, *_ in step.moves}
+            self.assertEqual(named, set(deck.printed), family)
+
+    def test_unknowns_come_near_what_is_asked_for(self):
+        for family in self.script.FAMILIES:
+            for dof in (3000, 8000):
+                self.assertLess(abs(self.script.make(family, dof, 1).dof / dof - 1.0), 0.15, family)
+
+    def test_the_command_writes_the_deck(self):
+        code, said = run("speed_decks.py", "plane", self.path("deck.inp"), "--dof", str(self.SMALL), "--seed", "3")
+        self.assertEqual(code, 0, said)
+        with open(self.path("deck.inp"), encoding="ascii") as file:
+            self.assertEqual(file.read(), self.make("plane", 3))
+        self.assertEqual(run("speed_decks.py", "--list")[1].split(), list(self.script.FAMILIES))
+        self.assertEqual(run("speed_decks.py", "cubes", self.path("deck.inp"))[0], 2)
+
+    @unittest.skipIf(shutil.which(SIGNORINI) is None, "there is no build of signorini")
+    def test_small_decks_run_in_signorini_and_their_forces_balance(self):
+        accuracy = __import__("accuracy")
+        for family in self.script.FAMILIES:
+            text = self.make(family, 1)
+            with open(self.path("deck.inp"), "w", encoding="ascii") as file:
+                file.write(text)
+            command = ["run", self.path("deck.inp"), "--output", self.path(family), "--quiet"]
+            done = subprocess.run([SIGNORINI, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            self.assertEqual(done.returncode, 0, f"{family}: {done.stdout}")
+            deck = accuracy.Deck(text)
+            forces = accuracy.forces(deck, self.path(family, "deck"))
+            self.assertLess(accuracy.imbalance(forces, deck.applied), 1e-4, family)
 
 
 HEX = """*NODE, NSET=ALL

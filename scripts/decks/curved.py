@@ -20,7 +20,7 @@ def draw_rubber(rng):
         shear=rng.uniform(0.6, 2.0),
         poisson=rng.uniform(0.48, 0.49),
         friction=rng.choice([0.0, rng.uniform(0.1, 0.3)]),
-        stiffness=rng.uniform(50.0, 100.0),
+        stiffness=rng.uniform(20.0, 50.0),
         press=rng.uniform(0.1, 0.16),
         lid=rng.uniform(1.5, 2.5),
         fineness=rng.uniform(0.8, 1.2),
@@ -55,18 +55,20 @@ def build_rubber(shape, size):
 
 def draw_gears(rng):
     """Two teeth whose round flanks meet."""
+    root, taper = rng.uniform(5.0, 6.5, 2), rng.uniform(2.5, 3.5)
     return SimpleNamespace(
         height=rng.uniform(9.0, 13.0),
-        root=rng.uniform(5.0, 6.5, 2),
-        tip=rng.uniform(2.0, 3.0, 2),
-        bulge=rng.uniform(0.3, 0.7, 2),
+        root=root,
+        # nearly the same taper on both, so that the flanks meet away from the tips
+        tip=root - taper + rng.uniform(-0.1, 0.1, 2),
+        bulge=rng.uniform(0.1, 0.25, 2),
         overlap=rng.uniform(0.55, 0.8),
         face=rng.uniform(3.0, 6.0),
         fineness=rng.uniform(0.85, 1.2),
         metals=[metal(rng), metal(rng)],
         friction=rng.uniform(0.02, 0.12),
-        stiffness=rng.uniform(50.0, 100.0),
-        press=rng.uniform(0.01, 0.02),
+        stiffness=rng.uniform(20.0, 50.0),
+        press=rng.uniform(0.02, 0.05),
     )
 
 
@@ -122,15 +124,15 @@ def two_sided(start, middle, end, size):
 def draw_tet10(rng):
     """A ball's cap on a block."""
     return SimpleNamespace(
-        radius=rng.uniform(30.0, 60.0),
+        radius=rng.uniform(600.0, 1000.0),
         half=rng.uniform(6.0, 8.0),
         height=rng.uniform(8.0, 12.0),
         turned=rng.uniform(0.0, 0.5 * np.pi),
         fineness=rng.uniform(0.9, 1.15),
         metals=[metal(rng), metal(rng)],
         friction=rng.choice([0.0, rng.uniform(0.1, 0.3)]),
-        stiffness=rng.uniform(50.0, 100.0),
-        depth=rng.uniform(0.02, 0.05),
+        stiffness=rng.uniform(20.0, 50.0),
+        depth=rng.uniform(0.06, 0.09),
     )
 
 
@@ -173,7 +175,7 @@ def draw_plane(rng):
         fineness=rng.uniform(0.85, 1.2, 2),
         metals=[metal(rng), metal(rng), metal(rng)],
         friction=rng.uniform(0.1, 0.3),
-        stiffness=rng.uniform(50.0, 100.0),
+        stiffness=rng.uniform(20.0, 50.0),
         press=rng.uniform(0.02, 0.05),
         shift=rng.uniform(-0.004, 0.004),
     )
@@ -210,7 +212,7 @@ def build_plane(shape, size):
 def draw_plasticity(rng):
     """A stiff round punch that indents an elastic-plastic block."""
     return SimpleNamespace(
-        radius=rng.uniform(12.0, 25.0),
+        radius=rng.uniform(120.0, 250.0),
         half=rng.uniform(3.0, 4.0, 2),
         high=rng.uniform(3.0, 5.0),
         block=rng.uniform(10.0, 14.0, 3),
@@ -219,7 +221,7 @@ def draw_plasticity(rng):
         strength=rng.uniform(1.2e-3, 2.5e-3),
         hardening=rng.uniform(0.01, 0.05),
         friction=rng.choice([0.0, rng.uniform(0.1, 0.2)]),
-        stiffness=rng.uniform(50.0, 100.0),
+        stiffness=rng.uniform(20.0, 50.0),
         depth=rng.uniform(0.06, 0.12),
     )
 

@@ -25,7 +25,7 @@ def draw_joint(rng):
         free=rng.uniform(8.0, 16.0),
         metals=[metal(rng), metal(rng)],
         friction=rng.uniform(0.15, 0.35),
-        stiffness=rng.uniform(50.0, 100.0),
+        stiffness=rng.uniform(20.0, 50.0),
         strain=rng.uniform(0.8e-3, 1.4e-3),
         pull=rng.uniform(0.004, 0.008),
     )

@@ -106,6 +106,12 @@ def spaced(start, end, size):
     return np.linspace(start, end, max(2, round((end - start) / size)) + 1)
 
 
+def broken(limits, size):
+    """Steps of about this size, with points at all limits."""
+    parts = [spaced(start, end, size) for start, end in zip(limits, limits[1:])]
+    return np.concatenate([parts[0][:1], *(part[1:] for part in parts)])
+
+
 def graded(start, end, size, coarse):
     """Steps that grow evenly from `size` at the start to about `coarse` times as much at the end."""
     count = max(2, round(2.0 * abs(end - start) / (size * (1.0 + coarse))))
