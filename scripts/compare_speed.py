@@ -146,16 +146,16 @@ ROWS = [
 ]
 # unknowns of both sizes, which CalculiX solves in some seconds to half a minute, and the tolerance of forces
 SIZES = {
-    "assemblies": (6000, 20000, 0.05),
-    "joints": (2000, 5000, 0.03),
-    "slabs": (4000, 9000, 0.05),
-    "plates": (3000, 10000, 0.05),
-    "rubber": (1500, 5000, 0.03),
-    "gears": (3000, 12000, 0.03),
-    "tet10": (4000, 9000, 0.05),
+    "assemblies": (6000, 16000, 0.05),
+    "joints": (2000, 3500, 0.03),
+    "slabs": (4000, 7000, 0.05),
+    "plates": (3000, 6000, 0.05),
+    "rubber": (1500, 3500, 0.03),
+    "gears": (3000, 8000, 0.03),
+    "tet10": (3000, 6000, 0.05),
     "plane": (2000, 4000, 0.03),
-    "plasticity": (3000, 8000, 0.05),
-    "increments": (700, 2000, 0.03),
+    "plasticity": (3000, 6000, 0.05),
+    "increments": (700, 1500, 0.03),
 }
 SEEDS = (1, 2)
 FAMILY_ROWS = [

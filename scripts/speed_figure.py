@@ -9,6 +9,7 @@ Needs: matplotlib, numpy. Exit code: 0 drawn, 2 wrong command line or unreadable
 """
 
 import argparse
+import itertools
 import sys
 from pathlib import Path
 
@@ -23,19 +24,21 @@ def read(page):
     """Unknowns and seconds of both programs, an array each, from the first table of the page that has them."""
     lines = [line.strip("| \n").split("|") for line in page.splitlines() if line.startswith("|")]
     lines = [[cell.strip() for cell in line] for line in lines]
-    head = next(number for number, line in enumerate(lines) if len(line) > OURS and line[UNKNOWNS] == "unknowns")
-    rows = []
-    for line in lines[head + 2 :]:
-        if len(line) != len(lines[head]):
-            break
-        rows.append(line)
-    rows = [row for row in rows if row[NAME].startswith(KIND) and row[NAME].endswith("-once")]
+    heads = [number for number, line in enumerate(lines) if len(line) > OURS and line[UNKNOWNS] == "unknowns"]
+    tables = [rows_below(lines, head) for head in heads]
+    rows = next(rows for rows in tables if rows)
 
     def of(column):
         pairs = [(float(row[UNKNOWNS]), float(row[column])) for row in rows if row[column][0].isdigit()]
         return np.array(sorted(pairs)).reshape(-1, 2)
 
     return {"CalculiX": of(CCX), "signorini": of(OURS)}
+
+
+def rows_below(lines, head):
+    """The rows of hertz in one increment of the table with this heading."""
+    same = itertools.takewhile(lambda line: len(line) == len(lines[head]), lines[head + 2 :])
+    return [row for row in same if row[NAME].startswith(KIND) and row[NAME].endswith("-once")]
 
 
 def exponent(points):
