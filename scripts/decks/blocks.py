@@ -139,7 +139,7 @@ def draw_plates(rng):
         inset=rng.uniform(0.05, 0.15),
         patch=rng.uniform(0.2, 0.35, 2),
         metals=[metal(rng), metal(rng)],
-        stiffness=rng.uniform(0.01, 0.03),
+        stiffness=rng.uniform(2e-4, 4e-4),
         sag=rng.uniform(0.2, 0.6),
     )
 
@@ -147,7 +147,7 @@ def draw_plates(rng):
 def build_plates(shape, size):
     deck = Deck("thin plates over one another under a pressure")
     use(deck, shape.metals)
-    # soft: a stiffer penalty on facets that do not match keeps thin plates from bending
+    # soft, since a stiffer penalty on facets that do not match keeps thin plates from bending
     law = deck.interaction(shape.stiffness * softest(shape.metals))
     length, width, (lower, upper) = shape.length, shape.width, shape.thick
     inset = shape.inset * width
