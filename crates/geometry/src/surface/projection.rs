@@ -9,9 +9,19 @@
 //!
 //! by Newton's method with (E2) where it is positive definite and with the metric `m_ab` where it is not, an Armijo
 //! rule on `F` and a bounded step. A face alone is not enough: on a warped facet the closest point often lies on an
-//! edge, so the face (from two starts, from more where it has mid nodes), every edge and every vertex compete, and the
-//! smallest distance wins; ties go to the face, then the edge. Neglected: nothing; limits: a facet folded over itself
-//! within its own size.
+//! edge, so the face, every edge and every vertex compete, and the smallest distance wins; ties go to the face, then the
+//! edge. The first start is that on the way from the centre to the closest node. Where (E2) exceeds half the metric at the
+//! stationary point found, no other one nearby competes: inside the face and no farther than any node, it settles the
+//! matter. Where the facet bends little over the distance,
+//!
+//! ```text
+//! 8 s d < L²/4                           (E3)
+//! ```
+//!
+//! with the largest distance s of a mid node from the line between its ends, or of corners from a plane, the distance d of
+//! the closest node and the shortest edge L, there is one stationary point only, and further starts are left out: the
+//! centre and one for each node of a face that has mid nodes, and a second one of an edge. Neglected: nothing; limits: a
+//! facet folded over itself within its own size.
 //!
 //! Source: Konyukhov and Schweizerhof 2013, chapter 3 (existence and uniqueness of the projection).
 
@@ -139,7 +149,7 @@ pub fn extended_edge(
         let nodes = element.nodes();
         for &[a, b] in element.edges() {
             let (from, along) = (nodes[a], nodes[b] - nodes[a]);
-            let Some((s, _)) = search.edge(from, along, 0.5, out)? else {
+            let Some((s, _)) = search.edge(from, along, 0.5, true, out)? else {
                 continue;
             };
             let past = (-s).max(s - 1.0) * along.norm();
@@ -212,8 +222,10 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
         let mut nearest = [nodes[0]];
         let mut smallest = f64::INFINITY;
         let mut distances = [f64::INFINITY; MAX_FACET_NODES];
-        for (xi, distance) in nodes.iter().zip(&mut distances) {
+        let mut places = [Vec3::ZERO; MAX_FACET_NODES];
+        for ((xi, distance), place) in nodes.iter().zip(&mut distances).zip(&mut places) {
             self.jet(*xi, jet)?;
+            *place = jet.position;
             size = size.max(jet.tangent[0].norm()).max(jet.tangent[1].norm());
             *distance = (self.point - jet.position).norm();
             if *distance < smallest {
@@ -231,13 +243,28 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
         let centre = element.centre();
         // a facet with mid nodes may bend towards the point in several places
         let bent = nodes.len() > element.ncorner();
-        let towards = if bent { nodes } else { &nearest[..] };
-        let starts = towards.iter().map(|&node| (centre + node) * 0.5);
-        for start in std::iter::once(centre).chain(starts) {
-            if let Some((xi, _)) = self.face(start, bounds, jet)?
-                && element.contains(&xi, INSIDE)
-            {
-                offer(xi, Feature::Face, (self.point - jet.position).norm());
+        let is_single = bends_little(element, &places, smallest);
+        let towards = if bent { nodes } else { &[] };
+        let starts = nearest
+            .iter()
+            .chain(towards)
+            .map(|&node| (centre + node) * 0.5);
+        for start in starts.chain(std::iter::once(centre)) {
+            let Some((xi, unique)) = self.face(start, bounds, jet)? else {
+                if is_single {
+                    break;
+                }
+                continue;
+            };
+            if element.contains(&xi, INSIDE) {
+                let distance = (self.point - jet.position).norm();
+                if unique && distance <= smallest {
+                    return Ok(Some((xi, Feature::Face, distance)).filter(|b| b.2.is_finite()));
+                }
+                offer(xi, Feature::Face, distance);
+            }
+            if unique && is_single {
+                break;
             }
         }
         if self.ntan == 2 {
@@ -246,7 +273,7 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
                 let along = xb - xa;
                 let direction = [along.x, along.y];
                 for start in [0.25, 0.75] {
-                    let Some((s, straight)) = self.edge(xa, along, start, jet)? else {
+                    let Some((s, is_only)) = self.edge(xa, along, start, is_single, jet)? else {
                         continue;
                     };
                     if (0.0..=1.0).contains(&s) {
@@ -255,7 +282,7 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
                         let distance = (self.point - jet.position).norm();
                         offer(xi, Feature::Edge { direction }, distance);
                     }
-                    if straight {
+                    if is_only {
                         break;
                     }
                 }
@@ -321,12 +348,14 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
         Ok(None)
     }
 
-    /// The same along an edge, `ξ = from + s·along`; the second value says that the edge is straight and `s` exact.
+    /// The same along an edge, `ξ = from + s·along`; the second value says that there is no other stationary point, as on a
+    /// straight edge, or where there `is_single` one at most if it is well curved.
     fn edge(
         &mut self,
         from: Vec3,
         along: Vec3,
         start: f64,
+        is_single: bool,
         jet: &mut SurfaceJet,
     ) -> Result<Option<(f64, bool)>, SurfaceError> {
         let d = [along.x, along.y];
@@ -365,11 +394,33 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
                 return Ok(None);
             }
             if (alpha * step).abs() < CONVERGED {
-                return Ok(Some((s, false)));
+                let (t, h) = along_edge(jet, &d);
+                let m = t.norm_squared();
+                let unique = m - h.dot(self.point - jet.position) > 0.5 * m;
+                return Ok(Some((s, unique && is_single)));
             }
         }
         Ok(None)
     }
+}
+
+/// (E3), for a facet with its nodes at these places.
+fn bends_little(element: Element, places: &[Vec3], distance: f64) -> bool {
+    let (mut shortest, mut sagitta) = (f64::INFINITY, 0.0f64);
+    let ncorner = element.ncorner();
+    let mids = places.iter().take(element.nnode()).skip(ncorner);
+    let mut mids = mids.copied();
+    for &[a, b] in element.edges() {
+        let [a, b] = [a, b].map(|k| places.get(k).copied().unwrap_or_default());
+        shortest = shortest.min((b - a).norm());
+        if let Some(mid) = mids.next() {
+            sagitta = sagitta.max((mid - (a + b) * 0.5).norm());
+        }
+    }
+    if let (4, [a, b, c, d, ..]) = (ncorner, places) {
+        sagitta = sagitta.max((*a - *b + *c - *d).norm() * 0.25);
+    }
+    8.0 * sagitta * distance < 0.25 * shortest * shortest
 }
 
 /// Tangent and curvature vector along a direction of the parameters.

@@ -452,3 +452,97 @@ fn a_folded_facet_is_an_error_and_a_far_point_is_not() {
     let folded = surface.project(&at, 0, Vec3::unit(2), None, &mut jet);
     assert_eq!(folded, Err(SurfaceError::Degenerate { facet: 0 }));
 }
+
+/// Facets that count how often their places are evaluated.
+struct Counted<'a>(&'a Facets, std::sync::atomic::AtomicUsize);
+
+impl ContactSurface for Counted<'_> {
+    fn ntan(&self) -> usize {
+        self.0.ntan()
+    }
+
+    fn nfacet(&self) -> usize {
+        ContactSurface::nfacet(self.0)
+    }
+
+    fn carrier(&self, facet: u32) -> Carrier<'_> {
+        self.0.carrier(facet)
+    }
+
+    fn aabb(&self, at: &Placement, facet: u32) -> Aabb {
+        self.0.aabb(at, facet)
+    }
+
+    fn size(&self, at: &Placement, facet: u32) -> f64 {
+        self.0.size(at, facet)
+    }
+
+    fn jet(
+        &self,
+        at: &Placement,
+        point: &Anchor,
+        out: &mut SurfaceJet,
+    ) -> Result<(), SurfaceError> {
+        self.1.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        self.0.jet(at, point, out)
+    }
+
+    fn domain(&self, facet: u32) -> Option<Element> {
+        self.0.domain(facet)
+    }
+
+    fn neighbours(&self, facet: u32) -> &[u32] {
+        self.0.neighbours(facet)
+    }
+
+    fn outward(&self, at: &Placement, found: &Projection) -> Result<Outward, SurfaceError> {
+        self.0.outward(at, found)
+    }
+}
+
+#[test]
+fn facets_that_bend_little_are_evaluated_few_times_for_a_closest_point() {
+    let mut random = Random(11);
+    // over the face, and beyond its edges
+    for (name, over, beyond) in [
+        ("tri3", 8, 12),
+        ("tri6", 12, 32),
+        ("quad4", 10, 14),
+        ("quad8", 14, 43),
+    ] {
+        let (facets, points) = single(by_name(name).unwrap());
+        let surface = Counted(&facets, Default::default());
+        let (mut counts, rounds) = ([0; 2], 200);
+        for _ in 0..rounds {
+            let x = shaped(&facets, points.len(), &mut random, 0.005);
+            let element = facets.element(0).unwrap();
+            let at = Placement { x: &x, poses: &[] };
+            let inner = in_domain(
+                element,
+                0.3 + 0.2 * random.unit(),
+                0.3 + 0.2 * random.unit(),
+            );
+            for (place, count) in [inner, inner + Vec3::new(2.0, 1.0, 0.0)]
+                .into_iter()
+                .zip(&mut counts)
+            {
+                let mut jet = SurfaceJet::default();
+                let anchor = Anchor {
+                    facet: 0,
+                    local: place,
+                };
+                facets.jet(&at, &anchor, &mut jet).unwrap();
+                let point = jet.position + jet.normal * (0.4 * random.unit() - 0.2);
+                surface.1.store(0, std::sync::atomic::Ordering::Relaxed);
+                surface
+                    .project(&at, 0, point, None, &mut jet)
+                    .unwrap()
+                    .unwrap();
+                *count += surface.1.load(std::sync::atomic::Ordering::Relaxed);
+            }
+        }
+        let means = counts.map(|count| count / rounds);
+        println!("{name}: {means:?}");
+        assert!(means[0] <= over && means[1] <= beyond, "{name}: {means:?}");
+    }
+}

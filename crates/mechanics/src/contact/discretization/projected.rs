@@ -150,6 +150,37 @@ pub fn on_continuation(
     }))
 }
 
+/// Facets that are looked at first, at most.
+const LIKELY: usize = 8;
+
+/// The facets to look at first: that of the hint, then those with the closest boxes, the closest first.
+fn likely(
+    surface: &dyn ContactSurface,
+    at: &Placement,
+    point: Vec3,
+    near: &[u32],
+    hint: Option<Anchor>,
+) -> ([u32; LIKELY], usize) {
+    let hinted = hint.map(|hint| hint.facet);
+    let distance = |&facet: &u32| match hinted == Some(facet) {
+        true => -1.0,
+        false => surface.aabb(at, facet).distance_squared(point),
+    };
+    let (mut facets, mut distances) = ([0; LIKELY], [f64::INFINITY; LIKELY]);
+    let mut count = 0;
+    for (facet, own) in near.iter().map(|facet| (*facet, distance(facet))) {
+        let place = distances[..count].partition_point(|d| *d <= own);
+        if place == LIKELY {
+            continue;
+        }
+        count = (count + 1).min(LIKELY);
+        distances[place..count].rotate_right(1);
+        facets[place..count].rotate_right(1);
+        (distances[place], facets[place]) = (own, facet);
+    }
+    (facets, count)
+}
+
 /// The closest of the near facets, if it is within the reach of that facet.
 ///
 /// # Errors
@@ -174,12 +205,17 @@ pub fn closest(
     };
     let mut jet = SurfaceJet::default();
     let mut best: Option<(Projection, f64)> = None;
-    for &facet in near {
-        if let Some((b, tie)) = &best {
-            let reach = b.distance + tie;
-            if surface.aabb(at, facet).distance_squared(point) > reach * reach {
-                continue;
-            }
+    // a small distance found first passes over most of the others
+    let (first, count) = likely(surface, at, point, near, hint);
+    let first = &first[..count];
+    let others = near.iter().filter(|facet| !first.contains(facet));
+    for &facet in first.iter().chain(others) {
+        let bound = best
+            .as_ref()
+            .map_or(f64::INFINITY, |(b, tie)| b.distance + tie);
+        let bound = bound.min(reach(facet));
+        if surface.aabb(at, facet).distance_squared(point) > bound * bound {
+            continue;
         }
         if own.is_some_and(|own| !own.may_meet(facet)) {
             continue;
@@ -196,7 +232,9 @@ pub fn closest(
         let tie = TIE * (jet.metric[0].max(jet.metric[1])).sqrt();
         let better = best.as_ref().is_none_or(|(b, tie)| {
             let closer = b.distance - found.distance;
-            closer > *tie || (closer >= -tie && rank(&found.feature) < rank(&b.feature))
+            // of facets that are as close, that with the lower number, whichever was looked at first
+            let of = |p: &Projection| (rank(&p.feature), p.anchor.facet);
+            closer > *tie || (closer >= -tie && of(&found) < of(b))
         });
         if better {
             best = Some((found, tie));
