@@ -12,6 +12,7 @@ mod scene;
 mod assemblies;
 mod bars;
 mod beam;
+mod clamped;
 mod complementarity;
 mod enforcement;
 mod faceted;

@@ -34,8 +34,12 @@ use signorini_geometry::surface::{
     Anchor, Bent, ContactSurface, Facets, Feature, Placement, SurfaceError,
 };
 use signorini_geometry::tensor::Vec3;
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
+
+/// The axes along which nodes are held; those of no node that is not.
+pub type HeldAxes = HashMap<NodeId, [bool; 3]>;
 
 /// The two sides of an interface.
 pub struct SurfacePair {
@@ -310,6 +314,19 @@ pub trait Discretization: Send + Sync {
     /// Nodes that a row depends on beyond its point and the facets around its closest point.
     fn more_nodes<'a>(&'a self, _row: usize, _pairing: &'a Pairing) -> &'a [NodeId] {
         &[]
+    }
+
+    /// Takes note of the axes along which nodes of both sides are held from now on. Where that changes weights that stay as
+    /// they are: the area of each row over that without supports.
+    ///
+    /// # Errors
+    /// Facets that cannot be compared.
+    fn support(
+        &mut self,
+        _pair: &SurfacePair,
+        _held: HeldAxes,
+    ) -> Result<Option<Vec<f64>>, SurfaceError> {
+        Ok(None)
     }
 
     /// Makes the choices that hold while an iteration goes on, from those of the present iterate, and in what was before

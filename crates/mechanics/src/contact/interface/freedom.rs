@@ -8,7 +8,7 @@ use super::{Interface, Participant, Rows, State, TermError};
 use crate::contact::row::RowOrder;
 use crate::system::{Dof, IdleRows, NO_DOF};
 use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::RigidId;
+use signorini_geometry::surface::{Carrier, RigidId};
 
 /// Weights of a row over the largest one below which they are rounding.
 const NOTHING: f64 = 1e-9;
@@ -39,6 +39,32 @@ impl Interface {
             moves |= coefficient != 0.0 && self.is_free(of);
         });
         moves
+    }
+
+    /// Lets the discretization know of the axes along which nodes of both sides are held, where these may be others. Says
+    /// whether that changes weights that stay as they are.
+    pub(super) fn support(&mut self) -> Result<bool, TermError> {
+        if !self.lents.is_stale() {
+            return Ok(false);
+        }
+        let pair = &self.parts.pair;
+        let mut nodes = pair.points.clone();
+        for facet in 0..pair.primary.nfacet() as u32 {
+            if let Carrier::Nodes(of) = pair.primary.carrier(facet) {
+                nodes.extend_from_slice(of);
+            }
+        }
+        let axes = |&node: &NodeId| [0, 1, 2].map(|axis| !self.moves(node, axis));
+        let all = nodes.iter().map(|node| (*node, axes(node)));
+        let held = all.filter(|(_, axes)| *axes != [false; 3]).collect();
+        let parts = &mut self.parts;
+        let factors = parts.discretization.support(&parts.pair, held);
+        let Some(factors) = factors.map_err(|e| self.failed(&e))? else {
+            return Ok(false);
+        };
+        let areas = self.area_without_supports.iter().zip(factors);
+        self.parts.area = areas.map(|(area, factor)| area * factor).collect();
+        Ok(true)
     }
 
     /// Whether a column of a participant, of three or six, moves.

@@ -73,6 +73,11 @@ impl Lents {
         self.stale = true;
     }
 
+    /// Whether prescribed unknowns may be others since they were looked at.
+    pub const fn is_stale(&self) -> bool {
+        self.stale
+    }
+
     /// Whether an unknown is prescribed in the present step.
     pub fn is_prescribed(&self, dof: Dof) -> bool {
         self.prescribed.get(dof as usize) == Some(&true)

@@ -232,6 +232,8 @@ pub struct Interface {
     step: StepContext,
     /// Rows of a joint whose nodes cannot follow lend their functions to others.
     lents: Lents,
+    /// Areas of rows where no node is held.
+    area_without_supports: Vec<f64>,
     /// The step in which it acts first.
     first_step: Option<StepContext>,
     /// What overlaps at the start of the increment and is allowed for; empty where nothing is.
@@ -289,6 +291,7 @@ impl Interface {
         let nrow = parts.discretization.nrow();
         let nothing = Pairing::nothing(nrow);
         let history = History::new(nrow, parts.bond.as_deref());
+        let area_without_supports = parts.area.clone();
         Self {
             parts,
             layout,
@@ -310,6 +313,7 @@ impl Interface {
             wanted: Coupled::default(),
             step: StepContext::default(),
             lents: Lents::default(),
+            area_without_supports,
             first_step: None,
             allowed: Allowed::default(),
             reversals: Reversals::new(nrow),
@@ -514,7 +518,7 @@ impl Interface {
         Ok(others)
     }
 
-    fn failed(&self, error: &SurfaceError) -> TermError {
+    pub(super) fn failed(&self, error: &SurfaceError) -> TermError {
         TermError::Surface {
             interface: self.parts.name.clone(),
             message: error.to_string(),
@@ -574,7 +578,7 @@ impl Term for Interface {
             self.parts.pair.start.clear();
             self.parts.pair.start.extend_from_slice(at.x);
         }
-        let renews = self.parts.discretization.renews();
+        let renews = self.parts.discretization.renews() | self.support()?;
         let first = !self.started;
         let many = self.parts.discretization.meets_many();
         if first {

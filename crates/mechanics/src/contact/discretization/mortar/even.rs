@@ -213,7 +213,7 @@ mod tests {
             shear: SHEAR * pressure,
         };
         let mut on_rows: Vec<OnRow> = pressures.iter().map(on_row).collect();
-        let weights = mortar.held.as_ref().unwrap();
+        let weights = &mortar.held.as_ref().unwrap().weights;
         mortar.exchange(weights, touches, false, &mut on_rows);
         on_rows
     }

@@ -65,11 +65,13 @@ mod integrals;
 mod place;
 mod pointwise;
 mod sight;
+mod supports;
 
 use super::points::{PointToSegment, SlidingRange};
 use super::projected::{Closest, Point};
 use super::{
-    Anchored, BentSides, Discretization, Links, NOWHERE, OnRow, Pair, Pairing, SurfacePair,
+    Anchored, BentSides, Discretization, HeldAxes, Links, NOWHERE, OnRow, Pair, Pairing,
+    SurfacePair,
 };
 use crate::contact::mortar::{
     Basis, Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights,
@@ -149,8 +151,20 @@ pub struct Mortar {
     area: Vec<f64>,
     form: Form,
     measure: Measure,
-    held: Option<Weights>,
+    held: Option<HeldWeights>,
+    /// The axes along which nodes of both sides are held in the present step.
+    supports: HeldAxes,
     kept: Kept,
+}
+
+/// Weights for good.
+struct HeldWeights {
+    weights: Weights,
+    /// Who is whose guest without supports, and the areas of rows then.
+    guests: Guests,
+    area: Vec<f64>,
+    /// Where nodes were.
+    x: Vec<Vec3>,
 }
 
 type Inverse = [[f64; MAX_FACET_NODES]; MAX_FACET_NODES];
@@ -232,6 +246,7 @@ impl Mortar {
             form,
             measure,
             held: None,
+            supports: HeldAxes::default(),
             kept,
         })
     }
@@ -257,13 +272,23 @@ impl Mortar {
         if let Some(facets) = pair.secondary.as_ref().filter(|_| bent) {
             self.along_normals(facets, &mut weights);
         }
+        self.cover(&weights);
+        self.held = Some(HeldWeights {
+            guests: weights.guests.clone(),
+            area: self.area.clone(),
+            weights,
+            x: at.x.to_vec(),
+        });
+        Ok(self)
+    }
+
+    /// Areas of rows are what these weights cover.
+    fn cover(&mut self, weights: &Weights) {
         for (row, area) in self.area.iter_mut().enumerate() {
             if let Some(covered) = weights.row(row) {
                 *area = covered.d;
             }
         }
-        self.held = Some(weights);
-        Ok(self)
     }
 
     /// A_j of all rows, in the plane without the extent across it.
@@ -303,7 +328,9 @@ impl Mortar {
     }
 
     fn weights<'a>(&'a self, pairing: &'a Pairing) -> &'a Weights {
-        self.held.as_ref().unwrap_or(&pairing.weights)
+        self.held
+            .as_ref()
+            .map_or(&pairing.weights, |held| &held.weights)
     }
 
     /// D and M of all facets and rows at a configuration, with derivatives of facets whose will probably be asked for.
@@ -383,17 +410,7 @@ impl Mortar {
         from_rest: bool,
     ) -> Guests {
         let n = self.nodes.len();
-        let met = |facet: u32| {
-            let of = weights.facets.get(facet as usize);
-            of.filter(|of| !of.met.is_empty())
-        };
-        let part = |row: usize| {
-            let of =
-                |&(facet, place): &(u32, usize)| met(facet).map(|of| of.d[place] / of.full[place]);
-            let all = self.around[row].iter().filter_map(of);
-            all.fold(0.0, f64::max)
-        };
-        let parts: Vec<f64> = (0..n).map(part).collect();
+        let parts = self.covered_parts(weights);
         let mut found = Guests {
             left: vec![false; n],
             pointwise: vec![false; n],
@@ -408,39 +425,69 @@ impl Mortar {
         weak.sort_by(|&a, &b| parts[b].total_cmp(&parts[a]).then(a.cmp(&b)));
         for row in weak {
             let much = WEAK.min(BETTER * parts[row]);
-            let hosts_on = |&(facet, _): &(u32, usize)| {
-                let on = &self.rows[facet as usize][..facets.nodes(facet).len()];
-                let covered = |&other: &usize| !found.left[other] && parts[other] >= much;
-                on.iter()
-                    .copied()
-                    .filter(move |other| *other != row && covered(other))
-            };
-            let mut near: Vec<usize> = Vec::new();
-            for host in self.around[row].iter().flat_map(hosts_on) {
-                if !near.contains(&host) {
-                    near.push(host);
-                }
-            }
-            if near.is_empty() {
-                continue;
-            }
-            let mut taken = Vec::new();
-            for at @ &(facet, place) in self.around[row].iter().filter(|(f, _)| met(*f).is_some()) {
-                let beside: Vec<usize> = hosts_on(at).collect();
-                let hosts = if beside.is_empty() { &near } else { &beside };
-                let share = 1.0 / hosts.len() as f64;
-                taken.extend(hosts.iter().map(|&host| (host, (facet, place, share))));
-            }
-            found.left[row] = true;
-            for (host, function) in taken {
-                found.taken[host].push(function);
-            }
+            self.hand_over(row, facets, weights, |r| parts[r] >= much, &mut found);
         }
+        self.free_supports(facets, weights, &parts, &mut found);
         for row in aside {
             self.set_aside(row, facets, &mut found);
         }
         self.turn(weights, from_rest, &mut found);
         found
+    }
+
+    /// The covered part of the function of each row, on the facet where it is largest.
+    fn covered_parts(&self, weights: &Weights) -> Vec<f64> {
+        let part = |&(facet, place): &(u32, usize)| {
+            let of = weights.facets.get(facet as usize)?;
+            (!of.met.is_empty()).then(|| of.d[place] / of.full[place])
+        };
+        let of_row = |around: &Part| around.iter().filter_map(part).fold(0.0, f64::max);
+        self.around.iter().map(of_row).collect()
+    }
+
+    /// Gives the function of a row to the rows around it that may have it, evenly on each facet; leaves it where there is none.
+    fn hand_over(
+        &self,
+        row: usize,
+        facets: &Facets,
+        weights: &Weights,
+        takes: impl Fn(usize) -> bool,
+        found: &mut Guests,
+    ) {
+        let is_met = |facet: u32| {
+            let of = weights.facets.get(facet as usize);
+            of.is_some_and(|of| !of.met.is_empty())
+        };
+        let hosts_on = |&(facet, _): &(u32, usize)| {
+            let on = &self.rows[facet as usize][..facets.nodes(facet).len()];
+            let may = |&other: &usize| other != row && !found.left[other] && takes(other);
+            on.iter().copied().filter(may).collect::<Vec<usize>>()
+        };
+        let mut near: Vec<usize> = Vec::new();
+        for host in self.around[row].iter().flat_map(hosts_on) {
+            if !near.contains(&host) {
+                near.push(host);
+            }
+        }
+        if near.is_empty() {
+            return;
+        }
+        let mut taken = Vec::new();
+        for at @ &(facet, place) in self.around[row].iter().filter(|(f, _)| is_met(*f)) {
+            let beside = hosts_on(at);
+            let hosts = if beside.is_empty() { &near } else { &beside };
+            let share = 1.0 / hosts.len() as f64;
+            taken.extend(hosts.iter().map(|&host| (host, (facet, place, share))));
+        }
+        // what it had taken over itself goes on to the same rows
+        for (facet, place, part) in std::mem::take(&mut found.taken[row]) {
+            let share = part / near.len() as f64;
+            taken.extend(near.iter().map(|&host| (host, (facet, place, share))));
+        }
+        found.left[row] = true;
+        for (host, function) in taken {
+            found.taken[host].push(function);
+        }
     }
 
     /// A node of an edge has the row of the side that is covered and faces what it meets best, unless another one has it.
@@ -573,7 +620,10 @@ impl Mortar {
         before: &dyn Fn(usize) -> Option<Pair>,
         out: &mut Pairing,
     ) -> Result<(), SurfaceError> {
-        let weights = self.held.as_ref().unwrap_or(&out.weights);
+        let weights = match &self.held {
+            Some(held) => &held.weights,
+            None => &out.weights,
+        };
         let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
         let mut facets = Vec::new();
         out.pairs.resize(self.nodes.len(), None);
@@ -705,6 +755,14 @@ impl Discretization for Mortar {
         self.choose(pair, at, &near, &before, out)
     }
 
+    fn support(
+        &mut self,
+        pair: &SurfacePair,
+        held: HeldAxes,
+    ) -> Result<Option<Vec<f64>>, SurfaceError> {
+        self.take_supports(pair, held)
+    }
+
     fn settle(
         &self,
         pair: &SurfacePair,
@@ -820,7 +878,7 @@ impl Discretization for Mortar {
             return self.points.anchor(row, pair, at, found, slip);
         }
         let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
-        let held = self.held.as_ref().and_then(|w| w.row(row));
+        let held = self.held.as_ref().and_then(|held| held.weights.row(row));
         let way = held.map_or(Vec3::ZERO, |of| of.way(x(self.nodes[row]), &x) / of.d);
         Ok(Anchored {
             anchor: NOWHERE,
