@@ -6,7 +6,7 @@ use crate::system::{Dof, Idealisation, NO_DOF, NodalField, Term};
 use signorini_geometry::element::ReferenceElement;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::{ContactSurface, Facets};
-use signorini_geometry::tensor::Vec3;
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
@@ -136,26 +136,55 @@ pub(super) fn between(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<[u32; 2]> {
     between
 }
 
-/// Stiffness of the viscous forces on a body that only contact holds, over its modulus times its size.
+/// Stiffness of the viscous forces on a body that only contact holds, over its modulus times its size ...
 const DAMPING: f64 = 1e-3;
+/// ... and over that of its bending, where that is softer: a plate would otherwise rest on them, and contact would be found
+/// again whenever they are renewed. Measured with two plates of 1:100: 74 iterations with 1000, 35 with 10, 24 with 1.
+const OF_BENDING: f64 = 0.1;
+
+/// The stiffness of a body at these points against bending, over its modulus times its largest extent: that of a beam, or of
+/// a plate, which is held at one end, `a³ b/(4 c⁴)` with the extents `a ≤ b ≤ c`, and `a³/(4 c³)` in the plane. The extents
+/// are those of a block with the same second moments, so that it does not matter how the body lies.
+fn bending(points: &[Vec3], ndim: usize) -> f64 {
+    let count = points.len().max(1) as f64;
+    let mean = points.iter().copied().sum::<Vec3>() / count;
+    let moment = |away: Vec3| Sym3::symmetric_part(Mat3::outer(away, away));
+    let moments = points.iter().map(|&x| moment(x - mean));
+    let moments = moments.fold(Sym3::ZERO, |sum, m| sum + m * count.recip());
+    let [largest, middle, smallest] = moments.eigenvalues().map(|m| (12.0 * m.max(0.0)).sqrt());
+    if largest == 0.0 {
+        return 1.0;
+    }
+    if ndim == 2 {
+        return 0.25 * (middle / largest).powi(3);
+    }
+    0.25 * (smallest / largest).powi(3) * (middle / largest)
+}
 
 impl Context<'_> {
     /// What holds the bodies that nothing but contact stops.
     pub(super) fn holds(&self, bodies: &[BodyPart], free: &[Unheld]) -> Option<Damper> {
         let free = |name: &str| free.iter().any(|f| f.bodies.iter().any(|b| b == name));
-        let mut dofs = self.viscous(bodies, &free);
-        dofs.iter_mut().for_each(|d| d.1 *= DAMPING);
+        let ndim = self.layout.ndim;
+        let dofs = self.viscous(bodies, &free, &|points| {
+            DAMPING.min(OF_BENDING * bending(points, ndim))
+        });
         (!dofs.is_empty()).then(|| Damper::until_held("free bodies", dofs))
     }
 
     /// What slows all bodies where the solver asks for it.
     pub(super) fn brake(&self, bodies: &[BodyPart]) -> Damper {
-        Damper::when_asked("stabilization", self.viscous(bodies, &|_| true))
+        Damper::when_asked("stabilization", self.viscous(bodies, &|_| true, &|_| 1.0))
     }
 
-    /// The unknowns of bodies and carriers, and what is stiffness on each: the modulus times the size of a body, the
-    /// same on each of its nodes.
-    fn viscous(&self, bodies: &[BodyPart], named: &dyn Fn(&str) -> bool) -> Vec<(Dof, f64)> {
+    /// The unknowns of bodies and carriers, and what is stiffness on each: a part of the modulus times the size of a body,
+    /// the same on each of its nodes. The part follows from where these are.
+    fn viscous(
+        &self,
+        bodies: &[BodyPart],
+        named: &dyn Fn(&str) -> bool,
+        part: &dyn Fn(&[Vec3]) -> f64,
+    ) -> Vec<(Dof, f64)> {
         let at = |n: &NodeId| self.reference.get(*n as usize).copied().unwrap_or_default();
         let softest = self.modulus.iter().flatten().copied();
         let softest = softest.reduce(f64::min).unwrap_or(1.0);
@@ -169,9 +198,9 @@ impl Context<'_> {
                 .iter()
                 .flat_map(|&c| self.mesh.cell(c).iter().copied())
                 .collect();
-            let stiffness = modulus
-                * self.extent(self.spaces.of_body(number), nodes.iter().map(at))
-                / nodes.len() as f64;
+            let points: Vec<Vec3> = nodes.iter().map(at).collect();
+            let extent = self.extent(self.spaces.of_body(number), points.iter().copied());
+            let stiffness = part(&points) * modulus * extent / nodes.len() as f64;
             let of_node = |&n: &NodeId| (0..self.layout.ndim).map(move |axis| (n, axis));
             let of_nodes = nodes.iter().flat_map(of_node);
             let own = of_nodes.map(|(n, axis)| self.layout.node(n, axis));
@@ -183,7 +212,7 @@ impl Context<'_> {
                 continue;
             }
             let size = self.extent(self.space, self.reference.iter().copied());
-            let stiffness = softest * size;
+            let stiffness = part(&[]) * softest * size;
             for axis in 0..3 {
                 dofs.push((self.layout.translation(number, axis), stiffness));
                 dofs.push((self.layout.rotation(number, axis), stiffness * size * size));
