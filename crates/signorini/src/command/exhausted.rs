@@ -157,8 +157,10 @@ mod tests {
         let size = 300 << 20;
         let more = Vec::<u8>::with_capacity(size);
         let after = size_of_process();
+        // other tests free some of theirs
+        let others = 1 << 20;
         assert!(
-            before > 1 << 20 && after >= before + size,
+            before > 1 << 20 && after + others >= before + size,
             "{before} {after}"
         );
         drop(more);
