@@ -38,6 +38,8 @@ pub(super) struct Equations {
     left: Vec<f64>,
     response: Vec<f64>,
     pub seconds: LinearSeconds,
+    /// Iterations of the last solution.
+    pub iterations: usize,
 }
 
 /// Which factor a solve goes by. The residual that is made small is that of the operator assembled last in both cases.
@@ -74,6 +76,7 @@ impl Equations {
             left: Vec::new(),
             response: Vec::new(),
             seconds: LinearSeconds::default(),
+            iterations: 0,
         }
     }
 
@@ -95,6 +98,16 @@ impl Equations {
     /// Lets the solver forget what it has learned.
     pub fn forget(&mut self) {
         self.solver.forget();
+    }
+
+    /// What the solver has learned that stays when it forgets.
+    pub fn experience(&self) -> u8 {
+        self.solver.experience()
+    }
+
+    /// Gives the solver what it had learned in the run that is resumed.
+    pub fn recall(&mut self, experience: u8) {
+        self.solver.recall(experience);
     }
 
     /// Whether the solver asks for the stiffness of the bodies at the start of the run.
@@ -233,6 +246,7 @@ impl Equations {
         };
         self.seconds.solve += start.elapsed().as_secs_f64();
         let report = outcome?;
+        self.iterations = report.iterations;
         for (x, &dof) in self.left.iter().zip(&self.dofs) {
             du[dof as usize] = *x;
         }

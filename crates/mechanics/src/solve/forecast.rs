@@ -18,7 +18,7 @@ struct Scout {
 impl LinearSolver for Scout {
     fn analyze(&mut self, problem: &Problem) -> Result<(), LinearError> {
         let forecast = Forecast::new(problem, self.kind)?;
-        *self.seen.lock().unwrap_or_else(PoisonError::into_inner) = forecast;
+        *self.seen.lock().unwrap_or_else(PoisonError::into_inner) = Some(forecast);
         Ok(())
     }
 
@@ -40,7 +40,7 @@ impl LinearSolver for Scout {
 /// What an iteration costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
-    /// Of the linear system; none where it cannot be told from the pattern.
+    /// Of the linear system; none where it cannot be analyzed.
     pub linear: Option<Forecast>,
     /// Seconds that assembling force and tangent took.
     pub assembly: f64,

@@ -682,6 +682,8 @@ impl Stepper {
         out.put("progress.rate", &p.rate);
         out.put("progress.curvature", p.curvature.as_slice());
         out.put("progress.scale", &self.newton.scale.to_array());
+        let experience = self.newton.equations.experience();
+        out.put("progress.solver", &[f64::from(experience)]);
         p.work.save(out);
         for term in &system.terms {
             term.save(out);
@@ -707,6 +709,11 @@ impl Stepper {
         }
         let mut scale = [0.0; 3];
         from.get("progress.scale", &mut scale)?;
+        let mut experience = [0.0];
+        if from.length("progress.solver").is_ok() {
+            from.get("progress.solver", &mut experience)?;
+        }
+        self.newton.equations.recall(experience[0] as u8);
         let mut work = ExternalWork::default();
         work.load(system.layout.ndof(), from)?;
         let mut state = system.initial_state();

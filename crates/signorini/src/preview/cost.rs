@@ -1,28 +1,50 @@
 //! Memory and time that a solution takes.
 
 use crate::build::Model;
-use crate::text::short;
+use crate::text::{count, short};
 use signorini_mechanics::solve::{Cost, forecast};
+use signorini_mechanics::system::linear::Path;
 
 /// Bytes of the program, of a node and of a cell with their results, besides the linear system: measured.
 const PROGRAM: f64 = 2e7;
 const PER_NODE: f64 = 1_000.0;
 const PER_CELL: f64 = 2_500.0;
 
-/// A line on memory and time; none where they cannot be told.
-pub fn line(model: &Model) -> Option<String> {
+/// Lines on memory and time; none where they are not known.
+pub fn lines(model: &Model) -> Vec<String> {
+    known(model).unwrap_or_default()
+}
+
+fn known(model: &Model) -> Option<Vec<String>> {
     let first = model.steps.first()?;
     let state = model.system.initial_state();
     let Cost { linear, assembly } =
         forecast(&model.system, first, &state, model.settings.linear).ok()?;
     let linear = linear?;
     let mesh = PER_NODE * model.mesh.nnode() as f64 + PER_CELL * model.mesh.ncell() as f64;
-    let memory = PROGRAM + mesh + linear.bytes();
-    Some(format!(
-        "cost: about {} of memory, {} for each iteration on this machine",
-        bytes(memory),
+    let other = PROGRAM + mesh;
+    let path = match linear.path {
+        Path::Direct(_) => "a direct solution".to_owned(),
+        Path::Multigrid { block, .. } => format!(
+            "multigrid, and a direct solution of {} equations around the interface",
+            count(block.nequation)
+        ),
+    };
+    let mut lines = vec![format!(
+        "cost: about {} of memory, {} for each iteration on this machine, by {path}",
+        bytes(other + linear.bytes()),
         duration(linear.seconds() + assembly)
-    ))
+    )];
+    if let (Some(memory), Some(seconds)) =
+        (linear.bytes_of_fallback(), linear.seconds_of_fallback())
+    {
+        lines.push(format!(
+            "should multigrid not serve, as with thin bodies: about {} of memory, {} for each iteration, by a factor of the bodies",
+            bytes(other + memory),
+            duration(seconds + assembly)
+        ));
+    }
+    Some(lines)
 }
 
 fn duration(seconds: f64) -> String {

@@ -76,7 +76,7 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
         let contact = start.frame.contacts.iter().find(|c| c.name == info.name);
         lines.extend(contact.map(|c| gaps(c, info, model)));
     }
-    lines.extend(cost::line(model));
+    lines.extend(cost::lines(model));
     Ok(Preview {
         start,
         quality,

@@ -79,7 +79,10 @@ fn symbolic(matrix: &Matrix, order: &[u32]) -> Result<SymbolicCholesky<u32>, Lin
 /// The numbers that a factor stores, and the multiplications and additions that it takes: `Σ c²` over the columns, with
 /// `c` the length of each.
 pub(super) fn size(matrix: &Matrix, order: &[u32]) -> Result<(usize, f64), LinearError> {
-    let symbolic = symbolic(matrix, order)?;
+    Ok(size_of(&symbolic(matrix, order)?))
+}
+
+fn size_of(symbolic: &SymbolicCholesky<u32>) -> (usize, f64) {
     let squared = |c: usize| (c as f64) * (c as f64);
     let work = match symbolic.raw() {
         SymbolicCholeskyRaw::Simplicial(raw) => {
@@ -95,7 +98,7 @@ pub(super) fn size(matrix: &Matrix, order: &[u32]) -> Result<(usize, f64), Linea
             })
             .sum(),
     };
-    Ok((symbolic.len_val(), work))
+    (symbolic.len_val(), work)
 }
 
 impl Cholesky {
@@ -129,10 +132,9 @@ impl Cholesky {
         })
     }
 
-    /// The numbers that the factor stores.
-    #[cfg(test)]
-    pub fn nentry(&self) -> usize {
-        self.factor.len()
+    /// The numbers that the factor stores, and the multiplications and additions that it takes.
+    pub fn size(&self) -> (usize, f64) {
+        size_of(&self.symbolic)
     }
 
     /// Whether pivots were trusted to be positive and were.

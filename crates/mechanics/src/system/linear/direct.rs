@@ -213,13 +213,11 @@ impl Direct {
             .map(|a| a.gathered.matrix.row.as_ptr())
     }
 
-    /// The numbers that the Cholesky factor stores.
-    #[cfg(test)]
-    pub(super) fn nfactor(&self) -> usize {
-        self.analysis
-            .as_ref()
-            .and_then(|a| a.factors.cholesky.as_ref())
-            .map_or(0, Cholesky::nentry)
+    /// The numbers that a Cholesky factor stores, and the multiplications and additions that it takes.
+    pub(super) fn size(&self) -> (usize, f64) {
+        let analysis = self.analysis.as_ref();
+        let cholesky = analysis.and_then(|a| a.factors.cholesky.as_ref());
+        cholesky.map_or((0, 0.0), Cholesky::size)
     }
 }
 

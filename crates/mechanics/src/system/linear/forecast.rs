@@ -6,25 +6,102 @@ use super::ordering::{self, Ordering};
 use super::{
     Kept, LinearError, LinearKind, MULTIGRID_FROM, Problem, Symmetry, cholesky, multigrid,
 };
+use crate::system::sparsity::NONE;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use std::time::Instant;
 
 /// The size of a solution.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forecast {
     /// Equations.
     pub nequation: usize,
     /// Numbers in the operator as it is assembled, and in the interface where multipliers are condensed.
     pub noperator: usize,
-    /// Numbers in the matrix that is factorized: one triangle of it where it is symmetric.
+    /// The way that is tried first.
+    pub path: Path,
+    /// What takes over where multigrid does not serve; nothing where that is not tried, or from [`LARGEST`] equations on.
+    pub fallback: Option<Factor>,
+}
+
+/// How a system is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Path {
+    /// By a factor.
+    Direct(Factor),
+    /// By multigrid over so many numbers of the stiffness of the bodies, and a factor around the interface.
+    Multigrid {
+        /// Numbers.
+        nbulk: usize,
+        /// The factor of the equations at which the interface has a place.
+        block: Factor,
+    },
+}
+
+/// The size of a factorization.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Factor {
+    /// Equations.
+    pub nequation: usize,
+    /// Numbers in the matrix: one triangle of it where it is symmetric.
     pub nmatrix: usize,
-    /// Numbers in its factor.
+    /// Numbers in the factor.
     pub nfactor: usize,
-    /// Multiplications and additions of a factorization.
+    /// Multiplications and additions.
     pub work: f64,
-    /// Whether there is no factor, but multigrid.
-    pub is_multigrid: bool,
+}
+
+/// Equations from which on a fallback is not foreseen: its order would take longer than a check may.
+pub const LARGEST: usize = 300_000;
+
+impl Factor {
+    /// Orders and analyzes a problem as if it were symmetric: a factor that is not has twice as many numbers, and its order,
+    /// which depends on values, hardly changes that.
+    pub(super) fn of(problem: &Problem) -> Result<Self, LinearError> {
+        let halved = Problem {
+            symmetry: problem.symmetry.min(Symmetry::Symmetric),
+            ..*problem
+        };
+        let matrix = Matrix::new(&halved)?;
+        let mut size = Self {
+            nequation: problem.nequation,
+            nmatrix: matrix.row.len(),
+            ..Self::default()
+        };
+        if problem.nequation > 0 {
+            let order = ordering::order(&halved, &matrix, Ordering::Auto)?;
+            (size.nfactor, size.work) = cholesky::size(&matrix, &order)?;
+        }
+        if problem.symmetry == Symmetry::Unsymmetric {
+            size.nmatrix *= 2;
+            size.nfactor *= 2;
+            size.work *= 2.0;
+        }
+        Ok(size)
+    }
+
+    /// That of a problem without its multipliers: the bodies with what holds them together.
+    fn of_bodies(kept: &Kept) -> Result<Self, LinearError> {
+        let mut equation = vec![NONE; kept.equation.len()];
+        let mut nequation = 0;
+        let own = kept.equation.iter().enumerate().zip(&mut equation);
+        for (_, to) in own.filter(|((dof, e), _)| **e != NONE && !kept.is_multiplier(*dof)) {
+            *to = nequation;
+            nequation += 1;
+        }
+        Self::of(&Problem {
+            equation: &equation,
+            nequation: nequation as usize,
+            symmetry: Symmetry::Definite,
+            sign: &vec![1; nequation as usize],
+            ..kept.problem()
+        })
+    }
+
+    /// Bytes of matrix and factor, with numbers of the factor of this size.
+    fn bytes(&self, of_number: f64) -> f64 {
+        (NUMBER + 2.0 * PATTERN) * self.nmatrix as f64 + of_number * self.nfactor as f64
+    }
 }
 
 impl Forecast {
@@ -34,81 +111,115 @@ impl Forecast {
     /// Those of [`super::LinearSolver::analyze`].
     ///
     /// # Limits
-    /// `None` for the factor of a matrix that is not symmetric: its order depends on its values. That multigrid will serve
-    /// is taken for granted.
-    pub fn new(problem: &Problem, kind: LinearKind) -> Result<Option<Self>, LinearError> {
+    /// Whether multigrid serves is seen only when it is tried. The block at the interface is taken with all equations where
+    /// something may touch.
+    pub fn new(problem: &Problem, kind: LinearKind) -> Result<Self, LinearError> {
         problem.check()?;
         let least = match kind {
             LinearKind::Auto => Some(MULTIGRID_FROM),
             LinearKind::Multigrid => Some([0; 2]),
             _ => None,
         };
-        if least.is_some_and(|least| multigrid::suits(problem, least)) {
-            return Ok(Some(Self {
-                nequation: problem.nequation,
-                noperator: problem.bulk.nvalue() + problem.interface.nentry(),
-                nmatrix: problem.bulk.nvalue(),
-                is_multigrid: true,
-                ..Self::default()
-            }));
-        }
-        if problem.symmetry == Symmetry::Unsymmetric {
-            return Ok(None);
-        }
         let kept = Kept::new(problem);
-        let condensation = Condensation::by_pattern(&kept);
         let mut noperator = problem.bulk.nvalue() + problem.interface.nentry();
-        let condensed;
-        let problem = match &condensation {
-            Some(condensation) => {
-                condensed = condensation.problem(&kept);
-                noperator += condensed.interface.nentry();
-                &condensed
-            }
-            None => problem,
-        };
-        let matrix = Matrix::new(problem)?;
-        let mut forecast = Self {
-            nequation: kept.sign.len(),
-            noperator,
-            nmatrix: matrix.row.len(),
-            ..Self::default()
-        };
-        if problem.nequation > 0 {
-            let order = ordering::order(problem, &matrix, Ordering::Auto)?;
-            (forecast.nfactor, forecast.work) = cholesky::size(&matrix, &order)?;
+        let nequation = problem.nequation;
+        if least.is_some_and(|least| multigrid::suits(problem, least)) {
+            let path = Path::Multigrid {
+                nbulk: problem.bulk.nvalue(),
+                block: multigrid::size_of_block(&kept)?,
+            };
+            let fallback = (nequation < LARGEST).then(|| Factor::of_bodies(&kept));
+            return Ok(Self {
+                nequation,
+                noperator,
+                path,
+                fallback: fallback.transpose()?,
+            });
         }
-        Ok(Some(forecast))
+        let factor = match &Condensation::by_pattern(&kept) {
+            Some(condensation) => {
+                let condensed = condensation.problem(&kept);
+                noperator += condensed.interface.nentry();
+                Factor::of(&condensed)?
+            }
+            None => Factor::of(problem)?,
+        };
+        Ok(Self {
+            nequation,
+            noperator,
+            path: Path::Direct(factor),
+            fallback: None,
+        })
     }
 
-    /// Seconds of a factorization on this machine, measured on a small dense product; or of the cycles of multigrid in an
+    /// Seconds of a factorization on this machine, measured on a small dense product; with multigrid, of its cycles in an
     /// iteration of Newton's method, about.
     #[must_use]
     pub fn seconds(&self) -> f64 {
-        if self.is_multigrid {
-            return SECONDS_PER_NUMBER * self.nmatrix as f64;
+        match self.path {
+            Path::Direct(factor) => factor.work / (rate() * EFFICIENCY),
+            Path::Multigrid { nbulk, block } => {
+                SECONDS_PER_NUMBER * nbulk as f64 + block.work / (rate() * EFFICIENCY)
+            }
         }
-        self.work / (rate() * EFFICIENCY)
     }
 
-    /// Bytes of the operator, its patterns, the matrix and the factor at the time when all of them are there.
+    /// The same where multigrid does not serve.
+    #[must_use]
+    pub fn seconds_of_fallback(&self) -> Option<f64> {
+        let Path::Multigrid { block, .. } = self.path else {
+            return None;
+        };
+        let work = |fallback: Factor| fallback.work + block.work;
+        self.fallback.map(|f| work(f) / (rate() * EFFICIENCY))
+    }
+
+    /// Bytes of the operator, its patterns, the matrices and the factors at the time when all of them are there.
     #[must_use]
     pub fn bytes(&self) -> f64 {
-        // patterns and permutations have a small number for each large one, and are kept twice
-        let (number, pattern) = (8.0, 4.0);
-        if self.is_multigrid {
-            return BYTES_PER_NUMBER * self.nmatrix as f64;
+        match self.path {
+            Path::Direct(factor) => self.bytes_of_operator() + factor.bytes(NUMBER),
+            Path::Multigrid { nbulk, block } => {
+                BYTES_PER_NUMBER * nbulk as f64 + bytes_of_block(block)
+            }
         }
-        let operator = (number + pattern) * self.noperator as f64;
-        let matrix = (number + 2.0 * pattern) * self.nmatrix as f64;
-        operator + matrix + number * self.nfactor as f64
+    }
+
+    /// The same where multigrid does not serve.
+    #[must_use]
+    pub fn bytes_of_fallback(&self) -> Option<f64> {
+        let Path::Multigrid { block, .. } = self.path else {
+            return None;
+        };
+        let fallback = self.fallback?;
+        let factor =
+            BYTES_PER_COEFFICIENT * fallback.nmatrix as f64 + NUMBER * fallback.nfactor as f64;
+        Some(self.bytes_of_operator() + bytes_of_block(block) + factor)
+    }
+
+    fn bytes_of_operator(&self) -> f64 {
+        // patterns are kept twice
+        (NUMBER + PATTERN) * self.noperator as f64
     }
 }
 
+/// Bytes of the block at the interface: its matrix with everything that is made of it, and its factor in single precision.
+fn bytes_of_block(block: Factor) -> f64 {
+    BYTES_PER_ENTRY * block.nmatrix as f64 + 0.5 * NUMBER * block.nfactor as f64
+}
+
+/// Bytes of a number, and of what a pattern has for it.
+const NUMBER: f64 = 8.0;
+const PATTERN: f64 = 4.0;
 /// What a number of the stiffness of bodies costs multigrid, with everything that is made of it: measured on hex8 from
 /// 40,000 to 300,000 unknowns, `docs/speed.md`.
 const BYTES_PER_NUMBER: f64 = 40.0;
 const SECONDS_PER_NUMBER: f64 = 2e-8;
+/// What a number of one triangle of the matrix of a factor of the bodies costs: blocks, the pattern of both triangles, twice, and
+/// the equilibrated matrix.
+const BYTES_PER_COEFFICIENT: f64 = 64.0;
+/// What a number of the block costs, its factor apart: measured, 60 to 86 with 3 to 16 million of them.
+const BYTES_PER_ENTRY: f64 = 75.0;
 
 /// What a sparse factorization reaches of the speed of a dense product.
 const EFFICIENCY: f64 = 0.6;

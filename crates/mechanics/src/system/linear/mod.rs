@@ -39,7 +39,7 @@ mod tests;
 
 pub use condensed::Condensed;
 pub use direct::Direct;
-pub use forecast::Forecast;
+pub use forecast::{Factor, Forecast, Path};
 pub use multigrid::Multigrid;
 #[cfg(feature = "mumps")]
 pub use mumps::Mumps;
@@ -220,6 +220,14 @@ pub struct SolveReport {
     pub negative_pivots: usize,
 }
 
+impl SolveReport {
+    /// The same after iterations that led nowhere.
+    const fn after(mut self, lost: usize) -> Self {
+        self.iterations += lost;
+        self
+    }
+}
+
 /// The stiffness of the bodies at the start of a run.
 #[derive(Clone, Debug)]
 pub enum StartStiffness {
@@ -248,8 +256,9 @@ pub trait LinearSolver: Send {
     /// `Singular`, `NotFinite`, `TooLarge`, `Shape`, and `Order` before `analyze`.
     fn factorize(&mut self, values: &Values) -> Result<(), LinearError>;
 
-    /// Forgets what it has learned from other patterns and values, but for a factor: from now on it does what it would do
-    /// had it just been told of the pattern. A run that is resumed here repeats every bit.
+    /// Forgets what it has learned from other patterns and values, but for a factor and its
+    /// [experience](LinearSolver::experience): from now on it does what it would do had it just been given the pattern. A run
+    /// that is resumed here repeats every bit.
     fn forget(&mut self) {}
 
     /// Whether it asks for the stiffness of the bodies at the start of the run before the next values: for `which` one,
@@ -287,6 +296,14 @@ pub trait LinearSolver: Send {
         x: &mut [f64],
         rtol: f64,
     ) -> Result<SolveReport, LinearError>;
+
+    /// What it has learned that stays when it forgets; a number to give to [`LinearSolver::recall`].
+    fn experience(&self) -> u8 {
+        0
+    }
+
+    /// Takes over what a solver had learned in the run that is resumed.
+    fn recall(&mut self, _experience: u8) {}
 
     /// What the solver has decided since it was asked last.
     fn notes(&mut self) -> Vec<Note> {
@@ -333,6 +350,16 @@ pub enum Note {
         /// Iterations to a power of ten with the one before, at last and at first, where it was worn.
         worn: Option<[f64; 2]>,
     },
+    /// A factor of the stiffness of the bodies takes the place of their hierarchy until the run ends.
+    #[error(
+        "the stiffness of the bodies is factorized in place of multigrid, {numbers} numbers: {why}"
+    )]
+    Factor {
+        /// Numbers in the factor.
+        numbers: usize,
+        /// Why.
+        why: Why,
+    },
     /// The direct solver takes over until the increment ends.
     #[error("multigrid gives way to the direct solver: {why}")]
     Direct {
@@ -344,8 +371,11 @@ pub enum Note {
 /// Why multigrid does not serve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Why {
-    /// The stiffness of the bodies is not positive definite, even with more on its diagonal.
-    #[error("the stiffness of the bodies is not positive definite")]
+    /// The stiffness of the bodies has no incomplete factor, even with more on its diagonal: it is not positive definite, or that
+    /// of nearly incompressible bodies.
+    #[error(
+        "the stiffness of the bodies has no incomplete factor, as of nearly incompressible ones"
+    )]
     NotPositive,
     /// The equations of the interface have no solution of their own.
     #[error("the equations around the interface are singular by themselves")]

@@ -901,7 +901,7 @@ fn dissection_fills_in_less_than_minimum_degree_on_bricks() {
             .solve(&assembled.values(), &rhs, &mut x, 1e-12)
             .unwrap();
         assert!(report.residual <= 1e-12 && report.negative_pivots == 0);
-        fill.push(solver.nfactor());
+        fill.push(solver.size().0);
     }
     assert!(fill[0] < fill[1], "{fill:?}");
 }
@@ -1391,7 +1391,7 @@ fn timing_of_fifty_thousand_equations() {
                 "  {ordering:?}: analyze {analyze:?} (again {again:?}), factorize {factorize:?}, solve {:?}, \
                  factor {:.1} M, residual {:.1e}",
                 from.elapsed(),
-                solver.nfactor() as f64 / 1e6,
+                solver.size().0 as f64 / 1e6,
                 report.residual
             );
         }

@@ -1,5 +1,6 @@
 //! The equations around the interface, solved directly.
 
+use super::super::forecast::Factor;
 use super::super::{Direct, Kept, LinearError, LinearSolver, Problem, Values};
 use super::alone::{coupled, touched};
 use crate::system::sparsity::{BlockPattern, NONE, Pattern};
@@ -82,6 +83,35 @@ impl InterfaceBlock {
         self.is_exact = None;
     }
 
+    /// The size of the factor if values act wherever they have a place.
+    ///
+    /// # Errors
+    /// `TooLarge`.
+    pub fn size(kept: &Kept) -> Result<Factor, LinearError> {
+        let mut block = Self::new();
+        let all = coupled(kept);
+        block.nodes = (0..kept.bulk.nrow() as u32)
+            .filter(|&node| all[node as usize])
+            .collect();
+        block.extra = beyond(kept);
+        block.number(kept);
+        Factor::of(&block.problem(kept))
+    }
+
+    fn problem(&self, kept: &Kept) -> Problem<'_> {
+        Problem {
+            ndof: self.equation.len(),
+            bulk: &self.bulk,
+            interface: &self.interface,
+            equation: &self.equation,
+            nequation: self.whole.len(),
+            symmetry: kept.symmetry,
+            sign: &self.sign,
+            coordinates: &[],
+            between: &[],
+        }
+    }
+
     /// Takes the values of a tangent: chooses the equations, and factorizes.
     ///
     /// # Errors
@@ -98,18 +128,10 @@ impl InterfaceBlock {
             return Ok(());
         }
         self.gather(values);
-        let problem = Problem {
-            ndof: self.equation.len(),
-            bulk: &self.bulk,
-            interface: &self.interface,
-            equation: &self.equation,
-            nequation: self.whole.len(),
-            symmetry: kept.symmetry,
-            sign: &self.sign,
-            coordinates: &[],
-            between: &[],
-        };
-        self.direct.analyze(&problem)?;
+        let mut direct = std::mem::replace(&mut self.direct, Direct::rough());
+        let analyzed = direct.analyze(&self.problem(kept));
+        self.direct = direct;
+        analyzed?;
         let values = Values {
             bulk: &self.bulk_values,
             interface: &self.interface_values,
@@ -337,6 +359,14 @@ impl InterfaceBlock {
     }
 }
 
+/// The raw dofs beyond the nodes that are solved for.
+fn beyond(kept: &Kept) -> Vec<u32> {
+    let all = 3 * kept.bulk.nrow()..kept.equation.len();
+    all.filter(|&dof| kept.equation[dof] != NONE)
+        .map(|dof| dof as u32)
+        .collect()
+}
+
 /// Nodes and other raw dofs that interface values act on, and layers of nodes around, where they are not too many. Where
 /// values act on nearly all that they have a place at, these are taken: then what opens and closes costs no new order.
 fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
@@ -348,11 +378,7 @@ fn choose(kept: &Kept, values: &Values) -> (Vec<u32>, Vec<u32>) {
         let both = inside.iter_mut().zip(all);
         both.for_each(|(is_in, may_be)| *is_in |= may_be);
     }
-    let beyond = 3 * nnode..kept.equation.len();
-    let extra: Vec<u32> = beyond
-        .filter(|&dof| kept.equation[dof] != NONE)
-        .map(|dof| dof as u32)
-        .collect();
+    let extra = beyond(kept);
     let mut nodes: Vec<u32> = (0..nnode as u32)
         .filter(|&node| inside[node as usize])
         .collect();

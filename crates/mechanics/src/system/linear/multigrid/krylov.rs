@@ -9,6 +9,16 @@ const RESTART: usize = 50;
 /// The largest entry of a residual is looked at from so many times what is wanted on, as it was told from the norm.
 const NEARLY: f64 = 2.0;
 
+/// After so many iterations it is foreseen how many it will be in all.
+const PATIENCE: usize = 60;
+
+/// Whether so many iterations will not be enough, if the residual falls on as it has: after [`PATIENCE`] of them it has this
+/// size, over that at the start, and has to have that of `goal`.
+fn is_hopeless(size: f64, goal: f64, most: usize) -> bool {
+    let [now, wanted] = [size, goal].map(|v| -v.max(f64::MIN_POSITIVE).ln());
+    PATIENCE as f64 * wanted > most as f64 * now.max(0.0)
+}
+
 /// What the iterations do with vectors.
 pub(super) trait Operators {
     /// `y = A x`
@@ -48,6 +58,14 @@ impl Stop {
         match self {
             Self::Largest(goal) => goal,
             Self::Part { enough, .. } => enough,
+        }
+    }
+
+    /// The part of the error that may stay.
+    const fn part(self) -> Option<f64> {
+        match self {
+            Self::Largest(_) => None,
+            Self::Part { part, .. } => Some(part),
         }
     }
 
@@ -110,6 +128,7 @@ pub(super) fn conjugate_gradients(
     let n = r.len();
     let (mut z, mut p, mut q) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     let (mut before, mut first) = (0.0, None);
+    let largest_first = largest(r);
     for iteration in 0..most {
         if stop.is_reached(r) {
             return Ok((End::Small, iteration));
@@ -125,6 +144,15 @@ pub(super) fn conjugate_gradients(
             && product <= part * part * start
         {
             return Ok((End::Small, iteration + 1));
+        }
+        if iteration == PATIENCE {
+            let of_largest = (largest(r) / largest_first, stop.largest() / largest_first);
+            let of_energy = stop.part().map(|part| ((product / start).sqrt(), part));
+            let ways = [Some(of_largest), of_energy];
+            let is_hopeless = |(size, goal)| is_hopeless(size, goal, most);
+            if ways.into_iter().flatten().all(is_hopeless) {
+                return Ok((End::Slow, iteration));
+            }
         }
         let beta = if iteration == 0 {
             0.0
@@ -166,10 +194,7 @@ pub(super) fn minimal_residuals(
     let (mut sum, mut change) = (vec![0.0; n], vec![0.0; n]);
     while total < most {
         let size = dot(r, r).sqrt();
-        let goal = match stop {
-            Stop::Largest(_) => 0.0,
-            Stop::Part { part, .. } => part * start,
-        };
+        let goal = stop.part().map_or(0.0, |part| part * start);
         if size <= goal || stop.is_reached(r) {
             return Ok((End::Small, total));
         }
@@ -230,6 +255,10 @@ pub(super) fn minimal_residuals(
             }
             if is_reached {
                 break;
+            }
+            let enough = goal.max(stop.largest() / spread);
+            if total == PATIENCE && is_hopeless(size / start, enough / start, most) {
+                return Ok((End::Slow, total));
             }
         }
         let m = directions.len();

@@ -23,8 +23,9 @@
 //! conjugate gradients; elsewhere by minimal residuals, from a start that leaves nothing at the equations of the block,
 //! nor does what follows: gaps close exactly, and what is measured are forces away from the interface.
 //!
-//! Where it does not serve (the plane, a matrix that is not positive definite, iterations that stay slow), the direct
-//! solver takes over, and says of singular systems what it knows.
+//! Where the hierarchy does not serve (thin bodies, iterations that stay slow), a factor of the stiffness of the bodies
+//! stands for it ([`factor`]) for the rest of the run. Where that does not serve either, or in the plane, the direct solver
+//! takes over, and says of singular systems what it knows.
 //!
 //! Sources: Vaněk, Mandel, Brezina, *Computing* 56 (1996) 179–196 (smoothed aggregation); Kothari, Krause, *Comput.
 //! Methods Appl. Mech. Engrg.* 2022 (multigrid and contact); the interface apart: Nataf and others, AMG with filtering.
@@ -33,6 +34,7 @@ mod aggregation;
 mod alone;
 mod block;
 mod blocks;
+mod factor;
 mod fine;
 mod hierarchy;
 mod incomplete;
@@ -44,6 +46,7 @@ mod springs;
 mod tests;
 mod vectors;
 
+use super::forecast::Factor;
 use super::residual::Residual;
 use super::{
     Condensed, Direct, EXACT, Heritage, Kept, LinearError, LinearSolver, Note, Problem,
@@ -53,6 +56,7 @@ use crate::system::sparsity::{NONE, Pattern};
 use alone::touched;
 use block::InterfaceBlock;
 use blocks::Blocks;
+use factor::BodyFactor;
 use fine::{Fine, hold};
 use hierarchy::Hierarchy;
 use krylov::{End, Operators, Stop};
@@ -85,6 +89,8 @@ pub struct Multigrid {
     direct: Condensed<Direct>,
     kept: Option<Kept>,
     grid: Option<Grid>,
+    /// Whether a factor of the bodies stands for their hierarchy.
+    wants_factor: bool,
     /// What has the present values.
     way: Option<Way>,
     residual: Residual,
@@ -102,6 +108,9 @@ enum Way {
 pub(super) struct Grid {
     fine: Fine,
     hierarchy: Option<Hierarchy>,
+    /// What stands for the hierarchy once that has not served.
+    factor: BodyFactor,
+    has_factor: bool,
     /// The fingerprint of the stiffness that the hierarchy was made of, and whether it is that of this increment.
     source: u64,
     is_proven: bool,
@@ -217,6 +226,7 @@ impl Multigrid {
             direct: Condensed::new(Direct::reproducible),
             kept: None,
             grid: None,
+            wants_factor: false,
             way: None,
             residual: Residual::new(0, 0),
             notes: Vec::new(),
@@ -262,6 +272,7 @@ impl LinearSolver for Multigrid {
         problem.check()?;
         let kept = Kept::new(problem);
         let suits = suits(problem, self.least);
+        self.wants_factor = self.experience() > 0;
         let grid = self.grid.take().filter(|_| suits);
         self.grid = match grid {
             Some(mut grid) if grid.fine.is_of(&kept) => {
@@ -271,6 +282,9 @@ impl LinearSolver for Multigrid {
             _ if suits => Some(Grid::new(&kept)).filter(|grid| !grid.fine.node.is_empty()),
             _ => None,
         };
+        if let Some(grid) = &mut self.grid {
+            grid.has_factor = self.wants_factor;
+        }
         self.residual = Residual::new(problem.ndof, problem.nequation);
         self.kept = Some(kept);
         Ok(())
@@ -313,7 +327,7 @@ impl LinearSolver for Multigrid {
             let start = &grid.start;
             let is_at_hand = start.is_in_use || start.told.is_some();
             let is_known = start.which == Some(which) && is_at_hand;
-            let suits = grid.fine.floating.is_empty() && !grid.has_failed;
+            let suits = grid.fine.floating.is_empty() && !grid.has_failed && !grid.has_factor;
             suits && !grid.is_proven && !is_known
         })
     }
@@ -342,6 +356,7 @@ impl LinearSolver for Multigrid {
         if !grid.start.is_in_use {
             grid.start = Start::default();
         }
+        grid.has_factor = false;
         Some(Heritage(Box::new(grid)))
     }
 
@@ -349,6 +364,18 @@ impl LinearSolver for Multigrid {
         // nothing is known of the present problem: the grid serves if it suits that
         (self.kept, self.way) = (None, None);
         self.grid = Some(*grid);
+    }
+
+    fn experience(&self) -> u8 {
+        let has_factor = self.grid.as_ref().is_some_and(|grid| grid.has_factor);
+        u8::from(self.wants_factor || has_factor)
+    }
+
+    fn recall(&mut self, experience: u8) {
+        self.wants_factor = experience > 0;
+        if let Some(grid) = &mut self.grid {
+            grid.has_factor = self.wants_factor;
+        }
     }
 
     fn notes(&mut self) -> Vec<Note> {
@@ -412,20 +439,25 @@ impl Multigrid {
             }),
             (Some(grid), Some(Way::Grid)) => {
                 let residual = &mut self.residual;
-                let mut outcome = grid.solve(kept, values, rhs, x, wanted, residual)?;
-                if matches!(outcome, Err(Why::Slow { .. })) && grid.start.is_in_use {
-                    // where the stiffness has changed here and there, that of the start may not serve
-                    self.notes.extend(grid.make_anew(kept, values));
-                    outcome = grid.solve(kept, values, rhs, x, wanted, residual)?;
-                }
-                let why = match outcome {
-                    Ok(report) => return Ok(report),
-                    Err(why) => why,
+                let mut lost = 0;
+                let why = loop {
+                    let why = match grid.solve(kept, values, rhs, x, wanted, residual)? {
+                        Ok(report) => return Ok(report.after(lost)),
+                        Err(why) => why,
+                    };
+                    let Why::Slow { iterations } = why else {
+                        break why;
+                    };
+                    lost += iterations;
+                    if !grid.improve(kept, values, why, &mut self.notes)? {
+                        break why;
+                    }
                 };
                 self.notes.push(Note::Direct { why });
                 grid.has_failed = true;
                 self.go_direct(values)?;
-                self.direct.solve(values, rhs, x, rtol)
+                let report = self.direct.solve(values, rhs, x, rtol)?;
+                Ok(report.after(lost))
             }
             _ => self.direct.solve(values, rhs, x, rtol),
         }
@@ -450,6 +482,8 @@ impl Grid {
         let mut grid = Self {
             fine,
             hierarchy: None,
+            factor: BodyFactor::new(),
+            has_factor: false,
             source: 0,
             is_proven: false,
             springs: Vec::new(),
@@ -484,6 +518,7 @@ impl Grid {
     fn forget(&mut self) {
         (self.is_proven, self.has_failed) = (false, false);
         (self.base, self.worn) = (None, 0);
+        self.factor.expire();
         self.block.forget();
     }
 
@@ -632,6 +667,57 @@ impl Grid {
         note
     }
 
+    /// Takes a better preconditioner for the bodies, where there is one: a hierarchy, or a factor, of the present values.
+    ///
+    /// # Errors
+    /// Those of the direct solver.
+    fn improve(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        why: Why,
+        notes: &mut Vec<Note>,
+    ) -> Result<bool, LinearError> {
+        if self.start.is_in_use {
+            // where the stiffness has changed here and there, that of the start may not serve
+            notes.extend(self.make_anew(kept, values));
+            return Ok(true);
+        }
+        self.factor.expire();
+        self.factorize(kept, values, why, notes)
+    }
+
+    /// Makes a factor of the bodies where that at hand does not serve, and lets it stand for the hierarchy. Answers whether
+    /// there is a new one.
+    ///
+    /// # Errors
+    /// Those of the direct solver but `Singular`.
+    fn factorize(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        why: Why,
+        notes: &mut Vec<Note>,
+    ) -> Result<bool, LinearError> {
+        if kept.is_definite() {
+            // that of everything is no larger
+            return Ok(false);
+        }
+        // its memory serves the factor
+        (self.hierarchy, self.start) = (None, Start::default());
+        match self.factor.update(kept, values, &self.fine) {
+            Ok(is_new) => {
+                if !std::mem::replace(&mut self.has_factor, true) {
+                    let numbers = self.factor.numbers();
+                    notes.push(Note::Factor { numbers, why });
+                }
+                Ok(is_new)
+            }
+            Err(LinearError::Singular { .. }) => Ok(false),
+            Err(other) => Err(other),
+        }
+    }
+
     /// Takes the values of a tangent; false where they do not suit.
     fn update(
         &mut self,
@@ -639,8 +725,18 @@ impl Grid {
         values: &Values,
         notes: &mut Vec<Note>,
     ) -> Result<bool, LinearError> {
-        notes.extend(self.renew(kept, values));
+        if !self.has_factor {
+            notes.extend(self.renew(kept, values));
+        }
+        if self.hierarchy.is_none() {
+            self.factorize(kept, values, Why::NotPositive, notes)?;
+        }
         let why = match &mut self.hierarchy {
+            None if self.factor.is_there() => match self.block.update(kept, values) {
+                Ok(()) => return Ok(true),
+                Err(LinearError::Singular { .. }) => Why::Interface,
+                Err(other) => return Err(other),
+            },
             None => Why::NotPositive,
             Some(hierarchy) => {
                 let (block, fine) = (&mut self.block, &self.fine);
@@ -750,6 +846,10 @@ impl Grid {
 
     /// Keeps count of how well the hierarchy serves, by its iterations to this part of a residual or an error.
     fn judge(&mut self, part: f64, iterations: usize) {
+        if self.has_factor {
+            self.factor.judge(iterations);
+            return;
+        }
         let rate = iterations as f64 / (-part.log10()).max(1.0);
         self.rate = rate;
         let base = *self.base.get_or_insert(rate.max(LEAST));
@@ -775,7 +875,7 @@ impl Kept {
     }
 
     /// Whether a raw dof is a multiplier that is solved for.
-    fn is_multiplier(&self, dof: usize) -> bool {
+    pub(super) fn is_multiplier(&self, dof: usize) -> bool {
         let equation = self.equation.get(dof).filter(|&&e| e != NONE);
         let sign = equation.and_then(|&e| self.sign.get(e as usize));
         sign.is_some_and(|&sign| sign < 0)
@@ -799,6 +899,14 @@ pub(super) fn suits(problem: &Problem, least: [usize; 2]) -> bool {
         && problem.nequation >= least
         && problem.coordinates.len() == problem.bulk.nrow()
         && !has_shared(problem)
+}
+
+/// The size of the factor at the interface of a problem.
+///
+/// # Errors
+/// `TooLarge`.
+pub(super) fn size_of_block(kept: &Kept) -> Result<Factor, LinearError> {
+    InterfaceBlock::size(kept)
 }
 
 /// Whether dofs share an equation.
@@ -835,16 +943,12 @@ impl Operators for OneGrid<'_> {
     fn precondition(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError> {
         let Grid {
             hierarchy,
+            factor,
             block,
             numbers,
             work,
             ..
         } = &mut *self.grid;
-        let Some(hierarchy) = hierarchy else {
-            return Err(LinearError::Order {
-                before: "factorize",
-            });
-        };
         let has_block = !block.whole.is_empty();
         let two_sided = has_block && self.symmetric;
         if two_sided {
@@ -852,17 +956,22 @@ impl Operators for OneGrid<'_> {
             block.before(&mut work.right)?;
         }
         let right = if two_sided { &work.right } else { r };
-        // single precision has few powers of ten
-        let size = largest(right);
-        let scale = if size > 0.0 { size } else { 1.0 };
-        fill(&mut work.b, &numbers.of_row, |row| {
-            row.map(|e| (right.get(e as usize).copied().unwrap_or(0.0) / scale) as f32)
-        });
-        hierarchy.cycle(&work.b, &mut work.x);
-        let x = work.x.as_flattened();
-        fill(z, &numbers.fine, |&unknown| {
-            f64::from(x.get(unknown as usize).copied().unwrap_or(0.0)) * scale
-        });
+        match hierarchy {
+            Some(hierarchy) => {
+                // single precision has few powers of ten
+                let size = largest(right);
+                let scale = if size > 0.0 { size } else { 1.0 };
+                fill(&mut work.b, &numbers.of_row, |row| {
+                    row.map(|e| (right.get(e as usize).copied().unwrap_or(0.0) / scale) as f32)
+                });
+                hierarchy.cycle(&work.b, &mut work.x);
+                let x = work.x.as_flattened();
+                fill(z, &numbers.fine, |&unknown| {
+                    f64::from(x.get(unknown as usize).copied().unwrap_or(0.0)) * scale
+                });
+            }
+            None => factor.apply(right, &numbers.of_row, &numbers.fine, z)?,
+        }
         if has_block {
             block.after(r, z)?;
         }

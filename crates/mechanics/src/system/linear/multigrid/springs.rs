@@ -14,7 +14,6 @@
 //! slips has a small row, and what is open none.
 
 use super::super::{Kept, Values};
-use super::aggregation::MODES;
 use super::blocks::Blocks;
 use super::fine::Fine;
 use super::packed::Packed;
@@ -58,6 +57,15 @@ impl<const N: usize> Springs<N> {
 /// The rows of all multipliers over the finest level, in units of springs about as stiff as the node that each acts on
 /// most; `None` where there are none.
 pub(super) fn rows(kept: &Kept, values: &Values, fine: &Fine) -> Option<Rows<3>> {
+    rows_and_strengths(kept, values, fine).0
+}
+
+/// The same with the sum of the diagonal of `cᵀ c` for the row of each multiplier that acts, by its raw dof.
+pub(super) fn rows_and_strengths(
+    kept: &Kept,
+    values: &Values,
+    fine: &Fine,
+) -> (Option<Rows<3>>, Vec<(usize, f64)>) {
     let nbulk = 3 * kept.bulk.nrow();
     let interface = |dof: usize| {
         let ends = kept.interface.row_start.get(dof..dof + 2);
@@ -100,15 +108,19 @@ pub(super) fn rows(kept: &Kept, values: &Values, fine: &Fine) -> Option<Rows<3>>
         value: Vec::new(),
     };
     let mut group: Vec<(u32, usize, usize, f64)> = Vec::new();
+    let mut strengths = Vec::with_capacity(acting.len());
     for dofs in acting.chunks(GROUP) {
         group.clear();
         for (k, &(dof, unit)) in dofs.iter().enumerate() {
+            let mut strength = 0.0;
             for (column, value) in interface(dof).filter(|(c, v)| *c < nbulk && **v != 0.0) {
                 let row = fine.row(column / 3);
                 if row != NONE && kept.is_free(column) {
                     group.push((row, k, column % 3, unit * value));
+                    strength += (unit * value).powi(2);
                 }
             }
+            strengths.push((dof, strength));
         }
         group.sort_unstable_by_key(|&(row, ..)| row);
         for of_row in group.chunk_by(|a, b| a.0 == b.0) {
@@ -121,7 +133,7 @@ pub(super) fn rows(kept: &Kept, values: &Values, fine: &Fine) -> Option<Rows<3>>
         }
         all.start.push(all.column.len());
     }
-    Some(all).filter(|all| !all.column.is_empty())
+    (Some(all).filter(|all| !all.column.is_empty()), strengths)
 }
 
 /// Makes springs no stiffer than `STIFFEST` allows beside this diagonal.
@@ -191,7 +203,7 @@ pub(super) fn projected<const N: usize, const M: usize>(
 }
 
 /// `Cᵀ C`
-pub(super) fn stiffness(rows: &Rows<MODES>) -> Blocks<MODES, MODES> {
+pub(super) fn stiffness<const N: usize>(rows: &Rows<N>) -> Blocks<N, N> {
     let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let nrow = rows.nrow();
     let unit = Blocks {
@@ -205,6 +217,7 @@ pub(super) fn stiffness(rows: &Rows<MODES>) -> Blocks<MODES, MODES> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::aggregation::MODES;
     use super::*;
 
     /// Two blocks of rows over three places; the second place has no diagonal along the last axis.
