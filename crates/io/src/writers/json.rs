@@ -72,6 +72,8 @@ pub enum Event {
         closed: u64,
         /// Rows whose status changed.
         flips: u64,
+        /// Iterations of the linear solver in the solve before.
+        linear: u64,
     },
     /// A converged increment.
     Increment {
@@ -319,6 +321,12 @@ pub struct StepSummary {
     pub iterations: u64,
     /// Attempts that were given up.
     pub cutbacks: u64,
+    /// Iterations of the linear solver.
+    #[serde(default)]
+    pub linear_iterations: u64,
+    /// How often iterations of the linear solver gave way to a direct solution.
+    #[serde(default)]
+    pub fallbacks: u64,
 }
 
 /// What the audit found in a [`Summary`].
@@ -500,6 +508,8 @@ mod tests {
                 increments: 6,
                 iterations: 31,
                 cutbacks: 0,
+                linear_iterations: 97,
+                fallbacks: 1,
             }],
             contacts: [(
                 "ball-block".into(),
@@ -589,6 +599,7 @@ mod tests {
                     correction: 0.0,
                     closed: 0,
                     flips: 0,
+                    linear: 0,
                 },
                 "iteration",
             ),
@@ -721,7 +732,7 @@ mod tests {
         );
         assert_eq!(
             keys(&value["steps"][0]),
-            "cutbacks increments iterations name"
+            "cutbacks fallbacks increments iterations linear_iterations name"
         );
         assert_eq!(
             keys(&value["contacts"]["ball-block"]),

@@ -23,6 +23,8 @@ pub struct IterationRecord {
     pub correction: f64,
     /// Energy norm of the residual that the solve before removed, `√|du·r|`; 0 before the first.
     pub decrement: f64,
+    /// Iterations of the linear solver in the solve before; 0 before the first.
+    pub linear_iterations: usize,
     /// The multiple of the Newton step taken by the solve before; 1 before the first.
     pub line_search: f64,
     /// Rows that act: closed contacts.

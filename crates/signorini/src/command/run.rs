@@ -189,6 +189,12 @@ pub fn joined(mut first: Diagnostics, second: Diagnostics) -> Diagnostics {
 fn timings(finished: &Finished) {
     let console = Console::stderr();
     for (phase, seconds) in &finished.summary.time {
-        console.line(&format!("  {phase:<8}{seconds:>9.3} s"));
+        console.line(&format!("  {phase:<10}{seconds:>9.3} s"));
     }
+    let steps = &finished.summary.steps;
+    let iterations: u64 = steps.iter().map(|step| step.linear_iterations).sum();
+    let fallbacks: u64 = steps.iter().map(|step| step.fallbacks).sum();
+    console.line(&format!(
+        "  {iterations} linear iterations, {fallbacks} times given way to a direct solution"
+    ));
 }

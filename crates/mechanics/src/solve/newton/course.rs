@@ -223,14 +223,9 @@ impl Course {
         (self.step.correction, self.step.is_measure) = (0.0, false);
     }
 
-    /// A step was taken.
-    pub fn stepped(&mut self, alpha: f64, correction: f64, decrement: f64) {
-        self.step = LastStep {
-            correction,
-            is_measure: true,
-            alpha,
-            decrement,
-        };
+    /// This step was taken.
+    pub fn stepped(&mut self, step: LastStep) {
+        self.step = step;
         self.moves_nodes = false;
         self.is_released = false;
         self.iterations += 1;
@@ -338,14 +333,20 @@ mod tests {
             extrapolated: false,
         };
         let mut course = Course::new(20, &start, false, None);
-        course.stepped(1.0, 0.1, 0.0);
+        let step = LastStep {
+            correction: 0.1,
+            is_measure: true,
+            alpha: 1.0,
+            ..LastStep::default()
+        };
+        course.stepped(step);
         let released = |solve| Released {
             said: (String::new(), Vec::new()),
             solve,
         };
         assert!(course.released(released(false)) && course.step.is_measure);
         assert!(course.released(released(false)) && !course.step.is_measure);
-        course.stepped(1.0, 0.1, 0.0);
+        course.stepped(step);
         assert!(course.released(released(true)) && !course.step.is_measure);
         assert!((3..MAX_AUGMENTATIONS).all(|_| course.released(released(true))));
         assert!(!course.released(released(true)));

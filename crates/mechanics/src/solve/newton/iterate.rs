@@ -24,6 +24,8 @@ pub(super) struct LastStep {
     pub alpha: f64,
     /// √|du·r|, of the whole Newton step.
     pub decrement: f64,
+    /// Iterations of the linear solver.
+    pub linear_iterations: usize,
 }
 
 /// An iterate, judged.
@@ -147,6 +149,7 @@ mod tests {
                 is_measure: true,
                 alpha: 1.0,
                 decrement: 0.0,
+                linear_iterations: 0,
             },
             moves_nodes: false,
             moved: 1.0,

@@ -419,6 +419,7 @@ const fn record(course: &Course, iterate: &Iterate, place: Place) -> IterationRe
         worst: iterate.judgement.worst,
         correction: iterate.step.correction,
         decrement: iterate.step.decrement,
+        linear_iterations: iterate.step.linear_iterations,
         line_search: iterate.step.alpha,
         closed: iterate.closed,
         flips: iterate.flips,

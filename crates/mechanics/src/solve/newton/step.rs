@@ -1,7 +1,7 @@
 //! One step: the linear solve, and how far it goes.
 
 use super::course::Course;
-use super::iterate::{Iterate, is_small};
+use super::iterate::{Iterate, LastStep, is_small};
 use super::{Failure, LineSearch, Newton, largest};
 use crate::solve::equations::{Accuracy, Factor};
 use crate::solve::line_search;
@@ -64,7 +64,13 @@ impl Newton {
             Order::Tangent
         };
         let alpha = self.advance(system, motion, next, course.iterations + 1)?;
-        course.stepped(alpha, alpha * size, decrement);
+        course.stepped(LastStep {
+            correction: alpha * size,
+            is_measure: true,
+            alpha,
+            decrement,
+            linear_iterations: self.equations.iterations,
+        });
         Ok(())
     }
 

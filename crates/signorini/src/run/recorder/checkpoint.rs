@@ -95,7 +95,15 @@ impl Recorder<'_> {
             } = frd.mark();
             archive.put_u64("run/frd", &[length, nframe, ndataset])?;
         }
-        let of_step = |s: &StepSummary| [s.increments, s.iterations, s.cutbacks];
+        let of_step = |s: &StepSummary| {
+            [
+                s.increments,
+                s.iterations,
+                s.cutbacks,
+                s.linear_iterations,
+                s.fallbacks,
+            ]
+        };
         let mut counts = vec![self.counts.increments];
         counts.extend(self.counts.steps.iter().flat_map(of_step));
         archive.put_u64("run/counts", &counts)?;

@@ -116,10 +116,10 @@ impl Opened {
         from.copy_u64("run/rows", &mut rows)?;
         let [history, convergence, attempts, events] = rows;
         let frames = from.get_f64("run/frames")?.to_vec();
-        let mut numbers = vec![0; 1 + 3 * setting.steps.len()];
+        let mut numbers = vec![0; 1 + 5 * setting.steps.len()];
         from.copy_u64("run/counts", &mut numbers)?;
         let (increments, of_steps) = numbers.split_first().unwrap_or((&0, &[]));
-        let steps = setting.steps.iter().zip(of_steps.chunks_exact(3));
+        let steps = setting.steps.iter().zip(of_steps.chunks_exact(5));
         let counts = Counts {
             increments: *increments,
             steps: steps
@@ -128,6 +128,8 @@ impl Opened {
                     increments: n.first().copied().unwrap_or(0),
                     iterations: n.get(1).copied().unwrap_or(0),
                     cutbacks: n.get(2).copied().unwrap_or(0),
+                    linear_iterations: n.get(3).copied().unwrap_or(0),
+                    fallbacks: n.get(4).copied().unwrap_or(0),
                 })
                 .collect(),
             frames,

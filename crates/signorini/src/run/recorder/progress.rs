@@ -20,6 +20,7 @@ impl Recorder<'_> {
             self.flips += u64::from(record.flips > 0);
             if let Some(step) = self.counts.steps.get_mut(record.step) {
                 step.iterations += 1;
+                step.linear_iterations += record.linear_iterations as u64;
             }
         }
         // a state is judged again where terms let go of something
@@ -56,6 +57,7 @@ impl Recorder<'_> {
             correction: record.correction,
             closed: record.closed as u64,
             flips: record.flips as u64,
+            linear: record.linear_iterations as u64,
         };
         self.tell(&event, Detail::Iteration(record));
     }
@@ -118,6 +120,9 @@ impl Recorder<'_> {
     }
 
     pub(super) fn solver(&mut self, step: usize, increment: usize, note: &Note) {
+        if let (Note::Direct { .. }, Some(counts)) = (note, self.counts.steps.get_mut(step)) {
+            counts.fallbacks += 1;
+        }
         let event = Event::Solver {
             step: self.step_name(step),
             inc: increment as u64,
