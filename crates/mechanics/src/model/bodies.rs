@@ -350,4 +350,44 @@ mod tests {
         assert_eq!(count, 12 + 6 + 12);
         assert!(between(&mesh, &bodies[2..3]).is_empty());
     }
+
+    /// Nodes of a block, turned by 0.7 about an axis that is none of its own.
+    fn block(size: [f64; 3], n: [usize; 3]) -> Vec<Vec3> {
+        let (s, c) = 0.7f64.sin_cos();
+        let turned = |x: Vec3| {
+            let y = Vec3::new(x.x, c * x.y - s * x.z, s * x.y + c * x.z);
+            Vec3::new(c * y.x - s * y.y, s * y.x + c * y.y, y.z)
+        };
+        let place = |k: usize, a: usize| size[a] * (k as f64 / n[a] as f64 - 0.3);
+        let mut all = Vec::new();
+        for i in 0..=n[0] {
+            for j in 0..=n[1] {
+                let along = (0..=n[2]).map(|k| Vec3::new(place(i, 0), place(j, 1), place(k, 2)));
+                all.extend(along.map(turned));
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn bending_is_that_of_a_beam_held_at_one_end_however_it_lies() {
+        for size in [[20.0, 1.0, 2.0], [3.0, 30.0, 30.0], [1.0, 1.0, 1.0]] {
+            let mut extents = size;
+            extents.sort_unstable_by(f64::total_cmp);
+            let [a, b, c] = extents;
+            // 3 E I/c³ with I = b a³/12, over E c
+            let expected = b * a.powi(3) / (4.0 * c.powi(4));
+            let found = bending(&block(size, [24; 3]), 3);
+            // nodes at faces stand for half a cell beyond them
+            assert!(
+                (found / expected - 1.0).abs() < 0.2,
+                "{size:?}: {found} {expected}"
+            );
+        }
+        let flat = block([10.0, 1.0, 0.0], [40, 24, 1]);
+        let expected = 0.25 * 0.1f64.powi(3);
+        assert!((bending(&flat, 2) / expected - 1.0).abs() < 0.2);
+        assert_eq!(bending(&[], 3), 1.0);
+        assert_eq!(bending(&[Vec3::ZERO], 3), 1.0);
+    }
 }

@@ -745,6 +745,36 @@ fn thin_plates_are_solved_by_a_factor_of_the_bodies_for_good() {
 }
 
 #[test]
+fn a_forecast_counts_the_interface_and_what_takes_over() {
+    let placed = plates([36, 24, 2], 1);
+    let assembled = placed.system.assemble();
+    let problem = placed.problem(&assembled);
+    let forecast = Forecast::new(&problem, LinearKind::Multigrid).unwrap();
+    let Path::Multigrid { nbulk, block } = forecast.path else {
+        panic!("{forecast:?}");
+    };
+    assert_eq!(nbulk, problem.bulk.nvalue());
+    let mut solver = Multigrid::new();
+    solve(&placed, &mut solver);
+    // the block takes in nodes around where these are not too many
+    assert!(block.nequation <= solver.nblock() && 3 * block.nequation > solver.nblock());
+    let numbers = solver.notes().into_iter().find_map(|note| match note {
+        Note::Factor { numbers, .. } => Some(numbers as f64),
+        _ => None,
+    });
+    let foreseen = forecast.fallback.unwrap().nfactor as f64;
+    assert!(
+        (foreseen / numbers.unwrap() - 1.0).abs() < 0.3,
+        "{foreseen} {numbers:?}"
+    );
+    assert!(forecast.bytes_of_fallback().unwrap() > 8.0 * foreseen);
+    let direct = Forecast::new(&problem, LinearKind::Direct).unwrap();
+    // multipliers are condensed
+    assert!(matches!(direct.path, Path::Direct(factor) if factor.nequation < forecast.nequation));
+    assert!(direct.fallback.is_none() && direct.bytes() > 0.0);
+}
+
+#[test]
 fn a_factor_of_the_bodies_follows_what_multipliers_hold_together() {
     let mut solver = Multigrid::new();
     solver.recall(1);
