@@ -210,12 +210,11 @@ pub fn closest(
     let first = &first[..count];
     let others = near.iter().filter(|facet| !first.contains(facet));
     for &facet in first.iter().chain(others) {
-        let bound = best
-            .as_ref()
-            .map_or(f64::INFINITY, |(b, tie)| b.distance + tie);
-        let bound = bound.min(reach(facet));
-        if surface.aabb(at, facet).distance_squared(point) > bound * bound {
-            continue;
+        if let Some((b, tie)) = &best {
+            let reach = b.distance + tie;
+            if surface.aabb(at, facet).distance_squared(point) > reach * reach {
+                continue;
+            }
         }
         if own.is_some_and(|own| !own.may_meet(facet)) {
             continue;
@@ -232,8 +231,9 @@ pub fn closest(
         let tie = TIE * (jet.metric[0].max(jet.metric[1])).sqrt();
         let better = best.as_ref().is_none_or(|(b, tie)| {
             let closer = b.distance - found.distance;
-            // of facets that are as close, that with the lower number, whichever was looked at first
-            let of = |p: &Projection| (rank(&p.feature), p.anchor.facet);
+            // of facets that are as close, the first of those near, whichever was looked at first
+            let place = |p: &Projection| near.iter().position(|f| *f == p.anchor.facet);
+            let of = |p: &Projection| (rank(&p.feature), place(p));
             closer > *tie || (closer >= -tie && of(&found) < of(b))
         });
         if better {
