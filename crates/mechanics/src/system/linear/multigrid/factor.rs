@@ -14,7 +14,7 @@
 
 use super::super::{Direct, Kept, LinearError, LinearSolver, Problem, Symmetry, Values};
 use super::blocks::Blocks;
-use super::fine::Fine;
+use super::fine::{Fine, stiffen};
 use super::springs::Rows;
 use super::{alone, fill, springs};
 use crate::system::sparsity::{BlockPattern, Pattern};
@@ -179,15 +179,7 @@ impl BodyFactor {
 fn stiffness(kept: &Kept, values: &Values, fine: &Fine, rows: Option<&Rows<3>>) -> Blocks<3, 3> {
     let mut matrix = fine.matrix(kept, values);
     alone::add(kept, values, fine, &mut matrix);
-    for &row in &fine.floating {
-        let range = matrix.range(row as usize);
-        let Ok(at) = matrix.column[range.clone()].binary_search(&row) else {
-            continue;
-        };
-        let block = &mut matrix.value[range.start + at];
-        let mean = (0..3).map(|i| block[i][i]).sum::<f64>() / 3.0;
-        (0..3).for_each(|i| block[i][i] += GROUND * mean);
-    }
+    stiffen(&mut matrix, &fine.floating, GROUND);
     match rows {
         Some(rows) => matrix.plus(&springs::stiffness(rows)),
         None => matrix,

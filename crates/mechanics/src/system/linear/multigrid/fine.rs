@@ -249,7 +249,11 @@ impl Corners {
 /// a hierarchy can tell from others. Together they are about as stiff as what the body rests on: E times the diameter of
 /// the contact, where a node has E times the size of an element.
 pub(super) fn hold(matrix: &mut Blocks<3, 3>, rows: &[u32]) {
-    let part = SPRING / (rows.len().max(1) as f64).sqrt();
+    stiffen(matrix, rows, SPRING / (rows.len().max(1) as f64).sqrt());
+}
+
+/// Springs to the ground at these rows, of this part of the mean stiffness of their nodes.
+pub(super) fn stiffen(matrix: &mut Blocks<3, 3>, rows: &[u32], part: f64) {
     for &row in rows {
         let range = matrix.range(row as usize);
         let Ok(at) = matrix.column[range.clone()].binary_search(&row) else {
