@@ -38,6 +38,17 @@ pub const TWO_BODIES: &str =
     "[[body]]\ngroup = \"low\"\nmaterial = \"m\"\n[[body]]\ngroup = \"high\"\nmaterial = \"m\"";
 /// Keeps the head of the upper block from moving sideways.
 pub const GUIDED: &str = "[[step.fix]]\non = \"high_top\"\nu = [\"x\"]\n";
+/// Moves the head of the upper block onto the lower one.
+pub const HEAD_MOVED: &str = "[[step.move]]\non = \"high_top\"\nux = 0\nuy = -0.05\n";
+
+/// The upper block, pressed onto the lower one.
+pub fn pressed() -> String {
+    Blocks {
+        steps: HEAD_MOVED,
+        ..BLOCKS
+    }
+    .text()
+}
 
 struct Grid {
     name: &'static str,

@@ -1,11 +1,9 @@
 //! Keys of a contact that do not go together, exit code 4. Most are refused where the case is read; the other refusals of
 //! the model are tested next to it, in `signorini_mechanics::model::contact::sides`.
 
-use super::blocks::{BLOCKS, Blocks};
+use super::blocks::{BLOCKS, Blocks, HEAD_MOVED};
 use super::trial::{Remedy, Trial};
 use crate::support::change;
-
-const HEAD_MOVED: &str = "[[step.move]]\non = \"high_top\"\nux = 0\nuy = -0.05\n";
 
 /// Node against node, with a side that is no whole face.
 fn bare(side: &str, nodes: &str, keys: &'static str) -> String {

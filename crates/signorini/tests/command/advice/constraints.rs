@@ -1,10 +1,9 @@
 //! Constraints that cannot be made of their nodes, exit code 4.
 
-use super::blocks::{BLOCKS, Blocks};
+use super::blocks::{BLOCKS, Blocks, HEAD_MOVED};
 use super::trial::{Remedy, Trial};
 use crate::support::change;
 
-const HEAD_MOVED: &str = "[[step.move]]\non = \"high_top\"\nux = 0\nuy = -0.05\n";
 const PILOT: &str = "[reference.pilot]\nat = [1.45, 1]\n";
 
 /// Blocks with a constraint on the set `some`.

@@ -1,10 +1,8 @@
 //! Loads that cannot act, exit code 4.
 
-use super::blocks::{BLOCKS, Blocks};
+use super::blocks::{BLOCKS, Blocks, HEAD_MOVED};
 use super::trial::{Remedy, Trial};
 use crate::support::change;
-
-const HEAD_MOVED: &str = "[[step.move]]\non = \"high_top\"\nux = 0\nuy = -0.05\n";
 
 fn loaded(load: &str) -> Blocks {
     let steps = format!("{HEAD_MOVED}[[step.load]]\n{load}");

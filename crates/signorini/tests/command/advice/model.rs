@@ -1,22 +1,13 @@
 //! Models that are ill-posed, exit code 4, and warnings that they may be.
 
-use super::blocks::{BLOCKS, Blocks, GUIDED, TWO_BODIES};
+use super::blocks::{BLOCKS, Blocks, GUIDED, HEAD_MOVED, TWO_BODIES, pressed};
 use super::trial::{Remedy, Trial};
 use crate::audit::WEDGE;
 use crate::support::change;
 
 /// A load on the head.
 const LOAD: &str = "[[step.load]]\non = \"high_top\"\nforce = [0, -1, 0]\n";
-const HEAD_MOVED: &str = "[[step.move]]\non = \"high_top\"\nux = 0\nuy = -0.05\n";
 const BASE_FIXED: &str = "[[step.fix]]\non = \"low_bottom\"\nu = \"all\"\n";
-
-fn pressed() -> String {
-    Blocks {
-        steps: HEAD_MOVED,
-        ..BLOCKS
-    }
-    .text()
-}
 
 #[test]
 fn a_body_that_nothing_holds() {

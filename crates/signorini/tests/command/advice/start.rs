@@ -1,21 +1,12 @@
 //! Meshes that cannot be used, exit code 4, and what is worth knowing about sides at the start.
 
-use super::blocks::{BLOCKS, Blocks};
+use super::blocks::{BLOCKS, Blocks, HEAD_MOVED, pressed};
 use super::trial::{Remedy, Trial};
 use crate::support::change;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
-const HEAD_MOVED: &str = "[[step.move]]\non = \"high_top\"\nux = 0\nuy = -0.05\n";
 const AT_TOP: &str = "format = 1";
-
-fn pressed() -> String {
-    Blocks {
-        steps: HEAD_MOVED,
-        ..BLOCKS
-    }
-    .text()
-}
 
 #[test]
 fn elements_without_a_volume() {
