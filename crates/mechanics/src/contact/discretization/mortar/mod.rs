@@ -474,8 +474,12 @@ impl Mortar {
         }
         let mut taken = Vec::new();
         for at @ &(facet, place) in self.around[row].iter().filter(|(f, _)| is_met(*f)) {
-            let beside = hosts_on(at);
-            let hosts = if beside.is_empty() { &near } else { &beside };
+            let adjacent = hosts_on(at);
+            let hosts = if adjacent.is_empty() {
+                &near
+            } else {
+                &adjacent
+            };
             let share = 1.0 / hosts.len() as f64;
             taken.extend(hosts.iter().map(|&host| (host, (facet, place, share))));
         }

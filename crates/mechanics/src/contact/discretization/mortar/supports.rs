@@ -4,7 +4,7 @@
 //! side. Where that is held there, too, as at the common end of two beams, all that is left of the row are small weights of
 //! both signs, since the dual function has no mean over the motion of the facet. They make a gap that is open everywhere
 //! negative, and only a pressure hundreds of times the load closes it, most of which goes from support to support. Such a
-//! row hands its function over to the rows beside it, as those of joints do; a uniform pressure still acts everywhere.
+//! row hands its function over to adjacent rows, as those of joints do; a uniform pressure still acts everywhere.
 //!
 //! Source: Wohlmuth, *SIAM J. Numer. Anal.* 38 (2000) 989–1012 (multipliers at Dirichlet boundaries).
 
