@@ -3,13 +3,14 @@
 //! ```text
 //!   Definite   ──▶ L Lᵀ ──pivot ≤ 0──▶ L D Lᵀ ──residual stays──▶ LU
 //!   Symmetric  ──────────────────────▶ L D Lᵀ ──residual stays──▶ LU
-//!   Unsymmetric ──▶ LU by fronts ──no pivot, or residual stays───▶ LU
+//!   Unsymmetric ──▶ LU by fronts ──────────────residual stays────▶ LU
 //! ```
 //!
 //! The order and the symbolic factor serve both L Lᵀ and L D Lᵀ: a tangent that turns indefinite under compression
 //! costs no new analysis. After a factor with negative pivots, L D Lᵀ is tried first until they are gone.
 //!
-//! A matrix with a nearly cancelled pivot, and every LU, is examined for free motions.
+//! A matrix with a nearly cancelled pivot, and every LU, is examined for free motions. Where fronts replaced pivots, a
+//! solution with a scattered right-hand side shows whether refinement makes up for them.
 
 use super::cholesky::Cholesky;
 use super::fronts::{Fronts, Precision};
@@ -23,6 +24,11 @@ use faer::Par;
 const THREADS_FROM: usize = 30_000;
 /// The largest symmetric system for which LU is tried when L D Lᵀ fails: its memory grows fast.
 const LU_UP_TO: usize = 60_000;
+
+/// The residual of a scattered right-hand side that a factor with replaced pivots has to reach.
+const WITHOUT_PIVOTS: f64 = 1e-10;
+/// Multiples of it scatter over 0 to 1: the inverse of the golden ratio.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The direct solver.
 ///
@@ -58,6 +64,8 @@ struct Factors {
     /// The groups of equations whose order the fronts have, and whether the values that told them are forgotten.
     groups: Vec<u32>,
     is_order_old: bool,
+    /// Whether values like those at hand lack pivots in the order that was found for them: another search would not help.
+    is_order_poor: bool,
     lu: Option<Lu>,
     active: Active,
 }
@@ -293,6 +301,7 @@ impl Analysis {
                 fronts: None,
                 groups: Vec::new(),
                 is_order_old: false,
+                is_order_poor: false,
                 lu: None,
                 active: Active::None,
             },
@@ -336,6 +345,9 @@ impl Analysis {
             cholesky.is_suspicious()
         } else if let Some(is_suspicious) = self.factorize_fronts()? {
             self.factors.active = Active::Fronts;
+            if self.factors.lacks_pivots() && !self.solves(values)? {
+                return self.factorize_lu();
+            }
             is_suspicious
         } else {
             return self.factorize_lu();
@@ -348,7 +360,7 @@ impl Analysis {
     }
 
     /// Factorizes by fronts, if need be in an order that suits the values at hand better. Answers whether some pivot was
-    /// all but cancelled; nothing where one was not there.
+    /// all but cancelled; nothing where numbers are not finite, or there is no memory.
     fn factorize_fronts(&mut self) -> Result<Option<bool>, LinearError> {
         let Gathered { kept, matrix, .. } = &self.gathered;
         for _ in 0..2 {
@@ -373,21 +385,36 @@ impl Analysis {
                     }
                 }
             };
-            let mut is_done = fronts.change(self.precision) && fronts.factorize(matrix);
-            if self.precision == Precision::Single && (!is_done || fronts.is_suspicious()) {
-                self.precision = Precision::Double;
-                is_done = fronts.change(self.precision) && fronts.factorize(matrix);
+            if !(fronts.change(self.precision) && fronts.factorize(matrix)) {
+                if is_new {
+                    break;
+                }
+                continue;
             }
-            if is_done {
+            let lacks_pivots = fronts.lacks_pivots();
+            if is_new {
+                self.factors.is_order_poor = lacks_pivots;
+            }
+            if !lacks_pivots || self.factors.is_order_poor {
                 let is_suspicious = fronts.is_suspicious();
                 self.factors.fronts = Some(fronts);
                 return Ok(Some(is_suspicious));
             }
-            if is_new {
-                break;
-            }
         }
         Ok(None)
+    }
+
+    /// Whether refinement makes up for pivots that were replaced: of a singular matrix, it does not.
+    fn solves(&mut self, values: &Values) -> Result<bool, LinearError> {
+        let n = self.gathered.matrix.nequation();
+        let scattered = |e: usize| (e as f64 * GOLDEN).fract() - 0.5;
+        let right: Vec<f64> = (0..n).map(scattered).collect();
+        let mut left = vec![0.0; n];
+        match self.refine(values, &right, &mut left, WITHOUT_PIVOTS) {
+            Ok(report) => Ok(report.residual <= WITHOUT_PIVOTS),
+            Err(LinearError::Inaccurate { .. } | LinearError::NotFinite) => Ok(false),
+            Err(other) => Err(other),
+        }
     }
 
     fn factorize_lu(&mut self) -> Result<(), LinearError> {
@@ -486,6 +513,14 @@ impl Analysis {
 }
 
 impl Factors {
+    /// Whether pivots of the current factor were replaced, in double precision. In single precision, the caller judges the
+    /// factor by [`Direct::leaves`].
+    fn lacks_pivots(&self) -> bool {
+        let is_double = |f: &&Fronts| f.precision() == Precision::Double;
+        let fronts = self.fronts.as_ref().filter(is_double);
+        self.active == Active::Fronts && fronts.is_some_and(Fronts::lacks_pivots)
+    }
+
     /// The Cholesky factor, where it is current.
     fn active_cholesky(&self) -> Option<&Cholesky> {
         self.cholesky

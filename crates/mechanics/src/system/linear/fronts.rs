@@ -13,8 +13,9 @@
 //! ```
 //!
 //! Pivots are chosen in the block w × w alone, so that order and storage are known beforehand; with the order of
-//! [`super::ordering`], which puts a multiplier after a node that it couples with, these blocks are regular in practice.
-//! Where one is not, [`Fronts::factorize`] says so, and factors with free choice of pivots take over.
+//! [`super::ordering`], which puts a multiplier after a node that it couples with, these blocks are regular in most cases.
+//! Where one is not, though the matrix is, pivots that vanish are replaced by ±√ε: the factor is that of a matrix nearby,
+//! whose solutions refinement corrects (static pivoting). [`Fronts::lacks_pivots`] reports it.
 //!
 //! Subtrees without much work are tasks of their own, and above them what is side by side is eliminated at the same time;
 //! sums are formed in an order that does not depend on threads.
@@ -25,7 +26,8 @@
 //! as their largest entry, counts as nothing.
 //!
 //! Source: I. S. Duff and J. K. Reid, The multifrontal solution of unsymmetric sets of linear equations, SIAM J. Sci.
-//! Stat. Comput. 5 (1984) 633–641.
+//! Stat. Comput. 5 (1984) 633–641; X. S. Li and J. W. Demmel, SuperLU_DIST, ACM Trans. Math. Softw. 29 (2003) 110–140,
+//! section 2.1 (static pivoting).
 
 use super::LinearError;
 use super::matrix::Matrix;
@@ -49,11 +51,8 @@ use pulp::Arch;
 use rayon::prelude::*;
 use std::ops::{AddAssign, Div, Mul, Neg, Range, Sub, SubAssign};
 
-/// A pivot below it, in units of the largest entry of its row, is none.
-const VANISHING: f64 = 1e-14;
-/// A pivot below it gives reason to look for free motions; in single precision, to do without that.
+/// A pivot below it, in units of the largest entry of its row, gives reason to look for free motions.
 const SUSPICIOUS: f64 = 1e-8;
-const SUSPICIOUS_IN_SINGLE: f64 = 1e-5;
 /// A subtree with no more than this part of all work is one task of a factorization, where threads share the nodes above.
 const PART: f64 = 1.0 / 32.0;
 /// A subtree with no more than this part of all entries is one task of a solution: each node above waits for the one below.
@@ -91,6 +90,10 @@ trait Number:
 {
     /// What is smaller counts as nothing in a front.
     const SMALLEST: Self;
+    /// A pivot below it, in units of the largest entry of its row, is round-off.
+    const VANISHING: f64;
+    /// It is replaced by this one: the root of the round-off, where errors by the change and by growth are alike.
+    const REPLACEMENT: f64;
 
     fn narrow(value: f64) -> Self;
 
@@ -109,6 +112,8 @@ trait Number:
 
 impl Number for f64 {
     const SMALLEST: Self = 1e-150;
+    const VANISHING: f64 = 1e-14;
+    const REPLACEMENT: f64 = 1.5e-8;
 
     fn narrow(value: f64) -> Self {
         value
@@ -121,6 +126,8 @@ impl Number for f64 {
 
 impl Number for f32 {
     const SMALLEST: Self = 1e-18;
+    const VANISHING: f64 = 1e-6;
+    const REPLACEMENT: f64 = 3.5e-4;
 
     fn narrow(value: f64) -> Self {
         value as Self
@@ -135,7 +142,7 @@ impl Number for f32 {
 pub(super) struct Fronts {
     plan: Plan,
     numbers: Numbers,
-    /// The smallest pivot of the last factorization, in units of the largest entry of its row.
+    /// The smallest pivot of the last factorization before any was replaced, in units of the largest entry of its row.
     smallest: f64,
 }
 
@@ -200,7 +207,7 @@ struct Panel<T> {
     pivot: Vec<u32>,
 }
 
-/// A pivot that is none.
+/// A pivot that is no number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct NoPivot;
 
@@ -338,15 +345,22 @@ impl Fronts {
         is_there
     }
 
-    /// Whether some pivot was all but cancelled, so that the matrix may be singular.
+    /// Whether some pivot was all but cancelled, so that the matrix may be singular. Factors in single precision have too
+    /// few digits to tell.
     pub fn is_suspicious(&self) -> bool {
-        match self.precision() {
-            Precision::Single => self.smallest < SUSPICIOUS_IN_SINGLE,
-            Precision::Double => self.smallest < SUSPICIOUS,
-        }
+        self.precision() == Precision::Double && self.smallest < SUSPICIOUS
     }
 
-    /// Factorizes; false where a block has no pivots.
+    /// Whether pivots were replaced: another order may do better.
+    pub fn lacks_pivots(&self) -> bool {
+        let vanishing = match self.precision() {
+            Precision::Single => f32::VANISHING,
+            Precision::Double => f64::VANISHING,
+        };
+        self.smallest < vanishing
+    }
+
+    /// Factorizes; false where numbers are not finite, or there is no memory.
     pub fn factorize(&mut self, matrix: &Matrix) -> bool {
         let smallest = match &mut self.numbers {
             Numbers::Single(store) => store.factorize(&self.plan, matrix),
@@ -918,7 +932,7 @@ fn flush<T: Number>(block: MatMut<'_, T>) {
     }
 }
 
-/// Factorizes the block of pivots, and exchanges the rows beside it. Returns the smallest pivot.
+/// Factorizes the block of pivots, and exchanges the rows of `upper`. Returns the smallest pivot before it was replaced.
 fn pivots<T: Number>(
     lower: &mut [T],
     upper: &mut [T],
@@ -949,11 +963,15 @@ fn pivots<T: Number>(
     flush(block.as_mut());
     let mut smallest = f64::INFINITY;
     for k in 0..w {
-        let size = block[(k, k)].wide().abs();
-        if size.is_nan() || size < VANISHING {
+        let value = block[(k, k)].wide();
+        let size = value.abs();
+        if !size.is_finite() {
             return Err(NoPivot);
         }
         smallest = smallest.min(size);
+        if size < T::VANISHING {
+            block[(k, k)] = T::narrow(T::REPLACEMENT.copysign(value));
+        }
     }
     if pivot.iter().enumerate().any(|(k, &p)| k != p as usize) {
         for column in upper.chunks_exact_mut(w) {

@@ -137,13 +137,14 @@ impl InterfaceBlock {
             interface: &self.interface_values,
         };
         self.direct.factorize(&values)?;
-        if self.is_exact.is_some() {
+        let is_rough = self.direct.is_rough();
+        if self.is_exact.is_some() && !is_rough {
             return Ok(());
         }
         let signs = [1.0, -1.0, 1.0, 1.0, -1.0];
         let signs = signs.into_iter().cycle();
         self.right.iter_mut().zip(signs).for_each(|(b, s)| *b = s);
-        if self.direct.is_rough() {
+        if is_rough {
             if self.direct.leaves(&self.right) <= ROUGHLY {
                 self.is_exact = Some(true);
                 return Ok(());

@@ -102,7 +102,7 @@ fn another_order_is_found_where_values_change() {
 }
 
 #[test]
-fn blocks_without_pivots_are_left_to_free_choice() {
+fn blocks_without_pivots_are_solved_by_free_choice_or_by_refinement() {
     // pairs of unknowns, each in the equation of the other one's
     let n = 40;
     let mut system = System::new(n, 1, 0, Symmetry::Unsymmetric);
@@ -114,6 +114,58 @@ fn blocks_without_pivots_are_left_to_free_choice() {
     }
     let (_, x) = solve(&system, 1e-12);
     assert!(x.iter().all(|x| x.is_finite()));
+}
+
+/// A grid of blocks of three unknowns each, of which every `period`-th has the rank 1 and is regular by its neighbours alone.
+fn grid_with_singular_blocks(n: usize, period: usize) -> System {
+    let mut system = System::new(n * n, 3, 0, Symmetry::Unsymmetric);
+    system.bulk = (0..n * n).map(|k| (vec![k as u32], vec![0.0; 9])).collect();
+    let mut random = Random(5);
+    for j in 0..n {
+        for i in 0..n {
+            let node = j * n + i;
+            let dofs = |node: usize| (0..3).map(move |c| (3 * node + c) as u32);
+            let mut block = random.vector(9);
+            let is_singular = node % period == 0;
+            for (k, entry) in block.iter_mut().enumerate() {
+                let (row, column) = (k / 3, k % 3);
+                *entry = match is_singular {
+                    true => (row as f64 + 1.0) * (column as f64 - 0.5),
+                    false => *entry + if row == column { 4.0 } else { 0.0 },
+                };
+            }
+            system.interface.push((dofs(node).collect(), block));
+            for (a, b) in [(i + 1, j), (i, j + 1)] {
+                if a < n && b < n {
+                    let both: Vec<u32> = dofs(node).chain(dofs(b * n + a)).collect();
+                    let mut values = random.vector(36);
+                    for (k, entry) in values.iter_mut().enumerate() {
+                        if (k / 6 < 3) == (k % 6 < 3) {
+                            *entry = 0.0;
+                        }
+                    }
+                    system.interface.push((both, values));
+                }
+            }
+        }
+    }
+    system
+}
+
+#[test]
+fn a_singular_block_of_a_regular_matrix_needs_no_free_choice_of_pivots() {
+    for (n, period) in [(6, 36), (9, 40), (12, 37), (15, 50)] {
+        let system = grid_with_singular_blocks(n, period);
+        let (by_fronts, _) = solve(&system, 1e-12);
+        assert!(by_fronts, "{n} x {n} blocks, every {period}-th singular");
+        let assembled = system.assemble();
+        let mut solver = Direct::rough();
+        solver.analyze(&assembled.problem()).unwrap();
+        solver.factorize(&assembled.values()).unwrap();
+        assert!(solver.is_rough());
+        let left = solver.leaves(&signs(assembled.nequation));
+        assert!(left < 0.05, "{n}: {left}");
+    }
 }
 
 /// A right-hand side of ones and minus ones.
@@ -154,7 +206,7 @@ fn factors_in_single_precision_serve_where_they_suffice() {
 }
 
 #[test]
-fn nearly_cancelled_pivots_are_taken_in_double_precision() {
+fn what_a_factor_in_single_precision_leaves_shows_pivots_that_cancel() {
     // pairs of unknowns, of which little is left of the second one
     let n = 40;
     let mut system = System::new(n, 1, 0, Symmetry::Unsymmetric);
@@ -165,6 +217,9 @@ fn nearly_cancelled_pivots_are_taken_in_double_precision() {
     let assembled = system.assemble();
     let mut solver = Direct::rough();
     solver.analyze(&assembled.problem()).unwrap();
+    solver.factorize(&assembled.values()).unwrap();
+    assert!(solver.is_rough() && solver.leaves(&signs(assembled.nequation)) > 0.1);
+    solver.widen();
     solver.factorize(&assembled.values()).unwrap();
     assert!(!solver.is_rough() && !solver.uses_lu());
     assert!(solver.leaves(&signs(assembled.nequation)) < 1e-8);
