@@ -470,10 +470,15 @@ fn saddles_with_a_zero_block_are_solved_in_every_order() {
 
 /// Two blocks on top of each other that slip: a penalty between them, and friction of `mu` times its force.
 fn slipping_blocks(n: [usize; 3], penalty: f64, mu: f64) -> System {
+    slipping_blocks_of([1.0, 20.0], n, penalty, mu)
+}
+
+/// The same with these Young's moduli below and above.
+fn slipping_blocks_of(young: [f64; 2], n: [usize; 3], penalty: f64, mu: f64) -> System {
     let layer = (n[0] + 1) * (n[1] + 1);
     let mut system = System::new(2 * nnode(n), 3, 0, Symmetry::Unsymmetric);
-    add_block(&mut system, n, [1.0; 3], 1.0, 0);
-    add_block(&mut system, n, [1.0; 3], 20.0, nnode(n));
+    add_block(&mut system, n, [1.0; 3], young[0], 0);
+    add_block(&mut system, n, [1.0; 3], young[1], nnode(n));
     let top = 3 * (2 * nnode(n) - layer) as u32;
     system.held = (0..3 * layer as u32)
         .chain(top..system.ndof as u32)

@@ -64,9 +64,12 @@ use rayon::prelude::*;
 
 /// Iterations of one solution, at most.
 const ITERATIONS: usize = 200;
-/// The norm of the residual says less of the error than that of the energy: Newton's method takes fewer steps to find out
-/// what touches where it is this much smaller.
+/// The norm of the residual says less of the error than that of the energy: a residual that is this much smaller is asked
+/// for, and again as long as the preconditioner sees a larger error in it than wanted. Where stiff bodies move soft ones, or
+/// where bodies bend, residuals hide large displacements.
 const STRICTER: f64 = 0.1;
+/// Times that iterations begin for one solution, at most.
+const ATTEMPTS: usize = 4;
 /// A hierarchy is made anew where it takes so many times the iterations that it took when it was new, twice running.
 const WORN: f64 = 1.6;
 /// A hierarchy is made anew where contact holds bodies that float at so many times as many nodes, or the fewer.
@@ -796,11 +799,14 @@ impl Grid {
             Wanted::Part { part, .. } if symmetric => part,
             Wanted::Part { part, .. } => STRICTER * part,
         };
-        for attempt in 0..3 {
+        for attempt in 0..ATTEMPTS {
             let most = ITERATIONS.saturating_sub(report.iterations);
             let stop = match wanted {
                 Wanted::Residual(_) => Stop::Largest(0.5 * part * size),
-                Wanted::Part { enough, .. } => Stop::Part { part, enough },
+                Wanted::Part { enough, .. } => Stop::Part {
+                    part: if attempt == 0 { part } else { STRICTER },
+                    enough,
+                },
             };
             let mut operators = OneGrid {
                 grid: self,
@@ -829,7 +835,13 @@ impl Grid {
                 Wanted::Residual(_) => {
                     report.residual <= part || left <= residual.round_off(kept, values, x)
                 }
-                Wanted::Part { .. } => true,
+                Wanted::Part { .. } if symmetric || count == 0 => true,
+                Wanted::Part { part, .. } => {
+                    let mut error = vec![0.0; x.len()];
+                    operators.precondition(&residual.value, &mut error)?;
+                    report.iterations += 1;
+                    kept.largest_force(&error) <= part * kept.largest_force(x)
+                }
             };
             if done {
                 let part = match wanted {

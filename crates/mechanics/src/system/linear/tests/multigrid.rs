@@ -281,12 +281,12 @@ fn round_contact(n: usize, penalty: f64, clamped: bool) -> Placed {
     placed
 }
 
-/// The right side where the head of the upper block is moved along z.
-fn head_moved(placed: &Placed, assembled: &Assembled) -> Vec<f64> {
+/// The right side where the head of the upper block, at this height, is moved along z.
+fn head_moved_at(height: f64, placed: &Placed, assembled: &Assembled) -> Vec<f64> {
     let head = placed
         .coordinates
         .iter()
-        .map(|x| (x[2] - 64.0).abs() < 1e-6);
+        .map(|x| (x[2] - height).abs() < 1e-6);
     let moved = head.flat_map(|is_head| [0.0, 0.0, f64::from(u8::from(is_head))]);
     let moved: Vec<f64> = moved.collect();
     let mut forces = vec![0.0; moved.len()];
@@ -303,6 +303,11 @@ fn head_moved(placed: &Placed, assembled: &Assembled) -> Vec<f64> {
         rhs[e as usize] = -f;
     }
     rhs
+}
+
+/// The same for the blocks of [`round_contact`].
+fn head_moved(placed: &Placed, assembled: &Assembled) -> Vec<f64> {
+    head_moved_at(64.0, placed, assembled)
 }
 
 /// Iterations to 1e-8.
@@ -645,6 +650,39 @@ fn a_rough_solution_is_less_work() {
         let off = x.iter().zip(&exact).map(|(x, y)| (x - y).abs());
         let off = off.fold(0.0, f64::max) / largest(&exact);
         assert!(off > 1e-9 && off < 0.3, "{off:e}");
+    }
+}
+
+#[test]
+fn a_rough_solution_is_near_where_a_stiff_body_moves_a_soft_one() {
+    let n = [8, 7, 6];
+    for contrast in [1e2, 1e4, 1e6] {
+        for (mu, young) in [
+            (0.2, [1.0, contrast]),
+            (0.0, [1.0, contrast]),
+            (0.2, [contrast, 1.0]),
+        ] {
+            let placed = Placed {
+                system: slipping_blocks_of(young, n, 10.0, mu),
+                coordinates: places(n, 2),
+            };
+            let assembled = placed.system.assemble();
+            let rhs = head_moved_at(12.0, &placed, &assembled);
+            let [mut x, mut exact] = [0; 2].map(|_| vec![0.0; rhs.len()]);
+            let mut solver = Multigrid::new();
+            solver.analyze(&placed.problem(&assembled)).unwrap();
+            solver.factorize(&assembled.values()).unwrap();
+            let rough = solver.solve_roughly(&assembled.values(), &rhs, &mut x, 0.1, 0.0);
+            let full = solver.solve(&assembled.values(), &rhs, &mut exact, 1e-12);
+            let (rough, _) = (rough.unwrap(), full.unwrap());
+            let off = x.iter().zip(&exact).map(|(x, y)| (x - y).abs());
+            let off = off.fold(0.0, f64::max) / largest(&exact);
+            println!(
+                "{young:?} {mu}: {} iterations, off by {off:.1e}",
+                rough.iterations
+            );
+            assert!(off < 0.2, "{young:?} {mu}: {off:e}");
+        }
     }
 }
 
