@@ -1,4 +1,4 @@
-//! Decks of CalculiX's own suite, where they lie beside the repository (`../shared/decks/calculix`).
+//! Decks of CalculiX's own suite, where they lie next to the repository (`../shared/decks/calculix`).
 //!
 //! Expected counts are those of the numbers in the decks, counted by hand or by another program.
 

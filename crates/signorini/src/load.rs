@@ -43,7 +43,7 @@ impl Source {
         hasher.finalize().into()
     }
 
-    /// The folder its results go to unless the user names one: beside the case.
+    /// The folder its results go to unless the user names one: next to the case.
     #[must_use]
     pub fn output_folder(&self) -> PathBuf {
         self.path.with_file_name(format!("{}.out", self.name))

@@ -282,7 +282,7 @@ fn judge(files: &[File]) -> Report {
     report
 }
 
-/// The sources of all crates, sorted; tests, benches and examples beside `src` see everything and are left out.
+/// The sources of all crates, sorted; tests, benches and examples next to `src` see everything and are left out.
 fn source_files(root: &Path) -> Result<Vec<File>, ChoreError> {
     let mut files = Vec::new();
     for folder in entries(&root.join("crates"))? {

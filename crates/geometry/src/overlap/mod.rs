@@ -64,7 +64,7 @@
 //! - (E3) is 1e-12 on either facet, for each triangle of a cell; where its edges are bent and the polygon is not exact, a
 //!   hundredth of their sagitta, at most 1e-9: stiff laws see it where a degree changes. A patch test needs integrals of
 //!   single shape functions. Of products it needs that they are taken at the same points; their errors are (E3) with 2q
-//!   for the q beside d, some 1e-11.
+//!   for the q in addition to d, some 1e-11.
 //!
 //! Patch tests stay exact to 1e-12 on distorted facets up to `δ = 0.32`, of lines 0.3, and beyond it if cells are smaller
 //! than facets. Points of a triangle of a cell that is a whole facet, paired with its like, and in brackets of one half as

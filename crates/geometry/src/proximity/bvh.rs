@@ -75,7 +75,7 @@ impl Bvh {
         tree
     }
 
-    /// Builds the tree anew over these boxes, in the memory it has.
+    /// Builds the tree again over these boxes, in the memory it has.
     pub fn rebuild(&mut self, boxes: &[Aabb]) {
         self.nodes.clear();
         self.items.clear();
@@ -98,7 +98,7 @@ impl Bvh {
     /// Moves the boxes and keeps the shape of the tree. Allocates nothing.
     ///
     /// Right for any motion, fast while neighbours stay neighbours: see [`Bvh::degraded`]. Where the number of boxes
-    /// has changed the tree is built anew.
+    /// has changed the tree is built again.
     pub fn refit(&mut self, boxes: &[Aabb]) {
         if boxes.len() != self.nbox() {
             return self.rebuild(boxes);
@@ -121,8 +121,8 @@ impl Bvh {
         self.items.len() + self.beside.len()
     }
 
-    /// Whether the boxes have moved so much since the tree was built that it pays to build it anew: its cost (E4) has
-    /// grown by a fifth, or a box kept beside the tree has become bounded.
+    /// Whether the boxes have moved so much since the tree was built that it pays to build it again: its cost (E4) has
+    /// grown by a fifth, or a box kept apart from the tree has become bounded.
     #[must_use]
     pub fn degraded(&self) -> bool {
         let good = self.cost <= DEGRADED * self.cost_when_built;

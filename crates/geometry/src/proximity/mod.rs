@@ -15,7 +15,7 @@
 //! | p | `points` | `npoint` vectors | length |
 //! | B | `boxes`: around the facets, as [`Aabb`] | `nfacet` boxes | length |
 //! | r | `reach`: contact farther away is of no interest | scalar | length |
-//! | s | `skin`: how far things may move before candidates are collected anew | scalar | length |
+//! | s | `skin`: how far things may move before candidates are collected again | scalar | length |
 //! | R | `range` | scalar | length |
 //! | a, b | `point_motion`, `box_motion`: the largest since candidates were collected | scalars | length |
 //! | w | `width` of a box | scalar | length |
@@ -41,7 +41,7 @@
 //! unchanged reach), so something has moved by more than half the skin. Only the outward motion of a box counts.
 //!
 //! The tree is split where the cost of its two parts, `n w` each, is smallest over the bins of its longest axis, and
-//! is refitted rather than built anew while its cost
+//! is refitted rather than built again while its cost
 //!
 //! ```text
 //! C = (Σ_inner w + Σ_leaf n w) / w_root                                                   (E4)
@@ -51,7 +51,7 @@
 //!
 //! What moves far within an increment is found by [`Sweep`], along the way (E5), instead of where it ends.
 //!
-//! Boxes that are unbounded, such as those of planes, are kept beside the tree and tested one by one: there should be
+//! Boxes that are unbounded, such as those of planes, are kept apart from the tree and tested one by one: there should be
 //! few of them. Boxes that contain nothing are near nothing; so are points that are not finite. Results are sorted
 //! and do not depend on the shape of the tree. Coordinates whose squares leave the range of floating point (beyond
 //! 1e±150) are not supported. At most 2³² − 1 boxes are looked at.

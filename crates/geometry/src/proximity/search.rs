@@ -81,10 +81,10 @@ impl Search {
         self.range
     }
 
-    /// Makes the candidates hold for these points and facets: collects them anew where something has moved by more
+    /// Makes the candidates hold for these points and facets: collects them again where something has moved by more
     /// than half the skin since that was last done (E3), and says whether it did.
     ///
-    /// `filter(point, facet)` tells which pairs may touch at all, for instance all but a node and its own facets
+    /// `filter(point, facet)` answers which pairs may touch at all, for instance all but a node and its own facets
     /// where a surface may touch itself. It is asked when candidates are collected; where it changes its mind,
     /// [`Search::forget`] them. A larger skin means fewer collections and more candidates.
     pub fn update(
@@ -111,7 +111,7 @@ impl Search {
         true
     }
 
-    /// Makes the next update collect the candidates anew.
+    /// Makes the next update collect the candidates again.
     pub fn forget(&mut self) {
         self.range = f64::NAN;
     }

@@ -3,7 +3,7 @@ use super::mount::{direction, finite};
 use super::{Feature, SurfaceError};
 use crate::tensor::{Sym3, Vec3};
 
-/// How close to the apex, over its coordinates, a point cannot be told from it.
+/// How close to the apex, over its coordinates, a point cannot be distinguished from it.
 const TIP: f64 = 16.0 * f64::EPSILON;
 
 /// A round cone that opens from its apex along its axis without end, or a hole of that shape. In the plane, a wedge.

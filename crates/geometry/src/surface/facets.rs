@@ -285,7 +285,7 @@ impl Facets {
     }
 
     /// The end nodes of the edge of a facet that runs through a point of it in this direction. Where the point is an
-    /// end of the edge, shape functions alone do not tell which edge that is.
+    /// end of the edge, shape functions alone do not show which edge that is.
     fn edge_ends(&self, facet: u32, local: Vec3, direction: [f64; 2]) -> Option<[NodeId; 2]> {
         let (element, nodes) = (self.element(facet)?, self.nodes(facet));
         let corners = element.nodes();

@@ -17,7 +17,7 @@
 //! Required of φ: finite and twice continuously differentiable, with the gradient and Hessian that are given, between
 //! the surface and the points within reach of it; `∇φ ≠ 0` there. A point at which the gradient vanishes, such as the
 //! centre of a ball, and one beyond the centre of curvature of what would be its closest point have none. Of several
-//! closest points, that to which the gradient leads is found. [`SignedDistance::check`] tells wrong derivatives.
+//! closest points, that to which the gradient leads is found. [`SignedDistance::check`] finds wrong derivatives.
 //!
 //! Source: Absil, Mahony, Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 2008, chapters 4 to 6.
 
@@ -231,7 +231,7 @@ impl Shape for SignedDistance {
                 };
                 let reached = 0.5 * (point - trial).norm_squared();
                 let enough = 0.5 * away.norm_squared() - 1e-4 * alpha * slope;
-                // a difference of squares tells nothing where the step is at round-off
+                // a difference of squares shows nothing where the step is at round-off
                 if reached <= enough || alpha * step.norm() <= 1e-7 * scale {
                     break trial;
                 }

@@ -94,7 +94,7 @@ pub fn read_case(
     let mut found = check::check(&table, &origins);
     let (case, more) = build::build(&table, &origins);
     found.append(more);
-    // What stands on a line that is no TOML has been told already.
+    // What stands on a line that is no TOML has been reported already.
     found.retain(|one| {
         one.labels.first().is_none_or(|label| {
             let line = label.file.line_index(label.span.start);

@@ -18,10 +18,10 @@ pub(super) struct Parsed<'a> {
     pub sound: bool,
 }
 
-/// More errors of the text are not told: by then it is no case.
+/// More errors of the text are not reported: by then it is no case.
 const MOST: usize = 100;
 
-/// Reads the text; errors are told one for each line, up to the first that spoils what follows.
+/// Reads the text; errors are reported one for each line, up to the first that spoils what follows.
 pub(super) fn parse<'a>(text: &'a str, origins: &Origins) -> Parsed<'a> {
     let (table, errors) = DeTable::parse_recoverable(text);
     let whole = || text.len()..text.len();
@@ -212,7 +212,7 @@ fn looks_like_number(word: &str) -> bool {
     digits.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// Where a key or heading that is given twice was given first, where the lines before tell.
+/// Where a key or heading that is given twice was given first, where the lines before say.
 fn first_time(text: &str, key: &str, before: usize) -> Option<Range<usize>> {
     let start = text.get(..before)?.rfind('\n').map_or(0, |n| n + 1);
     let heading = heading_of(text.get(start..)?);

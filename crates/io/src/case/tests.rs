@@ -570,7 +570,7 @@ fn messages() -> String {
     text
 }
 
-/// Compares with `cases/messages.txt`; with `SIGNORINI_BLESS=1` in the environment that file is written anew.
+/// Compares with `cases/messages.txt`; with `SIGNORINI_BLESS=1` in the environment that file is written again.
 #[test]
 fn messages_say_what_where_and_what_to_do() {
     let found = messages();

@@ -188,7 +188,7 @@ impl Archive {
         }
     }
 
-    /// Reads `narray` arrays, after which the input must end; the error tells what does not fit.
+    /// Reads `narray` arrays, after which the input must end; the error states what does not fit.
     pub(super) fn decode(input: &mut Input<'_>, narray: u64) -> Result<Self, &'static str> {
         const TORN: &str = "an array ends behind the end of the file";
         let mut archive = Self::new();

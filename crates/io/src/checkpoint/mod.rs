@@ -5,7 +5,7 @@
 //!  b.sgc               ■ increment 10 ───────────▶ ■ 20 …      a torn or damaged one falls back to the other
 //!
 //!  byte   0  "SGNCHKPT"                  the head proves itself, so that a newer
-//!         8  format version     u32      format is told from a damaged file
+//!         8  format version     u32      format distinguished from a damaged file
 //!        12  CRC-32 of 0..12    u32
 //!        16  length of the file u64
 //!        24  sequence number    u64      grows with every checkpoint of a run
@@ -221,7 +221,7 @@ impl Checkpoints {
     }
 }
 
-/// The error that tells the user more, when neither file is good.
+/// The error that says more to the user, when neither file is good.
 fn graver(one: Option<CheckpointError>, other: CheckpointError) -> CheckpointError {
     let rank = |error: &CheckpointError| match error {
         CheckpointError::Missing { .. } => 0,

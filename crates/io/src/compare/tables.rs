@@ -46,7 +46,7 @@ pub const KINDS: [(&str, Reader); 4] = [
     ("vtu", of_vtu),
 ];
 
-/// Columns of a table that tell which row it is.
+/// Columns of a table that identify the row.
 const ROW_COLUMNS: [&str; 6] = [
     "increment",
     "attempt",
@@ -62,7 +62,7 @@ const OF_FACES: &str = "(slave element+face";
 /// The column that names the step.
 const STEP_COLUMN: &str = "step";
 
-/// A column that tells what a row took, not what came out.
+/// A column for what a row took, not what came out.
 const EFFORT_COLUMN: &str = "iterations";
 
 /// The extension that a file of results has; `.ref` behind it does not count.
@@ -110,7 +110,7 @@ fn of_dat(name: &str, bytes: &[u8]) -> Result<Vec<Table>, CompareError> {
     Ok(tables.map(over_faces).collect())
 }
 
-/// Of tables of the points inside faces, which no identifier tells apart, one row for each face: the sum of energies, the
+/// Of tables of the points inside faces, which no identifier distinguishes, one row for each face: the sum of energies, the
 /// mean of everything else.
 fn over_faces(table: Table) -> Table {
     if !table.name.contains(OF_FACES) {
@@ -324,7 +324,7 @@ fn of_csv(name: &str, bytes: &[u8]) -> Result<Vec<Table>, CompareError> {
 /// What the columns of a table of comma-separated values are.
 struct Columns {
     step: Option<usize>,
-    /// Those that tell which row it is.
+    /// Those that identify the row.
     keys: Vec<usize>,
     values: Vec<usize>,
 }

@@ -8,7 +8,7 @@
 //! | \*TIE | sides that are joined | the same, node to segment by multipliers; in the plane, corner nodes alone |
 //! | TYPE | the best method | node to segment, points inside facets, mortar |
 //! | friction | μ | μ and the slope of sticking, or E/2 |
-//! | overlaps | resolved over the first step | likewise, measured anew in every increment, or in the first one only |
+//! | overlaps | resolved over the first step | likewise, measured again in every increment, or in the first one only |
 //! | GAPUNI | no penetration | as LINEAR at nodes: K, or 1e12, and σ∞, or 1e-3 |
 //! | a surface of nodes | the outer faces between them | the nodes, with their parts of all outer faces around |
 //!

@@ -13,7 +13,7 @@
 //! The model section is free in its order: every stage looks for its cards in the whole of it. A name means what it
 //! means in the mesh; a single node, or the nodes of several lines that say the same, become a set of the case. What
 //! a card says and the program does not know is an error with its line, never left out in silence; what does no harm is
-//! named once in a note. [`KEYWORDS`] tells which is which.
+//! named once in a note. [`KEYWORDS`] lists which is which.
 //!
 //! Two programs, one deck: [`Compat`] says whose laws of contact hold. Decks of OOFEM are another language: [`oofem`].
 //!

@@ -616,7 +616,7 @@ impl Translation<'_> {
         Some((axis as usize - 1, angle))
     }
 
-    /// Axes of materials; nothing for those that are not supported, which have been told of.
+    /// Axes of materials; nothing for those that are not supported, which have been reported.
     fn orientations(&mut self) -> BTreeMap<String, Option<Orientation>> {
         let mut all = BTreeMap::new();
         for card in self.cards("ORIENTATION") {

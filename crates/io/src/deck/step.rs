@@ -168,7 +168,7 @@ impl Translation<'_> {
             .find(|c| procedures.contains(&c.keyword.as_str()))
         else {
             let known = ["DYNAMIC", "FREQUENCY", "HEATTRANSFER", "VISCO"];
-            // those are told of by their keyword
+            // those are reported by their keyword
             if !cards
                 .iter()
                 .any(|c| known.iter().any(|k| c.keyword.starts_with(k)))
@@ -471,7 +471,7 @@ impl Translation<'_> {
         let Some(place) = given().next().map(|(_, place)| place.clone()) else {
             return;
         };
-        // what is prescribed along all three axes, and not said anew, stays
+        // what is prescribed along all three axes, and not said again, stays
         let known = standing.along.get(&label).copied();
         let values: Vec<Option<f64>> = (components.iter().zip(0..))
             .map(|(one, axis)| match one {

@@ -544,7 +544,7 @@ fn sections_of_a_plane_model_have_a_thickness_each() {
     assert_eq!(own, [None, Some(2.0)]);
 }
 
-/// A ring beside a sheet; without a thickness a sheet is one thick.
+/// A ring next to a sheet; without a thickness a sheet is one thick.
 #[test]
 fn bodies_have_the_plane_that_their_elements_name() {
     let deck = "*NODE\n1,1,0\n2,2,0\n3,2,1\n4,1,1\n5,3,0\n6,3,1\n7,4,0\n8,4,1\n*ELEMENT, TYPE=CAX4, ELSET=A\n1,1,2,3,4\n\

@@ -213,7 +213,7 @@ impl<'d> Translation<'d> {
         value
     }
 
-    /// The number that a parameter has; none where it is not there, or is no number, which is told.
+    /// The number that a parameter has; none where it is not there, or is no number, which is reported.
     pub fn parameter(&mut self, card: &Statement, parameter: &str, shown: &str) -> Option<f64> {
         let text = card.get(parameter)?;
         let found = number(text);

@@ -178,7 +178,7 @@ impl FsError {
         }
     }
 
-    /// The same fault, told of the file that the user knows instead of its draft.
+    /// The same fault, reported for the file that the user knows instead of its draft.
     pub(super) fn while_writing(self, file: &Path, size: usize) -> Self {
         let mut error = self;
         match &mut error {

@@ -94,7 +94,7 @@ pub trait Fs: Send + Sync {
     /// Waits until all that was asked for is done, where it is not done at once.
     ///
     /// # Errors
-    /// The first failure that has not been told.
+    /// The first failure that has not been reported.
     fn settle(&self) -> Result<(), FsError> {
         Ok(())
     }

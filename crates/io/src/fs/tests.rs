@@ -272,7 +272,7 @@ fn nothing_that_was_asked_for_after_a_fault_reaches_the_disk_before_the_fault_is
         if !was_told {
             assert_eq!((failed + 1..4).find(whole), None, "operation {n}");
         }
-        // a fault is told once
+        // a fault is reported once
         fs.write_atomic(&path(9), b"frame").unwrap();
         fs.settle().unwrap();
         assert!(whole(&9));

@@ -27,7 +27,7 @@ const HEADER: usize = 400;
 pub struct Block {
     /// The header without its time.
     pub section: Arc<str>,
-    /// The line under the header that tells which of its tables this is; empty where there is but one.
+    /// The line under the header that names which of its tables this is; empty where there is but one.
     pub caption: String,
     /// The time in the header.
     pub time: Option<f64>,

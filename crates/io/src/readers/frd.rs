@@ -169,7 +169,7 @@ impl Parser {
         }
     }
 
-    /// Starts a block; the last columns of its first line tell how its numbers are written.
+    /// Starts a block; the last columns of its first line say how its numbers are written.
     fn begin(&mut self, block: Block, text: &[u8]) -> Result<(), &'static str> {
         self.label = match field(text, 73..75) {
             b"" | b"1" => 10,

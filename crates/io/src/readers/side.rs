@@ -3,7 +3,7 @@ use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::Vec3;
 use thiserror::Error;
 
-/// Why a side cannot be told.
+/// Why a side cannot be determined.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SideError {
     /// Neither an axis nor a number.

@@ -126,7 +126,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Starts a table anew and writes its header.
+    /// Starts a table again and writes its header.
     ///
     /// # Errors
     /// [`RowsError::Fs`].

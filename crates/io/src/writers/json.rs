@@ -231,7 +231,7 @@ pub struct EventLog {
 }
 
 impl EventLog {
-    /// Starts the file anew.
+    /// Starts the file again.
     ///
     /// # Errors
     /// [`RowsError::Fs`].

@@ -61,7 +61,7 @@ pub(super) struct RowFile {
 }
 
 impl RowFile {
-    /// Starts the file anew with `head`, which ends with a newline or is empty.
+    /// Starts the file again with `head`, which ends with a newline or is empty.
     pub fn create(fs: &dyn Fs, path: &Path, head: &str) -> Result<Self, RowsError> {
         let log = fs.open_log(path, 0)?;
         let mut file = Self {

@@ -46,7 +46,7 @@ pub struct StatusTable {
 }
 
 impl StatusTable {
-    /// Starts the table of the job `job` anew.
+    /// Starts the table of the job `job` again.
     ///
     /// # Errors
     /// [`RowsError::Fs`].

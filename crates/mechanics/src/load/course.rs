@@ -15,7 +15,7 @@ pub enum Course {
 /// The factor of a load through all steps. It is known beforehand: a function of step and time alone, so that a resumed
 /// run finds the same bits.
 ///
-/// A load that replaces another is a second one beside it: the first fades to zero while the second grows from zero. For
+/// A load that replaces another is a second one: the first fades to zero while the second grows from zero. For
 /// loads of the same kind in the same place the sum is the straight line from the old to the new (E1).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schedule {

@@ -173,7 +173,7 @@ impl Plasticity {
         };
         self.integrate(trial.value(), &mut local, order, out);
         trial.through(off).pull_back(order, out);
-        // writing a history anew would change bits of one that stays
+        // writing a history again would change bits of one that stays
         if local.plastic > memory.plastic {
             let flow = Principal::new(&trial.frame.leave(local.strain));
             let grown = flow.map(|h| 0.5 * (2.0 * h).exp_m1());

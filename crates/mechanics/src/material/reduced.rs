@@ -43,7 +43,7 @@ const STEPS: usize = 60;
 const LAST: f64 = 1e-9;
 /// The share of the predicted decrease that a step must bring (Armijo).
 const DECREASE: f64 = 1e-4;
-/// The share of the slope that a step may leave where the energy has no digits to tell.
+/// The share of the slope that a step may leave where the energy has no digits left.
 const FLATTENING: f64 = 0.9;
 /// The shortest step, as a share of Newton's.
 const SHORTEST: f64 = 1e-9;

@@ -161,7 +161,7 @@ impl Situation {
         }
     }
 
-    /// The quadrature rule; more points than usual where fewer would leave motions free: beside the axis of revolution,
+    /// The quadrature rule; more points than usual where fewer would leave motions free: at the axis of revolution,
     /// where the hoop is a strain of its own, and in tetrahedra whose dilatation counts only once.
     pub fn rule(&self, projected: bool) -> &'static Rule {
         let revolved = self.space == Idealisation::Axisymmetric;

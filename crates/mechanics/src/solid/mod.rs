@@ -64,7 +64,7 @@
 //!
 //! # History
 //!
-//! The accepted history of every quadrature point lies here, and beside it the incompatible modes. Evaluation is pure:
+//! The accepted history of every quadrature point lies here, and next to it the incompatible modes. Evaluation is pure:
 //! it starts from the accepted history, and what comes out is kept only by `accept`, which evaluates once more.
 //!
 //! Sources: Bonet and Wood 2008, chapters 4, 8, 9; Hughes, IJNME 15, 1980 (B-bar); de Souza Neto, Perić, Dutko, Owen,

@@ -54,7 +54,7 @@ impl Economy {
         }
     }
 
-    /// The curvature that was told or shown last.
+    /// The curvature that was given or shown last.
     pub const fn curvature(&self) -> Option<f64> {
         self.curvature
     }

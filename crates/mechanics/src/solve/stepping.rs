@@ -214,7 +214,7 @@ impl Stepper {
         }
     }
 
-    /// A stepper that goes on with a stored run. Histories come first, for they tell what is coupled.
+    /// A stepper that goes on with a stored run. Histories come first, for they determine what is coupled.
     ///
     /// # Errors
     /// The archive belongs to another model.

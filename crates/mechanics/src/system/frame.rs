@@ -117,7 +117,7 @@ pub struct ContactFrame {
     pub traction: Vec<Vec3>,
     /// Accumulated slip at each node.
     pub slip: Vec<Vec3>,
-    /// What sticking has yielded at each node, beside its slip.
+    /// What sticking has yielded at each node, in addition to its slip.
     pub elastic_slip: Vec<Vec3>,
     /// Energy that springs of the contact law, and of sticking, hold at each node.
     pub energy: Vec<f64>,

@@ -7,8 +7,8 @@ pub(crate) struct Lists<T> {
 }
 
 impl<T: Copy + Default> Lists<T> {
-    /// The lists of `nkey` keys. `pairs` tells of keys and what belongs to them, twice and the same each time; items stay in
-    /// the order in which they are told.
+    /// The lists of `nkey` keys. `pairs` yields keys and what belongs to them, twice and the same each time; items stay in
+    /// the order in which they are yielded.
     pub fn new<I: Iterator<Item = (usize, T)>>(nkey: usize, pairs: impl Fn() -> I) -> Self {
         let mut start = vec![0usize; nkey + 1];
         pairs().for_each(|(key, _)| start[key + 1] += 1);

@@ -317,7 +317,7 @@ pub trait Term: Send + Sync {
     fn nchunk(&self) -> usize;
 
     /// The nodes of each element of a chunk of the bulk, one after the other as [`Term::evaluate`] adds these, each with all
-    /// unknowns of its nodes; nothing where a term does not tell.
+    /// unknowns of its nodes; nothing where a term does not say.
     fn elements(&self, _chunk: usize, _take: &mut dyn FnMut(&[NodeId])) {}
 
     /// Adds the forces and stiffness of one chunk. Pure: the same trial gives the same bits.

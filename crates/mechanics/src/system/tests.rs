@@ -18,7 +18,7 @@ struct Springs {
     layout: Layout,
     ends: Vec<[NodeId; 2]>,
     rest: Vec<f64>,
-    /// Whether the assembler is told which nodes they have.
+    /// Whether the assembler is given which nodes they have.
     is_told: bool,
     /// Chunks that cannot be evaluated.
     broken: Vec<usize>,
@@ -482,7 +482,7 @@ fn what_threads_share_out_is_the_same_whoever_adds_it_up() {
             }
         }
     }
-    // of several failures the first one is told
+    // of several failures the first one is reported
     for threads in [1, 2, 3] {
         let (found, _) = run(threads, [true, true], &[290, 140, 7]);
         for (done, _) in found {

@@ -137,7 +137,7 @@ impl Context<'_> {
         let of_model = super::idealisation(&self.case.model);
         let is_ring = |body: &BodyPart| body.kind.space(of_model) == Idealisation::Axisymmetric;
         let falls = acceleration[0] != 0.0;
-        // names that are not there are told of where the cells are looked for
+        // names that are not there are reported where the cells are looked for
         let bodies = falls.then(|| self.deformable(load, &mut Diagnostics::new()));
         let bodies = bodies.flatten().unwrap_or_default();
         if bodies.iter().any(|(body, _)| is_ring(body)) {

@@ -13,7 +13,7 @@ use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The surfaces of a case, by name; nothing for those that cannot be made, which has been told.
+/// The surfaces of a case, by name; nothing for those that cannot be made, which has been reported.
 pub(super) struct Surfaces(BTreeMap<String, Option<Arc<dyn ContactSurface>>>);
 
 impl Surfaces {

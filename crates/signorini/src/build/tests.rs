@@ -16,7 +16,7 @@ use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::Motion;
 use std::path::Path;
 
-/// Two unit cubes, one on the other and apart by nothing but their nodes; a bar beside them.
+/// Two unit cubes, one on the other and apart by nothing but their nodes; a bar next to them.
 const CUBES: &str = r#"
 [mesh]
 nodes = [

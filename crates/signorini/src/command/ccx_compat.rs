@@ -12,7 +12,7 @@ use std::time::Instant;
 
 /// Stand in for CalculiX: its command line, file names and exit codes.
 ///
-/// Solves JOB.inp with the laws of contact that the deck states, and leaves JOB.dat, JOB.frd and JOB.sta beside it, for
+/// Solves JOB.inp with the laws of contact that the deck states, and writes JOB.dat, JOB.frd and JOB.sta next to it, for
 /// programs that call `ccx -i JOB`. All other results are in JOB.out.
 #[derive(Debug, Args)]
 pub struct CcxCompat {

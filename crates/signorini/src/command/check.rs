@@ -37,7 +37,7 @@ impl Check {
     }
 }
 
-/// Builds a case and tells what would be solved; draws it where there is a folder.
+/// Builds a case and reports what would be solved; draws it where there is a folder.
 pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Path>) -> u8 {
     let mut model = match build(case, mesh) {
         Ok(model) => model,

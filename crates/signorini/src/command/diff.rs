@@ -190,7 +190,7 @@ fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What was told so far.
+/// What was reported so far.
 #[derive(Debug, Default)]
 struct Count {
     /// The file that lines are about.

@@ -148,7 +148,7 @@ struct SolveOptions {
 /// A folder for results.
 #[derive(Clone, Debug, Default, Args)]
 struct FolderOption {
-    /// The folder for the results; CASE.out beside the case where absent
+    /// The folder for the results; CASE.out next to the case where absent
     #[arg(short = 'o', long = "output", value_name = "DIR")]
     output: Option<PathBuf>,
 }

@@ -112,7 +112,7 @@ impl Job {
         }
     }
 
-    /// Builds, solves, tells; returns the exit code.
+    /// Builds, solves, reports; returns the exit code.
     pub fn solve(self, options: &SolveOptions) -> u8 {
         let clock = Instant::now();
         let mut model = match build(self.case, self.mesh) {
@@ -143,7 +143,7 @@ impl Job {
     }
 }
 
-/// Solves and tells as the options say.
+/// Solves and reports as the options say.
 fn solve(model: Model, run: &RunOptions, options: &SolveOptions) -> Finished {
     let level = if options.json {
         signorini::run::narration::Level::Important

@@ -203,7 +203,7 @@ impl Bar {
         )
     }
 
-    /// Seconds left, once there is something to tell them from.
+    /// Seconds left, once there is something to estimate them from.
     fn left(&self) -> Option<f64> {
         let (at, from) = self.base?;
         let done = self.part() - from;

@@ -72,7 +72,7 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
     }
 }
 
-/// The ending of a run that never began; the listener is told why.
+/// The ending of a run that never began; the listener learns why.
 pub fn refuse(found: Diagnostics, listener: &mut dyn Listener) -> Finished {
     tell(&found, listener);
     let finished = refused(found);
@@ -256,7 +256,7 @@ impl Run<'_, '_> {
         Ending::Failed(failure::message(error, self.model, &saved))
     }
 
-    /// Judges, tells and writes how it ended.
+    /// Judges, reports and writes how it ended.
     fn close(
         mut self,
         ending: Ending,

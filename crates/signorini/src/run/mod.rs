@@ -61,7 +61,7 @@ use signorini_io::writers::json::Summary;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What a run is told besides its model.
+/// What a run is given besides its model.
 #[derive(Clone)]
 pub struct RunOptions {
     /// Where the model comes from.

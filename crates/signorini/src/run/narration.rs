@@ -279,7 +279,7 @@ fn increment(step: &str, record: &IncrementRecord, frame: &Frame, effort: &Effor
     text.trim_end().to_owned()
 }
 
-/// A time with three decimals, or more where they are needed to tell small ones apart.
+/// A time with three decimals, or more where they are needed to distinguish small ones.
 fn time(time: f64) -> String {
     if time != 0.0 && !(0.01..1e4).contains(&time.abs()) {
         format!("{time:.2e}")

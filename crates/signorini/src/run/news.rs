@@ -1,4 +1,4 @@
-//! What is told while a run goes on: the terminal, `--json` and `events.jsonl` are fed from one stream.
+//! What is reported while a run goes on: the terminal, `--json` and `events.jsonl` are fed from one stream.
 
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity};
 use signorini_io::writers::json::Event;
@@ -8,13 +8,13 @@ use signorini_mechanics::system::Frame;
 /// One piece of news.
 #[derive(Clone, Copy, Debug)]
 pub struct News<'a> {
-    /// What happened, as machines are told.
+    /// What happened, for machines.
     pub event: &'a Event,
     /// What else is known of it.
     pub detail: Detail<'a>,
 }
 
-/// What people are told beyond the event.
+/// What people read beyond the event.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum Detail<'a> {
@@ -91,7 +91,7 @@ pub struct Totals {
     pub phases: Vec<(String, f64)>,
 }
 
-/// Is told the news; asked each time whether to go on.
+/// Receives the news; asked each time whether to go on.
 pub trait Listener {
     /// Something happened.
     fn hear(&mut self, news: &News<'_>) -> Flow;

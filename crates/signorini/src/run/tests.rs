@@ -104,7 +104,7 @@ impl Listener for Ears {
     }
 }
 
-/// Runs the case into a folder through a disk, and hears what is told.
+/// Runs the case into a folder through a disk, and records what is reported.
 fn run_on(
     fs: Arc<dyn Fs>,
     folder: &Path,

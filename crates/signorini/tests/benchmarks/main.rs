@@ -1,6 +1,6 @@
 //! Benchmarks of contact with exact answers: bars, beams, patches, stacks of blocks, Hertz, friction, interference fits.
 //!
-//! Every module tells its source, mesh, conditions, expected values and tolerance. Closed forms are ported with their
+//! Every module states its source, mesh, conditions, expected values and tolerance. Closed forms are ported with their
 //! source. Meshes are made by [`scene`].
 
 #![allow(clippy::unwrap_used, clippy::panic)]

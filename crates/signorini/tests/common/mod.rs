@@ -101,7 +101,7 @@ pub fn oracle(name: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// A file of reference values in a folder beside the repository, or further up.
+/// A file of reference values in a folder next to the repository, or further up.
 pub fn reference(name: &str) -> Option<Value> {
     let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
     let path = folders.find_map(|f| {

@@ -35,8 +35,8 @@ fn what_happens_at_points_inside_faces_is_printed_of_faces() {
     agrees(&own("faces.inp"), "", Compat::Ccx, 1e-6);
 }
 
-/// What overlaps, and what closes within the first step, is allowed for anew in every increment of that step, in the frames
-/// between, too; then the foot slides over the plane that each increment begins with, turns back and sticks.
+/// What overlaps, and what closes within the first step, is allowed for again in every increment of that step, also in
+/// the frames between; then the foot slides over the plane that each increment begins with, turns back and sticks.
 #[test]
 fn overlaps_fade_and_feet_turn_back_as_in_calculix() {
     agrees(&own("overlaps.inp"), "", Compat::Ccx, 1e-3);

@@ -106,7 +106,7 @@ fn a_bolt_is_tightened_by_a_force_and_locked() {
     }
 }
 
-/// The folder of CalculiX's own decks beside the repository.
+/// The folder of CalculiX's own decks next to the repository.
 fn suite() -> Option<PathBuf> {
     let near = [
         repository().join("../shared"),
@@ -168,7 +168,7 @@ fn iterations_of_calculix(deck: &str) -> String {
     count.1.to_owned()
 }
 
-/// Runs a deck, and compares what it prints with the reference beside it: iterations, and all tables of either. Where
+/// Runs a deck, and compares what it prints with the reference next to it: iterations, and all tables of either. Where
 /// nothing is printed, displacements and stresses of `.frd` files.
 fn printed(path: &Path, compat: Compat) -> Result<(u64, Vec<Finding>), Diagnostics> {
     let reading = Reading {

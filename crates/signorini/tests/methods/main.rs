@@ -1,5 +1,5 @@
 //! Every method with every law, on every kind of facet and every surface: what makes sense is pressed and slid, what
-//! does not is refused, and the page that tells which is which is written.
+//! does not is refused, and the page that lists which is which is written.
 //!
 //! SOURCE      Written for the purpose.
 //! GOAL        one formula carries every combination
@@ -9,7 +9,7 @@
 //! CONDITIONS  finite strain, neo-Hookean, E = 1000, nu = 0.3; pressed by 0.04, slid by 0.2, mu = 0.2; default settings
 //! EXPECTED    reactions, forces of the contact and of the pilot are one force; shear over normal force is mu, also in global
 //!             directions where the surface is flat; laws that leave no penetration agree with each other, others up to it
-//! TOLERANCE   balance 1e-5 (residuals may be 1e-6 of the mean force); mu 3e-3, since points in space slide beside each other;
+//! TOLERANCE   balance 1e-5 (residuals may be 1e-6 of the mean force); mu 3e-3, since points in space pass each other;
 //!             exact laws 1e-4; others thrice the penetration over the way pressed
 #![allow(clippy::unwrap_used)]
 
@@ -68,7 +68,7 @@ fn compare(scenes: &[Scene], outcomes: &[Option<Outcome>]) {
     }
 }
 
-/// What nodes are told adds up to what the sides are told, of two passes, too.
+/// What nodes report adds up to what the sides report, of two passes, too.
 fn adds_up(scene: &Scene, outcome: &Outcome) {
     let contact = &outcome.pressed.contacts[0];
     let whole = contact.secondary.force;

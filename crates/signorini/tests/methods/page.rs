@@ -1,4 +1,4 @@
-//! The page of the manual that tells what goes with what, from what the program accepts and refuses.
+//! The page of the manual that lists which choices combine, from what the program accepts and refuses.
 
 use super::common::repository;
 use super::scene::{Below, Choice, LAWS, METHODS, Refusal, SURFACES, Scene};
@@ -37,7 +37,7 @@ const ELEMENTS: [(&str, &str); 12] = [
 struct Reasons(Vec<Refusal>);
 
 impl Reasons {
-    /// How a cell of a table tells what becomes of a scene; with friction and without, in the plane and in space the
+    /// How a cell of a table shows what becomes of a scene; with friction and without, in the plane and in space the
     /// same.
     fn cell(&mut self, scene: &Scene, elements: &[&'static str]) -> String {
         let all = match scene.keys {
@@ -168,7 +168,7 @@ fn page() -> String {
     page
 }
 
-/// Compares with the page in the repository, or writes it anew.
+/// Compares with the page in the repository, or writes it again.
 pub fn check() {
     let path = repository().join("docs/methods.md");
     let page = page();

@@ -126,8 +126,8 @@ fn the_block_of_the_edge_deck_is_of_forces_on_the_opposite_edge() {
     );
 }
 
-/// A tip goes down one per cent beside the end of a block: it rests on the continuation of its top, on nothing where only
-/// faces count, and on the corner where edges do, which then pushes it aside, too.
+/// A tip goes down one per cent off the end of a block: it rests on the continuation of its top, on nothing where
+/// only faces count, and on the corner where edges do, which then pushes it aside, too.
 #[test]
 fn points_beside_a_surface_rest_on_what_counts() {
     let force = |features: &str| {
@@ -185,7 +185,7 @@ fn points_beside_a_surface_rest_on_what_counts() {
     assert!(edges.y > 0.1 && edges.x < -0.1, "{edges:?}");
 }
 
-/// Runs a deck by the command; its exit code and what it told.
+/// Runs a deck by the command; its exit code and what it printed.
 fn by_command(arguments: &[&str], folder: &Path) -> (i32, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
     let output = command
@@ -285,7 +285,7 @@ fn friction_begins_one_step_after_closing() {
     assert!(waits[1] > 0.0, "{waits:?}");
 }
 
-/// The folder of OOFEM's decks beside the repository.
+/// The folder of OOFEM's decks next to the repository.
 fn suite() -> Option<PathBuf> {
     let near = [
         repository().join("../shared"),

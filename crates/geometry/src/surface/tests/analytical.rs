@@ -704,7 +704,7 @@ fn a_polynomial_is_the_plane_or_parabola_that_it_is() {
     assert!((foot(&[0.0, 0.0, 0.0], 3.0, 7.0) - Vec3::new(3.0, 0.0, 0.0)).norm() < 1e-15);
     assert!((foot(&[1.0, 0.0], 0.0, 2.0) - Vec3::new(1.0, 1.0, 0.0)).norm() < 1e-15);
     assert_eq!(foot(&[1.0, 0.0, 0.0], 2.0, 4.0), Vec3::new(2.0, 4.0, 0.0));
-    // all but below the vertex: distances do not tell the foot from the point straight above
+    // all but below the vertex: distances do not distinguish the foot from the point straight above
     let x = foot(&[1.0, 0.0, 0.0], 1e-9, -1.0).x;
     assert!((x - 1e-9 / 3.0).abs() < 1e-22, "{x:e}");
     // two branches of equal distance: the left one

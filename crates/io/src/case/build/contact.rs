@@ -356,7 +356,7 @@ impl Builder {
         let mut table: Vec<[f64; 2]> = Vec::new();
         for row in fields.rows("penalty") {
             let Some([gap, pressure]) = numbers(row.get_ref()) else {
-                // it has been told, and what is missing would draw other messages after it
+                // it has been reported, and what is missing would draw other messages after it
                 return table;
             };
             if let Some([before, harder]) = table.last().copied() {

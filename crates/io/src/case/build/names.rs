@@ -195,7 +195,7 @@ impl Builder {
 
     /// References from one part of the case to another.
     pub(super) fn references(&mut self, case: &Case, root: Fields<'_>) {
-        // Where a list of definitions has a wrong form, which has been told, nobody knows what it defines.
+        // Where a list of definitions has a wrong form, which has been reported, nobody knows what it defines.
         let known = |key: &str| !root.has(key) || root.is_of_its_form(key);
         let materials: BTreeSet<&str> =
             case.materials.iter().map(|one| one.name.as_str()).collect();

@@ -183,7 +183,7 @@ pub enum Enforcement {
     },
     /// Multipliers.
     Lagrange,
-    /// Multipliers beside a penalty.
+    /// Multipliers in addition to a penalty.
     Augmented {
         /// How they are found.
         by: Augmentation,

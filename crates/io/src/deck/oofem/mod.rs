@@ -148,7 +148,7 @@ impl Translation {
         self.found.push(note.at(place, ""));
     }
 
-    /// What was read, unless it is wrong: then that is told.
+    /// What was read, unless it is wrong: then that is reported.
     fn take<T>(&mut self, result: Result<T, Fault>) -> Option<T> {
         match result {
             Ok(value) => Some(value),

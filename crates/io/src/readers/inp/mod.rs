@@ -15,10 +15,10 @@
 //! Node sets, element sets and surfaces have names of their own: where two share one, see the notes.
 //!
 //! An instance is its part, moved and then turned. The first one keeps its numbers; those of others go on behind the
-//! highest, as a note tells. What the assembly has besides comes last.
+//! highest, as a note reports. What the assembly has besides comes last.
 //!
 //! Elements in the plane, shells, membranes, rigid facets, bars and beams are cells of their shape: with solids in the
-//! mesh, its faces and edges. What they mean (plane stress, say) is told in a note; the case decides. Masses, springs
+//! mesh, its faces and edges. What they mean (plane stress, say) is reported in a note; the case decides. Masses, springs
 //! and gaps are left out. Cards that make nodes or elements out of others are refused.
 //!
 //! Source: Abaqus Keywords Reference Guide; CalculiX CrunchiX User's Manual, chapters 6 and 7.

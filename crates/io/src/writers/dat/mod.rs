@@ -246,7 +246,7 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Starts the file anew.
+    /// Starts the file again.
     ///
     /// # Errors
     /// [`RowsError::Fs`].

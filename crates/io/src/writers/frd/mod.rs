@@ -33,7 +33,7 @@
 //! run cuts it back to the checkpoint's frames. Numbers of elements and nodes are those of the mesh, unless a reader
 //! with numbers of 32 bits could not hold them: then nodes or elements count from 1.
 //!
-//! Limits: six digits; exponents of two digits. Orders of nodes and what has no type are told in
+//! Limits: six digits; exponents of two digits. Orders of nodes and what has no type are listed in
 //! [`cells`](crate::frd::cells).
 //!
 //! One more data set: a variant of [`Dataset`].
@@ -251,7 +251,7 @@ pub struct FrdFile {
 }
 
 impl FrdFile {
-    /// Starts the file anew with the cells of the highest dimension of a mesh, and ends it.
+    /// Starts the file again with the cells of the highest dimension of a mesh, and ends it.
     ///
     /// # Errors
     /// [`FrdError::Fs`].
@@ -270,7 +270,7 @@ impl FrdFile {
         Ok(file)
     }
 
-    /// Goes on with a file after what [`Self::mark`] told; later frames, whole or torn, are cut off.
+    /// Goes on with a file after what [`Self::mark`] returned; later frames, whole or torn, are cut off.
     ///
     /// # Errors
     /// [`FrdError::Fs`], also where the file is shorter.
@@ -496,7 +496,7 @@ fn push_elements(out: &mut Vec<u8>, labels: &Labels, mesh: &Mesh) {
     out.extend_from_slice(TAIL);
 }
 
-/// The two lines that tell which data set it is; `numbers` counts data sets and frames.
+/// The two lines that name the data set it is; `numbers` counts data sets and frames.
 fn push_moment(out: &mut Vec<u8>, moment: &Moment, [dataset, frame]: [u64; 2], nnode: usize) {
     out.extend_from_slice(b"    1PSTEP");
     push_whole(out, dataset, 26);

@@ -20,7 +20,7 @@ pub struct Cut {
     pub apart: FacetPoints,
 }
 
-/// Parts of a facet that are nothing beside it.
+/// Parts of a facet that are nothing compared with it.
 const NOTHING: f64 = 1e-9;
 
 /// Degrees that rules on parts of lines have more than shape functions need: on areas points are many anyway.

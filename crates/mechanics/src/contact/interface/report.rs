@@ -41,7 +41,7 @@ struct OfRow {
     elastic_slip: Vec3,
 }
 
-/// What there is to tell of a row.
+/// What there is to report of a row.
 #[derive(Default)]
 struct Told {
     status: Status,
@@ -285,7 +285,7 @@ impl Interface {
         Ok(())
     }
 
-    /// What rows tell, and what acts on them; adds up their forces.
+    /// What rows report, and what acts on them; adds up their forces.
     fn tell(
         &self,
         state: &State,

@@ -26,7 +26,7 @@ fn unit(random: &mut Random) -> f64 {
     0.5 + 0.5 * random.signed()
 }
 
-/// A file of reference values in a folder beside the repository, or further up.
+/// A file of reference values in a folder next to the repository, or further up.
 fn reference(name: &str) -> Option<Value> {
     let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
     let path = folders.find_map(|f| {

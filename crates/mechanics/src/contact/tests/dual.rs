@@ -96,7 +96,7 @@ impl Kind {
             at.push([0.0, 0.0]);
         }
         let powers = along[..at.len()].to_vec();
-        // the monomials at the nodes, beside them the unit matrix; Gauss and Jordan
+        // the monomials at the nodes, next to them the unit matrix; Gauss and Jordan
         let n = at.len();
         let mut rows: Vec<Vec<f64>> = (0..n)
             .map(|i| {

@@ -46,7 +46,7 @@ impl Random {
     }
 }
 
-/// A surface of facets told apart by how many nodes they have; three are a triangle.
+/// A surface of facets distinguished by how many nodes they have; three are a triangle.
 pub(crate) fn facets(x: &mut Vec<Vec3>, nodes: &[Vec<NodeId>]) -> Facets {
     let named = nodes.iter().map(|n| {
         let name = match n.len() {

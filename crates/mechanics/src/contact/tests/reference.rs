@@ -13,7 +13,7 @@ use signorini_geometry::surface::{Anchor, Facets, Feature, Placement};
 use signorini_geometry::tensor::Vec3;
 use std::path::Path;
 
-/// A file of reference values in a folder beside the repository, or further up.
+/// A file of reference values in a folder next to the repository, or further up.
 fn reference(name: &str) -> Option<Value> {
     let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
     let path = folders.find_map(|f| {

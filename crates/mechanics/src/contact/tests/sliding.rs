@@ -143,7 +143,7 @@ impl Slider {
         self.interface.begin_increment(&self.state).unwrap();
     }
 
-    /// An increment that leads the point to a place; the force on it, and what is told of it.
+    /// An increment that leads the point to a place; the force on it, and what is reported of it.
     fn go(&mut self, place: Vec3) -> (Vec3, ContactFrame) {
         self.begin();
         let (state, forces) = self.force_at(place);
@@ -606,7 +606,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
     }
 }
 
-/// What is told and what is stored, in full.
+/// What is reported and what is stored, in full.
 fn bits(scene: &Scene) -> String {
     let mut archive = Archive::default();
     scene.interface.save(&mut archive);
@@ -649,7 +649,7 @@ fn planes_of_an_increment_are_those_at_its_start() {
             .filter(|(a, b)| a.is_finite() && b.is_finite());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
-    // met anew at the start, and kept from there
+    // met again at the start, and kept from there
     assert!(apart(&increment[0], &finite[0]) < 1e-12);
     assert!(apart(&small[0], &finite[0]) > 1e-4);
     assert!(apart(&increment[1], &finite[1]) > 1e-4);

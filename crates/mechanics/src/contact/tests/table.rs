@@ -121,7 +121,7 @@ fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
         }
         let mut v = vec![0.0; n];
         v[part.clone()].fill_with(|| random.signed());
-        // small enough to stay clear of the kinks of tables and caps, which no verdict tells of
+        // small enough to stay clear of the kinks of tables and caps, which no verdict reports
         let h = 5e-6;
         let mut change = vec![0.0; n];
         let mut same = true;

@@ -488,7 +488,7 @@ fn shear_far_into_flow_keeps_the_yield_stress_of_the_multiplicative_theory() {
     );
     assert!((tau.xy() / xy - 1.0).abs() < 1e-4);
     assert!((tau.xx() / xx - 1.0).abs() < 0.05 && (tau.yy() + tau.xx()).abs() < 1e-9);
-    // the whole of F tells the same, step for step
+    // the whole of F gives the same, step for step
     let reference = multiplicative(path, 4000);
     assert!(largest(tau - reference) < 1e-9, "{reference:?}");
     let trace: f64 = history[..3].iter().sum();

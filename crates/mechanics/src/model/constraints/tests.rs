@@ -664,7 +664,7 @@ fn a_rope_pulls_and_never_pushes() {
     assert!((distance.norm() - 2.5).abs() < 1e-10);
 }
 
-/// A rigid block beside a held solid, turned by three full turns.
+/// A rigid block next to a held solid, turned by three full turns.
 #[test]
 fn three_prescribed_turns_bring_a_rigid_body_back() {
     let mut mesh = Mesh::default();

@@ -254,7 +254,7 @@ pub enum Interference {
     /// begins to act.
     Increment,
     /// What overlaps at the start of an increment of that step is resolved over what is left of the step, and measured
-    /// anew at the start of the next.
+    /// again at the start of the next.
     Increments,
     /// They are resolved in the first increment.
     AtOnce,

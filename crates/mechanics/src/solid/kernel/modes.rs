@@ -185,7 +185,7 @@ fn integrate<const NN: usize, const NT: usize, const ND: usize, const NG: usize>
                 to[b] = -2.0 * xi[a] * scale * turn.rows[b][a]; // (E11)
             }
         }
-        // apart: beside displacements that are large and cancel, those of the modes would lose their digits
+        // apart: compared with displacements that are large and cancel, those of the modes would lose their digits
         let (modes, nodes) = u.split_at(nmode * ND);
         let h = displacement_gradient::<NN, ND, NG>(&at.gradient, nodes)
             + displacement_gradient::<NT, ND, NG>(&gradient, modes);

@@ -92,7 +92,7 @@ impl Newton {
         let judgement = &iterate.judgement;
         let is_unknown = iterate.iterations == 0 && course.economy.curvature().is_none();
         let nearly = only_the_correction_is_left(iterate);
-        // forces that are small already tell nothing of the correction unless they are solved for
+        // forces that are small already say nothing of the correction unless they are solved for
         let allowed = if nearly { 0.0 } else { judgement.allowed };
         let is_rough = is_unknown || !iterate.is_quiet() || nearly;
         let residual = judgement.excess.forces;

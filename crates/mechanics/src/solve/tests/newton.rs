@@ -269,7 +269,7 @@ fn redundant_multipliers_share_a_force_as_stiff_joints_would() {
 
 #[test]
 fn condition_d_goes_on_where_a_soft_direction_still_moves() {
-    // beside forces of a million, a residual of a hundredth is nothing: but it moves the soft node by a tenth
+    // compared with forces of a million, a residual of a hundredth is nothing: but it moves the soft node by a tenth
     fn stiff(e: f64) -> [f64; 3] {
         [0.5e12 * e * e, 1e12 * e, 1e12]
     }

@@ -61,7 +61,7 @@ struct Analysis {
 struct Factors {
     cholesky: Option<Cholesky>,
     fronts: Option<Fronts>,
-    /// The groups of equations whose order the fronts have, and whether the values that told them are forgotten.
+    /// The groups of equations whose order the fronts have, and whether the values that gave them are forgotten.
     groups: Vec<u32>,
     is_order_old: bool,
     /// Whether values like those at hand lack pivots in the order that was found for them: another search would not help.

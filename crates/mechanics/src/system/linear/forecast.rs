@@ -1,4 +1,4 @@
-//! What a solution costs, told from the pattern alone.
+//! What a solution costs, estimated from the pattern alone.
 
 use super::condensation::Condensation;
 use super::matrix::Matrix;

@@ -346,7 +346,7 @@ impl Fronts {
     }
 
     /// Whether some pivot was all but cancelled, so that the matrix may be singular. Factors in single precision have too
-    /// few digits to tell.
+    /// few digits for that.
     pub fn is_suspicious(&self) -> bool {
         self.precision() == Precision::Double && self.smallest < SUSPICIOUS
     }

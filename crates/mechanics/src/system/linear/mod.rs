@@ -58,7 +58,7 @@ pub enum Symmetry {
     Unsymmetric,
 }
 
-/// What a solver is told before it sees values.
+/// What a solver knows before it sees values.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// The number of raw degrees of freedom.
@@ -267,7 +267,7 @@ pub trait LinearSolver: Send {
         false
     }
 
-    /// Is told that stiffness: of the bodies undeformed and without history.
+    /// Receives that stiffness: of the bodies undeformed and without history.
     fn start_from(&mut self, _which: u64, _bulk: StartStiffness) {}
 
     /// What it has that depends on the problem and its values alone, not on what was solved before: for a solver that goes
@@ -401,7 +401,7 @@ pub enum LinearError {
     #[error("the linear system is singular{}: something can move freely; hold every body, or close its contact",
         .equation.map(|e| format!(", most of all in equation {e}")).unwrap_or_default())]
     Singular {
-        /// The equation that moves most, or whose row is zero; `None` where it cannot be told.
+        /// The equation that moves most, or whose row is zero; `None` where it cannot be determined.
         equation: Option<usize>,
     },
     /// A number in the matrix, the right-hand side or the solution is infinite or not a number.

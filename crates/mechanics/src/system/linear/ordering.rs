@@ -153,7 +153,7 @@ fn node_of(problem: &Problem) -> Vec<u32> {
     node
 }
 
-/// The group of each equation, numbered by first appearance. Values, where the matrix has them already, tell which node a
+/// The group of each equation, numbered by first appearance. Values, where the matrix has them already, show which node a
 /// multiplier acts on most; nothing else about the order depends on them.
 pub(super) fn groups(problem: &Problem, matrix: &Matrix) -> Vec<u32> {
     let (node, sign) = (node_of(problem), problem.sign);

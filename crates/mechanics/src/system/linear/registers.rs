@@ -25,7 +25,7 @@ mod tests {
     use super::*;
     use std::arch::asm;
 
-    /// Whether the processor says that upper halves are in use; nothing where it does not tell.
+    /// Whether the processor says that upper halves are in use; nothing where it does not say.
     fn are_in_use() -> Option<bool> {
         let has_state = std::arch::is_x86_feature_detected!("avx")
             && std::arch::is_x86_feature_detected!("xsavec");
@@ -33,7 +33,7 @@ mod tests {
             return None;
         }
         let low: u32;
-        // SAFETY: the processor has XGETBV, and with XSAVEC or XSAVES the form that tells what is in use.
+        // SAFETY: the processor has XGETBV, and with XSAVEC or XSAVES the form that reports what is in use.
         unsafe { asm!("xgetbv", in("ecx") 1, out("eax") low, out("edx") _) };
         Some(low & 0b100 != 0)
     }

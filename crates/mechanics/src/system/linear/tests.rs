@@ -1071,7 +1071,7 @@ fn the_analysis_of_an_identical_problem_is_kept() {
     // and so is the factor
     let (rhs, mut x) = (vec![1.0; same.nequation], vec![0.0; same.nequation]);
     solver.solve(&same.values(), &rhs, &mut x, 1e-12).unwrap();
-    // anything else is analyzed anew, and its factor is not there yet
+    // anything else is analyzed again, and its factor is not there yet
     let mut equation = first.equation.clone();
     let (a, b) = (first.sign.len() as u32 - 1, first.sign.len() as u32 - 2);
     for e in &mut equation {

@@ -34,7 +34,7 @@ impl Recorder<'_> {
     ) -> Option<signorini_mechanics::system::Archive> {
         let mut solution = signorini_mechanics::system::Archive::default();
         stepper.save(system, &mut solution);
-        // counted first: a resumed run tells of the checkpoint again
+        // counted first: a resumed run reports the checkpoint again
         let clock = Instant::now();
         match self.write_checkpoint(&solution, stepper.state().time) {
             Ok((stamp, file)) => {

@@ -1,4 +1,4 @@
-//! The files of a run: begun anew, or gone on with from a checkpoint.
+//! The files of a run: begun again, or gone on with from a checkpoint.
 
 use super::{Counts, Recorder, Setting, frame_file};
 use crate::run::audit::Audit;
@@ -49,7 +49,7 @@ pub struct Opened {
 }
 
 impl Opened {
-    /// Starts all files anew.
+    /// Starts all files again.
     ///
     /// # Errors
     /// The disk.

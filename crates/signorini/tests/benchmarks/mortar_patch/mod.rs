@@ -1,7 +1,7 @@
 //! The patch test of two blocks in mortar contact, for every pairing of facets.
 //!
 //! SOURCE      Taylor, Papadopoulos 1991; Popp, Gitterle, Gee, Wall 2010; Cichosz, Bischoff 2011 (covered part); grids and
-//!             runs of an independent program where the folder shared/reference is beside the repository.
+//!             runs of an independent program where the folder shared/reference is next to the repository.
 //! GOAL        stresses, displacements, pressures and forces are exact: what docs/patch_test.md says of mortar contact
 //! MESH        two unit blocks, 2 cells across below and 3 above, one up; corners moved within their planes by up to 0.12
 //!             of a cell, edges straight; quad4, tri3, quad8, quad9, tri6 in the plane; hex8, tet4, wedge6, hex20, hex27,

@@ -8,12 +8,12 @@
 //! ```text
 //! D_j b_j = D_j λ_j − Σ_e (E_e λ)_j,  E_e = D_e − S_e                                  (E1)
 //! D_j c_j = D_j b_j + Σ_e θ_e (E_e b)_j,  D_j p_j = D_j c_j + Σ_e θ_e ((½ E_e − T_e/10) c)_j  (E2)
-//! T_e = Σ_m D_m t_m t_mᵀ,  t_m = 1 at the mid node m, −½ at the corners a and b beside it   (E3)
+//! T_e = Σ_m D_m t_m t_mᵀ,  t_m = 1 at the mid node m, −½ at the corners a and b next to it   (E3)
 //! ```
 //!
 //! over facets e of which all nodes touch. (E1) levels a smooth traction twice, as Ñ do not interpolate and as means do;
 //! (E2) gives that back, and half as much again for the mean in `λ`. What (E1) levels is more at corners; `T_e` takes back
-//! what corners then have too much beside mid nodes. On a regular mesh of triangles with legs h, under the traction
+//! what corners then have too much compared with mid nodes. On a regular mesh of triangles with legs h, under the traction
 //! x² + y², `λ` lies off by 0.222 h² at corners and 0.11 h² at mid nodes, `p` by 0.006 h² and ±0.016 h².
 //!
 //! `E_e 1 = T_e 1 = 0` and `1ᵀE_e = 1ᵀT_e = 0`: even tractions stay as they are, and resultant forces do; moments change at

@@ -23,7 +23,7 @@ const NEARLY: f64 = 1.25;
 /// The equations that interface values act on, with those of the nodes around.
 pub(super) struct InterfaceBlock {
     direct: Direct,
-    /// Whether solutions need no refinement, as one with the first factor of these equations has told.
+    /// Whether solutions need no refinement, as one with the first factor of these equations has shown.
     is_exact: Option<bool>,
     /// The nodes in it, and the raw dofs beyond the nodes.
     nodes: Vec<u32>,

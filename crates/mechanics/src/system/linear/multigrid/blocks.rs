@@ -144,7 +144,7 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         sum
     }
 
-    /// The product with another matrix. `finish` has the last word on a row, told its number and its columns.
+    /// The product with another matrix. `finish` has the last word on a row, given its number and its columns.
     pub fn times<const D: usize>(
         &self,
         other: &Blocks<C, D>,
@@ -179,7 +179,7 @@ fn tasks(start: &[usize], rows: Range<usize>) -> Vec<Range<usize>> {
     tasks
 }
 
-/// The product of some rows, told by their blocks, with a matrix.
+/// The product of some rows, given by their blocks, with a matrix.
 fn product<const R: usize, const C: usize, const D: usize, Row>(
     tasks: &[Range<usize>],
     row_of: impl Fn(usize) -> Row + Sync,

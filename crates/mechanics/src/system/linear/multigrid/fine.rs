@@ -246,7 +246,7 @@ impl Corners {
 }
 
 /// Springs to the ground at these rows: without any, a body that floats has motions without stiffness, which no level of
-/// a hierarchy can tell from others. Together they are about as stiff as what the body rests on: E times the diameter of
+/// a hierarchy can distinguish from others. Together they are about as stiff as what the body rests on: E times the diameter of
 /// the contact, where a node has E times the size of an element.
 pub(super) fn hold(matrix: &mut Blocks<3, 3>, rows: &[u32]) {
     stiffen(matrix, rows, SPRING / (rows.len().max(1) as f64).sqrt());
@@ -314,7 +314,7 @@ fn floating(
 fn is_held(body: &[u32], coordinates: &[[f64; 3]], is_free: impl Fn(usize) -> bool) -> bool {
     let held = |&&node: &&u32| (0..3).any(|axis| !is_free(3 * node as usize + axis));
     let held: Vec<u32> = body.iter().filter(held).copied().collect();
-    // of each mode, what is left beside those before it: Cholesky's factor of the sums of products
+    // of each mode, what is left compared with those before it: Cholesky's factor of the sums of products
     let mut sums = [[0.0; MODES]; MODES];
     let all = modes(&held, coordinates, |_| true);
     for (&node, rows) in held.iter().zip(&all) {

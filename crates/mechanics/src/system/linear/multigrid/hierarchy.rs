@@ -184,7 +184,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.into_iter().chain(rest).sum()
 }
 
-/// A pivot that is nothing beside the largest.
+/// A pivot that is nothing compared with the largest.
 const FREE: f64 = 1e-12;
 
 impl Dense {

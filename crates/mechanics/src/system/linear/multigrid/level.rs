@@ -246,7 +246,7 @@ fn settle(matrix: &mut Blocks<MODES, MODES>) {
     }
 }
 
-/// A stiffness that is nothing beside the largest of its aggregate.
+/// A stiffness that is nothing compared with the largest of its aggregate.
 const NOTHING: f64 = 1e-14;
 
 /// The largest eigenvalue of `M⁻¹ A`, from below.

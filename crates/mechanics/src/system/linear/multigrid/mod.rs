@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   K     stiffness of the bodies     ──aggregate, smooth──▶ hierarchy        kept while it serves
-//!   A = K + contact, couplings        ──rows at the interface──▶ block A_II   anew with every tangent
+//!   A = K + contact, couplings        ──rows at the interface──▶ block A_II   again with every tangent
 //!
 //!   M⁻¹ r:   y = A_II⁻¹ r_I    x = V (r − A y)    x_I = A_II⁻¹ (r_I − A_IO x_O)    O: all other equations
 //! ```
@@ -10,14 +10,13 @@
 //! Corners of quadratic elements are a level of their own: there stand the linear elements on the same places, which are
 //! aggregated.
 //!
-//! What holds single unknowns, and is little in comparison with the bodies, is in the hierarchy and not in the block ([`alone`]): viscous
-//! forces on bodies that float would make the block the whole model.
+//! What holds single unknowns, and is little compared with the bodies, is in the hierarchy and not in the block
+//! ([`alone`]): viscous forces on bodies that float would make the block the whole model.
 //!
 //! Contact never enters the hierarchy, so that no change of contact costs a new one, and no stiffness of contact makes
-//! iterations more. Of multipliers its levels know by springs beside their stiffness ([`springs`]), which are told anew
-//! with every tangent. The smoother is an incomplete factor by blocks of nodes. It outlives patterns: nothing but the
-//! stiffness of the bodies, and what is held of them, makes it anew. All of it is in single precision, and what only
-//! smooths, or leads from level to level, in whole numbers of 16 bits with a unit for each row: iterations stay the same.
+//! iterations more. The levels represent multipliers by fictitious springs ([`springs`]), updated with every tangent. The
+//! smoother is an incomplete factor by blocks of nodes. The hierarchy outlives patterns: it is rebuilt only where the
+//! stiffness of the bodies, or their constraints, change. All of it is in single precision, and what only smooths, or leads from level to level, in whole numbers of 16 bits with a unit for each row: iterations stay the same.
 //!
 //! Multipliers are in the block with all they act on. Where operator and block are positive definite, iterations are by
 //! conjugate gradients; elsewhere by minimal residuals, from a start that leaves nothing at the equations of the block,
@@ -70,11 +69,11 @@ const ITERATIONS: usize = 200;
 const STRICTER: f64 = 0.1;
 /// Times that iterations begin for one solution, at most.
 const ATTEMPTS: usize = 4;
-/// A hierarchy is made anew where it takes so many times the iterations that it took when it was new, twice running.
+/// Rebuild the hierarchy when its iterations have grown by this factor since it was new, twice running.
 const WORN: f64 = 1.6;
-/// A hierarchy is made anew where contact holds bodies that float at so many times as many nodes, or the fewer.
+/// Rebuild it when the number of contact nodes that support floating bodies has changed by this factor.
 const GROWN: usize = 2;
-/// A hierarchy is made anew where viscous forces are so many times as strong or as weak, if nothing else holds bodies.
+/// Rebuild it when viscous forces have changed by this factor, if nothing else holds bodies.
 const CHANGED: f64 = 10.0;
 /// A hierarchy of the bodies at the start serves as long as their stiffness has changed by no more than this part, in
 /// about the norm of Frobenius. Iterations where one of two bodies has turned by 0.1 and 0.2, which changes 0.08 and
@@ -137,9 +136,9 @@ pub(super) struct Grid {
 /// What is known of the stiffness at the start of the run: a hierarchy of it is the same in every run, resumed or not.
 #[derive(Default)]
 struct Start {
-    /// Which one was told.
+    /// Which one was given.
     which: Option<u64>,
-    /// What was told, until the next values come.
+    /// What was given, until the next values come.
     told: Option<StartStiffness>,
     /// It times a vector of signs: the change of this is about that of the stiffness.
     response: Vec<f64>,

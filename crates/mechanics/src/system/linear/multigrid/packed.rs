@@ -73,7 +73,7 @@ impl<const R: usize, const C: usize, T: Number> Packed<R, C, T> {
         Self::transposed_to(of, |row| of.ncolumn - 1 - row)
     }
 
-    /// The transpose of a matrix with its rows where `place` tells.
+    /// The transpose of a matrix with its rows where `place` says.
     fn transposed_to(of: &Blocks<C, R>, place: impl Fn(usize) -> usize + Sync) -> Self {
         let nrow = of.ncolumn;
         let mut start = vec![0usize; nrow + 1];

@@ -136,7 +136,7 @@ pub(super) fn rows_and_strengths(
     (Some(all).filter(|all| !all.column.is_empty()), strengths)
 }
 
-/// Makes springs no stiffer than `STIFFEST` allows beside this diagonal.
+/// Makes springs no stiffer than `STIFFEST` allows compared with this diagonal.
 pub(super) fn limit<const N: usize>(rows: &mut Rows<N>, diagonal: impl Fn(usize) -> [f32; N]) {
     let inverse_root = |d: f32| {
         if d > 0.0 {

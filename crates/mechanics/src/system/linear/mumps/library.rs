@@ -143,7 +143,7 @@ impl Instance {
     pub fn factorize(&mut self, value: &mut [f64], spare: i32) -> Result<Status, LinearError> {
         fits("values of entries", value.len(), self.pattern.nentry())?;
         let _alone = alone();
-        // SAFETY: `id` is alive and analyzed; the three lists have as many entries as the analysis was told of, and are
+        // SAFETY: `id` is alive and analyzed; the three lists have as many entries as the analysis was given, and are
         // borrowed for the call alone.
         Ok(unsafe {
             signorini_mumps_factorize(

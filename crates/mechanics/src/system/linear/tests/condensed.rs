@@ -62,7 +62,7 @@ fn contacts(kind: Kind, statuses: &[Status]) -> System {
         let facet = secondary + random.below(primary - 3);
         nodes.extend(facet..facet + 3);
         if kind.quadratic && point % 2 == 1 {
-            // of an edge, on a corner beside it
+            // of an edge, on a corner next to it
             nodes.push((point + 1) % POINTS);
         }
         let ndisplacement = nodes.len() * block;

@@ -193,7 +193,7 @@ fn factors_in_single_precision_serve_where_they_suffice() {
     let right = signs(assembled.nequation);
     let left = solver.leaves(&right);
     assert!((1e-9..1e-3).contains(&left), "{left}");
-    // in double precision until it is told to forget
+    // in double precision until it is asked to forget
     solver.widen();
     let wide = solve(&mut solver);
     assert!(!solver.is_rough() && solver.leaves(&right) < 1e-10);
@@ -227,7 +227,7 @@ fn what_a_factor_in_single_precision_leaves_shows_pivots_that_cancel() {
 
 #[test]
 fn couplings_that_fade_leave_normal_numbers() {
-    // a square of unknowns that hardly know those beside them: what fills in are powers of the coupling
+    // a square of unknowns that hardly know those next to them: what fills in are powers of the coupling
     let n = 24;
     let mut system = System::new(n * n, 1, 0, Symmetry::Unsymmetric);
     let at = |i: usize, j: usize| (j * n + i) as u32;

@@ -518,7 +518,7 @@ fn turned_above(placed: &Placed, angle: f64) -> Placed {
     turned
 }
 
-/// Iterations and the solution in an increment of a step, where the solver is told of the stiffness at the start if it
+/// Iterations and the solution in an increment of a step, where the solver is given the stiffness at the start if it
 /// asks.
 fn solve_from(
     which: u64,
