@@ -126,7 +126,7 @@ fn grid_with_singular_blocks(n: usize, period: usize) -> System {
             let node = j * n + i;
             let dofs = |node: usize| (0..3).map(move |c| (3 * node + c) as u32);
             let mut block = random.vector(9);
-            let is_singular = node % period == 0;
+            let is_singular = node.is_multiple_of(period);
             for (k, entry) in block.iter_mut().enumerate() {
                 let (row, column) = (k / 3, k % 3);
                 *entry = match is_singular {
