@@ -14,7 +14,7 @@
 
 use super::cholesky::Cholesky;
 use super::fronts::{Fronts, Precision};
-use super::gathered::{Breakdown, Gathered, NAMING_SHIFT};
+use super::gathered::{Breakdown, Gathered, NAMING_SHIFT, scattered};
 use super::lu::Lu;
 use super::ordering::{self, Ordering};
 use super::{LinearError, LinearSolver, Problem, SolveReport, Symmetry, Values};
@@ -27,8 +27,6 @@ const LU_UP_TO: usize = 60_000;
 
 /// The residual of a scattered right-hand side that a factor with replaced pivots has to reach.
 const WITHOUT_PIVOTS: f64 = 1e-10;
-/// Multiples of it scatter over 0 to 1: the inverse of the golden ratio.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The direct solver.
 ///
@@ -105,7 +103,8 @@ impl Direct {
         }
     }
 
-    /// The same, with factors in single precision where the matrix is unsymmetric and that suffices: for preconditioners.
+    /// The same, with factors in single precision where the matrix is unsymmetric: for preconditioners, which judge each
+    /// factor by [`Self::leaves`] and may ask for double precision by [`Self::widen`].
     pub(super) fn rough() -> Self {
         Self {
             precision: Precision::Single,
@@ -406,10 +405,8 @@ impl Analysis {
 
     /// Whether refinement makes up for pivots that were replaced: of a singular matrix, it does not.
     fn solves(&mut self, values: &Values) -> Result<bool, LinearError> {
-        let n = self.gathered.matrix.nequation();
-        let scattered = |e: usize| (e as f64 * GOLDEN).fract() - 0.5;
-        let right: Vec<f64> = (0..n).map(scattered).collect();
-        let mut left = vec![0.0; n];
+        let right = scattered(self.gathered.matrix.nequation());
+        let mut left = vec![0.0; right.len()];
         match self.refine(values, &right, &mut left, WITHOUT_PIVOTS) {
             Ok(report) => Ok(report.residual <= WITHOUT_PIVOTS),
             Err(LinearError::Inaccurate { .. } | LinearError::NotFinite) => Ok(false),

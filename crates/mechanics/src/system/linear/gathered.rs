@@ -99,16 +99,7 @@ impl Gathered {
     ) -> Result<Option<usize>, Breakdown> {
         let n = self.matrix.nequation();
         let free = FREE.max(FREE_PER_ROOT * (n as f64).sqrt());
-        let scattered = |e: usize| 0.5 + ((e as f64 + 1.0) * 0.618_033_988_749_894_9).fract();
-        let mut x: Vec<f64> = (0..n)
-            .map(|e| {
-                if e % 2 == 0 {
-                    scattered(e)
-                } else {
-                    -scattered(e)
-                }
-            })
-            .collect();
+        let mut x = scattered(n);
         let mut product = vec![0.0; n];
         for _ in 0..2 {
             back_substitute(&mut x);
@@ -213,6 +204,13 @@ impl Gathered {
             })
         }
     }
+}
+
+/// Numbers of both signs with sizes from 0.5 to 1.5, in no order that a matrix might have: multiples of the golden ratio.
+pub(super) fn scattered(n: usize) -> Vec<f64> {
+    let size = |e: usize| 0.5 + ((e as f64 + 1.0) * 0.618_033_988_749_894_9).fract();
+    let signed = |e: usize| if e % 2 == 0 { size(e) } else { -size(e) };
+    (0..n).map(signed).collect()
 }
 
 impl Kept {

@@ -785,13 +785,13 @@ impl Grid {
             return Ok(Ok(report));
         }
         let symmetric = kept.is_definite();
-        let mut size = kept.largest_force(rhs);
+        let mut size = kept.largest_at_displacements(rhs);
         if symmetric {
             residual.value.copy_from_slice(rhs);
         } else {
             self.block.after(rhs, x)?;
             residual.measure(kept, values, rhs, x);
-            size = size.max(kept.largest_force(&residual.value));
+            size = size.max(kept.largest_at_displacements(&residual.value));
         }
         let part = match wanted {
             Wanted::Residual(rtol) => rtol,
@@ -839,7 +839,7 @@ impl Grid {
                     let mut error = vec![0.0; x.len()];
                     operators.precondition(&residual.value, &mut error)?;
                     report.iterations += 1;
-                    kept.largest_force(&error) <= part * kept.largest_force(x)
+                    kept.largest_at_displacements(&error) <= part * kept.largest_at_displacements(x)
                 }
             };
             if done {
@@ -893,7 +893,7 @@ impl Kept {
     }
 
     /// The largest value at equations of displacements.
-    fn largest_force(&self, values: &[f64]) -> f64 {
+    fn largest_at_displacements(&self, values: &[f64]) -> f64 {
         let forces = values.iter().zip(&self.sign).filter(|(_, s)| **s > 0);
         forces.fold(0.0, |largest: f64, (v, _)| largest.max(v.abs()))
     }

@@ -623,6 +623,19 @@ fn a_hierarchy_of_the_start_that_is_slow_gives_way_to_a_new_one() {
     }
 }
 
+/// Iterations of a solution to a tenth and of an exact one, and the largest difference over the largest value.
+fn roughly(placed: &Placed, assembled: &Assembled, rhs: &[f64]) -> ([usize; 2], f64) {
+    let [mut x, mut exact] = [0; 2].map(|_| vec![0.0; rhs.len()]);
+    let mut solver = Multigrid::new();
+    solver.analyze(&placed.problem(assembled)).unwrap();
+    solver.factorize(&assembled.values()).unwrap();
+    let rough = solver.solve_roughly(&assembled.values(), rhs, &mut x, 0.1, 0.0);
+    let full = solver.solve(&assembled.values(), rhs, &mut exact, 1e-12);
+    let off = x.iter().zip(&exact).map(|(x, y)| (x - y).abs());
+    let off = off.fold(0.0, f64::max) / largest(&exact);
+    ([rough, full].map(|report| report.unwrap().iterations), off)
+}
+
 #[test]
 fn a_rough_solution_is_less_work() {
     for mu in [0.0, 0.5] {
@@ -638,17 +651,9 @@ fn a_rough_solution_is_less_work() {
         };
         let assembled = placed.system.assemble();
         let rhs = Random(3).vector(assembled.nequation);
-        let (mut x, mut exact) = (rhs.clone(), rhs.clone());
-        let mut solver = Multigrid::new();
-        solver.analyze(&placed.problem(&assembled)).unwrap();
-        solver.factorize(&assembled.values()).unwrap();
-        let rough = solver.solve_roughly(&assembled.values(), &rhs, &mut x, 0.1, 0.0);
-        let full = solver.solve(&assembled.values(), &rhs, &mut exact, 1e-12);
-        let (rough, full) = (rough.unwrap(), full.unwrap());
-        println!("{mu}: {} and {}", rough.iterations, full.iterations);
-        assert!(0 < rough.iterations && 3 * rough.iterations <= full.iterations);
-        let off = x.iter().zip(&exact).map(|(x, y)| (x - y).abs());
-        let off = off.fold(0.0, f64::max) / largest(&exact);
+        let ([rough, full], off) = roughly(&placed, &assembled, &rhs);
+        println!("{mu}: {rough} and {full}");
+        assert!(0 < rough && 3 * rough <= full);
         assert!(off > 1e-9 && off < 0.3, "{off:e}");
     }
 }
@@ -668,19 +673,8 @@ fn a_rough_solution_is_near_where_a_stiff_body_moves_a_soft_one() {
             };
             let assembled = placed.system.assemble();
             let rhs = head_moved_at(12.0, &placed, &assembled);
-            let [mut x, mut exact] = [0; 2].map(|_| vec![0.0; rhs.len()]);
-            let mut solver = Multigrid::new();
-            solver.analyze(&placed.problem(&assembled)).unwrap();
-            solver.factorize(&assembled.values()).unwrap();
-            let rough = solver.solve_roughly(&assembled.values(), &rhs, &mut x, 0.1, 0.0);
-            let full = solver.solve(&assembled.values(), &rhs, &mut exact, 1e-12);
-            let (rough, _) = (rough.unwrap(), full.unwrap());
-            let off = x.iter().zip(&exact).map(|(x, y)| (x - y).abs());
-            let off = off.fold(0.0, f64::max) / largest(&exact);
-            println!(
-                "{young:?} {mu}: {} iterations, off by {off:.1e}",
-                rough.iterations
-            );
+            let ([rough, _], off) = roughly(&placed, &assembled, &rhs);
+            println!("{young:?} {mu}: {rough} iterations, off by {off:.1e}");
             assert!(off < 0.2, "{young:?} {mu}: {off:e}");
         }
     }
