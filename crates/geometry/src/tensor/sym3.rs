@@ -200,7 +200,7 @@ impl Sym3 {
     }
 }
 
-/// What is left compared with the diagonal, relative to it, when values are found.
+/// What may stay off the diagonal, relative to it, when values are found.
 const NOTHING: f64 = f64::EPSILON / 64.0;
 
 /// Turns a symmetric matrix in the plane `p, q` such that its entry there vanishes.

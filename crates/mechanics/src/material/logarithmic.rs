@@ -33,7 +33,7 @@ pub(super) struct Logarithmic {
 const CLOSE: f64 = 0.1;
 /// Terms of the series: `CLOSE` to this power is round-off.
 const TERMS: usize = 16;
-/// What an off-diagonal term is nothing against, compared with the two diagonal ones.
+/// An off-diagonal term counts as nothing below this part of the two diagonal ones.
 const NOTHING: f64 = 0.01 * f64::EPSILON;
 /// Sweeps of Jacobi's method; convergence is quadratic, six do.
 const SWEEPS: usize = 30;

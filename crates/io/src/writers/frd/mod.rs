@@ -496,7 +496,7 @@ fn push_elements(out: &mut Vec<u8>, labels: &Labels, mesh: &Mesh) {
     out.extend_from_slice(TAIL);
 }
 
-/// The two lines that name the data set it is; `numbers` counts data sets and frames.
+/// The two lines that name the data set; `numbers` counts data sets and frames.
 fn push_moment(out: &mut Vec<u8>, moment: &Moment, [dataset, frame]: [u64; 2], nnode: usize) {
     out.extend_from_slice(b"    1PSTEP");
     push_whole(out, dataset, 26);

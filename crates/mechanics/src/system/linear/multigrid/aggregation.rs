@@ -6,7 +6,7 @@ use crate::system::sparsity::NONE;
 
 /// Modes of a rigid body in space.
 pub(super) const MODES: usize = 6;
-/// Part of a mode that must be left compared with those before it.
+/// Part of a mode that must remain after those before it.
 const INDEPENDENT: f64 = 1e-6;
 
 /// Which aggregate each row belongs to.

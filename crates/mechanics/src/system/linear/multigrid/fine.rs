@@ -314,7 +314,7 @@ fn floating(
 fn is_held(body: &[u32], coordinates: &[[f64; 3]], is_free: impl Fn(usize) -> bool) -> bool {
     let held = |&&node: &&u32| (0..3).any(|axis| !is_free(3 * node as usize + axis));
     let held: Vec<u32> = body.iter().filter(held).copied().collect();
-    // of each mode, what is left compared with those before it: Cholesky's factor of the sums of products
+    // the remainder of each mode after those before it: Cholesky's factor of the sums of products
     let mut sums = [[0.0; MODES]; MODES];
     let all = modes(&held, coordinates, |_| true);
     for (&node, rows) in held.iter().zip(&all) {
