@@ -209,7 +209,13 @@ impl Gathered {
 /// Numbers of both signs with sizes from 0.5 to 1.5, in no order that a matrix might have: multiples of the golden ratio.
 pub(super) fn scattered(n: usize) -> Vec<f64> {
     let size = |e: usize| 0.5 + ((e as f64 + 1.0) * 0.618_033_988_749_894_9).fract();
-    let signed = |e: usize| if e % 2 == 0 { size(e) } else { -size(e) };
+    let signed = |e: usize| {
+        if e.is_multiple_of(2) {
+            size(e)
+        } else {
+            -size(e)
+        }
+    };
     (0..n).map(signed).collect()
 }
 
