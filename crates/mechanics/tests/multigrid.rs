@@ -14,6 +14,7 @@ mod common;
 use common::{Grid, Part};
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
+use signorini_linear::LinearKind;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
@@ -23,7 +24,6 @@ use signorini_mechanics::model::{
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
 };
-use signorini_mechanics::system::linear::LinearKind;
 use signorini_mechanics::system::{Archive, Idealisation};
 
 /// A situation; the default is a block that is pressed without friction.

@@ -1,13 +1,13 @@
 //! Connectors between loose nodes, nodes of rigid bodies, nodes that follow along one axis, and nodes in equations.
 
 use super::*;
-use crate::system::linear::apply;
 use crate::system::{
     Assembler, Assembly, Elimination, Idealisation, Layout, Order, Relation, RigidBody,
     StepContext, Term,
 };
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
+use signorini_linear::apply;
 use std::sync::Arc;
 
 fn noise(k: usize) -> f64 {

@@ -18,7 +18,7 @@
 //! Comput.* 17 (1996) 16–32.
 
 use super::equations::Accuracy;
-use crate::system::linear::EXACT;
+use signorini_linear::EXACT;
 
 /// The part of the error that a rough solution leaves.
 const ROUGH: f64 = 0.1;

@@ -1,10 +1,8 @@
 //! Which raw dofs are solved for, and the linear system over them.
 
-use crate::system::linear::{
-    LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
-};
-use crate::system::sparsity::NONE;
 use crate::system::{Assembler, Assembly, Dof, DofName, Symmetry, System};
+use signorini_linear::sparsity::NONE;
+use signorini_linear::{LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness};
 use std::time::Instant;
 
 /// Wall time spent in the linear solver, in seconds.
@@ -217,7 +215,7 @@ impl Equations {
         if with_motion {
             self.response.clear();
             self.response.resize(du.len(), 0.0);
-            crate::system::linear::apply(
+            signorini_linear::apply(
                 assembler.bulk(),
                 assembler.interface(),
                 &values,

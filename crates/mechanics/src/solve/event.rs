@@ -1,8 +1,8 @@
 //! What happens in a run, as one stream: the terminal, the files and Python are all fed from it.
 
 use super::Failure;
-use crate::system::linear::Note;
 use crate::system::{Dof, Frame};
+use signorini_linear::Note;
 
 /// One linear solve.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,10 +2,10 @@
 
 use super::equations::Equations;
 use super::stepping::Step;
-use crate::system::linear::{
+use crate::system::{Assembler, Assembly, Order, State, System, TermError};
+use signorini_linear::{
     Forecast, LinearError, LinearKind, LinearSolver, Problem, SolveReport, Values,
 };
-use crate::system::{Assembler, Assembly, Order, State, System, TermError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 

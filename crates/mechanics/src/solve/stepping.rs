@@ -5,10 +5,10 @@ use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
 use super::stabilization;
 use super::work::ExternalWork;
-use crate::system::linear::{LinearKind, choose};
 use crate::system::{
     Aid, Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError, interpolate,
 };
+use signorini_linear::{LinearKind, choose};
 use thiserror::Error;
 
 /// How a step is cut into increments.

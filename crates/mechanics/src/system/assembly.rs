@@ -1,15 +1,15 @@
 //! From terms to one residual and one operator.
 
 use super::elimination::Expanded;
-use super::linear::Values;
 use super::shares::{Share, divide, share_out};
-use super::sparsity::{BlockPattern, NONE, Pattern};
 use super::{
     Dof, Elimination, Lasts, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, Term,
     TermError, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
+use signorini_linear::Values;
+use signorini_linear::sparsity::{BlockPattern, NONE, Pattern};
 
 /// Compliance of redundant multipliers over that of what they act on: far below all that is of interest, far above rounding.
 const YIELDING: f64 = 1e-6;

@@ -1,10 +1,10 @@
 //! Unknowns that follow others: rigid bodies and couplings (E1), equations (E3).
 
-use super::sparsity::NONE;
 use super::{Dof, Layout, NO_DOF, State};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Pose, RigidId};
 use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_linear::sparsity::NONE;
 
 /// What nodes move with: a reference point, and the nodes that follow it in all directions.
 #[derive(Clone, Debug, PartialEq)]

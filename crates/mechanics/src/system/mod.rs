@@ -39,11 +39,8 @@ mod elimination;
 mod frame;
 mod idealisation;
 mod layout;
-pub mod linear;
-mod lists;
 mod samples;
 mod shares;
-pub mod sparsity;
 mod state;
 mod term;
 #[cfg(test)]
@@ -60,9 +57,9 @@ pub use frame::{
 };
 pub use idealisation::Idealisation;
 pub use layout::{Dof, DofName, Layout, NO_DOF};
-pub use linear::Symmetry;
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;
+pub use signorini_linear::Symmetry;
 pub use state::State;
 pub use term::{
     Aid, Archive, ArchiveError, Lasts, Order, Part, PatternSink, Sink, StepContext, Term,

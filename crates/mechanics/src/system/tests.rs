@@ -1,10 +1,10 @@
 //! Nodes that follow rigid bodies: forces, tangents, threads and turns, measured.
 
 use super::*;
-use crate::system::linear::apply;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_linear::apply;
 
 /// Numbers in [-1, 1] that look random and are the same in every run.
 fn noise(k: usize) -> f64 {

@@ -37,11 +37,11 @@ use signorini_io::case::{
     self, Case, Enforcement, FreeMotions, HistorySource, Method, Per, Space, Stabilize,
 };
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, codes};
+use signorini_linear::{LinearKind, SOLVERS};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::model::{self, ContactSummary, LockingSummary, Parts, StartSummary};
 use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{LineSearch, NewtonSettings, Step, StepperSettings};
-use signorini_mechanics::system::linear::{LinearKind, SOLVERS};
 use signorini_mechanics::system::{Idealisation, System};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

@@ -4,7 +4,7 @@ use super::console::Console;
 use super::templates::TEMPLATES;
 use super::threads;
 use signorini::{RunOptions, build};
-use signorini_mechanics::system::linear::SOLVERS;
+use signorini_linear::SOLVERS;
 use std::time::Instant;
 
 /// Tells what there is to know about program and machine, and solves something small.

@@ -2,8 +2,8 @@
 
 use crate::build::Model;
 use crate::text::{count, short};
+use signorini_linear::Path;
 use signorini_mechanics::solve::{Cost, forecast};
-use signorini_mechanics::system::linear::Path;
 
 /// Bytes of the program, of a node and of a cell with their results, besides the linear system: measured.
 const PROGRAM: f64 = 2e7;

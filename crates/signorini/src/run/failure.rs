@@ -5,8 +5,8 @@ use crate::build::{Model, first_step, hold};
 use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_linear::LinearError;
 use signorini_mechanics::solve::{Failure, RunError};
-use signorini_mechanics::system::linear::LinearError;
 use signorini_mechanics::system::{Dof, DofName, PatternSink, Term, TermError};
 
 /// What is on disk when a run fails.

@@ -8,9 +8,9 @@
 
 use crate::build::{ContactInfo, hold};
 use signorini_io::case::{Case, Increments, Remedy, Step};
+use signorini_linear::LinearError;
 use signorini_mechanics::solve::Failure;
 use signorini_mechanics::system::TermError;
-use signorini_mechanics::system::linear::LinearError;
 
 /// The first of smaller increments relative to those that failed.
 const SMALLER: f64 = 0.1;

@@ -1,8 +1,8 @@
 //! Loads on the faces of a rigid box.
 
 use super::*;
-use crate::system::linear::apply;
 use crate::system::{Assembler, Assembly, RigidBody};
+use signorini_linear::apply;
 use std::f64::consts::TAU;
 
 /// A rigid box of distorted quadratic faces, which turns about a point of its own.

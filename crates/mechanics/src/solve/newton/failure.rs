@@ -1,7 +1,7 @@
 //! Why an increment did not converge.
 
-use crate::system::linear::LinearError;
 use crate::system::{Dof, NodeId, TermError};
+use signorini_linear::LinearError;
 use thiserror::Error;
 
 /// Why an increment did not converge.

@@ -5,8 +5,8 @@ use super::iterate::{Iterate, LastStep, is_small};
 use super::{Failure, LineSearch, Newton, largest};
 use crate::solve::equations::{Accuracy, Factor};
 use crate::solve::line_search;
-use crate::system::linear::{EXACT, LinearError, StartStiffness};
 use crate::system::{Aid, Dof, Layout, Order, System, TermError};
+use signorini_linear::{EXACT, LinearError, StartStiffness};
 
 /// Free motions that are held at once: a body that is all mechanism is not worth solving.
 const HELD_AT_MOST: usize = 200;

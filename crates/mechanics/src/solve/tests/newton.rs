@@ -4,7 +4,7 @@ use super::super::Failure;
 use super::super::equations::Equations;
 use super::super::newton::{Goal, Newton, Place};
 use super::*;
-use crate::system::linear::{
+use signorini_linear::{
     LinearError, LinearKind, LinearSolver, Problem, SolveReport, Values, choose,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -6,8 +6,8 @@ use signorini_io::case::Every;
 use signorini_io::writers::csv::Cell;
 use signorini_io::writers::json::{ContactState, ContactSummary, Event};
 use signorini_io::writers::sta::Attempt;
+use signorini_linear::Note;
 use signorini_mechanics::solve::{Cause, IncrementRecord, IterationRecord, RunError};
-use signorini_mechanics::system::linear::Note;
 use signorini_mechanics::system::{ContactFrame, Dof, DofName, Frame};
 
 impl Recorder<'_> {

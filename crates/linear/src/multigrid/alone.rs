@@ -1,0 +1,98 @@
+//! What interface values do to single unknowns: viscous forces on bodies that float, weak springs to the ground.
+//!
+//! Where that is little in comparison with the stiffness of the bodies, it is no part of the block at the interface, which
+//! would hold all bodies as long as viscous forces do, but of the hierarchy.
+
+use super::blocks::Blocks;
+use super::fine::Fine;
+use crate::problem::{Kept, Values};
+
+/// The largest stiffness to the ground that is little, over the mean one of the node. Viscous forces are 1e-3 of it, and 0.03
+/// after an iteration has failed; a penalty is ten times as stiff.
+const LITTLE: f64 = 0.1;
+
+/// The largest stiffness to the ground at a node that is little.
+fn little(kept: &Kept, values: &Values, node: usize) -> f64 {
+    let at = kept.bulk.position(node as u32, node as u32);
+    let block = at.and_then(|at| values.bulk.get(9 * at..9 * at + 9));
+    block.map_or(0.0, |b| LITTLE * (b[0] + b[4] + b[8]) / 3.0)
+}
+
+/// The columns and values of the interface at an unknown.
+fn row<'a>(kept: &'a Kept, values: &'a Values<'_>, dof: usize) -> impl Iterator<Item = (u32, f64)> {
+    let ends = kept.interface.row_start.get(dof..dof + 2);
+    let range = ends.map_or(0..0, |ends| ends[0]..ends[1]);
+    let columns = kept.interface.column.get(range.clone()).unwrap_or_default();
+    let values = values.interface.get(range).unwrap_or_default();
+    columns.iter().copied().zip(values.iter().copied())
+}
+
+/// Whether interface values act on each node, but for what is little and acts on single unknowns.
+pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
+    let counts = |dof: usize, (column, v): (u32, f64)| {
+        let is_alone = column as usize == dof;
+        v != 0.0 && !(is_alone && v.abs() <= little(kept, values, dof / 3))
+    };
+    let is_touched = |node: usize| {
+        let mut dofs = 3 * node..3 * node + 3;
+        dofs.any(|dof| row(kept, values, dof).any(|entry| counts(dof, entry)))
+    };
+    (0..kept.bulk.nrow()).map(is_touched).collect()
+}
+
+/// Whether interface values have a place at each node, but for single unknowns.
+pub(super) fn coupled(kept: &Kept) -> Vec<bool> {
+    let is_coupled = |node: usize| {
+        (3 * node..3 * node + 3).any(|dof| {
+            let ends = kept.interface.row_start.get(dof..dof + 2);
+            let columns = ends.and_then(|ends| kept.interface.column.get(ends[0]..ends[1]));
+            columns.is_some_and(|all| all.iter().any(|&column| column as usize != dof))
+        })
+    };
+    (0..kept.bulk.nrow()).map(is_coupled).collect()
+}
+
+/// Adds what is little and acts on single unknowns to the stiffness of the bodies.
+pub(super) fn add(kept: &Kept, values: &Values, fine: &Fine, matrix: &mut Blocks<3, 3>) {
+    for (row, at) in places(fine, matrix) {
+        for (axis, v) in at_node(kept, values, fine.node[row]) {
+            matrix.value[at][axis][axis] += v;
+        }
+    }
+}
+
+/// The mean of what [`add`] adds at bodies that float, over the stiffness there.
+pub(super) fn strength(kept: &Kept, values: &Values, fine: &Fine) -> f64 {
+    let (mut added, mut all) = (0.0, 0.0);
+    for &row in &fine.floating {
+        let node = fine.node[row as usize];
+        added += at_node(kept, values, node).map(|(_, v)| v).sum::<f64>();
+        all += 3.0 * little(kept, values, node as usize) / LITTLE;
+    }
+    if all > 0.0 { added / all } else { 0.0 }
+}
+
+/// What is little and acts on single unknowns of a node: axes and values.
+fn at_node<'a>(
+    kept: &'a Kept,
+    values: &'a Values<'_>,
+    node: u32,
+) -> impl Iterator<Item = (usize, f64)> {
+    let little = little(kept, values, node as usize);
+    (0..3).filter_map(move |axis| {
+        let dof = 3 * node as usize + axis;
+        let own = row(kept, values, dof).find(|(column, _)| *column as usize == dof);
+        own.map(|(_, v)| (axis, v))
+            .filter(|(_, v)| *v > 0.0 && *v <= little)
+    })
+}
+
+/// Where the diagonal blocks of bodies that float are.
+fn places(fine: &Fine, matrix: &Blocks<3, 3>) -> Vec<(usize, usize)> {
+    let place = |&row: &u32| {
+        let range = matrix.range(row as usize);
+        let at = matrix.column[range.clone()].binary_search(&row).ok()?;
+        Some((row as usize, range.start + at))
+    };
+    fine.floating.iter().filter_map(place).collect()
+}

@@ -1,0 +1,182 @@
+//! Nested dissection by METIS: the only call into that library.
+//!
+//! G. Karypis and V. Kumar, A fast and high quality multilevel scheme for partitioning irregular graphs,
+//! SIAM J. Sci. Comput. 20 (1998) 359–392.
+#![allow(unsafe_code)]
+
+use super::graph::Graph;
+use std::sync::Mutex;
+
+/// METIS draws its random numbers from the C library's one generator: two orderings at once would disturb each other.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+/// The nested dissection order of a graph: `order[new] = old`.
+///
+/// `None` where METIS gives up, where the graph has no edge (nothing to order) or is too large for its 32 bits.
+/// The same graph gives the same order.
+///
+/// # Limits
+/// The graph must be symmetric and without loops, which [`Graph`] guarantees.
+pub(super) fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
+    if graph.neighbour.is_empty() {
+        return None;
+    }
+    let narrow = |&n: &usize| i32::try_from(n).ok();
+    let mut nvertex = i32::try_from(graph.nvertex()).ok()?;
+    let mut start = graph
+        .start
+        .iter()
+        .map(narrow)
+        .collect::<Option<Vec<i32>>>()?;
+    let mut neighbour = graph
+        .neighbour
+        .iter()
+        .map(|&v| v as i32)
+        .collect::<Vec<_>>();
+    let mut weight = graph.weight.iter().map(|&w| w as i32).collect::<Vec<_>>();
+    let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
+    let mut order = vec![0i32; graph.nvertex()];
+    let mut place = vec![0i32; graph.nvertex()];
+
+    let _guard = ONE_AT_A_TIME
+        .lock()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    #[cfg(target_os = "linux")]
+    let _handlers = handlers::Kept::new();
+    // SAFETY: every pointer is to a live, exclusively borrowed buffer of the length METIS documents: `options` has
+    // METIS_NOPTIONS entries, `start` nvertex + 1 entries that rise from 0 to the length of `neighbour`, `weight`,
+    // `order` and `place` nvertex entries. `Graph` keeps every neighbour below nvertex, without loops, both ways.
+    // METIS keeps no pointer, and frees what it allocates. Its one piece of shared state, the generator of random
+    // numbers, is behind the lock above.
+    let status = unsafe {
+        metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
+        metis_sys::METIS_NodeND(
+            &mut nvertex,
+            start.as_mut_ptr(),
+            neighbour.as_mut_ptr(),
+            weight.as_mut_ptr(),
+            options.as_mut_ptr(),
+            order.as_mut_ptr(),
+            place.as_mut_ptr(),
+        )
+    };
+    (status == metis_sys::rstatus_et_METIS_OK)
+        .then(|| order.into_iter().map(|v| v as u32).collect())
+}
+
+/// METIS handles SIGABRT and SIGTERM itself while it works, and gives the handlers of the program back without their flags: for
+/// one signal only, after which the default action ends the process. So the program keeps them.
+///
+/// Source: METIS 5.1, GKlib/error.c, `gk_sigtrap` and `gk_siguntrap`; `signal(2)` on the two meanings of `signal`.
+#[cfg(target_os = "linux")]
+mod handlers {
+    const SIGNALS: [libc::c_int; 2] = [libc::SIGABRT, libc::SIGTERM];
+
+    /// The handlers of the program, which come back when this is dropped.
+    pub(super) struct Kept([Option<libc::sigaction>; 2]);
+
+    impl Kept {
+        pub(super) fn new() -> Self {
+            Self(SIGNALS.map(of))
+        }
+    }
+
+    impl Drop for Kept {
+        fn drop(&mut self) {
+            for (signal, kept) in SIGNALS.iter().zip(&self.0) {
+                if let Some(kept) = kept {
+                    // SAFETY: what is set is what was set before; the old one is not asked for.
+                    unsafe {
+                        libc::sigaction(*signal, kept, std::ptr::null_mut());
+                    }
+                }
+            }
+        }
+    }
+
+    /// The handler of a signal with its flags.
+    pub(super) fn of(signal: libc::c_int) -> Option<libc::sigaction> {
+        // SAFETY: zeros are a value of this type; the call sets nothing, and writes to a place of that type.
+        unsafe {
+            let mut action: libc::sigaction = std::mem::zeroed();
+            let failed = libc::sigaction(signal, std::ptr::null(), &raw mut action);
+            (failed == 0).then_some(action)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(n: usize) -> Graph {
+        let mut pairs = Vec::new();
+        for y in 0..n {
+            for x in 0..n {
+                let vertex = (y * n + x) as u32;
+                if x + 1 < n {
+                    pairs.push((vertex, vertex + 1));
+                }
+                if y + 1 < n {
+                    pairs.push((vertex, vertex + n as u32));
+                }
+            }
+        }
+        Graph::from_pairs(vec![1; n * n], &pairs)
+    }
+
+    #[test]
+    fn order_is_a_permutation_and_repeats() {
+        for n in [2, 17, 60] {
+            let graph = grid(n);
+            let order = nested_dissection(&graph).unwrap();
+            let mut sorted = order.clone();
+            sorted.sort_unstable();
+            assert!(sorted.iter().enumerate().all(|(i, &v)| i == v as usize));
+            // also while another thread orders something else
+            let (again, _) = rayon::join(
+                || nested_dissection(&graph).unwrap(),
+                || nested_dissection(&grid(n + 5)).unwrap(),
+            );
+            assert_eq!(order, again);
+        }
+    }
+
+    #[test]
+    fn a_graph_without_edges_is_left_to_others() {
+        assert!(nested_dissection(&Graph::from_pairs(vec![1; 5], &[])).is_none());
+        assert!(nested_dissection(&Graph::from_pairs(Vec::new(), &[])).is_none());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn handlers_of_signals_are_the_same_afterwards() {
+        extern "C" fn nothing(_: libc::c_int) {}
+        // the handlers are those of the program only while no thread orders
+        let at_rest = || {
+            let guard = ONE_AT_A_TIME.lock();
+            guard.unwrap_or_else(|poisoned| poisoned.into_inner())
+        };
+        let set = || {
+            let _guard = at_rest();
+            // SAFETY: the handler does nothing, and no test raises the signal.
+            unsafe {
+                let mut action: libc::sigaction = std::mem::zeroed();
+                action.sa_sigaction = nothing as extern "C" fn(libc::c_int) as libc::sighandler_t;
+                action.sa_flags = libc::SA_RESTART;
+                libc::sigaction(libc::SIGTERM, &raw const action, std::ptr::null_mut());
+            }
+        };
+        let seen = || {
+            let _guard = at_rest();
+            [libc::SIGABRT, libc::SIGTERM].map(|s| {
+                let action = handlers::of(s).unwrap();
+                (action.sa_sigaction, action.sa_flags & libc::SA_RESTART)
+            })
+        };
+        set();
+        let before = seen();
+        nested_dissection(&grid(20)).unwrap();
+        assert_eq!(seen(), before);
+    }
+}

@@ -1,0 +1,192 @@
+//! What a solver can do, and what it reports.
+
+use crate::error::LinearError;
+use crate::multigrid;
+use crate::problem::{Problem, Values};
+
+/// What a solution is worth.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolveReport {
+    /// The true relative residual |b − A x| / |b| in the largest entry; 0 for b = 0.
+    pub residual: f64,
+    /// Applications of the factor or preconditioner.
+    pub iterations: usize,
+    /// How many of them were refinements.
+    pub refinements: usize,
+    /// Negative pivots of the factor, one per multiplier in a stable state; 0 where pivots have no sign (LU).
+    pub negative_pivots: usize,
+}
+
+impl SolveReport {
+    /// The same after iterations that led nowhere.
+    pub(crate) const fn after(mut self, lost: usize) -> Self {
+        self.iterations += lost;
+        self
+    }
+}
+
+/// The stiffness of the bodies at the start of a run.
+#[derive(Clone, Debug)]
+pub enum StartStiffness {
+    /// It is that of all states.
+    Always,
+    /// It is that of the next values.
+    Next,
+    /// These values of the bulk.
+    Values(Vec<f64>),
+}
+
+/// What a solver leaves to the one that goes on in its place.
+pub struct Heritage(pub(crate) Box<multigrid::Grid>);
+
+/// A way to solve linear systems; see the room's page for the order of calls.
+pub trait LinearSolver: Send {
+    /// Takes note of the pattern. Cheap where the problem is the same as in the last call.
+    ///
+    /// # Errors
+    /// `Shape` and `Range` for parts that do not fit together, `TooLarge`.
+    fn analyze(&mut self, problem: &Problem) -> Result<(), LinearError>;
+
+    /// Takes the values of a tangent.
+    ///
+    /// # Errors
+    /// `Singular`, `NotFinite`, `TooLarge`, `Shape`, and `Order` before `analyze`.
+    fn factorize(&mut self, values: &Values) -> Result<(), LinearError>;
+
+    /// Forgets what it has learned from other patterns and values, but for a factor and its
+    /// [experience](LinearSolver::experience): from now on it does what it would do had it just been given the pattern. A run
+    /// that is resumed here repeats every bit.
+    fn forget(&mut self) {}
+
+    /// Whether it asks for the stiffness of the bodies at the start of the run before the next values: for `which` one,
+    /// where there are several.
+    fn wants_start(&self, _which: u64) -> bool {
+        false
+    }
+
+    /// Receives that stiffness: of the bodies undeformed and without history.
+    fn start_from(&mut self, _which: u64, _bulk: StartStiffness) {}
+
+    /// What it has that depends on the problem and its values alone, not on what was solved before: for a solver that goes
+    /// on in its place as if it were new. Nothing unless said.
+    fn bequeath(&mut self) -> Option<Heritage> {
+        None
+    }
+
+    /// Takes over what another one has left, where it can be of use.
+    fn inherit(&mut self, _heritage: Heritage) {}
+
+    /// Solves `A x = rhs` until the true relative residual is at most `rtol`, or at the round-off of the operator.
+    ///
+    /// The values may be newer than those of the factor, which then serves as a preconditioner for a few refinements.
+    ///
+    /// # Shapes
+    /// `rhs` and `x` have one entry per equation.
+    ///
+    /// # Errors
+    /// `Inaccurate` where the residual stays above, `NotFinite`, `Shape`, and `Order` before `factorize`. `x` then
+    /// holds nothing of use.
+    fn solve(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        rtol: f64,
+    ) -> Result<SolveReport, LinearError>;
+
+    /// What it has learned that stays when it forgets; a number to give to [`LinearSolver::recall`].
+    fn experience(&self) -> u8 {
+        0
+    }
+
+    /// Takes over what a solver had learned in the run that is resumed.
+    fn recall(&mut self, _experience: u8) {}
+
+    /// What the solver has decided since it was asked last.
+    fn notes(&mut self) -> Vec<Note> {
+        Vec::new()
+    }
+
+    /// Whether less accuracy is less work.
+    fn is_iterative(&self) -> bool {
+        false
+    }
+
+    /// Solves until about this part of the error is left, in a norm of the solver's own: enough for a step of Newton's
+    /// method that will not be the last. It need not go on where no entry of the residual is larger than `enough`, but for
+    /// equations of multipliers. What is not iterative solves as exactly as it can.
+    ///
+    /// # Errors
+    /// Those of [`LinearSolver::solve`].
+    fn solve_roughly(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        part: f64,
+        enough: f64,
+    ) -> Result<SolveReport, LinearError> {
+        let _ = (part, enough);
+        self.solve(values, rhs, x, EXACT)
+    }
+}
+
+/// What a solver has decided for itself.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Note {
+    /// Multigrid has made a hierarchy.
+    #[error("multigrid: {levels} levels over {unknowns} unknowns{}",
+        .worn.map(|[now, before]| format!(
+            ", made anew: {now:.1} iterations to a power of ten were {before:.1} when the last one was new"
+        )).unwrap_or_default())]
+    Hierarchy {
+        /// Unknowns of the finest level.
+        unknowns: usize,
+        /// Levels, the last of which is solved directly.
+        levels: usize,
+        /// Iterations to a power of ten with the one before, at last and at first, where it was worn.
+        worn: Option<[f64; 2]>,
+    },
+    /// A factor of the stiffness of the bodies takes the place of their hierarchy until the run ends.
+    #[error(
+        "the stiffness of the bodies is factorized in place of multigrid, {numbers} numbers: {why}"
+    )]
+    Factor {
+        /// Numbers in the factor.
+        numbers: usize,
+        /// Why.
+        why: Why,
+    },
+    /// The direct solver takes over until the increment ends.
+    #[error("multigrid gives way to the direct solver: {why}")]
+    Direct {
+        /// Why.
+        why: Why,
+    },
+}
+
+/// Why multigrid does not serve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Why {
+    /// The stiffness of the bodies has no incomplete factor, even with more on its diagonal: it is not positive definite, or that
+    /// of nearly incompressible bodies.
+    #[error(
+        "the stiffness of the bodies has no incomplete factor, as of nearly incompressible ones"
+    )]
+    NotPositive,
+    /// The equations of the interface have no solution of their own.
+    #[error("the equations around the interface are singular by themselves")]
+    Interface,
+    /// Too many iterations.
+    #[error("{iterations} iterations did not suffice")]
+    Slow {
+        /// How many were made.
+        iterations: usize,
+    },
+    /// Conjugate gradients met a direction without stiffness.
+    #[error("the tangent is not positive definite")]
+    Indefinite,
+}
+
+/// A relative residual far below what Newton's tail needs.
+pub const EXACT: f64 = 1e-10;
