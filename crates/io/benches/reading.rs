@@ -8,6 +8,7 @@ use signorini_geometry::element::by_name;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::read_case;
+use signorini_io::case::vocabulary::{Kinds, Vocabulary};
 use signorini_io::fs::{Fs, RealFs};
 use signorini_io::readers::{frd, read_mesh, validate};
 use signorini_io::writers::frd::{Dataset, FrdFile, Moment};
@@ -139,8 +140,12 @@ fn frames() {
 fn main() {
     meshes();
     let text = case(100_000);
+    let vocabulary = Vocabulary::new(Kinds {
+        materials: signorini_mechanics::material::descriptions(),
+        ..Kinds::default()
+    });
     timed("read case.toml with 100,000 nodes", text.len(), || {
-        read_case("case.toml", text.as_bytes(), &[]).unwrap();
+        read_case("case.toml", text.as_bytes(), &[], &vocabulary).unwrap();
     });
     frames();
 }

@@ -16,8 +16,8 @@ use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
-    Change, ContactPart, Enforcement, FrictionPart, LimitPart, Load, LoadPart, Method, Model,
-    Parts, PointKind, PointRule, PrimaryPart, SidePart, StepPart, StickPart, Target,
+    Change, ContactPart, Enforcement, FrictionPart, Load, LoadPart, Method, Model, Parts,
+    PointKind, PointRule, PrimaryPart, SidePart, StepPart, StickPart, Target,
 };
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
@@ -220,11 +220,8 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
     }
     if s.mu > 0.0 {
         contact.friction = Some(FrictionPart {
-            limit: LimitPart::Coulomb {
-                mu: s.mu,
-                cap: f64::INFINITY,
-            },
             stick: (s.stick != 1.0).then_some(StickPart::Stiffness(automatic * s.stick)),
+            ..FrictionPart::coulomb(s.mu)
         });
     }
     let parts = Parts {

@@ -18,8 +18,8 @@ use signorini_linear::LinearKind;
 use signorini_mechanics::load::Course;
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
-    Change, ConstraintKind, ConstraintPart, ContactPart, FrictionPart, LimitPart, Load, LoadPart,
-    Model, Parts, PrimaryPart, SidePart, StepPart, Target, TiePart,
+    Change, ConstraintKind, ConstraintPart, ContactPart, FrictionPart, Load, LoadPart, Model,
+    Parts, PrimaryPart, SidePart, StepPart, Target, TiePart,
 };
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
@@ -150,13 +150,7 @@ fn model_of(s: &Situation) -> Model {
             SidePart::Faces(pair[1].faces.clone()),
             PrimaryPart::Faces(primary),
         );
-        contact.friction = (s.mu > 0.0).then_some(FrictionPart {
-            limit: LimitPart::Coulomb {
-                mu: s.mu,
-                cap: f64::INFINITY,
-            },
-            stick: None,
-        });
+        contact.friction = (s.mu > 0.0).then_some(FrictionPart::coulomb(s.mu));
         contact.tie = s.tied.then_some(TiePart::default());
         contact
     };

@@ -24,12 +24,14 @@ pub mod preview;
 pub mod resume;
 pub mod run;
 pub mod text;
+mod vocabulary;
 
 pub use build::{Model, build};
 pub use load::{Loaded, Opened, Reading, Source, load, load_case, load_mesh};
 pub use run::{Finished, Limits, Listener, News, RunOptions, run, solve};
 pub use signorini_io::deck::Compat;
 pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};
+pub use vocabulary::vocabulary;
 
 /// The version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,6 +1,7 @@
 //! Reading what a run starts from: the case and its mesh, and what is remembered of both.
 
 use crate::build::{judge_mesh_of, read_mesh_of, read_surfaces_of};
+use crate::vocabulary::vocabulary;
 use sha2::{Digest, Sha256};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::{self, Case, MeshSource, Shape};
@@ -133,7 +134,7 @@ pub fn load_case(path: &Path, reading: &Reading) -> Result<Opened, Diagnostics> 
     let overrides = &reading.set;
     let Ok(text) = std::fs::read(path) else {
         // says why, in the words for users
-        let (case, warnings) = case::read_case_file(path, overrides)?;
+        let (case, warnings) = case::read_case_file(path, overrides, vocabulary())?;
         return Ok(Opened {
             case,
             warnings,
@@ -145,7 +146,7 @@ pub fn load_case(path: &Path, reading: &Reading) -> Result<Opened, Diagnostics> 
     let (case, warnings, text, mesh) = if is_deck(path) {
         read_deck(&name, &text, reading)?
     } else {
-        let (case, warnings) = case::read_case(&name, &text, overrides)?;
+        let (case, warnings) = case::read_case(&name, &text, overrides, vocabulary())?;
         (case, warnings, text, None)
     };
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
@@ -175,7 +176,8 @@ pub fn load_case(path: &Path, reading: &Reading) -> Result<Opened, Diagnostics> 
 /// All faults of the case at once; else all faults of the mesh.
 pub fn load_again(mut source: Source) -> Result<Loaded, Diagnostics> {
     let name = source.path.display().to_string();
-    let (mut case, mut warnings) = case::read_case(&name, &source.text, &source.overrides)?;
+    let (mut case, mut warnings) =
+        case::read_case(&name, &source.text, &source.overrides, vocabulary())?;
     source.inputs.truncate(1);
     let (mesh, more) = load_mesh(&mut case, &mut source)?;
     warnings.append(more);
@@ -262,7 +264,7 @@ fn read_deck(
     } else {
         deck::read(&RealFs, name, bytes, reading.compat.unwrap_or_default())?
     };
-    let text = case::resolved(&read.case).into_bytes();
+    let text = case::resolved(&read.case, vocabulary()).into_bytes();
     let mesh = DeckMesh {
         mesh: read.mesh,
         sha256: sha256(bytes),
@@ -270,7 +272,7 @@ fn read_deck(
     if reading.set.is_empty() {
         return Ok((read.case, read.found, text, Some(mesh)));
     }
-    let (case, more) = case::read_case(name, &text, &reading.set)?;
+    let (case, more) = case::read_case(name, &text, &reading.set, vocabulary())?;
     let mut found = read.found;
     found.append(more);
     let is_own = case.mesh == read.case.mesh;

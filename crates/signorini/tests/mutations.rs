@@ -17,7 +17,7 @@ const MOST: u64 = 1 << 30;
 
 /// Does what `signorini check` does; says how far it came.
 fn check(bytes: &[u8]) -> usize {
-    let Ok((case, _)) = read_case("case.toml", bytes, &[]) else {
+    let Ok((case, _)) = read_case("case.toml", bytes, &[], signorini::vocabulary()) else {
         return 0;
     };
     let Ok((mesh, _)) = read_mesh_of(&case, Path::new("/nowhere")) else {

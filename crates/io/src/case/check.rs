@@ -11,19 +11,24 @@ use toml::de::{DeTable, DeValue};
 
 use super::origin::Origins;
 use super::scalar::{count, found, has_type, is_usable, number, shortened, wanted, whole};
-use super::vocabulary::{CASE, Choice, Default, Key, Rule, Shape, Table};
+use super::vocabulary::{Choice, Default, Key, Rule, Shape, Table};
 use crate::diagnostic::{Diagnostic, Diagnostics, closest, codes, listed};
 
 /// After so many findings the check ends: by then it is no case.
 const MOST: usize = 10_000;
 
 /// Checks a whole document.
-pub(super) fn check(document: &DeTable<'_>, origins: &Origins) -> Diagnostics {
+pub(super) fn check(
+    document: &DeTable<'_>,
+    case: &'static Table,
+    origins: &Origins,
+) -> Diagnostics {
     let mut checker = Checker {
+        case,
         origins,
         found: Diagnostics::new(),
     };
-    checker.table(document, &CASE, None);
+    checker.table(document, case, None);
     checker.found
 }
 
@@ -40,6 +45,7 @@ pub(super) fn in_order<'a, 'i>(
 }
 
 struct Checker<'a> {
+    case: &'static Table,
     origins: &'a Origins,
     found: Diagnostics,
 }
@@ -237,7 +243,7 @@ impl Checker<'_> {
             one = one
                 .at(&place, remark)
                 .help(format!("write  {outer} = {{ {meant} = {written} }}"));
-        } else if let Some(heading) = elsewhere(&CASE, typed) {
+        } else if let Some(heading) = elsewhere(self.case, typed) {
             one = one.at(&place, format!("`{typed}` is a key of {heading}"));
         } else {
             one = one.at(&place, format!("{} has no such key", words.heading));
@@ -476,6 +482,24 @@ impl Checker<'_> {
                             &self.origins.place(name.span()),
                             format!("add `{other}`, or delete `{key}`"),
                         ),
+                    );
+                }
+            }
+            Rule::NotAbove(key, other) => {
+                let entry = |key: &str| {
+                    let value = table.get(key)?;
+                    Some((number(value.get_ref())?, value.span()))
+                };
+                if let (Some((small, at)), Some((large, limit))) = (entry(key), entry(other))
+                    && small > large
+                {
+                    self.found.push(
+                        Diagnostic::error(
+                            &codes::OUT_OF_RANGE,
+                            format!("`{key}` = {small} is greater than `{other}` = {large}"),
+                        )
+                        .at(&self.origins.place(at), "")
+                        .at(&self.origins.place(limit), ""),
                     );
                 }
             }

@@ -35,6 +35,8 @@ pub use schema::schema;
 
 use std::path::Path;
 
+use vocabulary::Vocabulary;
+
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, SourceFile, codes};
 
 /// Reads a case from the bytes of a file called `name`, changed by `--set` options (path, value).
@@ -47,6 +49,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity, SourceFile, codes};
 /// # Example
 /// ```
 /// use signorini_io::case::read_case;
+/// use signorini_io::case::vocabulary::{Kinds, Vocabulary};
+/// use signorini_mechanics::material;
 ///
 /// let text = br#"
 /// mesh     = { file = "block.msh" }
@@ -54,18 +58,23 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity, SourceFile, codes};
 /// body     = [{ group = "block", material = "steel" }]
 /// step     = [{ name = "press", fix = [{ on = "base", u = "all" }] }]
 /// "#;
+/// let vocabulary = Vocabulary::new(Kinds {
+///     materials: material::descriptions(),
+///     ..Kinds::default()
+/// });
 /// let set = [("material.steel.nu".to_owned(), "0.25".to_owned())];
-/// let (case, warnings) = read_case("block.toml", text, &set).unwrap();
+/// let (case, warnings) = read_case("block.toml", text, &set, &vocabulary).unwrap();
 /// assert_eq!(case.materials[0].number("nu"), Some(0.25));
 /// assert!(warnings.is_empty());
 ///
-/// let errors = read_case("block.toml", b"mehs = 1", &[]).unwrap_err();
+/// let errors = read_case("block.toml", b"mehs = 1", &[], &vocabulary).unwrap_err();
 /// assert!(errors.plain().contains("did you mean `mesh`?"));
 /// ```
 pub fn read_case(
     name: &str,
     bytes: &[u8],
     overrides: &[(String, String)],
+    vocabulary: &Vocabulary,
 ) -> Result<(Case, Diagnostics), Diagnostics> {
     let text = text::decode(name, bytes)?;
     let holds_something =
@@ -90,9 +99,9 @@ pub fn read_case(
         .filter_map(|one| Some(origins.line(one.labels.first()?.span.start)))
         .collect();
 
-    let wrong_options = overrides::apply(&mut table, overrides, &mut origins);
-    let mut found = check::check(&table, &origins);
-    let (case, more) = build::build(&table, &origins);
+    let wrong_options = overrides::apply(&mut table, overrides, vocabulary.case, &mut origins);
+    let mut found = check::check(&table, vocabulary.case, &origins);
+    let (case, more) = build::build(&table, vocabulary, &origins);
     found.append(more);
     // What stands on a line that is no TOML has been reported already.
     found.retain(|one| {
@@ -122,6 +131,7 @@ pub fn read_case(
 pub fn read_case_file(
     path: &Path,
     overrides: &[(String, String)],
+    vocabulary: &Vocabulary,
 ) -> Result<(Case, Diagnostics), Diagnostics> {
     let name = path.display().to_string();
     if path.is_dir() {
@@ -132,7 +142,7 @@ pub fn read_case_file(
         );
     }
     match std::fs::read(path) {
-        Ok(bytes) => read_case(&name, &bytes, overrides),
+        Ok(bytes) => read_case(&name, &bytes, overrides, vocabulary),
         Err(error) => {
             let mut one = Diagnostic::error(
                 &codes::UNREADABLE,

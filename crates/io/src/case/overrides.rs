@@ -12,13 +12,14 @@ use toml::de::{DeArray, DeTable, DeValue};
 use super::check::keys_of;
 use super::origin::Origins;
 use super::scalar::shortened;
-use super::vocabulary::{CASE, Shape, Table};
+use super::vocabulary::{Shape, Table};
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceFile, closest, codes, listed};
 
 /// Applies overrides to a document, in order; what names nothing is reported and left out.
 pub(super) fn apply<'a>(
     document: &mut DeTable<'a>,
     overrides: &'a [(String, String)],
+    case: &'static Table,
     origins: &mut Origins,
 ) -> Diagnostics {
     let mut found = Diagnostics::new();
@@ -26,7 +27,7 @@ pub(super) fn apply<'a>(
         let start = origins.add(SourceFile::new("--set", format!("{path}={value}")));
         let result = segments(path, start).and_then(|path_segments| {
             let value = parsed(value, start + path.len() + 1);
-            set(document, &CASE, &path_segments, value)
+            set(document, case, &path_segments, value)
         });
         if let Err(Problem { span, remark, note }) = result {
             let message = format!("--set {} names nothing in the case", shortened(path));

@@ -2,13 +2,13 @@
 
 use serde_json::{Map, Value, json};
 
-use super::vocabulary::{CASE, Choice, Default, Key, Rule, Shape, Table};
+use super::vocabulary::{Choice, Default, Key, Rule, Shape, Table, Vocabulary};
 
 /// The schema of a case, in JSON Schema 2020-12.
 ///
 /// What the format knows but this version cannot do is listed and refused.
-pub fn schema() -> Value {
-    let mut schema = table(&CASE);
+pub fn schema(vocabulary: &Vocabulary) -> Value {
+    let mut schema = table(vocabulary.case);
     if let Some(map) = schema.as_object_mut() {
         map.insert(
             "$schema".to_owned(),
@@ -37,7 +37,7 @@ fn table(words: &Table) -> Value {
         "required": required,
         "additionalProperties": false,
     });
-    let rules: Vec<Value> = words.rules.iter().map(rule).collect();
+    let rules: Vec<Value> = words.rules.iter().filter_map(rule).collect();
     if let Some(map) = schema.as_object_mut()
         && !rules.is_empty()
     {
@@ -133,13 +133,14 @@ fn built(choices: &[Choice]) -> Vec<&'static str> {
         .collect()
 }
 
-fn rule(rule: &Rule) -> Value {
+/// A rule, where a schema can express it.
+fn rule(rule: &Rule) -> Option<Value> {
     let each = |keys: &[&str]| {
         keys.iter()
             .map(|key| json!({ "required": [key] }))
             .collect::<Vec<_>>()
     };
-    match rule {
+    Some(match rule {
         Rule::ExactlyOne(keys) => json!({ "oneOf": each(keys) }),
         Rule::AtLeastOne(keys) => json!({ "anyOf": each(keys) }),
         Rule::AtMostOne(keys) => {
@@ -154,5 +155,6 @@ fn rule(rule: &Rule) -> Value {
             needs.insert((*key).to_owned(), json!([other]));
             json!({ "dependentRequired": needs })
         }
-    }
+        Rule::NotAbove(..) => return None,
+    })
 }

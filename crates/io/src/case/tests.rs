@@ -1,9 +1,10 @@
 //! Tests of reading cases: the manual's cases, messages, options, round trips, damaged texts, cost.
 
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 
 use super::mutate::{Generator, mutate};
-use super::vocabulary::{CASE, Shape, Table};
+use super::vocabulary::{Kinds, Shape, Table, Vocabulary};
 use super::*;
 use crate::diagnostic::Class;
 
@@ -16,8 +17,19 @@ const EVERYTHING: &str = include_str!("cases/everything.toml");
 const PLANE: &str = include_str!("cases/plane.toml");
 const MESSAGES: &str = include_str!("cases/messages.txt");
 
+fn vocabulary() -> &'static Vocabulary {
+    static VOCABULARY: LazyLock<Vocabulary> = LazyLock::new(|| {
+        Vocabulary::new(Kinds {
+            materials: signorini_mechanics::material::descriptions(),
+            laws: signorini_mechanics::contact::law::descriptions(),
+            frictions: signorini_mechanics::contact::friction::descriptions(),
+        })
+    });
+    &VOCABULARY
+}
+
 fn read(text: &str) -> Result<(Case, Diagnostics), Diagnostics> {
-    read_case("case.toml", text.as_bytes(), &[])
+    read_case("case.toml", text.as_bytes(), &[], vocabulary())
 }
 
 fn read_with(text: &str, path: &str, value: &str) -> Result<(Case, Diagnostics), Diagnostics> {
@@ -25,6 +37,7 @@ fn read_with(text: &str, path: &str, value: &str) -> Result<(Case, Diagnostics),
         "case.toml",
         text.as_bytes(),
         &[(path.to_owned(), value.to_owned())],
+        vocabulary(),
     )
 }
 
@@ -559,7 +572,7 @@ fn messages() -> String {
         let _ = write!(text, "==== {name}: {head}\n\n{}", all.plain());
     };
     for (name, bytes) in faults() {
-        tell(name, read_case("case.toml", &bytes, &[]));
+        tell(name, read_case("case.toml", &bytes, &[], vocabulary()));
     }
     for (path, value) in WRONG_OPTIONS {
         tell(
@@ -609,18 +622,18 @@ fn every_code_about_text_is_provoked() {
 #[test]
 fn files_that_cannot_be_read_are_named() {
     let folder = tempfile::tempdir().unwrap();
-    let missing = read_case_file(&folder.path().join("no.toml"), &[]).unwrap_err();
+    let missing = read_case_file(&folder.path().join("no.toml"), &[], vocabulary()).unwrap_err();
     let text = missing.plain();
     assert!(
         text.contains("S0121") && text.contains("no.toml") && text.contains("current directory"),
         "{text}"
     );
     assert_eq!(missing.exit_code(), Some(3));
-    let directory = read_case_file(folder.path(), &[]).unwrap_err();
+    let directory = read_case_file(folder.path(), &[], vocabulary()).unwrap_err();
     assert!(directory.plain().contains("is a directory"));
     let file = folder.path().join("größe 1.toml");
     std::fs::write(&file, PAPER_BRICK).unwrap();
-    assert!(read_case_file(&file, &[]).is_ok());
+    assert!(read_case_file(&file, &[], vocabulary()).is_ok());
 }
 
 #[test]
@@ -642,7 +655,7 @@ fn names_may_be_in_any_script_and_of_any_length() {
     let text = PAPER_BRICK.replace("\"brick\"", &format!("\"{long}\""));
     let (case, _) = read(&text).unwrap();
     assert!(case.bodies[0].groups[0].starts_with("Körper 一 with spaces, \"quotes\""));
-    assert_eq!(read(&resolved(&case)).unwrap().0, case);
+    assert_eq!(read(&resolved(&case, vocabulary())).unwrap().0, case);
 }
 
 #[test]
@@ -769,7 +782,7 @@ fn later_options_win() {
         ("material.soft.E", "3"),
     ]
     .map(|(path, value)| (path.to_owned(), value.to_owned()));
-    let (case, _) = read_case("case.toml", PAPER_BRICK.as_bytes(), &set).unwrap();
+    let (case, _) = read_case("case.toml", PAPER_BRICK.as_bytes(), &set, vocabulary()).unwrap();
     assert_eq!(case.materials[0].number("E"), Some(3.0));
     assert_eq!(case.materials[0].model.value, "neo-hookean");
 }
@@ -808,7 +821,7 @@ fn plane_nodes_may_leave_z_away_and_nodes_in_space_may_not() {
         matches!(&case.mesh, MeshSource::Inline { nodes, .. } if nodes[1] == (2, [1.5, 0.0, 0.0]))
     );
     assert_eq!(case.model.thickness, 2.0);
-    assert_eq!(read(&resolved(&case)).unwrap().0, case);
+    assert_eq!(read(&resolved(&case, vocabulary())).unwrap().0, case);
     assert_eq!(
         codes_of(
             &flat
@@ -827,10 +840,10 @@ fn plane_nodes_may_leave_z_away_and_nodes_in_space_may_not() {
 fn a_resolved_case_reads_back_to_the_same_case() {
     for text in [PAPER_BRICK, EVERYTHING, PLANE] {
         let (case, _) = read(text).unwrap_or_else(|all| panic!("{all}"));
-        let written = resolved(&case);
+        let written = resolved(&case, vocabulary());
         let (again, _) = read(&written).unwrap_or_else(|all| panic!("{all}"));
         assert_eq!(again, case);
-        assert_eq!(resolved(&again), written);
+        assert_eq!(resolved(&again, vocabulary()), written);
     }
 }
 
@@ -870,15 +883,16 @@ fn what_the_page_about_contacts_shows_reads_without_a_word() {
     }
 }
 
+fn inner(shape: &'static Shape) -> Option<&'static Table> {
+    match shape {
+        Shape::Table(table) | Shape::Tables(table) | Shape::Named(table) => Some(table),
+        Shape::Either(shapes) => shapes.iter().find_map(inner),
+        _ => None,
+    }
+}
+
 /// Calls `visit` with every table of the vocabulary and its path.
 fn each_table(words: &'static Table, path: &str, visit: &mut impl FnMut(&'static Table, &str)) {
-    fn inner(shape: &'static Shape) -> Option<&'static Table> {
-        match shape {
-            Shape::Table(table) | Shape::Tables(table) | Shape::Named(table) => Some(table),
-            Shape::Either(shapes) => shapes.iter().find_map(inner),
-            _ => None,
-        }
-    }
     visit(words, path);
     for key in words.keys.iter().filter(|key| key.later.is_none()) {
         if let Some(table) = inner(&key.shape) {
@@ -890,9 +904,14 @@ fn each_table(words: &'static Table, path: &str, visit: &mut impl FnMut(&'static
 #[test]
 fn a_resolved_case_can_say_every_key() {
     let written = [EVERYTHING, PAPER_BRICK, PLANE]
-        .map(|text| resolved(&read(text).unwrap_or_else(|all| panic!("{all}")).0))
+        .map(|text| {
+            resolved(
+                &read(text).unwrap_or_else(|all| panic!("{all}")).0,
+                vocabulary(),
+            )
+        })
         .concat();
-    each_table(&CASE, "", &mut |table, path| {
+    each_table(vocabulary().case, "", &mut |table, path| {
         for name in table.names() {
             let said = [format!("\n{name} = "), format!(" {name} = ")]
                 .iter()
@@ -907,26 +926,48 @@ fn a_resolved_case_can_say_every_key() {
 }
 
 #[test]
-fn every_law_has_its_word_and_keys_for_its_constants() {
-    let material = CASE.key("material").unwrap();
-    let Shape::Named(words) = material.shape else {
-        panic!("materials have names");
+fn what_rooms_describe_has_its_words_and_keys_in_a_case() {
+    let keys_of = |path: &[&str]| {
+        let mut table = vocabulary().case;
+        for part in path {
+            table = inner(&table.key(part).unwrap().shape).unwrap();
+        }
+        table
     };
-    let Shape::Choice(laws) = words.key("model").unwrap().shape else {
+    let material = keys_of(&["material"]);
+    let Shape::Choice(models) = material.key("model").unwrap().shape else {
         panic!("a model is a word");
     };
-    let built = laws.iter().filter(|law| law.later.is_none());
-    let built: Vec<&str> = built.map(|law| law.word).collect();
-    let table = &signorini_mechanics::material::TABLE;
-    assert_eq!(built, table.iter().map(|law| law.name).collect::<Vec<_>>());
-    for constant in table.iter().flat_map(|law| law.constants) {
-        assert!(words.key(constant).is_some(), "{constant}");
+    for described in vocabulary().materials() {
+        assert!(models.iter().any(|one| one.word == described.name));
+        for key in described.keys {
+            assert!(material.key(key.name).is_some(), "{}", key.name);
+        }
     }
+    for described in vocabulary().laws() {
+        let law = keys_of(&["contact", "enforcement", described.name]);
+        assert_eq!(law.keys.len(), described.keys.len());
+    }
+    for described in vocabulary().frictions() {
+        for path in [
+            &["contact", "friction"][..],
+            &["step", "contact", "friction"],
+        ] {
+            let friction = keys_of(path);
+            assert!(
+                described
+                    .keys
+                    .iter()
+                    .all(|key| friction.key(key.name).is_some())
+            );
+        }
+    }
+    assert!(vocabulary().materials().len() > 5 && vocabulary().laws().len() > 1);
 }
 
 #[test]
 fn the_schema_has_every_key_with_its_meaning() {
-    let text = serde_json::to_string(&schema()).unwrap();
+    let text = serde_json::to_string(&schema(vocabulary())).unwrap();
     let schema: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(
         schema["$schema"],
@@ -944,7 +985,7 @@ fn the_schema_has_every_key_with_its_meaning() {
             .or_else(|| schema.get("anyOf")?.as_array()?.iter().find_map(find))
     }
     let mut nkey = 0;
-    each_table(&CASE, "", &mut |table, path| {
+    each_table(vocabulary().case, "", &mut |table, path| {
         let place = path
             .split('.')
             .filter(|part| !part.is_empty())
@@ -974,9 +1015,9 @@ fn read_damaged(seeds: std::ops::Range<u64>) -> (usize, usize) {
         let mut generator = Generator::new(seed);
         let text = [PAPER_BRICK, HERTZ, SLIDING, EVERYTHING, PLANE][generator.below(5)];
         let bytes = mutate(text.as_bytes(), &mut generator);
-        match read_case("case.toml", &bytes, &[]) {
+        match read_case("case.toml", &bytes, &[], vocabulary()) {
             Ok((case, warnings)) => {
-                let written = resolved(&case);
+                let written = resolved(&case, vocabulary());
                 let (again, _) =
                     read(&written).unwrap_or_else(|all| panic!("seed {seed}: {all}\n{written}"));
                 assert_eq!(again, case, "seed {seed}");
@@ -1026,7 +1067,7 @@ fn damaged_options_never_panic() {
             damaged(path, &mut generator),
             damaged(value, &mut generator),
         )];
-        if let Err(all) = read_case("case.toml", PAPER_BRICK.as_bytes(), &set) {
+        if let Err(all) = read_case("case.toml", PAPER_BRICK.as_bytes(), &set, vocabulary()) {
             assert!(
                 all.exit_code() == Some(3) && all.plain().contains("--set"),
                 "{all}"
@@ -1123,7 +1164,7 @@ fn a_body_has_a_plane_of_its_own_where_it_goes_with_the_model() {
     let (case, _) = read(&text(ring, "space = 'plane-stress', thickness = 3")).unwrap();
     let body = &case.bodies[0];
     assert_eq!(body.space.as_ref().unwrap().value, Space::PlaneStress);
-    assert_eq!(read(&resolved(&case)).unwrap().0, case);
+    assert_eq!(read(&resolved(&case, vocabulary())).unwrap().0, case);
     for (model, body, code) in [
         (ring, "space = 'plane-strain', thickness = 3", "S0112"),
         (ring, "space = 'plane-stress'", "S0106"),

@@ -17,13 +17,14 @@
 use super::Compat;
 use super::translation::Translation;
 use crate::case::{
-    Area, Basis, Contact, ContactChange, Enforcement, Features, Friction, Interference, Limit,
-    Method, Name, Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
+    Area, Basis, Contact, ContactChange, Enforcement, Features, Friction, Interference, Method,
+    Name, Normals, Offset, Pairs, Per, Sliding, Start, Step, Stick, Tied,
 };
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared, number};
 use signorini_geometry::mesh::{NodeId, boundary};
 use signorini_geometry::tensor::Vec3;
+use signorini_vocabulary::{Chosen, Value};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A penalty over the first modulus of the deck, where CalculiX finds none.
@@ -338,11 +339,14 @@ impl Translation<'_> {
         let place = contact.place.clone();
         let by = |stiffness| Enforcement::Penalty(Some(Spanned::new(stiffness, place.clone())));
         let penalty = |[stiffness, tension, within]: [f64; 3]| match method {
-            Method::NodeToSegment => Enforcement::Arctangent {
-                stiffness,
-                tension: given(tension, self.first_modulus() / TENSION),
-                within: Some(given(within, WITHIN)),
-            },
+            Method::NodeToSegment => Enforcement::Law(Chosen::new(
+                "arctangent",
+                [
+                    ("stiffness", stiffness),
+                    ("tension", given(tension, self.first_modulus() / TENSION)),
+                    ("within", given(within, WITHIN)),
+                ],
+            )),
             _ => by(stiffness),
         };
         let hard = PENALTY * self.first_modulus();
@@ -350,15 +354,18 @@ impl Translation<'_> {
             Law::Hard if exact && method != Method::Mortar => penalty([hard, 0.0, 0.0]),
             Law::Linear(numbers) if exact => penalty(*numbers),
             Law::Hard | Law::Linear(_) => Enforcement::Auto,
-            &Law::Exponential { c0, p0 } => Enforcement::Exponential {
-                p0,
-                c0,
-                // of points in faces, CalculiX looks at those that penetrate; of nodes, up to c0
-                within: exact.then_some(match method {
-                    Method::NodeToSegment => c0,
-                    _ => 0.0,
-                }),
-            },
+            &Law::Exponential { c0, p0 } => {
+                let mut law = Chosen::new("exponential", [("p0", p0), ("c0", c0)]);
+                if exact {
+                    // of points in faces, CalculiX looks at those that penetrate; of nodes, up to c0
+                    let within = match method {
+                        Method::NodeToSegment => c0,
+                        _ => 0.0,
+                    };
+                    law.values = law.values.with("within", Value::Number(within));
+                }
+                Enforcement::Law(law)
+            }
             Law::Table(rows) => {
                 let falling = rows.iter().rev().map(|[pressure, over]| [-over, *pressure]);
                 Enforcement::Table(falling.collect())
@@ -419,8 +426,10 @@ impl Translation<'_> {
             Compat::None | Compat::Oofem => None,
             Compat::Ccx => Some(Stick::Stiffness(self.slope(given))),
         };
-        let limit = Limit::Coulomb { mu, cap: None };
-        (mu > 0.0).then_some(Friction { limit, stick })
+        (mu > 0.0).then_some(Friction {
+            stick,
+            ..Friction::coulomb(mu)
+        })
     }
 
     fn clearances(&mut self) {
@@ -586,11 +595,13 @@ impl Translation<'_> {
             contact.per = Some(Per::Node);
             contact.enforcement = match self.compat {
                 Compat::None | Compat::Oofem => Enforcement::Lagrange,
-                Compat::Ccx => Enforcement::Arctangent {
-                    stiffness: given(stiffness, GAP[0]),
-                    tension: given(tension, GAP[1]),
-                    within: None,
-                },
+                Compat::Ccx => Enforcement::Law(Chosen::new(
+                    "arctangent",
+                    [
+                        ("stiffness", given(stiffness, GAP[0])),
+                        ("tension", given(tension, GAP[1])),
+                    ],
+                )),
             };
             if self.compat == Compat::None {
                 contact.per = None;

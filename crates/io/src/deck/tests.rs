@@ -6,6 +6,7 @@ use crate::case::{
 };
 use crate::fs::RealFs;
 use signorini_geometry::tensor::Vec3;
+use signorini_vocabulary::Chosen;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// A cube with an element of this type, and more cards.
@@ -613,11 +614,8 @@ fn nodes_have_the_rounded_law_of_calculix_and_adjust_by_a_set() {
     let [ours, theirs] = [&best.contacts[0], &exact.contacts[0]];
     assert_eq!(ours.enforcement, Enforcement::Auto);
     assert_eq!((theirs.area, theirs.per), (Area::Adjacent, Some(Per::Area)));
-    let rounded = Enforcement::Arctangent {
-        stiffness: 1e4,
-        tension: 3.0,
-        within: Some(1e-3),
-    };
+    let values = [("stiffness", 1e4), ("tension", 3.0), ("within", 1e-3)];
+    let rounded = Enforcement::Law(Chosen::new("arctangent", values));
     assert_eq!(theirs.enforcement, rounded);
     for contact in [ours, theirs] {
         let of = contact.start.close_gaps_of.as_ref();

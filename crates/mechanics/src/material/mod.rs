@@ -26,6 +26,7 @@ mod expanding;
 mod frame;
 mod hardening;
 mod hyperfoam;
+mod keys;
 mod logarithmic;
 mod neo_hookean;
 mod ogden;
@@ -53,6 +54,7 @@ pub use reduced::Reduced;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 
 use signorini_geometry::tensor::Sym3;
+use signorini_vocabulary::{Description, Key};
 use thiserror::Error;
 
 /// How far a response is wanted.
@@ -267,8 +269,10 @@ impl Lame {
 pub struct Law {
     /// Its name in a case.
     pub name: &'static str,
-    /// The constants it needs, by their names in a case.
-    pub constants: &'static [&'static str],
+    /// What it is, in one line.
+    pub doc: &'static str,
+    /// The keys of the constants it needs.
+    pub constants: &'static [Key],
     /// Makes it.
     pub make: fn(&Constants) -> Result<Box<dyn Material>, ConstantsError>,
 }
@@ -278,7 +282,8 @@ pub struct Law {
 pub static TABLE: [Law; 10] = [
     Law {
         name: "linear-elastic",
-        constants: &["E", "nu"],
+        doc: "isotropic and linear; of Saint Venant and Kirchhoff at finite strain",
+        constants: &[keys::YOUNG, keys::POISSONS_RATIO],
         make: |c| {
             let (e, nu) = c.isotropic()?;
             Ok(Box::new(SaintVenantKirchhoff::new(e, nu)))
@@ -286,7 +291,8 @@ pub static TABLE: [Law; 10] = [
     },
     Law {
         name: "saint-venant-kirchhoff",
-        constants: &["E", "nu"],
+        doc: "isotropic and linear between Green's strain and the second stress of Piola and Kirchhoff",
+        constants: &[keys::YOUNG, keys::POISSONS_RATIO],
         make: |c| {
             let (e, nu) = c.isotropic()?;
             Ok(Box::new(SaintVenantKirchhoff::new(e, nu)))
@@ -294,7 +300,8 @@ pub static TABLE: [Law; 10] = [
     },
     Law {
         name: "neo-hookean",
-        constants: &["E", "nu"],
+        doc: "isotropic rubber with one shear modulus, compressible",
+        constants: &[keys::YOUNG, keys::POISSONS_RATIO],
         make: |c| {
             let (e, nu) = c.isotropic()?;
             Ok(Box::new(NeoHookean::new(e, nu)))
@@ -302,39 +309,54 @@ pub static TABLE: [Law; 10] = [
     },
     Law {
         name: "mooney-rivlin",
-        constants: &["c10", "c01", "bulk"],
+        doc: "rubber by two invariants",
+        constants: &[keys::C10, keys::C01, keys::BULK],
         make: |c| Ok(Box::new(Ogden::mooney_rivlin(c)?)),
     },
     Law {
         name: "mooney-rivlin-logarithmic",
-        constants: &["c10", "c01", "bulk"],
+        doc: "rubber by two invariants, its volume by a logarithm",
+        constants: &[keys::C10, keys::C01, keys::BULK],
         make: |c| Ok(Box::new(Ogden::mooney_rivlin_logarithmic(c)?)),
     },
     Law {
         name: "ogden",
-        constants: &["mu", "alpha", "bulk"],
+        doc: "rubber by powers of principal stretches",
+        constants: &[keys::SHEAR_MODULI, keys::EXPONENTS, keys::BULK],
         make: |c| Ok(Box::new(Ogden::new(c)?)),
     },
     Law {
         name: "orthotropic",
+        doc: "linear, with three axes of symmetry",
         constants: &[
-            "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23",
+            keys::E1,
+            keys::E2,
+            keys::E3,
+            keys::NU12,
+            keys::NU13,
+            keys::NU23,
+            keys::G12,
+            keys::G13,
+            keys::G23,
         ],
         make: |c| Ok(Box::new(Orthotropic::new(c)?)),
     },
     Law {
         name: "hyperfoam",
-        constants: &["mu", "alpha", "nu"],
+        doc: "foam by powers of principal stretches",
+        constants: &[keys::SHEAR_MODULI, keys::EXPONENTS, keys::POISSONS_RATIO],
         make: |c| Ok(Box::new(Hyperfoam::new(c)?)),
     },
     Law {
         name: "anisotropic",
-        constants: &["D"],
+        doc: "linear, without symmetry",
+        constants: &[keys::STIFFNESS],
         make: |c| Ok(Box::new(Anisotropic::new(c)?)),
     },
     Law {
         name: "linear-elastic-by-temperature",
-        constants: &["T", "E", "nu"],
+        doc: "isotropic and linear, with constants that depend on the temperature",
+        constants: &[keys::TEMPERATURES, keys::YOUNG, keys::POISSONS_RATIO],
         make: |c| Ok(Box::new(ByTemperature::new(c)?)),
     },
 ];
@@ -343,4 +365,17 @@ pub static TABLE: [Law; 10] = [
 #[must_use]
 pub fn by_name(name: &str) -> Option<&'static Law> {
     TABLE.iter().find(|law| law.name == name)
+}
+
+/// The names and constants of all laws.
+#[must_use]
+pub fn descriptions() -> Vec<Description> {
+    let described = TABLE.iter().map(|law| Description {
+        name: law.name,
+        doc: law.doc,
+        hints: &[],
+        keys: law.constants,
+        rules: &[],
+    });
+    described.collect()
 }

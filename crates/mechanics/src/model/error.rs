@@ -1,5 +1,4 @@
 use super::{ConstraintError, Unheld};
-use crate::contact::law::TableError;
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
 use signorini_geometry::tensor::Vec3;
@@ -122,14 +121,6 @@ pub enum ModelError {
         secondary: usize,
         /// Nodes of the primary side.
         primary: usize,
-    },
-    /// A table that is no law.
-    #[error("contact \"{contact}\": {source}")]
-    Table {
-        /// Name of the contact.
-        contact: String,
-        /// Why.
-        source: TableError,
     },
     /// Two rigid sides.
     #[error("contact \"{contact}\": both sides are rigid, nothing can yield")]

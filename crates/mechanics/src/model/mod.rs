@@ -34,8 +34,8 @@ pub use error::{LoadError, ModelError};
 pub use held::Unheld;
 pub use parts::{
     AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart,
-    ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart, Interference, LimitPart,
-    Load, LoadPart, Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart,
+    ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart, Interference, Load,
+    LoadPart, Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart,
     SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
 
@@ -57,7 +57,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// What a contact became.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct ContactSummary {
     /// Its name.
     pub name: String,

@@ -12,7 +12,7 @@ use signorini_mechanics::material::{
     Plasticity,
 };
 use signorini_mechanics::model::{BodyKind, BodyPart};
-use signorini_mechanics::solid::{AtNodes, AtStart};
+use signorini_mechanics::solid::{AtNodes, AtStart, Integration, Locking};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// The bodies of a case, in its order.
@@ -98,8 +98,8 @@ fn body_part(
             material,
             later,
             density,
-            integration: body.integration,
-            locking: body.locking.value,
+            integration: integration(body.integration),
+            locking: locking(body.locking.value),
             space: super::own_idealisation(&case.model, body),
             linear_temperatures: body.temperatures == Temperatures::Linear,
             at_nodes: match body.at_nodes {
@@ -158,6 +158,37 @@ fn unchangeable(case: &Case, found: &mut Diagnostics) {
             let diagnostic = Diagnostic::error(&codes::UNDEFINED, message);
             found.push(diagnostic.at(&change.group.place, "no [[body]] has this group"));
         }
+    }
+}
+
+const fn integration(word: case::Integration) -> Integration {
+    match word {
+        case::Integration::Full => Integration::Full,
+        case::Integration::Reduced => Integration::Reduced,
+        case::Integration::Raised => Integration::Raised,
+    }
+}
+
+const fn locking(word: case::Locking) -> Locking {
+    match word {
+        case::Locking::Auto => Locking::Auto,
+        case::Locking::None => Locking::None,
+        case::Locking::BBar => Locking::BBar,
+        case::Locking::FBar => Locking::FBar,
+        case::Locking::Incompatible => Locking::Incompatible,
+        case::Locking::Shear => Locking::Shear,
+    }
+}
+
+/// The word of what the program has chosen against locking.
+pub(super) const fn locking_word(chosen: Locking) -> case::Locking {
+    match chosen {
+        Locking::Auto => case::Locking::Auto,
+        Locking::None => case::Locking::None,
+        Locking::BBar => case::Locking::BBar,
+        Locking::FBar => case::Locking::FBar,
+        Locking::Incompatible => case::Locking::Incompatible,
+        Locking::Shear => case::Locking::Shear,
     }
 }
 

@@ -9,17 +9,20 @@ use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{
-    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Limit, Normals, Offset, Pairs,
-    Per, Sliding, Stick,
+    self, Area, Augmentation, Case, Contact, Enforcement, Friction, Normals, Offset, Pairs, Per,
+    Sliding, Stick,
 };
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, Severity, codes};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
+use signorini_mechanics::contact::law::{self, ContactLaw};
 use signorini_mechanics::contact::mortar::Basis;
 use signorini_mechanics::model::{
-    self, AreaPart, ContactChange, ContactPart, ContactSummary, FeaturesPart, FrictionPart,
-    LimitPart, Method, PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
+    self, AreaPart, ContactChange, ContactPart, ContactSummary, FeaturesPart, FrictionPart, Method,
+    PrimaryPart, SidePart, StartPart, StickPart, TieOffset, TiePart,
 };
+use signorini_vocabulary::Entry;
+use std::sync::Arc;
 
 /// The contacts that act in some step. Their places in this list are their numbers.
 pub(super) fn acting(case: &Case) -> impl Iterator<Item = &Contact> {
@@ -57,12 +60,15 @@ pub(super) fn contact(
             Area::Adjacent => AreaPart::Adjacent,
             Area::Opposite => AreaPart::Opposite,
         },
-        enforcement: enforcement(&part.enforcement),
+        enforcement: enforcement(part, found),
         measure: part.per.map(|per| match per {
             Per::Node => Measure::Node,
             Per::Area => Measure::Area,
         }),
-        friction: part.friction.as_ref().map(friction),
+        friction: part
+            .friction
+            .as_ref()
+            .and_then(|one| friction(one, &part.name, &part.place, found)),
         sliding: sliding(part, steps),
         remembers_traction: part.remembers_traction,
         features: match part.features {
@@ -285,9 +291,7 @@ pub(super) fn words(summary: &ContactSummary) -> String {
         model::Enforcement::Auto | model::Enforcement::Penalty(_) => {
             format!("penalty {scale} per {per}")
         }
-        model::Enforcement::Table(_) => "pressures of a table".to_owned(),
-        model::Enforcement::Exponential { .. } => "exponential pressures".to_owned(),
-        model::Enforcement::Arctangent { .. } => "pressures by an arctangent".to_owned(),
+        model::Enforcement::Law(ref law) => format!("pressures of the law \"{}\"", law.name()),
         model::Enforcement::Lagrange => "multipliers".to_owned(),
         model::Enforcement::Uzawa(_) | model::Enforcement::AugmentedNewton(_) => {
             format!("augmented Lagrangian with {scale} per {per}")
@@ -327,27 +331,27 @@ pub(super) fn choose(part: &mut Contact, method: &Method) {
     };
 }
 
-fn enforcement(part: &Enforcement) -> model::Enforcement {
-    match part {
+fn enforcement(part: &Contact, found: &mut Diagnostics) -> model::Enforcement {
+    let by_law = |law: Result<Arc<dyn ContactLaw>, String>, found: &mut Diagnostics| match law {
+        Ok(law) => model::Enforcement::Law(law),
+        Err(fault) => {
+            found.push(unfit(&part.name, &part.place, &fault));
+            model::Enforcement::Auto
+        }
+    };
+    match &part.enforcement {
         Enforcement::Auto => model::Enforcement::Auto,
         Enforcement::Penalty(penalty) => {
             model::Enforcement::Penalty(penalty.as_ref().map(|one| one.value))
         }
-        Enforcement::Table(rows) => model::Enforcement::Table(rows.clone()),
-        &Enforcement::Exponential { p0, c0, within } => model::Enforcement::Exponential {
-            p0,
-            c0,
-            within: within.unwrap_or(f64::INFINITY),
-        },
-        &Enforcement::Arctangent {
-            stiffness,
-            tension,
-            within,
-        } => model::Enforcement::Arctangent {
-            stiffness,
-            tension,
-            within: within.unwrap_or(f64::INFINITY),
-        },
+        Enforcement::Table(rows) => {
+            let law = law::Table::new(rows.clone()).map(|law| Arc::new(law) as _);
+            by_law(law.map_err(|fault| fault.to_string()), found)
+        }
+        Enforcement::Law(chosen) => {
+            let law = Entry::make(&law::TABLE, chosen);
+            by_law(law.map_err(|fault| fault.to_string()), found)
+        }
         Enforcement::Lagrange => model::Enforcement::Lagrange,
         Enforcement::Augmented { by, penalty } => {
             let penalty = penalty.as_ref().map(|one| one.value);
@@ -359,29 +363,35 @@ fn enforcement(part: &Enforcement) -> model::Enforcement {
     }
 }
 
-fn friction(part: &Friction) -> FrictionPart {
-    FrictionPart {
-        limit: match part.limit {
-            Limit::Coulomb { mu, cap } => LimitPart::Coulomb {
-                mu,
-                cap: cap.unwrap_or(f64::INFINITY),
-            },
-            Limit::Tresca(limit) => LimitPart::Tresca(limit),
-            Limit::Falling {
-                stationary,
-                kinetic,
-                transition,
-            } => LimitPart::Falling {
-                stationary,
-                kinetic,
-                transition,
-            },
-        },
+/// Friction; none where its values make no law, which is reported.
+fn friction(
+    part: &Friction,
+    contact: &case::Name,
+    place: &Place,
+    found: &mut Diagnostics,
+) -> Option<FrictionPart> {
+    let limit = match Entry::make(&signorini_mechanics::contact::friction::TABLE, &part.limit) {
+        Ok(limit) => limit,
+        Err(fault) => {
+            found.push(unfit(contact, place, &fault.to_string()));
+            return None;
+        }
+    };
+    Some(FrictionPart {
+        limit,
         stick: part.stick.map(|stick| match stick {
             Stick::Stiffness(stiffness) => StickPart::Stiffness(stiffness),
             Stick::Slip(slip) => StickPart::Slip(slip),
         }),
-    }
+    })
+}
+
+/// Values that make no law.
+fn unfit(contact: &case::Name, place: &Place, fault: &str) -> Diagnostic {
+    let message = format!("contact {}: {fault}", quoted(contact));
+    Diagnostic::error(&codes::CONTRADICTION, message)
+        .at(place, "this contact")
+        .help("correct the values of its law")
 }
 
 fn start(part: &case::Start, names: &Names<'_>, found: &mut Diagnostics) -> StartPart {
@@ -437,10 +447,10 @@ impl<'a> Changes<'a> {
             changes.push(ContactChange {
                 contact: number,
                 active: change.active,
-                friction: change
-                    .friction
-                    .as_ref()
-                    .map(|changed| changed.as_ref().map(friction)),
+                friction: change.friction.as_ref().map(|changed| {
+                    let changed = changed.as_ref();
+                    changed.and_then(|one| friction(one, &change.name, &change.place, found))
+                }),
             });
         }
         changes

@@ -369,7 +369,7 @@ fn choose(
         let mut chosen = of_body(locking, &name).map(|one| one.locking);
         // elements and sizes of strains that differ leave the choice to the program
         if let Some(first) = chosen.next().filter(|first| chosen.all(|c| c == *first)) {
-            body.locking.value = first;
+            body.locking.value = bodies::locking_word(first);
         }
     }
     // a rigid body of several groups, or with a reference, has many names and one set of columns

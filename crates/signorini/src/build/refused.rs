@@ -76,7 +76,6 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
         | ModelError::TwoPass { .. }
         | ModelError::Unsuited { .. }
         | ModelError::PairCount { .. }
-        | ModelError::Table { .. }
         | ModelError::BothRigid { .. } => of_contact_error(case, error),
     }
 }
@@ -117,11 +116,6 @@ fn of_contact_error<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
         ModelError::PairCount { contact, .. } => {
             (&codes::BAD_SIDES, contact, "write  pairs = \"nearest\"")
         }
-        ModelError::Table { contact, .. } => (
-            &codes::BAD_SIDES,
-            contact,
-            "write  penalty = [[gap, pressure], ...]  with rising gaps and falling pressures",
-        ),
         ModelError::BothRigid { contact } => (
             &codes::BAD_SIDES,
             contact,

@@ -6,11 +6,13 @@ use super::*;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{read_case, resolved};
 use signorini_mechanics::contact::discretization::SlidingRange;
+use signorini_mechanics::contact::friction::{Coulomb, Falling, FrictionLaw, Tresca};
+use signorini_mechanics::contact::law::{Exponential, Table};
 use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{
     self, AreaPart, BodyKind, Change, ConstraintKind, ContactChange, ContactPart, FrictionPart,
-    LimitPart, Load, PrimaryPart, SidePart, StartPart, StepPart, StickPart, Target, TieOffset,
-    TiePart, Unknown,
+    Load, PrimaryPart, SidePart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart,
+    Unknown,
 };
 use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::Motion;
@@ -58,7 +60,7 @@ struct Built {
 }
 
 fn try_parts(text: &str) -> Result<Built, Diagnostics> {
-    let (mut case, mut found) = read_case("case.toml", text.as_bytes(), &[])?;
+    let (mut case, mut found) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary())?;
     let (mut mesh, _) = read_mesh_of(&case, Path::new("."))?;
     let cuts = Cuts::new(&case, &mut mesh, &mut found);
     let names = Names::new(&case, &mesh, &mut found);
@@ -590,15 +592,15 @@ fn contacts_become_what_they_say() {
         ("penalty = 5", Law::Penalty(Some(5.0))),
         (
             "penalty = [[-1, 5], [0, 0]]",
-            Law::Table(vec![[-1.0, 5.0], [0.0, 0.0]]),
+            Law::Law(Arc::new(Table::new(vec![[-1.0, 5.0], [0.0, 0.0]]).unwrap())),
         ),
         (
             "exponential = { p0 = 2, c0 = 0.5 }",
-            Law::Exponential {
+            Law::Law(Arc::new(Exponential {
                 p0: 2.0,
                 c0: 0.5,
                 within: f64::INFINITY,
-            },
+            })),
         ),
         ("lagrange = {}", Law::Lagrange),
         ("augmented = 'uzawa'", Law::Uzawa(None)),
@@ -615,18 +617,18 @@ fn contacts_become_what_they_say() {
         part.enforcement = Law::Penalty(None);
         part.measure = Some(Measure::Node);
     });
-    let coulomb = |mu, cap| LimitPart::Coulomb { mu, cap };
-    let falling = LimitPart::Falling {
+    let coulomb = |mu, cap| -> Arc<dyn FrictionLaw> { Arc::new(Coulomb { mu, cap }) };
+    let falling: Arc<dyn FrictionLaw> = Arc::new(Falling {
         stationary: 0.4,
         kinetic: 0.2,
         transition: 2.0,
-    };
+    });
     for (friction, limit, stick) in [
         ("0.3", coulomb(0.3, f64::INFINITY), None),
         ("{ mu = 0.3, cap = 7 }", coulomb(0.3, 7.0), None),
         (
             "{ tresca = 4, stiffness = 9 }",
-            LimitPart::Tresca(4.0),
+            Arc::new(Tresca(4.0)),
             Some(StickPart::Stiffness(9.0)),
         ),
         (
@@ -636,6 +638,7 @@ fn contacts_become_what_they_say() {
         ),
     ] {
         changed(&format!("friction = {friction}"), &|part| {
+            let limit = Arc::clone(&limit);
             part.friction = Some(FrictionPart { limit, stick });
         });
     }
@@ -765,28 +768,23 @@ fn steps_change_contacts_that_act_at_some_time() {
         .map(|c| (c.name.as_str(), c.active))
         .collect();
     assert_eq!(parts, [("c", true), ("late", false)]);
-    let rough = FrictionPart {
-        limit: LimitPart::Coulomb {
-            mu: 0.3,
-            cap: f64::INFINITY,
-        },
-        stick: None,
-    };
+    let rough = FrictionPart::coulomb(0.3);
     let change = |contact, active, friction| ContactChange {
         contact,
         active,
         friction,
     };
+    let shown = |changes: &[ContactChange]| format!("{changes:?}");
     assert_eq!(
-        built.steps[0].contacts,
-        [change(0, None, Some(Some(rough)))]
+        shown(&built.steps[0].contacts),
+        shown(&[change(0, None, Some(Some(rough)))])
     );
     assert_eq!(
-        built.steps[1].contacts,
-        [
+        shown(&built.steps[1].contacts),
+        shown(&[
             change(0, Some(false), Some(None)),
             change(1, Some(true), None)
-        ]
+        ])
     );
     assert!(built.steps[2].contacts.is_empty());
     let notes = built.warnings.plain();
@@ -882,7 +880,7 @@ fn a_surface_has_a_name_that_no_group_of_the_mesh_has() {
     let surface = "[[surface]]\nname = 'floor'\nshape = { stl = 'floor.stl' }\n";
     let contact = CONTACT.replace("'over'", "'floor'");
     let text = format!("{CUBES}{BASE}{SIDES}{surface}{contact}{STEP}");
-    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+    let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
     let (mut mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
     mesh.sets.insert("floor".into(), Default::default());
     let all = build(case, mesh).err().unwrap().plain();
@@ -1008,9 +1006,12 @@ fn a_resolved_case_becomes_the_same_parts() {
         "nu = 0.3\ndensity = 2.0\nexpansion = { alpha = 1e-5, reference = 20 }",
     );
     let first = parts_of(&text);
-    let second = parts_of(&resolved(&first.case));
+    let second = parts_of(&resolved(&first.case, crate::vocabulary()));
     assert_eq!(first.text, second.text);
-    assert_eq!(resolved(&first.case), resolved(&second.case));
+    assert_eq!(
+        resolved(&first.case, crate::vocabulary()),
+        resolved(&second.case, crate::vocabulary())
+    );
 }
 
 #[test]
@@ -1039,11 +1040,14 @@ fn the_remedy_against_locking_is_told_and_written_where_a_body_has_one() {
     ] {
         let cubes = CUBES.replace("nu = 0.3", &format!("nu = {nu}"));
         let text = format!("{cubes}{BASE}{steps}");
-        let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+        let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
         let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
         let model = build(case, mesh).unwrap_or_else(|all| panic!("{all}"));
         assert_eq!(model.remedies().concat(), told);
-        assert_eq!(model.case.bodies[0].locking.value, locking);
+        assert_eq!(
+            model.case.bodies[0].locking.value,
+            bodies::locking_word(locking)
+        );
     }
 }
 

@@ -51,7 +51,7 @@ impl Convert {
         case.mesh = MeshSource::File {
             path: self.mesh().into(),
         };
-        let text = resolved(&case);
+        let text = resolved(&case, signorini::vocabulary());
         RealFs
             .write_atomic(&self.case, text.as_bytes())
             .map_err(|error| Diagnostic::error(&codes::NOT_WRITTEN, error.to_string()))?;

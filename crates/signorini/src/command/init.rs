@@ -68,7 +68,8 @@ pub fn write(path: &Path, template: &Template) -> Result<(), FsError> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let schema = folder.join(".signorini");
     RealFs.create_dir_all(&schema)?;
-    let text = serde_json::to_string_pretty(&signorini_io::case::schema()).unwrap_or_default();
+    let text = serde_json::to_string_pretty(&signorini_io::case::schema(signorini::vocabulary()))
+        .unwrap_or_default();
     RealFs.write_atomic(&schema.join("schema.json"), text.as_bytes())?;
     let mut case = template.text.to_owned();
     if !case.starts_with("#:schema") {

@@ -69,7 +69,12 @@ mod tests {
     #[test]
     fn every_template_is_a_case_without_warnings() {
         for template in &TEMPLATES {
-            let read = signorini_io::case::read_case(template.name, template.text.as_bytes(), &[]);
+            let read = signorini_io::case::read_case(
+                template.name,
+                template.text.as_bytes(),
+                &[],
+                signorini::vocabulary(),
+            );
             let (_, warnings) = read.unwrap();
             assert!(warnings.is_empty(), "{}: {warnings}", template.name);
         }

@@ -13,6 +13,7 @@ use super::tree::{Claim, Tree};
 use super::volume::Volume;
 use super::{Finished, RunOptions, drift, event_of, failure};
 use crate::build::Model;
+use crate::vocabulary::vocabulary;
 use signorini_io::case;
 use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
@@ -188,7 +189,7 @@ impl Run<'_, '_> {
     }
 
     fn write_resolved(&mut self) {
-        let text = case::resolved(&self.model.case);
+        let text = case::resolved(&self.model.case, vocabulary());
         let path = self.recorder.setting.tree.path("case.resolved.toml");
         let fs = &self.recorder.setting.fs;
         if let Err(error) = fs.write_atomic(&path, text.as_bytes()) {

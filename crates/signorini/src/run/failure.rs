@@ -468,7 +468,7 @@ u = "all"
 "#;
 
     fn model() -> Model {
-        let (case, _) = read_case("case.toml", CASE.as_bytes(), &[]).unwrap();
+        let (case, _) = read_case("case.toml", CASE.as_bytes(), &[], crate::vocabulary()).unwrap();
         let (mesh, _) = read_mesh_of(&case, Path::new(".")).unwrap();
         build(case, mesh).unwrap_or_else(|all| panic!("{all}"))
     }

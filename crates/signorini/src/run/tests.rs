@@ -75,7 +75,7 @@ tol = { abs = 0.0 }
 "#;
 
 fn model_of(text: &str) -> Model {
-    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+    let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
     let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
     build(case, mesh).unwrap()
 }

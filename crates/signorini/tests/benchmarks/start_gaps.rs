@@ -80,7 +80,12 @@ fn blocks(element: &'static str, overlap: f64, turn: f64, swapped: bool, by: &st
 }
 
 fn built(case: &Case) -> Result<Model, Diagnostics> {
-    let (case, _) = read_case("blocks", case.text().as_bytes(), &[])?;
+    let (case, _) = read_case(
+        "blocks",
+        case.text().as_bytes(),
+        &[],
+        signorini::vocabulary(),
+    )?;
     let (mesh, _) = read_mesh_of(&case, Path::new("."))?;
     build(case, mesh)
 }

@@ -55,8 +55,8 @@ pub fn model_in(folder: &Path, name: &str, text: &str, set: &[(&str, &str)]) -> 
         .iter()
         .map(|(k, v)| (k.to_string(), v.to_string()))
         .collect();
-    let (mut case, _) =
-        read_case(name, text.as_bytes(), &set).unwrap_or_else(|e| panic!("{}", e.plain()));
+    let (mut case, _) = read_case(name, text.as_bytes(), &set, signorini::vocabulary())
+        .unwrap_or_else(|e| panic!("{}", e.plain()));
     read_surfaces_of(&mut case, folder).unwrap_or_else(|e| panic!("{}", e.plain()));
     let (mesh, _) = read_mesh_of(&case, folder).unwrap_or_else(|e| panic!("{}", e.plain()));
     build(case, mesh).unwrap_or_else(|e| panic!("{}", e.plain()))

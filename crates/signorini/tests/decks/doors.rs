@@ -57,7 +57,7 @@ fn is_one_model(deck: &Path, compat: Compat) -> bool {
     case.mesh = MeshSource::File {
         path: deck.canonicalize().unwrap().display().to_string().into(),
     };
-    std::fs::write(&path, resolved(&case)).unwrap();
+    std::fs::write(&path, resolved(&case, signorini::vocabulary())).unwrap();
     let converted = load(&path, &Reading::default());
     same(
         &name,
@@ -71,7 +71,7 @@ fn same(name: &str, plain: &Loaded, mut other: Loaded) {
     other.case.mesh = plain.case.mesh.clone();
     other.case.output = plain.case.output.clone();
     if other.case != plain.case {
-        let text = [&plain.case, &other.case].map(resolved);
+        let text = [&plain.case, &other.case].map(|case| resolved(case, signorini::vocabulary()));
         let lines = text[0].lines().zip(text[1].lines());
         let apart: Vec<_> = lines.filter(|(a, b)| a != b).take(5).collect();
         panic!("{name}: {apart:#?}");

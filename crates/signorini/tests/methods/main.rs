@@ -28,8 +28,8 @@ use signorini_geometry::surface::{Analytical, Mount, SignedDistance};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
-    BodyKind, BodyPart, Change, ContactPart, Enforcement, FrictionPart, LimitPart, Method, Model,
-    Parts, PrimaryPart, SidePart, StepPart, Target,
+    BodyKind, BodyPart, Change, ContactPart, Enforcement, FrictionPart, Method, Model, Parts,
+    PrimaryPart, SidePart, StepPart, Target,
 };
 use signorini_mechanics::solve::{Event, Flow, Increments, Motion, Stepper, StepperSettings};
 use signorini_mechanics::system::Idealisation;
@@ -262,13 +262,7 @@ fn on_closures(scene: &Scene, friction: bool) -> Vec3 {
         } else {
             Enforcement::Penalty(Some(1e5))
         },
-        friction: friction.then_some(FrictionPart {
-            limit: LimitPart::Coulomb {
-                mu: MU,
-                cap: f64::INFINITY,
-            },
-            stick: None,
-        }),
+        friction: friction.then_some(FrictionPart::coulomb(MU)),
         ..ContactPart::new(
             "touch",
             SidePart::Faces(faces),

@@ -352,7 +352,12 @@ ux = {SLIDE:?}
     pub fn model(&self) -> Result<Model, Refusal> {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
         let model = || -> Result<Model, Diagnostics> {
-            let (mut case, _) = read_case("case.toml", self.text().as_bytes(), &[])?;
+            let (mut case, _) = read_case(
+                "case.toml",
+                self.text().as_bytes(),
+                &[],
+                signorini::vocabulary(),
+            )?;
             read_surfaces_of(&mut case, folder)?;
             let (mesh, _) = read_mesh_of(&case, folder)?;
             build(case, mesh)

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use signorini_mechanics::material::{Law, TABLE, by_name};
-use signorini_mechanics::solid::{Integration, Locking};
+use signorini_vocabulary::Description;
 
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
@@ -11,11 +10,13 @@ use super::super::scalar::number;
 use super::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes, listed};
 
-impl Builder {
+impl Builder<'_> {
     pub(super) fn material(&mut self, name: Name, fields: Fields<'_>, place: Place) -> Material {
         let model = fields.text("model");
-        let law = by_name(&model.value);
-        let constants = law.map(|law| self.constants(law, &name, fields, &place));
+        let law = self.vocabulary.material(&model.value).copied();
+        let constants = law
+            .as_ref()
+            .map(|law| self.constants(law, &name, fields, &place));
         let expansion = fields.table("expansion");
         let plasticity = fields.has("plasticity").then(|| {
             let table = fields.table("plasticity");
@@ -43,14 +44,14 @@ impl Builder {
     /// The constants of a law: all of them, and no others.
     fn constants(
         &mut self,
-        law: &'static Law,
+        law: &Description,
         name: &Name,
         fields: Fields<'_>,
         place: &Place,
     ) -> Vec<Constant> {
-        let takes = || listed(law.constants.iter().copied());
-        let missing = law.constants.iter().filter(|key| !fields.has(key));
-        let missing: Vec<String> = missing.map(|key| format!("`{key}`")).collect();
+        let takes = || listed(law.keys.iter().map(|key| key.name));
+        let missing = law.keys.iter().filter(|key| !fields.has(key.name));
+        let missing: Vec<String> = missing.map(|key| format!("`{}`", key.name)).collect();
         if !missing.is_empty() && !fields.has_unknown_key() {
             let what = missing.join(", ");
             let are = if missing.len() == 1 { "is" } else { "are" };
@@ -63,9 +64,10 @@ impl Builder {
                 .note(format!("{} takes: {}", law.name, takes())),
             );
         }
-        let constants = TABLE.iter().flat_map(|law| law.constants).copied();
-        for key in constants.collect::<BTreeSet<_>>() {
-            if fields.has(key) && !law.constants.contains(&key) {
+        let constants = self.vocabulary.materials().iter().flat_map(|law| law.keys);
+        let constants: BTreeSet<&str> = constants.map(|key| key.name).collect();
+        for key in constants {
+            if fields.has(key) && law.keys.iter().all(|own| own.name != key) {
                 self.error(
                     &codes::CONTRADICTION,
                     format!("`{key}` is no constant of {}", law.name),
@@ -74,8 +76,9 @@ impl Builder {
                 );
             }
         }
-        let given = law.constants.iter().filter_map(|name| {
-            let values = fields.numbers_if(name)?;
+        let given = law.keys.iter().filter_map(|key| {
+            let values = fields.numbers_if(key.name)?;
+            let name = key.name;
             Some(Constant { name, values })
         });
         given.collect()

@@ -4,11 +4,12 @@ use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
 use super::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
+use signorini_vocabulary::{Chosen, Description};
 
 /// Rubber on dry concrete has about half of it.
 const ROUGH: f64 = 2.0;
 
-impl Builder {
+impl Builder<'_> {
     pub(super) fn contact(&mut self, fields: Fields<'_>, place: Place) -> Contact {
         let method = fields.text("method");
         let contact = Contact {
@@ -326,21 +327,12 @@ impl Builder {
             };
             return Enforcement::Augmented { by, penalty };
         }
-        if table.has("exponential") {
-            let law = table.table("exponential");
-            return Enforcement::Exponential {
-                p0: law.number("p0"),
-                c0: law.number("c0"),
-                within: law.number_if("within").map(|within| within.value),
-            };
-        }
-        if table.has("arctangent") {
-            let law = table.table("arctangent");
-            return Enforcement::Arctangent {
-                stiffness: law.number("stiffness"),
-                tension: law.number("tension"),
-                within: law.number_if("within").map(|within| within.value),
-            };
+        let mut laws = self.vocabulary.laws().iter();
+        if let Some(law) = laws.find(|law| table.has(law.name)) {
+            return Enforcement::Law(Chosen {
+                name: law.name,
+                values: table.table(law.name).values(law.keys),
+            });
         }
         if table.has("lagrange") {
             return Enforcement::Lagrange;
@@ -404,45 +396,23 @@ impl Builder {
     fn friction(&mut self, fields: Fields<'_>) -> Option<Friction> {
         let number = fields.number_if("friction");
         let table = fields.table("friction");
-        let coefficient = table.number_if("static").or_else(|| table.number_if("mu"));
+        let coefficient = table.number_if("static").or_else(|| table.number_if(MU));
         if let Some(mu) = number.as_ref().or(coefficient.as_ref()) {
             self.plausible(mu);
         }
         if let Some(mu) = number {
-            let limit = Limit::Coulomb {
-                mu: mu.value,
-                cap: None,
-            };
+            let limit = Chosen::new(COULOMB, [(MU, mu.value)]);
             return (*mu > 0.0).then_some(Friction { limit, stick: None });
         }
         let value = |key: &str| table.number_if(key).map(|number| number.value);
-        let limit = if let Some(stationary) = table.number_if("static") {
-            let kinetic = table.number_if("kinetic").unwrap_or_default();
-            if *kinetic > *stationary {
-                self.found.push(
-                    Diagnostic::error(
-                        &codes::OUT_OF_RANGE,
-                        format!(
-                            "`kinetic` = {} is greater than `static` = {}",
-                            kinetic.value, stationary.value
-                        ),
-                    )
-                    .at(&kinetic.place, "")
-                    .at(&stationary.place, ""),
-                );
-            }
-            Limit::Falling {
-                stationary: stationary.value,
-                kinetic: kinetic.value,
-                transition: table.number("transition"),
-            }
-        } else if let Some(tresca) = value("tresca") {
-            Limit::Tresca(tresca)
-        } else {
-            Limit::Coulomb {
-                mu: value("mu").filter(|mu| *mu > 0.0)?,
-                cap: value("cap"),
-            }
+        if value(MU) == Some(0.0) {
+            return None;
+        }
+        let is_meant = |law: &&Description| law.keys.first().is_some_and(|key| table.has(key.name));
+        let law = self.vocabulary.frictions().iter().find(is_meant)?;
+        let limit = Chosen {
+            name: law.name,
+            values: table.values(law.keys),
         };
         let stick = value("stiffness").map(Stick::Stiffness);
         Some(Friction {

@@ -9,7 +9,7 @@ use super::super::scalar::{is_usable, number, shortened};
 use super::Builder;
 use crate::diagnostic::{Place, Spanned, codes};
 
-impl Builder {
+impl Builder<'_> {
     pub(super) fn model(&mut self, fields: Fields<'_>) -> Model {
         let word = fields.text("space");
         let space = space(&word.value);

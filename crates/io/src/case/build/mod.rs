@@ -14,7 +14,7 @@ use super::fields::{Fields, numbers};
 use super::origin::Origins;
 use super::parts::*;
 use super::scalar::shortened;
-use super::vocabulary::CASE;
+use super::vocabulary::Vocabulary;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, SourceFile, closest, codes};
 pub(super) use bodies::COMPONENTS;
 use geometry::{at_points, temperatures_at};
@@ -26,12 +26,17 @@ pub(super) const FORMAT: u64 = 1;
 /// Builds the case of a checked document.
 ///
 /// The case is of use only where neither the check nor this function found errors.
-pub(super) fn build(document: &DeTable<'_>, origins: &Origins) -> (Case, Diagnostics) {
+pub(super) fn build(
+    document: &DeTable<'_>,
+    vocabulary: &Vocabulary,
+    origins: &Origins,
+) -> (Case, Diagnostics) {
     let mut builder = Builder {
+        vocabulary,
         space: Space::default(),
         found: Diagnostics::new(),
     };
-    let root = Fields::new(document, &CASE, origins);
+    let root = Fields::new(document, vocabulary.case, origins);
     let case = builder.case(root);
     builder.names(&case);
     builder.cycles(&case);
@@ -45,15 +50,16 @@ pub(super) fn build(document: &DeTable<'_>, origins: &Origins) -> (Case, Diagnos
 /// The case of an empty document.
 pub(super) fn empty() -> Case {
     let origins = Origins::new(SourceFile::new("", ""));
-    build(&DeTable::new(), &origins).0
+    build(&DeTable::new(), &Vocabulary::plain(), &origins).0
 }
 
-struct Builder {
+struct Builder<'v> {
+    vocabulary: &'v Vocabulary,
     space: Space,
     found: Diagnostics,
 }
 
-impl Builder {
+impl Builder<'_> {
     fn error(
         &mut self,
         code: &'static Code,

@@ -8,7 +8,7 @@ use super::super::scalar::shortened;
 use super::Builder;
 use crate::diagnostic::{Diagnostic, closest, codes, listed};
 
-impl Builder {
+impl Builder<'_> {
     /// Names that stand for two things.
     pub(super) fn names(&mut self, case: &Case) {
         let sets = case.sets.iter().map(|set| ("set", &set.name));

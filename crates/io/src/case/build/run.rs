@@ -6,7 +6,7 @@ use super::super::scalar::shortened;
 use super::Builder;
 use crate::diagnostic::{Place, Spanned, codes};
 
-impl Builder {
+impl Builder<'_> {
     pub(super) fn solver(&mut self, fields: Fields<'_>) -> Solver {
         let newton = fields.table("newton");
         let linear = fields.text("linear");

@@ -5,7 +5,7 @@ use super::super::parts::*;
 use super::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 
-impl Builder {
+impl Builder<'_> {
     pub(super) fn amplitude(&mut self, name: Name, fields: Fields<'_>) -> Amplitude {
         Amplitude {
             name,

@@ -15,7 +15,7 @@ const OF_SPACE: [(&str, &str); 5] = [
     ("stl", "write `circle`, `plane` or `polynomial`"),
 ];
 
-impl Builder {
+impl Builder<'_> {
     pub(super) fn surface(&mut self, fields: Fields<'_>, place: Place) -> Surface {
         Surface {
             name: fields.text("name"),

@@ -3,7 +3,50 @@
 use super::{Directions, Name, Space};
 use crate::diagnostic::{Place, Spanned};
 
-pub use signorini_mechanics::solid::{Integration, Locking};
+/// How many quadrature points an element has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Integration {
+    /// The usual ones.
+    #[default]
+    Full,
+    /// One order less, of quadratic elements.
+    Reduced,
+    /// Nine of wedge6.
+    Raised,
+}
+
+/// What is done against locking.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Locking {
+    /// The program chooses.
+    #[default]
+    Auto,
+    /// Nothing.
+    None,
+    /// A coarser volumetric strain, at small strain.
+    BBar,
+    /// A coarser volume ratio, at finite strain.
+    FBar,
+    /// Incompatible modes.
+    Incompatible,
+    /// The shear strain of the centre everywhere.
+    Shear,
+}
+
+impl Locking {
+    /// Its word in a case.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::None => "none",
+            Self::BBar => "b-bar",
+            Self::FBar => "f-bar",
+            Self::Incompatible => "incompatible",
+            Self::Shear => "selective-shear",
+        }
+    }
+}
 
 /// A material.
 #[derive(Clone, Debug, PartialEq)]

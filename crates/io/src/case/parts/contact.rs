@@ -2,6 +2,7 @@
 
 use super::{Name, Step};
 use crate::diagnostic::{Place, Spanned};
+use signorini_vocabulary::{Chosen, Value};
 
 /// The word for the secondary side itself, as `primary`.
 pub const SELF: &str = "self";
@@ -163,24 +164,8 @@ pub enum Enforcement {
     Penalty(Option<Spanned<f64>>),
     /// Linear between rows of gap and pressure: gaps increase, pressures fall to zero.
     Table(Vec<[f64; 2]>),
-    /// Exponential in the gap.
-    Exponential {
-        /// Pressure at zero gap.
-        p0: f64,
-        /// The gap at which it has fallen to 1 %.
-        c0: f64,
-        /// The gap beyond which nothing acts (length); none: it acts at any distance.
-        within: Option<f64>,
-    },
-    /// Proportional to the penetration far inside, rounded by an arctangent, with a tension at a distance.
-    Arctangent {
-        /// Force or pressure per penetration.
-        stiffness: f64,
-        /// The tension at a distance.
-        tension: f64,
-        /// The gap beyond which nothing acts, over the size of the facets; none: it acts at any distance.
-        within: Option<f64>,
-    },
+    /// A curve of gap and pressure, by its name in the vocabulary.
+    Law(Chosen),
     /// Multipliers.
     Lagrange,
     /// Multipliers in addition to a penalty.
@@ -196,10 +181,7 @@ impl Enforcement {
     /// Whether it is a curve of gap and pressure that stands for itself, without a penalty.
     #[must_use]
     pub const fn is_curve(&self) -> bool {
-        matches!(
-            self,
-            Self::Table(_) | Self::Exponential { .. } | Self::Arctangent { .. }
-        )
+        matches!(self, Self::Table(_) | Self::Law(_))
     }
 }
 
@@ -224,34 +206,38 @@ pub enum Per {
 /// Friction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
-    /// The largest shear traction; more than nothing.
-    pub limit: Limit,
+    /// The friction law, by its name in the vocabulary.
+    pub limit: Chosen,
     /// What sticking yields; none: the program chooses.
     pub stick: Option<Stick>,
 }
 
-/// The largest shear traction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Limit {
-    /// A share of the pressure.
-    Coulomb {
-        /// The coefficient.
-        mu: f64,
-        /// The traction it never exceeds.
-        cap: Option<f64>,
-    },
-    /// A constant.
-    Tresca(f64),
-    /// A share of the pressure that falls with the length of slip.
-    Falling {
-        /// The coefficient before any slip.
-        stationary: f64,
-        /// The coefficient after much slip; at most the other.
-        kinetic: f64,
-        /// The length of slip over which it falls.
-        transition: f64,
-    },
+impl Friction {
+    /// Coulomb's friction with this coefficient.
+    #[must_use]
+    pub fn coulomb(mu: f64) -> Self {
+        Self {
+            limit: Chosen::new(COULOMB, [(MU, mu)]),
+            stick: None,
+        }
+    }
+
+    /// The coefficient of friction that stands alone, in place of a table.
+    #[must_use]
+    pub fn coefficient(&self) -> Option<f64> {
+        let mut values = self.limit.values.iter();
+        let (first, rest) = (values.next(), values.next());
+        match (first, rest, &self.stick) {
+            (Some((MU, Value::Number(mu))), None, None) if self.limit.name == COULOMB => Some(*mu),
+            _ => None,
+        }
+    }
 }
+
+/// The law that a bare number as `friction` stands for, and its key.
+pub const COULOMB: &str = "coulomb";
+/// The key of its coefficient.
+pub const MU: &str = "mu";
 
 /// What sticking yields.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 use super::super::parts::*;
 use super::write::{Entries, Value, list};
 use crate::diagnostic::Spanned;
+use signorini_vocabulary::{Chosen, Value as Given};
 
 pub(super) fn contact(contact: &Contact) -> Entries {
     let method = match *contact.method {
@@ -115,20 +116,7 @@ fn enforcement(contact: &Contact) -> Value {
         Enforcement::Auto => return "auto".into(),
         Enforcement::Penalty(penalty) => vec![("penalty", number(penalty))],
         Enforcement::Table(rows) => vec![("penalty", list(rows))],
-        &Enforcement::Exponential { p0, c0, within } => {
-            let mut law = vec![("p0", p0.into()), ("c0", c0.into())];
-            law.extend(within.map(|within| ("within", within.into())));
-            vec![("exponential", Value::Table(law))]
-        }
-        &Enforcement::Arctangent {
-            stiffness,
-            tension,
-            within,
-        } => {
-            let mut law = vec![("stiffness", stiffness.into()), ("tension", tension.into())];
-            law.extend(within.map(|within| ("within", within.into())));
-            vec![("arctangent", Value::Table(law))]
-        }
+        Enforcement::Law(law) => vec![(law.name, Value::Table(values(law)))],
         Enforcement::Lagrange => vec![("lagrange", Value::Table(Vec::new()))],
         Enforcement::Augmented { by, penalty } => {
             let by = match by {
@@ -154,23 +142,10 @@ fn friction(friction: Option<&Friction>) -> Value {
     let Some(friction) = friction else {
         return 0.0.into();
     };
-    let mut entries: Entries = match friction.limit {
-        Limit::Coulomb { mu, cap: None } if friction.stick.is_none() => return mu.into(),
-        Limit::Coulomb { mu, cap } => {
-            let cap = cap.map(|cap| ("cap", cap.into()));
-            std::iter::once(("mu", mu.into())).chain(cap).collect()
-        }
-        Limit::Tresca(limit) => vec![("tresca", limit.into())],
-        Limit::Falling {
-            stationary,
-            kinetic,
-            transition,
-        } => vec![
-            ("static", stationary.into()),
-            ("kinetic", kinetic.into()),
-            ("transition", transition.into()),
-        ],
-    };
+    if let Some(mu) = friction.coefficient() {
+        return mu.into();
+    }
+    let mut entries = values(&friction.limit);
     entries.extend(friction.stick.map(|stick| match stick {
         Stick::Stiffness(stiffness) => ("stiffness", stiffness.into()),
         Stick::Slip(slip) => ("elastic_slip", slip.into()),
@@ -235,4 +210,17 @@ pub(super) fn contact_change(change: &ContactChange) -> Entries {
     let friction = change.friction.as_ref();
     entries.extend(friction.map(|friction| ("friction", self::friction(friction.as_ref()))));
     entries
+}
+
+/// The values of the keys of an entry.
+fn values(chosen: &Chosen) -> Entries {
+    let values = chosen.values.iter().map(|(key, value)| {
+        let value = match value {
+            Given::Number(number) => Value::Number(*number),
+            Given::Numbers(numbers) => list(numbers.iter().copied()),
+            Given::Text(text) => Value::Text(text.clone()),
+        };
+        (key, value)
+    });
+    values.collect()
 }

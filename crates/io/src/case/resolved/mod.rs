@@ -10,7 +10,7 @@ mod surface;
 mod write;
 
 use super::parts::*;
-use super::vocabulary::CASE;
+use super::vocabulary::Vocabulary;
 use contact::contact;
 use model::{
     body, constraint, initial, local_axes, material, mesh, model, reference, set_content, spring,
@@ -21,9 +21,9 @@ use surface::surface;
 use write::{Entries, Value, list, named, tables, write_table};
 
 /// A case as a complete TOML text, which reads back to the same case.
-pub fn resolved(case: &Case) -> String {
+pub fn resolved(case: &Case, vocabulary: &Vocabulary) -> String {
     let mut text = String::new();
-    write_table(&mut text, &CASE, "", &tree(case));
+    write_table(&mut text, vocabulary.case, "", &tree(case));
     text
 }
 

@@ -212,7 +212,7 @@ pub(super) fn body(body: &Body) -> Entries {
     };
     entries.extend([
         ("integration", integration.into()),
-        ("locking", (&body.locking.to_string()).into()),
+        ("locking", body.locking.word().into()),
     ]);
     entries.extend(body.orientation.as_ref().map(|one| {
         let entries = vec![("x", one.x.into()), ("y", one.y.into())];

@@ -6,91 +6,9 @@ pub(super) static MATERIAL: Table = Table {
     heading: "[material.NAME]",
     doc: "materials",
     keys: &[
-        key("model", Shape::Choice(MATERIALS), "the law")
+        key("model", Shape::Choice(&[]), "the law")
             .required()
             .hints(&["law", "type"]),
-        key(
-            "T",
-            LIST,
-            "temperatures of linear-elastic-by-temperature, increasing",
-        )
-        .hints(&["temperature", "temperatures"]),
-        key(
-            "E",
-            Shape::Either(&[POSITIVE, Shape::List(&POSITIVE, 1, MANY)]),
-            "Young's modulus (stress); at each of the temperatures T",
-        )
-        .hints(&["young", "youngs_modulus", "modulus"]),
-        key(
-            "nu",
-            Shape::Either(&[POISSON, Shape::List(&POISSON, 1, MANY)]),
-            "Poisson's ratio; at each of the temperatures T, of each term of hyperfoam",
-        )
-        .hints(&["poisson", "poissons_ratio"]),
-        key("c10", ANY, "constant of mooney-rivlin (stress)"),
-        key("c01", ANY, "constant of mooney-rivlin (stress)"),
-        key(
-            "mu",
-            LIST,
-            "shear moduli of the terms of ogden and hyperfoam (stress)",
-        ),
-        key(
-            "alpha",
-            LIST,
-            "exponents of the terms of ogden and hyperfoam",
-        ),
-        key("bulk", POSITIVE, "bulk modulus (stress)").hints(&["K", "bulk_modulus"]),
-        key(
-            "E1",
-            POSITIVE,
-            "Young's modulus along the first axis of the material (stress)",
-        ),
-        key(
-            "E2",
-            POSITIVE,
-            "Young's modulus along the second axis (stress)",
-        ),
-        key(
-            "E3",
-            POSITIVE,
-            "Young's modulus along the third axis (stress)",
-        ),
-        key(
-            "nu12",
-            ANY,
-            "contraction along 2 over stretch along 1, under stress along 1",
-        ),
-        key(
-            "nu13",
-            ANY,
-            "contraction along 3 over stretch along 1, under stress along 1",
-        ),
-        key(
-            "nu23",
-            ANY,
-            "contraction along 3 over stretch along 2, under stress along 2",
-        ),
-        key(
-            "G12",
-            POSITIVE,
-            "shear modulus between the axes 1 and 2 (stress)",
-        ),
-        key(
-            "G13",
-            POSITIVE,
-            "shear modulus between the axes 1 and 3 (stress)",
-        ),
-        key(
-            "G23",
-            POSITIVE,
-            "shear modulus between the axes 2 and 3 (stress)",
-        ),
-        key(
-            "D",
-            Shape::List(&ANY, 21, 21),
-            "stiffness of anisotropic (stress), upper half by columns: D1111, D1122, D2222, D1133, D2233, D3333, \
-             D1112, … D1212, D1113, … D1313, D1123, … D2323",
-        ),
         key("density", POSITIVE, "mass per volume").hints(&["rho"]),
         key("expansion", Shape::Table(&EXPANSION), EXPANSION.doc).hints(&["thermal_expansion"]),
         key("plasticity", Shape::Table(&PLASTICITY), PLASTICITY.doc).hints(&[
@@ -101,20 +19,6 @@ pub(super) static MATERIAL: Table = Table {
     ],
     rules: &[],
 };
-const LIST: Shape = Shape::Either(&[ANY, Shape::List(&ANY, 1, MANY)]);
-const MATERIALS: &[Choice] = &[
-    word("linear-elastic"),
-    word("saint-venant-kirchhoff"),
-    word("neo-hookean"),
-    word("mooney-rivlin"),
-    word("mooney-rivlin-logarithmic"),
-    word("ogden"),
-    word("orthotropic"),
-    word("hyperfoam"),
-    word("anisotropic"),
-    word("linear-elastic-by-temperature"),
-];
-
 static EXPANSION: Table = Table {
     heading: "expansion",
     doc: "thermal expansion: strain alpha (T - reference), counted from the temperature `free` on",

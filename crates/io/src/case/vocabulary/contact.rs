@@ -1,5 +1,6 @@
 //! Contacts, and their changes in a step.
 
+use super::kinds::LAWS;
 use super::*;
 
 pub(super) static CONTACT: Table = Table {
@@ -158,7 +159,7 @@ static RULE: Table = Table {
     rules: &[],
 };
 
-static ENFORCEMENT: Table = Table {
+pub(super) static ENFORCEMENT: Table = Table {
     heading: "enforcement",
     doc: "how penetration is prevented",
     keys: &[
@@ -169,8 +170,6 @@ static ENFORCEMENT: Table = Table {
         )
         .or(Default::Text("auto"))
         .hints(&["stiffness", "epsilon"]),
-        key("exponential", Shape::Table(&EXPONENTIAL), EXPONENTIAL.doc),
-        key("arctangent", Shape::Table(&ARCTANGENT), ARCTANGENT.doc),
         key("lagrange", Shape::Table(&LAGRANGE), LAGRANGE.doc).hints(&["multipliers"]),
         key(
             "augmented",
@@ -196,8 +195,8 @@ static ENFORCEMENT: Table = Table {
         .or(Default::Text("auto")),
     ],
     rules: &[
-        Rule::AtMostOne(&["exponential", "arctangent", "lagrange", "augmented"]),
-        Rule::AtMostOne(&["penalty", "exponential", "arctangent"]),
+        Rule::AtMostOne(&[LAWS, "lagrange", "augmented"]),
+        Rule::AtMostOne(&["penalty", LAWS]),
         Rule::AtMostOne(&["penalty", "lagrange"]),
         Rule::AtMostOne(&["lagrange", "per"]),
         Rule::Needs("gap_tol", "augmented"),
@@ -209,41 +208,6 @@ const PRESSURES: Shape = Shape::List(
     MANY,
 );
 
-static EXPONENTIAL: Table = Table {
-    heading: "exponential",
-    doc: "a pressure that grows exponentially as the gap closes",
-    keys: &[
-        key("p0", POSITIVE, "pressure at zero gap").required(),
-        key("c0", POSITIVE, "the gap at which it has fallen to 1 %").required(),
-        key(
-            "within",
-            NOT_NEGATIVE,
-            "the gap beyond which nothing acts (length); absent: it acts at any distance",
-        ),
-    ],
-    rules: &[],
-};
-
-static ARCTANGENT: Table = Table {
-    heading: "arctangent",
-    doc: "a penalty rounded by an arctangent, with a tension at a distance",
-    keys: &[
-        key(
-            "stiffness",
-            POSITIVE,
-            "force or pressure per penetration, far inside",
-        )
-        .required(),
-        key("tension", POSITIVE, "the tension at a distance").required(),
-        key(
-            "within",
-            NOT_NEGATIVE,
-            "the gap beyond which nothing acts, in sizes of the facets; absent: it acts at any distance",
-        ),
-    ],
-    rules: &[],
-};
-
 static LAGRANGE: Table = Table {
     heading: "lagrange",
     doc: "no penetration at all, by multipliers: {}",
@@ -251,25 +215,10 @@ static LAGRANGE: Table = Table {
     rules: &[],
 };
 
-static FRICTION: Table = Table {
+pub(super) static FRICTION: Table = Table {
     heading: "friction",
     doc: "what limits friction, and what sticking yields",
     keys: &[
-        key("mu", NOT_NEGATIVE, "coefficient of friction"),
-        key("cap", POSITIVE, "largest shear traction, with `mu`").hints(&["tau_max", "taumax"]),
-        key("tresca", POSITIVE, "shear traction wherever it touches").hints(&["shear"]),
-        key("static", POSITIVE, "coefficient before any slip").hints(&["mu_s", "mu_static"]),
-        key("kinetic", NOT_NEGATIVE, "coefficient after much slip").hints(&[
-            "mu_k",
-            "mu_kinetic",
-            "dynamic",
-        ]),
-        key(
-            "transition",
-            POSITIVE,
-            "length of slip over which the one becomes the other",
-        )
-        .hints(&["decay"]),
         key(
             "elastic_slip",
             POSITIVE,
@@ -277,15 +226,7 @@ static FRICTION: Table = Table {
         ),
         key("stiffness", POSITIVE, "shear traction per elastic slip").hints(&["penalty"]),
     ],
-    rules: &[
-        Rule::ExactlyOne(&["mu", "tresca", "static"]),
-        Rule::Needs("cap", "mu"),
-        Rule::Needs("static", "kinetic"),
-        Rule::Needs("kinetic", "static"),
-        Rule::Needs("static", "transition"),
-        Rule::Needs("transition", "static"),
-        Rule::AtMostOne(&["elastic_slip", "stiffness"]),
-    ],
+    rules: &[Rule::AtMostOne(&["elastic_slip", "stiffness"])],
 };
 
 static TIED: Table = Table {

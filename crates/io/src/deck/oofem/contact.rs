@@ -11,8 +11,8 @@
 use super::Translation;
 use super::condition::CONTACTS;
 use crate::case::{
-    Contact, Enforcement, Facing, Features, Friction, Limit, Method, Name, Normals, Pairs, Per,
-    PointKind, PointRule, Set, SetContent, Shape, Sliding, Space, Stick, Surface,
+    Contact, Enforcement, Facing, Features, Friction, Method, Name, Normals, Pairs, Per, PointKind,
+    PointRule, Set, SetContent, Shape, Sliding, Space, Stick, Surface,
 };
 use crate::deck::Compat;
 use crate::diagnostic::{Place, Spanned, codes};
@@ -543,8 +543,8 @@ impl Translation {
             contact.enforcement = Enforcement::Penalty(Some(Spanned::new(penalty, at.clone())));
             contact.per = Some(Per::Area);
             contact.friction = (mu > 0.0).then(|| Friction {
-                limit: Limit::Coulomb { mu, cap: None },
                 stick: along.filter(|pt| *pt > 0.0).map(Stick::Stiffness),
+                ..Friction::coulomb(mu)
             });
             contact.remembers_traction = contact.friction.is_some() && self.compat == Compat::Oofem;
             self.case.contacts.push(contact);

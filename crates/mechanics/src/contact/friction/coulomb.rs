@@ -1,4 +1,26 @@
 use super::{FrictionLaw, Limit, Sliding};
+use signorini_vocabulary::{Description, Entry, NOT_NEGATIVE, POSITIVE, key};
+use std::sync::Arc;
+
+/// The entry of the law.
+pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
+    description: Description {
+        name: "coulomb",
+        doc: "a share of the pressure, at most a cap",
+        hints: &[],
+        keys: &[
+            key("mu", NOT_NEGATIVE, "coefficient of friction").required(),
+            key("cap", POSITIVE, "largest shear traction, with `mu`").hints(&["tau_max", "taumax"]),
+        ],
+        rules: &[],
+    },
+    make: |values| {
+        Ok(Arc::new(Coulomb {
+            mu: values.number("mu")?,
+            cap: values.number_if("cap").unwrap_or(f64::INFINITY),
+        }))
+    },
+};
 
 /// `μ p`, at most a cap.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,38 @@
 use super::{FrictionLaw, Limit, Sliding};
+use signorini_vocabulary::{Description, Entry, NOT_NEGATIVE, POSITIVE, Rule, key};
+use std::sync::Arc;
+
+/// The entry of the law.
+pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
+    description: Description {
+        name: "falling",
+        doc: "a share of the pressure that falls with the length of slip",
+        hints: &[],
+        keys: &[
+            key("static", POSITIVE, "coefficient before any slip")
+                .required()
+                .hints(&["mu_s", "mu_static"]),
+            key("kinetic", NOT_NEGATIVE, "coefficient after much slip")
+                .required()
+                .hints(&["mu_k", "mu_kinetic", "dynamic"]),
+            key(
+                "transition",
+                POSITIVE,
+                "length of slip over which the one becomes the other",
+            )
+            .required()
+            .hints(&["decay"]),
+        ],
+        rules: &[Rule::NotAbove("kinetic", "static")],
+    },
+    make: |values| {
+        Ok(Arc::new(Falling {
+            stationary: values.number("static")?,
+            kinetic: values.number("kinetic")?,
+            transition: values.number("transition")?,
+        }))
+    },
+};
 
 /// `μ p` with `μ = kinetic + (static − kinetic) exp(−s/transition)`, `s` the length of slip before the increment.
 ///

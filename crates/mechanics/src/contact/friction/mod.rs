@@ -9,7 +9,7 @@
 //! | [`Tresca`] | a constant |
 //! | [`Falling`] | `μ p` with a coefficient that falls with the length of slip |
 //!
-//! To add one: a file that implements [`FrictionLaw`], and one line where models are built.
+//! To add one: a file that implements [`FrictionLaw`] and describes its keys, and one line in [`TABLE`].
 
 mod coulomb;
 mod falling;
@@ -18,6 +18,20 @@ mod tresca;
 pub use coulomb::Coulomb;
 pub use falling::Falling;
 pub use tresca::Tresca;
+
+use signorini_vocabulary::{Description, Entry};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// The friction laws that a case may choose, each by its first key.
+pub static TABLE: [Entry<Arc<dyn FrictionLaw>>; 3] =
+    [coulomb::ENTRY, tresca::ENTRY, falling::ENTRY];
+
+/// The names and keys of all laws of [`TABLE`].
+#[must_use]
+pub fn descriptions() -> Vec<Description> {
+    TABLE.iter().map(|entry| entry.description).collect()
+}
 
 /// What a limit may depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +52,7 @@ pub struct Limit {
 }
 
 /// A friction law.
-pub trait FrictionLaw: Send + Sync {
+pub trait FrictionLaw: Debug + Send + Sync {
     /// The limit where it touches.
     fn limit(&self, at: &Sliding) -> Limit;
 }

@@ -1,4 +1,22 @@
 use super::{FrictionLaw, Limit, Sliding};
+use signorini_vocabulary::{Description, Entry, POSITIVE, key};
+use std::sync::Arc;
+
+/// The entry of the law.
+pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
+    description: Description {
+        name: "tresca",
+        doc: "a constant wherever it touches",
+        hints: &[],
+        keys: &[
+            key("tresca", POSITIVE, "shear traction wherever it touches")
+                .required()
+                .hints(&["shear"]),
+        ],
+        rules: &[],
+    },
+    make: |values| Ok(Arc::new(Tresca(values.number("tresca")?))),
+};
 
 /// A constant wherever it touches.
 #[derive(Clone, Copy, Debug, PartialEq)]

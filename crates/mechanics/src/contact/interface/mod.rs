@@ -104,7 +104,7 @@ pub struct InterfaceParts {
     /// How they are compared.
     pub discretization: Box<dyn Discretization>,
     /// The contact law.
-    pub law: Box<dyn ContactLaw>,
+    pub law: Arc<dyn ContactLaw>,
     /// What becomes of it in each step; the last goes on.
     pub phases: Vec<Phase>,
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
@@ -155,7 +155,7 @@ impl InterfaceParts {
             name: name.into(),
             pair,
             discretization,
-            law: Box::new(Penalty),
+            law: Arc::new(Penalty),
             phases: Vec::new(),
             remembers_traction: false,
             bond: None,

@@ -19,6 +19,10 @@ fn augmented(gap: f64, lambda: f64, scale: &Scale) -> Eval {
 pub struct Uzawa;
 
 impl ContactLaw for Uzawa {
+    fn name(&self) -> &str {
+        "augmented"
+    }
+
     fn multiplier(&self) -> Multiplier {
         Multiplier::Frozen
     }
@@ -42,6 +46,10 @@ impl ContactLaw for Uzawa {
 pub struct AugmentedNewton;
 
 impl ContactLaw for AugmentedNewton {
+    fn name(&self) -> &str {
+        "augmented"
+    }
+
     fn multiplier(&self) -> Multiplier {
         Multiplier::Augmented
     }

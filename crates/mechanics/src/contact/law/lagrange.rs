@@ -14,6 +14,10 @@ impl Lagrange {
 }
 
 impl ContactLaw for Lagrange {
+    fn name(&self) -> &str {
+        "lagrange"
+    }
+
     fn multiplier(&self) -> Multiplier {
         Multiplier::Direct
     }

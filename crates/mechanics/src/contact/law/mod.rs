@@ -19,21 +19,38 @@
 //! Laws hold no state and have never heard of a degree of freedom. The sign of c makes ∂c/∂u the transpose of ∂r/∂λ.
 //! [`Lagrange`] is the primal-dual active set; its c > 0 changes the way to the solution and not the solution.
 //!
-//! To add one: a file that implements [`ContactLaw`], and one line where models are built. Sources: Hüeber and
+//! To add one: a file that implements [`ContactLaw`] and describes its keys, and one line in [`TABLE`]. Sources: Hüeber and
 //! Wohlmuth, CMAME 194, 2005 (active set); Alart and Curnier, CMAME 92, 1991; Simo and Laursen, Comput. Struct. 42,
 //! 1992 (Uzawa).
 
+mod arctangent;
 mod augmented;
-mod curves;
+mod exponential;
 mod lagrange;
 mod penalty;
+mod table;
 #[cfg(test)]
 mod tests;
 
+pub use arctangent::Arctangent;
 pub use augmented::{AugmentedNewton, Uzawa};
-pub use curves::{Arctangent, Exponential, Table, TableError};
+pub use exponential::Exponential;
 pub use lagrange::Lagrange;
 pub use penalty::Penalty;
+pub use table::{Table, TableError};
+
+use signorini_vocabulary::{Description, Entry};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// The laws that a case may choose by name, apart from a penalty and multipliers.
+pub static TABLE: [Entry<Arc<dyn ContactLaw>>; 2] = [exponential::ENTRY, arctangent::ENTRY];
+
+/// The names and keys of all laws of [`TABLE`].
+#[must_use]
+pub fn descriptions() -> Vec<Description> {
+    TABLE.iter().map(|entry| entry.description).collect()
+}
 
 /// What a law does with a multiplier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,7 +96,10 @@ pub struct Eval {
 }
 
 /// A contact law.
-pub trait ContactLaw: Send + Sync {
+pub trait ContactLaw: Debug + Send + Sync {
+    /// Its name in messages, as in a case.
+    fn name(&self) -> &str;
+
     /// What it does with a multiplier.
     fn multiplier(&self) -> Multiplier {
         Multiplier::None

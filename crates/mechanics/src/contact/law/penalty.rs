@@ -8,6 +8,10 @@ use super::{ContactLaw, Eval, Scale, TOUCH};
 pub struct Penalty;
 
 impl ContactLaw for Penalty {
+    fn name(&self) -> &str {
+        "penalty"
+    }
+
     fn pressure(&self, gap: f64, _: f64, scale: &Scale) -> Eval {
         if gap <= TOUCH * scale.length {
             Eval {

@@ -333,7 +333,7 @@ impl Scene {
             found.pairs.iter().enumerate().map(anchor).collect()
         });
         let parts = InterfaceParts {
-            law: choice.law,
+            law: choice.law.into(),
             phases: vec![Phase {
                 active: true,
                 friction: choice.friction,

@@ -95,7 +95,7 @@ impl Slider {
         let mut method = Box::new(PointToSegment::at_nodes(&[node]));
         method.sliding = sliding;
         let parts = InterfaceParts {
-            law,
+            law: law.into(),
             phases: vec![Phase {
                 active: true,
                 friction,

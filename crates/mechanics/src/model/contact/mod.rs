@@ -11,10 +11,10 @@ pub(super) use start::closed;
 
 use super::{
     AreaPart, ContactChange, ContactPart, ContactSummary, Context, Enforcement, FrictionPart,
-    LimitPart, ModelError, StartSummary, StickPart,
+    ModelError, StartSummary, StickPart,
 };
 use crate::contact::discretization::{REACH, SlidingRange};
-use crate::contact::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
+use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::Scale;
 use crate::contact::{InterfaceParts, Measure, Phase};
 use signorini_geometry::mesh::NodeId;
@@ -79,25 +79,12 @@ impl Steps<'_> {
 }
 
 fn friction(part: &FrictionPart, penalty: f64) -> (Arc<dyn FrictionLaw>, Stick) {
-    let law: Arc<dyn FrictionLaw> = match part.limit {
-        LimitPart::Coulomb { mu, cap } => Arc::new(Coulomb { mu, cap }),
-        LimitPart::Tresca(limit) => Arc::new(Tresca(limit)),
-        LimitPart::Falling {
-            stationary,
-            kinetic,
-            transition,
-        } => Arc::new(Falling {
-            stationary,
-            kinetic,
-            transition,
-        }),
-    };
     let stick = match part.stick {
         None => Stick::Stiffness(penalty),
         Some(StickPart::Stiffness(stiffness)) => Stick::Stiffness(stiffness),
         Some(StickPart::Slip(length)) => Stick::Slip(length),
     };
-    (law, stick)
+    (Arc::clone(&part.limit), stick)
 }
 
 impl Context<'_> {

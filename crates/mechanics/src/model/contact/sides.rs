@@ -8,10 +8,7 @@ use crate::contact::discretization::{
     Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, OwnBody, Pair, Pairing,
     PointToSegment, SlidingRange, SurfacePair, areas_inside,
 };
-use crate::contact::law::{
-    Arctangent, AugmentedNewton, ContactLaw, Exponential, Lagrange, Multiplier, Penalty, Table,
-    Uzawa,
-};
+use crate::contact::law::{AugmentedNewton, ContactLaw, Lagrange, Multiplier, Penalty, Uzawa};
 use crate::contact::{Areas, Measure, closest_points, discretization, mortar};
 use crate::model::bodies::Spaces;
 use crate::model::steps::Prescribed;
@@ -37,7 +34,7 @@ pub(in crate::model) struct Sides {
     /// The method in use.
     pub method: Method,
     pub discretization: Box<dyn Discretization>,
-    pub law: Box<dyn ContactLaw>,
+    pub law: Arc<dyn ContactLaw>,
     pub pair: SurfacePair,
     /// Facets of the primary side, where it has any.
     pub facets: Option<Facets>,
@@ -571,31 +568,14 @@ fn on_facet(rule: PointRule, element: Element) -> Vec<(Vec3, f64)> {
     quadrature::on_facet(element, &line)
 }
 
-fn law(part: &ContactPart, takes_multipliers: bool) -> Result<Box<dyn ContactLaw>, ModelError> {
-    let law: Box<dyn ContactLaw> = match &part.enforcement {
-        Enforcement::Auto if takes_multipliers => Box::new(Lagrange),
-        Enforcement::Auto | Enforcement::Penalty(_) => Box::new(Penalty),
-        Enforcement::Table(rows) => {
-            Box::new(
-                Table::new(rows.clone()).map_err(|source| ModelError::Table {
-                    contact: part.name.clone(),
-                    source,
-                })?,
-            )
-        }
-        &Enforcement::Exponential { p0, c0, within } => Box::new(Exponential { p0, c0, within }),
-        &Enforcement::Arctangent {
-            stiffness,
-            tension,
-            within,
-        } => Box::new(Arctangent {
-            stiffness,
-            tension,
-            within,
-        }),
-        Enforcement::Lagrange => Box::new(Lagrange),
-        Enforcement::Uzawa(_) => Box::new(Uzawa),
-        Enforcement::AugmentedNewton(_) => Box::new(AugmentedNewton),
+fn law(part: &ContactPart, takes_multipliers: bool) -> Result<Arc<dyn ContactLaw>, ModelError> {
+    let law: Arc<dyn ContactLaw> = match &part.enforcement {
+        Enforcement::Auto if takes_multipliers => Arc::new(Lagrange),
+        Enforcement::Auto | Enforcement::Penalty(_) => Arc::new(Penalty),
+        Enforcement::Law(law) => Arc::clone(law),
+        Enforcement::Lagrange => Arc::new(Lagrange),
+        Enforcement::Uzawa(_) => Arc::new(Uzawa),
+        Enforcement::AugmentedNewton(_) => Arc::new(AugmentedNewton),
     };
     if part.tie.is_some() && part.enforcement.is_curve() && law.multiplier() == Multiplier::None {
         return Err(ModelError::Unsuited {

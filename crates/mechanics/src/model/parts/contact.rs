@@ -2,6 +2,8 @@
 
 use crate::contact::Measure;
 use crate::contact::discretization::{SlidingRange, mortar};
+use crate::contact::friction::{Coulomb, FrictionLaw};
+use crate::contact::law::ContactLaw;
 use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::ContactSurface;
 use signorini_geometry::tensor::Vec3;
@@ -129,33 +131,15 @@ pub enum AreaPart {
 }
 
 /// How penetration is prevented.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub enum Enforcement {
     /// What suits the method.
     #[default]
     Auto,
     /// Proportional to the penetration; `None`: from the stiffness behind the surfaces.
     Penalty(Option<f64>),
-    /// Linear between rows of gap (increasing) and pressure.
-    Table(Vec<[f64; 2]>),
-    /// `p0` at zero gap, falling to 1 % of it at the gap `c0`.
-    Exponential {
-        /// Pressure at zero gap.
-        p0: f64,
-        /// The gap at which it has fallen to 1 %.
-        c0: f64,
-        /// The gap beyond which nothing acts; infinite where it acts at any distance.
-        within: f64,
-    },
-    /// Proportional to the penetration far inside, rounded by an arctangent, with a tension that remains at a distance.
-    Arctangent {
-        /// Force or pressure per penetration.
-        stiffness: f64,
-        /// The tension at a distance.
-        tension: f64,
-        /// The gap beyond which nothing acts, over the size of the facets; infinite where it acts at any distance.
-        within: f64,
-    },
+    /// A curve of gap and pressure, one of [`law::TABLE`](crate::contact::law::TABLE) or any other.
+    Law(Arc<dyn ContactLaw>),
     /// Multipliers, with a primal-dual active set.
     Lagrange,
     /// Multipliers of an augmented Lagrangian that are updated between solutions.
@@ -165,36 +149,13 @@ pub enum Enforcement {
 }
 
 /// Friction.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct FrictionPart {
-    /// The largest tangential traction.
-    pub limit: LimitPart,
+    /// The law of the largest tangential traction, one of [`friction::TABLE`](crate::contact::friction::TABLE) or any
+    /// other.
+    pub limit: Arc<dyn FrictionLaw>,
     /// What sticking yields; `None`: as much as the normal direction.
     pub stick: Option<StickPart>,
-}
-
-/// The largest tangential traction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LimitPart {
-    /// `μ p`, at most the cap.
-    Coulomb {
-        /// μ.
-        mu: f64,
-        /// The cap; infinite where there is none.
-        cap: f64,
-    },
-    /// A constant wherever it touches.
-    Tresca(f64),
-    /// Coulomb's, with a coefficient that falls from one value to another with the length of slip `s`:
-    /// `μ = kinetic + (static − kinetic) exp(−s/transition)`.
-    Falling {
-        /// μ before any slip.
-        stationary: f64,
-        /// μ after much slip.
-        kinetic: f64,
-        /// The length over which it falls.
-        transition: f64,
-    },
 }
 
 /// What sticking yields before it slips.
@@ -314,14 +275,25 @@ pub struct ContactPart {
     pub active: bool,
 }
 
+impl FrictionPart {
+    /// Coulomb's friction with a coefficient; what sticking yields is chosen.
+    #[must_use]
+    pub fn coulomb(mu: f64) -> Self {
+        Self {
+            limit: Arc::new(Coulomb {
+                mu,
+                cap: f64::INFINITY,
+            }),
+            stick: None,
+        }
+    }
+}
+
 impl Enforcement {
     /// Whether it is a curve of gap and pressure that stands for itself, without a penalty.
     #[must_use]
     pub const fn is_curve(&self) -> bool {
-        matches!(
-            self,
-            Self::Table(_) | Self::Exponential { .. } | Self::Arctangent { .. }
-        )
+        matches!(self, Self::Law(_))
     }
 }
 
@@ -352,7 +324,7 @@ impl ContactPart {
 }
 
 /// A change of a contact when a step begins; it stays until the next.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct ContactChange {
     /// The place of the contact in the list.
     pub contact: usize,

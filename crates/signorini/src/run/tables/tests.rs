@@ -10,7 +10,7 @@ use std::path::Path;
 /// What a case prints.
 fn dat(text: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
-    let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+    let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
     let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
     let mut model = build(case, mesh).unwrap();
     let mut options = RunOptions::new(Source::default());
@@ -415,7 +415,7 @@ fn what_cannot_be_printed_is_refused_with_its_place() {
         ),
     ] {
         let text = PULLED.replacen(from, to, 1);
-        let (case, _) = read_case("case.toml", text.as_bytes(), &[]).unwrap();
+        let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
         let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
         let found = build(case, mesh).err().unwrap();
         assert!(found.plain().contains(said), "{}", found.plain());

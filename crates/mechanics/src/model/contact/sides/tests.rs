@@ -1,6 +1,7 @@
 //! Choices of a contact that do not go together, and what each refusal proposes instead.
 
 use crate::contact::discretization::mortar;
+use crate::contact::law::Exponential;
 use crate::material::NeoHookean;
 use crate::model::{
     AreaPart, BodyKind, BodyPart, Change, ContactPart, Enforcement, Method, Model, ModelError,
@@ -164,7 +165,7 @@ const CASES: [Case; 16] = [
         |c| {
             c.method = BY_NODES;
             c.tie = Some(TiePart::default());
-            c.enforcement = Enforcement::Exponential { p0: 1.0, c0: 0.1, within: f64::INFINITY };
+            c.enforcement = Enforcement::Law(Arc::new(Exponential { p0: 1.0, c0: 0.1, within: f64::INFINITY }));
         },
         |c| c.enforcement = BY_PENALTY),
 ];

@@ -1,0 +1,226 @@
+//! The vocabulary with what other rooms describe: materials, contact laws, friction laws.
+
+use super::bodies::MATERIAL;
+use super::contact::{ENFORCEMENT, FRICTION};
+use super::{CASE, Choice, Default, Key, Rule, Shape, Table, key, word};
+use signorini_vocabulary::Description;
+
+/// Descriptions of the things that a case may name, each from the room that makes them.
+#[derive(Clone, Debug, Default)]
+pub struct Kinds {
+    /// Materials, by their `model`; the keys are their constants.
+    pub materials: Vec<Description>,
+    /// Curves of gap and pressure, each a table in `enforcement`.
+    pub laws: Vec<Description>,
+    /// Friction laws. The first key of each stands in `friction` and says which law is meant.
+    pub frictions: Vec<Description>,
+}
+
+/// Every key of a case, those of [`Kinds`] among them.
+#[derive(Debug)]
+pub struct Vocabulary {
+    /// The whole case.
+    pub case: &'static Table,
+    kinds: Kinds,
+}
+
+impl Vocabulary {
+    /// The vocabulary with these kinds of things.
+    ///
+    /// # Limits
+    /// Tables live as long as the program: make one vocabulary, not one for each case.
+    #[must_use]
+    pub fn new(kinds: Kinds) -> Self {
+        let changes = [
+            (&MATERIAL, with_materials(&MATERIAL, &kinds.materials)),
+            (&ENFORCEMENT, with_laws(&ENFORCEMENT, &kinds.laws)),
+            (&FRICTION, with_frictions(&FRICTION, &kinds.frictions)),
+        ]
+        .map(|(plain, table)| (plain, leak(table)));
+        Self {
+            case: replaced(&CASE, &changes).unwrap_or(&CASE),
+            kinds,
+        }
+    }
+
+    /// The vocabulary without any kind of thing: it has every default that a case has.
+    pub(crate) fn plain() -> Self {
+        Self {
+            case: &CASE,
+            kinds: Kinds::default(),
+        }
+    }
+
+    /// The material of this name.
+    #[must_use]
+    pub fn material(&self, name: &str) -> Option<&Description> {
+        self.kinds.materials.iter().find(|one| one.name == name)
+    }
+
+    /// All materials.
+    #[must_use]
+    pub fn materials(&self) -> &[Description] {
+        &self.kinds.materials
+    }
+
+    /// All contact laws.
+    #[must_use]
+    pub fn laws(&self) -> &[Description] {
+        &self.kinds.laws
+    }
+
+    /// All friction laws.
+    #[must_use]
+    pub fn frictions(&self) -> &[Description] {
+        &self.kinds.frictions
+    }
+}
+
+fn leak<T>(value: T) -> &'static T {
+    Box::leak(Box::new(value))
+}
+
+fn leak_all<T>(values: Vec<T>) -> &'static [T] {
+    Box::leak(values.into_boxed_slice())
+}
+
+/// The table with tables inside of it replaced by others; none where nothing changes.
+fn replaced(
+    table: &'static Table,
+    changes: &[(&'static Table, &'static Table)],
+) -> Option<&'static Table> {
+    let known = changes
+        .iter()
+        .find(|(plain, _)| std::ptr::eq(*plain, table));
+    if let Some((_, by)) = known {
+        return Some(by);
+    }
+    let shapes: Vec<Option<Shape>> = table
+        .keys
+        .iter()
+        .map(|key| replaced_shape(&key.shape, changes))
+        .collect();
+    if shapes.iter().all(Option::is_none) {
+        return None;
+    }
+    let keys = table.keys.iter().zip(shapes).map(|(key, shape)| Key {
+        shape: shape.unwrap_or(key.shape),
+        ..*key
+    });
+    Some(leak(Table {
+        keys: leak_all(keys.collect()),
+        ..*table
+    }))
+}
+
+fn replaced_shape(shape: &Shape, changes: &[(&'static Table, &'static Table)]) -> Option<Shape> {
+    match *shape {
+        Shape::Table(table) => replaced(table, changes).map(Shape::Table),
+        Shape::Tables(table) => replaced(table, changes).map(Shape::Tables),
+        Shape::Named(table) => replaced(table, changes).map(Shape::Named),
+        Shape::Either(shapes) => {
+            let new: Vec<Option<Shape>> = shapes
+                .iter()
+                .map(|one| replaced_shape(one, changes))
+                .collect();
+            if new.iter().all(Option::is_none) {
+                return None;
+            }
+            let all = new.into_iter().zip(shapes);
+            let all = all.map(|(new, old)| new.unwrap_or(*old)).collect();
+            Some(Shape::Either(leak_all(all)))
+        }
+        _ => None,
+    }
+}
+
+/// Keys of several descriptions, each once, as keys that may be absent.
+fn all_keys(of: &[Description]) -> Vec<Key> {
+    let mut keys: Vec<Key> = Vec::new();
+    for key in of.iter().flat_map(|one| one.keys) {
+        if keys.iter().all(|known| known.name != key.name) {
+            keys.push(Key {
+                default: Default::Absent,
+                ..*key
+            });
+        }
+    }
+    keys
+}
+
+/// Models are words, and their constants keys behind the word.
+fn with_materials(table: &Table, materials: &[Description]) -> Table {
+    let models: Vec<Choice> = materials.iter().map(|one| word(one.name)).collect();
+    let mut keys = table.keys.to_vec();
+    if let Some(model) = keys.first_mut() {
+        model.shape = Shape::Choice(leak_all(models));
+    }
+    let constants = all_keys(materials);
+    let behind = keys.len().min(1);
+    keys.splice(behind..behind, constants);
+    Table {
+        keys: leak_all(keys),
+        ..*table
+    }
+}
+
+/// Each law is a key with a table of its own; they exclude each other and every other way to enforce contact.
+fn with_laws(table: &Table, laws: &[Description]) -> Table {
+    let law_keys = laws.iter().map(|law| {
+        let inner = leak(Table {
+            heading: law.name,
+            doc: law.doc,
+            keys: law.keys,
+            rules: law.rules,
+        });
+        key(law.name, Shape::Table(inner), law.doc).hints(law.hints)
+    });
+    let mut keys = table.keys.to_vec();
+    let behind = keys.len().min(1);
+    keys.splice(behind..behind, law_keys);
+    let names: Vec<&'static str> = laws.iter().map(|law| law.name).collect();
+    let rules = table.rules.iter().map(|rule| match rule {
+        Rule::AtMostOne(keys) if keys.contains(&LAWS) => {
+            let others = keys.iter().filter(|key| **key != LAWS);
+            let all = others.copied().chain(names.iter().copied());
+            Rule::AtMostOne(leak_all(all.collect()))
+        }
+        other => *other,
+    });
+    Table {
+        keys: leak_all(keys),
+        rules: leak_all(rules.collect()),
+        ..*table
+    }
+}
+
+/// Stands for the names of all contact laws in a rule.
+pub(super) const LAWS: &str = "<laws>";
+
+/// Keys of all laws, before those of the table; the first of each law says which one it is.
+fn with_frictions(table: &Table, laws: &[Description]) -> Table {
+    let mut keys = all_keys(laws);
+    keys.extend_from_slice(table.keys);
+    let firsts = laws.iter().filter_map(|law| law.keys.first());
+    let mut rules = vec![Rule::ExactlyOne(leak_all(
+        firsts.map(|key| key.name).collect(),
+    ))];
+    for law in laws {
+        let Some((first, others)) = law.keys.split_first() else {
+            continue;
+        };
+        for other in others {
+            rules.push(Rule::Needs(other.name, first.name));
+            if other.default == Default::Required {
+                rules.push(Rule::Needs(first.name, other.name));
+            }
+        }
+        rules.extend_from_slice(law.rules);
+    }
+    rules.extend_from_slice(table.rules);
+    Table {
+        keys: leak_all(keys),
+        rules: leak_all(rules),
+        ..*table
+    }
+}

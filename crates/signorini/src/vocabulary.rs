@@ -1,0 +1,18 @@
+//! Every key of a case, those of materials and laws among them.
+
+use signorini_io::case::vocabulary::{Kinds, Vocabulary};
+use signorini_mechanics::contact::{friction, law};
+use signorini_mechanics::material;
+use std::sync::LazyLock;
+
+/// The vocabulary of this program.
+pub fn vocabulary() -> &'static Vocabulary {
+    static VOCABULARY: LazyLock<Vocabulary> = LazyLock::new(|| {
+        Vocabulary::new(Kinds {
+            materials: material::descriptions(),
+            laws: law::descriptions(),
+            frictions: friction::descriptions(),
+        })
+    });
+    &VOCABULARY
+}

@@ -1,0 +1,88 @@
+//! Entries of a table of things that a case may name.
+
+use crate::table::{Key, Rule};
+use crate::values::{Fault, Values};
+
+/// What a thing is called, and the keys that it is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Description {
+    /// Its name in a case.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub doc: &'static str,
+    /// Other words people use for it; they are proposed, never read.
+    pub hints: &'static [&'static str],
+    /// Its keys.
+    pub keys: &'static [Key],
+    /// Which keys exclude or need each other.
+    pub rules: &'static [Rule],
+}
+
+/// A thing that a case may name.
+#[derive(Debug)]
+pub struct Entry<T: 'static> {
+    /// Its name and keys.
+    pub description: Description,
+    /// Makes it.
+    pub make: fn(&Values) -> Result<T, Fault>,
+}
+
+impl<T> Entry<T> {
+    /// Makes the thing that a case has chosen from these entries.
+    ///
+    /// # Errors
+    /// No entry has this name; those of its `make`.
+    pub fn make(entries: &[Self], chosen: &Chosen) -> Result<T, Fault> {
+        let mut entries = entries.iter();
+        let entry = entries.find(|entry| entry.description.name == chosen.name);
+        let entry = entry.ok_or_else(|| Fault::Unfit {
+            what: format!("nothing is called \"{}\"", chosen.name),
+        })?;
+        (entry.make)(&chosen.values)
+    }
+}
+
+/// The entry that a case has chosen, with the values of its keys.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chosen {
+    /// The name of the entry.
+    pub name: &'static str,
+    /// The values of its keys.
+    pub values: Values,
+}
+
+impl Chosen {
+    /// An entry whose keys have numbers as values.
+    #[must_use]
+    pub fn new<const N: usize>(name: &'static str, numbers: [(&'static str, f64); N]) -> Self {
+        Self {
+            name,
+            values: Values::numbers(numbers),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{POSITIVE, key};
+
+    static HALVES: [Entry<f64>; 1] = [Entry {
+        description: Description {
+            name: "half",
+            doc: "half a number",
+            hints: &[],
+            keys: &[key("of", POSITIVE, "the number").required()],
+            rules: &[],
+        },
+        make: |values| Ok(0.5 * values.number("of")?),
+    }];
+
+    #[test]
+    fn an_entry_is_made_from_the_values_of_its_keys() {
+        let made = |name, key| Entry::make(&HALVES, &Chosen::new(name, [(key, 3.0)]));
+        assert_eq!(made("half", "of"), Ok(1.5));
+        assert_eq!(made("half", "off"), Err(Fault::Missing { key: "of" }));
+        assert!(matches!(made("third", "of"), Err(Fault::Unfit { .. })));
+    }
+}
