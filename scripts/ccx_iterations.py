@@ -4,7 +4,7 @@
     python scripts/ccx_iterations.py DECKS [--ccx CCX]
 
 Runs every .inp of the folder through ccx, each in a temporary folder and with one thread, and writes
-crates/signorini/tests/decks/ccx_iterations.txt: the version of ccx, and a line with name and count for each deck, the sum
+crates/signorini-cli/tests/decks/ccx_iterations.txt: the version of ccx, and a line with name and count for each deck, the sum
 over the column ITRS of its .sta file. The test of the decks puts them beside ours into the table of docs/decks.md.
 
 Only what comes with Python is used. Exit code: 0; 1 where ccx did not solve a deck; 2 wrong command line.
@@ -19,7 +19,7 @@ import tempfile
 
 from jobs import iterations_of_ccx, run, version
 
-TABLE = pathlib.Path(__file__).resolve().parent.parent / "crates/signorini/tests/decks/ccx_iterations.txt"
+TABLE = pathlib.Path(__file__).resolve().parent.parent / "crates/signorini-cli/tests/decks/ccx_iterations.txt"
 HEAD = "# Iterations of CalculiX {version} for the decks of its suite, by scripts/ccx_iterations.py.\n"
 
 

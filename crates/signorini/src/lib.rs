@@ -18,17 +18,17 @@
 //! # Ok::<(), signorini::Diagnostics>(())
 //! ```
 
-pub mod build;
 mod load;
 pub mod preview;
 pub mod resume;
 pub mod run;
+pub mod setup;
 pub mod text;
 mod vocabulary;
 
-pub use build::{Model, build};
 pub use load::{Loaded, Opened, Reading, Source, load, load_case, load_mesh};
 pub use run::{Finished, Limits, Listener, News, RunOptions, run, solve};
+pub use setup::{Model, build};
 pub use signorini_io::deck::Compat;
 pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};
 pub use vocabulary::vocabulary;

@@ -1,6 +1,6 @@
 //! Reading what a run starts from: the case and its mesh, and what is remembered of both.
 
-use crate::build::{judge_mesh_of, read_mesh_of, read_surfaces_of};
+use crate::setup::{judge_mesh_of, read_mesh_of, read_surfaces_of};
 use crate::vocabulary::vocabulary;
 use sha2::{Digest, Sha256};
 use signorini_geometry::mesh::Mesh;

@@ -12,7 +12,7 @@
 mod common;
 
 use common::{Run, example, run};
-use signorini::build::Model;
+use signorini::setup::Model;
 use signorini_geometry::tensor::Vec3;
 use std::f64::consts::PI;
 

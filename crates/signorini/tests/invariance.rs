@@ -13,7 +13,7 @@
 mod common;
 
 use common::{Run, model, run};
-use signorini::build::Model;
+use signorini::setup::Model;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::fmt::Write;
 

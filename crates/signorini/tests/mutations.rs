@@ -5,8 +5,8 @@
 mod common;
 
 use common::text;
-use signorini::build::{build, read_mesh_of};
 use signorini::preview::preview;
+use signorini::setup::{build, read_mesh_of};
 use signorini_io::case::mutate::{Generator, mutate};
 use signorini_io::case::read_case;
 use std::path::Path;

@@ -14,7 +14,7 @@
 mod common;
 
 use common::{Run, example, run};
-use signorini::build::Model;
+use signorini::setup::Model;
 
 /// The example, run to its end.
 fn solved(name: &str) -> (Model, Run) {

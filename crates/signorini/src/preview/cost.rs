@@ -1,6 +1,6 @@
 //! Memory and time that a solution takes.
 
-use crate::build::Model;
+use crate::setup::Model;
 use crate::text::{count, short};
 use signorini_linear::Path;
 use signorini_mechanics::solve::{Cost, forecast};

@@ -6,8 +6,8 @@ mod picture;
 
 pub use picture::picture;
 
-use crate::build::{ContactInfo, Model, gaps};
 use crate::run::{Start, begin};
+use crate::setup::{ContactInfo, Model, gaps};
 use crate::text::{count, plural, short};
 use signorini_geometry::mesh::quality::{Quality, quality};
 use signorini_geometry::mesh::{CellId, Mesh};

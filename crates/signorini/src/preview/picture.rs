@@ -11,8 +11,8 @@
 //! | `contact_normal` | nodes | mean normal of the facets of secondary sides, out of the solid                |
 
 use super::Preview;
-use crate::build::Model;
 use crate::run::{Fields, Volume};
+use crate::setup::Model;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::writers::vtu::{Field, Values, VtuError};

@@ -1,7 +1,7 @@
 //! What the audits of accepted states found in the course of a run, and how it is reported.
 
 use super::remedies::MOTION_INSTEAD;
-use crate::build::Model;
+use crate::setup::Model;
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_io::case::{Case, Enforcement};
 use signorini_io::checkpoint::{Archive, ArchiveError};

@@ -7,8 +7,8 @@
 
 use super::drive::run;
 use super::{Finished, Listener, RunOptions};
-use crate::build::{Model, build};
 use crate::load::load_again;
+use crate::setup::{Model, build};
 use signorini_io::case::Remedy;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 

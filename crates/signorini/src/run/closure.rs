@@ -86,7 +86,7 @@ impl Closure {
                 return one.note("nothing of the other side came within reach");
             };
             let label = mesh.node_labels.get(node as usize).copied().unwrap_or(0);
-            let at = crate::build::gaps::position(position(node), mesh.dim());
+            let at = crate::setup::gaps::position(position(node), mesh.dim());
             one.note(format!(
                 "the smallest gap was {} at node {label} ({at}) at time {}",
                 short(nearest.gap),

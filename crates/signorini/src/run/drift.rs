@@ -1,6 +1,6 @@
 //! What a run says of contacts that keep the geometry of the start and slid far.
 
-use crate::build::Model;
+use crate::setup::Model;
 use crate::text::short;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 

@@ -12,7 +12,7 @@ use super::tables::Tables;
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
 use super::{Finished, RunOptions, drift, event_of, failure};
-use crate::build::Model;
+use crate::setup::Model;
 use crate::vocabulary::vocabulary;
 use signorini_io::case;
 use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};

@@ -1,7 +1,7 @@
 //! `[[expect]]`: values that are looked at while the run goes on and judged at its end.
 
 use super::probe::{Probe, quantities};
-use crate::build::Model;
+use crate::setup::Model;
 use signorini_io::case::{self, Moment, Tolerance};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, closest, codes};
 use signorini_io::writers::json;

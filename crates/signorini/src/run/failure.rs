@@ -1,7 +1,7 @@
 //! Why a run failed, in the user's words: names of nodes, bodies, contacts; what was tried; what to change.
 
 use super::remedies::{self, Trouble};
-use crate::build::{Model, first_step, hold};
+use crate::setup::{Model, first_step, hold};
 use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
@@ -436,7 +436,7 @@ fn converged_so_far(saved: &Saved) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::build::{build, read_mesh_of};
+    use crate::setup::{build, read_mesh_of};
     use signorini_io::case::read_case;
     use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! The rows of `history.csv`: what is reported of every accepted increment.
 
 use super::probe::{Probe, ProbeError, quantities};
-use crate::build::Model;
+use crate::setup::Model;
 use signorini_geometry::surface::RigidId;
 use signorini_io::case::HistorySource;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};

@@ -53,8 +53,8 @@ pub use start::{Start, begin, facts};
 pub use tree::{Owner, Tree, case_copy, process_in};
 pub use volume::Volume;
 
-use crate::build::Model;
 use crate::load::Source;
+use crate::setup::Model;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_io::fs::{Fs, RealFs};
 use signorini_io::writers::json::Summary;

@@ -1,7 +1,7 @@
 //! Values of fields at nodes: `displacement.z @ node 5`, `reaction_force.x @ set base`; and at integration points:
 //! `stress.yy @ element 7 point 3`.
 
-use crate::build::Model;
+use crate::setup::Model;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_mechanics::system::{ContactFrame, Frame, PointSample, Status};

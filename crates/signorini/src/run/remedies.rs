@@ -6,7 +6,7 @@
 //! smaller increments:  increments = { initial = 0.1, min = 1e-6, max = 1.0 }  of step "press"
 //! ```
 
-use crate::build::{ContactInfo, hold};
+use crate::setup::{ContactInfo, hold};
 use signorini_io::case::{Case, Increments, Remedy, Step};
 use signorini_linear::LinearError;
 use signorini_mechanics::solve::Failure;

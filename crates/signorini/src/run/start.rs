@@ -2,7 +2,7 @@
 
 use super::news::Facts;
 use super::{RunOptions, failure};
-use crate::build::Model;
+use crate::setup::Model;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_mechanics::model::Treatment;
 use signorini_mechanics::system::{Assembly, Dof, DofName, Frame, Order, StepContext, TermError};

@@ -2,8 +2,8 @@
 
 use super::failure::{Saved, message};
 use super::{Finished, Listener, News, RunOptions, run};
-use crate::build::{Model, build};
 use crate::load::Source;
+use crate::setup::{Model, build};
 use signorini_io::case::read_case;
 use signorini_io::checkpoint::Checkpoints;
 use signorini_io::diagnostic::Diagnostics;
@@ -76,7 +76,7 @@ tol = { abs = 0.0 }
 
 fn model_of(text: &str) -> Model {
     let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
-    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
+    let (mesh, _) = crate::setup::read_mesh_of(&case, Path::new(".")).unwrap();
     build(case, mesh).unwrap()
 }
 

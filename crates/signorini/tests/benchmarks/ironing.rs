@@ -10,7 +10,7 @@
 //! TOLERANCE   5 % of both presses: quad4 are that much stiffer here; 3 % between the meshes; 0.02 of the ratio
 use crate::common::Run;
 use crate::scene::{Scene, Side, equal, finished};
-use signorini::build::Model;
+use signorini::setup::Model;
 use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::system::Frame;
 

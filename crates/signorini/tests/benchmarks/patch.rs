@@ -14,7 +14,7 @@
 //!             of docs/patch_test.md; forces 1e-8
 use crate::common::Run;
 use crate::scene::{Scene, Side, equal, finished};
-use signorini::build::Model;
+use signorini::setup::Model;
 use signorini_geometry::mesh::Block;
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 

@@ -1,7 +1,7 @@
 //! Meshes made in a test, written as the text of a case.
 
 use crate::common::{Run, model, run};
-use signorini::build::Model;
+use signorini::setup::Model;
 use signorini_geometry::element::{Element, by_name};
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;

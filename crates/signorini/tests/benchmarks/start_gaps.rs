@@ -6,7 +6,7 @@
 //! MESH        blocks of quad4, tri3, hex8 and tet4, meshes that do not match, either side secondary, turned by 30 degrees
 //! TOLERANCE   1e-9
 use crate::scene::{Case, Scene};
-use signorini::build::{Model, build, read_mesh_of};
+use signorini::setup::{Model, build, read_mesh_of};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::read_case;
 use signorini_io::diagnostic::Diagnostics;

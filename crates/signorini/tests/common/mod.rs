@@ -3,7 +3,7 @@
 #![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
 use serde_json::Value;
-use signorini::build::{Model, build, read_mesh_of, read_surfaces_of};
+use signorini::setup::{Model, build, read_mesh_of, read_surfaces_of};
 use signorini_io::case::read_case;
 use signorini_mechanics::solve::{
     Event, Flow, IncrementRecord, IterationRecord, RunError, Stepper,

@@ -2,7 +2,7 @@
 
 use super::common;
 use super::grid::{self, Grid};
-use signorini::build::{Model, build, read_mesh_of, read_surfaces_of};
+use signorini::setup::{Model, build, read_mesh_of, read_surfaces_of};
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::read_case;

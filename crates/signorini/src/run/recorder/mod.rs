@@ -10,7 +10,6 @@ pub use files::Opened;
 
 use files::Files;
 
-use crate::build::Model;
 use crate::run::audit::Audit;
 use crate::run::closure::Closure;
 use crate::run::contact_surface;
@@ -26,6 +25,7 @@ use crate::run::news::{Detail, Facts, Listener, News};
 use crate::run::tables::Tables;
 use crate::run::tree::Tree;
 use crate::run::volume::Volume;
+use crate::setup::Model;
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::Every;
 use signorini_io::checkpoint::Checkpoints;

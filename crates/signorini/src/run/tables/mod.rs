@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use crate::build::{
+use crate::setup::{
     ContactQuantity, ElementQuantity, Model, NodeQuantity, Printed, PrintedContact, PrintedOf,
 };
 use signorini_geometry::element::quadrature::Rule;

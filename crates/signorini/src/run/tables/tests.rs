@@ -1,8 +1,8 @@
 //! Runs whose tables are known in closed form.
 
-use crate::build::build;
 use crate::load::Source;
 use crate::run::{Listener, News, RunOptions, run};
+use crate::setup::build;
 use signorini_io::case::read_case;
 use signorini_mechanics::solve::Flow;
 use std::path::Path;
@@ -11,7 +11,7 @@ use std::path::Path;
 fn dat(text: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
-    let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
+    let (mesh, _) = crate::setup::read_mesh_of(&case, Path::new(".")).unwrap();
     let mut model = build(case, mesh).unwrap();
     let mut options = RunOptions::new(Source::default());
     options.folder = folder.path().join("out");
@@ -416,7 +416,7 @@ fn what_cannot_be_printed_is_refused_with_its_place() {
     ] {
         let text = PULLED.replacen(from, to, 1);
         let (case, _) = read_case("case.toml", text.as_bytes(), &[], crate::vocabulary()).unwrap();
-        let (mesh, _) = crate::build::read_mesh_of(&case, Path::new(".")).unwrap();
+        let (mesh, _) = crate::setup::read_mesh_of(&case, Path::new(".")).unwrap();
         let found = build(case, mesh).err().unwrap();
         assert!(found.plain().contains(said), "{}", found.plain());
         assert!(found.plain().contains("case.toml:"), "{}", found.plain());

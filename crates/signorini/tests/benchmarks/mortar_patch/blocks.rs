@@ -2,7 +2,7 @@
 
 use crate::common::Run;
 use crate::scene::{Case, Scene, finished};
-use signorini::build::Model;
+use signorini::setup::Model;
 use signorini_geometry::element::{Element, by_name};
 use signorini_geometry::mesh::Block;
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-#[path = "../common/mod.rs"]
+#[path = "../../../signorini/tests/common/mod.rs"]
 mod common;
 mod damaged;
-#[path = "../common/mutants.rs"]
+#[path = "../../../signorini/tests/common/mutants.rs"]
 mod mutants;
 
 use common::{Run, example, relative, repository, run};
@@ -15,7 +15,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 fn own(name: &str) -> PathBuf {
-    repository().join("crates/signorini/tests/oofem").join(name)
+    repository()
+        .join("crates/signorini-cli/tests/oofem")
+        .join(name)
 }
 
 /// All decks of a folder, in order.

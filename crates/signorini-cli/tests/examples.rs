@@ -1,6 +1,7 @@
 //! Every example is run as a user runs it, what its case expects is met, and its audit finds nothing wrong.
 #![allow(clippy::unwrap_used)]
 
+#[path = "../../signorini/tests/common/mod.rs"]
 mod common;
 
 use common::repository;

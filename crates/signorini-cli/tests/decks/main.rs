@@ -3,14 +3,14 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod axes;
-#[path = "../common/mod.rs"]
+#[path = "../../../signorini/tests/common/mod.rs"]
 mod common;
 mod damaged;
 mod doors;
 mod large;
 mod laws;
 mod left_out;
-#[path = "../common/mutants.rs"]
+#[path = "../../../signorini/tests/common/mutants.rs"]
 mod mutants;
 mod others;
 mod round_trip;
@@ -27,7 +27,9 @@ fn own(name: &str) -> PathBuf {
 
 /// A deck in the manner of another program.
 fn of_others(name: &str) -> PathBuf {
-    repository().join("crates/signorini/tests/decks").join(name)
+    repository()
+        .join("crates/signorini-cli/tests/decks")
+        .join(name)
 }
 
 fn read(path: &Path, compat: Compat) -> Loaded {
