@@ -45,5 +45,5 @@ pub use multigrid::Multigrid;
 pub use mumps::Mumps;
 pub use operator::{apply, apply_absolute};
 pub use problem::{Problem, Symmetry, Values};
-pub use solver::{EXACT, Heritage, LinearSolver, Note, SolveReport, StartStiffness, Why};
+pub use solver::{EXACT, Iterative, LinearSolver, Note, SolveReport, StartStiffness, Why};
 pub use table::{LinearKind, SOLVERS, SolverEntry, choose};

@@ -1,8 +1,8 @@
 //! What a solver can do, and what it reports.
 
 use crate::error::LinearError;
-use crate::multigrid;
 use crate::problem::{Problem, Values};
+use std::any::Any;
 
 /// What a solution is worth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,9 +36,6 @@ pub enum StartStiffness {
     Values(Vec<f64>),
 }
 
-/// What a solver leaves to the one that goes on in its place.
-pub struct Heritage(pub(crate) Box<multigrid::Grid>);
-
 /// A way to solve linear systems; see the room's page for the order of calls.
 pub trait LinearSolver: Send {
     /// Takes note of the pattern. Cheap where the problem is the same as in the last call.
@@ -52,29 +49,6 @@ pub trait LinearSolver: Send {
     /// # Errors
     /// `Singular`, `NotFinite`, `TooLarge`, `Shape`, and `Order` before `analyze`.
     fn factorize(&mut self, values: &Values) -> Result<(), LinearError>;
-
-    /// Forgets what it has learned from other patterns and values, but for a factor and its
-    /// [experience](LinearSolver::experience): from now on it does what it would do had it just been given the pattern. A run
-    /// that is resumed here repeats every bit.
-    fn forget(&mut self) {}
-
-    /// Whether it asks for the stiffness of the bodies at the start of the run before the next values: for `which` one,
-    /// where there are several.
-    fn wants_start(&self, _which: u64) -> bool {
-        false
-    }
-
-    /// Receives that stiffness: of the bodies undeformed and without history.
-    fn start_from(&mut self, _which: u64, _bulk: StartStiffness) {}
-
-    /// What it has that depends on the problem and its values alone, not on what was solved before: for a solver that goes
-    /// on in its place as if it were new. Nothing unless said.
-    fn bequeath(&mut self) -> Option<Heritage> {
-        None
-    }
-
-    /// Takes over what another one has left, where it can be of use.
-    fn inherit(&mut self, _heritage: Heritage) {}
 
     /// Solves `A x = rhs` until the true relative residual is at most `rtol`, or at the round-off of the operator.
     ///
@@ -94,41 +68,59 @@ pub trait LinearSolver: Send {
         rtol: f64,
     ) -> Result<SolveReport, LinearError>;
 
-    /// What it has learned that stays when it forgets; a number to give to [`LinearSolver::recall`].
-    fn experience(&self) -> u8 {
-        0
-    }
+    /// Forgets what it has learned from other patterns and values, except its factor and its
+    /// [experience](Iterative::experience): from now on it does what it would do had it just been given the pattern. A run
+    /// that is resumed here repeats every bit.
+    fn forget(&mut self) {}
 
-    /// Takes over what a solver had learned in the run that is resumed.
-    fn recall(&mut self, _experience: u8) {}
+    /// The solver as an iterative one, if it is.
+    fn iterative(&self) -> Option<&dyn Iterative>;
 
-    /// What the solver has decided since it was asked last.
-    fn notes(&mut self) -> Vec<Note> {
-        Vec::new()
-    }
+    /// The same, to be used.
+    fn iterative_mut(&mut self) -> Option<&mut dyn Iterative>;
+}
 
-    /// Whether less accuracy is less work.
-    fn is_iterative(&self) -> bool {
-        false
-    }
+/// A solver that does less work where less accuracy is asked for, and keeps a preconditioner from one tangent to the next.
+pub trait Iterative {
+    /// Whether it iterates on the present problem. False while a direct solver takes its place.
+    fn iterates(&self) -> bool;
 
     /// Solves until about this part of the error is left, in a norm of the solver's own: enough for a step of Newton's
     /// method that will not be the last. It need not go on where no entry of the residual is larger than `enough`, but for
-    /// equations of multipliers. What is not iterative solves as exactly as it can.
+    /// equations of multipliers. Where a direct solver takes its place, the solution is as exact as that makes it.
     ///
     /// # Errors
     /// Those of [`LinearSolver::solve`].
-    fn solve_roughly(
+    fn solve_to(
         &mut self,
         values: &Values,
         rhs: &[f64],
         x: &mut [f64],
         part: f64,
         enough: f64,
-    ) -> Result<SolveReport, LinearError> {
-        let _ = (part, enough);
-        self.solve(values, rhs, x, EXACT)
-    }
+    ) -> Result<SolveReport, LinearError>;
+
+    /// Whether it asks for the initial stiffness of the bodies with this id before the next values.
+    fn wants_start(&self, id: u64) -> bool;
+
+    /// Receives that stiffness: of the bodies undeformed and without history.
+    fn start_from(&mut self, id: u64, bulk: StartStiffness);
+
+    /// What it has learned that stays when it forgets; a number for [`Iterative::recall`].
+    fn experience(&self) -> u8;
+
+    /// Takes over what a solver had learned in the run that is resumed.
+    fn recall(&mut self, experience: u8);
+
+    /// Gives away what depends on the problem and its values alone, not on what was solved before: for a solver that goes
+    /// on in its place as if it were new.
+    fn bequeath(&mut self) -> Option<Box<dyn Any + Send>>;
+
+    /// Takes over what a solver of the same type has given away. What comes from another type is dropped.
+    fn inherit(&mut self, heritage: Box<dyn Any + Send>);
+
+    /// What the solver has decided since the last call.
+    fn notes(&mut self) -> Vec<Note>;
 }
 
 /// What a solver has decided for itself.

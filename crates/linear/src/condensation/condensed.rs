@@ -17,7 +17,7 @@ use crate::error::LinearError;
 use crate::norm::largest;
 use crate::problem::{Kept, Problem, Values};
 use crate::residual::Residual;
-use crate::solver::{LinearSolver, SolveReport};
+use crate::solver::{Iterative, LinearSolver, SolveReport};
 use crate::sparsity::NONE;
 
 /// Choices of hosts for one set of values before the whole problem is solved instead.
@@ -337,6 +337,14 @@ impl<S: LinearSolver> LinearSolver for Condensed<S> {
         self.forgotten = true;
         self.inner.forget();
         self.whole.forget();
+    }
+
+    fn iterative(&self) -> Option<&dyn Iterative> {
+        None
+    }
+
+    fn iterative_mut(&mut self) -> Option<&mut dyn Iterative> {
+        None
     }
 
     fn factorize(&mut self, values: &Values) -> Result<(), LinearError> {

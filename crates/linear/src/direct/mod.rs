@@ -25,7 +25,7 @@ pub(crate) use size::{NUMBER, PATTERN};
 use crate::error::LinearError;
 use crate::ordering::{self, Ordering};
 use crate::problem::{Problem, Symmetry, Values};
-use crate::solver::{LinearSolver, SolveReport};
+use crate::solver::{Iterative, LinearSolver, SolveReport};
 use cholesky::Cholesky;
 use faer::Par;
 use fronts::{Fronts, Precision};
@@ -273,6 +273,14 @@ impl LinearSolver for Direct {
 
     fn forget(&mut self) {
         self.forgotten = true;
+    }
+
+    fn iterative(&self) -> Option<&dyn Iterative> {
+        None
+    }
+
+    fn iterative_mut(&mut self) -> Option<&mut dyn Iterative> {
+        None
     }
 
     fn solve(

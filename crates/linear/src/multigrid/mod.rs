@@ -53,7 +53,7 @@ use crate::norm::largest;
 use crate::operator::apply;
 use crate::problem::{Kept, Problem, Symmetry, Values};
 use crate::residual::Residual;
-use crate::solver::{EXACT, Heritage, LinearSolver, Note, SolveReport, StartStiffness, Why};
+use crate::solver::{EXACT, Iterative, LinearSolver, Note, SolveReport, StartStiffness, Why};
 use crate::sparsity::{NONE, Pattern};
 use alone::touched;
 use block::InterfaceBlock;
@@ -63,6 +63,7 @@ use fine::{Fine, hold};
 use hierarchy::Hierarchy;
 use krylov::{End, Operators, Stop};
 use rayon::prelude::*;
+use std::any::Any;
 
 /// Equations from which on multigrid is no slower than a direct solution in space: by Cholesky's factor where the matrix is
 /// definite, by L D Lᵀ or LU where it is not. Of the latter, the ten families of `scripts/speed_decks.py` with seeds 3 and 4
@@ -332,17 +333,52 @@ impl LinearSolver for Multigrid {
         }
     }
 
-    fn wants_start(&self, which: u64) -> bool {
+    fn solve(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        rtol: f64,
+    ) -> Result<SolveReport, LinearError> {
+        self.solve_by(values, rhs, x, Wanted::Residual(rtol))
+    }
+
+    fn iterative(&self) -> Option<&dyn Iterative> {
+        Some(self)
+    }
+
+    fn iterative_mut(&mut self) -> Option<&mut dyn Iterative> {
+        Some(self)
+    }
+}
+
+impl Iterative for Multigrid {
+    fn iterates(&self) -> bool {
+        self.grid.as_ref().is_some_and(|grid| !grid.has_failed)
+    }
+
+    fn solve_to(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        part: f64,
+        enough: f64,
+    ) -> Result<SolveReport, LinearError> {
+        self.solve_by(values, rhs, x, Wanted::Part { part, enough })
+    }
+
+    fn wants_start(&self, id: u64) -> bool {
         self.grid.as_ref().is_some_and(|grid| {
             let start = &grid.start;
             let is_at_hand = start.is_in_use || start.told.is_some();
-            let is_known = start.which == Some(which) && is_at_hand;
+            let is_known = start.which == Some(id) && is_at_hand;
             let suits = grid.fine.floating.is_empty() && !grid.has_failed && !grid.has_factor;
             suits && !grid.is_proven && !is_known
         })
     }
 
-    fn start_from(&mut self, which: u64, bulk: StartStiffness) {
+    fn start_from(&mut self, id: u64, bulk: StartStiffness) {
         let (Some(grid), Some(kept)) = (&mut self.grid, &self.kept) else {
             return;
         };
@@ -352,28 +388,10 @@ impl LinearSolver for Multigrid {
             StartStiffness::Values(values) => values.len() == kept.bulk.nvalue(),
         };
         if suits {
-            (grid.start.which, grid.start.told) = (Some(which), Some(bulk));
+            (grid.start.which, grid.start.told) = (Some(id), Some(bulk));
         } else {
             grid.start = Start::default();
         }
-    }
-
-    fn bequeath(&mut self) -> Option<Heritage> {
-        (self.kept, self.way) = (None, None);
-        let mut grid = self.grid.take()?;
-        grid.forget();
-        // a hierarchy is known by the fingerprint of its stiffness, or is that of the start
-        if !grid.start.is_in_use {
-            grid.start = Start::default();
-        }
-        grid.has_factor = false;
-        Some(Heritage(Box::new(grid)))
-    }
-
-    fn inherit(&mut self, Heritage(grid): Heritage) {
-        // nothing is known of the present problem: the grid serves if it suits that
-        (self.kept, self.way) = (None, None);
-        self.grid = Some(*grid);
     }
 
     fn experience(&self) -> u8 {
@@ -388,33 +406,29 @@ impl LinearSolver for Multigrid {
         }
     }
 
+    fn bequeath(&mut self) -> Option<Box<dyn Any + Send>> {
+        (self.kept, self.way) = (None, None);
+        let mut grid = self.grid.take()?;
+        grid.forget();
+        // a hierarchy is known by the fingerprint of its stiffness, or is that of the start
+        if !grid.start.is_in_use {
+            grid.start = Start::default();
+        }
+        grid.has_factor = false;
+        Some(Box::new(grid))
+    }
+
+    fn inherit(&mut self, heritage: Box<dyn Any + Send>) {
+        let Ok(grid) = heritage.downcast::<Grid>() else {
+            return;
+        };
+        // nothing is known of the present problem: the grid serves if it suits that
+        (self.kept, self.way) = (None, None);
+        self.grid = Some(*grid);
+    }
+
     fn notes(&mut self) -> Vec<Note> {
         std::mem::take(&mut self.notes)
-    }
-
-    fn is_iterative(&self) -> bool {
-        self.grid.as_ref().is_some_and(|grid| !grid.has_failed)
-    }
-
-    fn solve_roughly(
-        &mut self,
-        values: &Values,
-        rhs: &[f64],
-        x: &mut [f64],
-        part: f64,
-        enough: f64,
-    ) -> Result<SolveReport, LinearError> {
-        self.solve_by(values, rhs, x, Wanted::Part { part, enough })
-    }
-
-    fn solve(
-        &mut self,
-        values: &Values,
-        rhs: &[f64],
-        x: &mut [f64],
-        rtol: f64,
-    ) -> Result<SolveReport, LinearError> {
-        self.solve_by(values, rhs, x, Wanted::Residual(rtol))
     }
 }
 

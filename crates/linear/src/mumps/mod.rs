@@ -20,7 +20,7 @@ use crate::direct::gathered::{Breakdown, Gathered, NAMING_SHIFT};
 use crate::error::LinearError;
 use crate::ordering::{self, Ordering};
 use crate::problem::{Problem, Symmetry, Values};
-use crate::solver::{LinearSolver, SolveReport};
+use crate::solver::{Iterative, LinearSolver, SolveReport};
 use library::{Instance, Kind, Pattern, Status};
 
 /// Working space beyond the estimate at first and at most, in per cent: pivots that are put off need more.
@@ -88,6 +88,14 @@ impl LinearSolver for Mumps {
         rtol: f64,
     ) -> Result<SolveReport, LinearError> {
         self.analyzed()?.solve(values, rhs, x, rtol)
+    }
+
+    fn iterative(&self) -> Option<&dyn Iterative> {
+        None
+    }
+
+    fn iterative_mut(&mut self) -> Option<&mut dyn Iterative> {
+        None
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod condensed;
 mod fronts;
+mod iterative;
 mod multigrid;
 
 use super::ordering::Ordering;

@@ -1,17 +1,17 @@
 //! Multigrid against the direct solver, and against itself: iterations do not grow with stiffness of contact or size.
 
-use super::super::Multigrid;
+use super::super::{Iterative, Multigrid};
 use super::*;
 
 /// A system of blocks with the places of its nodes.
 #[derive(Clone)]
-struct Placed {
-    system: System,
+pub(super) struct Placed {
+    pub(super) system: System,
     coordinates: Vec<[f64; 3]>,
 }
 
 impl Placed {
-    fn problem<'a>(&'a self, assembled: &'a Assembled) -> Problem<'a> {
+    pub(super) fn problem<'a>(&'a self, assembled: &'a Assembled) -> Problem<'a> {
         Problem {
             coordinates: &self.coordinates,
             ..assembled.problem()
@@ -35,7 +35,7 @@ fn places(n: [usize; 3], nblock: usize) -> Vec<[f64; 3]> {
 
 /// Two blocks, the lower clamped; where they meet, springs along z (and across, where they stick) over a part of the
 /// nodes. The upper one is clamped at its top, or held by nothing but springs.
-fn pressed(n: [usize; 3], penalty: f64, sticks: bool, floats: bool) -> Placed {
+pub(super) fn pressed(n: [usize; 3], penalty: f64, sticks: bool, floats: bool) -> Placed {
     let layer = (n[0] + 1) * (n[1] + 1);
     let mut system = System::new(2 * nnode(n), 3, 0, Symmetry::Definite);
     add_block(&mut system, n, [1.0; 3], 1.0, 0);
@@ -629,7 +629,7 @@ fn roughly(placed: &Placed, assembled: &Assembled, rhs: &[f64]) -> ([usize; 2], 
     let mut solver = Multigrid::new();
     solver.analyze(&placed.problem(assembled)).unwrap();
     solver.factorize(&assembled.values()).unwrap();
-    let rough = solver.solve_roughly(&assembled.values(), rhs, &mut x, 0.1, 0.0);
+    let rough = solver.solve_to(&assembled.values(), rhs, &mut x, 0.1, 0.0);
     let full = solver.solve(&assembled.values(), rhs, &mut exact, 1e-12);
     let off = x.iter().zip(&exact).map(|(x, y)| (x - y).abs());
     let off = off.fold(0.0, f64::max) / largest(&exact);

@@ -2,7 +2,9 @@
 
 use crate::system::{Assembler, Assembly, Dof, DofName, Symmetry, System};
 use signorini_linear::sparsity::NONE;
-use signorini_linear::{LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness};
+use signorini_linear::{
+    EXACT, LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
+};
 use std::time::Instant;
 
 /// Wall time spent in the linear solver, in seconds.
@@ -85,12 +87,14 @@ impl Equations {
 
     /// Whether solutions that are less exact are less work.
     pub fn is_iterative(&self) -> bool {
-        self.solver.is_iterative()
+        self.solver.iterative().is_some_and(|s| s.iterates())
     }
 
     /// What the solver has decided since it was asked last.
     pub fn notes(&mut self) -> Vec<Note> {
-        self.solver.notes()
+        self.solver
+            .iterative_mut()
+            .map_or_else(Vec::new, |s| s.notes())
     }
 
     /// Lets the solver forget what it has learned.
@@ -100,28 +104,36 @@ impl Equations {
 
     /// What the solver has learned that stays when it forgets.
     pub fn experience(&self) -> u8 {
-        self.solver.experience()
+        self.solver.iterative().map_or(0, |s| s.experience())
     }
 
     /// Gives the solver what it had learned in the run that is resumed.
     pub fn recall(&mut self, experience: u8) {
-        self.solver.recall(experience);
+        if let Some(solver) = self.solver.iterative_mut() {
+            solver.recall(experience);
+        }
     }
 
-    /// Whether the solver asks for the stiffness of the bodies at the start of the run.
-    pub fn wants_start(&self, which: u64) -> bool {
-        self.solver.wants_start(which)
+    /// Whether the solver asks for the initial stiffness of the bodies with this id.
+    pub fn wants_start(&self, id: u64) -> bool {
+        self.solver.iterative().is_some_and(|s| s.wants_start(id))
     }
 
-    /// Tells the solver of it.
-    pub fn start_from(&mut self, which: u64, bulk: StartStiffness) {
-        self.solver.start_from(which, bulk);
+    /// Gives it to the solver.
+    pub fn start_from(&mut self, id: u64, bulk: StartStiffness) {
+        if let Some(solver) = self.solver.iterative_mut() {
+            solver.start_from(id, bulk);
+        }
     }
 
     /// Lets the solver take over what that of equations before has left.
     pub fn inherit(&mut self, mut before: Self) {
-        if let Some(heritage) = before.solver.bequeath() {
-            self.solver.inherit(heritage);
+        let before = before.solver.iterative_mut();
+        let heritage = before.and_then(|solver| solver.bequeath());
+        if let Some(heritage) = heritage
+            && let Some(solver) = self.solver.iterative_mut()
+        {
+            solver.inherit(heritage);
         }
     }
 
@@ -237,9 +249,10 @@ impl Equations {
         let start = Instant::now();
         let (solver, left) = (&mut self.solver, &mut self.left);
         let outcome = match accuracy {
-            Accuracy::Part { part, enough } => {
-                solver.solve_roughly(&values, &self.right, left, part, enough)
-            }
+            Accuracy::Part { part, enough } => match solver.iterative_mut() {
+                Some(solver) => solver.solve_to(&values, &self.right, left, part, enough),
+                None => solver.solve(&values, &self.right, left, EXACT),
+            },
             Accuracy::Residual(rtol) => solver.solve(&values, &self.right, left, rtol),
         };
         self.seconds.solve += start.elapsed().as_secs_f64();

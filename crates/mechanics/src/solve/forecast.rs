@@ -4,7 +4,7 @@ use super::equations::Equations;
 use super::stepping::Step;
 use crate::system::{Assembler, Assembly, Order, State, System, TermError};
 use signorini_linear::{
-    Forecast, LinearError, LinearKind, LinearSolver, Problem, SolveReport, Values,
+    Forecast, Iterative, LinearError, LinearKind, LinearSolver, Problem, SolveReport, Values,
 };
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -34,6 +34,14 @@ impl LinearSolver for Scout {
         _: f64,
     ) -> Result<SolveReport, LinearError> {
         Err(LinearError::Order { before: "analyze" })
+    }
+
+    fn iterative(&self) -> Option<&dyn Iterative> {
+        None
+    }
+
+    fn iterative_mut(&mut self) -> Option<&mut dyn Iterative> {
+        None
     }
 }
 

@@ -5,8 +5,10 @@ use super::super::equations::Equations;
 use super::super::newton::{Goal, Newton, Place};
 use super::*;
 use signorini_linear::{
-    LinearError, LinearKind, LinearSolver, Problem, SolveReport, Values, choose,
+    EXACT, Iterative, LinearError, LinearKind, LinearSolver, Note, Problem, SolveReport,
+    StartStiffness, Values, choose,
 };
+use std::any::Any;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A node on a spring under a load that is reached in one increment.
@@ -642,8 +644,51 @@ impl LinearSolver for Counting {
         self.solver.solve(values, rhs, x, rtol)
     }
 
-    fn is_iterative(&self) -> bool {
+    fn iterative(&self) -> Option<&dyn Iterative> {
+        Some(self)
+    }
+
+    fn iterative_mut(&mut self) -> Option<&mut dyn Iterative> {
+        Some(self)
+    }
+}
+
+impl Iterative for Counting {
+    fn iterates(&self) -> bool {
         self.is_iterative
+    }
+
+    fn solve_to(
+        &mut self,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        _part: f64,
+        _enough: f64,
+    ) -> Result<SolveReport, LinearError> {
+        self.solve(values, rhs, x, EXACT)
+    }
+
+    fn wants_start(&self, _id: u64) -> bool {
+        false
+    }
+
+    fn start_from(&mut self, _id: u64, _bulk: StartStiffness) {}
+
+    fn experience(&self) -> u8 {
+        0
+    }
+
+    fn recall(&mut self, _experience: u8) {}
+
+    fn bequeath(&mut self) -> Option<Box<dyn Any + Send>> {
+        None
+    }
+
+    fn inherit(&mut self, _heritage: Box<dyn Any + Send>) {}
+
+    fn notes(&mut self) -> Vec<Note> {
+        Vec::new()
     }
 }
 
