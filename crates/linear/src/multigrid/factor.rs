@@ -15,7 +15,8 @@
 use super::blocks::Blocks;
 use super::fine::{Fine, stiffen};
 use super::springs::Rows;
-use super::{alone, fill, springs};
+use super::values::{fill, fingerprint};
+use super::{alone, springs};
 use crate::direct::Direct;
 use crate::error::LinearError;
 use crate::problem::{Kept, Problem, Symmetry, Values};
@@ -103,7 +104,7 @@ impl BodyFactor {
         self.springs = springs;
         let matrix = stiffness(kept, values, fine, rows.as_ref());
         let numbers = matrix.value.as_flattened().as_flattened();
-        let source = super::fingerprint(numbers);
+        let source = fingerprint(numbers);
         if self.source == Some(source) {
             return Ok(false);
         }

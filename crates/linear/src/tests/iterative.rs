@@ -1,6 +1,5 @@
 //! What every iterative solver promises besides its solutions.
 
-use super::multigrid::{Placed, pressed};
 use super::*;
 
 /// The iterative solvers of the table that iterate on a problem of this size, analyzed and factorized.
