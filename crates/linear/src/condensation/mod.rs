@@ -103,6 +103,24 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
+    /// The columns of E by rows: where each row begins, and the column and value of each entry.
+    fn by_rows(&self, ndof: usize) -> (Vec<usize>, Vec<(u32, f64)>) {
+        let mut begin = vec![0usize; ndof + 1];
+        self.row.iter().for_each(|&i| begin[i as usize + 1] += 1);
+        for i in 0..ndof {
+            begin[i + 1] += begin[i];
+        }
+        let mut next = begin.clone();
+        let mut across = vec![(0u32, 0.0); self.row.len()];
+        for k in 0..self.pair.len() {
+            for (i, e) in self.column(k) {
+                across[next[i as usize]] = (k as u32, e);
+                next[i as usize] += 1;
+            }
+        }
+        (begin, across)
+    }
+
     fn column(&self, k: usize) -> impl Iterator<Item = (u32, f64)> + '_ {
         let range = self.start[k]..self.start[k + 1];
         let rows = self.row[range.clone()].iter().copied();
@@ -526,20 +544,7 @@ impl Condensation {
     /// The values of the condensed interface.
     pub fn fill(&self, kept: &Kept, values: &Values, numbers: &mut Numbers) -> Result<(), Refusal> {
         let ndof = self.equation.len();
-        // E by rows
-        let mut begin = vec![0usize; ndof + 1];
-        numbers.row.iter().for_each(|&i| begin[i as usize + 1] += 1);
-        for i in 0..ndof {
-            begin[i + 1] += begin[i];
-        }
-        let mut next = begin.clone();
-        let mut across = vec![(0u32, 0.0); numbers.row.len()];
-        for k in 0..numbers.pair.len() {
-            for (i, e) in numbers.column(k) {
-                across[next[i as usize]] = (k as u32, e);
-                next[i as usize] += 1;
-            }
-        }
+        let (begin, across) = numbers.by_rows(ndof);
         let e_row = |dof: u32| &across[begin[dof as usize]..begin[dof as usize + 1]];
 
         let mut out = std::mem::take(&mut numbers.interface);

@@ -176,6 +176,44 @@ pub(super) fn conjugate_gradients(
     Ok((End::Slow, most))
 }
 
+/// Turns the last column of a Hessenberg matrix by the rotations before it and by one of its own, which makes it a column
+/// of a triangle and turns the right side, too.
+fn rotate(column: &mut [f64], turns: &mut Vec<(f64, f64)>, right: &mut Vec<f64>) {
+    let k = turns.len();
+    for (i, &(c, s)) in turns.iter().enumerate() {
+        let (a, b) = (column[i], column[i + 1]);
+        column[i] = c * a + s * b;
+        column[i + 1] = c * b - s * a;
+    }
+    let radius = column[k].hypot(column[k + 1]);
+    let (c, s) = if radius > 0.0 {
+        (column[k] / radius, column[k + 1] / radius)
+    } else {
+        (1.0, 0.0)
+    };
+    column[k] = radius;
+    turns.push((c, s));
+    let last = right[k];
+    right[k] = c * last;
+    right.push(-s * last);
+}
+
+/// The solution of an upper triangle, given by its columns; zero at a pivot of zero.
+fn back_substituted(triangle: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+    let m = triangle.len();
+    let mut y = vec![0.0; m];
+    for i in (0..m).rev() {
+        let known: f64 = (i + 1..m).map(|j| triangle[j][i] * y[j]).sum();
+        let pivot = triangle[i][i];
+        y[i] = if pivot == 0.0 {
+            0.0
+        } else {
+            (right[i] - known) / pivot
+        };
+    }
+    y
+}
+
 /// The same for matrices that are not symmetric.
 ///
 /// Source: Saad, *SIAM J. Sci. Comput.* 14 (1993) 461–469.
@@ -223,22 +261,7 @@ pub(super) fn minimal_residuals(
             }
             let left = dot(&w, &w).sqrt();
             column[k + 1] = left;
-            for (i, &(c, s)) in turns.iter().enumerate() {
-                let (a, b) = (column[i], column[i + 1]);
-                column[i] = c * a + s * b;
-                column[i + 1] = c * b - s * a;
-            }
-            let radius = column[k].hypot(column[k + 1]);
-            let (c, s) = if radius > 0.0 {
-                (column[k] / radius, column[k + 1] / radius)
-            } else {
-                (1.0, 0.0)
-            };
-            column[k] = radius;
-            turns.push((c, s));
-            let last = right[k];
-            right[k] = c * last;
-            right.push(-s * last);
+            rotate(&mut column, &mut turns, &mut right);
             triangle.push(column);
             if left == 0.0 {
                 break;
@@ -262,19 +285,8 @@ pub(super) fn minimal_residuals(
                 return Ok((End::Slow, total));
             }
         }
-        let m = directions.len();
-        let mut y = vec![0.0; m];
-        for i in (0..m).rev() {
-            let known: f64 = (i + 1..m).map(|j| triangle[j][i] * y[j]).sum();
-            let pivot = triangle[i][i];
-            y[i] = if pivot == 0.0 {
-                0.0
-            } else {
-                (right[i] - known) / pivot
-            };
-        }
         sum.fill(0.0);
-        for (y, direction) in y.iter().zip(&directions) {
+        for (y, direction) in back_substituted(&triangle, &right).iter().zip(&directions) {
             add(*y, direction, &mut sum);
         }
         add(1.0, &sum, x);

@@ -118,6 +118,26 @@ pub(super) struct Derivatives {
 }
 
 impl Derivatives {
+    /// dp, and d(Pλ): how the pressure and the tangential part of the multiplier change.
+    #[inline]
+    fn project(&mut self, row: &Row, pressure: &Eval, lambda: &Lambda, width: usize) {
+        let (n, nu, sliding) = (row.weights.len(), row.normal, &row.sliding);
+        let along = nu.dot(lambda.vector);
+        for j in 0..n {
+            let turned = lambda.vector.dot(sliding.dnormal[j]);
+            self.pressure[j] = pressure.dgap * row.gradient[j] - pressure.dlambda * turned;
+            self.actual_pressure[j] = -turned;
+            self.trial[j] = sliding.dnormal[j] * -along - nu * turned;
+            self.actual_tangential[j] = self.trial[j];
+        }
+        for c in 0..width - n {
+            self.pressure[n + c] = -pressure.dlambda * nu[c];
+            self.actual_pressure[n + c] = -nu[c];
+            self.trial[n + c] = Vec3::unit(c) - nu * nu[c];
+            self.actual_tangential[n + c] = self.trial[n + c];
+        }
+    }
+
     fn reset(&mut self, n: usize) {
         self.pressure.clear();
         self.pressure.resize(n, 0.0);
@@ -432,20 +452,7 @@ impl<'a> Laws<'a> {
         let open = pressure == Eval::default();
 
         work.reset(width);
-        // dp, and d(Pλ)
-        for j in 0..n {
-            let turned = lambda.vector.dot(sliding.dnormal[j]);
-            work.pressure[j] = pressure.dgap * row.gradient[j] - pressure.dlambda * turned;
-            work.actual_pressure[j] = -turned;
-            work.trial[j] = sliding.dnormal[j] * -along - nu * turned;
-            work.actual_tangential[j] = work.trial[j];
-        }
-        for c in 0..width - n {
-            work.pressure[n + c] = -pressure.dlambda * nu[c];
-            work.actual_pressure[n + c] = -nu[c];
-            work.trial[n + c] = Vec3::unit(c) - nu * nu[c];
-            work.actual_tangential[n + c] = work.trial[n + c];
-        }
+        work.project(row, &pressure, lambda, width);
         let limit = past.limit_of(row, friction, pressure.value);
         let trial = self.trial(row, lambda);
         let mut tangential = Vec3::ZERO;
@@ -482,28 +489,9 @@ impl<'a> Laws<'a> {
         if unknown {
             // λ − that, over c along the normal and over c_t across it, so that the tangent of what sticks is symmetric
             let (along_normal, across) = (1.0 / self.scale.penalty, 1.0 / self.shear);
-            let apart = along_normal - across;
             let missing = lambda.vector + nu * pressure.value - tangential;
-            let missed = nu.dot(missing);
-            let scaled = missing * across + nu * (missed * apart);
-            for c in 0..width - n {
-                target.force[n + c] -= measure * scaled[c];
-            }
-            if wants_tangent {
-                for j in 0..width {
-                    let dnormal = sliding.dnormal.get(j).copied().unwrap_or_default();
-                    let mut change =
-                        nu * work.pressure[j] + dnormal * pressure.value - work.tangential[j];
-                    if j >= n {
-                        change += Vec3::unit(j - n);
-                    }
-                    let turned = nu.dot(change) + dnormal.dot(missing);
-                    let change = change * across + (nu * turned + dnormal * missed) * apart;
-                    for c in 0..width - n {
-                        target.stiffness[(n + c) * width + j] -= measure * change[c];
-                    }
-                }
-            }
+            let scales = [along_normal, across];
+            add_complementarity(row, measure, pressure.value, missing, scales, work, target);
         }
         for i in 0..n {
             let f = sliding.operator[i].dot(acting_tangential) - acting * row.weights[i];
@@ -570,6 +558,42 @@ impl<'a> Laws<'a> {
                     *k += across * along;
                 }
             }
+        }
+    }
+}
+
+/// The equations of the multiplier under friction: what is `missing`, over the scales along the normal and across it.
+#[inline]
+fn add_complementarity(
+    row: &Row,
+    measure: f64,
+    pressure: f64,
+    missing: Vec3,
+    [along_normal, across]: [f64; 2],
+    work: &Derivatives,
+    target: &mut Target<'_>,
+) {
+    let (n, width) = (row.weights.len(), target.force.len());
+    let (nu, sliding) = (row.normal, &row.sliding);
+    let apart = along_normal - across;
+    let missed = nu.dot(missing);
+    let scaled = missing * across + nu * (missed * apart);
+    for c in 0..width - n {
+        target.force[n + c] -= measure * scaled[c];
+    }
+    if target.stiffness.is_empty() {
+        return;
+    }
+    for j in 0..width {
+        let dnormal = sliding.dnormal.get(j).copied().unwrap_or_default();
+        let mut change = nu * work.pressure[j] + dnormal * pressure - work.tangential[j];
+        if j >= n {
+            change += Vec3::unit(j - n);
+        }
+        let turned = nu.dot(change) + dnormal.dot(missing);
+        let change = change * across + (nu * turned + dnormal * missed) * apart;
+        for c in 0..width - n {
+            target.stiffness[(n + c) * width + j] -= measure * change[c];
         }
     }
 }

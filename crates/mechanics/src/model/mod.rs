@@ -44,10 +44,10 @@ use crate::contact::{Interface, Measure};
 use crate::material::Kinematics;
 use crate::solid::Locking;
 use crate::solve::Step;
-use crate::system::{Elimination, Idealisation, Layout, NodalField, System};
+use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
 use bodies::{Spaces, between, nodes_by_body, owners};
 use constraints::{Followers, Ties};
-use contact::Source;
+use contact::{Sides, Source};
 use held::Held;
 use loads::Substance;
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
@@ -188,45 +188,28 @@ impl Model {
     /// # Errors
     /// What makes no model, each case named with the user's own numbers and names.
     pub fn assemble(parts: Parts<'_>) -> Result<Self, ModelError> {
-        let Parts {
-            mesh,
-            space,
-            bodies,
-            carriers,
-            springs,
-            constraints,
-            contacts,
-            temperature,
-            steps,
-            stabilize,
-            hold_free,
-            gap_tol,
-            traction_tol,
-        } = parts;
-        let owner = owners(mesh, &bodies)?;
-        let body_of_node = nodes_by_body(mesh, &bodies);
-        let between = between(mesh, &bodies);
-        let spaces = Spaces::new(space, &owner, &body_of_node, &bodies);
+        let (mesh, space) = (parts.mesh, parts.space);
+        let (bodies, contacts) = (&parts.bodies, &parts.contacts);
+        let owner = owners(mesh, bodies)?;
+        let body_of_node = nodes_by_body(mesh, bodies);
+        let between = between(mesh, bodies);
+        let spaces = Spaces::new(space, &owner, &body_of_node, bodies);
         let followers = Followers {
             mesh,
             space,
-            bodies: &bodies,
-            carriers: &carriers,
-            constraints: &constraints,
-            springs: &springs,
-            contacts: &contacts,
+            bodies,
+            carriers: &parts.carriers,
+            constraints: &parts.constraints,
+            springs: &parts.springs,
+            contacts,
         };
         let mut layout = followers.layout();
         let (elimination, ties) = followers.elimination(&layout)?;
         let poses = elimination.initial_poses();
-        let joint = contact::Steps {
-            changes: steps.iter().map(|s| s.contacts.clone()).collect(),
-            gap_tol,
-            traction_tol,
-            parts: &contacts,
-        };
+        let joint =
+            contact::Steps::new(contacts, &parts.steps, [parts.gap_tol, parts.traction_tol]);
         let rubs: Vec<bool> = (0..contacts.len()).map(|k| joint.rubs(k)).collect();
-        let motions = steps::prescribed(mesh.nnode(), &steps);
+        let motions = steps::prescribed(mesh.nnode(), &parts.steps);
         let prescribed = steps::in_whole(&motions, space.ndim());
         let source = Source {
             mesh,
@@ -238,36 +221,21 @@ impl Model {
             motions: &motions,
             rubs: &rubs,
         };
-        let reference: Arc<[Vec3]> = contact::closed(&source, &contacts, &poses)?.into();
+        let reference: Arc<[Vec3]> = contact::closed(&source, contacts, &poses)?.into();
         let source = Source {
             reference: &reference,
             ..source
         };
-        let mut sides = Vec::new();
-        for (number, part) in contacts.iter().enumerate() {
-            for pass in source.sides(number, part)? {
-                let first = layout.nmultiplier;
-                layout.nmultiplier += pass.nmultiplier(part, joint.rubs(number), layout.ndim);
-                sides.push((pass, first));
-            }
-        }
+        let sides = all_sides(&source, &joint, &mut layout)?;
         let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
-        let modulus: Vec<Option<f64>> = bodies
-            .iter()
-            .map(|b| b.kind.material().map(|m| m.modulus()))
-            .collect();
-        let shear_modulus: Vec<Option<f64>> = bodies
-            .iter()
-            .map(|b| b.kind.material().and_then(|m| m.shear_modulus()))
-            .collect();
-        if modulus.iter().all(Option::is_none) && springs.is_empty() {
+        let materials = || bodies.iter().map(|b| b.kind.material());
+        let modulus: Vec<Option<f64>> = materials().map(|m| Some(m?.modulus())).collect();
+        let shear_modulus: Vec<Option<f64>> = materials().map(|m| m?.shear_modulus()).collect();
+        if modulus.iter().all(Option::is_none) && parts.springs.is_empty() {
             return Err(ModelError::NothingDeforms);
         }
-        let substances: Vec<Substance> = bodies
-            .iter()
-            .map(|body| Substance::new(body, space))
-            .collect();
-        let temperature = temperatures(temperature, &steps);
+        let substances: Vec<_> = bodies.iter().map(|b| Substance::new(b, space)).collect();
+        let temperature = temperatures(parts.temperature, &parts.steps);
 
         let mut context = Context {
             mesh,
@@ -277,64 +245,31 @@ impl Model {
             shear_modulus: &shear_modulus,
             substances: &substances,
             elimination: Arc::new(elimination),
-            carriers: &carriers,
+            carriers: &parts.carriers,
             space,
             spaces: &spaces,
             layout,
             ties: &ties,
             poses,
         };
-        let (mut steps, loads) = context.steps(steps)?;
+        let (mut steps, loads) = context.steps(parts.steps)?;
         let elimination = Arc::make_mut(&mut context.elimination);
         followers.relate(&layout, &ties, elimination, &mut steps)?;
         // forces on unknowns that follow by an equation have a stiffness, too: equations come before loads
         let loads = loads::terms(&context, &steps, loads)?;
         let elimination = context.elimination.clone();
 
-        let mut held = Held::new(mesh, space, &bodies, &carriers, &elimination);
-        held.springs(&springs);
-        held.constraints(&constraints);
-        for (number, contact) in contacts.iter().enumerate() {
-            held.contact(contact, joint.rubs(number), &context.poses);
-        }
-        if let Some(first) = steps.first() {
-            held.supports(&layout, &first.prescriptions);
-        }
-        let held_by_contact = match held.judge() {
-            Err(ModelError::FreeBody(_)) if hold_free => Vec::new(),
-            judged => judged?,
-        };
-
-        let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
-        sizes.retain(|k| {
-            let nonlinear = *k == Kinematics::Finite;
-            steps.iter().any(|s| s.nonlinear == nonlinear)
-        });
-        let holds = stabilize.then(|| context.holds(&bodies, &held_by_contact));
-        let brake = (!contacts.is_empty()).then(|| context.brake(&bodies));
-        let dampers = [holds.flatten(), brake];
-        let (mut terms, locking) = context.bodies(bodies, temperature, &sizes)?;
+        let held_by_contact =
+            followers.held_by_contact(&context, &joint, &steps, parts.hold_free)?;
+        let sizes = sizes_of_strain(&steps);
+        let held = parts.stabilize.then_some(&held_by_contact[..]);
+        let dampers = context.dampers(bodies, held, contacts.is_empty());
+        let (mut terms, locking) = context.bodies(parts.bodies, temperature, &sizes)?;
         terms.extend(connectors);
-        let mut summaries = Vec::new();
-        for (pass, first) in sides {
-            let Some(part) = contacts.get(pass.contact) else {
-                continue;
-            };
-            let swapped = pass.swapped;
-            let (parts, summary) = context.contact(pass, part, &joint, first)?;
-            terms.push(Box::new(Interface::new(parts, layout, elimination.clone())));
-            if !swapped {
-                summaries.push(summary);
-            }
-        }
+        let summaries = context.interfaces(sides, &joint, &mut terms)?;
         terms.extend(loads);
-        for damper in dampers.into_iter().flatten() {
-            terms.push(Box::new(damper));
-        }
-
-        let unused = (0..mesh.nnode() as NodeId)
-            .filter(|n| body_of_node.get(*n as usize).is_none_or(|b| *b == u32::MAX))
-            .collect();
+        terms.extend(dampers);
+        let unused = unused(&body_of_node);
         Ok(Self {
             system: System {
                 layout,
@@ -353,6 +288,110 @@ impl Model {
             unused,
             held_by_contact,
         })
+    }
+}
+
+impl Followers<'_> {
+    /// Motions of bodies that nothing but contact stops.
+    fn held_by_contact(
+        &self,
+        context: &Context<'_>,
+        contacts: &contact::Steps<'_>,
+        steps: &[Step],
+        hold_free: bool,
+    ) -> Result<Vec<Unheld>, ModelError> {
+        let elimination = &context.elimination;
+        let mut held = Held::new(
+            self.mesh,
+            self.space,
+            self.bodies,
+            self.carriers,
+            elimination,
+        );
+        held.springs(self.springs);
+        held.constraints(self.constraints);
+        for (number, contact) in self.contacts.iter().enumerate() {
+            held.contact(contact, contacts.rubs(number), &context.poses);
+        }
+        if let Some(first) = steps.first() {
+            held.supports(&context.layout, &first.prescriptions);
+        }
+        match held.judge() {
+            Err(ModelError::FreeBody(_)) if hold_free => Ok(Vec::new()),
+            judged => judged,
+        }
+    }
+}
+
+/// Nodes of no body, given the body of each.
+fn unused(body_of_node: &[u32]) -> Vec<NodeId> {
+    let nodes = (0..).zip(body_of_node);
+    let unused = nodes.filter(|(_, body)| **body == u32::MAX);
+    unused.map(|(node, _)| node).collect()
+}
+
+/// The sides of all contacts, each with its first multiplier; the layout receives their multipliers.
+fn all_sides(
+    source: &Source<'_>,
+    contacts: &contact::Steps<'_>,
+    layout: &mut Layout,
+) -> Result<Vec<(Sides, usize)>, ModelError> {
+    let mut sides = Vec::new();
+    for (number, part) in contacts.parts.iter().enumerate() {
+        for pass in source.sides(number, part)? {
+            let first = layout.nmultiplier;
+            layout.nmultiplier += pass.nmultiplier(part, contacts.rubs(number), layout.ndim);
+            sides.push((pass, first));
+        }
+    }
+    Ok(sides)
+}
+
+/// How large strains are in any of the steps.
+fn sizes_of_strain(steps: &[Step]) -> Vec<Kinematics> {
+    let mut sizes = [Kinematics::Small, Kinematics::Finite].to_vec();
+    sizes.retain(|k| {
+        let nonlinear = *k == Kinematics::Finite;
+        steps.iter().any(|s| s.nonlinear == nonlinear)
+    });
+    sizes
+}
+
+impl Context<'_> {
+    /// What damps motions: those that nothing but contact stops, where they are to be held, and all where there is contact.
+    fn dampers(
+        &self,
+        bodies: &[BodyPart],
+        held: Option<&[Unheld]>,
+        is_without_contact: bool,
+    ) -> impl Iterator<Item = Box<dyn Term>> + use<> {
+        let holds = held.and_then(|held| self.holds(bodies, held));
+        let brake = (!is_without_contact).then(|| self.brake(bodies));
+        let dampers = [holds, brake].into_iter().flatten();
+        dampers.map(|damper| Box::new(damper) as Box<dyn Term>)
+    }
+
+    /// Adds the interfaces of all contacts to the terms; returns what was chosen for each.
+    fn interfaces(
+        &self,
+        sides: Vec<(Sides, usize)>,
+        contacts: &contact::Steps<'_>,
+        terms: &mut Vec<Box<dyn Term>>,
+    ) -> Result<Vec<ContactSummary>, ModelError> {
+        let mut summaries = Vec::new();
+        for (pass, first) in sides {
+            let Some(part) = contacts.parts.get(pass.contact) else {
+                continue;
+            };
+            let swapped = pass.swapped;
+            let (parts, summary) = self.contact(pass, part, contacts, first)?;
+            let interface = Interface::new(parts, self.layout, self.elimination.clone());
+            terms.push(Box::new(interface));
+            if !swapped {
+                summaries.push(summary);
+            }
+        }
+        Ok(summaries)
     }
 }
 

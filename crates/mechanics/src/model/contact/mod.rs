@@ -11,7 +11,7 @@ pub(super) use start::closed;
 
 use super::{
     AreaPart, ContactChange, ContactPart, ContactSummary, Context, Enforcement, FrictionPart,
-    ModelError, StartSummary, StickPart,
+    ModelError, StartSummary, StepPart, StickPart,
 };
 use crate::contact::discretization::{REACH, SlidingRange};
 use crate::contact::friction::{FrictionLaw, Stick};
@@ -43,7 +43,21 @@ pub(super) struct Steps<'a> {
     pub parts: &'a [ContactPart],
 }
 
-impl Steps<'_> {
+impl<'a> Steps<'a> {
+    /// The contacts of a model with their changes in its steps, and tolerances of gaps and tractions.
+    pub fn new(
+        parts: &'a [ContactPart],
+        steps: &[StepPart],
+        [gap_tol, traction_tol]: [f64; 2],
+    ) -> Self {
+        Self {
+            changes: steps.iter().map(|s| s.contacts.clone()).collect(),
+            gap_tol,
+            traction_tol,
+            parts,
+        }
+    }
+
     /// What becomes of a contact in each step.
     fn phases(&self, contact: usize, part: &ContactPart, penalty: f64) -> Vec<Phase> {
         let friction = |f: &Option<FrictionPart>| f.as_ref().map(|f| friction(f, penalty));

@@ -155,6 +155,42 @@ fn dot(a: &[f64; MOST], b: &[f64; MOST]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Moments of the terms of the projection over an element.
+struct Moments<const NN: usize, const ND: usize> {
+    /// Σ w φ φᵀ
+    gram: [[f64; MOST]; MOST],
+    /// Σ w φ ϑ
+    value: [f64; MOST],
+    /// Σ w φ δϑ
+    divergence: [[[f64; ND]; NN]; MOST],
+}
+
+impl<const NN: usize, const ND: usize> Moments<NN, ND> {
+    #[inline]
+    fn new<const NG: usize>(element: &Element<'_>, frame: &Frame) -> Result<Self, Failure> {
+        let mut moments = Self {
+            gram: [[0.0; MOST]; MOST],
+            value: [0.0; MOST],
+            divergence: [[[0.0; ND]; NN]; MOST],
+        };
+        for point in 0..element.npoint() {
+            let here = Dilated::<NN, ND, NG>::new(element, frame, point)?;
+            let divergence = here.divergence();
+            for m in 0..frame.nterm {
+                let factor = here.at.weight * here.basis[m];
+                (0..frame.nterm).for_each(|n| moments.gram[m][n] += factor * here.basis[n]);
+                moments.value[m] += factor * here.value;
+                add_force(
+                    moments.divergence[m].as_flattened_mut(),
+                    factor,
+                    &divergence,
+                );
+            }
+        }
+        Ok(moments)
+    }
+}
+
 pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
     element: &Element<'_>,
     order: Order,
@@ -167,22 +203,13 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
     out.force.fill(0.0);
     out.stiffness.fill(0.0);
 
-    // moments Σ w φ φᵀ, Σ w φ ϑ, Σ w φ δϑ
     let frame = Frame::new(element);
     let nterm = frame.nterm;
-    let mut gram = [[0.0; MOST]; MOST];
-    let mut moments = [0.0; MOST];
-    let mut divergences = [[[0.0; ND]; NN]; MOST];
-    for point in 0..npoint {
-        let here = Dilated::<NN, ND, NG>::new(element, &frame, point)?;
-        let divergence = here.divergence();
-        for m in 0..nterm {
-            let factor = here.at.weight * here.basis[m];
-            (0..nterm).for_each(|n| gram[m][n] += factor * here.basis[n]);
-            moments[m] += factor * here.value;
-            add_force(divergences[m].as_flattened_mut(), factor, &divergence);
-        }
-    }
+    let Moments {
+        gram,
+        value: moments,
+        divergence: divergences,
+    } = Moments::<NN, ND>::new::<NG>(element, &frame)?;
     let projection = Projection::new(&gram, nterm)?;
 
     let mut response = Response::default();
@@ -204,15 +231,7 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
                 dm[i] = (mean - dm[i]) / 3.0;
             }
         }
-        let plain = strain(here.h, finite);
-        let identity = Sym3::IDENTITY;
-        let (value, metric, square) = if finite {
-            let growth = (2.0 * m).exp_m1();
-            let value = plain * (1.0 + growth) + identity * (0.5 * growth); // (E6)
-            (value, identity + plain * 2.0, 1.0 + growth)
-        } else {
-            (plain + identity * m, identity, 1.0) // (E5)
-        };
+        let (value, metric, square) = dilated(strain(here.h, finite), m, finite);
         element.respond(point, value, order, out.new, &mut response)?;
         out.energy += weight * response.energy;
         if let Some(sample) = out.samples.get_mut(point) {
@@ -266,6 +285,19 @@ pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(
         }
     }
     Ok(())
+}
+
+/// The strain with the dilatation `m`, its metric, and the square of the stretch.
+#[inline]
+fn dilated(plain: Sym3, m: f64, finite: bool) -> (Sym3, Sym3, f64) {
+    let identity = Sym3::IDENTITY;
+    if finite {
+        let growth = (2.0 * m).exp_m1();
+        let value = plain * (1.0 + growth) + identity * (0.5 * growth); // (E6)
+        (value, identity + plain * 2.0, 1.0 + growth)
+    } else {
+        (plain + identity * m, identity, 1.0) // (E5)
+    }
 }
 
 /// `C:ℂ` and `ℂ:C`.
