@@ -19,6 +19,7 @@
 //! ```
 
 mod load;
+pub mod prelude;
 pub mod preview;
 pub mod resume;
 pub mod run;

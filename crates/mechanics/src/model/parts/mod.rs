@@ -374,3 +374,20 @@ pub struct StepPart {
     /// Temperatures that nodes reach linearly over the step; others keep theirs.
     pub temperatures: Vec<(NodeId, f64)>,
 }
+
+impl StepPart {
+    /// A step of duration 1 with large displacements, in which nothing changes yet.
+    #[must_use]
+    pub fn new(name: impl Into<String>, increments: Increments) -> Self {
+        Self {
+            name: name.into(),
+            duration: 1.0,
+            increments,
+            nonlinear: true,
+            changes: Vec::new(),
+            loads: Vec::new(),
+            contacts: Vec::new(),
+            temperatures: Vec::new(),
+        }
+    }
+}
