@@ -4,7 +4,7 @@ use super::pair::facing;
 use super::*;
 use crate::contact::tests::Random;
 use serde_json::Value;
-use signorini_geometry::element::by_name;
+use signorini_geometry::element::{MAX_FACET_NODES, by_name};
 use signorini_geometry::tensor::Mat3;
 use std::path::Path;
 
@@ -143,8 +143,8 @@ fn weights_transformations_and_bases_of_whole_quadratic_facets_are_those_of_the_
         let n = x.len();
         let t = Transformation::with_alpha(element, alpha.parse().unwrap());
         let area: f64 = (0..n).map(|j| pair.n(j)).sum();
-        let mut d = [0.0; 9];
-        let mut s = [[0.0; 9]; 9];
+        let mut d = [0.0; MAX_FACET_NODES];
+        let mut s = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
         for j in 0..n {
             d[j] = (0..n).map(|k| t.get(j, k) * pair.n(k)).sum();
             for k in 0..n {
@@ -451,7 +451,11 @@ fn gaps(
         let frame = Frame::of(&Facet { element, x: &x }).unwrap();
         let nu = frame.normal();
         // over all primary facets: ∫N, ∫N Nᵀ, and ∫N (x − x^m)·ν
-        let (mut d, mut g, mut apart) = ([0.0; 9], [[0.0; 9]; 9], [0.0; 9]);
+        let (mut d, mut g, mut apart) = (
+            [0.0; MAX_FACET_NODES],
+            [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES],
+            [0.0; MAX_FACET_NODES],
+        );
         for facet in &primary.1 {
             let other: Vec<Vec3> = facet.iter().map(|&k| primary.0[k]).collect();
             let mut pair = Pair::default();
@@ -468,7 +472,7 @@ fn gaps(
                 }
             }
         }
-        let mut s = [[0.0; 9]; 9];
+        let mut s = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
         for (j, row) in s.iter_mut().enumerate().take(n) {
             for (k, s) in row.iter_mut().enumerate().take(n) {
                 let over = |i: usize| (0..n).map(|m| t.get(k, m) * g[i][m]).sum::<f64>();
