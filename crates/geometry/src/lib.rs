@@ -8,6 +8,9 @@
 //! Rooms import only leftwards. Everything here can be used alone: a mesh, a surface made of some of its faces,
 //! the closest point on it, its curvature.
 
+#[cfg(test)]
+extern crate self as signorini_geometry; // for the elements that tests of other crates share
+
 pub mod element;
 pub mod mesh;
 pub mod overlap;

@@ -11,6 +11,9 @@
 pub mod case;
 pub mod checkpoint;
 pub mod compare;
+#[cfg(test)]
+#[path = "../../geometry/src/element/testing.rs"]
+mod cubic;
 pub mod deck;
 pub mod diagnostic;
 pub mod frd;

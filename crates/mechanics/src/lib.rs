@@ -10,6 +10,9 @@
 pub mod audit;
 pub mod connector;
 pub mod contact;
+#[cfg(test)]
+#[path = "../../geometry/src/element/testing.rs"]
+mod cubic;
 pub mod load;
 pub mod material;
 pub mod model;

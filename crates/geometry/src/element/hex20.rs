@@ -2,7 +2,7 @@ use super::hex8::Hex8;
 use super::lagrange::{self, Product};
 use super::quadrature::{self, Rule};
 use super::serendipity::correct_corners;
-use super::{ReferenceElement, Side, quad8};
+use super::{Family, LockingClass, ReferenceElement, Side, quad8};
 use crate::tensor::{Sym3, Vec3};
 
 /// The serendipity hexahedron of twenty nodes, `ξ, η, ζ ∈ [-1, 1]`: corners, then the mid nodes at the bottom, at the
@@ -42,8 +42,20 @@ impl ReferenceElement for Hex20 {
         "hex20"
     }
 
-    fn dim(&self) -> usize {
-        3
+    fn family(&self) -> Family {
+        Family::Hexahedron
+    }
+
+    fn order(&self) -> usize {
+        2
+    }
+
+    fn degree(&self) -> usize {
+        4
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::HigherOrder { ndilatation: 4 }
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -83,19 +95,11 @@ impl ReferenceElement for Hex20 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        Hex8.edges()
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::HEX_27
     }
 
     fn reduced_rule(&self) -> &'static Rule {
         &quadrature::HEX_8
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        Hex8.contains(xi, tolerance)
     }
 }

@@ -1,7 +1,6 @@
-use super::hex8::Hex8;
 use super::lagrange::{self, Product};
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side, quad9};
+use super::{Family, LockingClass, ReferenceElement, Side, quad9};
 use crate::tensor::{Sym3, Vec3};
 
 /// The triquadratic hexahedron of 27 nodes, `ξ, η, ζ ∈ [-1, 1]`: those of hex20, then the centres of the sides S1 to S6,
@@ -48,8 +47,20 @@ impl ReferenceElement for Hex27 {
         "hex27"
     }
 
-    fn dim(&self) -> usize {
-        3
+    fn family(&self) -> Family {
+        Family::Hexahedron
+    }
+
+    fn order(&self) -> usize {
+        2
+    }
+
+    fn degree(&self) -> usize {
+        6
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::HigherOrder { ndilatation: 4 }
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -80,15 +91,7 @@ impl ReferenceElement for Hex27 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        Hex8.edges()
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::HEX_27
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        Hex8.contains(xi, tolerance)
     }
 }

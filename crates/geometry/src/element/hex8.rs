@@ -1,5 +1,5 @@
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side, quad4};
+use super::{Family, LockingClass, ReferenceElement, Side, quad4};
 use crate::tensor::{Sym3, Vec3};
 
 /// The trilinear hexahedron of eight nodes, `ξ, η, ζ ∈ [-1, 1]`.
@@ -21,8 +21,20 @@ impl ReferenceElement for Hex8 {
         "hex8"
     }
 
-    fn dim(&self) -> usize {
+    fn family(&self) -> Family {
+        Family::Hexahedron
+    }
+
+    fn order(&self) -> usize {
+        1
+    }
+
+    fn degree(&self) -> usize {
         3
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::Multilinear
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -61,28 +73,7 @@ impl ReferenceElement for Hex8 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        &[
-            [0, 1],
-            [1, 2],
-            [2, 3],
-            [3, 0],
-            [4, 5],
-            [5, 6],
-            [6, 7],
-            [7, 4],
-            [0, 4],
-            [1, 5],
-            [2, 6],
-            [3, 7],
-        ]
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::HEX_8
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        (0..3).all(|axis| xi[axis].abs() <= 1.0 + tolerance)
     }
 }

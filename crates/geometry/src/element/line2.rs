@@ -1,5 +1,5 @@
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side};
+use super::{DualBasis, Family, LockingClass, ReferenceElement, Side};
 use crate::tensor::{Sym3, Vec3};
 
 /// The straight line of two nodes, `ξ ∈ [-1, 1]`.
@@ -10,8 +10,24 @@ impl ReferenceElement for Line2 {
         "line2"
     }
 
-    fn dim(&self) -> usize {
+    fn family(&self) -> Family {
+        Family::Line
+    }
+
+    fn order(&self) -> usize {
         1
+    }
+
+    fn degree(&self) -> usize {
+        1
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::ConstantStrain
+    }
+
+    fn dual_basis(&self) -> Option<DualBasis> {
+        Some(DualBasis::Shape)
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -35,15 +51,7 @@ impl ReferenceElement for Line2 {
         &[]
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        &[[0, 1]]
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::LINE_2
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        xi.x.abs() <= 1.0 + tolerance
     }
 }

@@ -1,7 +1,6 @@
 use super::lagrange::{self, Product};
-use super::line2::Line2;
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side};
+use super::{DualBasis, Family, LockingClass, ReferenceElement, Side};
 use crate::tensor::{Sym3, Vec3};
 
 /// The quadratic line of three nodes, ends first, `ξ ∈ [-1, 1]`.
@@ -23,8 +22,24 @@ impl ReferenceElement for Line3 {
         "line3"
     }
 
-    fn dim(&self) -> usize {
-        1
+    fn family(&self) -> Family {
+        Family::Line
+    }
+
+    fn order(&self) -> usize {
+        2
+    }
+
+    fn degree(&self) -> usize {
+        2
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::HigherOrder { ndilatation: 1 }
+    }
+
+    fn dual_basis(&self) -> Option<DualBasis> {
+        Some(DualBasis::Axes { alpha: 0.25 })
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -47,19 +62,11 @@ impl ReferenceElement for Line3 {
         &[]
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        Line2.edges()
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::LINE_2
     }
 
     fn surface_rule(&self) -> &'static Rule {
         &quadrature::LINE_3
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        Line2.contains(xi, tolerance)
     }
 }

@@ -1,5 +1,5 @@
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side, line2};
+use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line2};
 use crate::tensor::{Sym3, Vec3};
 
 /// The bilinear quadrilateral of four nodes, `ξ, η ∈ [-1, 1]`.
@@ -17,8 +17,24 @@ impl ReferenceElement for Quad4 {
         "quad4"
     }
 
-    fn dim(&self) -> usize {
+    fn family(&self) -> Family {
+        Family::Quadrilateral
+    }
+
+    fn order(&self) -> usize {
+        1
+    }
+
+    fn degree(&self) -> usize {
         2
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::Multilinear
+    }
+
+    fn dual_basis(&self) -> Option<DualBasis> {
+        Some(DualBasis::Shape)
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -57,15 +73,7 @@ impl ReferenceElement for Quad4 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        &[[0, 1], [1, 2], [2, 3], [3, 0]]
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::QUAD_4
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        xi.x.abs() <= 1.0 + tolerance && xi.y.abs() <= 1.0 + tolerance
     }
 }

@@ -2,7 +2,7 @@ use super::lagrange::{self, Product};
 use super::quad4::Quad4;
 use super::quadrature::{self, Rule};
 use super::serendipity::correct_corners;
-use super::{ReferenceElement, Side, line3};
+use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line3};
 use crate::tensor::{Sym3, Vec3};
 
 /// The serendipity quadrilateral of eight nodes, `ξ, η ∈ [-1, 1]`: corners, then mid nodes edge by edge.
@@ -29,8 +29,27 @@ impl ReferenceElement for Quad8 {
         "quad8"
     }
 
-    fn dim(&self) -> usize {
+    fn family(&self) -> Family {
+        Family::Quadrilateral
+    }
+
+    fn order(&self) -> usize {
         2
+    }
+
+    fn degree(&self) -> usize {
+        3
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::HigherOrder { ndilatation: 3 }
+    }
+
+    fn dual_basis(&self) -> Option<DualBasis> {
+        Some(DualBasis::Edges {
+            pointwise: 3.0 / 8.0,
+            whole: 0.2,
+        })
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -68,19 +87,11 @@ impl ReferenceElement for Quad8 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        Quad4.edges()
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::QUAD_9
     }
 
     fn reduced_rule(&self) -> &'static Rule {
         &quadrature::QUAD_4
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        Quad4.contains(xi, tolerance)
     }
 }

@@ -1,7 +1,6 @@
 use super::lagrange::{self, Product};
-use super::quad4::Quad4;
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side, line3};
+use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line3};
 use crate::tensor::{Sym3, Vec3};
 
 /// The biquadratic quadrilateral of nine nodes, `ξ, η ∈ [-1, 1]`: those of quad8, then the centre.
@@ -29,8 +28,24 @@ impl ReferenceElement for Quad9 {
         "quad9"
     }
 
-    fn dim(&self) -> usize {
+    fn family(&self) -> Family {
+        Family::Quadrilateral
+    }
+
+    fn order(&self) -> usize {
         2
+    }
+
+    fn degree(&self) -> usize {
+        4
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::HigherOrder { ndilatation: 3 }
+    }
+
+    fn dual_basis(&self) -> Option<DualBasis> {
+        Some(DualBasis::Axes { alpha: 0.25 })
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -59,15 +74,7 @@ impl ReferenceElement for Quad9 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        Quad4.edges()
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::QUAD_9
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        Quad4.contains(xi, tolerance)
     }
 }

@@ -1,9 +1,14 @@
-//! Properties of every element of the table, asked through the trait alone.
+//! Properties of every element of the table and of made-up cubic ones, asked through the trait alone.
 
 use super::*;
 use crate::random::Random;
 use crate::tensor::Mat3;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// The elements of the table, and those that no table has.
+fn all() -> Vec<Element> {
+    TABLE.into_iter().chain(testing::CUBIC).collect()
+}
 
 impl Random {
     /// In `[-1, 1)` along the first `dim` axes, 0 along the others.
@@ -142,7 +147,7 @@ fn boundary(e: Element) -> Vec<Vec<Vec3>> {
 /// Runs a claim at random points of the reference domain of every element.
 fn for_points(mut claim: impl FnMut(Element, Vec3, &mut Random)) {
     let mut random = Random(1);
-    for e in TABLE {
+    for e in all() {
         for _ in 0..20 {
             let xi = random.between(e.nodes());
             claim(e, xi, &mut random);
@@ -164,11 +169,13 @@ fn sorted<const N: usize>(mut a: [usize; N]) -> [usize; N] {
 fn names_find_their_elements_and_no_other() {
     for e in TABLE {
         assert_eq!(by_name(e.name()), Some(e));
+    }
+    for e in all() {
         assert!((2..=MAX_NODES).contains(&e.nnode()) && (1..=3).contains(&e.dim()));
         assert!(e.dim() == 3 || e.nnode() <= MAX_FACET_NODES);
     }
-    let names: BTreeSet<_> = TABLE.iter().map(|e| e.name()).collect();
-    assert_eq!(names.len(), TABLE.len());
+    let names: BTreeSet<_> = all().iter().map(|e| e.name()).collect();
+    assert_eq!(names.len(), all().len());
     assert_eq!(by_name("hex"), None);
 }
 
@@ -188,7 +195,7 @@ fn shape_functions_are_a_partition_of_unity() {
 
 #[test]
 fn each_shape_function_is_one_at_its_node_and_zero_at_the_others() {
-    for e in TABLE {
+    for e in all() {
         for (i, &node) in e.nodes().iter().enumerate() {
             for (j, n) in shape(e, node).into_iter().enumerate() {
                 let delta = f64::from(u8::from(i == j));
@@ -214,20 +221,16 @@ fn linear_fields_are_reproduced() {
     });
 }
 
-/// Whether the element has nodes that are no corners.
-fn is_quadratic(e: Element) -> bool {
-    e.ncorner() < e.nnode()
-}
-
 #[test]
-fn quadratic_elements_reproduce_all_quadratics_and_those_with_a_centre_their_products() {
+fn all_monomials_of_the_order_are_reproduced_and_by_product_elements_those_along_each_axis() {
     for_points(|e, xi, _| {
-        let product = matches!(e.name(), "line3" | "quad9" | "hex27");
+        let product = e.degree() == e.order() * e.dim();
         let power = |x: Vec3, p: [i32; 3]| x.x.powi(p[0]) * x.y.powi(p[1]) * x.z.powi(p[2]);
-        for k in 0..27 {
-            let p = [k % 3, k / 3 % 3, k / 9];
-            let beyond = p[e.dim()..].iter().any(|&p| p > 0);
-            if !is_quadratic(e) || beyond || (!product && p.iter().sum::<i32>() > 2) {
+        let order = e.order() as i32;
+        for k in 0..(order + 1).pow(e.dim() as u32) {
+            let digit = |axis: u32| k / (order + 1).pow(axis) % (order + 1);
+            let p = [digit(0), digit(1), digit(2)];
+            if !product && p.iter().sum::<i32>() > order {
                 continue;
             }
             let n = shape(e, xi).into_iter().zip(e.nodes());
@@ -237,16 +240,75 @@ fn quadratic_elements_reproduce_all_quadratics_and_those_with_a_centre_their_pro
     });
 }
 
+/// Differences of order `n` vanish for polynomials below degree `n`, and for no other.
 #[test]
-fn corners_come_first_and_mid_nodes_halfway_in_the_order_of_the_edges() {
-    for e in TABLE {
+fn degree_is_that_of_the_shape_functions_along_any_line() {
+    for_points(|e, xi, random| {
+        let step = random.cube(e.dim());
+        let largest_difference = |order: usize| {
+            let mut rows: Vec<Vec<f64>> = (0..=order)
+                .map(|k| shape(e, xi + step * k as f64))
+                .collect();
+            while rows.len() > 1 {
+                let minus = |w: &[Vec<f64>]| w[1].iter().zip(&w[0]).map(|(b, a)| b - a).collect();
+                rows = rows.windows(2).map(minus).collect();
+            }
+            rows[0].iter().fold(0.0, |m: f64, d| m.max(d.abs()))
+        };
+        let [own, next] = [0, 1].map(|more| largest_difference(e.degree() + more));
+        assert!(next < 1e-10, "{e:?} {next:e}");
+        let long = (0..e.dim()).all(|axis| step[axis].abs() > 0.1);
+        assert!(!long || own > 1e-8, "{e:?} {own:e}");
+    });
+}
+
+#[test]
+fn corners_come_first_and_then_nodes_at_equal_distances_in_the_order_of_the_edges() {
+    for e in all() {
         let corners: BTreeSet<_> = e.edges().iter().flatten().copied().collect();
         assert!(corners.into_iter().eq(0..e.ncorner()), "{e:?}");
-        for (k, &[a, b]) in e.edges().iter().enumerate().filter(|_| is_quadratic(e)) {
-            let x = e.nodes();
-            assert_eq!(x[e.ncorner() + k], (x[a] + x[b]) * 0.5, "{e:?} {k}");
+        let linear = e.family().linear();
+        assert_eq!(linear.nodes(), &e.nodes()[..e.ncorner()], "{e:?}");
+        let x = e.nodes();
+        let mut next = e.ncorner();
+        for of in e.edge_nodes() {
+            assert_eq!(of.node, next, "{e:?}");
+            let error = x[of.node] - of.straight(of.ends.map(|k| x[k]));
+            assert!(error.max_abs() < 1e-15, "{e:?} {of:?}");
+            next += 1;
+        }
+        assert_eq!(next, e.ncorner() + e.edges().len() * (e.order() - 1));
+        assert!(next <= e.nnode(), "{e:?}");
+        let mids = if e.order() == 2 { e.edges().len() } else { 0 };
+        assert_eq!(e.mid_nodes().count(), mids, "{e:?}");
+        for (mid, [a, b]) in e.mid_nodes() {
+            assert_eq!(x[mid], (x[a] + x[b]) * 0.5, "{e:?} {mid}");
         }
     }
+}
+
+#[test]
+fn nodes_of_the_ring_are_those_of_the_sides_in_their_order() {
+    for e in all().into_iter().filter(|e| e.dim() == 2) {
+        let of_side = |side: &Side| {
+            let start = side.nodes[0];
+            let inside = side.element.inside_edge(0).map(|k| side.nodes[k]);
+            [start].into_iter().chain(inside).collect::<Vec<_>>()
+        };
+        let sides = e.sides().iter().flat_map(of_side);
+        assert!(e.ring().eq(sides), "{e:?}");
+    }
+}
+
+#[test]
+fn an_even_pressure_is_shared_where_all_integrals_of_shape_functions_are_positive() {
+    for e in all().into_iter().filter(|e| e.dim() < 3) {
+        let least = (0..e.nnode()).map(|i| integral(e, |xi| shape(e, xi)[i]));
+        let least = least.fold(f64::INFINITY, f64::min);
+        assert_eq!(e.shares_even_pressure(), least > 1e-12, "{e:?} {least:e}");
+    }
+    let shares = |name| by_name(name).unwrap().shares_even_pressure();
+    assert!(!shares("tri6") && !shares("quad8") && shares("quad9"));
 }
 
 /// The derivative along an axis from five points, exact for polynomials of degree 4.
@@ -297,19 +359,25 @@ fn trailing_coordinates_are_not_used() {
 
 #[test]
 fn weights_sum_to_the_measure_of_the_reference_domain() {
-    for e in TABLE {
-        let family = e.name().trim_end_matches(char::is_numeric);
-        let measure = match family {
-            "line" => 2.0,
-            "tri" => 0.5,
-            "quad" => 4.0,
-            "tet" => 1.0 / 6.0,
-            "hex" => 8.0,
-            "wedge" => 1.0,
-            _ => panic!("write down the measure of {family}"),
+    for e in all() {
+        let measure = match e.family() {
+            Family::Line => 2.0,
+            Family::Triangle => 0.5,
+            Family::Quadrilateral => 4.0,
+            Family::Tetrahedron => 1.0 / 6.0,
+            Family::Hexahedron => 8.0,
+            Family::Wedge => 1.0,
         };
         assert_near(e, "∫1", integral(e, |_| 1.0), measure, 1e-13 * measure);
-        for rule in [e.full_rule(), e.reduced_rule(), e.surface_rule()] {
+        let rules = [
+            Some(e.full_rule()),
+            Some(e.reduced_rule()),
+            Some(e.surface_rule()),
+            Some(e.revolved_rule()),
+            Some(e.dilatation_rule()),
+            e.raised_rule(),
+        ];
+        for rule in rules.into_iter().flatten() {
             let sum: f64 = rule.weights.iter().sum();
             assert_near(e, "Σw", sum, measure, 1e-14);
             assert_eq!(rule.points.len(), rule.weights.len());
@@ -345,7 +413,7 @@ fn gradients(e: Element, xi: Vec3) -> Vec<f64> {
 
 #[test]
 fn full_rule_integrates_the_stiffness_of_the_undistorted_element() {
-    for e in TABLE {
+    for e in all() {
         let [single, double] = defects(e, e.full_rule(), |xi| gradients(e, xi));
         assert_near(e, "∫N_i,a", single, 0.0, 1e-13);
         if e.name() != "wedge15" {
@@ -356,7 +424,7 @@ fn full_rule_integrates_the_stiffness_of_the_undistorted_element() {
 
 #[test]
 fn surface_rule_integrates_products_of_two_shape_functions() {
-    for e in TABLE.into_iter().filter(|e| e.dim() < 3) {
+    for e in all().into_iter().filter(|e| e.dim() < 3) {
         let [single, double] = defects(e, e.surface_rule(), |xi| shape(e, xi));
         assert_near(e, "∫N_i", single, 0.0, 1e-13);
         assert_near(e, "∫N_i N_j", double, 0.0, 1e-13);
@@ -393,7 +461,7 @@ fn rank(mut rows: Vec<Vec<f64>>) -> usize {
 /// SOURCE: Hughes, *The Finite Element Method*, section 4.8 and its problems.
 #[test]
 fn full_rule_has_no_mode_without_energy_but_rigid_motion() {
-    for e in TABLE.into_iter().filter(|e| e.dim() > 1) {
+    for e in all().into_iter().filter(|e| e.dim() > 1) {
         let (dim, n) = (e.dim(), e.nnode());
         let rigid = dim * (dim + 1) / 2;
         let strains = |rule: &Rule| {
@@ -424,7 +492,7 @@ fn full_rule_has_no_mode_without_energy_but_rigid_motion() {
 #[test]
 fn distorted_volume_is_determinant_times_measure() {
     let mut random = Random(2);
-    for e in TABLE {
+    for e in all() {
         let measure: f64 = e.full_rule().weights.iter().sum();
         for _ in 0..10 {
             let (a, shift) = (random.distortion(e.dim()), random.cube(3));
@@ -459,14 +527,14 @@ fn domain_is_the_convex_hull_of_the_nodes() {
             );
         }
     });
-    for e in TABLE {
+    for e in all() {
         assert!(!e.contains(&(Vec3::unit(0) * f64::NAN), 1.0), "{e:?}");
     }
 }
 
 #[test]
 fn sides_are_one_dimension_lower_and_carry_the_trace() {
-    for e in TABLE {
+    for e in all() {
         assert_eq!(e.sides().is_empty(), e.dim() == 1);
         for side in e.sides() {
             assert_eq!(side.element.dim() + 1, e.dim());
@@ -491,7 +559,7 @@ fn sides_are_one_dimension_lower_and_carry_the_trace() {
 #[test]
 fn normals_of_sides_point_away_from_the_centre() {
     let mut random = Random(4);
-    for e in TABLE {
+    for e in all() {
         for k in 0..10 {
             let mut x = e.nodes().to_vec();
             if k > 0 {
@@ -513,7 +581,7 @@ fn normals_of_sides_point_away_from_the_centre() {
 #[test]
 fn sides_close() {
     let mut random = Random(5);
-    for e in TABLE.into_iter().filter(|e| e.dim() > 1) {
+    for e in all().into_iter().filter(|e| e.dim() > 1) {
         for bend in [0.0, 0.1, 0.2] {
             let a = random.distortion(e.dim());
             let mut bent = |&p: &Vec3| a * (p + random.cube(e.dim()) * bend);
@@ -542,7 +610,7 @@ fn sides_close() {
 
 #[test]
 fn edges_of_faces_run_round_the_boundary_counter_clockwise() {
-    for e in TABLE.into_iter().filter(|e| e.dim() == 2) {
+    for e in all().into_iter().filter(|e| e.dim() == 2) {
         let edges = e.edges();
         let mut area = 0.0;
         for (k, &[a, b]) in edges.iter().enumerate() {
@@ -558,7 +626,7 @@ fn edges_of_faces_run_round_the_boundary_counter_clockwise() {
 
 #[test]
 fn every_edge_of_a_solid_lies_in_two_sides_which_run_through_it_in_opposite_directions() {
-    for e in TABLE.into_iter().filter(|e| e.dim() == 3) {
+    for e in all().into_iter().filter(|e| e.dim() == 3) {
         let mut runs: BTreeMap<[usize; 2], Vec<[usize; 2]>> = BTreeMap::new();
         for side in e.sides() {
             for edge in side.element.edges() {
@@ -585,12 +653,13 @@ fn every_edge_of_a_solid_lies_in_two_sides_which_run_through_it_in_opposite_dire
 /// SOURCE: Abaqus Analysis User's Guide, element library, faces of solid elements; corners, numbered from 1.
 #[test]
 fn sides_are_numbered_as_in_abaqus() {
-    for e in TABLE.into_iter().filter(|e| e.dim() > 1) {
-        let expected: &[&[usize]] = match e.name().trim_end_matches(char::is_numeric) {
-            "tri" => &[&[1, 2], &[2, 3], &[3, 1]],
-            "quad" => &[&[1, 2], &[2, 3], &[3, 4], &[4, 1]],
-            "tet" => &[&[1, 2, 3], &[1, 4, 2], &[2, 4, 3], &[3, 4, 1]],
-            "hex" => &[
+    for e in all().into_iter().filter(|e| e.dim() > 1) {
+        let expected: &[&[usize]] = match e.family() {
+            Family::Line => &[],
+            Family::Triangle => &[&[1, 2], &[2, 3], &[3, 1]],
+            Family::Quadrilateral => &[&[1, 2], &[2, 3], &[3, 4], &[4, 1]],
+            Family::Tetrahedron => &[&[1, 2, 3], &[1, 4, 2], &[2, 4, 3], &[3, 4, 1]],
+            Family::Hexahedron => &[
                 &[1, 2, 3, 4],
                 &[5, 8, 7, 6],
                 &[1, 5, 6, 2],
@@ -598,14 +667,13 @@ fn sides_are_numbered_as_in_abaqus() {
                 &[3, 7, 8, 4],
                 &[4, 8, 5, 1],
             ],
-            "wedge" => &[
+            Family::Wedge => &[
                 &[1, 2, 3],
                 &[4, 5, 6],
                 &[1, 2, 5, 4],
                 &[2, 3, 6, 5],
                 &[3, 1, 4, 6],
             ],
-            family => panic!("write down the sides of {family}"),
         };
         assert_eq!(e.sides().len(), expected.len());
         for (side, expected) in e.sides().iter().zip(expected) {

@@ -1,7 +1,7 @@
 use super::quadrature::{self, Rule};
 use super::serendipity::Simplex;
 use super::tet4::Tet4;
-use super::{ReferenceElement, Side, tri6};
+use super::{Family, LockingClass, ReferenceElement, Side, tri6};
 use crate::tensor::{Sym3, Vec3};
 
 /// The quadratic tetrahedron of ten nodes, `ξ = L2`, `η = L3`, `ζ = L4`: corners, then mid nodes edge by edge.
@@ -27,8 +27,20 @@ impl ReferenceElement for Tet10 {
         "tet10"
     }
 
-    fn dim(&self) -> usize {
-        3
+    fn family(&self) -> Family {
+        Family::Tetrahedron
+    }
+
+    fn order(&self) -> usize {
+        2
+    }
+
+    fn degree(&self) -> usize {
+        2
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::HigherOrder { ndilatation: 1 }
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -57,15 +69,11 @@ impl ReferenceElement for Tet10 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        Tet4.edges()
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::TET_4
     }
 
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        Tet4.contains(xi, tolerance)
+    fn dilatation_rule(&self) -> &'static Rule {
+        &quadrature::TET_14
     }
 }

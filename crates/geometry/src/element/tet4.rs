@@ -1,5 +1,5 @@
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side, tri3};
+use super::{Family, LockingClass, ReferenceElement, Side, tri3};
 use crate::tensor::{Sym3, Vec3};
 
 /// The linear tetrahedron of four nodes, `ξ = L2`, `η = L3`, `ζ = L4`.
@@ -10,8 +10,20 @@ impl ReferenceElement for Tet4 {
         "tet4"
     }
 
-    fn dim(&self) -> usize {
-        3
+    fn family(&self) -> Family {
+        Family::Tetrahedron
+    }
+
+    fn order(&self) -> usize {
+        1
+    }
+
+    fn degree(&self) -> usize {
+        1
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::ConstantStrain
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -46,19 +58,11 @@ impl ReferenceElement for Tet4 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]]
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::TET_1
     }
 
     fn surface_rule(&self) -> &'static Rule {
         &quadrature::TET_4
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        (0..3).all(|axis| xi[axis] >= -tolerance) && xi.x + xi.y + xi.z <= 1.0 + tolerance
     }
 }

@@ -1,5 +1,5 @@
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side, line2};
+use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line2};
 use crate::tensor::{Sym3, Vec3};
 
 /// The flat triangle of three nodes, area coordinates `ξ = L2`, `η = L3`.
@@ -10,8 +10,24 @@ impl ReferenceElement for Tri3 {
         "tri3"
     }
 
-    fn dim(&self) -> usize {
-        2
+    fn family(&self) -> Family {
+        Family::Triangle
+    }
+
+    fn order(&self) -> usize {
+        1
+    }
+
+    fn degree(&self) -> usize {
+        1
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::ConstantStrain
+    }
+
+    fn dual_basis(&self) -> Option<DualBasis> {
+        Some(DualBasis::Shape)
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -40,10 +56,6 @@ impl ReferenceElement for Tri3 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        &[[0, 1], [1, 2], [2, 0]]
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::TRI_1
     }
@@ -52,7 +64,7 @@ impl ReferenceElement for Tri3 {
         &quadrature::TRI_3
     }
 
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        xi.x >= -tolerance && xi.y >= -tolerance && xi.x + xi.y <= 1.0 + tolerance
+    fn revolved_rule(&self) -> &'static Rule {
+        &quadrature::TRI_3
     }
 }

@@ -1,7 +1,7 @@
 use super::quadrature::{self, Rule};
 use super::serendipity::Simplex;
 use super::tri3::Tri3;
-use super::{ReferenceElement, Side, line3};
+use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line3};
 use crate::tensor::{Sym3, Vec3};
 
 /// The quadratic triangle of six nodes, area coordinates `ξ = L2`, `η = L3`: corners, then mid nodes edge by edge.
@@ -23,8 +23,27 @@ impl ReferenceElement for Tri6 {
         "tri6"
     }
 
-    fn dim(&self) -> usize {
+    fn family(&self) -> Family {
+        Family::Triangle
+    }
+
+    fn order(&self) -> usize {
         2
+    }
+
+    fn degree(&self) -> usize {
+        2
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::HigherOrder { ndilatation: 1 }
+    }
+
+    fn dual_basis(&self) -> Option<DualBasis> {
+        Some(DualBasis::Edges {
+            pointwise: 0.25,
+            whole: 0.2,
+        })
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -52,10 +71,6 @@ impl ReferenceElement for Tri6 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        Tri3.edges()
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::TRI_3
     }
@@ -64,7 +79,7 @@ impl ReferenceElement for Tri6 {
         &quadrature::TRI_6
     }
 
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        Tri3.contains(xi, tolerance)
+    fn revolved_rule(&self) -> &'static Rule {
+        &quadrature::TRI_6
     }
 }

@@ -2,7 +2,7 @@ use super::lagrange::{bubble, linear};
 use super::quadrature::{self, Rule};
 use super::serendipity::{correct_corners, dyad};
 use super::wedge6::Wedge6;
-use super::{ReferenceElement, Side, quad8, tri6};
+use super::{Family, LockingClass, ReferenceElement, Side, quad8, tri6};
 use crate::tensor::{Sym3, Vec3};
 
 /// The serendipity wedge of fifteen nodes, a quadratic triangle (`ξ = L2`, `η = L3`) along a line `ζ ∈ [-1, 1]`: corners,
@@ -32,8 +32,20 @@ impl ReferenceElement for Wedge15 {
         "wedge15"
     }
 
-    fn dim(&self) -> usize {
+    fn family(&self) -> Family {
+        Family::Wedge
+    }
+
+    fn order(&self) -> usize {
+        2
+    }
+
+    fn degree(&self) -> usize {
         3
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::HigherOrder { ndilatation: 1 }
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -82,16 +94,8 @@ impl ReferenceElement for Wedge15 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        Wedge6.edges()
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::WEDGE_9
-    }
-
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        Wedge6.contains(xi, tolerance)
     }
 }
 

@@ -1,5 +1,5 @@
 use super::quadrature::{self, Rule};
-use super::{ReferenceElement, Side, quad4, tri3};
+use super::{Family, LockingClass, ReferenceElement, Side, quad4, tri3};
 use crate::tensor::{Sym3, Vec3};
 
 /// The wedge of six nodes: a linear triangle (`ξ = L2`, `η = L3`) along a line `ζ ∈ [-1, 1]`.
@@ -10,8 +10,20 @@ impl ReferenceElement for Wedge6 {
         "wedge6"
     }
 
-    fn dim(&self) -> usize {
-        3
+    fn family(&self) -> Family {
+        Family::Wedge
+    }
+
+    fn order(&self) -> usize {
+        1
+    }
+
+    fn degree(&self) -> usize {
+        2
+    }
+
+    fn locking_class(&self) -> LockingClass {
+        LockingClass::ConstantStrain
     }
 
     fn nodes(&self) -> &'static [Vec3] {
@@ -61,29 +73,12 @@ impl ReferenceElement for Wedge6 {
         &SIDES
     }
 
-    fn edges(&self) -> &'static [[usize; 2]] {
-        &[
-            [0, 1],
-            [1, 2],
-            [2, 0],
-            [3, 4],
-            [4, 5],
-            [5, 3],
-            [0, 3],
-            [1, 4],
-            [2, 5],
-        ]
-    }
-
     fn full_rule(&self) -> &'static Rule {
         &quadrature::WEDGE_6
     }
 
-    fn contains(&self, xi: &Vec3, tolerance: f64) -> bool {
-        xi.x >= -tolerance
-            && xi.y >= -tolerance
-            && xi.x + xi.y <= 1.0 + tolerance
-            && xi.z.abs() <= 1.0 + tolerance
+    fn raised_rule(&self) -> Option<&'static Rule> {
+        Some(&quadrature::WEDGE_9)
     }
 }
 

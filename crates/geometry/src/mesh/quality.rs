@@ -14,7 +14,7 @@
 //! 4.18, 5.17, 6.13, 7.14, 8.8; the edge ratio there is the inverse of this one.
 
 use super::{CellId, Mesh, NodeId};
-use crate::element::Element;
+use crate::element::{Element, Family};
 use crate::tensor::Vec3;
 use std::collections::HashMap;
 
@@ -209,9 +209,6 @@ impl Corners {
         let dim = element.dim();
         let nodes = element.nodes();
         let edges = element.edges().to_vec();
-        let mut ends: Vec<usize> = edges.iter().flatten().copied().collect();
-        ends.sort_unstable();
-        ends.dedup();
         let corner = |c: usize| {
             let mut near = edges.iter().filter_map(|&[a, b]| match c {
                 _ if a == c => Some(b),
@@ -231,14 +228,14 @@ impl Corners {
         };
         let mut middle = vec![Vec3::ZERO; element.nnode()];
         element.dshape(&element.centre(), &mut middle);
-        // the family by the number of its corners
-        let factor = match (dim, ends.len()) {
-            (3, 4) => 2.0_f64.sqrt(),
-            (3, 6) | (2, 3) => 2.0 / 3.0_f64.sqrt(),
-            _ => 1.0,
+        let factor = match element.family() {
+            Family::Tetrahedron => 2.0_f64.sqrt(),
+            Family::Wedge | Family::Triangle => 2.0 / 3.0_f64.sqrt(),
+            Family::Line | Family::Quadrilateral | Family::Hexahedron => 1.0,
         };
+        let ncorner = element.ncorner();
         let corners = if dim > 1 {
-            ends.iter().filter_map(|&c| corner(c)).collect()
+            (0..ncorner).filter_map(corner).collect()
         } else {
             Vec::new()
         };
@@ -248,8 +245,8 @@ impl Corners {
             edges,
             middle,
             factor,
-            has_axes: (dim, ends.len()) == (3, 8),
-            is_simplex: ends.len() == dim + 1,
+            has_axes: element.family() == Family::Hexahedron,
+            is_simplex: ncorner == dim + 1,
             dim,
         }
     }

@@ -1,6 +1,6 @@
 use super::polygon::{Polygon, Spot, cross2};
 use super::{BENT, EXACT, Pair, TOUCH};
-use crate::element::{Element, MAX_FACET_NODES};
+use crate::element::{Element, Family, MAX_FACET_NODES};
 use crate::scalar::{combine, minus};
 use crate::tensor::{Sym3, Vec3};
 
@@ -46,7 +46,7 @@ enum Outline {
     /// It is convex.
     Convex,
     /// It would be, without the nodes inside of these edges: a flag for each place in the boundary.
-    Dented(u8),
+    Dented(u16),
     /// It is not convex at a corner.
     Star,
 }
@@ -59,6 +59,9 @@ pub(super) struct Piece {
 
 /// The largest δ with which points in dents, outside of a facet, have parameters for sure.
 const EXTENSIBLE: f64 = 0.3;
+
+/// What δ is multiplied by above order 2, so that (E3) holds: second derivatives at nodes say less of a cubic map.
+const BEYOND_QUADRATIC: f64 = 3.0;
 
 /// The Jacobian of the map at the parameters of a node must be this large compared with that at the centre.
 const FOLDED: f64 = 1e-6;
@@ -86,7 +89,7 @@ impl Flat {
             element,
             dim,
             nnode: n,
-            degree: degree(element),
+            degree: element.degree(),
             facing,
             x,
             boundary,
@@ -170,10 +173,9 @@ impl Flat {
 
     /// The width of its reference domain.
     fn width(&self) -> f64 {
-        if self.dim == 2 && self.element.ncorner() == 3 {
-            1.0
-        } else {
-            2.0
+        match self.element.family() {
+            Family::Triangle => 1.0,
+            _ => 2.0,
         }
     }
 
@@ -264,8 +266,10 @@ impl Flat {
                 Outline::Star
             };
         }
+        // the triangles of dents next to each other would overlap
+        let apart = (1..self.nboundary).all(|k| (dents >> (k - 1)) & 0b11 != 0b11);
         match outline(dents).is_convex(tolerance) {
-            true if self.bend <= EXTENSIBLE => Outline::Dented(dents),
+            true if apart && self.bend <= EXTENSIBLE => Outline::Dented(dents),
             _ => Outline::Star,
         }
     }
@@ -276,7 +280,7 @@ impl Flat {
     }
 
     /// The polygon through its boundary without the places that have a flag.
-    fn polygon(&self, without: u8) -> Polygon {
+    fn polygon(&self, without: u16) -> Polygon {
         let kept = (0..self.nboundary).filter(|k| without >> k & 1 == 0);
         self.through(kept.map(|k| self.node(k)))
     }
@@ -297,20 +301,8 @@ impl Flat {
     }
 }
 
-/// The degree of shape functions as polynomials of the parameters.
-fn degree(element: Element) -> usize {
-    let (n, corners) = (element.nnode(), element.ncorner());
-    let (linear, quadrilateral) = (n == corners, element.dim() == 2 && corners == 4);
-    match (quadrilateral, linear) {
-        (false, true) => 1,
-        (false, false) | (true, true) => 2,
-        (true, false) => n - 5, // 3 without, 4 with a node in the middle
-    }
-}
-
 /// The nodes on the boundary in their order on the plane.
 fn boundary(element: Element, facing: Facing) -> ([u8; MAX_FACET_NODES], usize) {
-    let (edges, corners) = (element.edges(), element.ncorner());
     let mut nodes = [0; MAX_FACET_NODES];
     if element.dim() == 1 {
         nodes[1] = 1;
@@ -319,15 +311,10 @@ fn boundary(element: Element, facing: Facing) -> ([u8; MAX_FACET_NODES], usize) 
         }
         return (nodes, 2);
     }
-    let mids = element.nnode() >= corners + edges.len();
     let mut n = 0;
-    for (k, &[start, _]) in edges.iter().enumerate() {
-        nodes[n] = start as u8;
+    for (to, node) in nodes.iter_mut().zip(element.ring()) {
+        *to = node as u8;
         n += 1;
-        if mids {
-            nodes[n] = (corners + k) as u8;
-            n += 1;
-        }
     }
     if facing == Facing::Opposite {
         nodes[..n].reverse();
@@ -364,20 +351,26 @@ fn bend(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], facing: Facing) -> O
         bend = bend.max(here);
     }
     // half the facet is 1 in the parameters of lines and quadrilaterals, and 1/2 in those of triangles
-    let triangle = element.dim() == 2 && element.ncorner() == 3;
-    Some(if triangle { 0.5 * bend } else { bend })
+    let bend = match element.family() {
+        Family::Triangle => 0.5 * bend,
+        _ => bend,
+    };
+    Some(if element.order() > 2 {
+        BEYOND_QUADRATIC * bend
+    } else {
+        bend
+    })
 }
 
 /// How far nodes of edges are from the lines between their ends; on a line there is no such distance.
 fn sagitta(element: Element, x: &[Pair<f64>; MAX_FACET_NODES]) -> f64 {
-    let corners = element.ncorner();
-    if element.dim() == 1 || element.nnode() == corners {
+    if element.dim() == 1 {
         return 0.0;
     }
-    let mids = element.edges().iter().zip(&x[corners..]);
-    let heights = mids.map(|(&[a, b], mid)| {
+    let heights = element.edge_nodes().map(|of| {
+        let [a, b] = of.ends;
         let along = minus(x[b], x[a]);
-        cross2(along, minus(*mid, x[a])).abs() / along[0].hypot(along[1])
+        cross2(along, minus(x[of.node], x[a])).abs() / along[0].hypot(along[1])
     });
     heights.fold(0.0, f64::max)
 }
@@ -395,7 +388,7 @@ fn jacobian(element: Element, x: &[Pair<f64>; MAX_FACET_NODES], xi: &Vec3) -> [P
 
 /// X_,12 of a quadrilateral with four nodes, where it is the same everywhere.
 fn twist(element: Element, x: &[Pair<f64>; MAX_FACET_NODES]) -> Option<Pair<f64>> {
-    if (element.dim(), element.nnode(), element.ncorner()) != (2, 4, 4) {
+    if element.family() != Family::Quadrilateral || !element.is_linear() {
         return None;
     }
     let mut ddn = [Sym3::ZERO; MAX_FACET_NODES];

@@ -56,7 +56,7 @@
 //! ```
 //!
 //! on. `c = 1/50`, of lines 1/10, and the 4 bound what is measured over distorted facets of every kind up to δ = 0.5, as
-//! cells of their own (`errors_of_rules_fall_as_stated`). A cell that is a part s of its facet sees
+//! cells of their own (`errors_of_rules_fall_as_stated`); above order 2, three times δ stands for it. A cell that is a part s of its facet sees
 //! `δ s/(1 − δ (1 − s))`: it is smaller, and at worst at the corner where the facet is narrowest. The degree is the
 //! least, up to [`MAX_DEGREE`], for which
 //!

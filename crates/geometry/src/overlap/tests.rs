@@ -2,27 +2,40 @@
 
 use super::*;
 use crate::element::quadrature::{gauss, on_facet};
-use crate::element::{Element, by_name};
+use crate::element::testing::CUBIC;
+use crate::element::{Element, Family, MAX_FACET_NODES, TABLE, by_name};
 use crate::random::Random;
 use crate::scalar::Dual;
 use crate::tensor::{Mat3, Vec3};
 
-const LINES: [&str; 2] = ["line2", "line3"];
-const FACES: [&str; 5] = ["tri3", "quad4", "tri6", "quad8", "quad9"];
+/// Every element that can be a facet, and made-up ones of degree 3; lines first.
+fn kinds() -> impl Iterator<Item = Element> + Clone {
+    let of = |dim| {
+        TABLE
+            .into_iter()
+            .chain(CUBIC)
+            .filter(move |e| e.dim() == dim)
+    };
+    of(1).chain(of(2))
+}
+
+/// Coordinates of the nodes of two facets.
+const VARIABLES: usize = 2 * 3 * MAX_FACET_NODES;
 
 /// Every pairing of facets of one dimension.
 fn pairings() -> Vec<[Element; 2]> {
-    let all = |names: &[&'static str]| -> Vec<[Element; 2]> {
-        let pairs = names
-            .iter()
-            .flat_map(|a| names.iter().map(move |b| [*a, *b]));
-        pairs.map(|p| p.map(|n| by_name(n).unwrap())).collect()
-    };
-    [all(&LINES), all(&FACES)].concat()
+    let pairs = kinds().flat_map(|a| kinds().map(move |b| [a, b]));
+    pairs.filter(|[a, b]| a.dim() == b.dim()).collect()
 }
 
-/// Nodes of a facet about the origin, one unit large, distorted and warped by `noise`.
+/// Nodes of a facet about the origin, one unit large, distorted and warped by `noise`, cubic ones by less: their nodes are
+/// closer.
 fn facet(element: Element, noise: f64, random: &mut Random) -> Vec<Vec3> {
+    let noise = if element.order() > 2 {
+        0.3 * noise
+    } else {
+        noise
+    };
     let flat = element.dim() == 1;
     let place = |xi: &Vec3| {
         let n = random.vector() * noise;
@@ -216,9 +229,7 @@ fn areas_of_random_overlaps_are_those_of_brute_force() {
                 x.into_iter().map(|x| Vec3::new(x.x, x.y, 0.0)).collect()
             };
             // straight edges: the corners alone say what is covered
-            let corners =
-                |e: Element| by_name(if e.ncorner() == 3 { "tri3" } else { "quad4" }).unwrap();
-            let linear = elements.map(corners);
+            let linear = elements.map(|e| e.family().linear());
             let a = flat(facet(linear[0], 0.15, &mut random));
             let mut b = flat(opposite(linear[1], 0.15, &mut random));
             let away = Vec3::new(1.2 * random.signed(), 0.0, 0.0);
@@ -272,7 +283,7 @@ fn moments(elements: [Element; 2], points: &[Point]) -> [Vec<f64>; 2] {
 #[test]
 fn the_map_of_a_quadrilateral_is_that_of_its_shape_functions() {
     let mut random = Random(7);
-    for element in LINES.into_iter().chain(FACES).map(|n| by_name(n).unwrap()) {
+    for element in kinds() {
         let (x, flat) = straight(element, 0.4, &mut random);
         for xi in [[0.0, 0.0], [0.3, -0.7], [-1.2, 0.9]] {
             let Some((place, tangents)) = flat.bilinear(xi) else {
@@ -316,7 +327,7 @@ fn whole(element: Element, x: &[Vec3]) -> Vec<f64> {
 /// A facet of the plane with straight edges and a bend below `most`: a distorted one with its other nodes moved along
 /// the edges they lie on.
 fn straight(element: Element, most: f64, random: &mut Random) -> (Vec<Vec3>, Flat) {
-    let linear = corner_element(element);
+    let linear = element.family().linear();
     let line = element.dim() == 1;
     loop {
         let noise = most * random.unit();
@@ -330,9 +341,11 @@ fn straight(element: Element, most: f64, random: &mut Random) -> (Vec<Vec3>, Fla
             let mut xi = *xi;
             if k >= linear.nnode() {
                 let s = slide * random.signed();
-                if element.ncorner() == 3 {
-                    let along = [[1.0, 0.0], [-1.0, 1.0], [0.0, -1.0]][k - 3];
-                    xi += Vec3::new(along[0], along[1], 0.0) * (0.5 * s);
+                if element.family() == Family::Triangle {
+                    let on_edge = element.edge_nodes().find(|of| of.node == k);
+                    let ends = on_edge.map(|of| of.ends.map(|end| element.nodes()[end]));
+                    let along = ends.map_or(Vec3::ZERO, |[a, b]| b - a);
+                    xi += along * (0.5 * s);
                 } else {
                     for a in 0..element.dim() {
                         xi[a] += if xi[a].abs() < 0.5 { s } else { 0.0 };
@@ -354,8 +367,8 @@ fn straight(element: Element, most: f64, random: &mut Random) -> (Vec<Vec3>, Fla
 #[test]
 fn errors_of_rules_fall_as_stated() {
     let mut random = Random(9);
-    for name in LINES.into_iter().chain(FACES) {
-        let element = by_name(name).unwrap();
+    for element in kinds() {
+        let name = element.name();
         let n = element.nnode();
         for most in [0.003, 0.01, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5] {
             for _ in 0..100 {
@@ -531,7 +544,7 @@ fn integrals_over_covered_facets_are_exact_however_they_are_distorted_in_their_p
 fn bent_edges_cover_what_their_polygons_enclose() {
     let mut random = Random(10);
     let mut dented = 0;
-    for element in ["tri6", "quad8", "quad9"].map(|n| by_name(n).unwrap()) {
+    for element in kinds().filter(|e| e.dim() == 2 && !e.is_linear()) {
         let large = by_name("quad4").unwrap();
         for round in 0..40 {
             let noise = [1e-9, 1e-5, 1e-3, 0.03][round % 4];
@@ -553,9 +566,7 @@ fn bent_edges_cover_what_their_polygons_enclose() {
                     .collect();
                 sum += measure(&between([element, large], [&x, &around]));
             }
-            let boundary: Vec<Pair<f64>> = (0..element.ncorner())
-                .flat_map(|k| [places[k], places[element.ncorner() + k]])
-                .collect();
+            let boundary: Vec<Pair<f64>> = element.ring().map(|k| places[k]).collect();
             let n = boundary.len();
             let twice = |k: usize| cross2(boundary[k], boundary[(k + 1) % n]);
             let area = 0.5 * (0..n).map(twice).sum::<f64>();
@@ -569,8 +580,8 @@ fn bent_edges_cover_what_their_polygons_enclose() {
 #[test]
 fn nearly_affine_facets_need_few_points() {
     println!("points of a triangle, of a whole facet and of half of it");
-    for name in ["line2", "line3", "tri3", "quad4", "tri6", "quad8", "quad9"] {
-        let element = by_name(name).unwrap();
+    for element in kinds() {
+        let name = element.name();
         let places: Vec<Pair<f64>> = element.nodes().iter().map(|x| [x.x, x.y]).collect();
         let q = Flat::new(element, &places, Facing::Same).unwrap().degree();
         let points = |bend: f64| {
@@ -585,15 +596,6 @@ fn nearly_affine_facets_need_few_points() {
         println!("| {name} | {} |", row.join(" | "));
         assert!(points(1e-6) == points(0.0), "{name}");
     }
-}
-
-fn corner_element(element: Element) -> Element {
-    by_name(match (element.dim(), element.ncorner()) {
-        (1, _) => "line2",
-        (_, 3) => "tri3",
-        _ => "quad4",
-    })
-    .unwrap()
 }
 
 #[test]
@@ -644,7 +646,7 @@ fn derivatives_of_points_and_weights_match_differences() {
                 opposite(elements[1], noise, &mut random),
             ];
             let nodes = [elements[0].nnode(), elements[1].nnode()];
-            let seeded: [Vec<[Dual<54>; 3]>; 2] = [0, 1].map(|k| {
+            let seeded: [Vec<[Dual<VARIABLES>; 3]>; 2] = [0, 1].map(|k| {
                 let first = 3 * k * nodes[0];
                 let node = |(i, x): (usize, &Vec3)| {
                     [0, 1, 2].map(|c| Dual::variable(x[c], first + 3 * i + c))
@@ -653,7 +655,7 @@ fn derivatives_of_points_and_weights_match_differences() {
             });
             let exact = points(elements, [&x[0], &x[1]]);
             let plane = Plane::of(elements[0], &seeded[0]).unwrap();
-            let places = [0, 1].map(|k: usize| -> Vec<Pair<Dual<54>>> {
+            let places = [0, 1].map(|k: usize| -> Vec<Pair<Dual<VARIABLES>>> {
                 seeded[k].iter().map(|&x| plane.project(x)).collect()
             });
             let components = if elements[0].dim() == 1 { 2 } else { 3 };

@@ -48,7 +48,7 @@
 //! Vlachos, Peters, Boyd and Mitchell, I3D 2001 (triangles from normals).
 
 use super::{Anchor, ContactSurface, Facets, Placement, SurfaceJet};
-use crate::element::MAX_FACET_NODES;
+use crate::element::{Family, MAX_FACET_NODES};
 use crate::mesh::NodeId;
 use crate::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -121,14 +121,16 @@ impl Bent {
             return 0.0;
         };
         let n = element.nnode();
-        if n != element.ncorner() || *slopes == [[0.0; 2]; CORNERS] {
+        if !element.is_linear() || *slopes == [[0.0; 2]; CORNERS] {
             return 0.0;
         }
         let mut shape = [0.0; MAX_FACET_NODES];
         element.shape(&local, &mut shape[..n]);
-        match (element.dim(), n) {
-            (1, _) => along(slopes[0], shape[1]),
-            (_, 3) => of_triangle(slopes, element.edges(), [shape[0], shape[1], shape[2]]),
+        match element.family() {
+            Family::Line => along(slopes[0], shape[1]),
+            Family::Triangle => {
+                of_triangle(slopes, element.edges(), [shape[0], shape[1], shape[2]])
+            }
             _ => {
                 let edge = |(&[a, b], slopes): (&[usize; 2], &[f64; 2])| {
                     let next = element.edges().iter().find(|e| e[0] == b);
@@ -217,7 +219,7 @@ impl<'a> Shape<'a> {
 
     fn is_straight(&self, facet: u32) -> bool {
         let element = self.facets.element(facet);
-        element.is_some_and(|e| e.nnode() == e.ncorner())
+        element.is_some_and(|e| e.is_linear())
     }
 
     /// Whether a smooth surface continues from one facet to another that shares an edge with it, in the plane a node.

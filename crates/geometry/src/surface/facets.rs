@@ -4,7 +4,7 @@ use super::{
     Anchor, Carrier, ContactSurface, Feature, Outward, Placement, Projection, SurfaceError,
     SurfaceJet, pair,
 };
-use crate::element::{Element, MAX_FACET_NODES, by_name};
+use crate::element::{Element, Family, MAX_FACET_NODES};
 use crate::mesh::{Face, Mesh, NodeId};
 use crate::proximity::Aabb;
 use crate::tensor::{Sym3, Vec3};
@@ -66,12 +66,13 @@ impl Facets {
 
     /// The surface of triangles that are sides of nothing. `None` where there are none.
     pub(super) fn of_triangles(triangles: &[[NodeId; 3]]) -> Option<Self> {
-        let elements = vec![by_name("tri3")?; triangles.len()];
+        let elements = vec![Family::Triangle.linear(); triangles.len()];
         let first = (0..=triangles.len() as u32).map(|f| 3 * f).collect();
         Self::connected(elements, first, triangles.concat(), Vec::new())
     }
 
-    fn connected(
+    /// The surface of these facets; `None` where there are none.
+    pub(super) fn connected(
         elements: Vec<Element>,
         first: Vec<u32>,
         nodes: Vec<NodeId>,
@@ -196,7 +197,7 @@ impl Facets {
     ) -> Result<Vec<(NodeId, f64)>, SurfaceError> {
         self.gather(|facet| {
             let (consistent, squares) = self.integrals(x, facet, extent)?;
-            if self.element(facet).is_none_or(|e| e.nnode() == e.ncorner()) {
+            if self.element(facet).is_none_or(|e| e.is_linear()) {
                 return Ok(consistent);
             }
             let area: f64 = consistent.iter().sum();
@@ -338,26 +339,47 @@ impl Facets {
 /// ```
 ///
 /// and the corners, as a comparison of the quadratic Lagrange and Bernstein polynomials along each axis shows.
+///
+/// Above degree 2, with the map `L` of the linear element through the corners,
+///
+/// ```text
+/// |ρ − L| = |Σ N_i (x_i − L(ξ_i))| ≤ max |N_i| Σ |x_i − L(ξ_i)|       over the other nodes i, for each coordinate
+/// ```
 fn box_around(element: Element, x: &[Vec3]) -> Aabb {
     let ncorner = element.ncorner();
-    if x.len() <= ncorner {
+    if element.is_linear() {
         return Aabb::around(x.iter().copied());
     }
-    let (corners, mids) = x.split_at(ncorner);
-    let ends = element.edges().iter();
-    let edges = mids
-        .iter()
-        .zip(ends)
-        .map(|(&m, &[a, b])| m * 2.0 - (x[a] + x[b]) * 0.5);
-    let middle = (ncorner == 4).then(|| {
+    let (corners, others) = x.split_at(ncorner);
+    if element.order() > 2 {
+        let linear = element.family().linear();
+        let mut shape = [0.0; MAX_FACET_NODES];
+        let mut most = Vec3::ZERO;
+        for (xi, &x) in element.nodes().iter().skip(ncorner).zip(others) {
+            linear.shape(xi, &mut shape[..ncorner]);
+            let on_linear: Vec3 = corners.iter().zip(shape).map(|(&x, n)| x * n).sum();
+            let away = (x - on_linear).to_array().map(f64::abs);
+            most += Vec3::from(away) * LARGEST_SHAPE;
+        }
+        let bounds = Aabb::around(corners.iter().copied());
+        return Aabb::around([bounds.min - most, bounds.max + most]);
+    }
+    let edges = element
+        .mid_nodes()
+        .map(|(m, [a, b])| x[m] * 2.0 - (x[a] + x[b]) * 0.5);
+    let middle = (element.family() == Family::Quadrilateral).then(|| {
         let mut shape = [0.0; MAX_FACET_NODES];
         element.shape(&Vec3::ZERO, &mut shape[..x.len()]);
         let centre: Vec3 = x.iter().zip(shape).map(|(&x, n)| x * n).sum();
-        let of_edges: Vec3 = mids.iter().take(4).copied().sum();
+        let of_edges: Vec3 = others.iter().take(4).copied().sum();
         centre * 4.0 - of_edges + corners.iter().copied().sum::<Vec3>() * 0.25
     });
     Aabb::around(corners.iter().copied().chain(edges).chain(middle))
 }
+
+/// A bound of the shape functions of nodes that are no corners, of facets above degree 2: in the domain those of equal
+/// distances reach 1.06 for cubic ones.
+pub(super) const LARGEST_SHAPE: f64 = 1.1;
 
 /// Area (length, in the plane) per unit of the parameters.
 fn area_factor(jet: &SurfaceJet, ntan: usize) -> f64 {

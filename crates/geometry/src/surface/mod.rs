@@ -223,6 +223,14 @@ pub enum SurfaceError {
         /// Number of the facet.
         facet: u32,
     },
+    /// A facet of an element whose shape functions have no dual basis.
+    #[error("facet {facet} is a {element}, for which mortar contact has no dual basis")]
+    NoDualBasis {
+        /// Number of the facet.
+        facet: u32,
+        /// The name of its element.
+        element: &'static str,
+    },
     /// A surface given by the user's own code failed.
     #[error("the user's surface failed: {message}")]
     User {

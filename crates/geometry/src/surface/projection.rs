@@ -28,7 +28,7 @@
 use super::{
     Anchor, ContactSurface, Feature, Placement, Projection, SurfaceError, SurfaceJet, pair,
 };
-use crate::element::{Element, MAX_FACET_NODES};
+use crate::element::{Element, Family, MAX_FACET_NODES};
 use crate::tensor::Vec3;
 
 /// Iterations after which a start is given up.
@@ -241,8 +241,8 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
 
         let bounds = |xi: &Vec3| element.contains(xi, ABANDON);
         let centre = element.centre();
-        // a facet with mid nodes may bend towards the point in several places
-        let bent = nodes.len() > element.ncorner();
+        // a facet of higher order may bend towards the point in several places
+        let bent = !element.is_linear();
         let is_single = bends_little(element, &places, smallest);
         let towards = if bent { nodes } else { &[] };
         let starts = nearest
@@ -404,20 +404,22 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
     }
 }
 
-/// (E3), for a facet with its nodes at these places.
+/// (E3), for a facet with its nodes at these places; never above degree 2, for which it does not hold.
 fn bends_little(element: Element, places: &[Vec3], distance: f64) -> bool {
-    let (mut shortest, mut sagitta) = (f64::INFINITY, 0.0f64);
-    let ncorner = element.ncorner();
-    let mids = places.iter().take(element.nnode()).skip(ncorner);
-    let mut mids = mids.copied();
-    for &[a, b] in element.edges() {
-        let [a, b] = [a, b].map(|k| places.get(k).copied().unwrap_or_default());
-        shortest = shortest.min((b - a).norm());
-        if let Some(mid) = mids.next() {
-            sagitta = sagitta.max((mid - (a + b) * 0.5).norm());
-        }
+    if element.order() > 2 {
+        return false;
     }
-    if let (4, [a, b, c, d, ..]) = (ncorner, places) {
+    let (mut shortest, mut sagitta) = (f64::INFINITY, 0.0f64);
+    let at = |k: usize| places.get(k).copied().unwrap_or_default();
+    for ends in element.edges() {
+        let [a, b] = ends.map(at);
+        shortest = shortest.min((b - a).norm());
+    }
+    for (mid, ends) in element.mid_nodes() {
+        let [a, b] = ends.map(at);
+        sagitta = sagitta.max((at(mid) - (a + b) * 0.5).norm());
+    }
+    if let (Family::Quadrilateral, [a, b, c, d, ..]) = (element.family(), places) {
         sagitta = sagitta.max((*a - *b + *c - *d).norm() * 0.25);
     }
     8.0 * sagitta * distance < 0.25 * shortest * shortest

@@ -22,9 +22,6 @@ use crate::tensor::Vec3;
 /// How far outside a triangle, in its own coordinates, a line still crosses it.
 const BOUNDARY: f64 = 1e-9;
 
-/// Corners and mid nodes round a facet.
-const AROUND: usize = 8;
-
 impl Facets {
     /// The smallest `s ≥ 0` at which the line `origin + s direction` crosses a facet; `None` where it does not.
     pub(super) fn crossed_at(
@@ -39,28 +36,25 @@ impl Facets {
             let node = nodes.get(k).copied()?;
             x.get(node as usize).copied()
         };
-        let ncorner = element.ncorner();
-        let has_mids = nodes.len() >= ncorner + element.edges().len();
-        let mid = |edge: usize| has_mids.then(|| at(ncorner + edge)).flatten();
         let earliest = |a: Option<f64>, b: Option<f64>| match (a, b) {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
         if element.dim() == 1 {
-            let (a, b) = (at(0)?, at(1)?);
-            let line = |a, b| on_segment(origin, direction, a, b);
-            return match mid(0) {
-                Some(m) => earliest(line(a, m), line(m, b)),
-                None => line(a, b),
-            };
-        }
-        let mut around = [Vec3::ZERO; AROUND];
-        let mut n = 0;
-        for (edge, &[a, _]) in element.edges().iter().enumerate() {
-            for place in [at(a), mid(edge)].into_iter().flatten() {
-                *around.get_mut(n)? = place;
-                n += 1;
+            let mut from = at(0)?;
+            let mut found = None;
+            for place in element.inside_edge(0).chain([1]) {
+                let to = at(place)?;
+                found = earliest(found, on_segment(origin, direction, from, to));
+                from = to;
             }
+            return found;
+        }
+        let mut around = [Vec3::ZERO; MAX_FACET_NODES];
+        let mut n = 0;
+        for place in element.ring() {
+            *around.get_mut(n)? = at(place)?;
+            n += 1;
         }
         let mut shape = [0.0; MAX_FACET_NODES];
         element.shape(&element.centre(), shape.get_mut(..nodes.len())?);

@@ -52,18 +52,18 @@ impl Outline {
         for (to, &node) in nodes.iter_mut().zip(self.facets.nodes(facet)) {
             *to = x.get(node as usize).copied().unwrap_or_default() - from;
         }
-        let ncorner = element.ncorner();
-        let middle = |k: usize| (element.nnode() > ncorner).then(|| nodes[ncorner + k]);
         let edges = element.edges().iter().enumerate();
-        let sides = edges.flat_map(|(k, &[a, b])| match middle(k) {
-            Some(middle) => [Some((nodes[a], middle)), Some((middle, nodes[b]))],
-            None => [Some((nodes[a], nodes[b])), None],
+        let sides = edges.flat_map(|(edge, &[start, end])| {
+            let inside = element.inside_edge(edge);
+            let ends = inside.clone().chain([end]);
+            let pieces = std::iter::once(start).chain(inside).zip(ends);
+            pieces.map(|(a, b)| (nodes[a], nodes[b]))
         });
-        let sides = sides.flatten();
         if element.dim() == 1 {
             let mut ways = sides.filter_map(|(a, b)| through_line(a, b, along));
             return ways.next();
         }
+        let ncorner = element.ncorner();
         let sum: Vec3 = nodes[..ncorner].iter().copied().sum();
         let centre = sum / ncorner as f64;
         let mut ways = sides.filter_map(|(a, b)| through_triangle([centre, a, b], along));

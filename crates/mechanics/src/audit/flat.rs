@@ -1,13 +1,13 @@
 //! Facets as flat pieces: how far they are from a point, at little cost.
 
-use signorini_geometry::element::{Element, MAX_FACET_NODES};
+use signorini_geometry::element::{Element, Family, MAX_FACET_NODES};
 use signorini_geometry::tensor::Vec3;
 
 /// The distance of a point from a facet of flat pieces between its nodes, and the normal of the closest piece, as long as
 /// that is large. Bent facets are off by a quarter of the height of their arcs.
 pub fn distance(element: Element, x: &[Vec3], point: Vec3) -> Option<(f64, Vec3)> {
     let ncorner = element.ncorner();
-    let (corners, mids) = x.split_at_checked(ncorner)?;
+    let (corners, others) = x.split_at_checked(ncorner)?;
     let mut best: Option<(f64, Vec3)> = None;
     let mut take = |away: Vec3, normal: Vec3| {
         let distance = away.norm_squared();
@@ -16,36 +16,30 @@ pub fn distance(element: Element, x: &[Vec3], point: Vec3) -> Option<(f64, Vec3)
         }
     };
     if element.dim() == 1 {
-        let (&[a, b], middle) = (corners.first_chunk::<2>()?, mids.first());
         let mut piece = |a: Vec3, b: Vec3| {
             take(
                 point - on_segment(point, a, b),
                 (b - a).cross(Vec3::unit(2)),
             );
         };
-        match middle {
-            Some(&m) => {
-                piece(a, m);
-                piece(m, b);
-            }
-            None => piece(a, b),
+        let mut from = *x.first()?;
+        for node in element.inside_edge(0).chain([1]) {
+            let to = *x.get(node)?;
+            piece(from, to);
+            from = to;
         }
     } else {
         let mut ring = [Vec3::ZERO; MAX_FACET_NODES];
         let mut n = 0;
-        for (k, &corner) in corners.iter().enumerate() {
-            for x in [Some(corner), mids.get(k).copied()].into_iter().flatten() {
-                if let Some(to) = ring.get_mut(n) {
-                    *to = x;
-                    n += 1;
-                }
-            }
+        for (to, node) in ring.iter_mut().zip(element.ring()) {
+            *to = *x.get(node)?;
+            n += 1;
         }
         let ring = ring.get(..n)?;
         if let &[a, b, c] = ring {
             take(point - on_triangle(point, [a, b, c]), (b - a).cross(c - a));
         } else {
-            let centre = centre(corners, mids);
+            let centre = centre(element, corners, others)?;
             for (k, &a) in ring.iter().enumerate() {
                 let b = ring.get(k + 1).or(ring.first()).copied()?;
                 take(
@@ -58,14 +52,20 @@ pub fn distance(element: Element, x: &[Vec3], point: Vec3) -> Option<(f64, Vec3)
     best.map(|(square, normal)| (square.sqrt(), normal))
 }
 
-/// The middle of a facet with these corners and mid nodes of edges.
-fn centre(corners: &[Vec3], mids: &[Vec3]) -> Vec3 {
+/// The middle of a facet with its corners and other nodes here; of a quadratic one, that of the serendipity functions.
+fn centre(element: Element, corners: &[Vec3], others: &[Vec3]) -> Option<Vec3> {
     let sum = |x: &[Vec3]| x.iter().copied().sum::<Vec3>();
     let n = corners.len();
-    match mids.get(..n) {
-        None => sum(corners) / n as f64,
-        Some(mids) if n == 3 => (sum(mids) * 4.0 - sum(corners)) / 9.0,
-        Some(mids) => sum(mids) * 0.5 - sum(corners) * 0.25,
+    match (element.order(), element.family()) {
+        (1, _) => Some(sum(corners) / n as f64),
+        (2, Family::Triangle) => Some((sum(others.get(..n)?) * 4.0 - sum(corners)) / 9.0),
+        (2, _) => Some(sum(others.get(..n)?) * 0.5 - sum(corners) * 0.25),
+        _ => {
+            let mut shape = [0.0; MAX_FACET_NODES];
+            element.shape(&element.centre(), shape.get_mut(..element.nnode())?);
+            let nodes = corners.iter().chain(others);
+            Some(nodes.zip(shape).map(|(&x, n)| x * n).sum())
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use super::support::{Support, turn};
 use super::{Rules, Sides, nothing, worst};
 use crate::system::Measured;
 use rayon::prelude::*;
-use signorini_geometry::element::{Element, MAX_FACET_NODES};
+use signorini_geometry::element::{Element, Family, MAX_FACET_NODES};
 use signorini_geometry::surface::{Anchor, Carrier, ContactSurface, Placement, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
@@ -364,13 +364,13 @@ fn over_grid(
 /// Points of a grid over the domain of a facet.
 fn grid_points(element: Element) -> impl Iterator<Item = Vec3> {
     let last = (GRID - 1) as f64;
-    let plane = element.dim() == 2;
+    let family = element.family();
     let each = move |k: usize| {
         let (i, j) = (k % GRID, k / GRID);
         let (a, b) = (i as f64 / last, j as f64 / last);
-        match (plane, element.ncorner()) {
-            (false, _) => (j == 0).then(|| Vec3::new(2.0 * a - 1.0, 0.0, 0.0)),
-            (true, 3) => (i + j < GRID).then(|| Vec3::new(a, b, 0.0)),
+        match family {
+            Family::Line => (j == 0).then(|| Vec3::new(2.0 * a - 1.0, 0.0, 0.0)),
+            Family::Triangle => (i + j < GRID).then(|| Vec3::new(a, b, 0.0)),
             _ => Some(Vec3::new(2.0 * a - 1.0, 2.0 * b - 1.0, 0.0)),
         }
     };

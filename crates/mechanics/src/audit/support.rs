@@ -2,7 +2,7 @@
 
 use super::Sides;
 use crate::system::{ContactFrame, Status};
-use signorini_geometry::element::Element;
+use signorini_geometry::element::{EdgeNode, Element};
 use signorini_geometry::tensor::Vec3;
 
 /// Pressures below this part of the largest are none.
@@ -207,11 +207,8 @@ fn area_vector(element: Element, nodes: &[u32], x: &dyn Fn(u32) -> Vec3) -> Vec3
 fn of_facet(element: Element, nodes: &[u32], x: &dyn Fn(u32) -> Vec3) -> OfFacet {
     let vector = area_vector(element, nodes, x);
     let measure = vector.norm();
-    let mids = nodes.get(element.ncorner()..).unwrap_or(&[]);
-    let bulge = |(&m, &[a, b]): (&u32, &[usize; 2])| {
-        let end = |i: usize| nodes.get(i).map_or(Vec3::ZERO, |&k| x(k));
-        (x(m) - (end(a) + end(b)) * 0.5).norm()
-    };
+    let at = |i: usize| nodes.get(i).map_or(Vec3::ZERO, |&k| x(k));
+    let bulge = |of: EdgeNode| (at(of.node) - of.straight(of.ends.map(at))).norm();
     OfFacet {
         size: if element.dim() == 1 {
             measure
@@ -220,11 +217,7 @@ fn of_facet(element: Element, nodes: &[u32], x: &dyn Fn(u32) -> Vec3) -> OfFacet
         },
         normal: vector.normalized().unwrap_or_default(),
         before: Vec3::ZERO,
-        bulge: mids
-            .iter()
-            .zip(element.edges())
-            .map(bulge)
-            .fold(0.0, f64::max),
+        bulge: element.edge_nodes().map(bulge).fold(0.0, f64::max),
         supports: false,
     }
 }

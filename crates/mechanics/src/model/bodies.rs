@@ -3,7 +3,6 @@ use crate::connector::Damper;
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
 use crate::system::{Dof, Idealisation, NO_DOF, NodalField, Term};
-use signorini_geometry::element::ReferenceElement;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::{ContactSurface, Facets};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
@@ -117,14 +116,13 @@ pub(super) fn between(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<[u32; 2]> {
         let all = bodies.iter().flat_map(|body| &body.cells);
         all.filter_map(|&cell| Some((mesh.element(cell)?, mesh.cell(cell))))
     };
-    let is_quadratic = |element: &dyn ReferenceElement| element.nnode() > element.ncorner();
-    if !cells().any(|(element, _)| is_quadratic(element)) {
+    if !cells().any(|(element, _)| element.mid_nodes().next().is_some()) {
         return Vec::new();
     }
     let mut between = vec![CORNER; mesh.nnode()];
-    for (element, nodes) in cells().filter(|(element, _)| is_quadratic(*element)) {
-        for (&[a, b], &node) in element.edges().iter().zip(&nodes[element.ncorner()..]) {
-            between[node as usize] = [nodes[a], nodes[b]];
+    for (element, nodes) in cells() {
+        for (mid, [a, b]) in element.mid_nodes() {
+            between[nodes[mid] as usize] = [nodes[a], nodes[b]];
         }
     }
     // what is a corner of another cell is one

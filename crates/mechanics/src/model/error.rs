@@ -110,6 +110,18 @@ pub enum ModelError {
         /// What to write for the contact instead, as in a case.
         remedy: &'static str,
     },
+    /// Mortar contact of facets without a dual basis.
+    #[error(
+        "contact \"{contact}\": the sides of element {label} on its secondary side are of kind {element}, for which mortar contact has no dual basis"
+    )]
+    NoDualBasis {
+        /// Name of the contact.
+        contact: String,
+        /// The name of the facet's element.
+        element: &'static str,
+        /// The cell that the facet is a side of, as numbered in the input.
+        label: u64,
+    },
     /// Pairs by order of two sides with different numbers of nodes.
     #[error(
         "contact \"{contact}\": {secondary} secondary and {primary} primary nodes make no pairs in their order"

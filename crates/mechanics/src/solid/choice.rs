@@ -1,8 +1,8 @@
 use super::kernel::Remedy;
 use crate::material::{Kinematics, Material, undeformed_tangent};
 use crate::system::Idealisation;
-use signorini_geometry::element::ReferenceElement;
-use signorini_geometry::element::quadrature::{self, Rule};
+use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::element::{LockingClass, ReferenceElement};
 use std::fmt;
 
 /// How many quadrature points an element has.
@@ -92,11 +92,15 @@ pub(super) struct Situation {
 
 impl Situation {
     fn is_simplest(&self) -> bool {
-        matches!(self.element.name(), "tri3" | "tet4" | "wedge6")
+        self.element.locking_class() == LockingClass::ConstantStrain
     }
 
     fn takes_modes(&self) -> bool {
-        matches!(self.element.name(), "quad4" | "hex8")
+        self.element.locking_class() == LockingClass::Multilinear
+    }
+
+    fn takes_shear(&self) -> bool {
+        self.takes_modes() && self.element.dim() == 2
     }
 
     fn is_sheet(&self) -> bool {
@@ -136,7 +140,7 @@ impl Situation {
                 "incompatible modes exist for quad4 and hex8"
             }
             Locking::Shear if finite => "the shear strain of the centre is for small strain",
-            Locking::Shear if self.element.name() != "quad4" => {
+            Locking::Shear if !self.takes_shear() => {
                 "the shear strain of the centre exists for quad4"
             }
             _ => return Ok(wish),
@@ -164,23 +168,25 @@ impl Situation {
     /// The quadrature rule; more points than usual where fewer would leave motions free: at the axis of revolution,
     /// where the hoop is a strain of its own, and in tetrahedra whose dilatation counts only once.
     pub fn rule(&self, projected: bool) -> &'static Rule {
-        let revolved = self.space == Idealisation::Axisymmetric;
-        match (self.element.name(), self.integration) {
-            ("tri3", _) if revolved => &quadrature::TRI_3,
-            ("tri6", _) if revolved => &quadrature::TRI_6,
-            ("tet10", _) if projected => &quadrature::TET_14,
-            ("wedge6", Integration::Raised) => &quadrature::WEDGE_9,
-            (_, Integration::Full | Integration::Raised) => self.element.full_rule(),
-            (_, Integration::Reduced) => self.element.reduced_rule(),
+        let usual = if self.space == Idealisation::Axisymmetric {
+            self.element.revolved_rule()
+        } else if projected {
+            self.element.dilatation_rule()
+        } else {
+            self.element.full_rule()
+        };
+        match self.integration {
+            Integration::Reduced if self.is_reduced() => self.element.reduced_rule(),
+            Integration::Raised => self.element.raised_rule().unwrap_or(usual),
+            Integration::Full | Integration::Reduced => usual,
         }
     }
 
-    /// Terms of the polynomial onto which the dilatation is projected: constant, or linear where the displacements hold
-    /// enough bubbles for it.
+    /// Terms of the polynomial onto which the dilatation is projected.
     pub fn ndilatation(&self) -> usize {
-        match self.element.name() {
-            "quad8" | "quad9" | "hex20" | "hex27" => 1 + self.element.dim(),
-            _ => 1,
+        match self.element.locking_class() {
+            LockingClass::ConstantStrain | LockingClass::Multilinear => 1,
+            LockingClass::HigherOrder { ndilatation } => ndilatation,
         }
     }
 }

@@ -23,8 +23,12 @@ pub enum AtNodes {
 pub(super) fn extrapolation(element: element::Element, rule: &Rule, at_nodes: AtNodes) -> Vec<f64> {
     let npoint = rule.npoint();
     let own = at_nodes == AtNodes::Element && element.nnode() <= npoint;
-    let field = if own { Some(element) } else { linear(element) };
-    let fitted = field.and_then(|field| {
+    let field = if own {
+        element
+    } else {
+        element.family().linear()
+    };
+    let fitted = || {
         let n = field.nnode();
         if n > npoint {
             return None;
@@ -48,18 +52,8 @@ pub(super) fn extrapolation(element: element::Element, rule: &Rule, at_nodes: At
             (0..npoint).map(value).collect::<Vec<f64>>()
         });
         Some(nodes.collect())
-    });
-    fitted.unwrap_or_else(|| vec![1.0 / npoint as f64; element.nnode() * npoint])
-}
-
-/// The linear element of the same shape.
-fn linear(of: element::Element) -> Option<element::Element> {
-    let same = |e: &element::Element| {
-        let shape = e.dim() == of.dim() && e.sides().len() == of.sides().len();
-        shape && of.nodes().starts_with(e.nodes())
     };
-    let candidates = element::TABLE.iter().copied().filter(same);
-    candidates.min_by_key(|e| e.nnode())
+    fitted().unwrap_or_else(|| vec![1.0 / npoint as f64; element.nnode() * npoint])
 }
 
 /// The means over a cell.

@@ -673,11 +673,11 @@ impl Cells {
             let situation = situation(kinematics);
             let locking = situation.choose(wish);
             let remedy = locking.map_or(Remedy::None, Locking::remedy);
-            let (name, space) = (situation.element.name(), situation.space);
+            let (element, space) = (situation.element, situation.space);
             Some(Treatment {
                 locking,
-                kernel: kernel(name, space, remedy)?,
-                batch: batch_kernel(name, space, remedy),
+                kernel: kernel(element, space, remedy)?,
+                batch: batch_kernel(element, space, remedy),
             })
         };
         let (small, finite) = (

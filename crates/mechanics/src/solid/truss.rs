@@ -147,7 +147,7 @@ impl Truss {
             let (Some(element), Some(label)) = (mesh.element(id), mesh.cell_label(id)) else {
                 continue;
             };
-            if element.dim() != 1 || element.nnode() > 3 {
+            if element.dim() != 1 || element.order() > 2 {
                 return Err(SolidError::NotBar {
                     body,
                     label,

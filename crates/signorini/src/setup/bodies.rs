@@ -3,6 +3,7 @@
 use super::carriers::Carriers;
 use super::names::{Cells, Names};
 use super::quoted;
+use signorini_geometry::element::LockingClass;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures};
@@ -392,9 +393,6 @@ fn oriented(
     }
 }
 
-/// Elements that are too stiff in bending.
-const STIFF: [&str; 3] = ["tri3", "tet4", "wedge6"];
-
 /// A warning for each deformable body of linear triangles, tetrahedra or wedges.
 pub(super) fn stiff_elements(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Diagnostics {
     let mut found = Diagnostics::new();
@@ -403,7 +401,7 @@ pub(super) fn stiff_elements(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Dia
         let cells = groups.flat_map(|g| names.cells(g, &mut Diagnostics::new()).solids);
         let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
         for element in cells.filter_map(|cell| mesh.element(cell)) {
-            if STIFF.contains(&element.name()) {
+            if element.locking_class() == LockingClass::ConstantStrain {
                 *kinds.entry(element.name()).or_default() += 1;
             }
         }

@@ -75,6 +75,7 @@ fn kind<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
         | ModelError::TooDeep { .. }
         | ModelError::TwoPass { .. }
         | ModelError::Unsuited { .. }
+        | ModelError::NoDualBasis { .. }
         | ModelError::PairCount { .. }
         | ModelError::BothRigid { .. } => of_contact_error(case, error),
     }
@@ -122,6 +123,11 @@ fn of_contact_error<'a>(case: &'a Case, error: &ModelError) -> Kind<'a> {
             "give one of the bodies a `material`, or:  enforcement = { penalty = 1e5 }",
         ),
         ModelError::Unsuited { contact, .. } => (&codes::BAD_SIDES, contact, ""),
+        ModelError::NoDualBasis { contact, .. } => (
+            &codes::BAD_SIDES,
+            contact,
+            "write  method = \"gauss-point\"  or  method = \"node-to-segment\"",
+        ),
         // all others are no matter of contact
         _ => (&codes::BAD_SIDES, "", ""),
     };
@@ -137,7 +143,9 @@ fn helps(case: &Case, error: &ModelError, help: &str) -> Vec<String> {
         ModelError::Unsuited {
             contact, remedy, ..
         } => vec![of_contact(&format!("write  {remedy}"), contact)],
-        ModelError::PairCount { contact, .. } | ModelError::BothRigid { contact } => {
+        ModelError::PairCount { contact, .. }
+        | ModelError::NoDualBasis { contact, .. }
+        | ModelError::BothRigid { contact } => {
             vec![of_contact(help, contact)]
         }
         ModelError::TooDeep { contact, .. } => vec![

@@ -1,6 +1,6 @@
 //! Rules with any number of points, for facets.
 
-use super::super::Element;
+use super::super::{Element, Family};
 use crate::tensor::Vec3;
 
 /// Points and weights of Gauss–Legendre on `[-1, 1]`, exact for polynomials of degree `2n − 1`; one point at least.
@@ -79,7 +79,7 @@ pub fn on_facet(element: Element, line: &[(f64, f64)]) -> Vec<(Vec3, f64)> {
         let point = |&(x, w): &(f64, f64)| (Vec3::new(x, 0.0, 0.0), w);
         return line.iter().map(point).collect();
     }
-    let triangle = element.ncorner() == 3;
+    let triangle = element.family() == Family::Triangle;
     let pairs = line.iter().flat_map(|p| line.iter().map(move |q| (p, q)));
     let point = |(&(y, wy), &(x, wx)): (&(f64, f64), &(f64, f64))| {
         if !triangle {

@@ -16,7 +16,7 @@ use super::Translation;
 use crate::case::{Expectation, Moment, Tolerance};
 use crate::diagnostic::{Spanned, codes};
 use crate::readers::oofem::{Checks, Family, Fault, Kind, Record, RecordError};
-use signorini_geometry::element::by_name;
+use signorini_geometry::element::{self, by_name};
 use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::Vec3;
 
@@ -312,12 +312,13 @@ fn our_point(kind: Kind, point: u64) -> Option<u64> {
     let side = 1.0 / 3.0_f64.sqrt();
     let end = |bit: usize| if bit & 1 == 0 { -side } else { side };
     // the first coordinate runs slowest
-    let place = match (kind.element, at) {
-        ("quad4", 0..4) => Vec3::new(-end(at >> 1), -end(at), 0.0),
-        ("hex8", 0..8) => Vec3::new(end(at >> 1), end(at >> 2), -end(at)),
+    let element = by_name(kind.element).filter(|e| e.is_linear())?;
+    let place = match (element.family(), at) {
+        (element::Family::Quadrilateral, 0..4) => Vec3::new(-end(at >> 1), -end(at), 0.0),
+        (element::Family::Hexahedron, 0..8) => Vec3::new(end(at >> 1), end(at >> 2), -end(at)),
         _ => return None,
     };
-    let points = &by_name(kind.element)?.full_rule().points;
+    let points = element.full_rule().points;
     let found = points.iter().position(|xi| (*xi - place).norm() < 1e-9)?;
     Some(found as u64 + 1)
 }

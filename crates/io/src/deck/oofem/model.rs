@@ -23,6 +23,25 @@ const DOMAINS: [(&str, &[u64]); 6] = [
 /// Elements whose shear strain OOFEM takes from their centre.
 const SELECTIVE: [&str; 2] = ["planestress2d", "l4axisymm"];
 
+/// The rule for an element with so many points in OOFEM; tri6 with 4 points takes the full rule, of 3.
+const RULES: [(&str, u64, Integration); 15] = [
+    ("line2", 1, Integration::Full),
+    ("tri3", 1, Integration::Full),
+    ("tri6", 3, Integration::Full),
+    ("tri6", 4, Integration::Full),
+    ("quad4", 4, Integration::Full),
+    ("quad8", 4, Integration::Reduced),
+    ("quad8", 9, Integration::Full),
+    ("tet4", 1, Integration::Full),
+    ("tet10", 4, Integration::Full),
+    ("hex8", 8, Integration::Full),
+    ("hex20", 8, Integration::Reduced),
+    ("hex20", 27, Integration::Full),
+    ("wedge6", 6, Integration::Full),
+    ("wedge6", 9, Integration::Raised),
+    ("wedge15", 9, Integration::Full),
+];
+
 fn takes_shear_of_centre(group: &Group) -> bool {
     SELECTIVE.contains(&group.kind.name) && group.points.is_none()
 }
@@ -403,18 +422,11 @@ impl Translation {
     fn integration(&mut self, group: &Group) -> Integration {
         let kind = group.kind;
         let wanted = group.points.unwrap_or(kind.points);
-        let rule = match (kind.element, wanted) {
-            ("quad8", 4) | ("hex20", 8) => Integration::Reduced,
-            ("wedge6", 9) => Integration::Raised,
-            ("line2" | "tri3" | "tet4", 1)
-            | ("quad4" | "tet10", 4)
-            | ("quad8", 9)
-            | ("hex8", 8)
-            | ("hex20", 27)
-            | ("wedge6", 6)
-            | ("wedge15", 9)
-            | ("tri6", 3 | 4) => Integration::Full,
-            _ => {
+        let mut known = RULES.iter();
+        let found = known.find(|(name, points, _)| (*name, *points) == (kind.element, wanted));
+        let rule = match found {
+            Some((_, _, rule)) => *rule,
+            None => {
                 let text = format!(
                     "{} with {wanted} integration points is not supported",
                     kind.name

@@ -1,5 +1,6 @@
 //! Where CalculiX prints: its integration points, in its order.
 
+use signorini_geometry::element;
 use signorini_geometry::element::quadrature::{LINE_2, LINE_3, Rule, TET_4, TRI_1, TRI_3};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
@@ -38,10 +39,11 @@ impl Points {
         let places = places.as_deref().unwrap_or(rule.points);
         let layers = layers(element, rule.npoint());
         // a linear layer stays plane: of a turned tensor it knows half
-        let turn = match (revolved, element) {
+        let is_linear = element::by_name(element).is_some_and(|e| e.is_linear());
+        let turn = match (revolved, is_linear) {
             (false, _) => 0.0,
-            (true, "tri3" | "quad4") => 0.5 * HALF_WEDGE,
-            (true, _) => HALF_WEDGE,
+            (true, true) => 0.5 * HALF_WEDGE,
+            (true, false) => HALF_WEDGE,
         };
         Self {
             weights: (places != rule.points).then(|| fitted(rule, places)),
@@ -99,32 +101,81 @@ impl Points {
     }
 }
 
+/// Where CalculiX prints of an element.
+struct Printed {
+    name: &'static str,
+    /// Its places; none where they are the points of the rule.
+    places: Option<Places>,
+    layers: Layers,
+}
+
+#[derive(Clone, Copy)]
+enum Places {
+    Of(&'static Rule),
+    /// Those of the first, once at each point of the second along the axis.
+    Lifted(&'static Rule, &'static Rule),
+}
+
+#[derive(Clone, Copy)]
+enum Layers {
+    One,
+    Four,
+    Two,
+    Three,
+    /// As many as the rule has points along each direction.
+    AsPoints,
+}
+
+const fn printed(name: &'static str, places: Option<Places>, layers: Layers) -> Printed {
+    Printed {
+        name,
+        places,
+        layers,
+    }
+}
+
+/// Elements that are not in it are printed at the points of their rule.
+static TABLE: [Printed; 9] = [
+    printed("line2", Some(Places::Of(&LINE_2)), Layers::Four),
+    printed("line3", Some(Places::Of(&LINE_2)), Layers::Four),
+    printed("tri3", Some(Places::Of(&TRI_1)), Layers::Two),
+    printed("tri6", Some(Places::Of(&TRI_3)), Layers::Three),
+    printed("quad4", None, Layers::AsPoints),
+    printed("quad8", None, Layers::AsPoints),
+    printed("quad9", None, Layers::AsPoints),
+    printed("tet10", Some(Places::Of(&TET_4)), Layers::One),
+    printed("wedge6", Some(Places::Lifted(&TRI_1, &LINE_2)), Layers::One),
+];
+
+impl Printed {
+    fn of(element: &str) -> Option<&'static Self> {
+        TABLE.iter().find(|row| row.name == element)
+    }
+}
+
 /// The places of elements whose own points differ, or may.
 fn places(element: &str) -> Option<Vec<Vec3>> {
-    Some(match element {
-        "tri3" => TRI_1.points.to_vec(),
-        "tri6" => TRI_3.points.to_vec(),
-        "tet10" => TET_4.points.to_vec(),
-        "line2" | "line3" => LINE_2.points.to_vec(),
-        "wedge6" => {
+    Some(match Printed::of(element)?.places? {
+        Places::Of(rule) => rule.points.to_vec(),
+        Places::Lifted(base, axis) => {
             let lifted = |z: &Vec3| {
                 let up = Vec3::unit(2) * z.x;
-                TRI_1.points.iter().map(move |x| *x + up)
+                base.points.iter().map(move |x| *x + up)
             };
-            LINE_2.points.iter().flat_map(lifted).collect()
+            axis.points.iter().flat_map(lifted).collect()
         }
-        _ => return None,
     })
 }
 
 /// Where the layers of an expanded element with so many points are, along `x`.
 fn layers(element: &str, npoint: usize) -> &'static [Vec3] {
     const FOUR: [Vec3; 4] = [Vec3::ZERO; 4];
-    match (element, npoint) {
-        ("quad4" | "quad8" | "quad9", 9) | ("tri6", _) => LINE_3.points,
-        ("quad4" | "quad8" | "quad9", 4) | ("tri3", _) => LINE_2.points,
-        ("line2" | "line3", _) => &FOUR,
-        _ => &FOUR[..1],
+    let layers = Printed::of(element).map_or(Layers::One, |row| row.layers);
+    match (layers, npoint) {
+        (Layers::Three, _) | (Layers::AsPoints, 9) => LINE_3.points,
+        (Layers::Two, _) | (Layers::AsPoints, 4) => LINE_2.points,
+        (Layers::Four, _) => &FOUR,
+        (Layers::One | Layers::AsPoints, _) => &FOUR[..1],
     }
 }
 

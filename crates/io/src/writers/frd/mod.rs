@@ -64,6 +64,14 @@ pub enum FrdError {
     /// The disk failed.
     #[error(transparent)]
     Fs(#[from] FsError),
+    /// Elements that the format has no type for; nothing was written.
+    #[error("{} cannot be written: the format has no elements of kind {element}; write vtu", path.display())]
+    NoElement {
+        /// The file.
+        path: PathBuf,
+        /// The name of the element.
+        element: &'static str,
+    },
     /// Values for another number of nodes than there are; nothing was written.
     #[error("data set {name} of {} has {got} values where there are {expected} nodes", path.display())]
     WrongLength {
@@ -256,6 +264,14 @@ impl FrdFile {
     /// # Errors
     /// [`FrdError::Fs`].
     pub fn create(fs: &dyn Fs, path: &Path, title: &str, mesh: &Mesh) -> Result<Self, FrdError> {
+        let blocks = mesh.blocks.iter().filter(|b| b.element.dim() == mesh.dim());
+        let mut elements = blocks.map(|b| b.element);
+        if let Some(element) = elements.find(|e| CellType::of_element(*e).is_none()) {
+            return Err(FrdError::NoElement {
+                path: path.to_path_buf(),
+                element: element.name(),
+            });
+        }
         let mut file = Self {
             log: fs.open_log(path, 0)?,
             path: path.to_path_buf(),
@@ -468,8 +484,7 @@ fn push_nodes(out: &mut Vec<u8>, labels: &Labels, points: &[Vec3]) {
 }
 
 fn push_elements(out: &mut Vec<u8>, labels: &Labels, mesh: &Mesh) {
-    let known = |&cell: &CellId| mesh.element(cell).and_then(CellType::of_element).is_some();
-    let cells: Vec<CellId> = mesh.cells(mesh.dim()).filter(known).collect();
+    let cells: Vec<CellId> = mesh.cells(mesh.dim()).collect();
     let own: Vec<u64> = cells
         .iter()
         .map(|&cell| mesh.cell_label(cell).unwrap_or(u64::MAX))

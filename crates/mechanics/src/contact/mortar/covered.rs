@@ -116,6 +116,11 @@ impl Covered {
         derivatives: bool,
     ) -> Result<(), MortarError> {
         let frame = Frame::measured(secondary, self.measure)?;
+        let element = secondary.element;
+        let missing = MortarError::NoDualBasis {
+            element: element.name(),
+        };
+        let t = Transformation::of(element, self.basis).ok_or(missing)?;
         self.derivatives.dopposite.iter_mut().for_each(Vec::clear);
         self.nnode = secondary.x.len();
         self.normal = frame.normal();
@@ -136,9 +141,8 @@ impl Covered {
             }
         }
         self.join(primaries, nodes);
-        let t = Transformation::of(secondary.element, self.basis);
         self.measure_whole(&frame, secondary, &t);
-        let scatters = secondary.element.ncorner() == 3 && self.nnode > 3;
+        let scatters = super::scatters(element);
         Arch::new().dispatch(
             #[inline(always)]
             || self.combine(&t, scatters, derivatives),

@@ -13,7 +13,7 @@
 //! | l | nodes of the primary facets it meets, each once | `nprimary` |
 //! | v | columns: coordinates x, y, z of the nodes, secondary first | `ncolumn` |
 //! | N_j, N^m_l | shape functions | |
-//! | T, Ñ = T N | [`Transformation`] of quadratic facets | `nnode` × `nnode` |
+//! | T, Ñ = T N | [`Transformation`]: what [`DualBasis`] says of the element | `nnode` × `nnode` |
 //! | A, ψ = A Ñ | coefficients of the dual basis | `nnode` × `nnode` |
 //! | D_j = ∫ψ_j Ñ_j = ∫ψ_j | `d` | `nnode` numbers |
 //! | M_jl = ∫ψ_j N^m_l | `m` | `nnode` × `nprimary` |
@@ -47,8 +47,8 @@
 //! Ñ_corner = N_corner + α Σ N_edge,  Ñ_edge = (1 − 2α) N_edge                (E4)
 //! ```
 //!
-//! over the edges that meet in the corner, `α = 1/4`, and 3/8 for quad8; of quad9 it is the tensor product of that of
-//! line3. Beyond a bent edge, inside the polygon of the facet, they may be negative: where nothing but such a sliver is
+//! over the edges that meet in the corner, with the α of the element ([`DualBasis`]): 1/4, and 3/8 for quad8; of quad9 it is
+//! the tensor product of that of line3. Facets of elements without a dual basis are refused. Beyond a bent edge, inside the polygon of the facet, they may be negative: where nothing but such a sliver is
 //! covered and `D_j < 0`, it is zero with all its row. The displacements that belong to `Ñ` are `x̃ = T⁻ᵀ x`, and `∫ψ_j N_k = D_j T⁻ᵀ_jk`.
 //!
 //! *Derivatives.* Cells depend on the places of nodes on the plane alone, two numbers each. Points of cells follow their
@@ -127,7 +127,9 @@ pub use rises::rises;
 pub use transformation::{Basis, Transformation};
 pub use weights::{Guests, OfFacet, OfRow, Weights};
 
-use signorini_geometry::element::Element;
+#[cfg(doc)]
+use signorini_geometry::element::DualBasis;
+use signorini_geometry::element::{Element, Family};
 use signorini_geometry::tensor::Vec3;
 use thiserror::Error;
 
@@ -139,6 +141,12 @@ pub enum Measure {
     Flat,
     /// Surfaces that lines make when they turn about the axis `x = 0`: `2π r ds` over the full circumference, (E5).
     Revolved,
+}
+
+/// Whether multipliers of a facet scatter between corners and mid nodes: those of quadratic triangles, whose corners take no
+/// part of an even traction.
+fn scatters(element: Element) -> bool {
+    element.family() == Family::Triangle && element.order() == 2
 }
 
 /// A facet where it is now.
@@ -163,6 +171,12 @@ pub enum MortarError {
     Folded {
         /// The place of the primary facet in the list.
         number: usize,
+    },
+    /// A secondary facet of an element whose shape functions have no dual basis.
+    #[error("there is no dual basis for facets of kind {element}")]
+    NoDualBasis {
+        /// The name of the element.
+        element: &'static str,
     },
     /// A facet has not one position for each node, or more nodes than a facet may have.
     #[error("facet of kind {element} with {positions} positions")]

@@ -60,10 +60,12 @@ impl Products {
         let facets = [secondary, primary];
         match (self.dim, nodes[0].max(nodes[1])) {
             (1, ..=2) => self.sum_up::<2, 1>(facets, factor, derivatives),
-            (1, _) => self.sum_up::<3, 1>(facets, factor, derivatives),
+            (1, ..=3) => self.sum_up::<3, 1>(facets, factor, derivatives),
+            (1, _) => self.sum_up::<MAX_FACET_NODES, 1>(facets, factor, derivatives),
             (_, ..=3) => self.sum_up::<3, 2>(facets, factor, derivatives),
             (_, ..=4) => self.sum_up::<4, 2>(facets, factor, derivatives),
             (_, ..=6) => self.sum_up::<6, 2>(facets, factor, derivatives),
+            (_, ..=9) => self.sum_up::<9, 2>(facets, factor, derivatives),
             _ => self.sum_up::<MAX_FACET_NODES, 2>(facets, factor, derivatives),
         }
     }

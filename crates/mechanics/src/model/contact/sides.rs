@@ -248,6 +248,13 @@ impl Source<'_> {
                         remedy: "method = \"gauss-point\"",
                     });
                 }
+                if let Some((element, label)) = no_dual(facets).map(|f| self.named(facets, f)) {
+                    return Err(ModelError::NoDualBasis {
+                        contact: part.name.clone(),
+                        element,
+                        label,
+                    });
+                }
                 let space = self.one_space(part, facets)?;
                 let mortar = Mortar::new(facets, opposite, form, measure(space), self.reference)
                     .map_err(surface_error)?;
@@ -328,6 +335,15 @@ impl Source<'_> {
         })
     }
 
+    /// The name of the element that a facet is, and the number of the cell that it is a side of.
+    fn named(&self, facets: &Facets, facet: u32) -> (&'static str, u64) {
+        let label = facets
+            .face(facet)
+            .and_then(|f| self.mesh.cell_label(f.cell));
+        let name = facets.element(facet).map_or("", |e| e.name());
+        (name, label.unwrap_or(0))
+    }
+
     /// The outer faces of solids that meet any of some sorted nodes.
     fn outer_faces_at(&self, points: &[NodeId]) -> Vec<Face> {
         let meets = |nodes: &[NodeId]| nodes.iter().any(|n| points.binary_search(n).is_ok());
@@ -364,7 +380,7 @@ impl Source<'_> {
                     ..Default::default()
                 })
             }
-            (Method::Auto, _) if self.is_quadratic(part) && !exact => {
+            (Method::Auto, _) if self.shares_unevenly(part) && !exact => {
                 Method::GaussPoint(PointRule {
                     kind: PointKind::Gauss,
                     points: None,
@@ -392,19 +408,20 @@ impl Source<'_> {
         let follows = |facets: &Facets| {
             (0..facets.nfacet() as u32).all(|f| !facets.nodes(f).iter().all(given))
         };
-        let suits = |facets: &Facets| follows(facets) && self.spaces.alike(facets).is_some();
+        let suits = |facets: &Facets| {
+            follows(facets) && self.spaces.alike(facets).is_some() && no_dual(facets).is_none()
+        };
         plain && secondary.is_some_and(suits)
     }
 
     /// Whether the nodal forces of an even pressure on the secondary side are not all positive: nodes alone cannot carry
     /// it.
-    fn is_quadratic(&self, part: &ContactPart) -> bool {
+    fn shares_unevenly(&self, part: &ContactPart) -> bool {
         let SidePart::Faces(faces) = &part.secondary else {
             return false;
         };
-        let elements = faces.iter().filter_map(|&f| self.mesh.face(f));
-        let mut names = elements.map(|(element, _)| element.name());
-        names.any(|name| matches!(name, "tri6" | "quad8"))
+        let mut elements = faces.iter().filter_map(|&f| self.mesh.face(f));
+        elements.any(|(element, _)| !element.shares_even_pressure())
     }
 
     fn not_glued(
@@ -475,6 +492,12 @@ impl Source<'_> {
         };
         Ok(of_secondary.into_iter().filter_map(nearest).collect())
     }
+}
+
+/// The first facet of an element without a dual basis.
+fn no_dual(facets: &Facets) -> Option<u32> {
+    let has_none = |f: &u32| facets.element(*f).is_none_or(|e| e.dual_basis().is_none());
+    (0..facets.nfacet() as u32).find(has_none)
 }
 
 /// Areas of mortar rows, with the thickness of the plane.
@@ -555,12 +578,7 @@ fn node_normals(
 
 /// Points of a facet: by default one more along each direction than the degree of the facet.
 fn on_facet(rule: PointRule, element: Element) -> Vec<(Vec3, f64)> {
-    let degree = if element.nnode() > element.ncorner() {
-        2
-    } else {
-        1
-    };
-    let n = rule.points.unwrap_or(degree + 1);
+    let n = rule.points.unwrap_or(element.order() + 1);
     let line = match rule.kind {
         PointKind::Gauss => quadrature::gauss(n),
         PointKind::Lobatto => quadrature::lobatto(n),

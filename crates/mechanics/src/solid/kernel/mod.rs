@@ -24,7 +24,7 @@ use super::dense;
 use crate::material::{Kinematics, Material, MaterialError, Order, Response, Strain};
 use crate::system::Idealisation;
 use signorini_geometry::element::ReferenceElement;
-use signorini_geometry::element::quadrature::Rule;
+use signorini_geometry::element::quadrature::{self, Rule};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
 /// What the kernel of one element type computes.
@@ -145,11 +145,15 @@ impl Points {
         points
     }
 
-    /// Makes temperatures linear where the rule has more points than the reduced one: with those points `q`, at `±1/√3`
-    /// along each axis, the temperature at a point is `Σ_q Π_a ½ (1 + 3 ξ_a q_a) T(q)`.
+    /// Makes temperatures linear where the rule has more points than a reduced one of two along each axis: with those points
+    /// `q`, at `±1/√3`, the temperature at a point is `Σ_q Π_a ½ (1 + 3 ξ_a q_a) T(q)`.
     pub fn linear_temperatures(&mut self, element: &dyn ReferenceElement) {
         let reduced = element.reduced_rule();
-        if !matches!(element.name(), "quad8" | "hex20") || reduced.npoint() >= self.rule.npoint() {
+        let two_along_axes = [&quadrature::QUAD_4, &quadrature::HEX_8];
+        let is_known = two_along_axes
+            .iter()
+            .any(|rule| std::ptr::eq(*rule, reduced));
+        if !is_known || reduced.npoint() >= self.rule.npoint() {
             return;
         }
         let mut shape = vec![0.0; self.nnode];
@@ -218,10 +222,10 @@ pub(super) enum Remedy {
     Shear,
 }
 
-/// The kernels of an element: without remedy, with a projected dilatation, with incompatible modes, with the shear strain
+/// The kernels of elements with so many nodes: without remedy, with a projected dilatation, with incompatible modes, with the shear strain
 /// of the centre.
 struct Kernels {
-    name: &'static str,
+    nnode: usize,
     plain: Kernel,
     /// The same for several cells at once.
     batch: Option<BatchKernel>,
@@ -230,9 +234,9 @@ struct Kernels {
     shear: Option<Kernel>,
 }
 
-const fn kernels<const NN: usize, const ND: usize, const NG: usize>(name: &'static str) -> Kernels {
+const fn kernels<const NN: usize, const ND: usize, const NG: usize>() -> Kernels {
     Kernels {
-        name,
+        nnode: NN,
         plain: plain::respond::<NN, ND, NG>,
         batch: None,
         dilatation: Some(dilatation::respond::<NN, ND, NG>),
@@ -242,9 +246,9 @@ const fn kernels<const NN: usize, const ND: usize, const NG: usize>(name: &'stat
 }
 
 /// A linear element that has no remedy: its dilatation is constant, or nearly so.
-const fn bare<const NN: usize, const ND: usize, const NG: usize>(name: &'static str) -> Kernels {
+const fn bare<const NN: usize, const ND: usize, const NG: usize>() -> Kernels {
     Kernels {
-        name,
+        nnode: NN,
         plain: plain::respond::<NN, ND, NG>,
         batch: None,
         dilatation: None,
@@ -254,12 +258,11 @@ const fn bare<const NN: usize, const ND: usize, const NG: usize>(name: &'static 
 }
 
 /// An element with incompatible modes, `NT` functions in all.
-const fn with_modes<const NN: usize, const NT: usize, const ND: usize, const NG: usize>(
-    name: &'static str,
-) -> Kernels {
+const fn with_modes<const NN: usize, const NT: usize, const ND: usize, const NG: usize>() -> Kernels
+{
     Kernels {
         modes: Some(modes::respond::<NN, NT, ND, NG>),
-        ..kernels::<NN, ND, NG>(name)
+        ..kernels::<NN, ND, NG>()
     }
 }
 
@@ -275,54 +278,63 @@ const fn in_space<const NN: usize>(kernels: Kernels) -> Kernels {
 const fn quad4<const NG: usize>() -> Kernels {
     Kernels {
         shear: Some(shear::respond::<4, 2, NG>),
-        ..with_modes::<4, 6, 2, NG>("quad4")
+        ..with_modes::<4, 6, 2, NG>()
     }
 }
 
 static PLANE: [Kernels; 5] = [
-    bare::<3, 2, 2>("tri3"),
+    bare::<3, 2, 2>(),
     quad4::<2>(),
-    kernels::<6, 2, 2>("tri6"),
-    kernels::<8, 2, 2>("quad8"),
-    kernels::<9, 2, 2>("quad9"),
+    kernels::<6, 2, 2>(),
+    kernels::<8, 2, 2>(),
+    kernels::<9, 2, 2>(),
 ];
 
 static AXISYMMETRIC: [Kernels; 5] = [
-    bare::<3, 2, 3>("tri3"),
+    bare::<3, 2, 3>(),
     quad4::<3>(),
-    kernels::<6, 2, 3>("tri6"),
-    kernels::<8, 2, 3>("quad8"),
-    kernels::<9, 2, 3>("quad9"),
+    kernels::<6, 2, 3>(),
+    kernels::<8, 2, 3>(),
+    kernels::<9, 2, 3>(),
 ];
 
 static SPACE: [Kernels; 7] = [
-    in_space::<4>(bare::<4, 3, 3>("tet4")),
-    in_space::<6>(bare::<6, 3, 3>("wedge6")),
-    in_space::<8>(with_modes::<8, 11, 3, 3>("hex8")),
-    in_space::<10>(kernels::<10, 3, 3>("tet10")),
-    in_space::<15>(kernels::<15, 3, 3>("wedge15")),
-    in_space::<20>(kernels::<20, 3, 3>("hex20")),
-    in_space::<27>(kernels::<27, 3, 3>("hex27")),
+    in_space::<4>(bare::<4, 3, 3>()),
+    in_space::<6>(bare::<6, 3, 3>()),
+    in_space::<8>(with_modes::<8, 11, 3, 3>()),
+    in_space::<10>(kernels::<10, 3, 3>()),
+    in_space::<15>(kernels::<15, 3, 3>()),
+    in_space::<20>(kernels::<20, 3, 3>()),
+    in_space::<27>(kernels::<27, 3, 3>()),
 ];
 
-fn kernels_of(name: &str, space: Idealisation) -> Option<&'static Kernels> {
+fn kernels_of(element: &dyn ReferenceElement, space: Idealisation) -> Option<&'static Kernels> {
     let table: &[Kernels] = match space {
         Idealisation::Space => &SPACE,
         Idealisation::PlaneStrain { .. } | Idealisation::PlaneStress { .. } => &PLANE,
         Idealisation::Axisymmetric => &AXISYMMETRIC,
     };
-    table.iter().find(|k| k.name == name)
+    let suits = |k: &&Kernels| k.nnode == element.nnode() && space.ndim() == element.dim();
+    table.iter().find(suits)
 }
 
 /// The kernel of an element for several cells at once, where there is one.
-pub(super) fn batch_kernel(name: &str, space: Idealisation, remedy: Remedy) -> Option<BatchKernel> {
-    let found = kernels_of(name, space).filter(|_| remedy == Remedy::None)?;
+pub(super) fn batch_kernel(
+    element: &dyn ReferenceElement,
+    space: Idealisation,
+    remedy: Remedy,
+) -> Option<BatchKernel> {
+    let found = kernels_of(element, space).filter(|_| remedy == Remedy::None)?;
     found.batch
 }
 
-/// The kernel of an element, by its name; `None` where there is none.
-pub(super) fn kernel(name: &str, space: Idealisation, remedy: Remedy) -> Option<Kernel> {
-    let found = kernels_of(name, space)?;
+/// The kernel of an element; `None` where there is none.
+pub(super) fn kernel(
+    element: &dyn ReferenceElement,
+    space: Idealisation,
+    remedy: Remedy,
+) -> Option<Kernel> {
+    let found = kernels_of(element, space)?;
     match remedy {
         Remedy::None => Some(found.plain),
         Remedy::Dilatation => found.dilatation,

@@ -71,7 +71,7 @@ fn cells_in_lanes_have_the_forces_stiffness_and_energy_of_cells_alone() {
         ("plastic", derivatives::plastic),
         ("with history", || Box::new(Viscous)),
     ];
-    for element in SPACE.map(|name| element::by_name(name).unwrap()) {
+    for element in of_dimension(3) {
         // more than one register holds, and lanes that stay empty
         let mesh = cells(element, 11);
         for kinematics in [Kinematics::Small, Kinematics::Finite] {

@@ -24,10 +24,6 @@ mod speed;
 mod start;
 mod truss;
 
-const PLANE: [&str; 5] = ["tri3", "quad4", "tri6", "quad8", "quad9"];
-const SPACE: [&str; 7] = [
-    "tet4", "wedge6", "hex8", "tet10", "wedge15", "hex20", "hex27",
-];
 const LOCKINGS: [Locking; 6] = [
     Locking::Auto,
     Locking::None,
@@ -44,10 +40,13 @@ fn elements() -> impl Iterator<Item = (Element, Idealisation)> {
         Idealisation::PlaneStress { thickness: 0.7 },
         Idealisation::Axisymmetric,
     ];
-    let flat = PLANE.iter().flat_map(move |e| plane.map(|s| (*e, s)));
-    let solid = SPACE.iter().map(|e| (*e, Idealisation::Space));
+    let flat = of_dimension(2).flat_map(move |e| plane.map(|s| (e, s)));
+    let solid = of_dimension(3).map(|e| (e, Idealisation::Space));
     flat.chain(solid)
-        .map(|(e, s)| (element::by_name(e).unwrap(), s))
+}
+
+fn of_dimension(dim: usize) -> impl Iterator<Item = Element> {
+    element::TABLE.into_iter().filter(move |e| e.dim() == dim)
 }
 
 /// Numbers in [-1, 1] that look random and are the same in every run.

@@ -116,8 +116,7 @@ impl Exchange {
                 force.add(-self.levels * s, *other);
             }
         }
-        // mid nodes follow the corners in the order of the edges
-        for (mid, &[a, b]) in (element.ncorner()..).zip(element.edges()) {
+        for (mid, [a, b]) in element.mid_nodes() {
             let d = self.along_edges * of.d.get(mid).copied().unwrap_or_default();
             let mut above = from[mid];
             above.add(-0.5, from[a]);

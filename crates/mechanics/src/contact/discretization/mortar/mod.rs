@@ -175,7 +175,7 @@ impl Mortar {
     /// Rows of all nodes of these facets against a primary side, with areas at `x`.
     ///
     /// # Errors
-    /// A facet without a normal.
+    /// A facet without a normal, or of an element without a dual basis.
     pub fn new(
         facets: &Facets,
         primary: &dyn ContactSurface,
@@ -204,10 +204,15 @@ impl Mortar {
         for facet in 0..facets.nfacet() as u32 {
             let missing = SurfaceError::NoSuchFacet { facet };
             let element = facets.element(facet).ok_or(missing)?;
-            let known = kinds.iter().position(|k| k.0.name() == element.name());
+            let no_basis = SurfaceError::NoDualBasis {
+                facet,
+                element: element.name(),
+            };
+            let known = kinds.iter().position(|k| k.0 == element);
             kind.push(known.unwrap_or(kinds.len()));
             if known.is_none() {
-                kinds.push((element, inverse(element, form.basis)));
+                let element_inverse = inverse(element, form.basis).ok_or(no_basis)?;
+                kinds.push((element, element_inverse));
             }
             integrator.place(facets, facet, x);
             let own = Facet {
@@ -660,9 +665,9 @@ fn next_stamp() -> u64 {
     STAMP.fetch_add(1, Ordering::Relaxed)
 }
 
-/// `T⁻ᵀ` of a kind of facet.
-fn inverse(element: Element, basis: Basis) -> Inverse {
-    let t = Transformation::of(element, basis);
+/// `T⁻ᵀ` of a kind of facet; `None` where it has no dual basis.
+fn inverse(element: Element, basis: Basis) -> Option<Inverse> {
+    let t = Transformation::of(element, basis)?;
     let mut inverse = [[0.0; MAX_FACET_NODES]; MAX_FACET_NODES];
     for k in 0..element.nnode().min(MAX_FACET_NODES) {
         let mut column = [0.0; MAX_FACET_NODES];
@@ -672,7 +677,7 @@ fn inverse(element: Element, basis: Basis) -> Inverse {
             line[k] = value;
         }
     }
-    inverse
+    Some(inverse)
 }
 
 /// Nodes in the order of a curve through their box (Morton's).

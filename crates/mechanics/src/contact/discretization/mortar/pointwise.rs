@@ -88,9 +88,8 @@ pub(super) fn structural(facets: &Facets, nodes: &[NodeId], around: &[Part]) -> 
                 inside |= place >= ncorner || part.len() > 1;
                 continue;
             }
-            for k in 0..ncorner {
-                let (a, b, mid) = (k, (k + 1) % ncorner, ncorner + k);
-                if ![a, b, mid].contains(&place) {
+            for (k, &[a, b]) in element.edges().iter().enumerate() {
+                if ![a, b].contains(&place) && !element.inside_edge(k).contains(&place) {
                     continue;
                 }
                 let mut edge = [of[a], of[b]];
@@ -243,8 +242,8 @@ impl Mortar {
         let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
         // between nodes
         let between = |facet: u32| match facets.element(facet) {
-            Some(element) if element.nnode() > element.ncorner() => 0.5,
-            _ => 1.0,
+            Some(element) => 1.0 / element.order() as f64,
+            None => 1.0,
         };
         let sizes = own
             .iter()

@@ -23,8 +23,9 @@
 
 use super::{Mortar, PointToSegment, Source, closest_of_surface, mortar_areas};
 use crate::contact::discretization::mortar::Form;
-use crate::contact::mortar::{Basis, Transformation};
+use crate::contact::mortar::Basis;
 use crate::model::{AreaPart, ContactPart, Enforcement, Method, ModelError, PrimaryPart};
+use signorini_geometry::element::DualBasis;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -109,7 +110,8 @@ impl Source<'_> {
         let closes = part.tie.is_some()
             || part.start.close_below > 0.0
             || !part.start.close_nodes.is_empty();
-        let Some(surface) = analytical(part).filter(|_| !closes) else {
+        let weighs = !closes && super::no_dual(facets).is_none();
+        let Some(surface) = analytical(part).filter(|_| weighs) else {
             return Ok(None);
         };
         let mids = mids(facets);
@@ -173,25 +175,23 @@ fn analytical(part: &ContactPart) -> Option<&dyn ContactSurface> {
     one.then_some(surface.as_ref())
 }
 
-/// The nodes in the middle of edges of tri6 and quad8, sorted, with the corners at the ends.
+/// The nodes in the middle of edges of facets that do not share an even pressure among their nodes (tri6, quad8), sorted,
+/// with the corners at the ends.
 fn mids(facets: &Facets) -> Vec<Mid> {
     let mut mids = Vec::new();
     for facet in 0..facets.nfacet() as u32 {
         let Some(element) = facets.element(facet) else {
             continue;
         };
-        let has_mids_only = element.nnode() == element.ncorner() + element.edges().len();
-        if element.dim() != 2 || !has_mids_only {
+        let Some(DualBasis::Edges { whole, .. }) = element.dual_basis() else {
             continue;
-        }
+        };
         let nodes = facets.nodes(facet);
-        let transformation = Transformation::of(element, Basis::Whole);
-        let edges = element.edges().iter().zip(element.ncorner()..);
-        mids.extend(edges.filter_map(|(&[a, b], k)| {
+        mids.extend(element.mid_nodes().filter_map(|(k, [a, b])| {
             Some(Mid {
                 node: *nodes.get(k)?,
                 corners: [*nodes.get(a)?, *nodes.get(b)?],
-                alpha: transformation.get(a, k),
+                alpha: whole,
             })
         }));
     }

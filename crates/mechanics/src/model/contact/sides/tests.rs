@@ -2,15 +2,16 @@
 
 use crate::contact::discretization::mortar;
 use crate::contact::law::Exponential;
+use crate::cubic::Tri10;
 use crate::material::NeoHookean;
 use crate::model::{
-    AreaPart, BodyKind, BodyPart, Change, ContactPart, Enforcement, Method, Model, ModelError,
-    Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, StepPart, Target,
-    TiePart,
+    AreaPart, BodyKind, BodyPart, CarrierPart, Change, ContactPart, Enforcement, Method, Model,
+    ModelError, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, StepPart,
+    Target, TiePart,
 };
 use crate::solve::{Increments, Motion};
 use crate::system::Idealisation;
-use signorini_geometry::element::by_name;
+use signorini_geometry::element::{Element, by_name};
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::surface::{Analytical, Mount, Plane};
 use signorini_geometry::tensor::Vec3;
@@ -59,46 +60,98 @@ fn floor() -> PrimaryPart {
 
 /// A square on another, with this contact between them.
 fn assembled(part: &ContactPart) -> Result<(), ModelError> {
-    let mut mesh = Mesh::default();
-    let quad = by_name("quad4").unwrap();
-    let mut cells = Vec::new();
-    for below in [-1.0, 0.0] {
-        let first = mesh.nnode() as NodeId;
-        for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
-            mesh.points.push(Vec3::new(x, below + y, 0.0));
-            mesh.node_labels.push(mesh.points.len() as u64);
-        }
-        let nodes = [first, first + 1, first + 2, first + 3];
-        cells.push(mesh.push_cell(quad, &nodes, cells.len() as u64 + 1));
+    let (mut mesh, low) = square_below();
+    let first = push_points(&mut mesh, SQUARE, 0.0);
+    let nodes = [first, first + 1, first + 2, first + 3];
+    let high = mesh.push_cell(by_name("quad4").unwrap(), &nodes, 2);
+    let bodies = vec![solid("low", low), solid("high", high)];
+    let held = vec![
+        hold(Target::Nodes(vec![0, 1])),
+        hold(Target::Nodes(vec![6, 7])),
+    ];
+    Model::assemble(Parts {
+        bodies,
+        contacts: vec![part.clone()],
+        steps: vec![step(held)],
+        ..Parts::new(&mesh, Idealisation::PlaneStrain { thickness: 1.0 })
+    })
+    .map(|_| ())
+}
+
+/// A rigid made-up triangle of degree 3 on a square, with this contact between them.
+fn cubic_on_square(part: &ContactPart) -> Result<(), ModelError> {
+    let (mut mesh, low) = square_below();
+    let triangle: Element = &Tri10;
+    let corners: Vec<(f64, f64)> = triangle.nodes().iter().map(|x| (x.x, x.y)).collect();
+    let first = push_points(&mut mesh, corners, 0.0);
+    let nodes: Vec<NodeId> = (first..).take(triangle.nnode()).collect();
+    let rigid = BodyPart {
+        name: "cubic".into(),
+        cells: vec![mesh.push_cell(triangle, &nodes, 2)],
+        kind: BodyKind::Rigid(0),
+    };
+    let carrier = CarrierPart {
+        name: "cubic".into(),
+        at: None,
+    };
+    Model::assemble(Parts {
+        bodies: vec![solid("low", low), rigid],
+        carriers: vec![carrier],
+        contacts: vec![part.clone()],
+        steps: vec![step(vec![
+            hold(Target::Nodes(vec![0, 1])),
+            hold(Target::Rigid(0)),
+        ])],
+        ..Parts::new(&mesh, Idealisation::PlaneStrain { thickness: 1.0 })
+    })
+    .map(|_| ())
+}
+
+const SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+
+fn push_points(
+    mesh: &mut Mesh,
+    points: impl IntoIterator<Item = (f64, f64)>,
+    above: f64,
+) -> NodeId {
+    let first = mesh.nnode() as NodeId;
+    for (x, y) in points {
+        mesh.points.push(Vec3::new(x, above + y, 0.0));
+        mesh.node_labels.push(mesh.points.len() as u64);
     }
-    let body = |name: &str, k: usize| BodyPart {
+    first
+}
+
+fn square_below() -> (Mesh, CellId) {
+    let mut mesh = Mesh::default();
+    push_points(&mut mesh, SQUARE, -1.0);
+    let cell = mesh.push_cell(by_name("quad4").unwrap(), &[0, 1, 2, 3], 1);
+    (mesh, cell)
+}
+
+fn solid(name: &str, cell: CellId) -> BodyPart {
+    BodyPart {
         name: name.into(),
-        cells: vec![cells[k]],
+        cells: vec![cell],
         kind: BodyKind::solid(Box::new(NeoHookean::new(1000.0, 0.3))),
-    };
-    let hold = |nodes: Vec<NodeId>| {
-        Change::Prescribe(
-            Target::Nodes(nodes),
-            vec![(0, Motion::Hold), (1, Motion::Hold)],
-        )
-    };
-    let step = StepPart {
+    }
+}
+
+fn hold(target: Target) -> Change {
+    Change::Prescribe(target, vec![(0, Motion::Hold), (1, Motion::Hold)])
+}
+
+fn step(changes: Vec<Change>) -> StepPart {
+    StepPart {
         name: "step".into(),
         duration: 1.0,
         increments: Increments::Fixed(1),
         nonlinear: true,
-        changes: vec![hold(vec![0, 1]), hold(vec![6, 7])],
+        changes,
         loads: Vec::new(),
         contacts: Vec::new(),
         temperatures: Vec::new(),
-    };
-    let parts = Parts {
-        bodies: vec![body("low", 0), body("high", 1)],
-        contacts: vec![part.clone()],
-        steps: vec![step],
-        ..Parts::new(&mesh, Idealisation::PlaneStrain { thickness: 1.0 })
-    };
-    Model::assemble(parts).map(|_| ())
+    }
 }
 
 /// What is refused, the remedy, what provokes it, and what the remedy says.
@@ -190,5 +243,37 @@ fn choices_that_do_not_go_together_are_refused_with_one_that_does() {
         }
         mend(&mut part);
         assert_eq!(assembled(&part), Ok(()), "{words}");
+    }
+}
+
+#[test]
+fn facets_without_a_dual_basis_press_by_points_and_are_refused_by_mortar_by_name() {
+    let under = Face {
+        cell: CellId { block: 1, index: 0 },
+        side: 0,
+    };
+    let secondary = SidePart::Faces(vec![under]);
+    let mut part = ContactPart::new("touch", secondary, PrimaryPart::Faces(vec![face(0, 2)]));
+    part.enforcement = BY_PENALTY;
+    let all_points = Method::GaussPoint(PointRule {
+        kind: PointKind::Gauss,
+        points: None,
+        cut: true,
+    });
+    for method in [Method::Auto, BY_NODES, BY_POINTS, all_points] {
+        part.method = method;
+        assert_eq!(cubic_on_square(&part), Ok(()));
+    }
+    part.method = by_mortar();
+    let refused = cubic_on_square(&part).unwrap_err();
+    let expected = ModelError::NoDualBasis {
+        contact: "touch".into(),
+        element: "cubic line",
+        label: 2,
+    };
+    assert_eq!(refused, expected);
+    let words = refused.to_string();
+    for word in ["\"touch\"", "element 2", "cubic line", "dual basis"] {
+        assert!(words.contains(word), "{words}");
     }
 }
