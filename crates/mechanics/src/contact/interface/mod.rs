@@ -508,10 +508,12 @@ impl Interface {
     /// Makes the choices that hold while an iteration goes on; says whether they are others.
     fn settle(&mut self, at: &Placement, from_rest: bool) -> Result<bool, TermError> {
         let parts = &self.parts;
-        let discretization = parts.discretization.as_ref();
+        let Some(averaged) = parts.discretization.capabilities().averaged else {
+            return Ok(false);
+        };
         let (now, before) = (&mut self.now, &mut self.before);
         let anchors = self.history.anchors_mut();
-        let others = discretization.settle(&parts.pair, at, now, before, anchors, from_rest);
+        let others = averaged.settle(&parts.pair, at, now, before, anchors, from_rest);
         let others = others.map_err(|e| self.failed(&e))?;
         self.sees_others |= others;
         self.settled += u8::from(others);
@@ -547,7 +549,7 @@ impl Term for Interface {
         let rubs = self.phase().is_some_and(|p| p.friction.is_some());
         // multipliers that are tractions keep their form where there is no friction for a while
         let tractions = self.nmultiplier() > 1 && self.parts.bond.is_none();
-        if rubs || tractions || !self.parts.discretization.is_symmetric() {
+        if rubs || tractions || !self.parts.discretization.capabilities().is_symmetric {
             Symmetry::Unsymmetric
         } else if self.nmultiplier() > 0 {
             Symmetry::Symmetric
@@ -578,9 +580,10 @@ impl Term for Interface {
             self.parts.pair.start.clear();
             self.parts.pair.start.extend_from_slice(at.x);
         }
-        let renews = self.parts.discretization.renews() | self.support()?;
+        let supported = self.support()?;
+        let of = self.parts.discretization.capabilities();
+        let (renews, many) = (of.renews() | supported, of.averaged.is_some());
         let first = !self.started;
-        let many = self.parts.discretization.meets_many();
         if first {
             self.search(&at).map_err(|e| self.failed(&e))?;
             self.started = true;

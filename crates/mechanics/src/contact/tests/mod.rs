@@ -1,6 +1,7 @@
 //! What contact promises, measured: rows against dual numbers, tangents against differences, whole interfaces against
 //! balance, energy and renumbering.
 
+mod capabilities;
 mod dual;
 mod held;
 mod interface;

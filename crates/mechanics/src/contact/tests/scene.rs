@@ -292,7 +292,7 @@ impl Scene {
                 let rule = |e| on_facet(e, &rule);
                 let mut inside = PointToSegment::inside(facets, rule);
                 inside.closest = closest;
-                let points = Discretization::inside(&inside).unwrap();
+                let points = inside.on_facets().unwrap();
                 area = areas_inside(facets, points, &x, &|_, _| 1.0).unwrap();
                 Box::new(inside)
             }
