@@ -1,9 +1,10 @@
 //! What discretizations promise beyond rows.
 
+use super::next_increment;
 use super::scene::{Choice, Kind, Method, Scene};
 use crate::contact::discretization::{Averaged, BentSides, Capabilities};
 use crate::contact::law::Penalty;
-use crate::system::{Order, Term};
+use crate::system::{Adaptive, Order, Term};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 
@@ -36,7 +37,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
         };
         let mut scene = Scene::new(kind, method, choice, 5);
         let start = scene.state.clone();
-        scene.interface.begin_increment(&start).unwrap();
+        scene.interface.begin(&next_increment(), &start).unwrap();
         scene.interface.prepare(&start, Order::Residual).unwrap();
         scene
     })

@@ -16,7 +16,7 @@ use super::{
 use crate::contact::discretization::{REACH, SlidingRange};
 use crate::contact::friction::{Coulomb, Falling, FrictionLaw, Stick, Tresca};
 use crate::contact::law::Scale;
-use crate::contact::{InterfaceParts, Measure, Phase};
+use crate::contact::{ContactPhase, InterfaceParts, Measure};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement};
 use std::sync::Arc;
@@ -45,9 +45,9 @@ pub(super) struct Steps<'a> {
 
 impl Steps<'_> {
     /// What becomes of a contact in each step.
-    fn phases(&self, contact: usize, part: &ContactPart, penalty: f64) -> Vec<Phase> {
+    fn phases(&self, contact: usize, part: &ContactPart, penalty: f64) -> Vec<ContactPhase> {
         let friction = |f: &Option<FrictionPart>| f.as_ref().map(|f| friction(f, penalty));
-        let mut now = Phase {
+        let mut now = ContactPhase {
             active: part.active,
             friction: friction(&part.friction),
         };
