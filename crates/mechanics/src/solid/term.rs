@@ -514,12 +514,13 @@ impl Solid {
             temperature_at_start: &temperature_at_start[of_lane(temperature_at_start, lane)],
             ..self.element(block, cell_of(lane), at)
         };
+        let lame = self.material().linearity().lame();
         let batch = Batch {
             reference: &block.points,
             is_finite: self.kinematics == Kinematics::Finite,
             x: &lanes.x,
             u: &lanes.u,
-            lame: self.material().lame().filter(|_| block.initial.is_empty()),
+            lame: lame.filter(|_| block.initial.is_empty()),
             cell: &cell,
         };
         let mut out = Results {
@@ -857,7 +858,7 @@ impl Term for Solid {
             Symmetry::Unsymmetric
         };
         let lifetime = match (self.kinematics, &self.temperature) {
-            (Kinematics::Small, _) if !self.material().is_linear() => Lifetime::State,
+            (Kinematics::Small, _) if !self.material().linearity().is_linear() => Lifetime::State,
             (Kinematics::Small, Some(_)) => Lifetime::Increment,
             (Kinematics::Small, None) => Lifetime::Step,
             (Kinematics::Finite, _) => Lifetime::State,
