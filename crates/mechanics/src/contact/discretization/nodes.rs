@@ -215,6 +215,10 @@ impl ContactSurface for Nowhere {
         &[]
     }
 
+    fn crossing(&self, _: &Placement, _: u32, _: Vec3, _: Vec3) -> Option<f64> {
+        None
+    }
+
     fn outward(&self, _: &Placement, found: &Projection) -> Result<Outward, SurfaceError> {
         Err(SurfaceError::NoSuchFacet {
             facet: found.anchor.facet,
