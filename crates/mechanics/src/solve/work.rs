@@ -110,4 +110,10 @@ impl Sink for Loads {
             }
         }
     }
+
+    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], _: &[f64], _: usize) {
+        self.add(dofs, force, &[]);
+    }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }

@@ -149,6 +149,8 @@ impl Sink for Taken {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 fn elastic() -> Box<dyn Material> {

@@ -129,4 +129,10 @@ impl Sink for Forces {
         self.0
             .extend(dofs.iter().copied().zip(force.iter().copied()));
     }
+
+    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], _: &[f64], _: usize) {
+        self.add(dofs, force, &[]);
+    }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }

@@ -242,7 +242,7 @@ pub trait Sink {
 
     /// Says that forces at these dofs are uncertain by `error` through rounding: a stiff law amplifies the rounding of
     /// positions far beyond that of the forces themselves.
-    fn uncertain(&mut self, _dofs: &[Dof], _error: f64) {}
+    fn uncertain(&mut self, dofs: &[Dof], error: f64);
 }
 
 /// Scratch memory of one thread: each kind of term finds its own there, as it left it.

@@ -203,6 +203,8 @@ impl Sink for Response {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -603,6 +603,8 @@ impl Sink for Whole {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 /// A dense pattern.

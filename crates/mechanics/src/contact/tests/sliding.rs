@@ -47,6 +47,8 @@ impl Sink for Forces {
             self.0[dof as usize] += f;
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 impl Slider {

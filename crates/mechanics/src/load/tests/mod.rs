@@ -187,6 +187,8 @@ impl Sink for Dense<'_> {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 fn response(term: &dyn Term, layout: &Layout, state: &State) -> Response {

@@ -201,6 +201,8 @@ impl Sink for Dense {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 impl Dense {
