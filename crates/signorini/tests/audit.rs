@@ -11,7 +11,9 @@ use common::{model, repository};
 use serde_json::Value;
 use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::audit::viscous;
-use signorini_mechanics::system::{Check, ContactAudit, Frame, Measured, Status, StepContext};
+use signorini_mechanics::system::{
+    Check, ContactAudit, Frame, Measured, Phase, Status, StepContext,
+};
 
 /// A recorded state, audited.
 struct Judged {
@@ -76,7 +78,7 @@ fn judged(name: &str, change: impl FnOnce(&mut Frame)) -> Judged {
     frame.displacement = displacement;
     frame.reaction_force = vectors(&stored["reaction"]);
     for term in &mut system.terms {
-        term.begin_step(&step, &state).unwrap();
+        term.begin(&Phase::of_step(step), &state).unwrap();
         term.report(&state, &mut frame).unwrap();
     }
     let contact = &mut frame.contacts[0];

@@ -321,6 +321,10 @@ impl ContactSurface for Analytical {
         &[]
     }
 
+    fn crossing(&self, _: &Placement, _: u32, _: Vec3, _: Vec3) -> Option<f64> {
+        None
+    }
+
     fn outward(&self, at: &Placement, found: &Projection) -> Result<Outward, SurfaceError> {
         let normal = self.shape.patch(found.anchor.local)?.normal;
         Ok(Outward {

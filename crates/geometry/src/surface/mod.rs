@@ -296,14 +296,6 @@ pub trait ContactSurface: Send + Sync {
     }
 
     /// The smallest `s ≥ 0` at which the line `origin + s direction` crosses a facet; `None` where it does not, and on
-    /// surfaces that have no facets.
-    fn crossing(
-        &self,
-        _at: &Placement,
-        _facet: u32,
-        _origin: Vec3,
-        _direction: Vec3,
-    ) -> Option<f64> {
-        None
-    }
+    /// surfaces that are not made of facets of elements.
+    fn crossing(&self, at: &Placement, facet: u32, origin: Vec3, direction: Vec3) -> Option<f64>;
 }

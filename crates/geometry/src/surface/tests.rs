@@ -486,6 +486,10 @@ impl ContactSurface for Counted<'_> {
         self.0.neighbours(facet)
     }
 
+    fn crossing(&self, at: &Placement, facet: u32, origin: Vec3, direction: Vec3) -> Option<f64> {
+        self.0.crossing(at, facet, origin, direction)
+    }
+
     fn outward(&self, at: &Placement, found: &Projection) -> Result<Outward, SurfaceError> {
         self.0.outward(at, found)
     }

@@ -144,6 +144,10 @@ impl ContactSurface for Triangulated {
         self.facets.neighbours(facet)
     }
 
+    fn crossing(&self, _: &Placement, _: u32, _: Vec3, _: Vec3) -> Option<f64> {
+        None
+    }
+
     fn outward(&self, at: &Placement, found: &Projection) -> Result<Outward, SurfaceError> {
         let outward = self.facets.outward(&self.initial(), found)?;
         Ok(Outward {

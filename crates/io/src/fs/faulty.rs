@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{Action, Fs, FsError, Lock, Log};
+use super::{Action, Fs, FsError, Lock, Log, replace};
 
 /// What a wrapped operation is to do.
 enum Verdict {
@@ -239,6 +239,14 @@ impl<F: Fs, P: Plan> Fs for Faulty<F, P> {
     fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
         self.inner.is_locked(path)
     }
+
+    fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
+        replace(self, path, bytes)
+    }
+
+    fn settle(&self) -> Result<(), FsError> {
+        self.inner.settle()
+    }
 }
 
 /// A log on a faulty disk.
@@ -263,6 +271,10 @@ impl<P: Plan> Log for FaultyLog<P> {
 
     fn sync(&mut self) -> Result<(), FsError> {
         judged(self.plan.judge(0), &self.path, &[], |_| self.inner.sync())
+    }
+
+    fn append_owned(&mut self, bytes: Vec<u8>) -> Result<(), FsError> {
+        self.append(&bytes)
     }
 }
 

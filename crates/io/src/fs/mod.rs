@@ -17,7 +17,8 @@
 //!
 //! Limits: on systems whose folders cannot be synchronized (Windows) step 3 does nothing.
 //!
-//! One more: implement [`Fs`] in a file of its own; the methods without a body are the single steps in which a disk can fail.
+//! One more: implement [`Fs`] in a file of its own; its methods are the single steps in which a disk can fail, and
+//! [`Fs::write_atomic`], which `replace` makes of them.
 
 mod behind;
 pub(crate) mod bytes;
@@ -77,27 +78,13 @@ pub trait Fs: Send + Sync {
     /// Replaces a file as a whole: readers see the old content or the new one, also after a power cut.
     ///
     /// After an error the old content is still there, or the new one if only the last step failed.
-    fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
-        let draft = draft_of(path);
-        let written = self
-            .write(&draft, bytes)
-            .and_then(|()| self.rename(&draft, path));
-        if let Err(error) = written {
-            // The draft is of no use; where it cannot be removed either, the next write replaces it.
-            let _ = self.remove(&draft);
-            return Err(error.while_writing(path, bytes.len()));
-        }
-        self.sync_dir(folder_of(path))
-            .map_err(|error| error.while_writing(path, bytes.len()))
-    }
+    fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError>;
 
     /// Waits until all that was asked for is done, where it is not done at once.
     ///
     /// # Errors
     /// The first failure that has not been reported.
-    fn settle(&self) -> Result<(), FsError> {
-        Ok(())
-    }
+    fn settle(&self) -> Result<(), FsError>;
 }
 
 /// A file that grows by whole rows.
@@ -112,9 +99,7 @@ pub trait Log: Send {
     ///
     /// # Errors
     /// As there.
-    fn append_owned(&mut self, bytes: Vec<u8>) -> Result<(), FsError> {
-        self.append(&bytes)
-    }
+    fn append_owned(&mut self, bytes: Vec<u8>) -> Result<(), FsError>;
 
     /// Cuts the file back to its first `keep` bytes.
     fn cut(&mut self, keep: u64) -> Result<(), FsError>;
@@ -128,6 +113,21 @@ pub trait Log: Send {
 pub struct Lock {
     /// Keeps the lock: the system releases it with the last handle.
     _file: std::fs::File,
+}
+
+/// [`Fs::write_atomic`] by the single steps of a file system.
+fn replace(fs: &dyn Fs, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
+    let draft = draft_of(path);
+    let written = fs
+        .write(&draft, bytes)
+        .and_then(|()| fs.rename(&draft, path));
+    if let Err(error) = written {
+        // The draft is of no use; where it cannot be removed either, the next write replaces it.
+        let _ = fs.remove(&draft);
+        return Err(error.while_writing(path, bytes.len()));
+    }
+    fs.sync_dir(folder_of(path))
+        .map_err(|error| error.while_writing(path, bytes.len()))
 }
 
 /// The name under which a file is written before it gets its own: `FILE.tmp`, in the same folder.

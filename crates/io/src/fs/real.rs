@@ -5,7 +5,7 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::{Action, Fs, FsError, Lock, Log, folder_of};
+use super::{Action, Fs, FsError, Lock, Log, folder_of, replace};
 
 /// The file system of this machine.
 #[derive(Clone, Copy, Debug, Default)]
@@ -126,6 +126,14 @@ impl Fs for RealFs {
             Err(TryLockError::Error(e)) => Err(FsError::new(Action::Lock, path, e)),
         }
     }
+
+    fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
+        replace(self, path, bytes)
+    }
+
+    fn settle(&self) -> Result<(), FsError> {
+        Ok(())
+    }
 }
 
 /// How often a lock is tried, and the pause between: [`Fs::is_locked`] holds it for microseconds.
@@ -177,6 +185,10 @@ impl Log for RealLog {
         self.file
             .sync_data()
             .map_err(|e| FsError::new(Action::Write, &self.path, e))
+    }
+
+    fn append_owned(&mut self, bytes: Vec<u8>) -> Result<(), FsError> {
+        self.append(&bytes)
     }
 }
 

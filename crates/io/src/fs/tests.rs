@@ -343,6 +343,14 @@ impl Fs for Panicking {
     fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
         RealFs.is_locked(path)
     }
+
+    fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
+        replace(self, path, bytes)
+    }
+
+    fn settle(&self) -> Result<(), FsError> {
+        Ok(())
+    }
 }
 
 #[test]

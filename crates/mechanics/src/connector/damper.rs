@@ -1,8 +1,9 @@
 //! What holds a body that nothing but contact stops, until contact does; and what slows a jump.
 
 use crate::system::{
-    Aid, Archive, ArchiveError, Dof, Frame, Order, Part, PatternSink, Sink, State, Symmetry, Term,
-    TermError, Verdict, Work,
+    Adaptive, Aid, Archive, ArchiveError, Capabilities, Choices, Dof, Frame, Order, Part,
+    PatternSink, Phase, Properties, Role, Sink, State, Stored, Symmetry, Term, TermError, Verdict,
+    Viscous, Work,
 };
 
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
@@ -51,7 +52,7 @@ enum Strength {
         /// The factor on them: above one after an iteration with them has failed.
         boost: f64,
     },
-    /// As [`Term::damp`] says.
+    /// As [`Viscous::damp`] says.
     Asked(f64),
 }
 
@@ -162,6 +163,10 @@ impl Term for Damper {
         &self.name
     }
 
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Definite, Part::Interface).with_role(Role::Support)
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         if matches!(self.strength, Strength::Asked(0.0)) {
             return;
@@ -171,15 +176,10 @@ impl Term for Damper {
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Definite
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
+    fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
+        if phase.increment.is_none() {
+            return Ok(());
+        }
         (self.renewed_at, self.renewals) = (f64::INFINITY, 0);
         (self.weakened, self.work_before) = (1.0, 0.0);
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
@@ -187,14 +187,6 @@ impl Term for Damper {
             *start = value(from, dof) + drift.unwrap_or_default();
         }
         Ok(())
-    }
-
-    fn prepare(&mut self, _: &State, _: Order) -> Result<bool, TermError> {
-        Ok(std::mem::take(&mut self.changed))
-    }
-
-    fn is_outside(&self) -> bool {
-        true
     }
 
     fn nchunk(&self) -> usize {
@@ -227,8 +219,34 @@ impl Term for Damper {
         Ok(Some(self.chunk(chunk).map(energy).sum()))
     }
 
-    fn set_negligible(&mut self, force: f64) {
-        self.negligible = force;
+    fn report(&self, _: &State, frame: &mut Frame) -> Result<(), TermError> {
+        frame.work_stabilization += self.work;
+        if matches!(self.strength, Strength::Asked(_)) {
+            frame.work_jumps += self.work;
+        }
+        Ok(())
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            stored: Some(self),
+            viscous: Some(self),
+            ..Capabilities::default()
+        }
+    }
+
+    fn adaptive(&mut self) -> Option<&mut dyn Adaptive> {
+        Some(self)
+    }
+
+    fn stored(&mut self) -> Option<&mut dyn Stored> {
+        Some(self)
+    }
+}
+
+impl Adaptive for Damper {
+    fn prepare(&mut self, _: &State, _: Order) -> Result<bool, TermError> {
+        Ok(std::mem::take(&mut self.changed))
     }
 
     fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
@@ -269,6 +287,20 @@ impl Term for Damper {
         }
     }
 
+    fn set_negligible(&mut self, force: f64) {
+        self.negligible = force;
+    }
+
+    fn choices(&mut self) -> Option<&mut dyn Choices> {
+        None
+    }
+
+    fn viscous(&mut self) -> Option<&mut dyn Viscous> {
+        Some(self)
+    }
+}
+
+impl Viscous for Damper {
     fn damp(&mut self, asked: f64, drift: &[f64]) -> bool {
         let Strength::Asked(strength) = &mut self.strength else {
             return false;
@@ -280,10 +312,12 @@ impl Term for Damper {
         true
     }
 
-    fn work_stabilization(&self) -> f64 {
+    fn work(&self) -> f64 {
         self.work
     }
+}
 
+impl Stored for Damper {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.work += self.work_before + self.spent(state);
         if let Strength::UntilHeld { needed, boost, .. } = &mut self.strength {
@@ -305,14 +339,6 @@ impl Term for Damper {
         if let Strength::UntilHeld { acts, needed, .. } = &mut self.strength {
             *acts = stored[1] != 0.0;
             *needed = false;
-        }
-        Ok(())
-    }
-
-    fn report(&self, _: &State, frame: &mut Frame) -> Result<(), TermError> {
-        frame.work_stabilization += self.work;
-        if matches!(self.strength, Strength::Asked(_)) {
-            frame.work_jumps += self.work;
         }
         Ok(())
     }

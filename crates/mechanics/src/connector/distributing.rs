@@ -1,7 +1,7 @@
 use super::{CHUNK, ConnectorError, ROUNDING, value};
 use crate::system::{
-    Dof, Idealisation, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, StepContext,
-    Symmetry, Term, TermError, Work,
+    Dof, Idealisation, Layout, NO_DOF, Order, Part, PatternSink, Phase, Properties, Role, Sink,
+    State, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
@@ -327,6 +327,10 @@ impl Term for Distributing {
         &self.name
     }
 
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Symmetric, Part::Interface).with_role(Role::Support)
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         out.interface(&self.carrier_dofs());
         for arm in &self.arms {
@@ -334,21 +338,9 @@ impl Term for Distributing {
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.nonlinear = step.nonlinear;
+    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+        self.nonlinear = phase.step.nonlinear;
         Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
     }
 
     fn nchunk(&self) -> usize {

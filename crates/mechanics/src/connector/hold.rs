@@ -1,6 +1,7 @@
 use super::{CHUNK, value};
 use crate::system::{
-    Dof, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    Dof, Order, Part, PatternSink, Phase, Properties, Role, Sink, State, Symmetry, Term, TermError,
+    Work,
 };
 use signorini_geometry::mesh::NodeId;
 
@@ -30,27 +31,19 @@ impl<C: Constraints> Term for C {
         Constraints::name(self)
     }
 
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Symmetric, Part::Interface).with_role(Role::Support)
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         for k in 0..self.count() {
             self.couple(k, out);
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.set_nonlinear(step.nonlinear);
+    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+        self.set_nonlinear(phase.step.nonlinear);
         Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
     }
 
     fn nchunk(&self) -> usize {

@@ -1,7 +1,7 @@
 use super::{CHUNK, ConnectorError};
 use crate::system::{
-    Dof, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term, TermError,
-    Work,
+    Dof, Layout, Order, Part, PatternSink, Phase, Properties, Sink, State, Symmetry, Term,
+    TermError, Work,
 };
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
@@ -217,22 +217,18 @@ impl Term for Springs {
         &self.name
     }
 
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Definite, Part::Interface)
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         for spring in &self.springs {
             out.interface(&self.dofs(spring));
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Definite
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.nonlinear = step.nonlinear;
+    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+        self.nonlinear = phase.step.nonlinear;
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::system::{
-    Assembler, Assembly, Elimination, Idealisation, Layout, Order, Relation, RigidBody,
+    Assembler, Assembly, Elimination, Idealisation, Layout, Order, Phase, Relation, RigidBody,
     StepContext, Term,
 };
 use signorini_geometry::mesh::NodeId;
@@ -177,7 +177,7 @@ impl Scene {
             nonlinear,
             ..StepContext::default()
         };
-        term.begin_step(&step, &state).unwrap();
+        term.begin(&Phase::of_step(step), &state).unwrap();
         let mut scene = Self {
             layout,
             reference,

@@ -88,7 +88,7 @@ mod row;
 pub(crate) mod tests;
 
 pub use interface::{
-    Allowance, Areas, Bend, Interface, InterfaceParts, Measure, Phase, Shift, closest_points,
-    nmultiplier,
+    Allowance, Areas, Bend, ContactPhase, Interface, InterfaceParts, Measure, Shift,
+    closest_points, nmultiplier,
 };
 pub use row::{Participant, Row, RowOrder, Rows, Wanted};

@@ -4,6 +4,7 @@ use crate::system::{Dof, Layout, Work};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
+use std::ops::Range;
 
 /// Who takes part in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,8 +33,8 @@ pub struct Rows {
     ncolumn: usize,
     rows: Vec<Row>,
     nrow: usize,
-    /// How many participants are of the secondary side, where these come first.
-    pub(super) nsecondary: usize,
+    /// The participants of the secondary side.
+    secondary: Range<usize>,
     /// What those who fill rows keep from one to the next.
     pub(super) scratch: Work,
 }
@@ -179,6 +180,18 @@ impl Rows {
         self.participants.extend(participants);
         self.ncolumn = self.participants.iter().map(|p| p.ncolumn()).sum();
         self.nrow = 0;
+        self.secondary = 0..0;
+    }
+
+    /// Sets which participants are those of the secondary side.
+    pub fn set_secondary(&mut self, places: Range<usize>) {
+        self.secondary = places;
+    }
+
+    /// The places of the secondary side among the participants.
+    #[must_use]
+    pub fn secondary(&self) -> Range<usize> {
+        self.secondary.clone()
     }
 
     /// Who takes part, in the order of the columns.

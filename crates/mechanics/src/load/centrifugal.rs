@@ -2,8 +2,8 @@ use super::course::Clock;
 use super::local::{Local, gather};
 use super::{Region, Schedule};
 use crate::system::{
-    Frame, Lasts, Layout, Order, Part, PatternSink, Sink, SpinFrame, State, StepContext, Symmetry,
-    Term, TermError, Work,
+    Frame, Layout, Lifetime, Order, Part, PatternSink, Phase, Properties, Role, Sink, SpinFrame,
+    State, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::{Mat3, Vec3};
@@ -121,35 +121,22 @@ impl Term for Centrifugal {
         &self.name
     }
 
+    fn properties(&self) -> Properties {
+        Properties {
+            lifetime: Lifetime::Increment,
+            ..Properties::new(Symmetry::Definite, Part::Bulk).with_role(Role::Load)
+        }
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         for (_, nodes, _) in self.cells.pieces() {
             out.bulk(nodes);
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Definite
-    }
-
-    fn part(&self) -> Part {
-        Part::Bulk
-    }
-
-    fn stiffness_lasts(&self) -> Lasts {
-        Lasts::Increment
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.clock.begin_step(step);
+    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+        self.clock.begin_step(&phase.step);
         Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
-    }
-
-    fn is_load(&self) -> bool {
-        true
     }
 
     fn nchunk(&self) -> usize {

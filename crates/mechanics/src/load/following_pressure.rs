@@ -2,8 +2,8 @@ use super::course::Clock;
 use super::local::Local;
 use super::{Region, Schedule};
 use crate::system::{
-    Idealisation, Lasts, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry,
-    Term, TermError, Work,
+    Idealisation, Layout, Lifetime, Order, Part, PatternSink, Phase, Properties, Role, Sink, State,
+    Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::f64::consts::TAU;
@@ -91,43 +91,27 @@ impl Term for FollowingPressure {
         &self.name
     }
 
+    fn properties(&self) -> Properties {
+        let (symmetry, lifetime) = if self.follows() {
+            (Symmetry::Unsymmetric, Lifetime::State)
+        } else {
+            (Symmetry::Definite, Lifetime::Step)
+        };
+        Properties {
+            lifetime,
+            ..Properties::new(symmetry, Part::Bulk).with_role(Role::Load)
+        }
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         for (_, nodes, _) in self.faces.pieces() {
             out.bulk(nodes);
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        if self.follows() {
-            Symmetry::Unsymmetric
-        } else {
-            Symmetry::Definite
-        }
-    }
-
-    fn part(&self) -> Part {
-        Part::Bulk
-    }
-
-    fn stiffness_lasts(&self) -> Lasts {
-        if self.follows() {
-            Lasts::State
-        } else {
-            Lasts::Step
-        }
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.clock.begin_step(step);
+    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+        self.clock.begin_step(&phase.step);
         Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
-    }
-
-    fn is_load(&self) -> bool {
-        true
     }
 
     fn nchunk(&self) -> usize {

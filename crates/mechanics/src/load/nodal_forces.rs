@@ -1,8 +1,8 @@
 use super::Schedule;
 use super::course::Clock;
 use crate::system::{
-    Dof, Elimination, Layout, Order, Part, PatternSink, Sink, State, StepContext, Symmetry, Term,
-    TermError, Work,
+    Dof, Elimination, Layout, Order, Part, PatternSink, Phase, Properties, Role, Sink, State,
+    Symmetry, Term, TermError, Work,
 };
 
 /// Forces on unknowns that keep their direction: on nodes, or on carriers (forces and moments).
@@ -68,36 +68,25 @@ impl Term for NodalForces {
         &self.name
     }
 
+    fn properties(&self) -> Properties {
+        // where a carrier stands still, the forces on it balance a moment, and their stiffness is not symmetric
+        let symmetry = if self.swivels() {
+            Symmetry::Unsymmetric
+        } else {
+            Symmetry::Definite
+        };
+        Properties::new(symmetry, Part::Interface).with_role(Role::Load)
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         for force in self.forces.iter().filter(|f| f.follows) {
             out.interface(&[force.dof]);
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        // where a carrier stands still, the forces on it balance a moment, and their stiffness is not symmetric
-        if self.swivels() {
-            Symmetry::Unsymmetric
-        } else {
-            Symmetry::Definite
-        }
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.clock.begin_step(step);
+    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+        self.clock.begin_step(&phase.step);
         Ok(())
-    }
-
-    fn is_outside(&self) -> bool {
-        true
-    }
-
-    fn is_load(&self) -> bool {
-        true
     }
 
     fn nchunk(&self) -> usize {

@@ -1,4 +1,6 @@
-use super::{Constants, ConstantsError, Material, MaterialError, Order, Response, Strain};
+use super::{
+    Constants, ConstantsError, Linearity, Material, MaterialError, Order, Response, Strain,
+};
 use signorini_geometry::tensor::Sym3;
 
 /// Linear elasticity without any symmetry but that of its energy.
@@ -94,7 +96,7 @@ impl Material for Anisotropic {
         (0..3).map(|i| self.stiffness[i][i]).fold(0.0, f64::max)
     }
 
-    fn is_linear(&self) -> bool {
-        true
+    fn linearity(&self) -> Linearity {
+        Linearity::SmallStrain
     }
 }

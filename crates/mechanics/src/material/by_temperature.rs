@@ -1,4 +1,6 @@
-use super::{Constants, ConstantsError, Lame, Material, MaterialError, Order, Response, Strain};
+use super::{
+    Constants, ConstantsError, Lame, Linearity, Material, MaterialError, Order, Response, Strain,
+};
 
 /// Isotropic linear elasticity whose constants depend on temperature: the law of Saint Venant and Kirchhoff with Young's
 /// modulus and Poisson's ratio of the temperature at the point.
@@ -64,8 +66,8 @@ impl Material for ByTemperature {
     }
 
     /// At one temperature.
-    fn is_linear(&self) -> bool {
-        true
+    fn linearity(&self) -> Linearity {
+        Linearity::SmallStrain
     }
 }
 

@@ -1,5 +1,5 @@
 use super::by_temperature::interpolate;
-use super::{Kinematics, Material, MaterialError, Order, Response, Strain};
+use super::{Kinematics, Linearity, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::Sym3;
 
 /// A law with thermal expansion, the same in all directions.
@@ -130,8 +130,8 @@ impl Material for Expanding {
     }
 
     /// At one temperature.
-    fn is_linear(&self) -> bool {
-        self.inner.is_linear()
+    fn linearity(&self) -> Linearity {
+        self.inner.linearity().within()
     }
 
     fn mechanical_strain(&self, strain: &Strain) -> Sym3 {

@@ -150,6 +150,43 @@ pub enum MaterialError {
     },
 }
 
+/// Whether a law is linear, and how far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Linearity {
+    /// The tangent depends on the strain.
+    None,
+    /// Small strains have the same tangent everywhere: their stress is linear, but for a constant.
+    SmallStrain,
+    /// The law is `λ tr(ε) I + 2μ ε` at every strain and temperature, and nothing else.
+    Isotropic(Lame),
+}
+
+impl Linearity {
+    /// Whether small strains have the same tangent everywhere.
+    #[must_use]
+    pub fn is_linear(self) -> bool {
+        self != Self::None
+    }
+
+    /// Lamé's constants of a law that is nothing else.
+    #[must_use]
+    pub const fn lame(self) -> Option<Lame> {
+        match self {
+            Self::Isotropic(lame) => Some(lame),
+            Self::None | Self::SmallStrain => None,
+        }
+    }
+
+    /// That of a law around this one, which does more to strains.
+    #[must_use]
+    pub const fn within(self) -> Self {
+        match self {
+            Self::None => Self::None,
+            Self::SmallStrain | Self::Isotropic(_) => Self::SmallStrain,
+        }
+    }
+}
+
 /// A constitutive law with its constants.
 pub trait Material: Send + Sync {
     /// Numbers of history at a point.
@@ -189,14 +226,9 @@ pub trait Material: Send + Sync {
         true
     }
 
-    /// Whether small strains have the same tangent everywhere: their stress is linear, but for a constant.
-    fn is_linear(&self) -> bool {
-        false
-    }
-
-    /// Lamé's constants of a law that is `λ tr(ε) I + 2μ ε` at every strain and temperature, and nothing else.
-    fn lame(&self) -> Option<Lame> {
-        None
+    /// Whether it is linear, and how far.
+    fn linearity(&self) -> Linearity {
+        Linearity::None
     }
 
     /// The part of a strain that the law answers with stress: all of it, but for thermal expansion.

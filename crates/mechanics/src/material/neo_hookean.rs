@@ -1,4 +1,4 @@
-use super::{Kinematics, Lame, Material, MaterialError, Order, Response, Strain};
+use super::{Kinematics, Lame, Linearity, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::Sym3;
 
 /// The compressible neo-Hookean law with the energy `W = μ/2 (tr C − 3) − μ ln J + λ/2 (ln J)²`.
@@ -63,8 +63,8 @@ impl Material for NeoHookean {
         self.lame.lambda + 2.0 * self.lame.mu
     }
 
-    fn is_linear(&self) -> bool {
-        true
+    fn linearity(&self) -> Linearity {
+        Linearity::SmallStrain
     }
 }
 

@@ -1,5 +1,5 @@
 use super::frame::Frame;
-use super::{ConstantsError, Material, MaterialError, Order, Response, Strain};
+use super::{ConstantsError, Linearity, Material, MaterialError, Order, Response, Strain};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
 /// A law whose axes are not the global ones.
@@ -84,7 +84,7 @@ impl Material for Oriented {
         self.inner.plastic_strain(history)
     }
 
-    fn is_linear(&self) -> bool {
-        self.inner.is_linear()
+    fn linearity(&self) -> Linearity {
+        self.inner.linearity().within()
     }
 }

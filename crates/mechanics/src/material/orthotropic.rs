@@ -1,4 +1,6 @@
-use super::{Constants, ConstantsError, Material, MaterialError, Order, Response, Strain};
+use super::{
+    Constants, ConstantsError, Linearity, Material, MaterialError, Order, Response, Strain,
+};
 use signorini_geometry::tensor::Sym3;
 
 /// Linear elasticity with three planes of symmetry, those of the axes.
@@ -91,7 +93,7 @@ impl Material for Orthotropic {
         self.normal.xx().max(self.normal.yy()).max(self.normal.zz())
     }
 
-    fn is_linear(&self) -> bool {
-        true
+    fn linearity(&self) -> Linearity {
+        Linearity::SmallStrain
     }
 }

@@ -1,4 +1,4 @@
-use super::{Lame, Material, MaterialError, Order, Response, Strain};
+use super::{Lame, Linearity, Material, MaterialError, Order, Response, Strain};
 
 /// The law of Saint Venant and Kirchhoff, `S = λ tr(E) I + 2μ E`.
 ///
@@ -36,11 +36,7 @@ impl Material for SaintVenantKirchhoff {
         self.lame.lambda + 2.0 * self.lame.mu
     }
 
-    fn is_linear(&self) -> bool {
-        true
-    }
-
-    fn lame(&self) -> Option<Lame> {
-        Some(self.lame)
+    fn linearity(&self) -> Linearity {
+        Linearity::Isotropic(self.lame)
     }
 }

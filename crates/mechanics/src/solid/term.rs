@@ -8,8 +8,9 @@ use super::report;
 use super::{AtNodes, Integration, Locking};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Strain};
 use crate::system::{
-    Archive, ArchiveError, Dof, Frame, Idealisation, Lasts, Layout, NodalField, Order, Part,
-    PatternSink, PointSample, Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    Archive, ArchiveError, Capabilities, Dof, Elementwise, Frame, Idealisation, InitialStiffness,
+    Layout, Lifetime, NodalField, Order, Part, PatternSink, Phase, PointSample, Properties,
+    Sampled, Samples, Sink, State, StepContext, Stored, Symmetry, Term, TermError, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -513,12 +514,13 @@ impl Solid {
             temperature_at_start: &temperature_at_start[of_lane(temperature_at_start, lane)],
             ..self.element(block, cell_of(lane), at)
         };
+        let lame = self.material().linearity().lame();
         let batch = Batch {
             reference: &block.points,
             is_finite: self.kinematics == Kinematics::Finite,
             x: &lanes.x,
             u: &lanes.u,
-            lame: self.material().lame().filter(|_| block.initial.is_empty()),
+            lame: lame.filter(|_| block.initial.is_empty()),
             cell: &cell,
         };
         let mut out = Results {
@@ -847,6 +849,26 @@ impl Term for Solid {
         &self.name
     }
 
+    fn properties(&self) -> Properties {
+        let later = self.later.iter().map(|(_, material)| material);
+        let mut all = std::iter::once(&self.material).chain(later);
+        let symmetry = if all.all(|material| material.is_symmetric()) {
+            Symmetry::Definite
+        } else {
+            Symmetry::Unsymmetric
+        };
+        let lifetime = match (self.kinematics, &self.temperature) {
+            (Kinematics::Small, _) if !self.material().linearity().is_linear() => Lifetime::State,
+            (Kinematics::Small, Some(_)) => Lifetime::Increment,
+            (Kinematics::Small, None) => Lifetime::Step,
+            (Kinematics::Finite, _) => Lifetime::State,
+        };
+        Properties {
+            lifetime,
+            ..Properties::new(symmetry, Part::Bulk)
+        }
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         for block in &self.blocks {
             for cell in block.nodes.chunks_exact(block.nnode) {
@@ -855,31 +877,8 @@ impl Term for Solid {
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        let later = self.later.iter().map(|(_, material)| material);
-        let mut all = std::iter::once(&self.material).chain(later);
-        if all.all(|material| material.is_symmetric()) {
-            Symmetry::Definite
-        } else {
-            Symmetry::Unsymmetric
-        }
-    }
-
-    fn part(&self) -> Part {
-        Part::Bulk
-    }
-
-    fn stiffness_lasts(&self) -> Lasts {
-        match (self.kinematics, &self.temperature) {
-            (Kinematics::Small, _) if !self.material().is_linear() => Lasts::State,
-            (Kinematics::Small, Some(_)) => Lasts::Increment,
-            (Kinematics::Small, None) => Lasts::Step,
-            (Kinematics::Finite, _) => Lasts::State,
-        }
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        let kinematics = if step.nonlinear {
+    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+        let kinematics = if phase.step.nonlinear {
             Kinematics::Finite
         } else {
             Kinematics::Small
@@ -888,19 +887,12 @@ impl Term for Solid {
             message: e.to_string(),
         })?;
         self.kinematics = kinematics;
-        self.step = *step;
+        self.step = phase.step;
         Ok(())
     }
 
     fn nchunk(&self) -> usize {
         self.chunks.len()
-    }
-
-    fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId])) {
-        if let Some(&(number, first, last)) = self.chunks.get(chunk) {
-            let block = &self.blocks[number];
-            (first..last).for_each(|cell| take(block.nodes_of(cell)));
-        }
     }
 
     fn evaluate(
@@ -926,36 +918,6 @@ impl Term for Solid {
         })
     }
 
-    fn stiffness_at_start(
-        &self,
-        chunk: usize,
-        work: &mut Work,
-        out: &mut dyn Sink,
-    ) -> Result<(), TermError> {
-        let scratch = work.of::<Scratch>();
-        let wanted = Wanted::Stiffness;
-        self.each(chunk, At::Start, wanted, scratch, |_, _, _, s| {
-            self.hand(s, out);
-        })
-    }
-
-    fn start(&self) -> u64 {
-        2 * self.nchanged() as u64 + self.kinematics as u64
-    }
-
-    fn is_at_start(&self, trial: &State) -> bool {
-        let at = |&node: &NodeId| (0..self.layout.ndim).map(move |i| self.layout.node(node, i));
-        let is_undeformed = |block: &Cells| {
-            let mut displacements = block
-                .nodes
-                .iter()
-                .flat_map(at)
-                .map(|dof| trial.u[dof as usize]);
-            block.nhistory == 0 && displacements.all(|u| u == 0.0)
-        };
-        self.temperature.is_none() && self.blocks.iter().all(is_undeformed)
-    }
-
     fn energy(
         &self,
         chunk: usize,
@@ -970,6 +932,97 @@ impl Term for Solid {
         Ok(Some(total))
     }
 
+    fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        // points in parallel, nodes in the order of cells
+        let chunks: Vec<usize> = (0..self.chunks.len()).collect();
+        for wave in chunks.chunks(SAMPLED) {
+            let sample = |scratch: &mut Scratch, &chunk: &usize| {
+                let (at, mut samples) = (At::Trial(state), Vec::new());
+                self.each(chunk, at, Wanted::Samples, scratch, |_, _, _, s| {
+                    samples.extend_from_slice(&s.samples);
+                })?;
+                Ok(samples)
+            };
+            let sampled = wave.par_iter().map_init(Scratch::default, sample);
+            let sampled: Vec<Result<Vec<Sample>, TermError>> = sampled.collect();
+            for (&chunk, samples) in wave.iter().zip(sampled) {
+                let (number, first, last) = self.chunks[chunk];
+                let (block, samples) = (&self.blocks[number], samples?);
+                let npoint = block.points.rule.npoint();
+                for (cell, samples) in (first..last).zip(samples.chunks_exact(npoint)) {
+                    let (id, nodes) = (block.ids[cell], block.nodes_of(cell));
+                    report::add(frame, id, nodes, &block.extrapolation, samples);
+                }
+            }
+        }
+        if let Some(field) = &self.temperature {
+            frame.temperature.resize(frame.stress.len(), 0.0);
+            for &node in self.blocks.iter().flat_map(|b| &b.nodes) {
+                if let Some(to) = frame.temperature.get_mut(node as usize) {
+                    *to = field.at(&self.step, state.time, node);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            initial_stiffness: Some(self),
+            elementwise: Some(self),
+            stored: Some(self),
+            sampled: Some(self),
+            ..Capabilities::default()
+        }
+    }
+
+    fn stored(&mut self) -> Option<&mut dyn Stored> {
+        Some(self)
+    }
+}
+
+impl InitialStiffness for Solid {
+    fn id(&self) -> u64 {
+        2 * self.nchanged() as u64 + self.kinematics as u64
+    }
+
+    fn add_initial(
+        &self,
+        chunk: usize,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        let scratch = work.of::<Scratch>();
+        let wanted = Wanted::Stiffness;
+        self.each(chunk, At::Start, wanted, scratch, |_, _, _, s| {
+            self.hand(s, out);
+        })
+    }
+
+    fn is_initial(&self, trial: &State) -> bool {
+        let at = |&node: &NodeId| (0..self.layout.ndim).map(move |i| self.layout.node(node, i));
+        let is_undeformed = |block: &Cells| {
+            let mut displacements = block
+                .nodes
+                .iter()
+                .flat_map(at)
+                .map(|dof| trial.u[dof as usize]);
+            block.nhistory == 0 && displacements.all(|u| u == 0.0)
+        };
+        self.temperature.is_none() && self.blocks.iter().all(is_undeformed)
+    }
+}
+
+impl Elementwise for Solid {
+    fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId])) {
+        if let Some(&(number, first, last)) = self.chunks.get(chunk) {
+            let block = &self.blocks[number];
+            (first..last).for_each(|cell| take(block.nodes_of(cell)));
+        }
+    }
+}
+
+impl Stored for Solid {
     /// Evaluates once more, from the last accepted history: trial history is kept nowhere, so that evaluation is pure.
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         let next = |block: &Cells| -> Result<Vec<f64>, TermError> {
@@ -1019,7 +1072,9 @@ impl Term for Solid {
         }
         Ok(())
     }
+}
 
+impl Sampled for Solid {
     fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
         let mut scratch = Scratch::default();
         for block in &self.blocks {
@@ -1043,40 +1098,6 @@ impl Term for Solid {
                     volume: s.volume_at_start,
                 };
                 out.push(*id, block.points.rule, scratch.samples.iter().map(of_point));
-            }
-        }
-        Ok(())
-    }
-
-    fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
-        // points in parallel, nodes in the order of cells
-        let chunks: Vec<usize> = (0..self.chunks.len()).collect();
-        for wave in chunks.chunks(SAMPLED) {
-            let sample = |scratch: &mut Scratch, &chunk: &usize| {
-                let (at, mut samples) = (At::Trial(state), Vec::new());
-                self.each(chunk, at, Wanted::Samples, scratch, |_, _, _, s| {
-                    samples.extend_from_slice(&s.samples);
-                })?;
-                Ok(samples)
-            };
-            let sampled = wave.par_iter().map_init(Scratch::default, sample);
-            let sampled: Vec<Result<Vec<Sample>, TermError>> = sampled.collect();
-            for (&chunk, samples) in wave.iter().zip(sampled) {
-                let (number, first, last) = self.chunks[chunk];
-                let (block, samples) = (&self.blocks[number], samples?);
-                let npoint = block.points.rule.npoint();
-                for (cell, samples) in (first..last).zip(samples.chunks_exact(npoint)) {
-                    let (id, nodes) = (block.ids[cell], block.nodes_of(cell));
-                    report::add(frame, id, nodes, &block.extrapolation, samples);
-                }
-            }
-        }
-        if let Some(field) = &self.temperature {
-            frame.temperature.resize(frame.stress.len(), 0.0);
-            for &node in self.blocks.iter().flat_map(|b| &b.nodes) {
-                if let Some(to) = frame.temperature.get_mut(node as usize) {
-                    *to = field.at(&self.step, state.time, node);
-                }
             }
         }
         Ok(())

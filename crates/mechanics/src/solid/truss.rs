@@ -15,8 +15,9 @@ use super::at::At;
 use super::report;
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
 use crate::system::{
-    Archive, ArchiveError, Dof, Frame, Idealisation, Layout, NodalField, Order, Part, PatternSink,
-    PointSample, Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    Archive, ArchiveError, Capabilities, Dof, Frame, Idealisation, InitialStiffness, Layout,
+    NodalField, Order, Part, PatternSink, Phase, PointSample, Properties, Sampled, Samples, Sink,
+    State, StepContext, Stored, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
@@ -416,25 +417,21 @@ impl Term for Truss {
         &self.name
     }
 
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Definite, Part::Bulk)
+    }
+
     fn pattern(&self, out: &mut dyn PatternSink) {
         self.bars.iter().for_each(|bar| out.bulk(&bar.nodes));
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Definite
-    }
-
-    fn part(&self) -> Part {
-        Part::Bulk
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.kinematics = if step.nonlinear && !self.small {
+    fn begin(&mut self, phase: &Phase, _: &State) -> Result<(), TermError> {
+        self.kinematics = if phase.step.nonlinear && !self.small {
             Kinematics::Finite
         } else {
             Kinematics::Small
         };
-        self.step = *step;
+        self.step = phase.step;
         Ok(())
     }
 
@@ -453,15 +450,6 @@ impl Term for Truss {
         self.add(chunk, At::Trial(trial), order, work, out)
     }
 
-    fn stiffness_at_start(
-        &self,
-        chunk: usize,
-        work: &mut Work,
-        out: &mut dyn Sink,
-    ) -> Result<(), TermError> {
-        self.add(chunk, At::Start, Order::Tangent, work, out)
-    }
-
     fn energy(
         &self,
         chunk: usize,
@@ -475,41 +463,6 @@ impl Term for Truss {
             total += self.local(bar, at, order, &mut scratch.new)?.energy;
         }
         Ok(Some(total))
-    }
-
-    fn accept(&mut self, state: &State) -> Result<(), TermError> {
-        let mut next = Vec::with_capacity(self.history.len());
-        let (at, mut new) = (At::Trial(state), Vec::new());
-        for bar in &self.bars {
-            self.points(bar, at, MaterialOrder::Stress, &mut new, |_, _, _| {})?;
-            next.extend_from_slice(&new);
-        }
-        self.history = next;
-        Ok(())
-    }
-
-    fn save(&self, out: &mut Archive) {
-        out.put(self.archived(), &self.history);
-    }
-
-    fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
-        from.get(&self.archived(), &mut self.history)
-    }
-
-    fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
-        let at = At::Trial(state);
-        let (mut new, mut samples) = (Vec::new(), Vec::new());
-        let wanted = |bar: &&Bar| cells.binary_search(&bar.id).is_ok();
-        for bar in self.bars.iter().filter(wanted) {
-            let order = MaterialOrder::Stress;
-            self.points(bar, at, order, &mut new, |point, response, history| {
-                let number = samples.len();
-                let temperature = self.temperature(bar, number, at);
-                samples.push(self.point_sample(point, response, history, temperature));
-            })?;
-            out.push(bar.id, bar.element.full_rule(), samples.drain(..));
-        }
-        Ok(())
     }
 
     /// The axial stress and strain as tensors `σ t tᵀ`, cell by cell; nodes have none, for bars meet at angles.
@@ -528,6 +481,78 @@ impl Term for Truss {
                 mean.add(point.weight, self.stress(point, response), strain, plastic);
             })?;
             mean.put(frame, bar.id);
+        }
+        Ok(())
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            initial_stiffness: Some(self),
+            stored: Some(self),
+            sampled: Some(self),
+            ..Capabilities::default()
+        }
+    }
+
+    fn stored(&mut self) -> Option<&mut dyn Stored> {
+        Some(self)
+    }
+}
+
+impl InitialStiffness for Truss {
+    /// Undeformed bars have the same stiffness in all steps.
+    fn id(&self) -> u64 {
+        0
+    }
+
+    fn add_initial(
+        &self,
+        chunk: usize,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError> {
+        self.add(chunk, At::Start, Order::Tangent, work, out)
+    }
+
+    fn is_initial(&self, _: &State) -> bool {
+        false
+    }
+}
+
+impl Stored for Truss {
+    fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        let mut next = Vec::with_capacity(self.history.len());
+        let (at, mut new) = (At::Trial(state), Vec::new());
+        for bar in &self.bars {
+            self.points(bar, at, MaterialOrder::Stress, &mut new, |_, _, _| {})?;
+            next.extend_from_slice(&new);
+        }
+        self.history = next;
+        Ok(())
+    }
+
+    fn save(&self, out: &mut Archive) {
+        out.put(self.archived(), &self.history);
+    }
+
+    fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+        from.get(&self.archived(), &mut self.history)
+    }
+}
+
+impl Sampled for Truss {
+    fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
+        let at = At::Trial(state);
+        let (mut new, mut samples) = (Vec::new(), Vec::new());
+        let wanted = |bar: &&Bar| cells.binary_search(&bar.id).is_ok();
+        for bar in self.bars.iter().filter(wanted) {
+            let order = MaterialOrder::Stress;
+            self.points(bar, at, order, &mut new, |point, response, history| {
+                let number = samples.len();
+                let temperature = self.temperature(bar, number, at);
+                samples.push(self.point_sample(point, response, history, temperature));
+            })?;
+            out.push(bar.id, bar.element.full_rule(), samples.drain(..));
         }
         Ok(())
     }

@@ -168,7 +168,7 @@ impl Equations {
         let symmetry = system
             .terms
             .iter()
-            .map(|t| t.symmetry())
+            .map(|t| t.properties().symmetry)
             .max()
             .unwrap_or(Symmetry::Definite);
         let symmetry = symmetry.max(self.turning(system));

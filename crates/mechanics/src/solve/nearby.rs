@@ -10,7 +10,7 @@
 use super::Step;
 use super::event::{Event, IterationRecord, Observer};
 use super::newton::Goal;
-use super::stepping::{Accepted, Stepper, TIME, reject};
+use super::stepping::{Accepted, Stepper, TIME};
 use crate::system::{Aid, Archive, Dof, System, TermError};
 
 /// The first part of an increment, and by how much smaller parts are after one that failed.
@@ -75,7 +75,7 @@ impl Stepper {
     /// # Errors
     /// A term that cannot go back.
     pub(super) fn back(&mut self, system: &mut System, to: &Archive) -> Result<(), TermError> {
-        reject(system);
+        system.reject();
         let refused = |message: String| TermError::Refused { message };
         self.load(system, to).map_err(|e| refused(e.to_string()))?;
         if self.safer {
@@ -128,7 +128,7 @@ impl Stepper {
             // an equilibrium that is far away is a jump, which viscous forces take more gently
             let jumps = solved.is_ok() && self.is_far(nmotion, dt, &before);
             if jumps {
-                reject(system);
+                system.reject();
                 return None;
             }
             if let Ok(solved) = solved {
@@ -140,7 +140,7 @@ impl Stepper {
                 (reached, parts, safer) = (to, parts + 1, false);
                 continue;
             }
-            reject(system);
+            system.reject();
             // a failure from an extrapolated start says nothing about one from the last state
             if !self.newton.extrapolated {
                 safer = !safer && system.aid(Aid::Safer);

@@ -21,8 +21,8 @@
 
 use super::event::{Event, Observer};
 use super::newton::Goal;
-use super::stepping::{Accepted, Stepper, reject};
-use crate::system::{Archive, Dof, System, TermError};
+use super::stepping::{Accepted, Stepper};
+use crate::system::{Archive, Dof, System, TermError, Viscous};
 
 /// Viscosity below which the equilibrium is looked for without it.
 const FAINT: f64 = 1e-6;
@@ -110,7 +110,7 @@ impl Stepper {
                     observer.notice(&Event::Iteration(record))
                 });
             let Ok(solved) = solved else {
-                reject(system);
+                system.reject();
                 viscosity = viscosity.max(FAINT) * GROWTH;
                 patience = PATIENCE;
                 if viscosity > STIFF || self.newton.stopping {
@@ -138,7 +138,8 @@ impl Stepper {
 /// The work of viscous forces since the start of the run.
 pub(super) fn work_of(system: &System) -> f64 {
     let terms = system.terms.iter();
-    terms.map(|term| term.work_stabilization()).sum()
+    let viscous = terms.filter_map(|term| term.capabilities().viscous);
+    viscous.map(Viscous::work).sum()
 }
 
 /// Whether a term has viscous forces.
@@ -149,5 +150,6 @@ pub(super) fn has_brake(system: &mut System) -> bool {
 /// Asks all terms for viscous forces; says whether there are any.
 fn damp(system: &mut System, viscosity: f64, drift: &[f64]) -> bool {
     let terms = system.terms.iter_mut();
-    terms.fold(false, |any, term| any | term.damp(viscosity, drift))
+    let viscous = terms.filter_map(|term| term.adaptive()?.viscous());
+    viscous.fold(false, |any, term| any | term.damp(viscosity, drift))
 }

@@ -6,7 +6,8 @@ use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
 use super::stabilization;
 use super::work::ExternalWork;
 use crate::system::{
-    Aid, Archive, ArchiveError, Dof, Frame, State, StepContext, System, TermError, interpolate,
+    Aid, Archive, ArchiveError, Dof, Frame, Phase, State, StepContext, System, TermError,
+    interpolate,
 };
 use signorini_linear::{LinearKind, choose};
 use thiserror::Error;
@@ -231,9 +232,7 @@ impl Stepper {
         from: &Archive,
         make: impl FnOnce(&System) -> Self,
     ) -> Result<Self, ArchiveError> {
-        for term in &mut system.terms {
-            term.load(from)?;
-        }
+        system.load(from)?;
         let mut stepper = make(system);
         stepper.load(system, from)?;
         Ok(stepper)
@@ -326,9 +325,11 @@ impl Stepper {
             duration: step.duration,
             nonlinear: step.nonlinear,
         };
+        let phase = Phase::of_step(context);
         for term in &mut system.terms {
-            term.begin_step(&context, &self.state)?;
+            term.begin(&phase, &self.state)?;
         }
+        self.newton.step = context;
         self.newton.assembler.begin_step();
         let prescribed = &mut self.newton.prescribed;
         prescribed.clear();
@@ -338,7 +339,7 @@ impl Stepper {
                 *prescribed = true;
             }
         }
-        for term in &mut system.terms {
+        for term in system.choices_mut() {
             term.prescribe(prescribed);
         }
         self.newton.analyzed = false;
@@ -394,7 +395,7 @@ impl Stepper {
                     }
                     Err(failure) => failure,
                 };
-                reject(system);
+                system.reject();
                 if self.newton.stopping {
                     self.progress.easy = easy;
                     return Ok(Outcome::Stopped);
@@ -574,10 +575,7 @@ impl Stepper {
         let work = &mut self.progress.work;
         work.advance(system, &newton.prescribed, residual, states)?;
         self.state.clone_from(&self.newton.trial);
-        for term in &mut system.terms {
-            term.accept(&self.state)?;
-        }
-        Ok(())
+        system.accept(&self.state)
     }
 
     /// The step time at which an increment of about `dt` ends: on the grid where increments are fixed, and at the end of
@@ -685,9 +683,7 @@ impl Stepper {
         let experience = self.newton.equations.experience();
         out.put("progress.solver", &[f64::from(experience)]);
         p.work.save(out);
-        for term in &system.terms {
-            term.save(out);
-        }
+        system.save(out);
     }
 
     /// Takes a stored run back: what follows is, bit by bit, what would have followed.
@@ -721,9 +717,7 @@ impl Stepper {
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;
-        for term in &mut system.terms {
-            term.load(from)?;
-        }
+        system.load(from)?;
         self.newton.scale = ForceScale::from_array(scale);
         self.newton.analyzed = false;
         self.newton.coupled_more = true;
@@ -741,13 +735,6 @@ impl Stepper {
             work,
         };
         Ok(())
-    }
-}
-
-/// Takes all terms back to their accepted history.
-pub(super) fn reject(system: &mut System) {
-    for term in &mut system.terms {
-        term.reject();
     }
 }
 

@@ -1,6 +1,8 @@
 //! The work of external forces: of supports and loads.
 
-use crate::system::{Archive, ArchiveError, Dof, Order, Sink, State, System, TermError, Work};
+use crate::system::{
+    Archive, ArchiveError, Dof, Order, Role, Sink, State, System, TermError, Work,
+};
 
 /// Work that supports and loads have done since the start of a run.
 ///
@@ -36,7 +38,8 @@ impl ExternalWork {
         let ndof = system.layout.ndof();
         let mut loads = Loads(vec![0.0; ndof]);
         let mut work = Work::default();
-        for term in system.terms.iter().filter(|term| term.is_load()) {
+        let terms = system.terms.iter();
+        for term in terms.filter(|term| term.properties().role == Role::Load) {
             for chunk in 0..term.nchunk() {
                 term.evaluate(chunk, to, Order::Residual, &mut work, &mut loads)?;
             }
@@ -107,4 +110,10 @@ impl Sink for Loads {
             }
         }
     }
+
+    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], _: &[f64], _: usize) {
+        self.add(dofs, force, &[]);
+    }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }

@@ -3,8 +3,8 @@
 use super::elimination::Expanded;
 use super::shares::{Share, divide, share_out};
 use super::{
-    Dof, Elimination, Lasts, Layout, NO_DOF, Order, Part, PatternSink, Sink, State, Term,
-    TermError, Work,
+    Dof, Elimination, InitialStiffness, Layout, Lifetime, NO_DOF, Order, Part, PatternSink, Sink,
+    State, Term, TermError, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
@@ -83,7 +83,7 @@ pub struct Assembler {
     slots: Vec<Slot>,
     expanded: Expanded,
     /// How long the stiffness of the bulk is the same.
-    lasts: Lasts,
+    lasts: Lifetime,
     /// Counts what it is the same in at most: steps, or increments.
     period: u64,
 }
@@ -286,7 +286,7 @@ impl Assembler {
             interface: cliques.of_interface(),
             slots: Vec::new(),
             expanded: Expanded::default(),
-            lasts: Lasts::State,
+            lasts: Lifetime::State,
             period: 0,
         };
         assembler.begin_increment(terms);
@@ -301,10 +301,11 @@ impl Assembler {
     /// Takes up the chunks of the terms, whose numbers may be others in each increment.
     pub fn begin_increment(&mut self, terms: &[Box<dyn Term>]) {
         self.take_up(terms);
-        let bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
-        let lasts = bulk.map(|term| term.stiffness_lasts()).min();
-        let before = std::mem::replace(&mut self.lasts, lasts.unwrap_or(Lasts::Step));
-        if self.lasts.min(before) < Lasts::Step {
+        let all = terms.iter().map(|term| term.properties());
+        let bulk = all.filter(|of| of.part == Part::Bulk);
+        let lasts = bulk.map(|of| of.lifetime).min();
+        let before = std::mem::replace(&mut self.lasts, lasts.unwrap_or(Lifetime::Step));
+        if self.lasts.min(before) < Lifetime::Step {
             self.period += 1;
         }
         let most = wave(Order::Residual).min(self.tasks.len());
@@ -317,7 +318,7 @@ impl Assembler {
         let mut count = vec![0; terms.len()];
         self.tasks.iter().for_each(|task| count[task.term] += 1);
         for (number, (term, count)) in terms.iter().zip(count).enumerate() {
-            let (nchunk, part) = (term.nchunk(), term.part());
+            let (nchunk, part) = (term.nchunk(), term.properties().part);
             if nchunk == count {
                 continue;
             }
@@ -362,8 +363,11 @@ impl Assembler {
             if task.part != Part::Bulk || !task.positions.is_empty() {
                 return;
             }
+            let Some(elementwise) = terms[task.term].capabilities().elementwise else {
+                return;
+            };
             let mut depends = false;
-            terms[task.term].elements(task.chunk, &mut |nodes| {
+            elementwise.elements(task.chunk, &mut |nodes| {
                 let mut dofs = nodes.iter().flat_map(|&node| {
                     let axes = 0..layout.ndim;
                     axes.map(move |axis| layout.node(node, axis))
@@ -383,7 +387,9 @@ impl Assembler {
         let ntask = self.tasks.partition_point(|task| task.is_known);
         let tasks = &self.tasks[..ntask];
         let elements = |at: usize, take: &mut dyn FnMut(&[NodeId])| {
-            terms[tasks[at].term].elements(tasks[at].chunk, take);
+            if let Some(term) = terms[tasks[at].term].capabilities().elementwise {
+                term.elements(tasks[at].chunk, take);
+            }
         };
         self.shared = Some(Shared {
             ntask,
@@ -614,23 +620,26 @@ impl Assembler {
     /// Whether the stiffness of the bulk is the same at all states of the increment.
     #[must_use]
     pub fn is_constant(&self) -> bool {
-        self.lasts > Lasts::State
+        self.lasts > Lifetime::State
     }
 
-    /// Which stiffness at the start of a run the bulk has in the present step.
+    /// Identifies the initial stiffness of the bulk in the present step. Equal ids mean equal stiffness.
     #[must_use]
     pub fn start(&self, terms: &[Box<dyn Term>]) -> u64 {
-        let bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
-        bulk.fold(0, |all, term| {
-            all.wrapping_mul(MIX).wrapping_add(term.start())
+        bulk(terms).fold(0, |all, term| {
+            let initial = term.capabilities().initial_stiffness;
+            let id = initial.map_or(0, InitialStiffness::id);
+            all.wrapping_mul(MIX).wrapping_add(id)
         })
     }
 
     /// Whether the stiffness of the bulk at a state is that at the start of a run.
     #[must_use]
     pub fn is_at_start(&self, terms: &[Box<dyn Term>], trial: &State) -> bool {
-        let mut bulk = terms.iter().filter(|term| term.part() == Part::Bulk);
-        bulk.all(|term| term.is_at_start(trial))
+        bulk(terms).all(|term| {
+            let initial = term.capabilities().initial_stiffness;
+            initial.is_some_and(|of| of.is_initial(trial))
+        })
     }
 
     /// The values of the bulk at the start of a run: undeformed, without history.
@@ -666,9 +675,13 @@ impl Assembler {
             order: Order::Tangent,
             shared: shared.as_ref(),
         };
-        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| match task.part {
-            Part::Bulk => terms[task.term].stiffness_at_start(task.chunk, work, buffer),
-            Part::Interface => Ok(()),
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
+            let of_bulk = task.part == Part::Bulk;
+            let initial = terms[task.term].capabilities().initial_stiffness;
+            match initial.filter(|_| of_bulk) {
+                Some(initial) => initial.add_initial(task.chunk, work, buffer),
+                None => Ok(()),
+            }
         };
         let size = wave(Order::Tangent);
         setting.run(evaluate, |_| size, tasks, slots, expanded, &mut out)?;
@@ -1158,6 +1171,12 @@ impl<'a> Strip<'a> {
             }
         }
     }
+}
+
+/// The terms of the bulk.
+fn bulk(terms: &[Box<dyn Term>]) -> impl Iterator<Item = &dyn Term> {
+    let all = terms.iter().map(AsRef::as_ref);
+    all.filter(|term| term.properties().part == Part::Bulk)
 }
 
 /// Where the blocks between nodes are in the bulk, row by row.

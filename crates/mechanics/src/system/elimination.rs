@@ -98,13 +98,15 @@ impl Expanded {
 /// Takes the terms of a dependent dof.
 trait Resolve {
     fn term(&mut self, dof: Dof, coefficient: f64);
-    fn turn(&mut self, _turn: Turn, _coefficient: f64) {}
+    fn turn(&mut self, turn: Turn, coefficient: f64);
 }
 
 impl<F: FnMut(Dof, f64)> Resolve for F {
     fn term(&mut self, dof: Dof, coefficient: f64) {
         self(dof, coefficient);
     }
+
+    fn turn(&mut self, _: Turn, _: f64) {}
 }
 
 /// Writes the row of a local dof.

@@ -34,11 +34,15 @@
 
 mod assembly;
 mod audited;
+mod capabilities;
+#[cfg(test)]
+mod conformance;
 mod course;
 mod elimination;
 mod frame;
 mod idealisation;
 mod layout;
+mod phase;
 mod samples;
 mod shares;
 mod state;
@@ -49,6 +53,10 @@ mod whole;
 
 pub use assembly::{Assembler, Assembly};
 pub use audited::{Check, ContactAudit, Measured};
+pub use capabilities::{
+    Adaptive, Audited, Capabilities, Choices, Elementwise, InitialStiffness, Sampled, Stored,
+    Viscous,
+};
 pub use course::{NodalField, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
@@ -57,12 +65,13 @@ pub use frame::{
 };
 pub use idealisation::Idealisation;
 pub use layout::{Dof, DofName, Layout, NO_DOF};
+pub use phase::{Increment, Phase, StepContext};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;
 pub use signorini_linear::Symmetry;
 pub use state::State;
 pub use term::{
-    Aid, Archive, ArchiveError, Lasts, Order, Part, PatternSink, Sink, StepContext, Term,
+    Aid, Archive, ArchiveError, Lifetime, Order, Part, PatternSink, Properties, Role, Sink, Term,
     TermError, Verdict, Work,
 };
 pub use whole::System;

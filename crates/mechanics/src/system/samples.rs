@@ -1,4 +1,4 @@
-use super::{Dof, DofName, Layout, Order, Sink, State, Term, TermError, Work};
+use super::{Dof, DofName, Layout, Order, Role, Sink, State, Term, TermError, Work};
 use rayon::prelude::*;
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::CellId;
@@ -72,7 +72,8 @@ impl Samples {
     ) -> Result<Self, TermError> {
         let mut samples = Self::default();
         if !cells.is_empty() {
-            for term in terms {
+            let sampled = terms.iter().filter_map(|term| term.capabilities().sampled);
+            for term in sampled {
                 term.sample(state, cells, &mut samples)?;
             }
             samples.cells.sort_unstable_by_key(|(cell, ..)| *cell);
@@ -91,7 +92,10 @@ pub(super) fn internal_forces(
     state: &State,
 ) -> Result<Vec<Vec3>, TermError> {
     let mut at_nodes = vec![Vec3::ZERO; layout.nnode];
-    for term in terms.iter().filter(|term| !term.is_outside()) {
+    let internal = terms
+        .iter()
+        .filter(|term| term.properties().role == Role::Internal);
+    for term in internal {
         let chunks: Vec<usize> = (0..term.nchunk()).collect();
         for wave in chunks.chunks(CHUNKS) {
             // chunks in parallel, nodes in their order
@@ -125,4 +129,10 @@ impl Sink for Forces {
         self.0
             .extend(dofs.iter().copied().zip(force.iter().copied()));
     }
+
+    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], _: &[f64], _: usize) {
+        self.add(dofs, force, &[]);
+    }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }

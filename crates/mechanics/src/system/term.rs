@@ -1,6 +1,6 @@
 use super::assembly::fill_up;
-use super::{ContactAudit, Dof, Frame, Samples, State, Symmetry};
-use signorini_geometry::mesh::{CellId, NodeId};
+use super::{Adaptive, Capabilities, Dof, Frame, Phase, State, Stored, Symmetry};
+use signorini_geometry::mesh::NodeId;
 use std::any::Any;
 use std::collections::BTreeMap;
 use thiserror::Error;
@@ -25,13 +25,59 @@ pub enum Part {
 
 /// How long a stiffness is the same, whatever the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Lasts {
+pub enum Lifetime {
     /// It depends on the state.
     State,
     /// Until the increment ends.
     Increment,
     /// Until the step ends.
     Step,
+}
+
+/// Where the forces of a term come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// From within bodies, and what lies between them.
+    Internal,
+    /// From outside: supports, guides, and what slows a motion down.
+    Support,
+    /// From outside: a load, which does work, as supports do.
+    Load,
+}
+
+/// What a term is, as far as solving needs to know.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Properties {
+    /// What its stiffness is at least.
+    pub symmetry: Symmetry,
+    /// Where its stiffness belongs.
+    pub part: Part,
+    /// How long its stiffness is the same, to the last bit, from the begin of a step or an increment on.
+    pub lifetime: Lifetime,
+    /// Where its forces come from.
+    pub role: Role,
+    /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
+    pub has_saddle: bool,
+}
+
+impl Properties {
+    /// Those of a term within the model whose stiffness depends on the state.
+    #[must_use]
+    pub const fn new(symmetry: Symmetry, part: Part) -> Self {
+        Self {
+            symmetry,
+            part,
+            lifetime: Lifetime::State,
+            role: Role::Internal,
+            has_saddle: false,
+        }
+    }
+
+    /// The same of a term with another role.
+    #[must_use]
+    pub const fn with_role(self, role: Role) -> Self {
+        Self { role, ..self }
+    }
 }
 
 /// What a term says after an iteration.
@@ -196,7 +242,7 @@ pub trait Sink {
 
     /// Says that forces at these dofs are uncertain by `error` through rounding: a stiff law amplifies the rounding of
     /// positions far beyond that of the forces themselves.
-    fn uncertain(&mut self, _dofs: &[Dof], _error: f64) {}
+    fn uncertain(&mut self, dofs: &[Dof], error: f64);
 }
 
 /// Scratch memory of one thread: each kind of term finds its own there, as it left it.
@@ -221,31 +267,6 @@ impl Work {
     }
 }
 
-/// The step a run is in, as terms see it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepContext {
-    /// Number of the step, from 0.
-    pub number: usize,
-    /// Total time at its start.
-    pub start: f64,
-    /// Its duration.
-    pub duration: f64,
-    /// Whether displacements may be large.
-    pub nonlinear: bool,
-}
-
-/// What a term is in before any step begins.
-impl Default for StepContext {
-    fn default() -> Self {
-        Self {
-            number: 0,
-            start: 0.0,
-            duration: 1.0,
-            nonlinear: true,
-        }
-    }
-}
-
 /// How terms help an iteration on: what they add for its sake has no part in the solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aid {
@@ -262,63 +283,26 @@ pub enum Aid {
 }
 
 /// A part of the model that exerts forces: solids, loads, contact interfaces. All that solving ever sees.
+///
+/// What only some terms can do are traits of their own: [`Capabilities`].
 pub trait Term: Send + Sync {
     /// What it is called in messages and files.
     fn name(&self) -> &str;
 
-    /// Which unknowns see each other. Asked again when [`Term::prepare`] says that it changed.
+    /// What it is, in the present step.
+    fn properties(&self) -> Properties;
+
+    /// Which unknowns see each other. Asked again when [`Adaptive::prepare`](super::Adaptive::prepare) says that it changed.
     fn pattern(&self, out: &mut dyn PatternSink);
 
-    /// A node of the point that a multiplier acts at; none where it is another term's, or acts at no point.
-    fn node_of(&self, _multiplier: usize) -> Option<NodeId> {
-        None
-    }
-
-    /// What its stiffness is at least.
-    fn symmetry(&self) -> Symmetry;
-
-    /// Where its stiffness belongs.
-    fn part(&self) -> Part;
-
-    /// How long its stiffness is the same, to the last bit, from the begin of a step or an increment on.
-    fn stiffness_lasts(&self) -> Lasts {
-        Lasts::State
-    }
-
-    /// A step begins at this accepted state.
+    /// A step begins at this accepted state, or an increment of it.
     ///
     /// # Errors
     /// What the term finds wrong with it.
-    fn begin_step(&mut self, _step: &StepContext, _from: &State) -> Result<(), TermError> {
-        Ok(())
-    }
+    fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError>;
 
-    /// These unknowns are prescribed during the step that begins, held or moved: a flag for each.
-    fn prescribe(&mut self, _prescribed: &[bool]) {}
-
-    /// An increment begins at this accepted state.
-    ///
-    /// # Errors
-    /// What the term finds wrong with it.
-    fn begin_increment(&mut self, _from: &State) -> Result<(), TermError> {
-        Ok(())
-    }
-
-    /// Once per iterate, before it is evaluated: search, pairing, status. Says whether the pattern changed. `next` is what
-    /// will probably be asked for there.
-    ///
-    /// # Errors
-    /// What the term finds wrong with the configuration.
-    fn prepare(&mut self, _trial: &State, _next: Order) -> Result<bool, TermError> {
-        Ok(false)
-    }
-
-    /// The number of chunks, independent of the number of threads; another one from [`Term::begin_increment`] on, at most.
+    /// The number of chunks, independent of the number of threads; another one from the begin of an increment on, at most.
     fn nchunk(&self) -> usize;
-
-    /// The nodes of each element of a chunk of the bulk, one after the other as [`Term::evaluate`] adds these, each with all
-    /// unknowns of its nodes; nothing where a term does not say.
-    fn elements(&self, _chunk: usize, _take: &mut dyn FnMut(&[NodeId])) {}
 
     /// Adds the forces and stiffness of one chunk. Pure: the same trial gives the same bits.
     ///
@@ -333,30 +317,6 @@ pub trait Term: Send + Sync {
         out: &mut dyn Sink,
     ) -> Result<(), TermError>;
 
-    /// Adds the stiffness of one chunk as it is at the start of a run, undeformed and without history: what a hierarchy of
-    /// levels may be made of, whatever has happened since. Forces that come with it count for nothing. Asked of the bulk alone.
-    ///
-    /// # Errors
-    /// As [`Term::evaluate`].
-    fn stiffness_at_start(
-        &self,
-        _chunk: usize,
-        _work: &mut Work,
-        _out: &mut dyn Sink,
-    ) -> Result<(), TermError> {
-        Ok(())
-    }
-
-    /// Which stiffness at the start it has in the present step: the same number in all steps where it is the same.
-    fn start(&self) -> u64 {
-        0
-    }
-
-    /// Whether its stiffness at this trial state is that at the start, to the last bit; false where this is not known.
-    fn is_at_start(&self, _trial: &State) -> bool {
-        false
-    }
-
     /// The potential energy of one chunk, where the term has one: its forces are the gradient.
     ///
     /// # Errors
@@ -368,109 +328,26 @@ pub trait Term: Send + Sync {
         work: &mut Work,
     ) -> Result<Option<f64>, TermError>;
 
-    /// The largest multiple of `du` that the term allows.
-    fn max_step(&self, _trial: &State, _du: &[f64]) -> f64 {
-        1.0
-    }
-
-    /// Whether the discrete choices made by the last [`Term::prepare`] equal those before it.
-    fn verdict(&mut self, _trial: &State) -> Verdict {
-        Verdict::Settled
-    }
-
-    /// The iteration has come to an end: whether what the term keeps frozen meanwhile may stay as it is, or has been
-    /// changed so that the iteration goes on.
-    ///
-    /// # Errors
-    /// As [`Term::evaluate`].
-    fn converged(&mut self, _trial: &State) -> Result<Verdict, TermError> {
-        Ok(Verdict::Settled)
-    }
-
-    /// Changes how the term helps the iteration on; returns whether anything changed.
-    fn aid(&mut self, _aid: Aid) -> bool {
-        false
-    }
-
-    /// Sets the size up to which a force is negligible: the residuals of multipliers may be as large as such a force.
-    fn set_negligible(&mut self, _force: f64) {}
-
-    /// Viscous forces of this strength act from the next increment on, none at 0, against what moves since its start
-    /// beyond `drift`: a number for each unknown, or nothing. Says whether the term has any.
-    fn damp(&mut self, _strength: f64, _drift: &[f64]) -> bool {
-        false
-    }
-
-    /// Work spent in viscous forces up to the accepted state.
-    fn work_stabilization(&self) -> f64 {
-        0.0
-    }
-
-    /// Whether it solves for multipliers of inequalities, so that solutions are saddle points.
-    fn has_saddle(&self) -> bool {
-        false
-    }
-
-    /// How many rows act at the present iterate: closed contacts.
-    fn nactive(&self) -> usize {
-        0
-    }
-
-    /// The increment is done: history moves on.
-    ///
-    /// # Errors
-    /// What the term finds wrong with the state.
-    fn accept(&mut self, _state: &State) -> Result<(), TermError> {
-        Ok(())
-    }
-
-    /// The increment was cut: back to the last accepted history.
-    fn reject(&mut self) {}
-
-    /// Stores the accepted history.
-    fn save(&self, _out: &mut Archive) {}
-
-    /// Takes the accepted history back.
-    ///
-    /// # Errors
-    /// The archive belongs to another model.
-    fn load(&mut self, _from: &Archive) -> Result<(), ArchiveError> {
-        Ok(())
-    }
-
-    /// Whether its forces come from outside of bodies and what lies between them: loads, and what holds or guides.
-    fn is_outside(&self) -> bool {
-        false
-    }
-
-    /// Whether its forces are loads: those do the work that comes from outside, with supports.
-    fn is_load(&self) -> bool {
-        false
-    }
-
-    /// Adds what the term knows at the integration points of these cells, which are sorted, at an accepted state.
-    ///
-    /// # Errors
-    /// As [`Term::evaluate`].
-    fn sample(
-        &self,
-        _state: &State,
-        _cells: &[CellId],
-        _out: &mut Samples,
-    ) -> Result<(), TermError> {
-        Ok(())
-    }
-
-    /// Audits an accepted state, whose results so far are in the frame: of contacts.
-    fn audit(&self, _state: &State, _frame: &Frame) -> Option<ContactAudit> {
-        None
-    }
-
     /// Writes what the term knows at an accepted state into a frame.
     ///
     /// # Errors
     /// As [`Term::evaluate`].
     fn report(&self, _state: &State, _frame: &mut Frame) -> Result<(), TermError> {
         Ok(())
+    }
+
+    /// What it can do besides.
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities::default()
+    }
+
+    /// The term as one that changes for the sake of the iteration, if it does.
+    fn adaptive(&mut self) -> Option<&mut dyn Adaptive> {
+        None
+    }
+
+    /// The term as one with a history, if it has one.
+    fn stored(&mut self) -> Option<&mut dyn Stored> {
+        None
     }
 }

@@ -67,22 +67,16 @@ impl Term for Springs {
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Symmetric, self.part)
     }
 
-    fn part(&self) -> Part {
-        self.part
+    fn begin(&mut self, _: &Phase, _: &State) -> Result<(), TermError> {
+        Ok(())
     }
 
     fn nchunk(&self) -> usize {
         self.ends.len().div_ceil(CHUNK)
-    }
-
-    fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId])) {
-        self.of(chunk)
-            .filter(|_| self.is_told)
-            .for_each(|(ends, _)| take(ends));
     }
 
     fn evaluate(
@@ -124,6 +118,21 @@ impl Term for Springs {
             0.25 * stretch * stretch
         };
         Ok(Some(self.of(chunk).map(of).sum()))
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            elementwise: Some(self),
+            ..Capabilities::default()
+        }
+    }
+}
+
+impl Elementwise for Springs {
+    fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId])) {
+        self.of(chunk)
+            .filter(|_| self.is_told)
+            .for_each(|(ends, _)| take(ends));
     }
 }
 

@@ -1,7 +1,7 @@
 use super::samples::internal_forces;
 use super::{
-    Aid, Assembly, ContactAudit, Dof, DofName, Elimination, Frame, Layout, Samples, State, Term,
-    TermError, Wanted,
+    Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, DofName,
+    Elimination, Frame, Layout, Samples, State, Term, TermError, Wanted,
 };
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -35,10 +35,59 @@ impl System {
         State::initial(&self.layout, &self.reference, &self.elimination)
     }
 
+    /// The terms that change for the sake of an iteration.
+    pub fn adaptive(&mut self) -> impl Iterator<Item = &mut dyn Adaptive> {
+        let terms = self.terms.iter_mut();
+        terms.filter_map(|term| term.adaptive())
+    }
+
+    /// The terms that make discrete choices.
+    pub fn choices(&self) -> impl Iterator<Item = &dyn Choices> {
+        let terms = self.terms.iter();
+        terms.filter_map(|term| term.capabilities().choices)
+    }
+
+    /// The same, to be changed.
+    pub fn choices_mut(&mut self) -> impl Iterator<Item = &mut dyn Choices> {
+        let terms = self.terms.iter_mut();
+        terms.filter_map(|term| term.adaptive()?.choices())
+    }
+
     /// Changes how all terms help an iteration on; returns whether one changed.
     pub fn aid(&mut self, aid: Aid) -> bool {
-        let changes = self.terms.iter_mut().map(|term| term.aid(aid));
-        changes.fold(false, |any, one| any | one)
+        self.adaptive().fold(false, |any, term| any | term.aid(aid))
+    }
+
+    /// Takes all terms back to their last accepted choices and history.
+    pub fn reject(&mut self) {
+        self.choices_mut().for_each(Choices::reject);
+    }
+
+    /// An increment is done: the histories of all terms move on.
+    ///
+    /// # Errors
+    /// What a term finds wrong with the state.
+    pub fn accept(&mut self, state: &State) -> Result<(), TermError> {
+        let terms = self.terms.iter_mut();
+        let mut stored = terms.filter_map(|term| term.stored());
+        stored.try_for_each(|term| term.accept(state))
+    }
+
+    /// Stores the histories of all terms.
+    pub fn save(&self, out: &mut Archive) {
+        let terms = self.terms.iter();
+        let stored = terms.filter_map(|term| term.capabilities().stored);
+        stored.for_each(|term| term.save(out));
+    }
+
+    /// Takes the histories of all terms back.
+    ///
+    /// # Errors
+    /// The archive belongs to another model.
+    pub fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+        let terms = self.terms.iter_mut();
+        let mut stored = terms.filter_map(|term| term.stored());
+        stored.try_for_each(|term| term.load(from))
     }
 
     /// Makes `trial` the state `base` advanced by `alpha · du`.
@@ -108,7 +157,10 @@ impl System {
     #[must_use]
     pub fn audit(&self, state: &State, frame: &Frame) -> Vec<ContactAudit> {
         let terms = self.terms.iter();
-        terms.filter_map(|term| term.audit(state, frame)).collect()
+        let audited = terms.filter_map(|term| term.capabilities().audited);
+        audited
+            .filter_map(|term| term.audit(state, frame))
+            .collect()
     }
 
     /// The displacement of a node, a vector of space in every dimension.

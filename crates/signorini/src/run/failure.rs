@@ -131,7 +131,8 @@ fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
         DofName::Multiplier(number) => {
             let term = term_of(dof, model);
             let owner = term.map_or_else(|| "a constraint".to_owned(), |one| in_words(one, model));
-            let node = term.and_then(|term| term.node_of(number));
+            let audited = term.and_then(|term| term.capabilities().audited);
+            let node = audited.and_then(|contact| contact.node_of(number));
             let at = node.map(|node| format!("at {}", node_in_words(node, model)));
             (owner, at.unwrap_or_else(|| format!("multiplier {number}")))
         }

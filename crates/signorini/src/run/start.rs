@@ -5,7 +5,9 @@ use super::{RunOptions, failure};
 use crate::setup::Model;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_mechanics::model::Treatment;
-use signorini_mechanics::system::{Assembly, Dof, DofName, Frame, Order, StepContext, TermError};
+use signorini_mechanics::system::{
+    Assembly, Dof, DofName, Frame, Increment, Order, Phase, StepContext, TermError,
+};
 use std::collections::BTreeSet;
 
 /// The undeformed state of a model.
@@ -38,10 +40,17 @@ fn look(model: &mut Model) -> Result<Frame, TermError> {
         duration: first.map_or(1.0, |s| s.duration),
         nonlinear: first.is_none_or(|s| s.nonlinear),
     };
+    let increment = Increment {
+        number: 1,
+        from: state.time,
+        to: state.time,
+    };
     for term in &mut model.system.terms {
-        term.begin_step(&context, &state)?;
-        term.begin_increment(&state)?;
-        term.prepare(&state, Order::Residual)?;
+        term.begin(&Phase::of_step(context), &state)?;
+        term.begin(&Phase::of_increment(context, increment), &state)?;
+        if let Some(adaptive) = term.adaptive() {
+            adaptive.prepare(&state, Order::Residual)?;
+        }
     }
     let mut frame = model.system.report(&state, &[], &Assembly::default())?;
     frame.step = first.map_or_else(String::new, |s| s.name.clone());

@@ -199,7 +199,9 @@ fn holds(part: &[Pair<f64>], [x, y]: Pair<f64>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Discretization, PointToSegment, SlidingRange, SurfacePair, areas_inside};
+    use super::super::{
+        Discretization, PointToSegment, Renewable, SlidingRange, SurfacePair, areas_inside,
+    };
     use super::*;
     use signorini_geometry::element::by_name;
     use signorini_geometry::element::quadrature::{gauss, on_facet};
@@ -329,12 +331,14 @@ mod tests {
             (pair, rows)
         };
         let (pair, mut rows) = surfaces();
+        assert!(rows.capabilities().renewable.is_some_and(Renewable::renews));
+        assert!(rows.renewable_mut().is_some());
         assert_eq!(rows.renew(&pair, &points), None);
-        let before = Discretization::inside(&rows).unwrap().to_vec();
+        let before = rows.on_facets().unwrap().to_vec();
         let mut moved = points.clone();
         moved[nsecondary..].iter_mut().for_each(|x| x.x += 0.1);
         let origins = rows.renew(&pair, &moved).unwrap();
-        let now = Discretization::inside(&rows).unwrap().to_vec();
+        let now = rows.on_facets().unwrap().to_vec();
         let areas = areas_inside(&secondary, &now, &moved, &|_, _| 1.0).unwrap();
         assert!((areas.iter().sum::<f64>() - 1.0).abs() < 1e-13);
         for (row, (point, origin)) in now.iter().zip(&origins).enumerate() {
@@ -346,8 +350,10 @@ mod tests {
             assert!((place - 1.0).abs() < 1e-14);
         }
         let (_, mut other) = surfaces();
-        assert!(other.restore(&pair, &rows.store()));
-        assert_eq!(Discretization::inside(&other).unwrap(), now);
+        let stored = rows.store();
+        assert!(!stored.is_empty() && other.restore(&pair, &stored));
+        assert_eq!(other.store(), stored);
+        assert_eq!(other.on_facets().unwrap(), now);
         assert_eq!(other.renew(&pair, &moved), None);
         assert!(!other.restore(&pair, &[7.0; 6]) && !other.restore(&pair, &[0.0; 5]));
         // where planes are not held to an increment, neither are points

@@ -8,10 +8,10 @@ use signorini_geometry::surface::{Anchor, ContactSurface, Facets, Placement, Sur
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
 
-use super::OnFacet;
+use super::{Discretization, OnFacet};
 
 /// Where each point is on the facets around it.
-pub(super) struct Lean {
+pub struct Lean {
     /// The part of the normals of the secondary side.
     share: f64,
     // those of point k: at[first[k]..first[k + 1]]
@@ -20,8 +20,17 @@ pub(super) struct Lean {
 }
 
 impl Lean {
+    /// That of the rows of a discretization; `share` is the part of the normals of the secondary side.
+    #[must_use]
+    pub fn new(facets: &Facets, of: &dyn Discretization, share: f64) -> Self {
+        match of.capabilities().inside {
+            Some(points) => Self::inside(points, share),
+            None => Self::at_nodes(facets, (0..of.nrow()).map(|row| of.point(row)), share),
+        }
+    }
+
     /// That of points inside facets.
-    pub fn inside(points: &[OnFacet], share: f64) -> Self {
+    fn inside(points: &[OnFacet], share: f64) -> Self {
         let at = |point: &OnFacet| Anchor {
             facet: point.facet,
             local: point.xi,
@@ -34,11 +43,7 @@ impl Lean {
     }
 
     /// That of nodes.
-    pub fn at_nodes<'a>(
-        facets: &Facets,
-        points: impl Iterator<Item = Point<'a>>,
-        share: f64,
-    ) -> Self {
+    fn at_nodes<'a>(facets: &Facets, points: impl Iterator<Item = Point<'a>>, share: f64) -> Self {
         let mut around: HashMap<NodeId, Vec<Anchor>> = HashMap::new();
         for facet in 0..facets.nfacet() as u32 {
             let places = facets.element(facet).map_or(&[][..], |e| e.nodes());
@@ -64,7 +69,13 @@ impl Lean {
 
     /// The normal that a point keeps which meets a facet with this one. Facets around it that turn away by more than
     /// 30 degrees, as those of the other side of an edge do, do not count.
-    pub fn normal(&self, row: usize, facets: &Facets, at: &Placement, primary: Vec3) -> Vec3 {
+    pub(super) fn normal(
+        &self,
+        row: usize,
+        facets: &Facets,
+        at: &Placement,
+        primary: Vec3,
+    ) -> Vec3 {
         let of_point = match self.first.get(row..) {
             Some([a, b, ..]) => self.at.get(*a as usize..*b as usize),
             _ => None,

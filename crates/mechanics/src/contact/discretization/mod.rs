@@ -19,6 +19,7 @@ pub mod projected;
 mod reach;
 
 pub use cut::{Cutter, FacetPoints};
+pub use lean::Lean;
 pub use mortar::Mortar;
 pub use nodes::{NodeNormals, NodeToNode};
 pub use own::{OwnBody, OwnNow, OwnPoint};
@@ -35,7 +36,6 @@ use signorini_geometry::surface::{
 };
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// The axes along which nodes are held; those of no node that is not.
@@ -59,6 +59,8 @@ pub struct SurfacePair {
     pub same: bool,
     /// The body behind a surface that may touch itself.
     pub own: Option<OwnBody>,
+    /// The normals of the secondary side, which planes that are kept for good lean towards.
+    pub lean: Option<Lean>,
 }
 
 impl SurfacePair {
@@ -74,6 +76,7 @@ impl SurfacePair {
             start: Vec::new(),
             same: false,
             own: None,
+            lean: None,
         }
     }
 }
@@ -176,40 +179,20 @@ pub struct Anchored {
 
 /// A way to compare two sides.
 pub trait Discretization: Send + Sync {
-    /// The number of rows, the key of history and multipliers; fixed but for [`Discretization::renew`].
+    /// The number of rows, the key of history and multipliers; fixed unless rows are [`Renewable`].
     fn nrow(&self) -> usize;
 
     /// The point of a row; what the search looks around.
     fn point(&self, row: usize) -> Point<'_>;
 
-    /// Where each row's point is inside a facet of the secondary side; `None` where points are nodes.
-    fn inside(&self) -> Option<&[OnFacet]> {
-        None
-    }
+    /// What the rest of contact needs to know of it, and what it can do beyond rows.
+    fn capabilities(&self) -> Capabilities<'_>;
 
-    /// Whether its rows may be others in each increment.
-    fn remakes(&self) -> bool {
-        false
-    }
+    /// [`Capabilities::averaged`], to be changed.
+    fn averaged_mut(&mut self) -> Option<&mut dyn Averaged>;
 
-    /// Makes its rows again for an increment that begins at the positions `x`, where it [remakes](Self::remakes) them;
-    /// returns for each the row before that it continues, if there is one. `None` where they stay as they are.
-    fn renew(&mut self, _pair: &SurfacePair, _x: &[Vec3]) -> Option<Vec<Option<u32>>> {
-        None
-    }
-
-    /// What renewed rows are made of, for a checkpoint; empty where rows stay.
-    fn store(&self) -> Vec<f64> {
-        Vec::new()
-    }
-
-    /// Makes the rows that were stored; says whether these numbers are such.
-    fn restore(&mut self, _pair: &SurfacePair, stored: &[f64]) -> bool {
-        stored.is_empty()
-    }
-
-    /// Lets planes that are kept for good lean towards the normals of the secondary side, of which this part counts.
-    fn lean(&mut self, _pair: &SurfacePair, _share: f64) {}
+    /// [`Capabilities::renewable`], to be changed.
+    fn renewable_mut(&mut self) -> Option<&mut dyn Renewable>;
 
     /// Makes all discrete choices at a configuration. `last` holds the previous choices, as hints; `next` is what
     /// will probably be asked of rows.
@@ -226,7 +209,8 @@ pub trait Discretization: Send + Sync {
         out: &mut Pairing,
     ) -> Result<(), SurfaceError>;
 
-    /// Fills one row; leaves `out` without rows where nothing is near.
+    /// Fills one row, and sets which of its participants are those of the secondary side; leaves `out` without rows where
+    /// nothing is near.
     ///
     /// # Errors
     /// A facet that has no normal.
@@ -252,70 +236,49 @@ pub trait Discretization: Send + Sync {
         found: &Pair,
         slip: Vec3,
     ) -> Result<Anchored, SurfaceError>;
+}
 
-    /// The places of the secondary side among the participants of a row.
-    fn secondary(&self, rows: &Rows, row: usize) -> Range<usize> {
-        let end = rows.participants().len();
-        end.saturating_sub(self.point(row).nodes.len())..end
-    }
-
-    /// Rows of the nodes that facets around the node of a row share with it, appended; none where rows act at points.
-    fn adjacent(&self, _row: usize, _pair: &SurfacePair, _out: &mut Vec<usize>) {}
-
-    /// Nodes of the secondary side without a row of their own that a row speaks for.
-    fn guests(&self, _row: usize, _pair: &SurfacePair, _pairing: &Pairing, _out: &mut Vec<NodeId>) {
-    }
-
+/// What a discretization is, and can do beyond rows.
+#[derive(Clone, Copy, Default)]
+pub struct Capabilities<'a> {
+    /// Whether a pressure acts with the weights with which the gap changes.
+    pub is_symmetric: bool,
+    /// How long rows keep what they meet.
+    pub sliding: SlidingRange,
     /// Whether points may rest on edges and vertices, not on faces alone.
-    fn rests_on_edges(&self) -> bool {
-        false
+    pub rests_on_edges: bool,
+    /// Where each row's point is inside a facet of the secondary side; `None` where points are nodes.
+    pub inside: Option<&'a [OnFacet]>,
+    /// Of rows that meet several facets at once: there is no closest point.
+    pub averaged: Option<&'a dyn Averaged>,
+    /// Of rows whose gaps can be measured between curved surfaces.
+    pub curved: Option<&'a dyn Curved>,
+    /// Of rows that may be others in each increment.
+    pub renewable: Option<&'a dyn Renewable>,
+}
+
+impl Capabilities<'_> {
+    /// Whether what rows meet first is kept for good.
+    #[must_use]
+    pub fn keeps(&self) -> bool {
+        self.sliding == SlidingRange::Small
     }
 
     /// Whether tangent planes that are held are those at the start of the increment.
-    fn renews(&self) -> bool {
-        false
+    #[must_use]
+    pub fn renews(&self) -> bool {
+        self.sliding == SlidingRange::Increment
     }
 
-    /// How many times as large the area of a row is as at the start.
-    fn stretch(&self, _row: usize, _pairing: &Pairing) -> f64 {
-        1.0
+    /// Whether weights are those of the start for good: moments of both sides balance there.
+    #[must_use]
+    pub fn keeps_weights(&self) -> bool {
+        self.averaged.is_some() && self.keeps()
     }
+}
 
-    /// Evens out what tractions scatter between the nodes of a facet. `touches` says which rows touch; where both sides are
-    /// `joined`, tractions may pull.
-    fn even_out(
-        &self,
-        _pairing: &Pairing,
-        _touches: &dyn Fn(usize) -> bool,
-        _joined: bool,
-        _on_rows: &mut [OnRow],
-    ) {
-    }
-
-    /// Whether rows meet several facets at once, and there is no closest point.
-    fn meets_many(&self) -> bool {
-        false
-    }
-
-    /// The facets of the primary side that a row meets beyond the one its closest point lies on.
-    fn more_facets(&self, _row: usize, _pairing: &Pairing, _out: &mut Vec<u32>) {}
-
-    /// How fast a row closes, positive where its gap shrinks, where nodes move by `by`; `None` where that follows from its
-    /// closest point.
-    fn approach(
-        &self,
-        _row: usize,
-        _pairing: &Pairing,
-        _by: &dyn Fn(NodeId) -> Vec3,
-    ) -> Option<f64> {
-        None
-    }
-
-    /// Nodes that a row depends on beyond its point and the facets around its closest point.
-    fn more_nodes<'a>(&'a self, _row: usize, _pairing: &'a Pairing) -> &'a [NodeId] {
-        &[]
-    }
-
+/// Rows of nodes that meet several facets at once: gaps and tractions are means over the facets around a node.
+pub trait Averaged: Send + Sync {
     /// Takes note of the axes along which nodes of both sides are held from now on. Where that changes weights that stay as
     /// they are: the area of each row over that without supports.
     ///
@@ -323,47 +286,68 @@ pub trait Discretization: Send + Sync {
     /// Facets that cannot be compared.
     fn support(
         &mut self,
-        _pair: &SurfacePair,
-        _held: HeldAxes,
-    ) -> Result<Option<Vec<f64>>, SurfaceError> {
-        Ok(None)
-    }
+        pair: &SurfacePair,
+        held: HeldAxes,
+    ) -> Result<Option<Vec<f64>>, SurfaceError>;
 
     /// Makes the choices that hold while an iteration goes on, from those of the present iterate, and in what was before
     /// likewise; says whether rows now see others. What follows the motion smoothly follows it closely `from_rest`, at the
-    /// start of an increment, and within it only where it lags far behind. Rows that compare the sides in another way from now on have slipped as
-    /// far from their new anchors as from those before.
+    /// start of an increment, and within it only where it lags far behind. Rows that compare the sides in another way from
+    /// now on have slipped as far from their new anchors as from those before.
     ///
     /// # Errors
     /// A facet that has no normal.
     fn settle(
         &self,
-        _pair: &SurfacePair,
-        _at: &Placement,
-        _now: &mut Pairing,
-        _before: &mut Pairing,
-        _anchors: &mut [Option<Anchored>],
-        _from_rest: bool,
-    ) -> Result<bool, SurfaceError> {
-        Ok(false)
-    }
+        pair: &SurfacePair,
+        at: &Placement,
+        now: &mut Pairing,
+        before: &mut Pairing,
+        anchors: &mut [Option<Anchored>],
+        from_rest: bool,
+    ) -> Result<bool, SurfaceError>;
 
-    /// Whether what rows meet first is kept for good.
-    fn keeps(&self) -> bool {
-        false
-    }
+    /// Nodes of the secondary side that a row depends on beyond its point.
+    fn more_nodes<'a>(&'a self, row: usize, pairing: &'a Pairing) -> &'a [NodeId];
+
+    /// The facets of the primary side that a row meets beyond the one its closest point lies on.
+    fn more_facets(&self, row: usize, pairing: &Pairing, out: &mut Vec<u32>);
+
+    /// Rows of the nodes that facets around the node of a row share with it, appended.
+    fn adjacent(&self, row: usize, pair: &SurfacePair, out: &mut Vec<usize>);
+
+    /// Nodes of the secondary side without a row of their own that a row speaks for.
+    fn guests(&self, row: usize, pair: &SurfacePair, pairing: &Pairing, out: &mut Vec<NodeId>);
+
+    /// How fast a row closes, positive where its gap shrinks, where nodes move by `by`; `None` where that follows from its
+    /// closest point.
+    fn approach(&self, row: usize, pairing: &Pairing, by: &dyn Fn(NodeId) -> Vec3) -> Option<f64>;
 
     /// The motion of a row relative to what it meets where nodes move by `by`, and its normal; `None` where its
     /// closest point determines that.
     fn way(
         &self,
-        _row: usize,
-        _pairing: &Pairing,
-        _by: &dyn Fn(NodeId) -> Vec3,
-    ) -> Option<(Vec3, Vec3)> {
-        None
-    }
+        row: usize,
+        pairing: &Pairing,
+        by: &dyn Fn(NodeId) -> Vec3,
+    ) -> Option<(Vec3, Vec3)>;
 
+    /// The area of a row over that at the start.
+    fn stretch(&self, row: usize, pairing: &Pairing) -> f64;
+
+    /// Smooths what tractions scatter between the nodes of a facet. `touches` says which rows touch; where both sides are
+    /// `joined`, tractions may pull.
+    fn smooth(
+        &self,
+        pairing: &Pairing,
+        touches: &dyn Fn(usize) -> bool,
+        joined: bool,
+        on_rows: &mut [OnRow],
+    );
+}
+
+/// Rows whose gaps can be measured between the surfaces that straight facets were cut from.
+pub trait Curved: Send + Sync {
     /// By how much the gaps of rows between straight facets exceed those of the surfaces they were cut from; empty where
     /// that is nothing.
     ///
@@ -371,23 +355,27 @@ pub trait Discretization: Send + Sync {
     /// A facet that has no normal.
     fn rises(
         &self,
-        _pair: &SurfacePair,
-        _at: &Placement,
-        _pairing: &Pairing,
-        _bent: &BentSides,
-    ) -> Result<Vec<f64>, SurfaceError> {
-        Ok(Vec::new())
-    }
+        pair: &SurfacePair,
+        at: &Placement,
+        pairing: &Pairing,
+        bent: &BentSides,
+    ) -> Result<Vec<f64>, SurfaceError>;
+}
 
-    /// Whether its weights are those of the start for good: moments of both sides balance there.
-    fn stays(&self) -> bool {
-        false
-    }
+/// Rows whose points are made where both sides are, and may be made again.
+pub trait Renewable: Send + Sync {
+    /// Whether they are made again in each increment.
+    fn renews(&self) -> bool;
 
-    /// Whether a pressure acts with the weights with which the gap changes.
-    fn is_symmetric(&self) -> bool {
-        true
-    }
+    /// Makes the rows again for an increment that begins at the positions `x`, where it does; returns for each the row before
+    /// that it continues, if there is one. `None` where they stay as they are.
+    fn renew(&mut self, pair: &SurfacePair, x: &[Vec3]) -> Option<Vec<Option<u32>>>;
+
+    /// What the rows are made of, for a checkpoint.
+    fn store(&self) -> Vec<f64>;
+
+    /// Makes the rows that were stored; says whether these numbers are such.
+    fn restore(&mut self, pair: &SurfacePair, stored: &[f64]) -> bool;
 }
 
 /// What acts on the secondary side at a row.

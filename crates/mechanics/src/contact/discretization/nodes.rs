@@ -18,7 +18,9 @@
 //! Sources: Wriggers 2006, section 8.1.
 
 use super::projected::Point;
-use super::{Anchored, Discretization, Links, Pair, Pairing, SurfacePair};
+use super::{
+    Anchored, Averaged, Capabilities, Discretization, Links, Pair, Pairing, Renewable, SurfacePair,
+};
 use crate::contact::row::{Participant, Row, RowOrder, Rows, Wanted};
 use signorini_geometry::element::Element;
 use signorini_geometry::mesh::NodeId;
@@ -28,7 +30,6 @@ use signorini_geometry::surface::{
     SurfaceJet,
 };
 use signorini_geometry::tensor::Vec3;
-use std::ops::Range;
 
 /// Where normals come from.
 pub enum NodeNormals {
@@ -214,6 +215,10 @@ impl ContactSurface for Nowhere {
         &[]
     }
 
+    fn crossing(&self, _: &Placement, _: u32, _: Vec3, _: Vec3) -> Option<f64> {
+        None
+    }
+
     fn outward(&self, _: &Placement, found: &Projection) -> Result<Outward, SurfaceError> {
         Err(SurfaceError::NoSuchFacet {
             facet: found.anchor.facet,
@@ -241,7 +246,23 @@ impl Discretization for NodeToNode {
         Point {
             nodes: self.pairs.get(row).map_or(&[], |p| &p[..1]),
             weights: &ONE,
+            all: self.nodes.get(row).map_or(&[], Vec::as_slice),
         }
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            is_symmetric: matches!(self.normals, NodeNormals::Given(_)),
+            ..Capabilities::default()
+        }
+    }
+
+    fn averaged_mut(&mut self) -> Option<&mut dyn Averaged> {
+        None
+    }
+
+    fn renewable_mut(&mut self) -> Option<&mut dyn Renewable> {
+        None
     }
 
     fn pair_up(
@@ -285,6 +306,7 @@ impl Discretization for NodeToNode {
             return Ok(());
         };
         out.start(nodes.iter().map(|&n| Participant::Node(n)));
+        out.set_secondary(0..1);
         let place = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
         let away = place(secondary) - place(primary);
         let (normal, scale) = self.normal(row, at)?;
@@ -317,18 +339,6 @@ impl Discretization for NodeToNode {
             },
             offset: away.unwrap_or_default() - slip,
         })
-    }
-
-    fn secondary(&self, _: &Rows, _: usize) -> Range<usize> {
-        0..1
-    }
-
-    fn more_nodes<'a>(&'a self, row: usize, _: &'a Pairing) -> &'a [NodeId] {
-        self.nodes.get(row).map_or(&[], Vec::as_slice)
-    }
-
-    fn is_symmetric(&self) -> bool {
-        matches!(self.normals, NodeNormals::Given(_))
     }
 }
 

@@ -2,9 +2,11 @@
 //! differ in nothing but the points.
 
 use super::cut::{Cutter, FacetPoints};
-use super::lean::Lean;
 use super::projected::{Closest, Place, Point, Sight, closest};
-use super::{Anchored, BentSides, Discretization, Links, OwnNow, Pair, Pairing, SurfacePair};
+use super::{
+    Anchored, Averaged, BentSides, Capabilities, Curved, Discretization, Links, OwnNow, Pair,
+    Pairing, Renewable, SurfacePair,
+};
 use crate::contact::row::{RowOrder, Rows, Wanted};
 use rayon::prelude::*;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
@@ -102,8 +104,6 @@ pub struct PointToSegment {
     pub closest: Closest,
     /// How long points keep the tangent plane that they meet.
     pub sliding: SlidingRange,
-    /// The normals of the secondary side, which planes that are kept for good lean towards.
-    lean: Option<Lean>,
     /// The shift of the gap of each row; empty where there is none.
     shifts: Vec<f64>,
 }
@@ -162,6 +162,12 @@ impl PointToSegment {
         rows
     }
 
+    /// Where each point is inside a facet; `None` where points are nodes.
+    #[must_use]
+    pub fn on_facets(&self) -> Option<&[OnFacet]> {
+        self.inside.as_deref()
+    }
+
     /// Has these points inside facets from now on.
     fn place(&mut self, facets: &Facets, inside: Vec<OnFacet>) {
         self.first.clear();
@@ -187,7 +193,7 @@ impl PointToSegment {
 impl PointToSegment {
     /// The normal of a tangent plane that a point keeps, where it meets a facet with this one.
     fn kept(&self, row: usize, pair: &SurfacePair, at: &Placement, normal: Vec3) -> Vec3 {
-        match (&self.lean, &pair.secondary) {
+        match (&pair.lean, &pair.secondary) {
             (Some(lean), Some(facets)) if self.sliding == SlidingRange::Small => {
                 lean.normal(row, facets, at, normal)
             }
@@ -209,7 +215,7 @@ impl PointToSegment {
         before: Option<Pair>,
     ) -> Result<Option<Pair>, SurfaceError> {
         let inside = self.inside.as_ref().and_then(|points| points.get(row));
-        if self.renews() && inside.is_some_and(|point| point.apart) {
+        if self.sliding == SlidingRange::Increment && inside.is_some_and(|point| point.apart) {
             return Ok(None);
         }
         let surface = pair.primary.as_ref();
@@ -267,82 +273,28 @@ impl Discretization for PointToSegment {
         Point {
             nodes: self.nodes.get(range.clone()).unwrap_or(&[]),
             weights: self.weights.get(range).unwrap_or(&[]),
+            all: &[],
         }
     }
 
-    fn inside(&self) -> Option<&[OnFacet]> {
-        self.inside.as_deref()
-    }
-
-    fn remakes(&self) -> bool {
-        self.cutter.is_some() && self.renews()
-    }
-
-    fn renew(&mut self, pair: &SurfacePair, x: &[Vec3]) -> Option<Vec<Option<u32>>> {
-        let cutter = self.cutter.as_ref().filter(|_| self.remakes())?;
-        let facets = pair.secondary.as_ref()?;
-        let points = pieces(cutter, facets, x);
-        let before = self.inside.as_deref().unwrap_or(&[]);
-        if points == before {
-            return None;
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            is_symmetric: true,
+            sliding: self.sliding,
+            rests_on_edges: matches!(self.closest, Closest::Anywhere | Closest::Rims),
+            inside: self.on_facets(),
+            averaged: None,
+            curved: Some(self),
+            renewable: self.cutter.as_ref().map(|_| self as &dyn Renewable),
         }
-        let closest = |point: &OnFacet| {
-            let first = before.partition_point(|p| p.facet < point.facet);
-            let of_facet = before[first..]
-                .iter()
-                .zip(first as u32..)
-                .take_while(|(p, _)| p.facet == point.facet);
-            let away = |p: &OnFacet| (p.xi - point.xi).norm_squared();
-            let closest = of_facet.min_by(|(a, _), (b, _)| away(a).total_cmp(&away(b)));
-            closest.map(|(_, row)| row)
-        };
-        let origins = points.iter().map(closest).collect();
-        self.place(facets, points);
-        Some(origins)
     }
 
-    fn store(&self) -> Vec<f64> {
-        let inside = self.inside.iter().filter(|_| self.cutter.is_some());
-        let numbers = |p: &OnFacet| {
-            let apart = f64::from(u8::from(p.apart));
-            [f64::from(p.facet), p.xi.x, p.xi.y, p.xi.z, p.weight, apart]
-        };
-        inside.flatten().flat_map(numbers).collect()
+    fn averaged_mut(&mut self) -> Option<&mut dyn Averaged> {
+        None
     }
 
-    fn restore(&mut self, pair: &SurfacePair, stored: &[f64]) -> bool {
-        let Some(facets) = pair.secondary.as_ref().filter(|_| self.cutter.is_some()) else {
-            return stored.is_empty();
-        };
-        let (points, rest) = stored.as_chunks::<STORED>();
-        let nfacet = facets.nfacet() as f64;
-        if !rest.is_empty() || points.iter().any(|p| !(0.0..nfacet).contains(&p[0])) {
-            return false;
-        }
-        let point = |&[facet, x, y, z, weight, apart]: &[f64; STORED]| {
-            OnFacet::new(facet as u32, (Vec3::new(x, y, z), weight), apart != 0.0)
-        };
-        self.place(facets, points.iter().map(point).collect());
-        true
-    }
-
-    fn keeps(&self) -> bool {
-        self.sliding == SlidingRange::Small
-    }
-
-    fn rests_on_edges(&self) -> bool {
-        matches!(self.closest, Closest::Anywhere | Closest::Rims)
-    }
-
-    fn renews(&self) -> bool {
-        self.sliding == SlidingRange::Increment
-    }
-
-    fn lean(&mut self, pair: &SurfacePair, share: f64) {
-        self.lean = pair.secondary.as_ref().map(|facets| match &self.inside {
-            Some(points) => Lean::inside(points, share),
-            None => Lean::at_nodes(facets, (0..self.nrow()).map(|row| self.point(row)), share),
-        });
+    fn renewable_mut(&mut self) -> Option<&mut dyn Renewable> {
+        self.cutter.is_some().then_some(self)
     }
 
     fn pair_up(
@@ -393,29 +345,12 @@ impl Discretization for PointToSegment {
             bond: links.bond,
         };
         place.fill(row, wanted, out)?;
+        let end = out.participants().len();
+        out.set_secondary(end.saturating_sub(place.point.nodes.len())..end);
         if let Some(filled) = out.rows_mut().first_mut() {
             filled.gap += self.shift(row);
         }
         Ok(())
-    }
-
-    fn rises(
-        &self,
-        _: &SurfacePair,
-        _: &Placement,
-        pairing: &Pairing,
-        bent: &BentSides,
-    ) -> Result<Vec<f64>, SurfaceError> {
-        let own = |row: usize| {
-            let point = self.inside.as_ref()?.get(row)?;
-            Some(bent.of_secondary(point.facet, point.xi))
-        };
-        let rise = |(row, pair): (usize, &Option<Pair>)| {
-            pair.map_or(0.0, |found| {
-                own(row).unwrap_or(0.0) + bent.of_primary(found.anchor)
-            })
-        };
-        Ok(pairing.pairs.iter().enumerate().map(rise).collect())
     }
 
     /// The closest point of `ρ − slip`, on the continuation of the facet. Where the tangent plane is held, the point has
@@ -454,5 +389,81 @@ impl Discretization for PointToSegment {
             anchor: p.anchor,
             offset: Vec3::ZERO,
         }))
+    }
+}
+
+impl Curved for PointToSegment {
+    fn rises(
+        &self,
+        _: &SurfacePair,
+        _: &Placement,
+        pairing: &Pairing,
+        bent: &BentSides,
+    ) -> Result<Vec<f64>, SurfaceError> {
+        let own = |row: usize| {
+            let point = self.inside.as_ref()?.get(row)?;
+            Some(bent.of_secondary(point.facet, point.xi))
+        };
+        let rise = |(row, pair): (usize, &Option<Pair>)| {
+            pair.map_or(0.0, |found| {
+                own(row).unwrap_or(0.0) + bent.of_primary(found.anchor)
+            })
+        };
+        Ok(pairing.pairs.iter().enumerate().map(rise).collect())
+    }
+}
+
+/// Points that were cut at the facets opposite.
+impl Renewable for PointToSegment {
+    fn renews(&self) -> bool {
+        self.cutter.is_some() && self.sliding == SlidingRange::Increment
+    }
+
+    fn renew(&mut self, pair: &SurfacePair, x: &[Vec3]) -> Option<Vec<Option<u32>>> {
+        let cutter = self.cutter.as_ref().filter(|_| Renewable::renews(self))?;
+        let facets = pair.secondary.as_ref()?;
+        let points = pieces(cutter, facets, x);
+        let before = self.inside.as_deref().unwrap_or(&[]);
+        if points == before {
+            return None;
+        }
+        let closest = |point: &OnFacet| {
+            let first = before.partition_point(|p| p.facet < point.facet);
+            let of_facet = before[first..]
+                .iter()
+                .zip(first as u32..)
+                .take_while(|(p, _)| p.facet == point.facet);
+            let away = |p: &OnFacet| (p.xi - point.xi).norm_squared();
+            let closest = of_facet.min_by(|(a, _), (b, _)| away(a).total_cmp(&away(b)));
+            closest.map(|(_, row)| row)
+        };
+        let origins = points.iter().map(closest).collect();
+        self.place(facets, points);
+        Some(origins)
+    }
+
+    fn store(&self) -> Vec<f64> {
+        let inside = self.inside.iter().filter(|_| self.cutter.is_some());
+        let numbers = |p: &OnFacet| {
+            let apart = f64::from(u8::from(p.apart));
+            [f64::from(p.facet), p.xi.x, p.xi.y, p.xi.z, p.weight, apart]
+        };
+        inside.flatten().flat_map(numbers).collect()
+    }
+
+    fn restore(&mut self, pair: &SurfacePair, stored: &[f64]) -> bool {
+        let Some(facets) = pair.secondary.as_ref().filter(|_| self.cutter.is_some()) else {
+            return stored.is_empty();
+        };
+        let (points, rest) = stored.as_chunks::<STORED>();
+        let nfacet = facets.nfacet() as f64;
+        if !rest.is_empty() || points.iter().any(|p| !(0.0..nfacet).contains(&p[0])) {
+            return false;
+        }
+        let point = |&[facet, x, y, z, weight, apart]: &[f64; STORED]| {
+            OnFacet::new(facet as u32, (Vec3::new(x, y, z), weight), apart != 0.0)
+        };
+        self.place(facets, points.iter().map(point).collect());
+        true
     }
 }

@@ -105,6 +105,8 @@ pub struct Point<'a> {
     pub nodes: &'a [NodeId],
     /// Their shape functions.
     pub weights: &'a [f64],
+    /// Of a row between nodes: all nodes that it depends on, its own and the one opposite first. Empty where rows meet facets.
+    pub all: &'a [NodeId],
 }
 
 impl Point<'_> {

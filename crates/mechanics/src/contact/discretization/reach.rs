@@ -137,7 +137,7 @@ impl SurfacePair {
     /// The size of the facet that the point of a row is on, or of the largest around it; 0 for bare nodes.
     #[must_use]
     pub fn size_of_row(&self, of: &dyn Discretization, row: usize) -> f64 {
-        let size = match of.inside().and_then(|points| points.get(row)) {
+        let size = match of.capabilities().inside.and_then(|points| points.get(row)) {
             Some(point) => self.sizes.secondary.get(point.facet as usize),
             None => {
                 let node = of.point(row).nodes.first();

@@ -56,8 +56,9 @@ impl Interface {
     fn holds_start(&self) -> bool {
         let discretization = self.parts.discretization.as_ref();
         let mut pairs = self.now.pairs.iter().flatten();
-        let keeps = !discretization.renews() && pairs.any(|pair| pair.held.is_some());
-        discretization.stays() || keeps
+        let of = discretization.capabilities();
+        let keeps = !of.renews() && pairs.any(|pair| pair.held.is_some());
+        of.keeps_weights() || keeps
     }
 
     /// The node opposite each node of the secondary side, where nodes meet nodes.
@@ -68,8 +69,7 @@ impl Interface {
         }
         let mut partners = vec![None; parts.pair.points.len()];
         for row in 0..parts.discretization.nrow() {
-            let both = parts.discretization.more_nodes(row, &self.now);
-            if let &[secondary, primary, ..] = both
+            if let &[secondary, primary, ..] = parts.discretization.point(row).all
                 && let Ok(k) = parts.pair.points.binary_search(&secondary)
             {
                 partners[k] = Some(primary);

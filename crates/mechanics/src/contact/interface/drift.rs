@@ -10,7 +10,7 @@ impl Interface {
     /// The largest motion since the start, along the other side, of what touches in an accepted state, over the size of the
     /// facets, and its node; `None` where contact follows what moves.
     pub(super) fn farthest(&self, state: &State) -> Option<(f64, NodeId)> {
-        let keeps = self.parts.bond.is_none() && self.parts.discretization.keeps();
+        let keeps = self.parts.bond.is_none() && self.parts.discretization.capabilities().keeps();
         if !keeps || !self.is_active() {
             return None;
         }
@@ -29,7 +29,8 @@ impl Interface {
     fn way(&self, row: usize, state: &State) -> Option<(Vec3, Vec3)> {
         let discretization = self.parts.discretization.as_ref();
         let moves = |node: NodeId| self.displacement(node, state);
-        if let Some(found) = discretization.way(row, &self.now, &moves) {
+        let averaged = discretization.capabilities().averaged;
+        if let Some(found) = averaged.and_then(|of| of.way(row, &self.now, &moves)) {
             return Some(found);
         }
         let pair = self.now.pairs.get(row).copied().flatten()?;

@@ -58,7 +58,8 @@ impl Interface {
         let all = nodes.iter().map(|node| (*node, axes(node)));
         let held = all.filter(|(_, axes)| *axes != [false; 3]).collect();
         let parts = &mut self.parts;
-        let factors = parts.discretization.support(&parts.pair, held);
+        let averaged = parts.discretization.averaged_mut();
+        let factors = averaged.map_or(Ok(None), |of| of.support(&parts.pair, held));
         let Some(factors) = factors.map_err(|e| self.failed(&e))? else {
             return Ok(false);
         };
@@ -142,7 +143,7 @@ impl Interface {
         if directions == [false; 3] {
             return directions;
         }
-        let secondary = discretization.secondary(rows, row);
+        let secondary = rows.secondary();
         for (axis, held) in directions.iter_mut().enumerate().filter(|(_, h)| **h) {
             let others = rows.participants().iter().enumerate();
             let others = others.filter(|(place, _)| !secondary.contains(place));

@@ -5,7 +5,7 @@ use super::{
     Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, Shift, State,
     TermError, Verdict,
 };
-use crate::contact::discretization::{Anchored, NOWHERE, Pair, Pairing};
+use crate::contact::discretization::{Anchored, NOWHERE, Pair, Pairing, Renewable};
 use crate::contact::kernel::Past;
 use crate::contact::row::{Row, RowOrder};
 use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError, SurfaceJet};
@@ -132,8 +132,10 @@ impl Interface {
     pub(super) fn bend_again(&mut self, at: &Placement) -> Result<(), SurfaceError> {
         let parts = &mut self.parts;
         if let Some(bend) = parts.bend.as_mut().filter(|bend| bend.slides) {
-            let discretization = parts.discretization.as_ref();
-            bend.rises = discretization.rises(&parts.pair, at, &self.now, &bend.sides)?;
+            let of = parts.discretization.capabilities();
+            if let Some(curved) = of.curved {
+                bend.rises = curved.rises(&parts.pair, at, &self.now, &bend.sides)?;
+            }
         }
         Ok(())
     }
@@ -158,14 +160,16 @@ impl Interface {
     /// Rows that are made again for each increment: they go on with what those before them remember, and meet what is
     /// near now. Says whether they are others.
     pub(super) fn renew_rows(&mut self, from: &State) -> Result<bool, TermError> {
-        if self.parts.bond.is_some() || !self.parts.discretization.remakes() {
+        let renewable = self.parts.discretization.capabilities().renewable;
+        if self.parts.bond.is_some() || !renewable.is_some_and(Renewable::renews) {
             return Ok(false);
         }
         let at = from.placement();
         self.history.begin();
         let stretched = self.stretched(from)?;
         let parts = &mut self.parts;
-        let Some(origins) = parts.discretization.renew(&parts.pair, at.x) else {
+        let renewable = parts.discretization.renewable_mut();
+        let Some(origins) = renewable.and_then(|rows| rows.renew(&parts.pair, at.x)) else {
             return Ok(false);
         };
         self.resize(origins.len());
@@ -410,7 +414,7 @@ impl Interface {
         let Some(own) = parts.pair.own.as_ref() else {
             return Ok(());
         };
-        if parts.discretization.inside().is_some() || parts.area.is_empty() {
+        if parts.discretization.capabilities().inside.is_some() || parts.area.is_empty() {
             return Ok(());
         }
         if parts.areas.is_none() {
@@ -453,7 +457,7 @@ impl Interface {
         let drift = self.drift.map(|(ratio, node)| [ratio, f64::from(node)]);
         out.put(name("drift"), drift.as_ref().map_or(&[], |d| &d[..]));
         out.put(name("area"), &self.parts.area);
-        out.put(name("points"), &self.parts.discretization.store());
+        out.put(name("points"), &self.stored_points());
         let shifts = self.parts.shifts.iter();
         let shifts: Vec<f64> = shifts.flat_map(|s| [s.constant, s.fading]).collect();
         out.put(name("shifts"), &shifts);
@@ -465,13 +469,18 @@ impl Interface {
         let mut points = vec![0.0; from.length(&name("points"))?];
         from.get(&name("points"), &mut points)?;
         let parts = &mut self.parts;
-        if !parts.discretization.restore(&parts.pair, &points) {
+        let fits = match parts.discretization.renewable_mut() {
+            Some(rows) => rows.restore(&parts.pair, &points),
+            None => points.is_empty(),
+        };
+        if !fits {
             return Err(ArchiveError::Length {
                 name: name("points"),
                 found: points.len(),
-                expected: parts.discretization.store().len(),
+                expected: self.stored_points().len(),
             });
         }
+        let parts = &self.parts;
         let nrow = parts.discretization.nrow();
         self.resize(nrow);
         let mut values = vec![0.0; nrow * PAIR];
@@ -537,6 +546,12 @@ impl Interface {
         self.history.begin();
         self.near.search.forget();
         Ok(())
+    }
+
+    /// What renewable rows are made of; empty where rows stay.
+    fn stored_points(&self) -> Vec<f64> {
+        let renewable = self.parts.discretization.capabilities().renewable;
+        renewable.map_or_else(Vec::new, Renewable::store)
     }
 
     fn stored_name(&self) -> String {

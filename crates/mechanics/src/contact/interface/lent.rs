@@ -194,7 +194,9 @@ impl Interface {
     fn adjacent(&self, row: usize) -> Vec<usize> {
         let mut hosts = Vec::new();
         let parts = &self.parts;
-        parts.discretization.adjacent(row, &parts.pair, &mut hosts);
+        if let Some(averaged) = parts.discretization.capabilities().averaged {
+            averaged.adjacent(row, &parts.pair, &mut hosts);
+        }
         hosts
     }
 
@@ -254,7 +256,7 @@ impl Interface {
         let mut followed: HashMap<NodeId, Mat3> = HashMap::new();
         for (row, left) in without {
             self.fill(row, from, RowOrder::Gradient, &mut rows)?;
-            if let Some(kept) = self.follower(&rows, row, left, &mut followed)
+            if let Some(kept) = self.follower(&rows, left, &mut followed)
                 && let Some(Some(of)) = free.get_mut(row)
             {
                 *of = *of + kept;
@@ -267,12 +269,11 @@ impl Interface {
     fn follower(
         &self,
         rows: &Rows,
-        row: usize,
         left: Mat3,
         followed: &mut HashMap<NodeId, Mat3>,
     ) -> Option<Mat3> {
         let operator = &rows.rows().first()?.sliding.operator;
-        let secondary = self.parts.discretization.secondary(rows, row);
+        let secondary = rows.secondary();
         let [mut all, mut moves] = [0.0; 2];
         let mut best: Option<(f64, NodeId, Mat3)> = None;
         let mut column = 0;

@@ -18,8 +18,9 @@ use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
 use super::law::{ContactLaw, Multiplier, Penalty, Scale};
 use super::row::{Participant, RowOrder, Rows, Wanted};
 use crate::system::{
-    Aid, Archive, ArchiveError, ContactAudit, Dof, Elimination, Frame, Layout, Order, Part,
-    PatternSink, Sink, State, StepContext, Symmetry, Term, TermError, Verdict, Work,
+    Adaptive, Aid, Archive, ArchiveError, Audited, Capabilities, Choices, ContactAudit, Dof,
+    Elimination, Frame, Layout, Order, Part, PatternSink, Phase, Properties, Sink, State,
+    StepContext, Stored, Symmetry, Term, TermError, Verdict, Viscous, Work,
 };
 use history::History;
 use lent::Lents;
@@ -48,7 +49,7 @@ pub enum Measure {
 
 /// What a step makes of a contact.
 #[derive(Clone)]
-pub struct Phase {
+pub struct ContactPhase {
     /// Whether it acts.
     pub active: bool,
     /// Its friction; `None`: none.
@@ -106,7 +107,7 @@ pub struct InterfaceParts {
     /// The contact law.
     pub law: Arc<dyn ContactLaw>,
     /// What becomes of it in each step; the last goes on.
-    pub phases: Vec<Phase>,
+    pub phases: Vec<ContactPhase>,
     /// Whether sticking points remember a traction, not a place. Then those that close are without friction until the
     /// increment has ended.
     pub remembers_traction: bool,
@@ -338,7 +339,7 @@ impl Interface {
         &self.now
     }
 
-    fn phase(&self) -> Option<&Phase> {
+    fn phase(&self) -> Option<&ContactPhase> {
         let phases = &self.parts.phases;
         phases.get(self.step.number).or(phases.last())
     }
@@ -508,79 +509,29 @@ impl Interface {
     /// Makes the choices that hold while an iteration goes on; says whether they are others.
     fn settle(&mut self, at: &Placement, from_rest: bool) -> Result<bool, TermError> {
         let parts = &self.parts;
-        let discretization = parts.discretization.as_ref();
+        let Some(averaged) = parts.discretization.capabilities().averaged else {
+            return Ok(false);
+        };
         let (now, before) = (&mut self.now, &mut self.before);
         let anchors = self.history.anchors_mut();
-        let others = discretization.settle(&parts.pair, at, now, before, anchors, from_rest);
+        let others = averaged.settle(&parts.pair, at, now, before, anchors, from_rest);
         let others = others.map_err(|e| self.failed(&e))?;
         self.sees_others |= others;
         self.settled += u8::from(others);
         Ok(others)
     }
 
-    pub(super) fn failed(&self, error: &SurfaceError) -> TermError {
-        TermError::Surface {
-            interface: self.parts.name.clone(),
-            message: error.to_string(),
-            node: None,
-        }
-    }
-}
-
-impl Term for Interface {
-    fn name(&self) -> &str {
-        &self.parts.name
-    }
-
-    fn pattern(&self, out: &mut dyn PatternSink) {
-        self.cliques(out);
-    }
-
-    fn node_of(&self, multiplier: usize) -> Option<NodeId> {
-        let own = multiplier.checked_sub(self.parts.first_multiplier)?;
-        let row = own.checked_div(self.nmultiplier())?;
-        let known = row < self.now.pairs.len();
-        known.then(|| self.parts.discretization.point(row).nodes.first().copied())?
-    }
-
-    fn symmetry(&self) -> Symmetry {
-        let rubs = self.phase().is_some_and(|p| p.friction.is_some());
-        // multipliers that are tractions keep their form where there is no friction for a while
-        let tractions = self.nmultiplier() > 1 && self.parts.bond.is_none();
-        if rubs || tractions || !self.parts.discretization.is_symmetric() {
-            Symmetry::Unsymmetric
-        } else if self.nmultiplier() > 0 {
-            Symmetry::Symmetric
-        } else {
-            Symmetry::Definite
-        }
-    }
-
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_step(&mut self, step: &StepContext, _: &State) -> Result<(), TermError> {
-        self.step = *step;
-        if self.is_active() && self.first_step.is_none() {
-            self.first_step = Some(*step);
-        }
-        Ok(())
-    }
-
-    fn prescribe(&mut self, prescribed: &[bool]) {
-        self.lents.prescribe(prescribed);
-    }
-
+    /// The choices and the history that an increment begins with.
     fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
         let at = from.placement();
         if !self.parts.pair.sizes.primary.is_empty() {
             self.parts.pair.start.clear();
             self.parts.pair.start.extend_from_slice(at.x);
         }
-        let renews = self.parts.discretization.renews() | self.support()?;
+        let supported = self.support()?;
+        let of = self.parts.discretization.capabilities();
+        let (renews, many) = (of.renews() | supported, of.averaged.is_some());
         let first = !self.started;
-        let many = self.parts.discretization.meets_many();
         if first {
             self.search(&at).map_err(|e| self.failed(&e))?;
             self.started = true;
@@ -616,23 +567,51 @@ impl Term for Interface {
         self.stick(&at).map_err(|e| self.failed(&e))
     }
 
-    fn prepare(&mut self, trial: &State, next: Order) -> Result<bool, TermError> {
-        let at = trial.placement();
-        self.search_for(&at, rows::row_order(next))
-            .map_err(|e| self.failed(&e))?;
-        self.bend_again(&at).map_err(|e| self.failed(&e))?;
-        let through = self.passed_through(&at).or_else(|| self.went_through(&at));
-        if let Some((row, message)) = through {
-            let nodes = self.parts.discretization.point(row).nodes;
-            return Err(TermError::Surface {
-                interface: self.parts.name.clone(),
-                message,
-                node: nodes.first().copied(),
-            });
+    pub(super) fn failed(&self, error: &SurfaceError) -> TermError {
+        TermError::Surface {
+            interface: self.parts.name.clone(),
+            message: error.to_string(),
+            node: None,
         }
-        self.stick(&at).map_err(|e| self.failed(&e))?;
-        self.share_out(trial);
-        Ok(self.couple(trial))
+    }
+}
+
+impl Term for Interface {
+    fn name(&self) -> &str {
+        &self.parts.name
+    }
+
+    fn properties(&self) -> Properties {
+        let rubs = self.phase().is_some_and(|p| p.friction.is_some());
+        // multipliers that are tractions keep their form where there is no friction for a while
+        let tractions = self.nmultiplier() > 1 && self.parts.bond.is_none();
+        let is_symmetric = self.parts.discretization.capabilities().is_symmetric;
+        let symmetry = if rubs || tractions || !is_symmetric {
+            Symmetry::Unsymmetric
+        } else if self.nmultiplier() > 0 {
+            Symmetry::Symmetric
+        } else {
+            Symmetry::Definite
+        };
+        Properties {
+            has_saddle: self.parts.bond.is_none() && self.nmultiplier() > 0,
+            ..Properties::new(symmetry, Part::Interface)
+        }
+    }
+
+    fn pattern(&self, out: &mut dyn PatternSink) {
+        self.cliques(out);
+    }
+
+    fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
+        self.step = phase.step;
+        if self.is_active() && self.first_step.is_none() {
+            self.first_step = Some(phase.step);
+        }
+        match phase.increment {
+            Some(_) => self.begin_increment(from),
+            None => Ok(()),
+        }
     }
 
     fn nchunk(&self) -> usize {
@@ -672,40 +651,46 @@ impl Term for Interface {
         Ok(Some(total))
     }
 
-    fn max_step(&self, trial: &State, du: &[f64]) -> f64 {
-        self.longest_step(trial, du)
+    fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
+        self.describe(state, frame)
     }
 
-    fn verdict(&mut self, trial: &State) -> Verdict {
-        let Ok(now) = self.judge(trial) else {
-            // what cannot be evaluated fails where it is evaluated
-            return Verdict::Settled;
-        };
-        let before = std::mem::replace(&mut self.judged, now);
-        if self.judged.iter().all(|j| j.state == Contact::Open) {
-            self.flights = self.flights.saturating_add(1);
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            choices: Some(self),
+            stored: Some(self),
+            audited: Some(self),
+            ..Capabilities::default()
         }
-        let mut counts = Changes::default();
-        if self.nmultiplier() > 1 {
-            let directions = self.judged.iter().map(|judged| judged.direction);
-            counts.turned = self.reversals.look(directions);
+    }
+
+    fn adaptive(&mut self) -> Option<&mut dyn Adaptive> {
+        Some(self)
+    }
+
+    fn stored(&mut self) -> Option<&mut dyn Stored> {
+        Some(self)
+    }
+}
+
+impl Adaptive for Interface {
+    fn prepare(&mut self, trial: &State, next: Order) -> Result<bool, TermError> {
+        let at = trial.placement();
+        self.search_for(&at, rows::row_order(next))
+            .map_err(|e| self.failed(&e))?;
+        self.bend_again(&at).map_err(|e| self.failed(&e))?;
+        let through = self.passed_through(&at).or_else(|| self.went_through(&at));
+        if let Some((row, message)) = through {
+            let nodes = self.parts.discretization.point(row).nodes;
+            return Err(TermError::Surface {
+                interface: self.parts.name.clone(),
+                message,
+                node: nodes.first().copied(),
+            });
         }
-        let mut nodes = Vec::new();
-        for (row, (now, before)) in self.judged.iter().zip(&before).enumerate() {
-            if !counts.compare(now, before) {
-                continue;
-            }
-            if let Some(changes) = self.changes.get_mut(row)
-                && before.facet.is_some()
-                && now.facet != before.facet
-            {
-                *changes = changes.saturating_add(1);
-            }
-            if nodes.len() < NAMED {
-                nodes.extend(self.parts.discretization.point(row).nodes.first());
-            }
-        }
-        counts.verdict(&self.parts.name, nodes, !self.parts.has_vectors())
+        self.stick(&at).map_err(|e| self.failed(&e))?;
+        self.share_out(trial);
+        Ok(self.couple(trial))
     }
 
     fn converged(&mut self, trial: &State) -> Result<Verdict, TermError> {
@@ -744,8 +729,54 @@ impl Term for Interface {
         self.negligible = force;
     }
 
-    fn has_saddle(&self) -> bool {
-        self.parts.bond.is_none() && self.nmultiplier() > 0
+    fn choices(&mut self) -> Option<&mut dyn Choices> {
+        Some(self)
+    }
+
+    fn viscous(&mut self) -> Option<&mut dyn Viscous> {
+        None
+    }
+}
+
+impl Choices for Interface {
+    fn prescribe(&mut self, prescribed: &[bool]) {
+        self.lents.prescribe(prescribed);
+    }
+
+    fn max_step(&self, trial: &State, du: &[f64]) -> f64 {
+        self.longest_step(trial, du)
+    }
+
+    fn verdict(&mut self, trial: &State) -> Verdict {
+        let Ok(now) = self.judge(trial) else {
+            // what cannot be evaluated fails where it is evaluated
+            return Verdict::Settled;
+        };
+        let before = std::mem::replace(&mut self.judged, now);
+        if self.judged.iter().all(|j| j.state == Contact::Open) {
+            self.flights = self.flights.saturating_add(1);
+        }
+        let mut counts = Changes::default();
+        if self.nmultiplier() > 1 {
+            let directions = self.judged.iter().map(|judged| judged.direction);
+            counts.turned = self.reversals.look(directions);
+        }
+        let mut nodes = Vec::new();
+        for (row, (now, before)) in self.judged.iter().zip(&before).enumerate() {
+            if !counts.compare(now, before) {
+                continue;
+            }
+            if let Some(changes) = self.changes.get_mut(row)
+                && before.facet.is_some()
+                && now.facet != before.facet
+            {
+                *changes = changes.saturating_add(1);
+            }
+            if nodes.len() < NAMED {
+                nodes.extend(self.parts.discretization.point(row).nodes.first());
+            }
+        }
+        counts.verdict(&self.parts.name, nodes, !self.parts.has_vectors())
     }
 
     fn nactive(&self) -> usize {
@@ -753,6 +784,17 @@ impl Term for Interface {
         closed.count()
     }
 
+    fn reject(&mut self) {
+        self.now.clone_from(&self.accepted);
+        self.judged.clone_from(&self.accepted_judged);
+        self.history.reject();
+        self.flights = 0;
+        self.changes.fill(0);
+        self.reversals.reset(self.parts.discretization.nrow());
+    }
+}
+
+impl Stored for Interface {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
         self.accepted.clone_from(&self.now);
         self.accepted_judged.clone_from(&self.judged);
@@ -764,15 +806,6 @@ impl Term for Interface {
         self.remember(state)
     }
 
-    fn reject(&mut self) {
-        self.now.clone_from(&self.accepted);
-        self.judged.clone_from(&self.accepted_judged);
-        self.history.reject();
-        self.flights = 0;
-        self.changes.fill(0);
-        self.reversals.reset(self.parts.discretization.nrow());
-    }
-
     fn save(&self, out: &mut Archive) {
         self.store(out);
     }
@@ -780,9 +813,14 @@ impl Term for Interface {
     fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
         self.restore(from)
     }
+}
 
-    fn report(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
-        self.describe(state, frame)
+impl Audited for Interface {
+    fn node_of(&self, multiplier: usize) -> Option<NodeId> {
+        let own = multiplier.checked_sub(self.parts.first_multiplier)?;
+        let row = own.checked_div(self.nmultiplier())?;
+        let known = row < self.now.pairs.len();
+        known.then(|| self.parts.discretization.point(row).nodes.first().copied())?
     }
 
     fn audit(&self, state: &State, frame: &Frame) -> Option<ContactAudit> {

@@ -2,7 +2,7 @@
 
 use super::{Carrier, Contact, Interface, InterfaceParts, Judged, dofs_of};
 use crate::contact::discretization::{
-    Anchored, Discretization, NOWHERE, Pair, Pairing, SurfacePair,
+    Anchored, Averaged, Discretization, NOWHERE, Pair, Pairing, SurfacePair,
 };
 use crate::contact::law::Eval;
 use crate::contact::row::RowOrder;
@@ -151,23 +151,23 @@ impl Interface {
         }
         let surface = self.parts.pair.primary.as_ref();
         let mut jet = SurfaceJet::default();
+        let averaged = self.parts.discretization.capabilities().averaged;
         let rows = self.accepted.pairs.iter().zip(&self.now.pairs).enumerate();
         for (row, (before, now)) in rows {
             let (Some(before), None) = (before, now) else {
                 continue;
             };
             let point = self.near.points.get(row).copied().unwrap_or_default();
-            let discretization = self.parts.discretization.as_ref();
             let place = |n: u32| at.x.get(n as usize).copied().unwrap_or_default();
-            let (behind, distance) =
-                if let Some(behind) = discretization.approach(row, &self.accepted, &place) {
-                    (behind, behind.abs())
-                } else if surface.jet(at, &before.anchor, &mut jet).is_ok() {
-                    let away = point - jet.position;
-                    (-away.dot(jet.normal), away.norm())
-                } else {
-                    continue;
-                };
+            let approach = averaged.and_then(|of| of.approach(row, &self.accepted, &place));
+            let (behind, distance) = if let Some(behind) = approach {
+                (behind, behind.abs())
+            } else if surface.jet(at, &before.anchor, &mut jet).is_ok() {
+                let away = point - jet.position;
+                (-away.dot(jet.normal), away.norm())
+            } else {
+                continue;
+            };
             let [_, reach] = self.reach_of(row, before, at);
             if distance > reach && behind > 0.5 * distance {
                 return Some((
@@ -190,7 +190,7 @@ impl Interface {
             ..
         } = &self.parts;
         let of = discretization.as_ref();
-        let inside = of.inside().and_then(|points| points.get(row));
+        let inside = of.capabilities().inside.and_then(|points| points.get(row));
         let facet = found.anchor.facet;
         let reach = pair.reach_of_row(of, row, facet, at);
         let deepest = pair.deepest(of.point(row).nodes, inside, facet, at);
@@ -216,6 +216,8 @@ impl Interface {
         let is_open = |judged: &Judged| judged.state == Contact::Open;
         let mut of_both = self.accepted_judged.iter().chain(&self.judged);
         let lands = self.nmultiplier() > 0 && of_both.all(is_open);
+        let discretization = self.parts.discretization.as_ref();
+        let averaged = discretization.capabilities().averaged;
         let mut longest = 1.0f64;
         for (row, pair) in self.now.pairs.iter().enumerate() {
             let Some(pair) = pair else { continue };
@@ -227,8 +229,7 @@ impl Interface {
             } else {
                 pair.gap.max(0.0) + deepest.min(0.5 * reach)
             };
-            let discretization = self.parts.discretization.as_ref();
-            if let Some(closes) = discretization.approach(row, &self.now, &moves) {
+            if let Some(closes) = averaged.and_then(|of| of.approach(row, &self.now, &moves)) {
                 if closes > room {
                     longest = longest.min(room / closes);
                 }
@@ -268,16 +269,17 @@ impl Interface {
     /// Couples every row that touches, or may soon, with the facets it meets and that of its anchor; says whether that
     /// adds to what was coupled.
     pub(super) fn couple(&mut self, trial: &State) -> bool {
+        let averaged = self.parts.discretization.capabilities().averaged;
         let mut wanted = std::mem::take(&mut self.wanted);
         wanted.clear();
         for row in 0..self.now.pairs.len() {
             if self.is_near(row, trial) {
-                self.facets_of(row, &mut wanted.facets);
+                self.facets_of(row, averaged, &mut wanted.facets);
             }
             wanted.end_row();
         }
         let surface = self.parts.pair.primary.as_ref();
-        let many = self.parts.discretization.meets_many();
+        let many = averaged.is_some();
         let covers = |coupled: &u32, facet: &u32| {
             coupled == facet || !many && surface.neighbours(*coupled).contains(facet)
         };
@@ -311,7 +313,7 @@ impl Interface {
     }
 
     /// The facets that a row meets and that of its anchor, each once.
-    fn facets_of(&self, row: usize, out: &mut Vec<u32>) {
+    fn facets_of(&self, row: usize, averaged: Option<&dyn Averaged>, out: &mut Vec<u32>) {
         let first = out.len();
         let anchors = [
             self.now.pairs[row].map(|p| p.anchor),
@@ -319,10 +321,11 @@ impl Interface {
         ];
         let single = anchors.into_iter().flatten().filter(|a| *a != NOWHERE);
         out.extend(single.map(|a| a.facet));
-        let discretization = self.parts.discretization.as_ref();
-        discretization.more_facets(row, &self.now, out);
-        if self.laws().slips() {
-            discretization.more_facets(row, &self.before, out);
+        if let Some(averaged) = averaged {
+            averaged.more_facets(row, &self.now, out);
+            if self.laws().slips() {
+                averaged.more_facets(row, &self.before, out);
+            }
         }
         out[first..].sort_unstable();
         let mut kept = first;
@@ -338,7 +341,8 @@ impl Interface {
     pub(super) fn cliques(&self, out: &mut dyn PatternSink) {
         let surface = self.parts.pair.primary.as_ref();
         let discretization = self.parts.discretization.as_ref();
-        let many = discretization.meets_many();
+        let averaged = discretization.capabilities().averaged;
+        let many = averaged.is_some();
         // without friction a row of one closest point sees one facet at a time
         let at_once = many || self.laws().slips();
         let (mut dofs, mut of_row, mut facets) = (Vec::new(), Vec::new(), Vec::new());
@@ -357,8 +361,9 @@ impl Interface {
                 }
                 continue;
             }
-            let nodes = discretization.point(row).nodes.iter();
-            for &node in nodes.chain(discretization.more_nodes(row, &self.now)) {
+            let point = discretization.point(row);
+            let more = averaged.map_or(&[][..], |of| of.more_nodes(row, &self.now));
+            for &node in point.nodes.iter().chain(point.all).chain(more) {
                 of_row.extend((0..3).map(|c| self.layout.node(node, c)));
             }
             facets.clear();

@@ -30,8 +30,9 @@ impl Interface {
     pub(super) fn went_through(&self, at: &Placement) -> Option<(usize, String)> {
         let pair = &self.parts.pair;
         let discretization = self.parts.discretization.as_ref();
+        let of = discretization.capabilities();
         let knows = !pair.sizes.primary.is_empty() && pair.start.len() == at.x.len();
-        if !knows || !self.is_active() || self.parts.bond.is_some() || discretization.meets_many() {
+        if !knows || !self.is_active() || self.parts.bond.is_some() || of.averaged.is_some() {
             return None;
         }
         let surface = pair.primary.as_ref();
@@ -58,7 +59,7 @@ impl Interface {
         let mut near = Vec::new();
         for row in rows {
             let nodes = discretization.point(row).nodes;
-            let inside = discretization.inside().and_then(|points| points.get(row));
+            let inside = of.inside.and_then(|points| points.get(row));
             let own = own
                 .as_ref()
                 .and_then(|now| pair.own_point(nodes, inside, now));

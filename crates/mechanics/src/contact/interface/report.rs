@@ -148,15 +148,15 @@ impl Interface {
         let first = frame.contacts.iter().position(place);
         let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
         let (mut guests, mut hosted) = (Vec::new(), Vec::new());
-        let inside = self.parts.discretization.inside().is_some();
+        let of = self.parts.discretization.capabilities();
+        let inside = of.inside.is_some();
         let (told, mut on_rows) = self.tell(state, (&mut report, first), frame)?;
         let touches = |row: usize| told.get(row).is_some_and(|t: &Told| t.status.is_closed());
         let parts = &self.parts;
         let in_equations = on_rows.clone();
-        if parts.smooths {
+        if let Some(averaged) = of.averaged.filter(|_| parts.smooths) {
             let joined = parts.bond.is_some();
-            let discretization = &parts.discretization;
-            discretization.even_out(&self.now, &touches, joined, &mut on_rows);
+            averaged.smooth(&self.now, &touches, joined, &mut on_rows);
         }
         let rows = told.into_iter().zip(on_rows).zip(in_equations);
         for (row, ((told, on_row), raw)) in rows.enumerate() {
@@ -184,9 +184,9 @@ impl Interface {
             report.slip_max = report.slip_max.max(slip.norm());
             let point = parts.discretization.point(row);
             guests.clear();
-            parts
-                .discretization
-                .guests(row, &parts.pair, &self.now, &mut guests);
+            if let Some(averaged) = of.averaged {
+                averaged.guests(row, &parts.pair, &self.now, &mut guests);
+            }
             for node in &guests {
                 if let (Ok(k), Some(of_row)) = (parts.pair.points.binary_search(node), &of_row) {
                     means.add(k, area, of_row);
@@ -293,6 +293,7 @@ impl Interface {
         frame: &mut Frame,
     ) -> Result<(Vec<Told>, Vec<OnRow>), TermError> {
         let nrow = self.parts.discretization.nrow();
+        let averaged = self.parts.discretization.capabilities().averaged;
         let mut scratch = Scratch::default();
         let mut gap_min: Option<f64> = None;
         let mut centre = (Vec3::ZERO, 0.0);
@@ -307,11 +308,8 @@ impl Interface {
                 Measure::Node => present.recip(),
             };
             // pressures of small strain are those of the areas at the start, as areas of rows that do not act are
-            let stretch = if acts && !self.step.nonlinear {
-                self.parts.discretization.stretch(row, &self.now)
-            } else {
-                1.0
-            };
+            let stretched = averaged.filter(|_| acts && !self.step.nonlinear);
+            let stretch = stretched.map_or(1.0, |of| of.stretch(row, &self.now));
             let area = present / stretch;
             let mut told = Told {
                 acts,
@@ -334,7 +332,7 @@ impl Interface {
                     };
                     let measure = self.measure(row) * coverage;
                     on_row.pressure = traction.pressure * per_area;
-                    let pushed = self.pushed(row, &scratch.rows, filled, state);
+                    let pushed = self.pushed(&scratch.rows, filled, state);
                     // facets that do not lie in one plane push in several directions
                     direction = pushed.force / filled.coverage;
                     on_row.shear = -traction.tangential * per_area;
@@ -369,7 +367,7 @@ impl Interface {
             if acts {
                 self.add_forces(row, state, Order::Residual, &mut scratch);
                 let forces = (&scratch.rows, &scratch.force[..]);
-                self.distribute(row, forces, state, (report, first), frame);
+                self.distribute(forces, state, (report, first), frame);
             }
             all.push(told);
             on_rows.push(on_row);
@@ -391,7 +389,7 @@ impl Interface {
         faces: &mut Vec<(Face, ContactSample)>,
     ) {
         let parts = &self.parts;
-        let inside = parts.discretization.inside();
+        let inside = parts.discretization.capabilities().inside;
         let point = inside.and_then(|points| points.get(row));
         let secondary = parts.pair.secondary.as_ref();
         let Some(face) = point.and_then(|point| secondary?.face(point.facet)) else {
@@ -414,8 +412,8 @@ impl Interface {
     }
 
     /// What a unit of pressure does to the secondary side; moment about the origin.
-    fn pushed(&self, row: usize, rows: &Rows, filled: &Row, state: &State) -> Resultant {
-        let secondary = self.parts.discretization.secondary(rows, row);
+    fn pushed(&self, rows: &Rows, filled: &Row, state: &State) -> Resultant {
+        let secondary = rows.secondary();
         let mut sum = Resultant::default();
         let mut column = 0;
         for (place, participant) in rows.participants().iter().enumerate() {
@@ -434,7 +432,7 @@ impl Interface {
     /// Where forces on a node act: at the start, in linear steps whose pairs stay.
     fn place(&self, node: NodeId, state: &State) -> Vec3 {
         let x = state.x.get(node as usize).copied().unwrap_or_default();
-        if !self.step.nonlinear && self.parts.discretization.stays() {
+        if !self.step.nonlinear && self.parts.discretization.capabilities().keeps_weights() {
             x - self.displacement(node, state)
         } else {
             x
@@ -495,6 +493,7 @@ impl Interface {
 
     fn new_report(&self, state: &State) -> ContactFrame {
         let pair = &self.parts.pair;
+        let inside = self.parts.discretization.capabilities().inside;
         let n = pair.points.len();
         let of = |&node: &NodeId| state.x.get(node as usize).copied().unwrap_or_default();
         let moved = |&node: &NodeId| self.displacement(node, state);
@@ -529,7 +528,7 @@ impl Interface {
             slip: vec![Vec3::ZERO; n],
             elastic_slip: vec![Vec3::ZERO; n],
             energy: vec![0.0; n],
-            faces: self.parts.discretization.inside().map(|_| Vec::new()),
+            faces: inside.map(|_| Vec::new()),
             area: vec![0.0; n],
             facet_size: self.parts.scale.length,
             drift: self.drift,
@@ -550,7 +549,6 @@ impl Interface {
     /// the first pass, where this is the second.
     fn distribute(
         &self,
-        row: usize,
         (rows, internal): (&Rows, &[f64]),
         state: &State,
         (report, first): (&mut ContactFrame, Option<usize>),
@@ -561,7 +559,7 @@ impl Interface {
             let part = internal.get(at..at + 3);
             part.map_or(Vec3::ZERO, |f| -Vec3::new(f[0], f[1], f[2]))
         };
-        let secondary = self.parts.discretization.secondary(rows, row);
+        let secondary = rows.secondary();
         for (place, participant) in rows.participants().iter().enumerate() {
             let force = vector(column);
             match *participant {

@@ -79,7 +79,7 @@ impl Interface {
         let Laws { law, scale, .. } = self.laws();
         let needs_no_normal =
             law.multiplier() == Multiplier::None && law.pressure(0.0, 0.0, scale).value <= 0.0;
-        needs_no_normal && self.parts.discretization.rests_on_edges()
+        needs_no_normal && self.parts.discretization.capabilities().rests_on_edges
     }
 
     /// Puts restless points where they are held.

@@ -31,10 +31,6 @@ impl ContactLaw for Uzawa {
         augmented(gap, lambda, scale)
     }
 
-    fn augment(&self, gap: f64, lambda: f64, scale: &Scale) -> f64 {
-        augmented(gap, lambda, scale).value
-    }
-
     fn energy(&self, gap: f64, lambda: f64, scale: &Scale) -> Option<f64> {
         let p = augmented(gap, lambda, scale).value;
         Some(0.5 * (p * p - lambda * lambda) / scale.penalty)

@@ -129,11 +129,6 @@ pub trait ContactLaw: Debug + Send + Sync {
         }
     }
 
-    /// The multiplier after an increment's iterations.
-    fn augment(&self, _gap: f64, lambda: f64, _scale: &Scale) -> f64 {
-        lambda
-    }
-
     /// The potential of the pressure, `p = −∂W/∂g`, where there is one.
     fn energy(&self, gap: f64, lambda: f64, scale: &Scale) -> Option<f64>;
 }

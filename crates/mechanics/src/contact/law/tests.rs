@@ -104,7 +104,7 @@ fn augmentation_ends_where_the_gap_closes() {
     for _ in 0..60 {
         // 3 (0.5 + g) = p
         let gap = (lambda - 1.5) / (3.0 + SCALE.penalty);
-        lambda = Uzawa.augment(gap, lambda, &SCALE);
+        lambda = Uzawa.pressure(gap, lambda, &SCALE).value;
     }
     assert!((lambda - 1.5).abs() < 1e-9, "{lambda}");
 }

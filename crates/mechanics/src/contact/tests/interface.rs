@@ -4,8 +4,8 @@ use super::super::discretization::{Pairing, PointToSegment, SurfacePair};
 use super::super::{Interface, InterfaceParts, Measure};
 use super::{Random, facets, largest, pair_up, with_mid_nodes};
 use crate::system::{
-    Archive, Dof, Elimination, Frame, Layout, NO_DOF, Order, Sink, State, Status, Term, Verdict,
-    Work,
+    Adaptive, Archive, Choices, Dof, Elimination, Frame, Layout, NO_DOF, Order, Sink, State,
+    Status, Stored, Term, Verdict, Work,
 };
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Anchor, ContactSurface, Feature, Placement, SurfaceJet};
@@ -203,6 +203,8 @@ impl Sink for Response {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

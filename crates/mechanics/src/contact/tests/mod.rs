@@ -1,6 +1,7 @@
 //! What contact promises, measured: rows against dual numbers, tangents against differences, whole interfaces against
 //! balance, energy and renumbering.
 
+mod capabilities;
 mod dual;
 mod held;
 mod interface;
@@ -10,19 +11,30 @@ mod passing;
 pub(crate) mod printed;
 mod reference;
 mod rigid;
-mod scene;
+pub(crate) mod scene;
 mod sliding;
 mod table;
 
 use super::discretization::{Discretization, Links, Pairing, SurfacePair};
 use super::row::Rows;
 use super::row::{RowOrder, Wanted};
+use crate::system::{Increment, Phase, StepContext};
 use signorini_geometry::element::{Side, TABLE};
 use signorini_geometry::mesh::{Face, Mesh, NodeId};
 use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{Facets, Placement};
 use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
+
+/// The begin of an increment of the first step.
+pub(crate) fn next_increment() -> Phase {
+    let increment = Increment {
+        number: 1,
+        from: 0.0,
+        to: 1.0,
+    };
+    Phase::of_increment(StepContext::default(), increment)
+}
 
 /// A small reproducible generator (xorshift64*).
 pub(crate) struct Random(u64);

@@ -351,7 +351,7 @@ pub(super) fn rows(surface: &Facets) -> [PointToSegment; 2] {
 
 /// The labels of the facets around the point of a row.
 fn labels_of(surface: &Facets, rows: &PointToSegment, row: usize, labels: &[usize]) -> Vec<usize> {
-    if let Some(point) = rows.inside().and_then(|points| points.get(row)) {
+    if let Some(point) = rows.on_facets().and_then(|points| points.get(row)) {
         return vec![labels[point.facet as usize]];
     }
     let node = rows.point(row).nodes[0];
@@ -377,7 +377,7 @@ fn opposite(
     allowed: &dyn Fn(u32) -> bool,
 ) -> Option<f64> {
     let surface = pair.primary.as_ref();
-    let own = rows.inside()?.get(row)?;
+    let own = rows.on_facets()?.get(row)?;
     let mut jet = SurfaceJet::default();
     let local = surface.domain(own.facet)?.centre();
     let facet = own.facet;

@@ -3,7 +3,7 @@
 use super::own::{KINDS, NEVER, Skin, rectangle, rows, surface};
 use crate::contact::discretization::{FacetSizes, REACH, SurfacePair};
 use crate::contact::{Interface, InterfaceParts};
-use crate::system::{Elimination, Layout, Order, State, Term};
+use crate::system::{Adaptive, Choices, Elimination, Layout, Order, State, Term};
 use signorini_geometry::surface::Placement;
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -71,7 +71,7 @@ impl Falls {
         let state = State::initial(&layout, &x, &elimination);
         let parts = InterfaceParts::new("falls", pair, Box::new(method), 7.0);
         let mut interface = Interface::new(parts, layout, elimination);
-        interface.begin_increment(&state).unwrap();
+        interface.begin(&super::next_increment(), &state).unwrap();
         interface.prepare(&state, Order::Tangent).unwrap();
         Self {
             interface,

@@ -9,7 +9,8 @@
 
 use super::super::discretization::projected::Point;
 use super::super::discretization::{
-    Anchored, Discretization, Links, Pair, Pairing, PointToSegment, SurfacePair,
+    Anchored, Averaged, Capabilities, Discretization, Links, Pair, Pairing, PointToSegment,
+    Renewable, SurfacePair,
 };
 use super::super::row::{RowOrder, Rows, Wanted};
 use super::{Random, facets, first_rows, largest, pair_up};
@@ -31,6 +32,21 @@ impl Discretization for PrintedSigns {
 
     fn point(&self, row: usize) -> Point<'_> {
         self.inner.point(row)
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            is_symmetric: true,
+            ..Capabilities::default()
+        }
+    }
+
+    fn averaged_mut(&mut self) -> Option<&mut dyn Averaged> {
+        None
+    }
+
+    fn renewable_mut(&mut self) -> Option<&mut dyn Renewable> {
+        None
     }
 
     fn pair_up(
@@ -57,6 +73,7 @@ impl Discretization for PrintedSigns {
         let mut right = Rows::default();
         self.inner.row(row, pair, at, links, wanted, &mut right)?;
         out.start(right.participants().to_vec());
+        out.set_secondary(right.secondary());
         for row in right.rows() {
             let tangent = wanted.order == RowOrder::Tangent;
             let copy = out.push(row.number, wanted);

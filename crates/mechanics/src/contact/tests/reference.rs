@@ -147,6 +147,7 @@ impl<'a> Case<'a> {
             point: Point {
                 nodes: &self.point,
                 weights: &[1.0],
+                all: &[],
             },
             found: &self.found,
             anchor: Some(&self.anchor),

@@ -8,11 +8,11 @@ use super::super::discretization::{
 };
 use super::super::friction::{FrictionLaw, Stick};
 use super::super::law::{ContactLaw, Scale};
-use super::super::{Interface, InterfaceParts, Measure, Phase, closest_points, nmultiplier};
-use super::{Random, facets_of, with_mid_nodes};
+use super::super::{ContactPhase, Interface, InterfaceParts, Measure, closest_points, nmultiplier};
+use super::{Random, facets_of, next_increment, with_mid_nodes};
 use crate::system::{
-    ContactFrame, Dof, Elimination, Frame, Layout, NO_DOF, Order, PatternSink, RigidBody, Sink,
-    State, StepContext, Term, Verdict, Work,
+    Adaptive, Choices, ContactFrame, Dof, Elimination, Frame, Layout, NO_DOF, Order, PatternSink,
+    Phase, RigidBody, Sink, State, StepContext, Stored, Term, Verdict, Work,
 };
 use signorini_geometry::element::quadrature::{gauss, lobatto, on_facet};
 use signorini_geometry::mesh::NodeId;
@@ -292,7 +292,7 @@ impl Scene {
                 let rule = |e| on_facet(e, &rule);
                 let mut inside = PointToSegment::inside(facets, rule);
                 inside.closest = closest;
-                let points = Discretization::inside(&inside).unwrap();
+                let points = inside.on_facets().unwrap();
                 area = areas_inside(facets, points, &x, &|_, _| 1.0).unwrap();
                 Box::new(inside)
             }
@@ -334,7 +334,7 @@ impl Scene {
         });
         let parts = InterfaceParts {
             law: choice.law.into(),
-            phases: vec![Phase {
+            phases: vec![ContactPhase {
                 active: true,
                 friction: choice.friction,
             }],
@@ -351,7 +351,7 @@ impl Scene {
         };
         let mut interface = Interface::new(parts, layout, elimination.clone());
         interface
-            .begin_step(&StepContext::default(), &state)
+            .begin(&Phase::of_step(StepContext::default()), &state)
             .unwrap();
         let still = |(k, node): (usize, &NodeId)| match kind {
             Kind::Elements(_) => x[*node as usize].x < if ndim == 2 { 2.2 } else { 1.1 },
@@ -376,13 +376,13 @@ impl Scene {
         let mut scene = Self::new(kind, method, choice, seed);
         let mut random = Random::new(seed + 1000);
         let start = scene.state.clone();
-        scene.interface.begin_increment(&start).unwrap();
+        scene.interface.begin(&next_increment(), &start).unwrap();
         scene.state = scene.further(&mut random);
         scene.settle();
         let state = scene.state.clone();
         scene.interface.converged(&state).unwrap();
         scene.interface.accept(&state).unwrap();
-        scene.interface.begin_increment(&state).unwrap();
+        scene.interface.begin(&next_increment(), &state).unwrap();
         scene.state = scene.further(&mut random);
         scene.settle();
         scene
@@ -603,6 +603,8 @@ impl Sink for Whole {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 /// A dense pattern.

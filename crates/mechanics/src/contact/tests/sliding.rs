@@ -4,12 +4,12 @@
 use super::super::discretization::{PointToSegment, SlidingRange, SurfacePair};
 use super::super::friction::{Coulomb, Falling, FrictionLaw, Sliding, Stick, Tresca};
 use super::super::law::{AugmentedNewton, ContactLaw, Lagrange, Multiplier, Penalty, Uzawa};
-use super::super::{Allowance, Interface, InterfaceParts, Phase};
+use super::super::{Allowance, ContactPhase, Interface, InterfaceParts};
 use super::scene::{Choice, Kind, Method, Scene};
-use super::{Random, facets, largest};
+use super::{Random, facets, largest, next_increment};
 use crate::system::{
-    Archive, ContactFrame, Dof, Elimination, Frame, Layout, NO_DOF, Order, Sink, State, Status,
-    Term, Work,
+    Adaptive, Archive, Choices, ContactFrame, Dof, Elimination, Frame, Layout, NO_DOF, Order,
+    Phase, Sink, State, Status, StepContext, Stored, Term, Work,
 };
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
@@ -35,6 +35,7 @@ struct Slider {
     node: NodeId,
     /// The time of the next states.
     time: f64,
+    step: StepContext,
 }
 
 /// Forces of a whole system.
@@ -46,6 +47,8 @@ impl Sink for Forces {
             self.0[dof as usize] += f;
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 impl Slider {
@@ -96,7 +99,7 @@ impl Slider {
         method.sliding = sliding;
         let parts = InterfaceParts {
             law: law.into(),
-            phases: vec![Phase {
+            phases: vec![ContactPhase {
                 active: true,
                 friction,
             }],
@@ -111,6 +114,7 @@ impl Slider {
             state,
             node,
             time: 0.0,
+            step: StepContext::default(),
         }
     }
 
@@ -140,7 +144,12 @@ impl Slider {
     }
 
     fn begin(&mut self) {
-        self.interface.begin_increment(&self.state).unwrap();
+        let increment = next_increment().increment;
+        let phase = Phase {
+            step: self.step,
+            increment,
+        };
+        self.interface.begin(&phase, &self.state).unwrap();
     }
 
     /// An increment that leads the point to a place; the force on it, and what is reported of it.
@@ -315,13 +324,17 @@ fn increments_allow_for_what_overlaps_at_their_start() {
             };
             // nothing is left to allow for in the second step
             for number in [0, 1] {
-                let step = crate::system::StepContext {
+                let step = StepContext {
                     number,
                     start: number as f64,
                     duration: 1.0,
                     ..Default::default()
                 };
-                slider.interface.begin_step(&step, &slider.state).unwrap();
+                slider.step = step;
+                slider
+                    .interface
+                    .begin(&Phase::of_step(step), &slider.state)
+                    .unwrap();
                 for ((time, depth), allowed) in course.into_iter().zip(allowed) {
                     slider.time = step.start + time;
                     let (force, _) = slider.go(deep(depth));
@@ -364,7 +377,7 @@ fn a_step_without_friction_forgets() {
     slider.interface = {
         let parts = InterfaceParts {
             phases: [true, false, true]
-                .map(|rubs| Phase {
+                .map(|rubs| ContactPhase {
                     active: true,
                     friction: rubs.then(|| (coulomb(), stick)),
                 })
@@ -385,11 +398,15 @@ fn a_step_without_friction_forgets() {
     let places = [0.7, 2.7, 2.701].map(|x| Vec3::new(x, -0.02, 0.0));
     let mut forces = Vec::new();
     for (number, place) in places.into_iter().enumerate() {
-        let step = crate::system::StepContext {
+        let step = StepContext {
             number,
             ..Default::default()
         };
-        slider.interface.begin_step(&step, &slider.state).unwrap();
+        slider.step = step;
+        slider
+            .interface
+            .begin(&Phase::of_step(step), &slider.state)
+            .unwrap();
         forces.push(slider.go(place).0.x);
     }
     let expected = [MU * 2.0, 0.0, STIFFNESS * 0.001];
@@ -536,7 +553,7 @@ fn tractions_turn_with_what_they_act_on() {
             }
             scene.respond(&state, Order::Residual);
             scene.interface.accept(&state).unwrap();
-            scene.interface.begin_increment(&state).unwrap();
+            scene.interface.begin(&next_increment(), &state).unwrap();
             let after = scene.respond(&away, Order::Residual).force;
             let error = turned_error(&scene, &before, &after, turn);
             println!("{kind:?} {method:?}, in the next increment: {error:e}");
@@ -589,7 +606,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
                     let from = scene.state.clone();
                     let next = scene.further(&mut random);
                     let after = [&mut scene, &mut other].map(|s| {
-                        s.interface.begin_increment(&from).unwrap();
+                        s.interface.begin(&next_increment(), &from).unwrap();
                         let before = bits(s);
                         let whole = s.respond(&next, Order::Tangent);
                         let verdict = s.interface.verdict(&next);
@@ -625,12 +642,12 @@ fn planes_of_an_increment_are_those_at_its_start() {
         let mut scene = Scene::new(Kind::Elements("quad8"), method, choice, 5);
         let mut random = Random::new(8);
         let start = scene.state.clone();
-        scene.interface.begin_increment(&start).unwrap();
+        scene.interface.begin(&next_increment(), &start).unwrap();
         scene.state = scene.further(&mut random);
         scene.settle();
         let state = scene.state.clone();
         scene.interface.accept(&state).unwrap();
-        scene.interface.begin_increment(&state).unwrap();
+        scene.interface.begin(&next_increment(), &state).unwrap();
         let at_start = scene.report().gap;
         scene.state = scene.further(&mut random);
         scene.settle();

@@ -7,8 +7,8 @@ use super::super::law::{
     Uzawa,
 };
 use super::scene::{Choice, Kind, Method, PENALTY, Scene};
-use super::{Random, largest};
-use crate::system::{Order, Term};
+use super::{Random, largest, next_increment};
+use crate::system::{Choices, Order, Term};
 use signorini_geometry::surface::Carrier;
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -354,7 +354,7 @@ fn multipliers_that_stick_act_as_they_hold() {
                 let nodal = scene.layout.nnode * scene.layout.ndim;
                 scene.state.u[nodal..].copy_from_slice(&pressed.u[nodal..]);
                 let state = scene.state.clone();
-                scene.interface.begin_increment(&state).unwrap();
+                scene.interface.begin(&next_increment(), &state).unwrap();
                 scene.settle();
                 let whole = scene.respond(&state, Order::Tangent);
                 let n = scene.layout.ndof();

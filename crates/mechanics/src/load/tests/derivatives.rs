@@ -4,7 +4,7 @@ use super::*;
 
 /// What differences have to confirm of a term at a state.
 fn check(single: &Single, term: &mut dyn Term, nonlinear: bool, what: &str) {
-    term.begin_step(&step(nonlinear), &single.state(&[]))
+    term.begin(&Phase::of_step(step(nonlinear)), &single.state(&[]))
         .unwrap();
     let n = single.layout.ndof();
     let u: Vec<f64> = (0..n).map(|k| 0.06 * noise(100 + k)).collect();
@@ -38,7 +38,7 @@ fn check(single: &Single, term: &mut dyn Term, nonlinear: bool, what: &str) {
     let skew = (0..n * n).map(|k| (here.stiffness[k] - transposed(k)).abs());
     let symmetric = skew.fold(0.0, f64::max) < 1e-14 * scale;
     assert!(
-        symmetric || term.symmetry() == Symmetry::Unsymmetric,
+        symmetric || term.properties().symmetry == Symmetry::Unsymmetric,
         "{what}"
     );
     assert!(here.energy.is_none() || symmetric, "{what}");
@@ -119,14 +119,19 @@ fn a_pressure_that_does_not_act_in_a_step_leaves_the_system_symmetric_and_with_a
             number,
             ..step(true)
         };
-        pressure.begin_step(&here, &state).unwrap();
-        assert_eq!(pressure.symmetry() == Symmetry::Unsymmetric, acts);
+        pressure.begin(&Phase::of_step(here), &state).unwrap();
+        assert_eq!(
+            pressure.properties().symmetry == Symmetry::Unsymmetric,
+            acts
+        );
         let energy = response(&pressure, &single.layout, &state).energy;
         assert_eq!(energy.is_none(), acts);
     }
     // small displacements: the pressure is dead
-    pressure.begin_step(&step(false), &state).unwrap();
-    assert_eq!(pressure.symmetry(), Symmetry::Definite);
+    pressure
+        .begin(&Phase::of_step(step(false)), &state)
+        .unwrap();
+    assert_eq!(pressure.properties().symmetry, Symmetry::Definite);
 }
 
 #[test]
@@ -145,9 +150,9 @@ fn a_moment_in_space_has_an_energy_only_in_steps_in_which_it_swivels_about_one_a
             number,
             ..step(true)
         };
-        load.begin_step(&here, &state).unwrap();
+        load.begin(&Phase::of_step(here), &state).unwrap();
         let energy = response(&load, &layout, &state).energy;
         assert_eq!(energy.is_none(), swivels, "step {number}");
-        assert_eq!(load.symmetry() == Symmetry::Unsymmetric, swivels);
+        assert_eq!(load.properties().symmetry == Symmetry::Unsymmetric, swivels);
     }
 }

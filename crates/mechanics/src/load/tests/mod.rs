@@ -10,7 +10,8 @@ use super::{
     Centrifugal, Course, FollowingPressure, NodalForces, Region, Schedule, Section, Spin, spread,
 };
 use crate::system::{
-    Dof, Elimination, Idealisation, Layout, Order, Sink, State, StepContext, Symmetry, Term, Work,
+    Dof, Elimination, Idealisation, Layout, Order, Phase, Sink, State, StepContext, Symmetry, Term,
+    Work,
 };
 use signorini_geometry::element::{self, Element};
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
@@ -186,6 +187,8 @@ impl Sink for Dense<'_> {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 fn response(term: &dyn Term, layout: &Layout, state: &State) -> Response {

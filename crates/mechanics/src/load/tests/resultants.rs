@@ -30,7 +30,7 @@ fn pressure_on_a_closed_curved_surface_has_no_resultant() {
         let single = Single::new(element, space, 0.15);
         let mut pressure = single.pressure(single.surface(), 3.0);
         pressure
-            .begin_step(&step(true), &single.state(&[]))
+            .begin(&Phase::of_step(step(true)), &single.state(&[]))
             .unwrap();
         let u: Vec<f64> = (0..single.layout.ndof())
             .map(|k| 0.1 * noise(7 + k))
@@ -198,7 +198,7 @@ fn centrifugal_forces_of_a_bar_and_of_a_disc_are_those_of_the_closed_forms() {
         let factor = if element.dim() == 1 { section } else { 1.0 };
         let mut term = single.centrifugal(2.0 * factor, spin);
         for (nonlinear, stretch) in [(false, 1.0), (true, 1.2)] {
-            term.begin_step(&step(nonlinear), &single.state(&[]))
+            term.begin(&Phase::of_step(step(nonlinear)), &single.state(&[]))
                 .unwrap();
             let n = single.layout.ndim;
             let mut u = vec![0.0; single.layout.ndof()];

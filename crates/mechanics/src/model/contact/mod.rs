@@ -16,7 +16,7 @@ use super::{
 use crate::contact::discretization::{REACH, SlidingRange};
 use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::Scale;
-use crate::contact::{InterfaceParts, Measure, Phase};
+use crate::contact::{ContactPhase, InterfaceParts, Measure};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement};
 use std::sync::Arc;
@@ -59,9 +59,9 @@ impl<'a> Steps<'a> {
     }
 
     /// What becomes of a contact in each step.
-    fn phases(&self, contact: usize, part: &ContactPart, penalty: f64) -> Vec<Phase> {
+    fn phases(&self, contact: usize, part: &ContactPart, penalty: f64) -> Vec<ContactPhase> {
         let friction = |f: &Option<FrictionPart>| f.as_ref().map(|f| friction(f, penalty));
-        let mut now = Phase {
+        let mut now = ContactPhase {
             active: part.active,
             friction: friction(&part.friction),
         };

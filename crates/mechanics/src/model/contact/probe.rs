@@ -136,9 +136,10 @@ impl Look {
             return Ok(None);
         }
         let found = sides.pair_up(at)?;
-        let rises = sides
-            .discretization
-            .rises(&sides.pair, at, &found, &self.bent)?;
+        let rises = match sides.discretization.capabilities().curved {
+            Some(curved) => curved.rises(&sides.pair, at, &found, &self.bent)?,
+            None => Vec::new(),
+        };
         Ok(Some(Bend {
             sides: self.bent.clone(),
             rises,
@@ -287,7 +288,7 @@ fn probes(
         let Some(found) = found else { continue };
         pair.primary.jet(at, &found.anchor, &mut jet)?;
         let point = points.point(row);
-        let inside = points.inside().and_then(|inside| inside.get(row));
+        let inside = points.on_facets().and_then(|inside| inside.get(row));
         probes.push(Probe {
             position: point.position(at),
             node: point.nodes.first().copied().filter(|_| inside.is_none()),

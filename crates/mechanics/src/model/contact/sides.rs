@@ -5,8 +5,8 @@ mod rigid;
 use super::joined;
 use crate::contact::discretization::projected::{Closest, Sight};
 use crate::contact::discretization::{
-    Cutter, Discretization, FacetSizes, Mortar, NodeNormals, NodeToNode, OwnBody, Pair, Pairing,
-    PointToSegment, SlidingRange, SurfacePair, areas_inside,
+    Cutter, Discretization, FacetSizes, Lean, Mortar, NodeNormals, NodeToNode, OwnBody, Pair,
+    Pairing, PointToSegment, SlidingRange, SurfacePair, areas_inside,
 };
 use crate::contact::law::{AugmentedNewton, ContactLaw, Lagrange, Multiplier, Penalty, Uzawa};
 use crate::contact::{Areas, Measure, closest_points, discretization, mortar};
@@ -225,7 +225,7 @@ impl Source<'_> {
                     let facets = facets.clone();
                     Box::new(move |inside, x| {
                         let across = |facet, x| extent(&spaces, facet, x);
-                        let points = inside.inside().unwrap_or(&[]);
+                        let points = inside.capabilities().inside.unwrap_or(&[]);
                         areas_inside(&facets, points, start.as_deref().unwrap_or(x), &across)
                     })
                 };
@@ -307,6 +307,7 @@ impl Source<'_> {
                 start: Vec::new(),
                 own: own.flatten(),
                 same,
+                lean: None,
             },
             facets: primary,
             area,
@@ -702,7 +703,9 @@ impl Sides {
         share: f64,
     ) -> Result<(), SurfaceError> {
         let (&Method::Mortar(form), Some(facets)) = (&self.method, &self.pair.secondary) else {
-            self.discretization.lean(&self.pair, share);
+            let facets = self.pair.secondary.as_ref();
+            let rows = self.discretization.as_ref();
+            self.pair.lean = facets.map(|facets| Lean::new(facets, rows, share));
             return Ok(());
         };
         let primary = self.pair.primary.as_ref();

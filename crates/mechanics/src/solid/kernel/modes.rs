@@ -58,7 +58,7 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
     };
     let nright = if wants_nodes { 1 + n } else { 1 };
     // samples are those of modes in equilibrium
-    let is_exact = element.material.is_linear() && out.samples.is_empty();
+    let is_exact = element.material.linearity().is_linear() && out.samples.is_empty();
     let mut scratch = std::mem::take(out.scratch);
     scratch.resize(total + total * total + nmode * (nmode + nright), 0.0);
     let (force, rest) = scratch.split_at_mut(total);

@@ -182,7 +182,7 @@ fn every_lane_has_the_history_temperature_and_start_of_its_cell() {
                 stiffness: vec![0.0; n * n],
             };
             for chunk in 0..body.solid.nchunk() {
-                let outcome = body.solid.stiffness_at_start(chunk, &mut work, &mut dense);
+                let outcome = body.solid.add_initial(chunk, &mut work, &mut dense);
                 outcome.unwrap();
             }
             dense

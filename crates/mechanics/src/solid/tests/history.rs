@@ -29,7 +29,6 @@ fn history_moves_on_when_accepted_and_comes_back_from_an_archive() {
         let u: Vec<f64> = (0..n).map(|k| 0.03 * noise(k)).collect();
         let mut work = Work::default();
         let before = body.assemble(&u, Order::Residual, &mut work).force;
-        body.solid.reject();
         assert_eq!(before, body.assemble(&u, Order::Residual, &mut work).force);
         let state = body.state(&u);
         body.solid.accept(&state).unwrap();
@@ -90,7 +89,7 @@ fn stiffness_at_the_start_is_that_of_a_body_to_which_nothing_has_happened() {
                 force: vec![0.0; n],
                 stiffness: vec![0.0; n * n],
             };
-            let outcome = body.solid.stiffness_at_start(0, &mut work, &mut found);
+            let outcome = body.solid.add_initial(0, &mut work, &mut found);
             outcome.unwrap();
             assert!(found.stiffness == fresh.stiffness, "{element} {locking}");
         }
@@ -104,13 +103,13 @@ fn a_body_knows_when_its_stiffness_is_that_at_the_start() {
     let wish = Wish::plain(space, Kinematics::Finite);
     let mut body = body(&mesh, elastic("linear-elastic", 0.3), &wish).unwrap();
     let mut state = body.state(&vec![0.0; body.layout.ndof()]);
-    assert!(body.solid.is_at_start(&state));
+    assert!(body.solid.is_initial(&state));
     state.u[7] = 1e-9;
-    assert!(!body.solid.is_at_start(&state));
+    assert!(!body.solid.is_initial(&state));
     // what it remembers may count
     let remembering = remembering("hex8", space, wish);
     state.u[7] = 0.0;
-    assert!(!remembering.solid.is_at_start(&state));
+    assert!(!remembering.solid.is_initial(&state));
     // another material, or another size of strains, is another start
     let step = |number, nonlinear| StepContext {
         number,
@@ -121,8 +120,8 @@ fn a_body_knows_when_its_stiffness_is_that_at_the_start() {
     body.solid.change(2, softer).unwrap();
     let steps = [step(0, true), step(1, true), step(1, false), step(2, true)];
     let starts = steps.map(|step| {
-        body.solid.begin_step(&step, &state).unwrap();
-        body.solid.start()
+        body.solid.begin(&Phase::of_step(step), &state).unwrap();
+        body.solid.id()
     });
     assert_eq!(starts[0], starts[1]);
     assert!(starts[1] != starts[2] && starts[2] != starts[3] && starts[1] != starts[3]);
@@ -171,7 +170,7 @@ fn stiffness_at_the_start_is_that_of_the_temperature_at_the_start() {
             force: vec![0.0; n],
             stiffness: vec![0.0; n * n],
         };
-        let outcome = solid(young).stiffness_at_start(0, &mut Work::default(), &mut dense);
+        let outcome = solid(young).add_initial(0, &mut Work::default(), &mut dense);
         outcome.unwrap();
         dense.stiffness
     };
@@ -229,7 +228,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         initial: &[],
     })
     .unwrap();
-    assert_eq!(solid.symmetry(), Symmetry::Unsymmetric);
+    assert_eq!(solid.properties().symmetry, Symmetry::Unsymmetric);
     let mut at = state(&layout, &reference, &[0.0; 24]);
     let step = StepContext {
         number: 1,
@@ -237,7 +236,7 @@ fn a_law_without_symmetry_says_so_and_temperature_reaches_the_points() {
         duration: 4.0,
         nonlinear: false,
     };
-    solid.begin_step(&step, &at).unwrap();
+    solid.begin(&Phase::of_step(step), &at).unwrap();
     at.time = 3.0;
     let mut frame = Frame::new(8, &[1]);
     solid.report(&at, &mut frame).unwrap();
@@ -263,9 +262,9 @@ fn a_step_of_the_other_size_of_strains_is_refused_where_the_remedy_ends() {
         nonlinear: false,
         ..StepContext::default()
     };
-    body.solid.begin_step(&step, &at).unwrap();
+    body.solid.begin(&Phase::of_step(step), &at).unwrap();
     step.nonlinear = true;
-    let refused = body.solid.begin_step(&step, &at);
+    let refused = body.solid.begin(&Phase::of_step(step), &at);
     let Err(TermError::Refused { message }) = refused else {
         panic!("{refused:?}");
     };

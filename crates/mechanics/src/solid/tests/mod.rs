@@ -6,8 +6,9 @@ use crate::material::{
     MaterialError, Order as MaterialOrder, Plasticity, Response, Strain, TABLE,
 };
 use crate::system::{
-    Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, Lasts, Layout, NodalField,
-    Order, Samples, Sink, State, StepContext, Symmetry, Term, TermError, Work,
+    Archive, Assembler, Assembly, Dof, Elimination, Frame, Idealisation, InitialStiffness, Layout,
+    Lifetime, NodalField, Order, Phase, Sampled, Samples, Sink, State, StepContext, Stored,
+    Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::element::{self, Element};
 use signorini_geometry::mesh::{CellId, Mesh};
@@ -199,6 +200,8 @@ impl Sink for Dense {
             }
         }
     }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }
 
 impl Dense {
@@ -263,7 +266,7 @@ fn a_stiffness_that_lasts_has_the_same_bits_at_all_states() {
             let Ok(body) = body(&mesh, material, &wish) else {
                 continue;
             };
-            if body.solid.stiffness_lasts() < Lasts::Step {
+            if body.solid.properties().lifetime < Lifetime::Step {
                 continue;
             }
             let mut work = Work::default();

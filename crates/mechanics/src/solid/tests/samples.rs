@@ -165,7 +165,7 @@ fn thermal_growth_is_no_mechanical_strain() {
             nonlinear,
             ..StepContext::default()
         };
-        solid.begin_step(&step, &at).unwrap();
+        solid.begin(&Phase::of_step(step), &at).unwrap();
         let (rule, values) = samples(&solid, &at, &mesh);
         for ((xi, weight), got) in rule.iter().zip(&values) {
             let (_, x, _) = gradient(&plain, element, space, &u, (*xi, weight));

@@ -77,6 +77,8 @@ fn hexahedra_assembled_per_second() {
             fn add(&mut self, _: &[Dof], _: &[f64], _: &[f64]) {}
 
             fn add_symmetric(&mut self, _: &[Dof], _: &[f64], _: &[f64], _: usize) {}
+
+            fn uncertain(&mut self, _: &[Dof], _: f64) {}
         }
         let mut work = Work::default();
         let alone = best_of(40, || {

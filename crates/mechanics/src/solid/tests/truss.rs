@@ -62,7 +62,9 @@ fn forces_of_bars_are_the_gradient_of_energy_and_stiffness_that_of_forces() {
                     .collect();
                 let (mut truss, layout, reference) = bars(&flat, element, ndim);
                 let zero = state(&layout, &reference, &vec![0.0; layout.ndof()]);
-                truss.begin_step(&step(nonlinear), &zero).unwrap();
+                truss
+                    .begin(&Phase::of_step(step(nonlinear)), &zero)
+                    .unwrap();
                 let n = layout.ndof();
                 let u: Vec<f64> = (0..n).map(|k| 0.1 * noise(k)).collect();
                 let mut work = Work::default();
@@ -111,7 +113,7 @@ fn a_turned_and_stretched_bar_reports_force_over_present_area_along_itself() {
     let (mut truss, layout, reference) = bars(&[Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0)], "line2", 3);
     let u = [0.0, 0.0, 0.0, -2.0, 2.2, 0.0];
     let at = state(&layout, &reference, &u);
-    truss.begin_step(&step(true), &at).unwrap();
+    truss.begin(&Phase::of_step(step(true)), &at).unwrap();
     let mut frame = Frame::new(2, &[1]);
     truss.report(&at, &mut frame).unwrap();
     let mut dense = Dense {
@@ -140,7 +142,7 @@ fn a_turned_and_stretched_bar_reports_force_over_present_area_along_itself() {
     assert!(stress.xx().abs() < 1e-12 && dense.force[3].abs() < 1e-12);
     // E A / L along x, as it lay at first
     truss
-        .stiffness_at_start(0, &mut Work::default(), &mut dense)
+        .add_initial(0, &mut Work::default(), &mut dense)
         .unwrap();
     assert!((dense.stiffness[0] - 500.0 * 0.4 / 2.0).abs() < 1e-9);
     assert!(dense.stiffness[7] == 0.0);

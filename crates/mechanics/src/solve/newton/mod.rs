@@ -20,7 +20,8 @@ mod step;
 use super::equations::Equations;
 use super::event::{Flow, IterationRecord};
 use crate::system::{
-    Aid, Assembler, Assembly, Dof, NodeId, Order, State, System, TermError, Verdict,
+    Aid, Assembler, Assembly, Choices, Dof, Increment, NodeId, Order, Phase, State, StepContext,
+    System, TermError, Verdict,
 };
 use course::{Course, Released};
 pub use failure::Failure;
@@ -104,6 +105,8 @@ pub(super) struct Newton {
     pub assembler: Assembler,
     pub equations: Equations,
     pub assembly: Assembly,
+    /// The present step, as terms see it.
+    pub step: StepContext,
     /// Raw dofs that are prescribed in this step.
     pub prescribed: Vec<bool>,
     /// Whether the numbering still holds.
@@ -173,6 +176,7 @@ impl Newton {
             assembler,
             equations,
             assembly: Assembly::default(),
+            step: StepContext::default(),
             prescribed: Vec::new(),
             analyzed: false,
             coupled_more: false,
@@ -202,8 +206,14 @@ impl Newton {
         place: Place,
         report: &mut dyn FnMut(&IterationRecord) -> Flow,
     ) -> Result<Converged, Failure> {
+        let increment = Increment {
+            number: place.increment,
+            from: base.time,
+            to: goal.time,
+        };
+        let phase = Phase::of_increment(self.step, increment);
         for term in &mut system.terms {
-            term.begin_increment(base)?;
+            term.begin(&phase, base)?;
         }
         self.set_negligible(system, self.scale.mean_force());
         self.assembler.begin_increment(&system.terms);
@@ -270,7 +280,7 @@ impl Newton {
             moved,
             rounding: self.rounding(),
             judgement,
-            closed: system.terms.iter().map(|t| t.nactive()).sum(),
+            closed: system.choices().map(Choices::nactive).sum(),
             flips: verdicts.flips + course.changes_of_start(),
             is_unsettled: verdicts.repeat.is_some(),
             is_continuous: verdicts.continuous,
@@ -289,7 +299,7 @@ impl Newton {
 
     /// Says to all terms which forces are negligible, where this is the mean one.
     fn set_negligible(&self, system: &mut System, mean: f64) {
-        for term in &mut system.terms {
+        for term in system.adaptive() {
             term.set_negligible(self.settings.force_tol * mean);
         }
     }
@@ -298,7 +308,7 @@ impl Newton {
     fn release(&mut self, system: &mut System) -> Result<Option<Released>, TermError> {
         (self.assembled, self.has_tangent) = (None, false);
         let mut first: Option<Released> = None;
-        for term in &mut system.terms {
+        for term in system.adaptive() {
             let (why, nodes, solve) = match term.converged(&self.trial)? {
                 Verdict::Settled => continue,
                 Verdict::Repeat { why, nodes, .. } => (why, nodes, false),
@@ -320,9 +330,7 @@ impl Newton {
 
     /// Takes all terms back to their accepted history.
     fn forget(&mut self, system: &mut System) {
-        for term in &mut system.terms {
-            term.reject();
-        }
+        system.reject();
         self.moved();
     }
 
@@ -352,7 +360,7 @@ impl Newton {
 
     /// Lets all terms look at the trial state.
     fn look(&mut self, system: &mut System, next: Order) -> Result<(), TermError> {
-        for term in &mut system.terms {
+        for term in system.adaptive() {
             self.coupled_more |= term.prepare(&self.trial, next)?;
         }
         (self.looked, self.assembled) = (true, None);
@@ -448,7 +456,7 @@ fn verdicts(system: &mut System, trial: &State) -> Verdicts {
         closing: true,
         continuous: true,
     };
-    for term in &mut system.terms {
+    for term in system.choices_mut() {
         if let Verdict::Repeat {
             changes,
             closing,

@@ -218,7 +218,7 @@ impl Newton {
     ) -> Result<f64, Failure> {
         self.before.clone_from(&self.trial);
         let du = &self.du;
-        let limits = system.terms.iter().map(|t| t.max_step(&self.before, du));
+        let limits = system.choices().map(|t| t.max_step(&self.before, du));
         let first = limits.fold(1.0, f64::min);
         // a prescribed motion is taken whole: the energy before it is another problem's
         if motion || self.settings.line_search == LineSearch::Off {
@@ -226,7 +226,7 @@ impl Newton {
             self.place(system, alpha);
             return Ok(alpha);
         }
-        if system.terms.iter().any(|t| t.has_saddle()) {
+        if system.terms.iter().any(|t| t.properties().has_saddle) {
             return self.shorten(system, first, next);
         }
         let slope = self.slope();

@@ -11,8 +11,9 @@ use super::{
 };
 use crate::load::{NodalForces, Schedule};
 use crate::system::{
-    Dof, Elimination, Frame, Layout, Order, Part, PatternSink, Sink, State, Symmetry, System, Term,
-    TermError, Verdict, Work,
+    Adaptive, Aid, Capabilities, Choices, Dof, Elimination, Frame, Layout, Order, Part,
+    PatternSink, Phase, Properties, Sink, State, Symmetry, System, Term, TermError, Verdict,
+    Viscous, Work,
 };
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
@@ -80,12 +81,12 @@ impl Term for Spring {
         out.interface(&self.dofs());
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Symmetric, Part::Interface)
     }
 
-    fn part(&self) -> Part {
-        Part::Interface
+    fn begin(&mut self, _: &Phase, _: &State) -> Result<(), TermError> {
+        Ok(())
     }
 
     fn nchunk(&self) -> usize {
@@ -117,9 +118,30 @@ impl Term for Spring {
         Ok(self.potential.then(|| self.at(trial)[0]))
     }
 
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            choices: Some(self),
+            ..Capabilities::default()
+        }
+    }
+}
+
+impl Choices for Spring {
+    fn prescribe(&mut self, _: &[bool]) {}
+
     fn max_step(&self, _: &State, _: &[f64]) -> f64 {
         self.max_step
     }
+
+    fn verdict(&mut self, _: &State) -> Verdict {
+        Verdict::Settled
+    }
+
+    fn nactive(&self) -> usize {
+        0
+    }
+
+    fn reject(&mut self) {}
 }
 
 /// A term without forces that finds fault with states.
@@ -201,17 +223,15 @@ impl Term for Fault {
 
     fn pattern(&self, _: &mut dyn PatternSink) {}
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Definite
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Definite, Part::Interface)
     }
 
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn begin_increment(&mut self, from: &State) -> Result<(), TermError> {
-        self.start = Some(from.clone());
-        self.asked = 0;
+    fn begin(&mut self, phase: &Phase, from: &State) -> Result<(), TermError> {
+        if phase.increment.is_some() {
+            self.start = Some(from.clone());
+            self.asked = 0;
+        }
         Ok(())
     }
 
@@ -239,6 +259,51 @@ impl Term for Fault {
         }
         Ok(Some(0.0))
     }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities {
+            choices: Some(self),
+            ..Capabilities::default()
+        }
+    }
+
+    fn adaptive(&mut self) -> Option<&mut dyn Adaptive> {
+        Some(self)
+    }
+}
+
+impl Adaptive for Fault {
+    fn prepare(&mut self, _: &State, _: Order) -> Result<bool, TermError> {
+        Ok(false)
+    }
+
+    fn converged(&mut self, _: &State) -> Result<Verdict, TermError> {
+        Ok(Verdict::Settled)
+    }
+
+    fn aid(&mut self, _: Aid) -> bool {
+        false
+    }
+
+    fn set_negligible(&mut self, _: f64) {}
+
+    fn choices(&mut self) -> Option<&mut dyn Choices> {
+        Some(self)
+    }
+
+    fn viscous(&mut self) -> Option<&mut dyn Viscous> {
+        None
+    }
+}
+
+impl Choices for Fault {
+    fn prescribe(&mut self, _: &[bool]) {}
+
+    fn max_step(&self, _: &State, _: &[f64]) -> f64 {
+        1.0
+    }
+
+    fn reject(&mut self) {}
 
     fn nactive(&self) -> usize {
         self.nactive

@@ -191,12 +191,12 @@ impl Term for Link {
         out.interface(&dofs);
     }
 
-    fn symmetry(&self) -> Symmetry {
-        Symmetry::Symmetric
+    fn properties(&self) -> Properties {
+        Properties::new(Symmetry::Symmetric, Part::Interface)
     }
 
-    fn part(&self) -> Part {
-        Part::Interface
+    fn begin(&mut self, _: &Phase, _: &State) -> Result<(), TermError> {
+        Ok(())
     }
 
     fn nchunk(&self) -> usize {
@@ -544,18 +544,12 @@ impl Term for Late {
         }
     }
 
-    fn symmetry(&self) -> Symmetry {
-        self.spring.symmetry()
+    fn properties(&self) -> Properties {
+        self.spring.properties()
     }
 
-    fn part(&self) -> Part {
-        Part::Interface
-    }
-
-    fn prepare(&mut self, trial: &State, _: Order) -> Result<bool, TermError> {
-        let before = self.coupled;
-        self.coupled |= trial.u[x(0) as usize] > 0.05;
-        Ok(self.coupled != before)
+    fn begin(&mut self, _: &Phase, _: &State) -> Result<(), TermError> {
+        Ok(())
     }
 
     fn nchunk(&self) -> usize {
@@ -583,6 +577,36 @@ impl Term for Late {
         work: &mut Work,
     ) -> Result<Option<f64>, TermError> {
         self.spring.energy(chunk, trial, work)
+    }
+
+    fn adaptive(&mut self) -> Option<&mut dyn Adaptive> {
+        Some(self)
+    }
+}
+
+impl Adaptive for Late {
+    fn prepare(&mut self, trial: &State, _: Order) -> Result<bool, TermError> {
+        let before = self.coupled;
+        self.coupled |= trial.u[x(0) as usize] > 0.05;
+        Ok(self.coupled != before)
+    }
+
+    fn converged(&mut self, _: &State) -> Result<Verdict, TermError> {
+        Ok(Verdict::Settled)
+    }
+
+    fn aid(&mut self, _: Aid) -> bool {
+        false
+    }
+
+    fn set_negligible(&mut self, _: f64) {}
+
+    fn choices(&mut self) -> Option<&mut dyn Choices> {
+        None
+    }
+
+    fn viscous(&mut self) -> Option<&mut dyn Viscous> {
+        None
     }
 }
 

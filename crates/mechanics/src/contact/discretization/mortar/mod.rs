@@ -42,7 +42,7 @@
 //!
 //! *Guests.* Where little of ψ_a is covered, what it would carry scatters. It leaves its function to others, ψ'_b = ψ_b +
 //! Σ_a s_ab ψ_a with shares s_ab of each facet that add up to 1: pressures are even there, nothing is dropped, and node a
-//! has no row. Who is whose guest is settled at convergence ([`Discretization::settle`]).
+//! has no row. Who is whose guest is settled at convergence ([`Averaged::settle`]).
 //!
 //! *Edges.* A mean over both sides of an edge says little about either: where the lower face of a block is pressed and
 //! what it rests on rises away from its flank, one row would press on half of the flank, too. A node of an edge is the node
@@ -70,8 +70,8 @@ mod supports;
 use super::points::{PointToSegment, SlidingRange};
 use super::projected::{Closest, Point};
 use super::{
-    Anchored, BentSides, Discretization, HeldAxes, Links, NOWHERE, OnRow, Pair, Pairing,
-    SurfacePair,
+    Anchored, Averaged, BentSides, Capabilities, Curved, Discretization, HeldAxes, Links, NOWHERE,
+    OnRow, Pair, Pairing, Renewable, SurfacePair,
 };
 use crate::contact::mortar::{
     Basis, Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights,
@@ -737,7 +737,30 @@ impl Discretization for Mortar {
         Point {
             nodes: self.nodes.get(row).map_or(&[], std::slice::from_ref),
             weights: &ONE,
+            all: &[],
         }
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        let sliding = match self.held {
+            Some(_) => SlidingRange::Small,
+            None => SlidingRange::Finite,
+        };
+        Capabilities {
+            is_symmetric: self.held.is_some(),
+            sliding,
+            averaged: Some(self),
+            curved: Some(self),
+            ..Capabilities::default()
+        }
+    }
+
+    fn averaged_mut(&mut self) -> Option<&mut dyn Averaged> {
+        Some(self)
+    }
+
+    fn renewable_mut(&mut self) -> Option<&mut dyn Renewable> {
+        None
     }
 
     fn pair_up(
@@ -764,6 +787,82 @@ impl Discretization for Mortar {
         self.choose(pair, at, &near, &before, out)
     }
 
+    fn row(
+        &self,
+        row: usize,
+        pair: &SurfacePair,
+        at: &Placement,
+        links: &Links<'_>,
+        wanted: Wanted,
+        out: &mut Rows,
+    ) -> Result<(), SurfaceError> {
+        let weights = self.weights(links.pairing);
+        let found = links.pairing.pairs.get(row).and_then(Option::as_ref);
+        if found.is_some_and(|pair| pair.anchor != NOWHERE) {
+            return self.points.row(row, pair, at, links, wanted, out);
+        }
+        let Some(now) = weights.row(row).filter(|_| found.is_some()) else {
+            out.start([]);
+            return Ok(());
+        };
+        let slides = wanted.slip && self.held.is_none();
+        let place = Place {
+            mortar: self,
+            row,
+            pair,
+            at,
+            weights,
+            now,
+            past: links.before.weights.row(row).filter(|_| slides),
+            anchor: links.anchors.get(row).and_then(Option::as_ref),
+            bond: links.bond,
+        };
+        let (facet, _) = self.around[row].first().copied().unwrap_or_default();
+        let normal = now.normal.normalized();
+        let normal = normal.ok_or(SurfaceError::Degenerate { facet })?;
+        let mut scratch = std::mem::take(&mut out.scratch);
+        let work = scratch.of::<Workspace>();
+        if wanted.order == RowOrder::Gap {
+            out.start([]);
+        } else {
+            place.participants(&mut work.participants);
+            out.start(work.participants.iter().map(|&n| Participant::Node(n)));
+        }
+        out.set_secondary(0..now.nsecondary);
+        let into = out.push(row, wanted);
+        into.gap = place.gap();
+        into.normal = normal;
+        let done = match wanted.order {
+            RowOrder::Gap => Ok(()),
+            _ => place.fill(into, wanted, work),
+        };
+        out.scratch = scratch;
+        done
+    }
+
+    /// Where the row is now: what lies before this state is in the weights.
+    fn anchor(
+        &self,
+        row: usize,
+        pair: &SurfacePair,
+        at: &Placement,
+        found: &Pair,
+        slip: Vec3,
+    ) -> Result<Anchored, SurfaceError> {
+        if found.anchor != NOWHERE {
+            return self.points.anchor(row, pair, at, found, slip);
+        }
+        let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
+        let held = self.held.as_ref().and_then(|held| held.weights.row(row));
+        let way = held.map_or(Vec3::ZERO, |of| of.way(x(self.nodes[row]), &x) / of.d);
+        Ok(Anchored {
+            anchor: NOWHERE,
+            offset: way - slip,
+        })
+    }
+}
+
+impl Averaged for Mortar {
     fn support(
         &mut self,
         pair: &SurfacePair,
@@ -820,85 +919,22 @@ impl Discretization for Mortar {
         Ok(true)
     }
 
-    fn row(
-        &self,
-        row: usize,
-        pair: &SurfacePair,
-        at: &Placement,
-        links: &Links<'_>,
-        wanted: Wanted,
-        out: &mut Rows,
-    ) -> Result<(), SurfaceError> {
-        let weights = self.weights(links.pairing);
-        let found = links.pairing.pairs.get(row).and_then(Option::as_ref);
-        if found.is_some_and(|pair| pair.anchor != NOWHERE) {
-            out.nsecondary = 0;
-            return self.points.row(row, pair, at, links, wanted, out);
+    fn more_nodes<'a>(&'a self, row: usize, pairing: &'a Pairing) -> &'a [NodeId] {
+        match self.weights(pairing).rows.get(row) {
+            Some(of) => &of.nodes[..of.nsecondary],
+            None => self.near.get(row).map_or(&[], Vec::as_slice),
         }
-        let Some(now) = weights.row(row).filter(|_| found.is_some()) else {
-            out.start([]);
-            return Ok(());
-        };
-        let slides = wanted.slip && self.held.is_none();
-        let place = Place {
-            mortar: self,
-            row,
-            pair,
-            at,
-            weights,
-            now,
-            past: links.before.weights.row(row).filter(|_| slides),
-            anchor: links.anchors.get(row).and_then(Option::as_ref),
-            bond: links.bond,
-        };
-        let (facet, _) = self.around[row].first().copied().unwrap_or_default();
-        let normal = now.normal.normalized();
-        let normal = normal.ok_or(SurfaceError::Degenerate { facet })?;
-        let mut scratch = std::mem::take(&mut out.scratch);
-        let work = scratch.of::<Workspace>();
-        if wanted.order == RowOrder::Gap {
-            out.start([]);
-        } else {
-            place.participants(&mut work.participants);
-            out.start(work.participants.iter().map(|&n| Participant::Node(n)));
-        }
-        out.nsecondary = now.nsecondary;
-        let into = out.push(row, wanted);
-        into.gap = place.gap();
-        into.normal = normal;
-        let done = match wanted.order {
-            RowOrder::Gap => Ok(()),
-            _ => place.fill(into, wanted, work),
-        };
-        out.scratch = scratch;
-        done
     }
 
-    /// Where the row is now: what lies before this state is in the weights.
-    fn anchor(
-        &self,
-        row: usize,
-        pair: &SurfacePair,
-        at: &Placement,
-        found: &Pair,
-        slip: Vec3,
-    ) -> Result<Anchored, SurfaceError> {
-        if found.anchor != NOWHERE {
-            return self.points.anchor(row, pair, at, found, slip);
+    fn more_facets(&self, row: usize, pairing: &Pairing, out: &mut Vec<u32>) {
+        let Weights { facets, guests, .. } = self.weights(pairing);
+        if guests.is_pointwise(row) {
+            return;
         }
-        let x = |n: NodeId| at.x.get(n as usize).copied().unwrap_or_default();
-        let held = self.held.as_ref().and_then(|held| held.weights.row(row));
-        let way = held.map_or(Vec3::ZERO, |of| of.way(x(self.nodes[row]), &x) / of.d);
-        Ok(Anchored {
-            anchor: NOWHERE,
-            offset: way - slip,
-        })
-    }
-
-    fn secondary(&self, rows: &Rows, row: usize) -> Range<usize> {
-        match rows.nsecondary {
-            0 => self.points.secondary(rows, row),
-            n => 0..n,
+        let around = self.around.get(row).map_or(&[][..], Vec::as_slice);
+        for (facet, ..) in guests.of(row, around) {
+            let of = facets.get(facet as usize);
+            out.extend(of.into_iter().flat_map(|f| &f.met));
         }
     }
 
@@ -913,13 +949,6 @@ impl Discretization for Mortar {
                     out.push(other);
                 }
             }
-        }
-    }
-
-    fn more_nodes<'a>(&'a self, row: usize, pairing: &'a Pairing) -> &'a [NodeId] {
-        match self.weights(pairing).rows.get(row) {
-            Some(of) => &of.nodes[..of.nsecondary],
-            None => self.near.get(row).map_or(&[], Vec::as_slice),
         }
     }
 
@@ -941,6 +970,22 @@ impl Discretization for Mortar {
         }
     }
 
+    fn approach(&self, row: usize, pairing: &Pairing, by: &dyn Fn(NodeId) -> Vec3) -> Option<f64> {
+        let of = self.weights(pairing).row(row)?;
+        Some(-of.gap(by(self.nodes[row]), by) / of.d)
+    }
+
+    fn way(
+        &self,
+        row: usize,
+        pairing: &Pairing,
+        by: &dyn Fn(NodeId) -> Vec3,
+    ) -> Option<(Vec3, Vec3)> {
+        let of = self.weights(pairing).row(row)?;
+        let way = of.way(by(self.nodes[row]), by) / of.d;
+        Some((way, of.normal.normalized()?))
+    }
+
     /// That of the whole facets around the node.
     fn stretch(&self, row: usize, pairing: &Pairing) -> f64 {
         if self.held.is_some() || pairing.weights.guests.is_pointwise(row) {
@@ -959,7 +1004,7 @@ impl Discretization for Mortar {
         }
     }
 
-    fn even_out(
+    fn smooth(
         &self,
         pairing: &Pairing,
         touches: &dyn Fn(usize) -> bool,
@@ -968,7 +1013,9 @@ impl Discretization for Mortar {
     ) {
         self.exchange(self.weights(pairing), touches, joined, on_rows);
     }
+}
 
+impl Curved for Mortar {
     fn rises(
         &self,
         pair: &SurfacePair,
@@ -1000,49 +1047,5 @@ impl Discretization for Mortar {
         };
         let rows = 0..self.nodes.len();
         Ok(rows.map(|row| of_row(row).unwrap_or(0.0)).collect())
-    }
-
-    fn meets_many(&self) -> bool {
-        true
-    }
-
-    fn more_facets(&self, row: usize, pairing: &Pairing, out: &mut Vec<u32>) {
-        let Weights { facets, guests, .. } = self.weights(pairing);
-        if guests.is_pointwise(row) {
-            return;
-        }
-        let around = self.around.get(row).map_or(&[][..], Vec::as_slice);
-        for (facet, ..) in guests.of(row, around) {
-            let of = facets.get(facet as usize);
-            out.extend(of.into_iter().flat_map(|f| &f.met));
-        }
-    }
-
-    fn approach(&self, row: usize, pairing: &Pairing, by: &dyn Fn(NodeId) -> Vec3) -> Option<f64> {
-        let of = self.weights(pairing).row(row)?;
-        Some(-of.gap(by(self.nodes[row]), by) / of.d)
-    }
-
-    fn keeps(&self) -> bool {
-        self.held.is_some()
-    }
-
-    fn way(
-        &self,
-        row: usize,
-        pairing: &Pairing,
-        by: &dyn Fn(NodeId) -> Vec3,
-    ) -> Option<(Vec3, Vec3)> {
-        let of = self.weights(pairing).row(row)?;
-        let way = of.way(by(self.nodes[row]), by) / of.d;
-        Some((way, of.normal.normalized()?))
-    }
-
-    fn stays(&self) -> bool {
-        self.held.is_some()
-    }
-
-    fn is_symmetric(&self) -> bool {
-        self.held.is_some()
     }
 }

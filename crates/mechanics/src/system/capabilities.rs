@@ -1,0 +1,160 @@
+//! What only some terms can do, one trait for each ability.
+//!
+//! | trait | who has it |
+//! |---|---|
+//! | [`Adaptive`] | contact, viscous forces: they change for the sake of the iteration |
+//! | [`Choices`] | contact: active sets |
+//! | [`InitialStiffness`] | solids, trusses: what a hierarchy of levels may be made of |
+//! | [`Elementwise`] | solids: assembly without conflicts |
+//! | [`Stored`] | whatever has a history |
+//! | [`Viscous`] | viscous forces |
+//! | [`Sampled`] | solids, trusses: values at integration points |
+//! | [`Audited`] | contact |
+
+use super::{
+    Aid, Archive, ArchiveError, ContactAudit, Frame, NodeId, Order, Samples, Sink, State,
+    TermError, Verdict, Work,
+};
+use signorini_geometry::mesh::CellId;
+
+/// What a term can do besides what all terms can. Where that changes it, [`Term::adaptive`](super::Term::adaptive) and
+/// [`Term::stored`](super::Term::stored) lead there.
+#[derive(Clone, Copy, Default)]
+pub struct Capabilities<'a> {
+    /// Makes discrete choices.
+    pub choices: Option<&'a dyn Choices>,
+    /// Has a stiffness at the start of the run that is worth knowing later.
+    pub initial_stiffness: Option<&'a dyn InitialStiffness>,
+    /// Knows the elements of its chunks.
+    pub elementwise: Option<&'a dyn Elementwise>,
+    /// Has a history.
+    pub stored: Option<&'a dyn Stored>,
+    /// Has viscous forces.
+    pub viscous: Option<&'a dyn Viscous>,
+    /// Has integration points.
+    pub sampled: Option<&'a dyn Sampled>,
+    /// Is a contact.
+    pub audited: Option<&'a dyn Audited>,
+}
+
+/// A term that changes its pattern, or what it keeps frozen, while an iteration goes on.
+pub trait Adaptive {
+    /// Once per iterate, before it is evaluated: search, pairing, status. Says whether the pattern changed. `next` is what
+    /// will probably be asked for there.
+    ///
+    /// # Errors
+    /// What the term finds wrong with the configuration.
+    fn prepare(&mut self, trial: &State, next: Order) -> Result<bool, TermError>;
+
+    /// The iteration has come to an end: whether what the term keeps frozen meanwhile may stay as it is, or has been
+    /// changed so that the iteration goes on.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`](super::Term::evaluate).
+    fn converged(&mut self, trial: &State) -> Result<Verdict, TermError>;
+
+    /// Changes how the term helps the iteration on; returns whether anything changed.
+    fn aid(&mut self, aid: Aid) -> bool;
+
+    /// Sets the size up to which a force is negligible: the residuals of multipliers may be as large as such a force.
+    fn set_negligible(&mut self, force: f64);
+
+    /// Its discrete choices, if it makes any.
+    fn choices(&mut self) -> Option<&mut dyn Choices>;
+
+    /// Its viscous forces, if it has any.
+    fn viscous(&mut self) -> Option<&mut dyn Viscous>;
+}
+
+/// A term that makes discrete choices: which of its rows act, and how.
+pub trait Choices {
+    /// These unknowns are prescribed during the step that begins, held or moved: a flag for each.
+    fn prescribe(&mut self, prescribed: &[bool]);
+
+    /// The largest multiple of `du` that the term allows.
+    fn max_step(&self, trial: &State, du: &[f64]) -> f64;
+
+    /// Whether the choices made by the last [`Adaptive::prepare`] equal those before it.
+    fn verdict(&mut self, trial: &State) -> Verdict;
+
+    /// How many rows act at the present iterate: closed contacts.
+    fn nactive(&self) -> usize;
+
+    /// The increment was cut: back to the last accepted choices and history.
+    fn reject(&mut self);
+}
+
+/// A term of the bulk whose stiffness at the start of the run, undeformed and without history, is known for good: what a
+/// hierarchy of levels may be made of, whatever has happened since.
+pub trait InitialStiffness {
+    /// Identifies the initial stiffness of this step. Equal ids mean equal stiffness.
+    fn id(&self) -> u64;
+
+    /// Adds that of one chunk. Forces that come with it count for nothing.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`](super::Term::evaluate).
+    fn add_initial(
+        &self,
+        chunk: usize,
+        work: &mut Work,
+        out: &mut dyn Sink,
+    ) -> Result<(), TermError>;
+
+    /// Whether the stiffness at this trial state is the initial one, to the last bit; false where this is not known.
+    fn is_initial(&self, trial: &State) -> bool;
+}
+
+/// A term of the bulk that knows beforehand what it adds where.
+pub trait Elementwise {
+    /// The nodes of each element of a chunk, one after the other as [`Term::evaluate`](super::Term::evaluate) adds these, each
+    /// with all unknowns of its nodes; nothing of a chunk that is not known.
+    fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId]));
+}
+
+/// A term with a history.
+pub trait Stored {
+    /// The increment is done: history moves on.
+    ///
+    /// # Errors
+    /// What the term finds wrong with the state.
+    fn accept(&mut self, state: &State) -> Result<(), TermError>;
+
+    /// Stores the accepted history.
+    fn save(&self, out: &mut Archive);
+
+    /// Takes the accepted history back.
+    ///
+    /// # Errors
+    /// The archive belongs to another model.
+    fn load(&mut self, from: &Archive) -> Result<(), ArchiveError>;
+}
+
+/// A term with viscous forces.
+pub trait Viscous {
+    /// Viscous forces of this strength act from the next increment on, none at 0, against what moves since its start
+    /// beyond `drift`: a number for each unknown, or nothing. Says whether the term takes orders: false where it has a
+    /// strength of its own.
+    fn damp(&mut self, strength: f64, drift: &[f64]) -> bool;
+
+    /// Work spent in viscous forces up to the accepted state.
+    fn work(&self) -> f64;
+}
+
+/// A term with integration points.
+pub trait Sampled {
+    /// Adds what the term knows at the integration points of these cells, which are sorted, at an accepted state.
+    ///
+    /// # Errors
+    /// As [`Term::evaluate`](super::Term::evaluate).
+    fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError>;
+}
+
+/// A contact, as audits and messages see it.
+pub trait Audited {
+    /// A node of the point that a multiplier acts at; none where it is another term's.
+    fn node_of(&self, multiplier: usize) -> Option<NodeId>;
+
+    /// Audits an accepted state, whose results so far are in the frame; nothing where the contact does not act.
+    fn audit(&self, state: &State, frame: &Frame) -> Option<ContactAudit>;
+}

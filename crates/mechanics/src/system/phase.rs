@@ -1,0 +1,90 @@
+//! Where a run is, as terms see it.
+
+/// The step a run is in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepContext {
+    /// Number of the step, from 0.
+    pub number: usize,
+    /// Total time at its start.
+    pub start: f64,
+    /// Its duration.
+    pub duration: f64,
+    /// Whether displacements may be large.
+    pub nonlinear: bool,
+}
+
+/// The step before any begins.
+impl Default for StepContext {
+    fn default() -> Self {
+        Self {
+            number: 0,
+            start: 0.0,
+            duration: 1.0,
+            nonlinear: true,
+        }
+    }
+}
+
+/// An increment of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Increment {
+    /// Its number within the step, from 1. Parts of an increment, and stages of slow motion, have the number of the whole.
+    pub number: usize,
+    /// Total time at its start.
+    pub from: f64,
+    /// Total time at its end.
+    pub to: f64,
+}
+
+/// What begins: a step, or an increment of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Phase {
+    /// The step.
+    pub step: StepContext,
+    /// The increment; `None` where the step begins, and no increment of it has.
+    pub increment: Option<Increment>,
+}
+
+impl Phase {
+    /// The begin of a step.
+    #[must_use]
+    pub const fn of_step(step: StepContext) -> Self {
+        Self {
+            step,
+            increment: None,
+        }
+    }
+
+    /// The begin of an increment of a step.
+    #[must_use]
+    pub const fn of_increment(step: StepContext, increment: Increment) -> Self {
+        Self {
+            step,
+            increment: Some(increment),
+        }
+    }
+
+    /// Δt, the time that the increment takes; 0 where a step begins, and in stages of slow motion after the first, in which no
+    /// time passes.
+    #[must_use]
+    pub fn dt(&self) -> f64 {
+        self.increment.map_or(0.0, |of| of.to - of.from)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Increment, Phase, StepContext};
+
+    #[test]
+    fn time_passes_in_increments_alone() {
+        let step = StepContext::default();
+        assert_eq!(Phase::of_step(step).dt(), 0.0);
+        let increment = Increment {
+            number: 2,
+            from: 0.25,
+            to: 1.0,
+        };
+        assert_eq!(Phase::of_increment(step, increment).dt(), 0.75);
+    }
+}
