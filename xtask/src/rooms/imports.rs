@@ -14,6 +14,8 @@ pub(super) struct Import {
     pub path: ModulePath,
     /// Where, from 1.
     pub line: usize,
+    /// Whether the file hands it on (`pub use`) and need not use it itself.
+    pub is_handed_on: bool,
 }
 
 /// What is found in a file.
@@ -34,6 +36,7 @@ pub(super) fn imports(source: &str, module: &[String]) -> Found {
         depth: 0,
         module: module.to_vec(),
         blocks: Vec::new(),
+        handing_on: false,
         found: Found::default(),
     };
     parser.file();
@@ -49,6 +52,8 @@ struct Parser<'a> {
     module: ModulePath,
     /// The depth at which each module written in place was opened.
     blocks: Vec<usize>,
+    /// Whether the tree that is taken is that of a `pub use`.
+    handing_on: bool,
     found: Found,
 }
 
@@ -86,8 +91,11 @@ impl<'a> Parser<'a> {
                     }
                 }
                 "use" if self.text(1) != "<" => {
+                    // `pub use`, or `pub(crate) use`
+                    self.handing_on = self.before(1) == "pub" || self.before(1) == ")";
                     self.at += 1;
                     self.tree(&[]);
+                    self.handing_on = false;
                 }
                 "mod" if self.is_word(1) && self.text(2) == "{" => {
                     self.module.push(self.text(1).to_string());
@@ -218,7 +226,11 @@ impl<'a> Parser<'a> {
 
     fn take(&mut self, segments: &[&str], line: usize) {
         if let Some(path) = self.resolve(segments) {
-            self.found.imports.push(Import { path, line });
+            self.found.imports.push(Import {
+                path,
+                line,
+                is_handed_on: self.handing_on,
+            });
         }
     }
 

@@ -11,8 +11,11 @@
 //! Limits: a module reached through a name that some macro builds is not seen, nor is one behind `#[path]`; a path
 //! that goes through a re-export counts for the room that re-exports.
 //!
+//! Files of a crate import each other in no circle ([`circles`]): what a file uses was defined before it.
+//!
 //! To add a room: one line in [`ROOMS`].
 
+mod circles;
 mod imports;
 mod tokens;
 
@@ -223,17 +226,22 @@ pub(crate) fn check(root: &Path) -> Outcome {
     for violation in &report.violations {
         println!("{violation}");
     }
+    let circles = circles::circles(&files)?;
+    for circle in &circles {
+        println!("{circle}");
+    }
     let Report {
         nfile,
         nallowed,
         violations,
     } = report;
+    let ncircle = circles.len();
     let nroom = ROOMS.len();
     let nviolation = violations.len();
     println!(
-        "rooms: {nfile} files, {nroom} rooms, {nallowed} imports between rooms, {nviolation} against the table"
+        "rooms: {nfile} files, {nroom} rooms, {nallowed} imports between rooms, {nviolation} against the table, {ncircle} circles of files"
     );
-    Ok(violations.is_empty())
+    Ok(violations.is_empty() && circles.is_empty())
 }
 
 /// Prints the table.
