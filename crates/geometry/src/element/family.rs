@@ -1,4 +1,3 @@
-use super::{Element, hex8, line2, quad4, tet4, tri3, wedge6};
 use crate::tensor::Vec3;
 
 /// The shape of a reference domain, whatever the degree of the element.
@@ -97,19 +96,6 @@ impl Family {
             Self::Wedge => {
                 positive(xi.x) && positive(xi.y) && xi.x + xi.y <= 1.0 + tolerance && along(xi.z)
             }
-        }
-    }
-
-    /// The linear element, whose nodes are the corners.
-    #[must_use]
-    pub fn linear(self) -> Element {
-        match self {
-            Self::Line => &line2::Line2,
-            Self::Triangle => &tri3::Tri3,
-            Self::Quadrilateral => &quad4::Quad4,
-            Self::Tetrahedron => &tet4::Tet4,
-            Self::Hexahedron => &hex8::Hex8,
-            Self::Wedge => &wedge6::Wedge6,
         }
     }
 }

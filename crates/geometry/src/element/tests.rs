@@ -1,8 +1,9 @@
 //! Properties of every element of the table and of made-up cubic ones, asked through the trait alone.
 
+use super::quadrature::Rule;
 use super::*;
 use crate::random::Random;
-use crate::tensor::Mat3;
+use crate::tensor::{Mat3, Sym3, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The elements of the table, and those that no table has.

@@ -1,17 +1,8 @@
+use super::pair::{BENT, EXACT, Facing, Pair, TOUCH};
 use super::polygon::{Polygon, Spot, cross2};
-use super::{BENT, EXACT, Pair, TOUCH};
 use crate::element::{Element, Family, MAX_FACET_NODES};
 use crate::scalar::{combine, minus};
 use crate::tensor::{Sym3, Vec3};
-
-/// Which side of a facet is seen along the normal of the plane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Facing {
-    /// Its normal points to the viewer: that of a secondary facet.
-    Same,
-    /// Its normal points away: that of a primary facet.
-    Opposite,
-}
 
 /// A facet projected onto a plane, or a line; each point of it has one place there.
 #[derive(Clone, Debug)]

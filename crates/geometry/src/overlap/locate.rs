@@ -1,6 +1,6 @@
 use super::flat::Flat;
+use super::pair::{Pair, Parameters};
 use super::polygon::cross2;
-use super::{Pair, Parameters};
 use crate::element::{MAX_FACET_NODES, Quad4, ReferenceElement};
 use crate::scalar::minus;
 use crate::tensor::Vec3;

@@ -88,35 +88,22 @@
 
 mod flat;
 mod locate;
+mod pair;
 mod plane;
 mod polygon;
 #[cfg(test)]
 mod tests;
 
-pub use flat::{Facing, Flat};
+pub use flat::Flat;
+pub use pair::{Facing, Pair, Parameters};
+use pair::{ROUNDING, TOUCH};
 pub use plane::Plane;
 pub use polygon::MAX_CORNERS;
 
-use crate::element::MAX_FACET_NODES;
 use crate::element::quadrature::{MAX_DEGREE, of_degree};
 use crate::scalar::minus;
 use polygon::{Corner, Origin, Polygon, Spot, cross2};
 use thiserror::Error;
-
-/// A pair of numbers on the auxiliary plane, or of parameters; the second is zero on a line.
-pub type Pair<T> = [T; 2];
-
-/// How far a corner may be from a side and still lie on it, relative to the size of the smaller facet.
-const TOUCH: f64 = 1e-12;
-
-/// What rounding leaves of a coordinate, relative to the largest.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
-/// What rules on facets with maps that are not affine may miss of an integral of a shape function, relative to the area.
-const EXACT: f64 = 1e-12;
-
-/// The same where edges are bent: a hundredth of the sagitta, relative to the size of the facet, and no more than this.
-const BENT: f64 = 1e-9;
 
 /// A point of a cell.
 #[derive(Clone, Copy, Debug, Default)]
@@ -131,17 +118,6 @@ pub struct Point {
     pub secondary: Parameters,
     /// ξ^m.
     pub primary: Parameters,
-}
-
-/// Parameters of a place on a facet.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Parameters {
-    /// ξ.
-    pub xi: Pair<f64>,
-    /// N_j.
-    pub shape: [f64; MAX_FACET_NODES],
-    /// ∂N_j/∂p: by the place on the plane.
-    pub gradient: [Pair<f64>; MAX_FACET_NODES],
 }
 
 /// What prevents integration over an overlap.

@@ -1,4 +1,4 @@
-use super::{Facing, Pair};
+use super::pair::{Facing, Pair};
 use crate::scalar::minus;
 
 /// More corners than two convex polygons of eight sides can share: no cell has as many.

@@ -1,5 +1,6 @@
 //! Areas against closed forms and brute force, derivatives against differences, over all pairings.
 
+use super::pair::EXACT;
 use super::*;
 use crate::element::quadrature::{gauss, on_facet};
 use crate::element::testing::CUBIC;

@@ -45,57 +45,14 @@ mod closest;
 mod direction;
 mod flat;
 mod gaps;
+mod rules;
 mod stress;
 mod support;
 
 use crate::system::{ContactAudit, ContactFrame, Frame, Measured};
-use signorini_geometry::mesh::NodeId;
-use signorini_geometry::surface::{ContactSurface, Facets, Placement};
-use signorini_geometry::tensor::Vec3;
+pub use rules::{Rules, Sides};
+use rules::{VISCOUS, nothing, worst};
 use support::Support;
-
-/// Where the two sides of a contact are.
-#[derive(Clone, Copy)]
-pub struct Sides<'a> {
-    /// The facets of the secondary side; none where it is bare nodes.
-    pub secondary: Option<&'a Facets>,
-    /// The other side.
-    pub primary: &'a dyn ContactSurface,
-    /// Where all is now.
-    pub now: Placement<'a>,
-    /// Positions at the start, if the method keeps the geometry of the start.
-    pub start: Option<Placement<'a>>,
-    /// Where the nodes were at the start.
-    pub reference: &'a [Vec3],
-    /// Whether both sides are one.
-    pub same: bool,
-}
-
-impl<'a> Sides<'a> {
-    /// The configuration in which closest points are looked for.
-    const fn searched(&self) -> Placement<'a> {
-        match self.start {
-            Some(start) => start,
-            None => self.now,
-        }
-    }
-}
-
-/// The conditions that a contact has to satisfy.
-pub trait Rules: Sync {
-    /// Whether the sides are joined.
-    fn joined(&self) -> bool;
-    /// The prescribed shift of the gap at a node of the secondary side, by its place among them.
-    fn shift(&self, node: usize) -> f64;
-    /// The gap that the law has at a pressure on a node.
-    fn gap(&self, node: usize, pressure: f64) -> f64;
-    /// The largest tangential traction at a pressure on a node; `None` without friction.
-    fn limit(&self, node: usize, pressure: f64) -> Option<f64>;
-    /// The node opposite a node, where nodes meet nodes and the other side has no facets.
-    fn partner(&self, node: usize) -> Option<NodeId>;
-    /// Whether a node follows a rigid body, so that no stress carries the forces on it.
-    fn is_rigid(&self, node: NodeId) -> bool;
-}
 
 /// Audits one contact at an accepted state.
 #[must_use]
@@ -125,9 +82,6 @@ pub fn contact(
     audit
 }
 
-/// The part of the work of loads and supports that viscous forces may do in jumps.
-const VISCOUS: f64 = 0.05;
-
 /// Audits the work of viscous forces that led to another equilibrium where there was none nearby (A5).
 #[must_use]
 pub fn viscous(frame: &Frame) -> Measured {
@@ -137,22 +91,4 @@ pub fn viscous(frame: &Frame) -> Measured {
         measured.part = frame.work_jumps / frame.work_turnover;
     }
     measured
-}
-
-/// How many nodes a finding names.
-const NAMED: usize = 4;
-
-/// The worst of these nodes, the worst first.
-fn worst(of: &ContactFrame, mut nodes: Vec<(usize, f64)>) -> Vec<NodeId> {
-    nodes.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    let name = |&(k, _): &(usize, f64)| of.nodes.get(k).copied();
-    nodes.iter().take(NAMED).filter_map(name).collect()
-}
-
-/// A check that has nothing to look at.
-fn nothing(limit: f64) -> Measured {
-    Measured {
-        limit,
-        ..Measured::default()
-    }
 }

@@ -12,15 +12,16 @@
 //! To add one: a file that implements [`FrictionLaw`] and describes its keys, and one line in [`TABLE`].
 
 mod coulomb;
+mod definition;
 mod falling;
 mod tresca;
 
 pub use coulomb::Coulomb;
+pub use definition::{FrictionLaw, Limit, Sliding, Stick};
 pub use falling::Falling;
 pub use tresca::Tresca;
 
 use signorini_vocabulary::{Description, Entry};
-use std::fmt::Debug;
 use std::sync::Arc;
 
 /// The friction laws that a case may choose, each by its first key.
@@ -31,39 +32,6 @@ pub static TABLE: [Entry<Arc<dyn FrictionLaw>>; 3] =
 #[must_use]
 pub fn descriptions() -> Vec<Description> {
     TABLE.iter().map(|entry| entry.description).collect()
-}
-
-/// What a limit may depend on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sliding {
-    /// Contact pressure, ≥ 0.
-    pub pressure: f64,
-    /// Length of all slip before this increment, since contact was made.
-    pub path: f64,
-}
-
-/// The largest tangential traction, with its derivative.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limit {
-    /// The limit, ≥ 0.
-    pub value: f64,
-    /// Derivative with respect to the pressure.
-    pub dpressure: f64,
-}
-
-/// A friction law.
-pub trait FrictionLaw: Debug + Send + Sync {
-    /// The limit where it touches.
-    fn limit(&self, at: &Sliding) -> Limit;
-}
-
-/// What a contact that sticks yields.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stick {
-    /// Traction per elastic slip.
-    Stiffness(f64),
-    /// The elastic slip at which the limit is reached.
-    Slip(f64),
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ mod closed;
 mod plasticity;
 
 use super::*;
-use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
 const KINEMATICS: [Kinematics; 2] = [Kinematics::Small, Kinematics::Finite];
 const TABLE_OF_YIELD: [[f64; 2]; 3] = [[8.0, 0.0], [14.0, 0.1], [17.0, 2.0]];
