@@ -332,7 +332,7 @@ def page(outcomes):
 
 def table(outcomes):
     rows = [HEADINGS, ["---"] * len(HEADINGS), *(cells(outcome) for outcome in outcomes)]
-    return "".join("| " + " | ".join(text.replace("|", "\\|") for text in row) + " |\n" for row in rows)
+    return "".join("| " + " | ".join(text.replace("|", "\\|").replace("`", '"') for text in row) + " |\n" for row in rows)
 
 
 def agreeing(outcomes):

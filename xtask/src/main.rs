@@ -4,12 +4,14 @@
 //! cargo xtask                  lists the chores
 //! cargo xtask rooms            fails where a room imports one that its line in the table does not list
 //! cargo xtask rooms --graph    prints that table
+//! cargo xtask docs             fails where a Markdown file names what does not exist
 //! ```
 //!
 //! Exit codes: 0 all is well, 1 a check failed, 2 the command line is wrong or a file cannot be read.
 //!
 //! To add a chore: a module with a function that takes the repository's root, and one line in [`CHORES`].
 
+mod docs;
 mod rooms;
 
 use std::fmt;
@@ -26,7 +28,7 @@ struct Chore {
     run: fn(&Path) -> Outcome,
 }
 
-const CHORES: [Chore; 2] = [
+const CHORES: [Chore; 3] = [
     Chore {
         arguments: &["rooms"],
         about: "fail where a room imports one that its line in the table does not list",
@@ -36,6 +38,11 @@ const CHORES: [Chore; 2] = [
         arguments: &["rooms", "--graph"],
         about: "print which room may import which",
         run: rooms::graph,
+    },
+    Chore {
+        arguments: &["docs"],
+        about: "fail where a Markdown file names a file, command, key or symbol that does not exist",
+        run: docs::check,
     },
 ];
 
@@ -47,6 +54,8 @@ enum ChoreError {
         path: PathBuf,
         source: std::io::Error,
     },
+    /// Something that a chore needs did not do its work.
+    Failed { what: String, reason: String },
     /// The folder of this program has no parent.
     NoRoot,
 }
@@ -55,6 +64,7 @@ impl fmt::Display for ChoreError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Read { path, source } => write!(f, "cannot read {}: {source}", path.display()),
+            Self::Failed { what, reason } => write!(f, "{what} failed: {reason}"),
             Self::NoRoot => f.write_str("xtask does not lie inside the repository"),
         }
     }
@@ -78,6 +88,11 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Whether a command line names a chore.
+fn is_chore(arguments: &[&str]) -> bool {
+    CHORES.iter().any(|chore| chore.arguments == arguments)
 }
 
 fn list() -> String {

@@ -15,6 +15,7 @@ use std::time::Instant;
 /// Solves JOB.inp with the laws of contact that the deck states, and writes JOB.dat, JOB.frd and JOB.sta next to it, for
 /// programs that call `ccx -i JOB`. All other results are in JOB.out.
 #[derive(Debug, Args)]
+#[command(mut_arg("verbose", |verbose| verbose.short(None)))]
 pub struct CcxCompat {
     /// The name of the deck, without .inp
     #[arg(short = 'i', value_name = "JOB", required_unless_present = "version")]

@@ -11,7 +11,7 @@ solved, a number is the reason why the program refuses it. The tests of `crates/
 a block by every way with a `+`, but for contact of a surface with itself.
 [contact.md](contact.md) tells what the keys mean. Written by
 
-```
+```sh
 SIGNORINI_BLESS=1 cargo test --release -p signorini --test methods page
 ```
 ";

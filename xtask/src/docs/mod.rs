@@ -1,0 +1,265 @@
+//! Whether what the Markdown files of the repository name exists.
+//!
+//! | named by | has to be |
+//! |---|---|
+//! | a link, a path between backquotes | a file or folder, and a heading behind `#` |
+//! | a command in a block or between backquotes | a subcommand with these options, a script, a package, a test |
+//! | a block in TOML, a key or a value between backquotes | in the schema of cases |
+//! | a path of Rust or a single word between backquotes | defined in the sources, or a word that programs read or write |
+//!
+//! Everything is looked up where it is defined: sources by `syn`, packages by `cargo metadata`, options and keys by
+//! the command itself, `cargo run --release -- …`, which is built for it.
+//!
+//! Limits: texts with spaces that are no command and no TOML, formulas above all, are not looked at; what a program of
+//! others takes neither. Symbols of at most two letters are formulas. The fragments in `changes/` are history.
+//!
+//! To add a kind: a case in `spans.rs`.
+
+mod commands;
+mod keys;
+mod markdown;
+mod spans;
+mod symbols;
+mod toml;
+mod tree;
+
+use crate::{ChoreError, Outcome};
+use commands::{Packages, Program, Script};
+use keys::Keys;
+use markdown::{Page, Piece};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use symbols::Symbols;
+use tree::Tree;
+
+/// What is known of the repository.
+struct Facts {
+    tree: Tree,
+    program: Program,
+    packages: Packages,
+    scripts: Vec<Script>,
+    keys: Keys,
+    symbols: Symbols,
+}
+
+/// A name that leads nowhere.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Fault {
+    path: PathBuf,
+    line: usize,
+    what: String,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}", self.path.display(), self.line, self.what)
+    }
+}
+
+/// Checks all pages and prints what is wrong.
+pub(crate) fn check(root: &Path) -> Outcome {
+    let facts = Facts::read(root)?;
+    let mut pages = Vec::new();
+    for path in facts.tree.files().filter(|path| is_page(path)) {
+        pages.push(markdown::page(path.to_path_buf(), &read(&root.join(path))?));
+    }
+    let faults = judge(&pages, &facts);
+    for fault in &faults {
+        println!("{fault}");
+    }
+    let nname: usize = pages.iter().map(|page| page.pieces.len()).sum();
+    println!(
+        "docs: {} pages, {nname} names, links and blocks, {} wrong",
+        pages.len(),
+        faults.len()
+    );
+    Ok(faults.is_empty())
+}
+
+/// Whether a file is a page to check: all Markdown but the fragments of the list of changes.
+fn is_page(path: &Path) -> bool {
+    let is_fragment = path.parent() == Some(Path::new("changes"))
+        && path.file_name().is_some_and(|name| name != "README.md");
+    path.extension().is_some_and(|ending| ending == "md") && !is_fragment
+}
+
+fn judge(pages: &[Page], facts: &Facts) -> Vec<Fault> {
+    let by_path: BTreeMap<&Path, &Page> = pages
+        .iter()
+        .map(|page| (page.path.as_path(), page))
+        .collect();
+    let mut out = Vec::new();
+    for page in pages {
+        for (line, piece) in &page.pieces {
+            let found = match piece {
+                Piece::Code(text) => at_start(spans::faults(text, &page.path, facts)),
+                Piece::Link(to) => at_start(link_faults(to, page, &by_path, facts)),
+                Piece::Block { language, text } => block_faults(language, text, &page.path, facts),
+            };
+            out.extend(found.into_iter().map(|(below, what)| Fault {
+                path: page.path.clone(),
+                line: line + below,
+                what,
+            }));
+        }
+    }
+    out.sort();
+    out
+}
+
+fn at_start(faults: Vec<String>) -> Vec<(usize, String)> {
+    faults.into_iter().map(|what| (0, what)).collect()
+}
+
+fn link_faults(
+    to: &str,
+    page: &Page,
+    pages: &BTreeMap<&Path, &Page>,
+    facts: &Facts,
+) -> Vec<String> {
+    if to.contains("://") || to.starts_with("mailto:") {
+        return Vec::new();
+    }
+    let (file, anchor) = to
+        .split_once('#')
+        .map_or((to, None), |(file, anchor)| (file, Some(anchor)));
+    if !file.is_empty() && !facts.tree.has_from(&page.path, file) {
+        return vec![format!("the link leads to {file}, which does not exist")];
+    }
+    let target = if file.is_empty() {
+        Some(page)
+    } else {
+        let folder = page.path.parent().unwrap_or(Path::new(""));
+        tree::normal(&folder.join(file)).and_then(|path| pages.get(path.as_path()).copied())
+    };
+    let has = |anchor: &str| target.is_none_or(|page| page.anchors.contains(anchor));
+    let lost = anchor.filter(|anchor| !has(anchor));
+    lost.map(|anchor| format!("the link leads to the heading #{anchor}, which does not exist"))
+        .into_iter()
+        .collect()
+}
+
+/// Faults of a block of code, each with how many lines it lies below the first.
+fn block_faults(language: &str, text: &str, page: &Path, facts: &Facts) -> Vec<(usize, String)> {
+    match language {
+        "toml" => {
+            let place = |at: usize| text[..at.min(text.len())].matches('\n').count();
+            let found = facts.keys.faults(text).into_iter();
+            found.map(|fault| (place(fault.at), fault.what)).collect()
+        }
+        "sh" => each_command(text, |line| Some(line), page, facts),
+        "console" => each_command(text, |line| line.strip_prefix("$ "), page, facts),
+        "" if text.lines().any(commands::is_command) => {
+            vec![(
+                0,
+                "a block of commands has no language: write ```sh, with # before remarks"
+                    .to_string(),
+            )]
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn each_command(
+    text: &str,
+    command: impl Fn(&str) -> Option<&str>,
+    page: &Path,
+    facts: &Facts,
+) -> Vec<(usize, String)> {
+    let lines = text.lines().enumerate();
+    let commands = lines.filter_map(|(below, line)| Some((below, command(line)?)));
+    let found = commands.flat_map(|(below, line)| {
+        commands::faults(line, page, facts)
+            .into_iter()
+            .map(move |what| (below, what))
+    });
+    found.collect()
+}
+
+impl Facts {
+    fn read(root: &Path) -> Result<Self, ChoreError> {
+        let tree = Tree::read(root)?;
+        let mut symbols = Symbols::default();
+        let mut scripts = Vec::new();
+        for path in tree.files() {
+            let file = root.join(path);
+            match path.extension().and_then(|ending| ending.to_str()) {
+                Some("rs") => symbols.add_rust(path, &read(&file)?)?,
+                Some("py") => {
+                    let text = read(&file)?;
+                    symbols.add_python(&text);
+                    scripts.push(Script {
+                        path: path.to_path_buf(),
+                        text,
+                    });
+                }
+                Some("geo" | "c") => symbols.add_data(&read(&file)?, "//"),
+                _ if path.ends_with("case.toml") => symbols.add_data(&read(&file)?, "#"),
+                _ => {}
+            }
+        }
+        let metadata = output(root, &["metadata", "--no-deps", "--format-version", "1"])?;
+        let help = signorini(root, &["--help"])?;
+        let mut program = Program::default();
+        for subcommand in Program::subcommands(&help) {
+            let page = if subcommand == "help" {
+                String::new()
+            } else {
+                signorini(root, &[&subcommand, "--help"])?
+            };
+            program.add(&subcommand, &page);
+        }
+        Ok(Self {
+            packages: Packages::new(&json("cargo metadata", &metadata)?),
+            keys: Keys::new(json("signorini schema", &signorini(root, &["schema"])?)?),
+            tree,
+            program,
+            scripts,
+            symbols,
+        })
+    }
+}
+
+fn read(path: &Path) -> Result<String, ChoreError> {
+    std::fs::read_to_string(path).map_err(|source| ChoreError::Read {
+        path: path.to_path_buf(),
+        source,
+    })
+}
+
+fn json(what: &str, text: &str) -> Result<serde_json::Value, ChoreError> {
+    serde_json::from_str(text).map_err(|error| ChoreError::Failed {
+        what: what.to_string(),
+        reason: error.to_string(),
+    })
+}
+
+/// What the program prints; it is built where it is not.
+fn signorini(root: &Path, arguments: &[&str]) -> Result<String, ChoreError> {
+    output(
+        root,
+        &[&["run", "--quiet", "--release", "--"], arguments].concat(),
+    )
+}
+
+fn output(root: &Path, arguments: &[&str]) -> Result<String, ChoreError> {
+    let failed = |reason: String| ChoreError::Failed {
+        what: format!("cargo {}", arguments.join(" ")),
+        reason,
+    };
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let ended = Command::new(cargo)
+        .args(arguments)
+        .current_dir(root)
+        .output();
+    let ended = ended.map_err(|error| failed(error.to_string()))?;
+    if !ended.status.success() {
+        return Err(failed(String::from_utf8_lossy(&ended.stderr).into_owned()));
+    }
+    Ok(String::from_utf8_lossy(&ended.stdout).into_owned())
+}
+
+#[cfg(test)]
+mod tests;
