@@ -20,7 +20,7 @@ pub struct Forecast {
     pub noperator: usize,
     /// The way that is tried first.
     pub path: Path,
-    /// What takes over where multigrid does not serve; nothing where that is not tried, or from [`LARGEST`] equations on.
+    /// What takes over where multigrid does not serve; nothing where that is not tried, or from `LARGEST` equations on.
     pub fallback: Option<Factor>,
 }
 

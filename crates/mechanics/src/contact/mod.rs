@@ -75,7 +75,7 @@
 //! To add a discretization, a law or a friction law: one file in its room that implements the trait, and one line
 //! where cases are built. Sources: Wriggers 2006, chapters 6 and 9; Konyukhov and Schweizerhof 2013; Faltus and Horák,
 //! *A modular extension of a finite element contact implementation* (the signs of its curvature terms corrected:
-//! see [`discretization::node_to_segment`]).
+//! see [`discretization::projected`]).
 
 pub mod discretization;
 pub mod friction;

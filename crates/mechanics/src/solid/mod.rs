@@ -27,9 +27,9 @@
 //!
 //! | remedy | `locking` | what it is | where |
 //! |---|---|---|---|
-//! | B-bar, F-bar | `b-bar`, `f-bar` | the dilatation projected, [`kernel`]`::dilatation` (E5) to (E10) | not in plane stress |
-//! | incompatible modes | `incompatible` | condensed, [`kernel`]`::modes` (E11), (E12) | quad4, hex8; small strain |
-//! | shear of the centre | `selective-shear` | selective reduced integration, [`kernel`]`::shear` (E13); never by `auto` | quad4; small strain |
+//! | B-bar, F-bar | `b-bar`, `f-bar` | the dilatation projected, `kernel::dilatation` (E5) to (E10) | not in plane stress |
+//! | incompatible modes | `incompatible` | condensed, `kernel::modes` (E11), (E12) | quad4, hex8; small strain |
+//! | shear of the centre | `selective-shear` | selective reduced integration, `kernel::shear` (E13); never by `auto` | quad4; small strain |
 //! | reduced integration | | fewer points | quad8, hex20 |
 //!
 //! B-bar is for small strain and F-bar, its counterpart, for finite strain; both keep an energy and with it a symmetric
@@ -58,7 +58,7 @@
 //! # Several at once
 //!
 //! Cells without a remedy are evaluated as many at a time as the vector registers of the processor have lanes,
-//! [`kernel`]`::batch`: the material by its constants where it is isotropic and linear, (E17), else cell by cell. What has
+//! `kernel::batch`: the material by its constants where it is isotropic and linear, (E17), else cell by cell. What has
 //! no answer there is evaluated once more, one cell after the other, to say which cell it is and why. The last digits of a
 //! result differ between processors with and without fused multiply-add, not with the number of threads.
 //!
@@ -71,7 +71,7 @@
 //! IJSS 33, 1996, made variational after Broccardo, Micheloni, Krysl, IJNME 79, 2009 (F-bar); Taylor, Beresford, Wilson,
 //! IJNME 10, 1976 (incompatible modes); Simo, Taylor, Pister, CMAME 51, 1985 (mean dilatation).
 //!
-//! To add an element: its file in `geometry`, and one line in each of the [`kernel`]'s tables that has its dimension.
+//! To add an element: its file in `geometry`, and one line in each of the `kernel`'s tables that has its dimension.
 //! Limits: quad4 and hex8 have no remedy in bending at finite strain; a material's history goes on unchanged where a step of small strain is followed by one of finite strain.
 
 mod at;

@@ -480,7 +480,7 @@ impl Assembler {
         Some(stiffness)
     }
 
-    /// Adds a compliance to multipliers that act on unknowns with a stiffness, in the tangent `out` alone: [`YIELDING`] times
+    /// Adds a compliance to multipliers that act on unknowns with a stiffness, in the tangent `out` alone: `YIELDING` times
     ///
     /// ```text
     /// Σ_j B_j² / K_jj                                                                          (E4)
