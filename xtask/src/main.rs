@@ -4,6 +4,7 @@
 //! cargo xtask                  lists the chores
 //! cargo xtask rooms            fails where a room imports one that its line in the table does not list
 //! cargo xtask rooms --graph    prints that table
+//! cargo xtask rooms --circles  lists files that use each other in a circle
 //! cargo xtask docs             fails where a Markdown file names what does not exist
 //! ```
 //!
@@ -28,11 +29,16 @@ struct Chore {
     run: fn(&Path) -> Outcome,
 }
 
-const CHORES: [Chore; 3] = [
+const CHORES: [Chore; 4] = [
     Chore {
         arguments: &["rooms"],
         about: "fail where a room imports one that its line in the table does not list",
         run: rooms::check,
+    },
+    Chore {
+        arguments: &["rooms", "--circles"],
+        about: "list circles of files that use each other, and fail where there are any",
+        run: rooms::circles,
     },
     Chore {
         arguments: &["rooms", "--graph"],

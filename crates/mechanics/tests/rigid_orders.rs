@@ -167,7 +167,7 @@ impl Block {
             SidePart::Faces(grid.faces(|at| at.y < 1e-9)),
             PrimaryPart::Surface(Arc::new(plane)),
         );
-        contact.friction = friction.map(|mu| FrictionPart::coulomb(mu));
+        contact.friction = friction.map(FrictionPart::coulomb);
         let material = SaintVenantKirchhoff::new(MODULUS, POISSON);
         let mut body = solid("block", &grid.cells, material);
         if let BodyKind::Solid { locking, .. } = &mut body.kind {

@@ -8,7 +8,6 @@
 
 use super::File;
 use super::imports::{Found, ModulePath, imports};
-use crate::ChoreError;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::PathBuf;
@@ -48,7 +47,7 @@ struct House<'a> {
 }
 
 /// All circles of files, crate by crate.
-pub(super) fn circles(files: &[File]) -> Result<Vec<Circle>, ChoreError> {
+pub(super) fn circles(files: &[File]) -> Vec<Circle> {
     let house = House::new(files);
     let uses = house.uses();
     let after: Vec<BTreeSet<usize>> = uses.iter().map(|of| of.keys().copied().collect()).collect();
@@ -63,7 +62,7 @@ pub(super) fn circles(files: &[File]) -> Result<Vec<Circle>, ChoreError> {
         }
         Circle { uses: found }
     });
-    Ok(circles.collect())
+    circles.collect()
 }
 
 impl<'a> House<'a> {
@@ -216,7 +215,7 @@ mod tests {
     }
 
     fn shown(files: &[File]) -> String {
-        let circles = circles(files).unwrap();
+        let circles = circles(files);
         circles.iter().map(ToString::to_string).collect()
     }
 

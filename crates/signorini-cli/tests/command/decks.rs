@@ -7,7 +7,7 @@ use tempfile::TempDir;
 /// A folder with the decks of the tests.
 fn decks() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../signorini/tests/data");
     for name in ["block.inp", "pair.inp", "pair_nodes.inc"] {
         std::fs::copy(data.join(name), folder.path().join(name)).unwrap();
     }

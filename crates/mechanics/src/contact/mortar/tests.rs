@@ -9,17 +9,20 @@ use signorini_geometry::element::{MAX_FACET_NODES, TABLE, by_name};
 use signorini_geometry::tensor::Mat3;
 use std::path::Path;
 
-/// Every facet that mortar contact takes as a secondary one, lines first.
+/// Every facet that mortar contact takes as a secondary one: lines first, and linear ones.
 fn secondaries() -> impl Iterator<Item = Element> {
-    let of = |dim| TABLE.into_iter().filter(move |e| e.dim() == dim);
-    of(1).chain(of(2)).filter(|e| e.dual_basis().is_some())
+    let facets = TABLE.into_iter().filter(|e| e.dim() < 3);
+    let mut facets: Vec<Element> = facets.filter(|e| e.dual_basis().is_some()).collect();
+    facets.sort_by_key(|e| (e.dim(), e.order()));
+    facets.into_iter()
 }
 
-/// With every primary facet, made-up ones of degree 3 among them.
+/// With every primary facet; made-up ones of degree 3 come last.
 fn pairings() -> Vec<[Element; 2]> {
-    let primaries = || TABLE.into_iter().chain(CUBIC);
-    let pairs = secondaries().flat_map(|a| primaries().map(move |b| [a, b]));
-    pairs.filter(|[a, b]| a.dim() == b.dim()).collect()
+    let known = secondaries().flat_map(|a| secondaries().map(move |b| [a, b]));
+    let cubic = secondaries().flat_map(|a| CUBIC.map(move |b| [a, b]));
+    let all = known.chain(cubic);
+    all.filter(|[a, b]| a.dim() == b.dim()).collect()
 }
 
 /// Those of the plane.
