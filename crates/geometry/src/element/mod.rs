@@ -9,7 +9,7 @@
 //!
 //! | symbol | name in code | shape |
 //! |---|---|---|
-//! | ξ | `xi` | [`Vec3`], trailing components unused below three dimensions |
+//! | ξ | `xi` | [`Vec3`](crate::tensor::Vec3), trailing components unused below three dimensions |
 //! | N_i(ξ) | `shape` | `nnode` |
 //! | N_i,a | `dshape` | `nnode` vectors of `dim` entries |
 //! | N_i,ab | `ddshape` | `nnode` symmetric tensors of `dim × dim` entries |

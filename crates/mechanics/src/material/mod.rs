@@ -2,9 +2,9 @@
 //!
 //! | symbol | name in code | shape |
 //! |---|---|---|
-//! | ε, E | `strain` | [`Sym3`]: linearized, or Green–Lagrange `½(FᵀF − I)` |
-//! | σ, S | `stress` | [`Sym3`]: Cauchy at small strain, second Piola–Kirchhoff at finite strain |
-//! | C_ijkl = ∂S_ij/∂E_kl | `tangent` | 6 × 6 over [`Sym3::PAIRS`]; multiplies strains with doubled shears |
+//! | ε, E | `strain` | [`Sym3`](signorini_geometry::tensor::Sym3): linearized, or Green–Lagrange `½(FᵀF − I)` |
+//! | σ, S | `stress` | [`Sym3`](signorini_geometry::tensor::Sym3): Cauchy at small strain, second Piola–Kirchhoff at finite strain |
+//! | C_ijkl = ∂S_ij/∂E_kl | `tangent` | 6 × 6 over [`Sym3::PAIRS`](signorini_geometry::tensor::Sym3::PAIRS); multiplies strains with doubled shears |
 //! | W | `energy` | per volume of the reference |
 //! | λ, μ | [`Lame`] | λ = Eν/((1+ν)(1−2ν)), μ = E/(2(1+ν)) (E1) |
 //!

@@ -55,7 +55,7 @@ pub trait ContactLaw: Debug + Send + Sync {
         Multiplier::None
     }
 
-    /// The pressure, ≥ 0 in compression; all zero where it is open. A law may pull a little ([`Arctangent`]).
+    /// The pressure, ≥ 0 in compression; all zero where it is open. A law may pull a little ([`Arctangent`](super::Arctangent)).
     fn pressure(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval;
 
     /// The function whose root is contact; zero for laws without an unknown multiplier.
