@@ -1,6 +1,7 @@
 //! Values of fields at nodes: `displacement.z @ node 5`, `reaction_force.x @ set base`; and at integration points:
 //! `stress.yy @ element 7 point 3`.
 
+use crate::run::element_named;
 use crate::setup::Model;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
@@ -121,21 +122,6 @@ const POINT_QUANTITIES: [(&str, ReadPoint); 14] = [
     ("von_mises", |p| p.stress.von_mises()),
     ("plastic_strain", |p| p.plastic_strain),
 ];
-
-/// The element and the point, from 1, that an expectation names: `stress.yy @ element 7 point 3`.
-#[must_use]
-pub fn element_named(what: &str) -> Option<(u64, u64)> {
-    let (_, place) = what.split_once('@')?;
-    let mut words = place.split_whitespace();
-    let element = words.next().filter(|word| *word == "element");
-    let label = element.and_then(|_| words.next()?.parse().ok())?;
-    let point = match (words.next(), words.next()) {
-        (None, _) => 1,
-        (Some("point"), Some(number)) => number.parse().ok()?,
-        _ => return None,
-    };
-    words.next().is_none().then_some((label, point))
-}
 
 /// How the values at several nodes become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

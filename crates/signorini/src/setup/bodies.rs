@@ -12,7 +12,7 @@ use signorini_mechanics::material::{
     self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Oriented,
     Plasticity,
 };
-use signorini_mechanics::model::{BodyKind, BodyPart};
+use signorini_mechanics::model::{BodyKind, BodyPart, LockingSummary};
 use signorini_mechanics::solid::{AtNodes, AtStart, Integration, Locking};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -420,4 +420,12 @@ pub(super) fn stiff_elements(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Dia
         );
     }
     found
+}
+
+/// What was chosen for a body.
+pub(super) fn of_body<'a>(
+    locking: &'a [LockingSummary],
+    body: &str,
+) -> impl Iterator<Item = &'a LockingSummary> {
+    locking.iter().filter(move |one| one.body == body)
 }

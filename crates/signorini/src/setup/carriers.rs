@@ -1,10 +1,10 @@
 //! References and rigid bodies: what moves as a whole, and its names.
 
 use super::ReferenceInfo;
-use super::names::Names;
+use super::names::{Names, quoted};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
-use signorini_io::case::{Case, ConstraintKind, Position};
+use signorini_io::case::{Case, ConstraintKind, Name, Position};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_mechanics::model::CarrierPart;
 use std::collections::{BTreeMap, BTreeSet};
@@ -121,4 +121,14 @@ impl Carriers {
         };
         parts.map(info).collect()
     }
+}
+
+/// A reference that is loaded or moved, and that nothing follows.
+pub(super) fn idle(reference: &Name) -> Diagnostic {
+    Diagnostic::error(
+        &codes::CONTRADICTION,
+        format!("reference {} moves nothing", quoted(reference)),
+    )
+    .at(&reference.place, "no body and no constraint names it")
+    .help("write  reference = \"..\"  in a rigid [[body]] or in a [[constraint]]")
 }

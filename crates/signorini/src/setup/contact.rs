@@ -2,8 +2,8 @@
 
 use super::constraints::unpaired;
 use super::names::Names;
+use super::nonlinear::nonlinear;
 use super::quoted;
-use super::steps::nonlinear;
 use super::surfaces::Surfaces;
 use crate::text::short;
 use signorini_geometry::mesh::NodeId;

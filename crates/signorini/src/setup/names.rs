@@ -1,11 +1,11 @@
 //! What the names of a case stand for in its mesh.
 
-use super::{idealisation, own_idealisation, quoted};
+use super::{idealisation, own_idealisation};
 use signorini_geometry::mesh::{CellId, Face, FaceIndex, Mesh, NodeId, Set, boundary, select};
 use signorini_geometry::surface::Facets;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{Case, Name, Region, SetContent, Side};
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, closest, codes, listed};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Spanned, closest, codes, listed};
 use signorini_io::readers::side_by_normal;
 use signorini_mechanics::model::SidePart;
 use signorini_mechanics::system::Idealisation;
@@ -13,6 +13,11 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The name of everything, unless the mesh or the case has something of that name.
 pub(super) const ALL: &str = "all";
+
+/// A name as written, for messages.
+pub(crate) fn quoted(name: &Spanned<String>) -> String {
+    format!("\"{}\"", name.value)
+}
 
 /// Groups of the mesh and sets of the case, by name.
 pub(super) struct Names<'a> {

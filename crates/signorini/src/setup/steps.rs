@@ -1,14 +1,15 @@
 //! Steps: supports, motions, loads, contacts, temperatures, as changes of what earlier steps leave behind.
 
+pub(super) use super::carriers::idle;
+
 use super::carriers::Carriers;
 use super::contact::Changes;
 use super::loads::{self, Coupling};
 use super::names::Names;
+use super::nonlinear::nonlinear;
 use super::quoted;
 use signorini_geometry::mesh::NodeId;
-use signorini_io::case::{
-    self, Amplitude, Case, Directions, Geometry, Name, Remedy, Step, TimeBase,
-};
+use signorini_io::case::{self, Amplitude, Case, Directions, Name, Remedy, Step, TimeBase};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{BodyPart, Change, ConstraintPart, LoadPart, StepPart, Target};
@@ -20,18 +21,6 @@ pub(super) struct Builder<'a> {
     pub names: &'a Names<'a>,
     pub carriers: &'a Carriers,
     pub bodies: &'a [BodyPart],
-}
-
-/// Whether the geometry of each step is nonlinear: as it says, else as in the step before; it is in the first.
-pub(super) fn nonlinear(steps: &[Step]) -> impl Iterator<Item = bool> {
-    steps.iter().scan(true, |nonlinear, step| {
-        *nonlinear = match step.geometry {
-            Geometry::Auto => *nonlinear,
-            Geometry::Linear => false,
-            Geometry::Nonlinear => true,
-        };
-        Some(*nonlinear)
-    })
 }
 
 impl Builder<'_> {
@@ -196,16 +185,6 @@ impl Builder<'_> {
             }
         }
     }
-}
-
-/// A reference that is loaded or moved, and that nothing follows.
-pub(super) fn idle(reference: &Name) -> Diagnostic {
-    Diagnostic::error(
-        &codes::CONTRADICTION,
-        format!("reference {} moves nothing", quoted(reference)),
-    )
-    .at(&reference.place, "no body and no constraint names it")
-    .help("write  reference = \"..\"  in a rigid [[body]] or in a [[constraint]]")
 }
 
 fn changes_nothing(step: &Step) -> Diagnostic {

@@ -5,6 +5,7 @@ use super::names::Names;
 use super::*;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::case::{read_case, resolved};
+use signorini_mechanics::contact::Measure;
 use signorini_mechanics::contact::discretization::SlidingRange;
 use signorini_mechanics::contact::friction::{Coulomb, Falling, FrictionLaw, Tresca};
 use signorini_mechanics::contact::law::{Exponential, Table};
