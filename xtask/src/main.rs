@@ -6,6 +6,7 @@
 //! cargo xtask rooms --graph    prints that table
 //! cargo xtask rooms --circles  lists files that use each other in a circle
 //! cargo xtask docs             fails where a Markdown file names what does not exist
+//! cargo xtask shape            fails where a function or file is too long, or a default serves one implementor
 //! ```
 //!
 //! Exit codes: 0 all is well, 1 a check failed, 2 the command line is wrong or a file cannot be read.
@@ -14,6 +15,8 @@
 
 mod docs;
 mod rooms;
+mod shape;
+mod tree;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -29,7 +32,7 @@ struct Chore {
     run: fn(&Path) -> Outcome,
 }
 
-const CHORES: [Chore; 4] = [
+const CHORES: [Chore; 5] = [
     Chore {
         arguments: &["rooms"],
         about: "fail where a room imports one that its line in the table does not list",
@@ -49,6 +52,11 @@ const CHORES: [Chore; 4] = [
         arguments: &["docs"],
         about: "fail where a Markdown file names a file, command, key or symbol that does not exist",
         run: docs::check,
+    },
+    Chore {
+        arguments: &["shape"],
+        about: "fail where a function or file is too long, or a default serves one implementor",
+        run: shape::check,
     },
 ];
 

@@ -21,8 +21,8 @@ mod markdown;
 mod spans;
 mod symbols;
 mod toml;
-mod tree;
 
+use crate::tree::Tree;
 use crate::{ChoreError, Outcome};
 use commands::{Packages, Program, Script};
 use keys::Keys;
@@ -32,7 +32,6 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use symbols::Symbols;
-use tree::Tree;
 
 /// What is known of the repository.
 struct Facts {
@@ -132,7 +131,7 @@ fn link_faults(
         Some(page)
     } else {
         let folder = page.path.parent().unwrap_or(Path::new(""));
-        tree::normal(&folder.join(file)).and_then(|path| pages.get(path.as_path()).copied())
+        crate::tree::normal(&folder.join(file)).and_then(|path| pages.get(path.as_path()).copied())
     };
     let has = |anchor: &str| target.is_none_or(|page| page.anchors.contains(anchor));
     let lost = anchor.filter(|anchor| !has(anchor));

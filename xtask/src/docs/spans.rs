@@ -1,8 +1,8 @@
 //! Which kind of thing a text between backquotes names, and whether that exists.
 
 use super::toml::{Data, Kind, parse};
-use super::tree::{is_path, is_placeholder};
 use super::{Facts, commands};
+use crate::tree::{is_path, is_placeholder};
 use std::path::Path;
 
 /// Stems of the names that pages give to files of the user.

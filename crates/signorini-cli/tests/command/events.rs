@@ -75,7 +75,7 @@ fn plain_lines_without_escapes_go_where_no_terminal_is() {
 
 #[cfg(unix)]
 #[test]
-fn f66_closed_outputs_do_not_stop_a_run() {
+fn closed_outputs_do_not_stop_a_run() {
     let folder = folder_with(BRICK);
     for arguments in [
         &["run", "case.toml", "--json"][..],

@@ -120,7 +120,7 @@ fn supports_and_contact_balance_in_the_frame() {
 }
 
 #[test]
-fn f63_the_output_is_a_file() {
+fn the_output_is_a_file() {
     let folder = folder_with(BRICK);
     std::fs::write(folder.path().join("case.out"), "mine").unwrap();
     run(folder.path(), &["run", "case.toml"]).says(6, &["S0601", "case.out", "-o DIR"]);
@@ -129,7 +129,7 @@ fn f63_the_output_is_a_file() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn f63_the_output_cannot_be_written() {
+fn the_output_cannot_be_written() {
     let folder = folder_with(BRICK);
     run(
         folder.path(),
@@ -139,7 +139,7 @@ fn f63_the_output_cannot_be_written() {
 }
 
 #[test]
-fn f63_the_output_of_another_case_is_refused_until_fresh() {
+fn the_output_of_another_case_is_refused_until_fresh() {
     let folder = folder_with(BRICK);
     std::fs::write(folder.path().join("other.toml"), brick_in(2)).unwrap();
     run(folder.path(), &["run", "other.toml", "-o", "out"]).says(0, &[]);
@@ -191,7 +191,7 @@ fn halted() -> (tempfile::TempDir, std::process::Child) {
 
 #[cfg(unix)]
 #[test]
-fn f63_two_runs_at_once_do_not_share_a_folder() {
+fn two_runs_at_once_do_not_share_a_folder() {
     let (folder, mut first) = halted();
     run(folder.path(), &["run", "case.toml"]).says(6, &["held by another run"]);
     run(folder.path(), &["resume", "case.out"]).says(6, &["held by another run"]);

@@ -1,7 +1,7 @@
 use crate::support::{BRICK, change, folder_with, run, run_text};
 
 #[test]
-fn f21_to_f23_numbers_that_do_not_fit_are_named() {
+fn numbers_that_do_not_fit_are_named() {
     for (from, to, words) in [
         ("6, 7, 8] }", "6, 7, 99] }", &["99"][..]),
         ("[14, 0.3", "[13, 0.3", &["13"]),
@@ -12,7 +12,7 @@ fn f21_to_f23_numbers_that_do_not_fit_are_named() {
 }
 
 #[test]
-fn f24_f25_elements_without_volume_or_inside_out_make_no_model() {
+fn elements_without_volume_or_inside_out_make_no_model() {
     let flat = change(
         BRICK,
         "[5, 0, 0, 1], [6, 1, 0, 1], [7, 1, 1, 1], [8, 0, 1, 1]",
@@ -28,7 +28,7 @@ fn f24_f25_elements_without_volume_or_inside_out_make_no_model() {
 }
 
 #[test]
-fn f27_a_node_twice_in_an_element_is_refused() {
+fn a_node_twice_in_an_element_is_refused() {
     let text = change(BRICK, "6, 7, 8] }", "6, 7, 7] }");
     let ended = run_text(&text);
     assert!(matches!(ended.code, Some(3 | 4)), "{ended:?}");
@@ -36,7 +36,7 @@ fn f27_a_node_twice_in_an_element_is_refused() {
 }
 
 #[test]
-fn f28_nodes_without_elements_are_left_alone() {
+fn nodes_without_elements_are_left_alone() {
     let text = change(
         BRICK,
         "[14, 0.3, 0.6, 1.8],",
@@ -46,20 +46,20 @@ fn f28_nodes_without_elements_are_left_alone() {
 }
 
 #[test]
-fn f32_an_unknown_element_is_named() {
+fn an_unknown_element_is_named() {
     let text = change(BRICK, "\"tet4\"", "\"pyramid5\"");
     run_text(&text).says(3, &["pyramid5"]);
 }
 
 #[test]
-fn f33_a_mesh_in_space_is_no_plane_model() {
+fn a_mesh_in_space_is_no_plane_model() {
     let text = change(BRICK, "[sets]", "[model]\nspace = \"plane-strain\"\n[sets]");
     let ended = run_text(&text);
     assert_eq!(ended.code, Some(3), "{ended:?}");
 }
 
 #[test]
-fn f34_f35_groups_and_sides_that_are_not_there_are_told() {
+fn groups_and_sides_that_are_not_there_are_told() {
     run_text(&change(BRICK, "\"+z\"", "\"S9\"")).says(3, &["S9"]);
     let text = change(BRICK, "primary = \"top\"", "primary = \"base\"");
     run_text(&text).says(4, &["S0312"]);
@@ -69,7 +69,7 @@ fn f34_f35_groups_and_sides_that_are_not_there_are_told() {
 }
 
 #[test]
-fn f36_absurd_coordinates_are_refused() {
+fn absurd_coordinates_are_refused() {
     let text = change(BRICK, "[7, 1, 1, 1]", "[7, 1e300, 1, 1]");
     let ended = run_text(&text);
     assert!(matches!(ended.code, Some(3 | 4)), "{ended:?}");
@@ -77,7 +77,7 @@ fn f36_absurd_coordinates_are_refused() {
 }
 
 #[test]
-fn f37_a_mesh_file_that_is_missing_cut_off_or_no_mesh_is_named() {
+fn a_mesh_file_that_is_missing_cut_off_or_no_mesh_is_named() {
     let start = BRICK.find("[mesh]").unwrap();
     let end = BRICK.find("[sets]").unwrap();
     let text = format!(

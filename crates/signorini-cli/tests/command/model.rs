@@ -1,19 +1,19 @@
 use crate::support::{BRICK, change, folder_with, read, result, run, run_text};
 
 #[test]
-fn f41_a_body_without_supports_is_named_with_its_motion() {
+fn a_body_without_supports_is_named_with_its_motion() {
     let text = change(BRICK, "u = \"all\"", "u = [\"x\"]");
     run_text(&text).says(4, &["\"brick\"", "free", "S0302"]);
 }
 
 #[test]
-fn f44_two_motions_of_one_node_clash() {
+fn two_motions_of_one_node_clash() {
     let more = "[[step.move]]\non = \"base\"\nux = 0.1\n[checkpoint]";
     run_text(&change(BRICK, "[checkpoint]", more)).says(4, &["S0305", "node 1", "case.toml:"]);
 }
 
 #[test]
-fn f45_a_surface_against_itself_is_refused() {
+fn a_surface_against_itself_is_refused() {
     let text = change(BRICK, "secondary = \"tip_node\"", "secondary = \"top\"");
     let ended = run_text(&text);
     assert!(matches!(ended.code, Some(3 | 4)), "{ended:?}");
@@ -21,7 +21,7 @@ fn f45_a_surface_against_itself_is_refused() {
 }
 
 #[test]
-fn f45_a_pair_in_two_contacts_is_warned_of() {
+fn a_pair_in_two_contacts_is_warned_of() {
     let second =
         "[[contact]]\nname = \"again\"\nsecondary = \"tip_node\"\nprimary = \"top\"\n[[step]]";
     let text = change(BRICK, "[[step]]", second);
@@ -56,7 +56,7 @@ fn what_a_contact_says_reaches_the_solver() {
 }
 
 #[test]
-fn f46_sides_that_share_nodes_are_glued() {
+fn sides_that_share_nodes_are_glued() {
     let text = change(
         BRICK,
         "tip_node = { nodes = [11] }",
@@ -66,7 +66,7 @@ fn f46_sides_that_share_nodes_are_glued() {
 }
 
 #[test]
-fn f49_a_contact_that_never_closes_is_solved() {
+fn a_contact_that_never_closes_is_solved() {
     let text = change(BRICK, "uz = -0.02", "uz = 0.02");
     run_text(&text).says(0, &["✓ solved"]);
 }

@@ -2,7 +2,7 @@ use crate::support::{BRICK, change, folder_with, read, result, run};
 use signorini_io::writers::vtu;
 
 #[test]
-fn f55_divergence_keeps_every_converged_increment_and_the_last_try() {
+fn divergence_keeps_every_converged_increment_and_the_last_try() {
     let text = change(
         BRICK,
         "uz = -0.02",
@@ -36,7 +36,7 @@ fn f55_divergence_keeps_every_converged_increment_and_the_last_try() {
 }
 
 #[test]
-fn f58_cut_backs_are_tried_and_told() {
+fn cut_backs_are_tried_and_told() {
     let text = change(BRICK, "uz = -0.02", "uz = -1.5");
     let text = change(&text, "fixed = 4", "initial = 1.0, min = 0.2, max = 1.0");
     let folder = folder_with(&text);
@@ -107,7 +107,7 @@ tol = {{ abs = 0.0 }}
 }
 
 #[test]
-fn f66_the_number_of_threads_does_not_change_a_bit() {
+fn the_number_of_threads_does_not_change_a_bit() {
     let histories = ["1", "3"].map(|n| {
         let folder = folder_with(BRICK);
         run(folder.path(), &["run", "case.toml", "-q", "-j", n]).says(0, &[]);

@@ -137,7 +137,7 @@ fn sliding() -> String {
 }
 
 #[test]
-fn f64_a_run_killed_at_any_moment_and_resumed_is_the_same_run_bit_by_bit() {
+fn a_run_killed_at_any_moment_and_resumed_is_the_same_run_bit_by_bit() {
     is_the_same(&case(), &[vec![2], vec![9], vec![30], vec![45, 52]]);
     is_the_same(&sliding(), &[vec![9], vec![30, 45]]);
     let multigrid = change(
@@ -272,7 +272,7 @@ fn is_the_same(case: &str, all_moments: &[Vec<usize>]) {
 
 #[cfg(unix)]
 #[test]
-fn f64_signals_end_with_130_and_143_and_the_run_can_go_on() {
+fn signals_end_with_130_and_143_and_the_run_can_go_on() {
     let whole = folder_with(&case());
     run(whole.path(), &["run", "case.toml", "-q"]).says(0, &[]);
     let reference = results(&whole);
@@ -312,7 +312,7 @@ fn stopped() -> TempDir {
 }
 
 #[test]
-fn f65_of_two_checkpoints_a_damaged_one_is_passed_over_and_two_are_refused() {
+fn of_two_checkpoints_a_damaged_one_is_passed_over_and_two_are_refused() {
     let whole = folder_with(&case());
     run(whole.path(), &["run", "case.toml", "-q"]).says(0, &[]);
     let reference = results(&whole);
@@ -337,14 +337,14 @@ fn f65_of_two_checkpoints_a_damaged_one_is_passed_over_and_two_are_refused() {
 }
 
 #[test]
-fn f65_nothing_to_resume_from_is_told() {
+fn nothing_to_resume_from_is_told() {
     let folder = folder_with(&case());
     run(folder.path(), &["resume", "case.out"]).says(7, &["holds no results"]);
     run(folder.path(), &["resume", "."]).says(7, &["holds no results"]);
 }
 
 #[test]
-fn f65_tables_that_were_changed_are_refused() {
+fn tables_that_were_changed_are_refused() {
     let folder = stopped();
     let path = result(&folder, "history.csv");
     let table = read(&path);
@@ -354,7 +354,7 @@ fn f65_tables_that_were_changed_are_refused() {
 }
 
 #[test]
-fn f65_a_file_of_frames_that_was_cut_is_refused() {
+fn a_file_of_frames_that_was_cut_is_refused() {
     let folder = stopped();
     let path = result(&folder, "case.frd");
     let frames = std::fs::read(&path).unwrap();

@@ -1,27 +1,27 @@
 use crate::support::{BRICK, change, folder_with, run, run_text};
 
 #[test]
-fn f01_an_empty_file_is_called_empty() {
+fn an_empty_file_is_called_empty() {
     run_text("").says(3, &["is empty", "signorini init"]);
     run_text("# only a comment\n\n").says(3, &["is empty"]);
 }
 
 #[test]
-fn f02_a_missing_file_and_a_directory_are_named() {
+fn a_missing_file_and_a_directory_are_named() {
     let folder = folder_with(BRICK);
     run(folder.path(), &["run", "other.toml"]).says(3, &["other.toml", "the current directory is"]);
     run(folder.path(), &["run", "."]).says(3, &["is a directory"]);
 }
 
 #[test]
-fn f03_bytes_that_are_no_text_are_refused() {
+fn bytes_that_are_no_text_are_refused() {
     let folder = folder_with("");
     std::fs::write(folder.path().join("case.toml"), b"title = \"a\0b\"").unwrap();
     run(folder.path(), &["run", "case.toml"]).says(3, &["is not text"]);
 }
 
 #[test]
-fn f04_other_encodings_are_read_or_named() {
+fn other_encodings_are_read_or_named() {
     let folder = folder_with("");
     let path = folder.path().join("case.toml");
     let wide: Vec<u8> = BRICK.encode_utf16().flat_map(u16::to_le_bytes).collect();
@@ -32,7 +32,7 @@ fn f04_other_encodings_are_read_or_named() {
 }
 
 #[test]
-fn f05_an_unknown_key_is_met_with_a_proposal() {
+fn an_unknown_key_is_met_with_a_proposal() {
     let text = change(BRICK, "secondary =", "secundary =");
     run_text(&text).says(
         3,
@@ -41,7 +41,7 @@ fn f05_an_unknown_key_is_met_with_a_proposal() {
 }
 
 #[test]
-fn f06_to_f10_wrong_values_are_shown_where_they_stand() {
+fn wrong_values_are_shown_where_they_stand() {
     for (from, to, words) in [
         ("E = 500.0", "E = \"five\"", &["S0107", "case.toml:"][..]),
         ("E = 500.0", "E = nan", &["S0108", "finite"]),
@@ -54,7 +54,7 @@ fn f06_to_f10_wrong_values_are_shown_where_they_stand() {
 }
 
 #[test]
-fn f11_a_reference_to_nothing_is_met_with_what_there_is() {
+fn a_reference_to_nothing_is_met_with_what_there_is() {
     let text = change(BRICK, "primary = \"top\"", "primary = \"topp\"");
     run_text(&text).says(3, &["\"topp\"", "did you mean"]);
     let text = change(BRICK, "material = \"soft\"", "material = \"softt\"");
@@ -65,13 +65,13 @@ fn f11_a_reference_to_nothing_is_met_with_what_there_is() {
 }
 
 #[test]
-fn f12_two_things_of_one_name_are_refused() {
+fn two_things_of_one_name_are_refused() {
     let text = change(BRICK, "[[body]]", "[[step]]\nname = \"press\"\n[[body]]");
     run_text(&text).says(3, &["S0113"]);
 }
 
 #[test]
-fn f13_a_case_cut_off_anywhere_is_never_solved() {
+fn a_case_cut_off_anywhere_is_never_solved() {
     let at: Vec<usize> = BRICK
         .match_indices(['[', '=', '"'])
         .map(|(at, _)| at)
@@ -84,13 +84,13 @@ fn f13_a_case_cut_off_anywhere_is_never_solved() {
 }
 
 #[test]
-fn f15_nesting_without_end_is_refused_at_once() {
+fn nesting_without_end_is_refused_at_once() {
     let text = format!("{BRICK}\nx = {}", "[".repeat(1000));
     run_text(&text).says(3, &["S0118"]);
 }
 
 #[test]
-fn f18_spaces_and_letters_of_all_languages_work() {
+fn spaces_and_letters_of_all_languages_work() {
     let folder = tempfile::tempdir().unwrap();
     let inner = folder.path().join("Größe 漢字");
     std::fs::create_dir(&inner).unwrap();
@@ -102,7 +102,7 @@ fn f18_spaces_and_letters_of_all_languages_work() {
 }
 
 #[test]
-fn f19_f20_values_out_of_range_are_told_their_range() {
+fn values_out_of_range_are_told_their_range() {
     for (from, to, words) in [
         ("fixed = 4", "fixed = 0", &["S0109", "at least 1"][..]),
         ("fixed = 4", "initial = 0.1, min = 0.5, max = 0.2", &["min"]),

@@ -145,7 +145,7 @@ fn grown(folder: &Path) -> [String; 3] {
 }
 
 #[test]
-fn f62_a_disk_that_fails_at_any_moment_harms_nothing_that_was_written() {
+fn a_disk_that_fails_at_any_moment_harms_nothing_that_was_written() {
     let whole = scratch();
     let counting = Arc::new(FailingFs::counting(RealFs));
     let (finished, endings) = run_on(counting.clone(), whole.path(), false, true);

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// Files and folders, from the root; ignored ones are left out.
 #[derive(Debug, Default)]
-pub(super) struct Tree {
+pub struct Tree {
     files: BTreeSet<PathBuf>,
     folders: BTreeSet<PathBuf>,
 }
@@ -107,12 +107,12 @@ fn matches(part: &str, text: &str) -> bool {
 }
 
 /// Whether a word stands for a name that the reader chooses.
-pub(super) fn is_placeholder(word: &str) -> bool {
+pub fn is_placeholder(word: &str) -> bool {
     word.len() > 1 && word.chars().all(|c| c.is_ascii_uppercase())
 }
 
 /// A path without `.` and `..`; none where it leads out of the repository.
-pub(super) fn normal(path: &Path) -> Option<PathBuf> {
+pub fn normal(path: &Path) -> Option<PathBuf> {
     let mut out = PathBuf::new();
     for component in path.components() {
         match component {
@@ -126,7 +126,7 @@ pub(super) fn normal(path: &Path) -> Option<PathBuf> {
 }
 
 /// Whether a text is the name of a file or folder.
-pub(super) fn is_path(text: &str) -> bool {
+pub fn is_path(text: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
     if text.len() < 3 || !text.chars().all(plain) || text.chars().all(|c| "./".contains(c)) {
         return false;
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_files_are_told_from_formulas() {
+    fn names_of_files_differ_from_formulas() {
         for path in [
             "docs/a.md",
             "case.toml",
