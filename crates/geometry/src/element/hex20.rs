@@ -1,6 +1,6 @@
 use super::hex8::Hex8;
 use super::lagrange::{self, Product};
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::serendipity::correct_corners;
 use super::{Family, LockingClass, ReferenceElement, Side, quad8};
 use crate::tensor::{Sym3, Vec3};
@@ -95,11 +95,11 @@ impl ReferenceElement for Hex20 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::HEX_27
-    }
-
-    fn reduced_rule(&self) -> &'static Rule {
-        &quadrature::HEX_8
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            reduced: &quadrature::HEX_8,
+            ..Rules::all(&quadrature::HEX_27)
+        };
+        RULES
     }
 }

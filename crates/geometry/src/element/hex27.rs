@@ -1,5 +1,5 @@
 use super::lagrange::{self, Product};
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{Family, LockingClass, ReferenceElement, Side, quad9};
 use crate::tensor::{Sym3, Vec3};
 
@@ -91,7 +91,7 @@ impl ReferenceElement for Hex27 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::HEX_27
+    fn rules(&self) -> Rules {
+        Rules::all(&quadrature::HEX_27)
     }
 }

@@ -1,4 +1,4 @@
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{Family, LockingClass, ReferenceElement, Side, quad4};
 use crate::tensor::{Sym3, Vec3};
 
@@ -73,7 +73,7 @@ impl ReferenceElement for Hex8 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::HEX_8
+    fn rules(&self) -> Rules {
+        Rules::all(&quadrature::HEX_8)
     }
 }

@@ -1,4 +1,4 @@
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{DualBasis, Family, LockingClass, ReferenceElement, Side};
 use crate::tensor::{Sym3, Vec3};
 
@@ -51,7 +51,7 @@ impl ReferenceElement for Line2 {
         &[]
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::LINE_2
+    fn rules(&self) -> Rules {
+        Rules::all(&quadrature::LINE_2)
     }
 }

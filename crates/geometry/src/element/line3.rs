@@ -1,5 +1,5 @@
 use super::lagrange::{self, Product};
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{DualBasis, Family, LockingClass, ReferenceElement, Side};
 use crate::tensor::{Sym3, Vec3};
 
@@ -62,11 +62,11 @@ impl ReferenceElement for Line3 {
         &[]
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::LINE_2
-    }
-
-    fn surface_rule(&self) -> &'static Rule {
-        &quadrature::LINE_3
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            surface: &quadrature::LINE_3,
+            ..Rules::all(&quadrature::LINE_2)
+        };
+        RULES
     }
 }

@@ -1,4 +1,4 @@
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line2};
 use crate::tensor::{Sym3, Vec3};
 
@@ -73,7 +73,7 @@ impl ReferenceElement for Quad4 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::QUAD_4
+    fn rules(&self) -> Rules {
+        Rules::all(&quadrature::QUAD_4)
     }
 }

@@ -1,6 +1,6 @@
 use super::lagrange::{self, Product};
 use super::quad4::Quad4;
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::serendipity::correct_corners;
 use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line3};
 use crate::tensor::{Sym3, Vec3};
@@ -87,11 +87,11 @@ impl ReferenceElement for Quad8 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::QUAD_9
-    }
-
-    fn reduced_rule(&self) -> &'static Rule {
-        &quadrature::QUAD_4
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            reduced: &quadrature::QUAD_4,
+            ..Rules::all(&quadrature::QUAD_9)
+        };
+        RULES
     }
 }

@@ -1,5 +1,5 @@
 use super::lagrange::{self, Product};
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line3};
 use crate::tensor::{Sym3, Vec3};
 
@@ -74,7 +74,7 @@ impl ReferenceElement for Quad9 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::QUAD_9
+    fn rules(&self) -> Rules {
+        Rules::all(&quadrature::QUAD_9)
     }
 }

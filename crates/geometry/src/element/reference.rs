@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use super::properties::{DualBasis, LockingClass};
-use super::quadrature::Rule;
+use super::quadrature::{Rule, Rules};
 use crate::tensor::{Sym3, Vec3};
 use std::fmt;
 use std::ops::Range;
@@ -50,34 +50,22 @@ pub trait ReferenceElement: Send + Sync {
     /// The sides (faces in space, edges in the plane), normals pointing out. In Abaqus's order S1, S2, ….
     fn sides(&self) -> &'static [Side];
 
-    /// The rule that integrates the stiffness of the undistorted element exactly; that of wedge15 has the customary nine
-    /// points, exact for products of linear strains.
-    fn full_rule(&self) -> &'static Rule;
+    /// The rules of integration, by purpose.
+    fn rules(&self) -> Rules;
 
-    /// The rule of reduced integration: one order less in the serendipity elements, the full rule in all others.
+    /// [`Rules::full`].
+    fn full_rule(&self) -> &'static Rule {
+        self.rules().full
+    }
+
+    /// [`Rules::reduced`].
     fn reduced_rule(&self) -> &'static Rule {
-        self.full_rule()
+        self.rules().reduced
     }
 
-    /// The rule that integrates loads and areas over the element as a facet, curved or not, and masses over a solid. It
-    /// integrates products of two shape functions exactly on an undistorted facet.
+    /// [`Rules::surface`].
     fn surface_rule(&self) -> &'static Rule {
-        self.full_rule()
-    }
-
-    /// The rule of bodies of revolution, where the hoop is a strain of its own: with fewer points motions would be free.
-    fn revolved_rule(&self) -> &'static Rule {
-        self.full_rule()
-    }
-
-    /// The rule where the dilatation is projected and counts only once: with fewer points motions would be free.
-    fn dilatation_rule(&self) -> &'static Rule {
-        self.full_rule()
-    }
-
-    /// The rule with more points than the full one that other programs use for it, if there is one.
-    fn raised_rule(&self) -> Option<&'static Rule> {
-        None
+        self.rules().surface
     }
 
     /// The dimension of the reference domain: 1, 2 or 3.

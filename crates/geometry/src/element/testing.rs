@@ -1,7 +1,7 @@
 //! Made-up facets of degree 3 for tests: no table has them, mortar contact has no dual basis for them. Tests of other crates
 //! take this file by its path.
 
-use signorini_geometry::element::quadrature::{self, Rule};
+use signorini_geometry::element::quadrature::{self, Rule, Rules};
 use signorini_geometry::element::{Element, Family, LockingClass, ReferenceElement, Side};
 use signorini_geometry::tensor::{Sym3, Vec3};
 
@@ -171,12 +171,12 @@ impl ReferenceElement for Line4 {
         &[]
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::LINE_3
-    }
-
-    fn surface_rule(&self) -> &'static Rule {
-        &LINE_4
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            surface: &LINE_4,
+            ..Rules::all(&quadrature::LINE_3)
+        };
+        RULES
     }
 }
 
@@ -245,11 +245,11 @@ impl ReferenceElement for Tri10 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::TRI_6
-    }
-
-    fn surface_rule(&self) -> &'static Rule {
-        &quadrature::TRI_12
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            surface: &quadrature::TRI_12,
+            ..Rules::all(&quadrature::TRI_6)
+        };
+        RULES
     }
 }

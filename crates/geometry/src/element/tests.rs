@@ -371,12 +371,12 @@ fn weights_sum_to_the_measure_of_the_reference_domain() {
         };
         assert_near(e, "∫1", integral(e, |_| 1.0), measure, 1e-13 * measure);
         let rules = [
-            Some(e.full_rule()),
-            Some(e.reduced_rule()),
-            Some(e.surface_rule()),
-            Some(e.revolved_rule()),
-            Some(e.dilatation_rule()),
-            e.raised_rule(),
+            Some(e.rules().full),
+            Some(e.rules().reduced),
+            Some(e.rules().surface),
+            Some(e.rules().revolved),
+            Some(e.rules().dilatation),
+            e.rules().raised,
         ];
         for rule in rules.into_iter().flatten() {
             let sum: f64 = rule.weights.iter().sum();

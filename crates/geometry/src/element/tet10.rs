@@ -1,4 +1,4 @@
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::serendipity::Simplex;
 use super::tet4::Tet4;
 use super::{Family, LockingClass, ReferenceElement, Side, tri6};
@@ -69,11 +69,11 @@ impl ReferenceElement for Tet10 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::TET_4
-    }
-
-    fn dilatation_rule(&self) -> &'static Rule {
-        &quadrature::TET_14
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            dilatation: &quadrature::TET_14,
+            ..Rules::all(&quadrature::TET_4)
+        };
+        RULES
     }
 }

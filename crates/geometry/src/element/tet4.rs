@@ -1,4 +1,4 @@
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{Family, LockingClass, ReferenceElement, Side, tri3};
 use crate::tensor::{Sym3, Vec3};
 
@@ -58,11 +58,11 @@ impl ReferenceElement for Tet4 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::TET_1
-    }
-
-    fn surface_rule(&self) -> &'static Rule {
-        &quadrature::TET_4
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            surface: &quadrature::TET_4,
+            ..Rules::all(&quadrature::TET_1)
+        };
+        RULES
     }
 }

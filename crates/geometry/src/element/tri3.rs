@@ -1,4 +1,4 @@
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line2};
 use crate::tensor::{Sym3, Vec3};
 
@@ -56,15 +56,12 @@ impl ReferenceElement for Tri3 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::TRI_1
-    }
-
-    fn surface_rule(&self) -> &'static Rule {
-        &quadrature::TRI_3
-    }
-
-    fn revolved_rule(&self) -> &'static Rule {
-        &quadrature::TRI_3
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            surface: &quadrature::TRI_3,
+            revolved: &quadrature::TRI_3,
+            ..Rules::all(&quadrature::TRI_1)
+        };
+        RULES
     }
 }

@@ -1,4 +1,4 @@
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::serendipity::Simplex;
 use super::tri3::Tri3;
 use super::{DualBasis, Family, LockingClass, ReferenceElement, Side, line3};
@@ -71,15 +71,12 @@ impl ReferenceElement for Tri6 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::TRI_3
-    }
-
-    fn surface_rule(&self) -> &'static Rule {
-        &quadrature::TRI_6
-    }
-
-    fn revolved_rule(&self) -> &'static Rule {
-        &quadrature::TRI_6
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            surface: &quadrature::TRI_6,
+            revolved: &quadrature::TRI_6,
+            ..Rules::all(&quadrature::TRI_3)
+        };
+        RULES
     }
 }

@@ -1,5 +1,5 @@
 use super::lagrange::{bubble, linear};
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::serendipity::{correct_corners, dyad};
 use super::wedge6::Wedge6;
 use super::{Family, LockingClass, ReferenceElement, Side, quad8, tri6};
@@ -94,8 +94,8 @@ impl ReferenceElement for Wedge15 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::WEDGE_9
+    fn rules(&self) -> Rules {
+        Rules::all(&quadrature::WEDGE_9)
     }
 }
 

@@ -1,4 +1,4 @@
-use super::quadrature::{self, Rule};
+use super::quadrature::{self, Rules};
 use super::{Family, LockingClass, ReferenceElement, Side, quad4, tri3};
 use crate::tensor::{Sym3, Vec3};
 
@@ -73,12 +73,12 @@ impl ReferenceElement for Wedge6 {
         &SIDES
     }
 
-    fn full_rule(&self) -> &'static Rule {
-        &quadrature::WEDGE_6
-    }
-
-    fn raised_rule(&self) -> Option<&'static Rule> {
-        Some(&quadrature::WEDGE_9)
+    fn rules(&self) -> Rules {
+        const RULES: Rules = Rules {
+            raised: Some(&quadrature::WEDGE_9),
+            ..Rules::all(&quadrature::WEDGE_6)
+        };
+        RULES
     }
 }
 

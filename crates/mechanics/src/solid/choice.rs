@@ -169,15 +169,15 @@ impl Situation {
     /// where the hoop is a strain of its own, and in tetrahedra whose dilatation counts only once.
     pub fn rule(&self, projected: bool) -> &'static Rule {
         let usual = if self.space == Idealisation::Axisymmetric {
-            self.element.revolved_rule()
+            self.element.rules().revolved
         } else if projected {
-            self.element.dilatation_rule()
+            self.element.rules().dilatation
         } else {
             self.element.full_rule()
         };
         match self.integration {
             Integration::Reduced if self.is_reduced() => self.element.reduced_rule(),
-            Integration::Raised => self.element.raised_rule().unwrap_or(usual),
+            Integration::Raised => self.element.rules().raised.unwrap_or(usual),
             Integration::Full | Integration::Reduced => usual,
         }
     }

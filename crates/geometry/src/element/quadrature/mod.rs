@@ -51,6 +51,40 @@ impl Rule {
     }
 }
 
+/// The rules of an element, by purpose.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules {
+    /// Integrates the stiffness of the undistorted element exactly; that of wedge15 has the customary nine points, exact
+    /// for products of linear strains.
+    pub full: &'static Rule,
+    /// Reduced integration: one order less in the serendipity elements, the full rule in all others.
+    pub reduced: &'static Rule,
+    /// Integrates loads and areas over the element as a facet, curved or not, and masses over a solid: exact for products
+    /// of two shape functions on an undistorted facet.
+    pub surface: &'static Rule,
+    /// For bodies of revolution, where the hoop is a strain of its own: with fewer points motions would be free.
+    pub revolved: &'static Rule,
+    /// Where the dilatation is projected and counts only once: with fewer points motions would be free.
+    pub dilatation: &'static Rule,
+    /// The rule with more points than the full one that other programs use for the element, if there is one.
+    pub raised: Option<&'static Rule>,
+}
+
+impl Rules {
+    /// One rule for every purpose.
+    #[must_use]
+    pub const fn all(rule: &'static Rule) -> Self {
+        Self {
+            full: rule,
+            reduced: rule,
+            surface: rule,
+            revolved: rule,
+            dilatation: rule,
+            raised: None,
+        }
+    }
+}
+
 /// 1/√3.
 const G: f64 = 0.577_350_269_189_625_8;
 /// √(3/5).
