@@ -25,11 +25,11 @@
 //!
 //! Limits: an overlap deeper than half the thickness is none. Sharp tips are thin, and rest on others no deeper than that.
 
-use super::{OnFacet, SurfacePair};
+use super::on_facet::OnFacet;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::proximity::{Aabb, Bvh};
 use signorini_geometry::surface::{
-    Anchor, Carrier, ContactSurface, Facets, Placement, Projection, SurfaceJet,
+    Anchor, ContactSurface, Facets, Placement, Projection, SurfaceJet,
 };
 use signorini_geometry::tensor::Vec3;
 
@@ -46,20 +46,20 @@ const BEARS: f64 = 0.5;
 const ROUNDING: f64 = 1e-9;
 
 /// The part of the thickness up to which a point may have entered (E2).
-const ENTERED: f64 = 0.5;
+pub(super) const ENTERED: f64 = 0.5;
 
 /// Where lines through the body leave a surface, and which facets are around its points.
 #[derive(Clone, Debug, Default)]
 pub struct OwnBody {
     /// Where the line into the body from the middle of each facet leaves it.
-    behind: Vec<Option<Anchor>>,
+    pub(super) behind: Vec<Option<Anchor>>,
     /// The area of each facet at the start, its length in the plane.
     area: Vec<f64>,
     // facets around point k: around[first[k]..first[k + 1]]
     first: Vec<u32>,
     around: Vec<u32>,
     /// Whether each point is in the middle of an edge or a facet, and a corner of none.
-    middle: Vec<bool>,
+    pub(super) middle: Vec<bool>,
 }
 
 /// Normals and thickness of all facets in a configuration.
@@ -76,9 +76,9 @@ pub struct OwnPoint<'a> {
     pub normal: Vec3,
     /// t.
     pub thickness: f64,
-    around: &'a [u32],
-    body: &'a OwnBody,
-    of: &'a OwnNow,
+    pub(super) around: &'a [u32],
+    pub(super) body: &'a OwnBody,
+    pub(super) of: &'a OwnNow,
 }
 
 impl OwnBody {
@@ -158,7 +158,7 @@ impl OwnBody {
         now
     }
 
-    fn of_facet(
+    pub(super) fn of_facet(
         &self,
         surface: &dyn ContactSurface,
         at: &Placement,
@@ -175,7 +175,11 @@ impl OwnBody {
     }
 
     /// The facets around a point: that of a point inside one, those that meet in a node.
-    fn facets_of<'a>(&'a self, point: Option<usize>, inside: Option<&'a OnFacet>) -> &'a [u32] {
+    pub(super) fn facets_of<'a>(
+        &'a self,
+        point: Option<usize>,
+        inside: Option<&'a OnFacet>,
+    ) -> &'a [u32] {
         if let Some(inside) = inside {
             return std::slice::from_ref(&inside.facet);
         }
@@ -183,80 +187,6 @@ impl OwnBody {
             Some([a, b, ..]) => self.around.get(*a as usize..*b as usize).unwrap_or(&[]),
             _ => &[],
         }
-    }
-}
-
-impl SurfacePair {
-    /// Whether a facet of a surface that may touch itself is next to the point of a row, and never meets it: it shares a
-    /// node with the point, or with the facets that the point is in the middle of.
-    #[must_use]
-    pub fn is_next_to(&self, nodes: &[NodeId], facet: u32) -> bool {
-        let of = |facet: u32| match self.primary.carrier(facet) {
-            Carrier::Nodes(nodes) => nodes,
-            Carrier::Rigid(_) | Carrier::Fixed => &[],
-        };
-        let others = of(facet);
-        let meets = |nodes: &[NodeId]| nodes.iter().any(|n| others.contains(n));
-        let around = || {
-            let (own, [node]) = (self.own.as_ref()?, nodes) else {
-                return None;
-            };
-            let place = self.points.binary_search(node).ok()?;
-            let middle = own.middle.get(place).copied()?;
-            middle.then(|| own.facets_of(Some(place), None))
-        };
-        meets(nodes) || around().unwrap_or(&[]).iter().any(|&f| meets(of(f)))
-    }
-
-    /// The point of a row of a surface that may touch itself, among the normals and thickness that facets have `now`.
-    #[must_use]
-    pub fn own_point<'a>(
-        &'a self,
-        nodes: &[NodeId],
-        inside: Option<&'a OnFacet>,
-        now: &'a OwnNow,
-    ) -> Option<OwnPoint<'a>> {
-        let own = self.own.as_ref()?;
-        let place = nodes
-            .first()
-            .and_then(|n| self.points.binary_search(n).ok());
-        let around = own.facets_of(place, inside);
-        let mut point = OwnPoint {
-            normal: Vec3::ZERO,
-            thickness: f64::INFINITY,
-            around,
-            body: own,
-            of: now,
-        };
-        for &facet in around {
-            point.normal += now.normal(facet);
-            point.thickness = point.thickness.min(now.thickness(facet));
-        }
-        point.normal = point.normal.normalized().unwrap_or_default();
-        Some(point)
-    }
-
-    /// How deep the point of a row may enter the facet that it meets (E2); infinite where a surface meets another.
-    #[must_use]
-    pub fn deepest(
-        &self,
-        nodes: &[NodeId],
-        inside: Option<&OnFacet>,
-        facet: u32,
-        at: &Placement,
-    ) -> f64 {
-        let Some(own) = &self.own else {
-            return f64::INFINITY;
-        };
-        let place = nodes
-            .first()
-            .and_then(|n| self.points.binary_search(n).ok());
-        let around = own.facets_of(place, inside).iter().copied();
-        let thickness = around.chain([facet]).map(|f| {
-            let behind = own.behind.get(f as usize).copied().flatten();
-            own.of_facet(self.primary.as_ref(), at, f, behind).0
-        });
-        ENTERED * thickness.fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -279,11 +209,11 @@ impl OwnPoint<'_> {
 }
 
 impl OwnNow {
-    fn normal(&self, facet: u32) -> Vec3 {
+    pub(super) fn normal(&self, facet: u32) -> Vec3 {
         self.normal.get(facet as usize).copied().unwrap_or_default()
     }
 
-    fn thickness(&self, facet: u32) -> f64 {
+    pub(super) fn thickness(&self, facet: u32) -> f64 {
         let of_facet = self.thickness.get(facet as usize).copied();
         of_facet.unwrap_or(f64::INFINITY)
     }

@@ -7,6 +7,8 @@ use super::{
     Anchored, Averaged, BentSides, Capabilities, Curved, Discretization, Links, OwnNow, Pair,
     Pairing, Renewable, SurfacePair,
 };
+use crate::contact::discretization::capabilities::SlidingRange;
+use crate::contact::discretization::on_facet::OnFacet;
 use crate::contact::row::{RowOrder, Rows, Wanted};
 use rayon::prelude::*;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
@@ -16,43 +18,6 @@ use signorini_geometry::surface::{
     ContactSurface, Facets, Feature, Placement, SurfaceError, SurfaceJet, extended_face,
 };
 use signorini_geometry::tensor::Vec3;
-
-/// How far points slide, and so how long they keep the tangent plane that they meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SlidingRange {
-    /// As far as it goes: the closest point moves with them.
-    #[default]
-    Finite,
-    /// Little within an increment: they keep the tangent plane that they meet at its start.
-    Increment,
-    /// Little: they keep the tangent plane that they meet first, between the normals of both sides where the secondary side
-    /// has faces.
-    Small,
-}
-
-/// A point inside a facet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OnFacet {
-    /// The facet.
-    pub facet: u32,
-    /// Where on it, in its parameters.
-    pub xi: Vec3,
-    /// Its weight: of the facet's measure in its parameters.
-    pub weight: f64,
-    /// Whether no facet of the other side is opposite, for the increment that it is made for.
-    pub apart: bool,
-}
-
-impl OnFacet {
-    const fn new(facet: u32, (xi, weight): (Vec3, f64), apart: bool) -> Self {
-        Self {
-            facet,
-            xi,
-            weight,
-            apart,
-        }
-    }
-}
 
 /// The points of all facets, cut at these positions, facet after facet.
 fn pieces(cutter: &Cutter, facets: &Facets, x: &[Vec3]) -> Vec<OnFacet> {

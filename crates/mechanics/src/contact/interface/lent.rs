@@ -32,8 +32,9 @@
 //! Source: Wohlmuth, SIAM J. Numer. Anal. 38, 2000, 989–1012 (multipliers at Dirichlet boundaries and cross points).
 
 use super::Interface;
+use crate::contact::interface::lents::Lent;
 use crate::contact::row::{Participant, RowOrder, Rows};
-use crate::system::{Dof, NO_DOF, State, TermError};
+use crate::system::{NO_DOF, State, TermError};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::{Mat3, Vec3};
 use std::collections::HashMap;
@@ -43,62 +44,6 @@ const RANK: f64 = 1e-6;
 
 /// The part of the nodes a row meets that has to be free for the row to stay without hosts.
 const MAJORITY: f64 = 0.5;
-
-/// Of a row that does not keep all of its multiplier.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Lent {
-    /// F.
-    pub free: Mat3,
-    /// H.
-    pub held: Mat3,
-    /// Rows that take over, each with X.
-    pub hosts: Vec<(usize, Mat3)>,
-}
-
-/// Of all rows.
-#[derive(Debug, Default)]
-pub(super) struct Lents {
-    of: Vec<Option<Lent>>,
-    /// Unknowns that are prescribed in the present step.
-    prescribed: Vec<bool>,
-    /// Whether they may be others than those these are for.
-    stale: bool,
-}
-
-impl Lents {
-    /// Takes the prescribed dofs of the step that begins.
-    pub fn prescribe(&mut self, prescribed: &[bool]) {
-        self.prescribed.clear();
-        self.prescribed.extend_from_slice(prescribed);
-        self.stale = true;
-    }
-
-    /// Whether prescribed unknowns may be others since they were looked at.
-    pub const fn is_stale(&self) -> bool {
-        self.stale
-    }
-
-    /// Whether an unknown is prescribed in the present step.
-    pub fn is_prescribed(&self, dof: Dof) -> bool {
-        self.prescribed.get(dof as usize) == Some(&true)
-    }
-
-    /// What becomes of a row; `None` where it keeps its multiplier.
-    pub fn of(&self, row: usize) -> Option<&Lent> {
-        self.of.get(row)?.as_ref()
-    }
-
-    /// (E2).
-    pub fn effective(&self, row: usize, lambda: &dyn Fn(usize) -> Vec3) -> Vec3 {
-        let own = lambda(row);
-        let Some(lent) = self.of(row) else {
-            return own;
-        };
-        let hosts = lent.hosts.iter();
-        let from_hosts = hosts.map(|(host, x)| x.transpose() * lambda(*host));
-        lent.free * own + from_hosts.sum::<Vec3>()
-    }
-}
 
 /// Columns of a matrix.
 fn columns(m: Mat3) -> [Vec3; 3] {

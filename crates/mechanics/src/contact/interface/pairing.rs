@@ -1,60 +1,14 @@
 //! Search, pairing, where rows stick, and what is coupled with what.
 
-use super::{Carrier, Contact, Interface, InterfaceParts, Judged, dofs_of};
-use crate::contact::discretization::{
-    Anchored, Averaged, Discretization, NOWHERE, Pair, Pairing, SurfacePair,
-};
+use super::{Carrier, Contact, Interface, InterfaceParts, Judged};
+use crate::contact::discretization::{Anchored, Averaged, NOWHERE, Pair};
 use crate::contact::law::Eval;
 use crate::contact::row::RowOrder;
+use crate::system::Layout;
 use crate::system::{Dof, NO_DOF, PatternSink, State};
-use signorini_geometry::proximity::{Aabb, Search};
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Feature, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
-
-/// The search for what is near, with its buffers.
-#[derive(Default)]
-pub(super) struct Near {
-    pub search: Search,
-    pub points: Vec<Vec3>,
-    boxes: Vec<Aabb>,
-}
-
-impl Near {
-    fn update(&mut self, discretization: &dyn Discretization, pair: &SurfacePair, at: &Placement) {
-        let surface = pair.primary.as_ref();
-        self.points.clear();
-        let point = |row| discretization.point(row).position(at);
-        self.points.extend((0..discretization.nrow()).map(point));
-        self.boxes.clear();
-        let facets = 0..surface.nfacet() as u32;
-        self.boxes.extend(facets.map(|f| surface.aabb(at, f)));
-        let apart = |row: u32, facet: u32| {
-            let nodes = || discretization.point(row as usize).nodes;
-            !(pair.same && pair.is_next_to(nodes(), facet))
-        };
-        let skin = 0.5 * pair.reach;
-        self.search
-            .update(&self.points, &self.boxes, pair.reach, skin, &apart);
-    }
-}
-
-/// The closest points of all rows at a configuration.
-///
-/// # Errors
-/// A facet that has no normal.
-pub fn closest_points(
-    discretization: &dyn Discretization,
-    pair: &SurfacePair,
-    at: &Placement,
-) -> Result<Pairing, SurfaceError> {
-    let mut near = Near::default();
-    near.update(discretization, pair, at);
-    let nothing = Pairing::nothing(discretization.nrow());
-    let mut out = nothing.clone();
-    let order = RowOrder::Gap;
-    discretization.pair_up(pair, at, &near.search, &nothing, order, &mut out)?;
-    Ok(out)
-}
 
 /// Where nothing is closed, nor was at the start of the increment, a step ends where something does: what touches first may go past the other side by this part of its
 /// way, and this part of the reach. Where all that a free body could meet closes at once, most of it opens again, to no end.
@@ -394,49 +348,17 @@ impl Interface {
     }
 }
 
-/// The primary facets that the pattern couples each row with, row after row.
-#[derive(Debug, Default)]
-pub(super) struct Coupled {
-    end: Vec<usize>,
-    facets: Vec<u32>,
-}
-
-impl Coupled {
-    fn row(&self, row: usize) -> &[u32] {
-        let first = match row {
-            0 => Some(&0),
-            _ => self.end.get(row - 1),
-        };
-        match (first, self.end.get(row)) {
-            (Some(&a), Some(&b)) => &self.facets[a..b],
-            _ => &[],
+/// The unknowns of what moves a facet.
+fn dofs_of(carrier: Carrier<'_>, layout: &Layout, out: &mut Vec<Dof>) {
+    match carrier {
+        Carrier::Nodes(nodes) => {
+            let of = |&n: &NodeId| (0..3).map(move |c| layout.node(n, c));
+            out.extend(nodes.iter().flat_map(of));
         }
-    }
-
-    fn clear(&mut self) {
-        self.end.clear();
-        self.facets.clear();
-    }
-
-    fn end_row(&mut self) {
-        self.end.push(self.facets.len());
-    }
-
-    /// The ends of rows, then the facets.
-    pub fn to_numbers(&self) -> Vec<f64> {
-        let ends = self.end.iter().map(|&e| e as f64);
-        ends.chain(self.facets.iter().map(|&f| f64::from(f)))
-            .collect()
-    }
-
-    /// Those of so many rows; `None` where they are not such numbers.
-    pub fn from_numbers(numbers: &[f64], nrow: usize) -> Option<Self> {
-        let (ends, facets) = numbers.split_at_checked(nrow.min(numbers.len()))?;
-        let found = Self {
-            end: ends.iter().map(|&e| e as usize).collect(),
-            facets: facets.iter().map(|&f| f as u32).collect(),
-        };
-        let whole = found.end.last().is_none_or(|&e| e == found.facets.len());
-        (found.end.is_sorted() && whole).then_some(found)
+        Carrier::Rigid(body) => {
+            out.extend((0..3).map(|c| layout.translation(body, c)));
+            out.extend((0..3).map(|c| layout.rotation(body, c)));
+        }
+        Carrier::Fixed => {}
     }
 }

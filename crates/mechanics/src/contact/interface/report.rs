@@ -1,5 +1,6 @@
 //! The report of a contact on an accepted state.
 
+use super::means::{Means, OfRow};
 use super::{
     Contact, Interface, Measure, Order, Participant, RowOrder, Rows, Scratch, State, TermError,
 };
@@ -12,38 +13,9 @@ use signorini_geometry::mesh::{Face, NodeId};
 use signorini_geometry::surface::{Carrier, ContactSurface, Facets, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 
-/// Sums over the rows around each node, with its shares of their areas as weights.
-struct Means {
-    /// Of rows that meet something, and of all: pressures are means over these, too, so that they add up to the force.
-    weight: Vec<f64>,
-    whole: Vec<f64>,
-    normal: Vec<Vec3>,
-    gap: Vec<f64>,
-    pressure: Vec<f64>,
-    traction: Vec<Vec3>,
-    multiplier: Vec<f64>,
-    multiplier_traction: Vec<Vec3>,
-    slip: Vec<Vec3>,
-    elastic_slip: Vec<Vec3>,
-}
-
-/// What a row adds to the means.
-struct OfRow {
-    normal: Vec3,
-    gap: f64,
-    pressure: f64,
-    /// On the side whose means these are.
-    traction: Vec3,
-    /// Both before smoothing.
-    multiplier: f64,
-    multiplier_traction: Vec3,
-    slip: Vec3,
-    elastic_slip: Vec3,
-}
-
-/// What there is to report of a row.
+/// The report of a row, without the pressure on it.
 #[derive(Default)]
-struct Told {
+struct RowReport {
     status: Status,
     /// Whether its law acts.
     acts: bool,
@@ -64,54 +36,89 @@ struct Found {
     elastic_slip: Vec3,
 }
 
-impl Means {
-    fn new(n: usize) -> Self {
+/// A report while rows are added to it.
+struct Sums {
+    report: ContactFrame,
+    means: Means,
+    /// On the nodes of the first of two passes, in the second.
+    across: Means,
+    /// Entries of nodes whose functions are parts of those of others.
+    hosted: Vec<usize>,
+    guests: Vec<NodeId>,
+}
+
+impl Sums {
+    fn new(report: ContactFrame, nacross: usize) -> Self {
         Self {
-            weight: vec![0.0; n],
-            whole: vec![0.0; n],
-            normal: vec![Vec3::ZERO; n],
-            gap: vec![0.0; n],
-            pressure: vec![0.0; n],
-            traction: vec![Vec3::ZERO; n],
-            multiplier: vec![0.0; n],
-            multiplier_traction: vec![Vec3::ZERO; n],
-            slip: vec![Vec3::ZERO; n],
-            elastic_slip: vec![Vec3::ZERO; n],
+            means: Means::new(report.nodes.len()),
+            across: Means::new(nacross),
+            hosted: Vec::new(),
+            guests: Vec::new(),
+            report,
         }
     }
 
-    fn add(&mut self, k: usize, weight: f64, row: &OfRow) {
-        self.weight[k] += weight;
-        self.whole[k] += weight;
-        self.normal[k] += row.normal * weight;
-        self.gap[k] += weight * row.gap;
-        self.pressure[k] += weight * row.pressure;
-        self.traction[k] += row.traction * weight;
-        self.multiplier[k] += weight * row.multiplier;
-        self.multiplier_traction[k] += row.multiplier_traction * weight;
-        self.slip[k] += row.slip * weight;
-        self.elastic_slip[k] += row.elastic_slip * weight;
+    /// Sums become means.
+    fn divide(self) -> (ContactFrame, Means) {
+        let Self {
+            mut report,
+            means,
+            across,
+            hosted,
+            ..
+        } = self;
+        for k in 0..report.nodes.len() {
+            if let Some(mean) = means.of(k) {
+                report.normal[k] = mean.normal;
+                report.gap[k] = mean.gap;
+                report.pressure[k] = mean.pressure;
+                report.traction[k] = mean.traction;
+                report.multiplier[k] = mean.multiplier;
+                report.multiplier_traction[k] = mean.multiplier_traction;
+                report.slip[k] = mean.slip;
+                report.elastic_slip[k] = mean.elastic_slip;
+                // rows of its node that meet nothing, as on another side of an edge, have no part in the means
+                report.area[k] = means.whole[k];
+            }
+        }
+        for (_, sum) in report.faces.iter_mut().flatten() {
+            sum.divide();
+        }
+        for k in hosted {
+            // their areas are parts of those of their hosts
+            report.area[k] = 0.0;
+        }
+        report.footprint.divide();
+        (report, across)
     }
+}
 
-    /// A row that meets nothing.
-    fn add_nothing(&mut self, k: usize, weight: f64) {
-        self.whole[k] += weight;
+/// Adds a report to the frame: to that of the first pass, where it is of the second.
+fn hand_over(report: ContactFrame, across: &Means, first: Option<usize>, frame: &mut Frame) {
+    match first.and_then(|c| frame.contacts.get_mut(c)) {
+        Some(first) => {
+            for k in 0..first.nodes.len() {
+                if let Some(mean) = across.of(k) {
+                    first.pressure[k] += mean.pressure;
+                    first.traction[k] += mean.traction;
+                    first.multiplier[k] += mean.multiplier;
+                    first.multiplier_traction[k] += mean.multiplier_traction;
+                }
+            }
+            first.add_pass(&report);
+        }
+        None => frame.contacts.push(report),
     }
-
-    /// The means themselves, where there are any.
-    fn of(&self, k: usize) -> Option<OfRow> {
-        let weight = self.weight.get(k).copied().filter(|w| *w > 0.0)?;
-        let whole = self.whole[k];
-        Some(OfRow {
-            normal: self.normal[k].normalized().unwrap_or_default(),
-            gap: self.gap[k] / weight,
-            pressure: self.pressure[k] / whole,
-            traction: self.traction[k] / whole,
-            multiplier: self.multiplier[k] / whole,
-            multiplier_traction: self.multiplier_traction[k] / whole,
-            slip: self.slip[k] / weight,
-            elastic_slip: self.elastic_slip[k] / weight,
-        })
+    let whole = first.unwrap_or(frame.contacts.len() - 1);
+    let Frame {
+        contacts,
+        contact_pressure,
+        ..
+    } = frame;
+    for (&node, pressure) in contacts[whole].nodes.iter().zip(&contacts[whole].pressure) {
+        if let Some(to) = contact_pressure.get_mut(node as usize) {
+            *to = to.max(*pressure);
+        }
     }
 }
 
@@ -142,156 +149,160 @@ impl Interface {
     pub(super) fn describe(&self, state: &State, frame: &mut Frame) -> Result<(), TermError> {
         let mut report = self.new_report(state);
         report.idle = self.idle_rows(state)?;
-        let mut means = Means::new(report.nodes.len());
         // the second pass acts on the nodes of the first, which are its primary side
         let place = |c: &ContactFrame| self.parts.swapped && c.name == report.name;
         let first = frame.contacts.iter().position(place);
-        let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
-        let (mut guests, mut hosted) = (Vec::new(), Vec::new());
-        let of = self.parts.discretization.capabilities();
-        let inside = of.inside.is_some();
-        let (told, mut on_rows) = self.tell(state, (&mut report, first), frame)?;
-        let touches = |row: usize| told.get(row).is_some_and(|t: &Told| t.status.is_closed());
-        let parts = &self.parts;
-        let in_equations = on_rows.clone();
-        if let Some(averaged) = of.averaged.filter(|_| parts.smooths) {
-            let joined = parts.bond.is_some();
+        let (rows, in_equations) = self.report_rows(state, (&mut report, first), frame)?;
+        let mut on_rows = in_equations.clone();
+        let averaged = self.parts.discretization.capabilities().averaged;
+        if let Some(averaged) = averaged.filter(|_| self.parts.smooths) {
+            let touches = |row: usize| {
+                rows.get(row)
+                    .is_some_and(|r: &RowReport| r.status.is_closed())
+            };
+            let joined = self.parts.bond.is_some();
             averaged.smooth(&self.now, &touches, joined, &mut on_rows);
         }
-        let rows = told.into_iter().zip(on_rows).zip(in_equations);
-        for (row, ((told, on_row), raw)) in rows.enumerate() {
-            let Told {
-                status,
-                acts,
-                area,
-                stretch,
-                energy,
-                found,
-            } = told;
-            let pressure = on_row.pressure * stretch;
-            let slip = self.history.slip(row);
-            let of_row = found.map(|found| OfRow {
-                normal: found.normal,
-                gap: found.gap,
-                pressure,
-                traction: found.direction * pressure + on_row.shear * stretch,
-                multiplier: raw.pressure * stretch,
-                multiplier_traction: (found.direction * raw.pressure + raw.shear) * stretch,
-                slip,
-                elastic_slip: found.elastic_slip,
-            });
+        let mut sums = Sums::new(report, first.map_or(0, |c| frame.contacts[c].nodes.len()));
+        let rows = rows.into_iter().zip(on_rows).zip(in_equations);
+        for (row, ((reported, on_row), raw)) in rows.enumerate() {
+            let of_row = self.of_row(row, &reported, &on_row, &raw);
+            let pressure = on_row.pressure * reported.stretch;
+            let report = &mut sums.report;
             report.pressure_max = report.pressure_max.max(pressure);
-            report.slip_max = report.slip_max.max(slip.norm());
-            let point = parts.discretization.point(row);
-            guests.clear();
-            if let Some(averaged) = of.averaged {
-                averaged.guests(row, &parts.pair, &self.now, &mut guests);
-            }
-            for node in &guests {
-                if let (Ok(k), Some(of_row)) = (parts.pair.points.binary_search(node), &of_row) {
-                    means.add(k, area, of_row);
-                    report.status[k] = status;
-                    report.acts[k] = status.is_closed();
-                    report.pressure_peak[k] = report.pressure_peak[k].max(pressure);
-                    hosted.push(k);
-                }
-            }
-            // shares of a point's area: those of a lumped mass
-            let squares: f64 = point.weights.iter().map(|w| w * w).sum();
-            let place = point.position(&state.placement());
-            if let Some(of_row) = of_row.as_ref().filter(|_| status.is_closed()) {
-                report.footprint.area += area;
-                report.footprint.center += place * area;
-                report.footprint.normal += of_row.normal * area;
-            }
-            for (node, shape) in point.nodes.iter().zip(point.weights) {
-                let Ok(k) = parts.pair.points.binary_search(node) else {
-                    continue;
-                };
-                report.pressure_peak[k] = report.pressure_peak[k].max(pressure);
-                let share = area * shape * shape / squares;
-                report.area[k] += share;
-                report.energy[k] += energy * shape * shape / squares;
-                match &of_row {
-                    Some(of_row) => means.add(k, share, of_row),
-                    // a node that meets nothing may still lean on another one
-                    None if inside => means.add_nothing(k, share),
-                    None => {}
-                }
-                if status.number() > report.status[k].number() {
-                    report.status[k] = status;
-                }
-                // a multiplier acts where it is zero, too
-                report.acts[k] |= status.is_closed() || acts && self.nmultiplier() == 0;
-            }
-            if let (Some(faces), Some(of_row)) = (&mut report.faces, &of_row)
-                && status.is_closed()
+            report.slip_max = report.slip_max.max(self.history.slip(row).norm());
+            self.add_to_guests(row, &reported, pressure, of_row.as_ref(), &mut sums);
+            self.add_to_nodes(
+                row,
+                state,
+                (&reported, pressure),
+                of_row.as_ref(),
+                &mut sums,
+            );
+            let RowReport { area, energy, .. } = reported;
+            if let (Some(faces), Some(of_row)) = (&mut sums.report.faces, &of_row)
+                && reported.status.is_closed()
             {
                 self.add_inside(row, area, energy, of_row, faces);
             }
             if let (Some(first), Some(of_row)) = (first, of_row) {
                 let nodes = &frame.contacts[first].nodes;
-                self.add_across(row, state, area, of_row, nodes, &mut across)?;
+                self.add_across(row, state, area, of_row, nodes, &mut sums.across)?;
             }
         }
-        for k in 0..report.nodes.len() {
-            if let Some(mean) = means.of(k) {
-                report.normal[k] = mean.normal;
-                report.gap[k] = mean.gap;
-                report.pressure[k] = mean.pressure;
-                report.traction[k] = mean.traction;
-                report.multiplier[k] = mean.multiplier;
-                report.multiplier_traction[k] = mean.multiplier_traction;
-                report.slip[k] = mean.slip;
-                report.elastic_slip[k] = mean.elastic_slip;
-                // rows of its node that meet nothing, as on another side of an edge, have no part in the means
-                report.area[k] = means.whole[k];
-            }
-        }
-        for (_, sum) in report.faces.iter_mut().flatten() {
-            sum.divide();
-        }
-        for k in hosted {
-            // they are parts of those of its host
-            report.area[k] = 0.0;
-        }
-        if let Some(first) = first.and_then(|c| frame.contacts.get_mut(c)) {
-            for k in 0..first.nodes.len() {
-                if let Some(mean) = across.of(k) {
-                    first.pressure[k] += mean.pressure;
-                    first.traction[k] += mean.traction;
-                    first.multiplier[k] += mean.multiplier;
-                    first.multiplier_traction[k] += mean.multiplier_traction;
-                }
-            }
-        }
-        report.footprint.divide();
+        let (mut report, across) = sums.divide();
         report.work_friction = self.history.work;
-        match first.and_then(|c| frame.contacts.get_mut(c)) {
-            Some(first) => first.add_pass(&report),
-            None => frame.contacts.push(report),
-        }
-        let whole = first.unwrap_or(frame.contacts.len() - 1);
-        let Frame {
-            contacts,
-            contact_pressure,
-            ..
-        } = frame;
-        for (&node, pressure) in contacts[whole].nodes.iter().zip(&contacts[whole].pressure) {
-            if let Some(to) = contact_pressure.get_mut(node as usize) {
-                *to = to.max(*pressure);
-            }
-        }
+        hand_over(report, &across, first, frame);
         Ok(())
     }
 
-    /// What rows report, and what acts on them; adds up their forces.
-    fn tell(
+    /// What a row adds to the means; none where it meets nothing.
+    fn of_row(
+        &self,
+        row: usize,
+        reported: &RowReport,
+        on_row: &OnRow,
+        raw: &OnRow,
+    ) -> Option<OfRow> {
+        let found = reported.found.as_ref()?;
+        let stretch = reported.stretch;
+        let pressure = on_row.pressure * stretch;
+        Some(OfRow {
+            normal: found.normal,
+            gap: found.gap,
+            pressure,
+            traction: found.direction * pressure + on_row.shear * stretch,
+            multiplier: raw.pressure * stretch,
+            multiplier_traction: (found.direction * raw.pressure + raw.shear) * stretch,
+            slip: self.history.slip(row),
+            elastic_slip: found.elastic_slip,
+        })
+    }
+
+    /// Adds a row to the nodes whose functions are parts of its own.
+    fn add_to_guests(
+        &self,
+        row: usize,
+        reported: &RowReport,
+        pressure: f64,
+        of_row: Option<&OfRow>,
+        sums: &mut Sums,
+    ) {
+        let Some(averaged) = self.parts.discretization.capabilities().averaged else {
+            return;
+        };
+        let pair = &self.parts.pair;
+        sums.guests.clear();
+        averaged.guests(row, pair, &self.now, &mut sums.guests);
+        for node in &sums.guests {
+            if let (Ok(k), Some(of_row)) = (pair.points.binary_search(node), of_row) {
+                let report = &mut sums.report;
+                sums.means.add(k, reported.area, of_row);
+                report.status[k] = reported.status;
+                report.acts[k] = reported.status.is_closed();
+                report.pressure_peak[k] = report.pressure_peak[k].max(pressure);
+                sums.hosted.push(k);
+            }
+        }
+    }
+
+    /// Adds a row to the nodes of its point, and to the footprint.
+    fn add_to_nodes(
+        &self,
+        row: usize,
+        state: &State,
+        (reported, pressure): (&RowReport, f64),
+        of_row: Option<&OfRow>,
+        sums: &mut Sums,
+    ) {
+        let &RowReport {
+            status,
+            acts,
+            area,
+            energy,
+            ..
+        } = reported;
+        let discretization = &self.parts.discretization;
+        let inside = discretization.capabilities().inside.is_some();
+        let point = discretization.point(row);
+        let report = &mut sums.report;
+        let place = point.position(&state.placement());
+        if let Some(of_row) = of_row.filter(|_| status.is_closed()) {
+            report.footprint.area += area;
+            report.footprint.center += place * area;
+            report.footprint.normal += of_row.normal * area;
+        }
+        // shares of a point's area: those of a lumped mass
+        let squares: f64 = point.weights.iter().map(|w| w * w).sum();
+        for (node, shape) in point.nodes.iter().zip(point.weights) {
+            let Ok(k) = self.parts.pair.points.binary_search(node) else {
+                continue;
+            };
+            report.pressure_peak[k] = report.pressure_peak[k].max(pressure);
+            let share = area * shape * shape / squares;
+            report.area[k] += share;
+            report.energy[k] += energy * shape * shape / squares;
+            match of_row {
+                Some(of_row) => sums.means.add(k, share, of_row),
+                // a node that meets nothing may still lean on another one
+                None if inside => sums.means.add_nothing(k, share),
+                None => {}
+            }
+            if status.number() > report.status[k].number() {
+                report.status[k] = status;
+            }
+            // a multiplier acts where it is zero, too
+            report.acts[k] |= status.is_closed() || acts && self.nmultiplier() == 0;
+        }
+    }
+
+    /// The reports of rows, and the pressures on them; adds up their forces.
+    fn report_rows(
         &self,
         state: &State,
         (report, first): (&mut ContactFrame, Option<usize>),
         frame: &mut Frame,
-    ) -> Result<(Vec<Told>, Vec<OnRow>), TermError> {
+    ) -> Result<(Vec<RowReport>, Vec<OnRow>), TermError> {
         let nrow = self.parts.discretization.nrow();
         let averaged = self.parts.discretization.capabilities().averaged;
         let mut scratch = Scratch::default();
@@ -311,11 +322,11 @@ impl Interface {
             let stretched = averaged.filter(|_| acts && !self.step.nonlinear);
             let stretch = stretched.map_or(1.0, |of| of.stretch(row, &self.now));
             let area = present / stretch;
-            let mut told = Told {
+            let mut told = RowReport {
                 acts,
                 area,
                 stretch,
-                ..Told::default()
+                ..RowReport::default()
             };
             let mut on_row = OnRow::default();
             if let Some(filled) = scratch.rows.rows().first() {

@@ -18,12 +18,16 @@
 //! continuation of its facet until the increment has ended. So it does where the law presses from a distance: outside
 //! the body the closest point jumps across a valley.
 
-use super::{Interface, Multiplier, NodeId, RESTLESS, Verdict};
+use super::judged::NAMED;
+use super::{Interface, Multiplier, NodeId, Verdict};
 use crate::contact::discretization::Pair;
 use crate::contact::discretization::projected::{BEYOND, on_continuation};
 use crate::contact::kernel::Laws;
 use signorini_geometry::surface::{ContactSurface, Feature, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
+
+/// Changes within one increment after which a choice is kept.
+pub(super) const RESTLESS: u8 = 4;
 
 /// Relative difference below which two distances from the same edge are equal.
 const SAME: f64 = 1e-9;
@@ -108,7 +112,7 @@ impl Interface {
         let rows = std::mem::take(&mut self.astray);
         let discretization = self.parts.discretization.as_ref();
         let first = |&(row, _): &(usize, Pair)| discretization.point(row).nodes.first().copied();
-        let nodes: Vec<NodeId> = rows.iter().filter_map(first).take(super::NAMED).collect();
+        let nodes: Vec<NodeId> = rows.iter().filter_map(first).take(NAMED).collect();
         for &(row, closest) in &rows {
             let places = self.now.pairs.get_mut(row).zip(self.changes.get_mut(row));
             if let Some((place, changes)) = places {

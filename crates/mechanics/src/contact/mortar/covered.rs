@@ -1,5 +1,6 @@
 use super::basis::{Small, inverse};
-use super::pair::{COORDINATES, add, add_rows, zeros};
+use super::factor::zeros;
+use super::pair::{COORDINATES, add, add_rows};
 use super::{Basis, Facet, Frame, Measure, MortarError, Pair, Transformation};
 use pulp::Arch;
 use signorini_geometry::element::MAX_FACET_NODES;

@@ -110,6 +110,7 @@ mod basis;
 mod bent;
 #[allow(clippy::needless_range_loop)]
 mod covered;
+mod factor;
 mod pair;
 #[allow(clippy::needless_range_loop)]
 mod products;

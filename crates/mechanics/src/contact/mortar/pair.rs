@@ -1,3 +1,4 @@
+use super::factor::{Factor, zeros};
 use super::products::Products;
 use super::{Facet, Measure, MortarError};
 use pulp::Arch;
@@ -5,7 +6,6 @@ use signorini_geometry::element::{Element, MAX_FACET_NODES};
 use signorini_geometry::overlap::{Facing, Flat, OverlapError, Plane};
 use signorini_geometry::scalar::Dual;
 use signorini_geometry::tensor::Vec3;
-use std::f64::consts::TAU;
 
 /// From 60 degrees on, as a cosine, the weight (E6) of two facets falls, and a primary facet that is folded in the projection
 /// is passed over: half of it could be bent by as many as the rest, so that it is only seen edge-on.
@@ -160,45 +160,6 @@ impl Frame {
     /// The place of a point along the first axis.
     pub(super) fn along(&self, x: Vec3) -> f64 {
         self.axes[0].dot(x - self.origin)
-    }
-}
-
-/// By what areas are multiplied, at a place along the line.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Factor {
-    /// 1.
-    One,
-    /// (E5), from places and radii of the ends.
-    Circumference([(f64, f64); 2]),
-}
-
-impl Factor {
-    /// Its degree as a polynomial of the place.
-    pub(super) fn degree(self) -> usize {
-        match self {
-            Self::One => 0,
-            Self::Circumference(_) => 1,
-        }
-    }
-
-    pub(super) fn at(self, p: f64) -> f64 {
-        match self {
-            Self::One => 1.0,
-            Self::Circumference([(a, ra), (b, rb)]) => {
-                TAU * ((b - p) * ra + (p - a) * rb) / (b - a)
-            }
-        }
-    }
-
-    /// Its derivatives by the place, and by places and radii of the ends.
-    pub(super) fn slopes(self, p: f64) -> Option<[f64; 5]> {
-        let Self::Circumference([(a, ra), (b, rb)]) = self else {
-            return None;
-        };
-        let (slope, share) = (TAU * (rb - ra) / (b - a), (p - a) / (b - a));
-        let of_ends = [-slope * (1.0 - share), -slope * share];
-        let of_radii = [TAU * (1.0 - share), TAU * share];
-        Some([slope, of_ends[0], of_ends[1], of_radii[0], of_radii[1]])
     }
 }
 
@@ -569,9 +530,4 @@ pub(super) fn add_rows(to: &mut [f64], factors: &[f64], rows: &[f64]) {
     for (factor, row) in rest.iter().zip(of_rest.chunks_exact(n.max(1))) {
         add(to, *factor, row);
     }
-}
-
-pub(super) fn zeros(v: &mut Vec<f64>, n: usize) {
-    v.clear();
-    v.resize(n, 0.0);
 }

@@ -17,7 +17,7 @@
 //! where the sums in the last term are those of the facet that the differentiated function belongs to. The first two go by
 //! corners, and from there, cell by cell, to the nodes that these move with.
 
-use super::pair::{Factor, zeros};
+use super::factor::{Factor, zeros};
 use pulp::Arch;
 use signorini_geometry::element::MAX_FACET_NODES;
 use signorini_geometry::overlap::{

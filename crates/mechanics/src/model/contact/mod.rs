@@ -15,7 +15,7 @@ use super::{
 };
 use crate::contact::discretization::{REACH, SlidingRange};
 use crate::contact::friction::{FrictionLaw, Stick};
-use crate::contact::law::Scale;
+use crate::contact::law::{Multiplier, Scale};
 use crate::contact::{ContactPhase, InterfaceParts, Measure};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement};
@@ -101,7 +101,17 @@ fn friction(part: &FrictionPart, penalty: f64) -> (Arc<dyn FrictionLaw>, Stick) 
     (Arc::clone(&part.limit), stick)
 }
 
+/// The enforcement that a contact has in the end.
+fn in_use(given: &Enforcement, multiplier: Multiplier, penalty: f64) -> Enforcement {
+    match given {
+        Enforcement::Auto if multiplier.is_unknown() => Enforcement::Lagrange,
+        Enforcement::Auto => Enforcement::Penalty(Some(penalty)),
+        given => given.clone(),
+    }
+}
+
 impl Context<'_> {
+    /// Chooses what a contact leaves open, and describes the choice.
     pub(super) fn contact(
         &self,
         mut sides: Sides,
@@ -109,88 +119,42 @@ impl Context<'_> {
         steps: &Steps<'_>,
         first_multiplier: usize,
     ) -> Result<(InterfaceParts, ContactSummary), ModelError> {
+        let surface_error = |source| ModelError::Surface {
+            contact: part.name.clone(),
+            source,
+        };
         let of = [sides.facets.as_ref(), sides.secondary()];
         let sizes = of.map(|s| s.map(|s| self.sizes(s)));
         let share = self.share(of);
         let shear_part = self.shear_part(of.into_iter().flatten());
-        let largest = sizes
-            .iter()
-            .flatten()
-            .map(|s| s.largest)
-            .fold(0.0, f64::max);
         let length = match (&sizes[0], &sizes[1]) {
             (Some(s), _) | (None, Some(s)) => s.mean,
             (None, None) => self.size_of_cells(&sides.pair.points),
         };
+        let largest = sizes.iter().flatten().map(|s| s.largest);
+        let largest = largest.fold(0.0, f64::max);
         let size = if largest > 0.0 { largest } else { length };
         let at = self.placement();
         sides.reach_locally(&at, part);
-        let found = sides
-            .look_around(&at, part.reach, REACH * size)
-            .map_err(|source| ModelError::Surface {
-                contact: part.name.clone(),
-                source,
-            })?;
+        let found = sides.look_around(&at, part.reach, REACH * size);
+        let found = found.map_err(surface_error)?;
         if part.area == AreaPart::Opposite {
             let known = sides.stand_for_opposite(&found, self.reference, self.spaces);
-            known.map_err(|source| ModelError::Surface {
-                contact: part.name.clone(),
-                source,
-            })?;
+            known.map_err(surface_error)?;
         }
-        let points = &sides.pair.points;
-        let softest = sizes
-            .iter()
-            .flatten()
-            .filter_map(|s| s.stiffness)
-            .chain(self.bare(points, length, sides.secondary().is_none()))
-            .fold(f64::INFINITY, f64::min);
         let measure = part.measure.unwrap_or(if sides.area.is_empty() {
             Measure::Node
         } else {
             Measure::Area
         });
-        let given = match part.enforcement {
-            Enforcement::Penalty(penalty)
-            | Enforcement::Uzawa(penalty)
-            | Enforcement::AugmentedNewton(penalty) => penalty,
-            _ => None,
-        };
-        let penalty = match given {
-            Some(penalty) => penalty,
-            None if softest.is_finite() => {
-                let factor = if sides.law.multiplier().is_unknown() {
-                    COMPLEMENTARITY
-                } else if sides.pair.same {
-                    PENALTY_OF_ITSELF
-                } else {
-                    PENALTY
-                };
-                let per_area = factor * softest;
-                let area = &sides.area;
-                match measure {
-                    Measure::Area => per_area,
-                    Measure::Node if area.is_empty() => per_area * self.patch(points, length),
-                    Measure::Node => per_area * area.iter().sum::<f64>() / area.len() as f64,
-                }
-            }
-            None => {
-                return Err(ModelError::BothRigid {
-                    contact: part.name.clone(),
-                });
-            }
-        };
+        let stiffness = sizes.iter().flatten().filter_map(|s| s.stiffness);
+        let bare = self.bare(&sides.pair.points, length, sides.secondary().is_none());
+        let softest = stiffness.chain(bare).fold(f64::INFINITY, f64::min);
+        let penalty = self.penalty(&sides, part, measure, (softest, length))?;
         if part.sliding == SlidingRange::Small || part.tie.is_some() {
             let held = sides.hold(&at, self.spaces, share);
-            held.map_err(|source| ModelError::Surface {
-                contact: part.name.clone(),
-                source,
-            })?;
+            held.map_err(surface_error)?;
         }
-        let surface_error = |source| ModelError::Surface {
-            contact: part.name.clone(),
-            source,
-        };
         let look = probe::Look::new(&sides, part, &at).map_err(surface_error)?;
         start::not_too_deep(self.mesh, &sides, part, &look, (self.reference, size))?;
         let bend = look.bend(&sides, &at).map_err(surface_error)?;
@@ -198,28 +162,16 @@ impl Context<'_> {
             true => open_edges::open_edges(self.mesh, &sides.pair, &at),
             false => None,
         };
-        let reach = sides.pair.reach;
-        let bond = match part.tie {
-            None => None,
-            Some(tie) => Some(start::bonds(&sides, &found, tie, &at).map_err(|source| {
-                ModelError::Surface {
-                    contact: part.name.clone(),
-                    source,
-                }
-            })?),
-        };
+        let bond = part.tie.map(|tie| start::bonds(&sides, &found, tie, &at));
+        let bond = bond.transpose().map_err(surface_error)?;
         let summary = ContactSummary {
             name: part.name.clone(),
-            enforcement: match &part.enforcement {
-                Enforcement::Auto if sides.law.multiplier().is_unknown() => Enforcement::Lagrange,
-                Enforcement::Auto => Enforcement::Penalty(Some(penalty)),
-                given => given.clone(),
-            },
+            enforcement: in_use(&part.enforcement, sides.law.multiplier(), penalty),
             method: sides.method,
             penalty,
             measure,
             sliding: part.sliding,
-            reach,
+            reach: sides.pair.reach,
             npoint: sides.pair.points.len(),
             nfacet: sides.pair.primary.nfacet(),
             facet_size: length,
@@ -255,6 +207,41 @@ impl Context<'_> {
             swapped: sides.swapped,
         };
         Ok((parts, summary))
+    }
+
+    /// The penalty of a contact: the given one, or a factor of the softest of the stiffnesses per area behind its sides.
+    fn penalty(
+        &self,
+        sides: &Sides,
+        part: &ContactPart,
+        measure: Measure,
+        (softest, length): (f64, f64),
+    ) -> Result<f64, ModelError> {
+        if let Enforcement::Penalty(Some(given))
+        | Enforcement::Uzawa(Some(given))
+        | Enforcement::AugmentedNewton(Some(given)) = part.enforcement
+        {
+            return Ok(given);
+        }
+        if !softest.is_finite() {
+            return Err(ModelError::BothRigid {
+                contact: part.name.clone(),
+            });
+        }
+        let factor = if sides.law.multiplier().is_unknown() {
+            COMPLEMENTARITY
+        } else if sides.pair.same {
+            PENALTY_OF_ITSELF
+        } else {
+            PENALTY
+        };
+        let per_area = factor * softest;
+        let area = &sides.area;
+        Ok(match measure {
+            Measure::Area => per_area,
+            Measure::Node if area.is_empty() => per_area * self.patch(&sides.pair.points, length),
+            Measure::Node => per_area * area.iter().sum::<f64>() / area.len() as f64,
+        })
     }
 
     /// Where everything is at the start.

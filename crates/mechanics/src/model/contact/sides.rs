@@ -1,27 +1,27 @@
 //! From parts to the two sides of an interface, and the way they are compared.
 
+mod areas;
 mod rigid;
+mod rows;
+mod source;
 
-use super::joined;
-use crate::contact::discretization::projected::{Closest, Sight};
+pub(in crate::model) use source::Source;
+
 use crate::contact::discretization::{
-    Cutter, Discretization, FacetSizes, Lean, Mortar, NodeNormals, NodeToNode, OwnBody, Pair,
-    Pairing, PointToSegment, SlidingRange, SurfacePair, areas_inside,
+    self, Discretization, FacetSizes, Lean, Mortar, Pair, Pairing, SlidingRange, SurfacePair,
 };
 use crate::contact::law::{AugmentedNewton, ContactLaw, Lagrange, Multiplier, Penalty, Uzawa};
-use crate::contact::{Areas, Measure, closest_points, discretization, mortar};
+use crate::contact::{Areas, Measure, closest_points};
 use crate::model::bodies::Spaces;
-use crate::model::steps::Prescribed;
 use crate::model::{
-    AreaPart, ContactPart, Enforcement, FeaturesPart, Method, ModelError, Normals, PairOrder,
-    PointKind, PointRule, PrimaryPart, SidePart, label,
+    AreaPart, ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind,
+    PointRule, PrimaryPart, SidePart,
 };
-use crate::system::{Elimination, Idealisation};
-use signorini_geometry::element::{Element, quadrature};
-use signorini_geometry::mesh::{Face, Mesh, NodeId, boundary};
+use areas::{extent, measure, mortar_areas, no_dual};
+use rows::Pass;
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Anchor, ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// How often the reach is doubled to find what is near at the start.
@@ -43,25 +43,6 @@ pub(in crate::model) struct Sides {
     pub areas: Option<Areas>,
     pub sliding: SlidingRange,
     pub swapped: bool,
-}
-
-/// What sides are made from.
-#[derive(Clone, Copy)]
-pub(in crate::model) struct Source<'a> {
-    pub mesh: &'a Mesh,
-    /// Positions at the start.
-    pub reference: &'a [Vec3],
-    pub space: Idealisation,
-    /// What the planes of bodies stand for.
-    pub spaces: &'a Spaces<'a>,
-    /// What follows rigid bodies.
-    pub elimination: &'a Elimination,
-    /// Of each node, whether the steps prescribe its motion along all axes.
-    pub prescribed: &'a [bool],
-    /// Of each node and axis, what the steps prescribe of its motion.
-    pub motions: &'a [[Prescribed; 3]],
-    /// Of each contact, whether it has friction in any step.
-    pub rubs: &'a [bool],
 }
 
 impl Source<'_> {
@@ -94,270 +75,28 @@ impl Source<'_> {
     }
 
     fn pass(&self, contact: usize, part: &ContactPart, swapped: bool) -> Result<Sides, ModelError> {
-        let surface_error = |source| ModelError::Surface {
-            contact: part.name.clone(),
-            source,
-        };
-        let facets = |faces: &[Face]| {
-            Facets::new(self.mesh, faces).map_err(|source| ModelError::Facets {
-                contact: part.name.clone(),
-                source,
-            })
-        };
-        let (points, secondary) = match &part.secondary {
-            SidePart::Faces(faces) => {
-                let surface = facets(faces)?;
-                (surface.all_nodes(), Some(surface))
-            }
-            SidePart::Nodes(nodes) => {
-                let unique: BTreeSet<NodeId> = nodes.iter().copied().collect();
-                (unique.into_iter().collect(), None)
-            }
-        };
-        if points.is_empty() {
-            return Err(ModelError::EmptySide {
-                contact: part.name.clone(),
-            });
-        }
-        let primary = match &part.primary {
-            PrimaryPart::Faces(faces) => Some(facets(faces)?),
-            PrimaryPart::Itself => secondary.clone(),
-            PrimaryPart::Nodes(_) | PrimaryPart::Surface(_) => None,
-        };
-        if part.area == AreaPart::Opposite && primary.is_none() {
-            return Err(ModelError::Unsuited {
-                contact: part.name.clone(),
-                what: "points stand for facets opposite, and its primary side has none",
-                remedy: "area = \"reference\"",
-            });
-        }
-        let same = matches!(part.primary, PrimaryPart::Itself);
-        let method = self.method(part, secondary.as_ref());
-        let at_nodes = self.nodes_take_multipliers((contact, part), &points);
-        let at_nodes = at_nodes.map_err(surface_error)?;
+        let pass = Pass::new(self, part)?;
+        let at_nodes = self.nodes_take_multipliers((contact, part), &pass.points);
+        let at_nodes = at_nodes.map_err(|source| pass.surface_error(source))?;
         let method = match &part.method {
             Method::Auto if at_nodes => Method::NodeToSegment,
-            _ => method,
+            _ => self.method(part, pass.secondary.as_ref()),
         };
         let law = law(part, method.takes_multipliers() || at_nodes)?;
-        let exact = law.multiplier() != Multiplier::None;
-        if same && exact {
-            return Err(ModelError::Unsuited {
-                contact: part.name.clone(),
-                what: "a surface that touches itself has multipliers on both sides, which hold each point twice",
-                remedy: "enforcement = { penalty = \"auto\" }",
-            });
-        }
-        if same && secondary.is_none() {
-            return Err(ModelError::Unsuited {
-                contact: part.name.clone(),
-                what: "a surface that may touch itself is given by faces, not by bare nodes",
-                remedy: "secondary = \"a set of faces\"",
-            });
-        }
-        if let Some(primary) = primary.as_ref().filter(|_| !same) {
-            self.not_glued(part, &points, primary)?;
-        }
-        let closest = match part.features {
-            Some(FeaturesPart::Faces) => Closest::Within,
-            Some(FeaturesPart::Edges) => Closest::Rims,
-            None if law.multiplier().is_unknown() => Closest::Faces,
-            None => Closest::Anywhere,
-        };
-        let around = match part.area {
-            AreaPart::Adjacent => Some(facets(&self.outer_faces_at(&points))?),
-            AreaPart::Reference | AreaPart::Present => secondary.clone(),
-            // which it is, is known when the sides have met
-            AreaPart::Opposite => None,
-        };
-        let nodal = |points: &[NodeId]| -> Result<Vec<f64>, ModelError> {
-            let Some(facets) = &around else {
-                return Ok(Vec::new());
-            };
-            let spaces = self.spaces.behind(facets);
-            let areas = facets.lumped_areas(self.reference, &|f, x| extent(&spaces, f, x));
-            Ok(of_points(points, &areas.map_err(surface_error)?))
-        };
-        let present = secondary.clone().filter(|_| part.area == AreaPart::Present);
-        let mut areas: Option<Areas> = None;
-        let (discretization, area): (Box<dyn Discretization>, Vec<f64>) = match method {
-            Method::NodeToNode { normals, pairs } => {
-                let pairs = self.node_pairs(part, primary.as_ref(), pairs)?;
-                let normals = node_normals(part, normals, &primary, &secondary)?;
-                let first: Vec<NodeId> = pairs.iter().map(|pair| pair[0]).collect();
-                let area = nodal(&first)?;
-                areas = present.map(|facets| self.present_areas(facets, first));
-                (Box::new(NodeToNode::new(pairs, normals)), area)
-            }
-            Method::GaussPoint(rule) => {
-                if exact {
-                    return Err(ModelError::Unsuited {
-                        contact: part.name.clone(),
-                        what: "points inside facets are too many for multipliers",
-                        remedy: "enforcement = { penalty = \"auto\" }",
-                    });
-                }
-                let Some(facets) = &secondary else {
-                    return Err(ModelError::Unsuited {
-                        contact: part.name.clone(),
-                        what: "points inside facets need a secondary side made of faces",
-                        remedy: "method = \"node-to-segment\"",
-                    });
-                };
-                let spaces = self.spaces.behind(facets);
-                let points = move |element| on_facet(rule, element);
-                let cutter = primary.clone().filter(|_| rule.cut);
-                let cutter = cutter.map(|primary| Cutter {
-                    primary,
-                    rule: Box::new(points),
-                });
-                let mut inside = match cutter {
-                    Some(cutter) => PointToSegment::pieces(facets, cutter, self.reference),
-                    None => PointToSegment::inside(facets, points),
-                };
-                inside.sliding = part.sliding;
-                if part.features.is_some() {
-                    inside.closest = closest;
-                }
-                // pieces change, and so do areas where they are those of the start, too
-                let start = (rule.cut && present.is_none()).then(|| self.reference.to_vec());
-                let of_points: Areas = {
-                    let facets = facets.clone();
-                    Box::new(move |inside, x| {
-                        let across = |facet, x| extent(&spaces, facet, x);
-                        let points = inside.capabilities().inside.unwrap_or(&[]);
-                        areas_inside(&facets, points, start.as_deref().unwrap_or(x), &across)
-                    })
-                };
-                let area = of_points(&inside, self.reference).map_err(surface_error)?;
-                areas = Some(of_points).filter(|_| present.is_some() || rule.cut);
-                (Box::new(inside), area)
-            }
-            Method::Mortar(form) => {
-                let (Some(facets), Some(opposite)) = (&secondary, &primary) else {
-                    return Err(ModelError::Unsuited {
-                        contact: part.name.clone(),
-                        what: "mortar contact needs two sides made of faces",
-                        remedy: "method = \"node-to-segment\"",
-                    });
-                };
-                if part.area != AreaPart::Reference || same || part.two_pass {
-                    return Err(ModelError::Unsuited {
-                        contact: part.name.clone(),
-                        what: "mortar contact has one pass between two surfaces, and areas of what is covered",
-                        remedy: "method = \"gauss-point\"",
-                    });
-                }
-                if let Some((element, label)) = no_dual(facets).map(|f| self.named(facets, f)) {
-                    return Err(ModelError::NoDualBasis {
-                        contact: part.name.clone(),
-                        element,
-                        label,
-                    });
-                }
-                let space = self.one_space(part, facets)?;
-                let mortar = Mortar::new(facets, opposite, form, measure(space), self.reference)
-                    .map_err(surface_error)?;
-                let area = mortar_areas(&mortar, self.reference, space);
-                (Box::new(mortar), area)
-            }
-            Method::NodeToSegment | Method::Auto => {
-                let of_auto = exact && matches!(part.method, Method::Auto);
-                let blended = secondary.as_ref().filter(|_| of_auto);
-                let blended = blended.map(|facets| self.blended(part, facets, &points));
-                let blended = blended.transpose()?.flatten();
-                let (mut at_nodes, area) = match blended {
-                    Some(blended) => blended,
-                    None => (PointToSegment::at_nodes(&points), nodal(&points)?),
-                };
-                at_nodes.closest = closest;
-                at_nodes.sliding = part.sliding;
-                areas = present.map(|facets| self.present_areas(facets, points.clone()));
-                (Box::new(at_nodes), area)
-            }
-        };
-        let surface: Arc<dyn ContactSurface> = match (&part.primary, &primary) {
-            (PrimaryPart::Surface(surface), _) => surface.clone(),
-            (_, Some(facets)) => Arc::new(facets.clone()),
-            (_, None) => Arc::new(crate::contact::discretization::nodes::Nowhere {
-                ntan: self.space.ndim() - 1,
-            }),
-        };
-        let own = same.then(|| {
-            let at = Placement {
-                x: self.reference,
-                poses: &[],
-            };
-            let of = |facets: &Facets| {
-                OwnBody::new(&points, facets, &joined::bodies(self.mesh, facets), &at)
-            };
-            secondary.as_ref().map(of)
-        });
+        pass.admits(law.multiplier())?;
+        let rows = pass.rows(&method, law.multiplier())?;
         Ok(Sides {
             contact,
             method,
-            discretization,
+            discretization: rows.discretization,
             law,
-            pair: SurfacePair {
-                points,
-                secondary,
-                primary: surface,
-                reach: 0.0,
-                sizes: FacetSizes::default(),
-                start: Vec::new(),
-                own: own.flatten(),
-                same,
-                lean: None,
-            },
-            facets: primary,
-            area,
-            areas,
+            area: rows.area,
+            areas: rows.areas,
             sliding: part.sliding,
             swapped,
+            facets: pass.primary.clone(),
+            pair: pass.into_pair(),
         })
-    }
-
-    /// The areas of some nodes of these facets, wherever they are.
-    fn present_areas(&self, facets: Facets, points: Vec<NodeId>) -> Areas {
-        let spaces = self.spaces.behind(&facets);
-        Box::new(move |_, x| {
-            let areas = facets.lumped_areas(x, &|facet, x| extent(&spaces, facet, x))?;
-            Ok(of_points(&points, &areas))
-        })
-    }
-
-    /// What the plane stands for behind all facets of a mortar side.
-    fn one_space(&self, part: &ContactPart, facets: &Facets) -> Result<Idealisation, ModelError> {
-        let first = self.spaces.alike(facets);
-        first.ok_or_else(|| ModelError::Unsuited {
-                contact: part.name.clone(),
-                what: "bodies of its secondary side differ in thickness or idealisation, which mortar contact does not weigh",
-                remedy: "method = \"gauss-point\"",
-        })
-    }
-
-    /// The name of the element that a facet is, and the number of the cell that it is a side of.
-    fn named(&self, facets: &Facets, facet: u32) -> (&'static str, u64) {
-        let label = facets
-            .face(facet)
-            .and_then(|f| self.mesh.cell_label(f.cell));
-        let name = facets.element(facet).map_or("", |e| e.name());
-        (name, label.unwrap_or(0))
-    }
-
-    /// The outer faces of solids that meet any of some sorted nodes.
-    fn outer_faces_at(&self, points: &[NodeId]) -> Vec<Face> {
-        let meets = |nodes: &[NodeId]| nodes.iter().any(|n| points.binary_search(n).is_ok());
-        let solids = self.mesh.cells(self.mesh.dim());
-        let mut outer = boundary(
-            self.mesh,
-            solids.filter(|cell| meets(self.mesh.cell(*cell))),
-        );
-        outer.retain(|face| {
-            let of_face = self.mesh.face(*face);
-            of_face.is_some_and(|(_, nodes)| meets(&nodes))
-        });
-        outer
     }
 
     /// The method in use.
@@ -424,167 +163,6 @@ impl Source<'_> {
         let mut elements = faces.iter().filter_map(|&f| self.mesh.face(f));
         elements.any(|(element, _)| !element.shares_even_pressure())
     }
-
-    fn not_glued(
-        &self,
-        part: &ContactPart,
-        points: &[NodeId],
-        primary: &Facets,
-    ) -> Result<(), ModelError> {
-        let of_primary = primary.all_nodes();
-        let shared = points
-            .iter()
-            .filter(|n| of_primary.binary_search(n).is_ok());
-        let shared: Vec<NodeId> = shared.copied().collect();
-        match shared.first() {
-            Some(&node) => Err(ModelError::Glued {
-                contact: part.name.clone(),
-                count: shared.len(),
-                node: label(self.mesh, node),
-            }),
-            None => Ok(()),
-        }
-    }
-
-    /// Secondary and primary node of each pair.
-    fn node_pairs(
-        &self,
-        part: &ContactPart,
-        primary: Option<&Facets>,
-        order: PairOrder,
-    ) -> Result<Vec<[NodeId; 2]>, ModelError> {
-        let of_primary = match (&part.primary, primary) {
-            (PrimaryPart::Nodes(nodes), _) => nodes.clone(),
-            (PrimaryPart::Faces(_), Some(facets)) => facets.all_nodes(),
-            _ => {
-                return Err(ModelError::Unsuited {
-                    contact: part.name.clone(),
-                    what: "node-to-node contact is between the nodes of two sides",
-                    remedy: "method = \"node-to-segment\"",
-                });
-            }
-        };
-        let of_secondary = match &part.secondary {
-            SidePart::Nodes(nodes) => nodes.clone(),
-            SidePart::Faces(faces) => {
-                let nodes = faces.iter().filter_map(|&f| self.mesh.face(f));
-                let unique: BTreeSet<NodeId> = nodes.flat_map(|(_, nodes)| nodes).collect();
-                unique.into_iter().collect()
-            }
-        };
-        if order == PairOrder::Listed {
-            if of_primary.len() != of_secondary.len() {
-                return Err(ModelError::PairCount {
-                    contact: part.name.clone(),
-                    secondary: of_secondary.len(),
-                    primary: of_primary.len(),
-                });
-            }
-            let pairs = of_secondary.into_iter().zip(of_primary);
-            return Ok(pairs.map(|(s, p)| [s, p]).collect());
-        }
-        let at = |n: NodeId| self.reference.get(n as usize).copied().unwrap_or_default();
-        let nearest = |s: NodeId| {
-            let distance = |p: &NodeId| (at(*p) - at(s)).norm_squared();
-            let near = of_primary
-                .iter()
-                .min_by(|p, q| distance(p).total_cmp(&distance(q)));
-            near.map(|&p| [s, p])
-        };
-        Ok(of_secondary.into_iter().filter_map(nearest).collect())
-    }
-}
-
-/// The first facet of an element without a dual basis.
-fn no_dual(facets: &Facets) -> Option<u32> {
-    let has_none = |f: &u32| facets.element(*f).is_none_or(|e| e.dual_basis().is_none());
-    (0..facets.nfacet() as u32).find(has_none)
-}
-
-/// Areas of mortar rows, with the thickness of the plane.
-fn mortar_areas(mortar: &Mortar, x: &[Vec3], space: Idealisation) -> Vec<f64> {
-    let nodes = mortar.nodes().iter();
-    let at = nodes.map(|&n| x.get(n as usize).copied().unwrap_or_default());
-    let areas = at.zip(mortar.areas());
-    let thickness = |x| match measure(space) {
-        mortar::Measure::Flat => space.extent(x),
-        mortar::Measure::Revolved => 1.0,
-    };
-    areas.map(|(x, area)| area * thickness(x)).collect()
-}
-
-/// What mortar integrals are taken over.
-fn measure(space: Idealisation) -> mortar::Measure {
-    match space {
-        Idealisation::Axisymmetric => mortar::Measure::Revolved,
-        _ => mortar::Measure::Flat,
-    }
-}
-
-/// The closest point of a surface without facets, however far.
-fn closest_of_surface(
-    surface: &dyn ContactSurface,
-    at: &Placement,
-    x: Vec3,
-) -> Result<Option<Pair>, SurfaceError> {
-    let sight = Sight {
-        hint: None,
-        on: Closest::Anywhere,
-        reach: &|_| f64::INFINITY,
-        own: None,
-    };
-    discretization::projected::closest(surface, at, x, &[0], &sight)
-}
-
-/// The areas of some nodes, from those of all nodes in their order.
-fn of_points(points: &[NodeId], areas: &[(NodeId, f64)]) -> Vec<f64> {
-    let of = |node: &NodeId| {
-        let found = areas.binary_search_by_key(node, |a| a.0).ok();
-        found.and_then(|k| areas.get(k)).map_or(0.0, |a| a.1)
-    };
-    points.iter().map(of).collect()
-}
-
-/// The extent across a facet, from what the planes of all facets stand for.
-fn extent(spaces: &[Idealisation], facet: u32, at: Vec3) -> f64 {
-    let space = spaces.get(facet as usize);
-    space.map_or(1.0, |space| space.extent(at))
-}
-
-fn node_normals(
-    part: &ContactPart,
-    normals: Normals,
-    primary: &Option<Facets>,
-    secondary: &Option<Facets>,
-) -> Result<NodeNormals, ModelError> {
-    let none = || ModelError::Unsuited {
-        contact: part.name.clone(),
-        what: "normals of bare nodes cannot be averaged: a vector towards the secondary side is needed",
-        remedy: "normals = [0, 1, 0]",
-    };
-    let zero = || ModelError::Unsuited {
-        contact: part.name.clone(),
-        what: "the given normal is zero",
-        remedy: "normals = [0, 1, 0]",
-    };
-    match normals {
-        Normals::Given(normal) => normal.normalized().map(NodeNormals::Given).ok_or_else(zero),
-        Normals::Primary => primary.clone().map(NodeNormals::Primary).ok_or_else(none),
-        Normals::Secondary => secondary
-            .clone()
-            .map(NodeNormals::Secondary)
-            .ok_or_else(none),
-    }
-}
-
-/// Points of a facet: by default one more along each direction than the degree of the facet.
-fn on_facet(rule: PointRule, element: Element) -> Vec<(Vec3, f64)> {
-    let n = rule.points.unwrap_or(element.order() + 1);
-    let line = match rule.kind {
-        PointKind::Gauss => quadrature::gauss(n),
-        PointKind::Lobatto => quadrature::lobatto(n),
-    };
-    quadrature::on_facet(element, &line)
 }
 
 fn law(part: &ContactPart, takes_multipliers: bool) -> Result<Arc<dyn ContactLaw>, ModelError> {

@@ -3,7 +3,7 @@
 //! Facets belong to the same part where they share an edge and turn by hardly more than 30 degrees at the node. Of several
 //! rows of a node one is in use at a time. What is joined is held as a whole, and has one row everywhere.
 
-use super::corner_normal;
+use super::facets::corner_normal;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;

@@ -1,6 +1,7 @@
 //! Weights that are held, along a normal at every point ((E8) to (E10) of [`crate::contact::mortar`]).
 
-use super::{Mortar, Normals, nodes_of};
+use super::facets::nodes_of;
+use super::{Mortar, Normals};
 use crate::contact::discretization::SurfacePair;
 use crate::contact::mortar::{Facet, Held, Measure, Met, OfRow, Weights, bend};
 use signorini_geometry::surface::{Facets, Placement, SurfaceError};

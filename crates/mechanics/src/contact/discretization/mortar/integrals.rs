@@ -1,6 +1,6 @@
 //! The integrals of secondary facets, and derivatives that are kept for as long as rows may need them.
 
-use super::nodes_of;
+use super::facets::nodes_of;
 use super::sight::{Seen, SmoothParts};
 use crate::contact::discretization::{BentSides, SurfacePair};
 use crate::contact::mortar::{

@@ -1,7 +1,8 @@
 //! (E1) to (E4) of the room, at one configuration.
 
+use super::facets::corner_normal;
 use super::integrals::{self, Integrator};
-use super::{Mortar, Normals, corner_normal};
+use super::{Mortar, Normals};
 use crate::contact::discretization::{Anchored, SurfacePair};
 use crate::contact::mortar::{Derivatives, OfFacet, OfRow, Weights};
 use crate::contact::row::{Row, RowOrder, Wanted};

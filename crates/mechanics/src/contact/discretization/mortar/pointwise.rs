@@ -35,8 +35,8 @@
 //! a normal is off by more than a degree.
 
 use super::clearance::{Flat, least_gap};
-use super::edges::Part;
-use super::{Mortar, NOWHERE, Normals, nodes_of};
+use super::facets::nodes_of;
+use super::{Mortar, NOWHERE, Normals};
 use crate::contact::discretization::{Anchored, Pair, Pairing, SlidingRange, SurfacePair};
 use crate::contact::mortar::{Guests, OfFacet, Weights};
 use signorini_geometry::element::Element;
@@ -69,45 +69,6 @@ const STEEP: f64 = 0.52;
 
 /// The tilt below which rows at edges and rims compare facets again: 1.5 degrees.
 const FLUSH: f64 = 0.026;
-
-/// Whether each row is at an edge of the surface or where it ends.
-pub(super) fn structural(facets: &Facets, nodes: &[NodeId], around: &[Part]) -> Vec<bool> {
-    let at_edge = |row: usize| {
-        let same = |k: usize| nodes.get(k) == nodes.get(row);
-        same(row + 1) || row.checked_sub(1).is_some_and(same)
-    };
-    let ends = |part: &Part| {
-        let mut edges: Vec<([NodeId; 2], u32)> = Vec::new();
-        let mut inside = false;
-        for &(facet, place) in part {
-            let Some(element) = facets.element(facet) else {
-                continue;
-            };
-            let (of, ncorner) = (facets.nodes(facet), element.ncorner());
-            if facets.ntan() == 1 {
-                inside |= place >= ncorner || part.len() > 1;
-                continue;
-            }
-            for (k, &[a, b]) in element.edges().iter().enumerate() {
-                if ![a, b].contains(&place) && !element.inside_edge(k).contains(&place) {
-                    continue;
-                }
-                let mut edge = [of[a], of[b]];
-                edge.sort_unstable();
-                match edges.iter_mut().find(|(known, _)| *known == edge) {
-                    Some((_, count)) => *count += 1,
-                    None => edges.push((edge, 1)),
-                }
-            }
-        }
-        match facets.ntan() {
-            1 => !inside,
-            _ => edges.iter().any(|(_, count)| *count == 1),
-        }
-    };
-    let rows = around.iter().enumerate();
-    rows.map(|(row, part)| at_edge(row) || ends(part)).collect()
-}
 
 /// The gap of a point to a facet; `None` where its closest point is not inside the facet.
 fn gap_inside(

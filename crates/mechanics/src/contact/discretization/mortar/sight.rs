@@ -12,12 +12,14 @@
 //! over the cosine `c` by which it faces the secondary facet e of area `A_e` and size `h_e`, the area `A` that it covers and
 //! the mean gap `g` there. The part seen before stays until another one is better by the factor [`STAYS`].
 
-use super::STAYS;
 use super::edges::SMOOTH;
 use signorini_geometry::surface::{
     Anchor, Carrier, ContactSurface, Placement, SurfaceError, SurfaceJet,
 };
 use signorini_geometry::tensor::Vec3;
+
+/// The factor by which another side of an edge must face the primary side better for a node to change over to it.
+pub(super) const STAYS: f64 = 2.0;
 
 /// The covered part of a facet from which on its score (E1) no longer depends on the area.
 const SHARE: f64 = 0.02;

@@ -21,8 +21,11 @@
 //!
 //! Limits: where a surface of varying curvature is slid over, (E2) is off by h²/12 of the change of curvature.
 
-use super::{Mortar, PointToSegment, Source, closest_of_surface, mortar_areas};
+use super::areas::{measure, mortar_areas, no_dual, of_points};
+use super::source::Source;
 use crate::contact::discretization::mortar::Form;
+use crate::contact::discretization::projected::{self, Closest, Sight};
+use crate::contact::discretization::{Mortar, Pair, PointToSegment};
 use crate::contact::mortar::Basis;
 use crate::model::{AreaPart, ContactPart, Enforcement, Method, ModelError, PrimaryPart};
 use signorini_geometry::element::DualBasis;
@@ -110,7 +113,7 @@ impl Source<'_> {
         let closes = part.tie.is_some()
             || part.start.close_below > 0.0
             || !part.start.close_nodes.is_empty();
-        let weighs = !closes && super::no_dual(facets).is_none();
+        let weighs = !closes && no_dual(facets).is_none();
         let Some(surface) = analytical(part).filter(|_| weighs) else {
             return Ok(None);
         };
@@ -128,7 +131,7 @@ impl Source<'_> {
             joined: true,
             ..Form::default()
         };
-        let mortar = Mortar::new(facets, surface, form, super::measure(space), self.reference);
+        let mortar = Mortar::new(facets, surface, form, measure(space), self.reference);
         let mortar = mortar.map_err(surface_error)?;
         let areas = mortar_areas(&mortar, self.reference, space);
         let mut areas: Vec<(NodeId, f64)> = mortar.nodes().iter().copied().zip(areas).collect();
@@ -162,7 +165,7 @@ impl Source<'_> {
             shift -= gap(moved).map_err(surface_error)?.unwrap_or_default();
             rows.push_row(&parts, shift);
         }
-        Ok(Some((rows, super::of_points(points, &areas))))
+        Ok(Some((rows, of_points(points, &areas))))
     }
 }
 
@@ -198,4 +201,19 @@ fn mids(facets: &Facets) -> Vec<Mid> {
     mids.sort_by_key(|mid| mid.node);
     mids.dedup_by_key(|mid| mid.node);
     mids
+}
+
+/// The closest point of a surface without facets, however far.
+fn closest_of_surface(
+    surface: &dyn ContactSurface,
+    at: &Placement,
+    x: Vec3,
+) -> Result<Option<Pair>, SurfaceError> {
+    let sight = Sight {
+        hint: None,
+        on: Closest::Anywhere,
+        reach: &|_| f64::INFINITY,
+        own: None,
+    };
+    projected::closest(surface, at, x, &[0], &sight)
 }

@@ -1,0 +1,60 @@
+//! Rows that lend their functions to others.
+
+use crate::system::Dof;
+use signorini_geometry::tensor::{Mat3, Vec3};
+
+/// Of a row that does not keep all of its multiplier.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Lent {
+    /// F.
+    pub free: Mat3,
+    /// H.
+    pub held: Mat3,
+    /// Rows that take over, each with X.
+    pub hosts: Vec<(usize, Mat3)>,
+}
+
+/// Of all rows.
+#[derive(Debug, Default)]
+pub(super) struct Lents {
+    pub of: Vec<Option<Lent>>,
+    /// Unknowns that are prescribed in the present step.
+    pub prescribed: Vec<bool>,
+    /// Whether they may be others than those these are for.
+    pub stale: bool,
+}
+
+impl Lents {
+    /// Takes the prescribed dofs of the step that begins.
+    pub fn prescribe(&mut self, prescribed: &[bool]) {
+        self.prescribed.clear();
+        self.prescribed.extend_from_slice(prescribed);
+        self.stale = true;
+    }
+
+    /// Whether prescribed unknowns may be others since they were looked at.
+    pub const fn is_stale(&self) -> bool {
+        self.stale
+    }
+
+    /// Whether an unknown is prescribed in the present step.
+    pub fn is_prescribed(&self, dof: Dof) -> bool {
+        self.prescribed.get(dof as usize) == Some(&true)
+    }
+
+    /// What becomes of a row; `None` where it keeps its multiplier.
+    pub fn of(&self, row: usize) -> Option<&Lent> {
+        self.of.get(row)?.as_ref()
+    }
+
+    /// (E2).
+    pub fn effective(&self, row: usize, lambda: &dyn Fn(usize) -> Vec3) -> Vec3 {
+        let own = lambda(row);
+        let Some(lent) = self.of(row) else {
+            return own;
+        };
+        let hosts = lent.hosts.iter();
+        let from_hosts = hosts.map(|(host, x)| x.transpose() * lambda(*host));
+        lent.free * own + from_hosts.sum::<Vec3>()
+    }
+}

@@ -1,0 +1,26 @@
+//! What sides are made from.
+
+use crate::model::bodies::Spaces;
+use crate::model::steps::Prescribed;
+use crate::system::{Elimination, Idealisation};
+use signorini_geometry::mesh::Mesh;
+use signorini_geometry::tensor::Vec3;
+
+/// What sides are made from.
+#[derive(Clone, Copy)]
+pub(in crate::model) struct Source<'a> {
+    pub mesh: &'a Mesh,
+    /// Positions at the start.
+    pub reference: &'a [Vec3],
+    pub space: Idealisation,
+    /// What the planes of bodies stand for.
+    pub spaces: &'a Spaces<'a>,
+    /// What follows rigid bodies.
+    pub elimination: &'a Elimination,
+    /// Of each node, whether the steps prescribe its motion along all axes.
+    pub prescribed: &'a [bool],
+    /// Of each node and axis, what the steps prescribe of its motion.
+    pub motions: &'a [[Prescribed; 3]],
+    /// Of each contact, whether it has friction in any step.
+    pub rubs: &'a [bool],
+}
