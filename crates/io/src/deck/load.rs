@@ -4,8 +4,7 @@
 //! Nodes and faces that bear the same are one load of the case; where some of them change, the load ends and others
 //! begin: a load that fades and one that grows are together the straight line from the old to the new.
 
-use super::constraint::unit;
-use super::step::global;
+use super::axes::{global, unit};
 use super::translation::{Target, Translation};
 use crate::case::{Course, Load, LoadKind, Name, Step};
 use crate::diagnostic::{Place, Spanned, codes};
