@@ -1,5 +1,6 @@
 //! The files of a run: begun again, or gone on with from a checkpoint.
 
+use super::growing::Files;
 use super::{Counts, Recorder, Setting, frame_file};
 use crate::run::audit::Audit;
 use crate::run::closure::Closure;
@@ -9,7 +10,6 @@ use crate::run::idle::Idle;
 use crate::run::narration::Narrator;
 use crate::run::news::Listener;
 use signorini_io::checkpoint::{Archive, Checkpoints};
-use signorini_io::fs::Log;
 use signorini_io::writers::csv::{CONVERGENCE_COLUMNS, Table};
 use signorini_io::writers::dat;
 use signorini_io::writers::frd::{FrdFile, Mark};
@@ -18,18 +18,6 @@ use signorini_io::writers::pvd::{Entry, Pvd};
 use signorini_io::writers::sta::StatusTable;
 use std::collections::BTreeMap;
 use std::time::Instant;
-
-/// The growing files.
-pub(super) struct Files {
-    pub(super) history: Table,
-    pub(super) convergence: Table,
-    pub(super) sta: StatusTable,
-    pub(super) events: EventLog,
-    /// Where some step prints tables.
-    pub(super) tables: Option<dat::Tables>,
-    pub(super) log: Box<dyn Log>,
-    pub(super) frd: Option<FrdFile>,
-}
 
 /// The open files of a run, and where they stand.
 pub struct Opened {
