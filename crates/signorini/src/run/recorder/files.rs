@@ -103,25 +103,7 @@ impl Opened {
         let mut rows = [0; 4];
         from.copy_u64("run/rows", &mut rows)?;
         let [history, convergence, attempts, events] = rows;
-        let frames = from.get_f64("run/frames")?.to_vec();
-        let mut numbers = vec![0; 1 + 5 * setting.steps.len()];
-        from.copy_u64("run/counts", &mut numbers)?;
-        let (increments, of_steps) = numbers.split_first().unwrap_or((&0, &[]));
-        let steps = setting.steps.iter().zip(of_steps.chunks_exact(5));
-        let counts = Counts {
-            increments: *increments,
-            steps: steps
-                .map(|(step, n)| StepSummary {
-                    name: step.name.clone(),
-                    increments: n.first().copied().unwrap_or(0),
-                    iterations: n.get(1).copied().unwrap_or(0),
-                    cutbacks: n.get(2).copied().unwrap_or(0),
-                    linear_iterations: n.get(3).copied().unwrap_or(0),
-                    fallbacks: n.get(4).copied().unwrap_or(0),
-                })
-                .collect(),
-            frames,
-        };
+        let counts = counts(&setting, from)?;
         expectations.load(from.get_f64("run/expectations")?);
         let closure = Closure::restore(from.get_f64("run/closure").unwrap_or_default());
         let idle = Idle::restore(from.get_f64("run/idle").unwrap_or_default());
@@ -262,6 +244,29 @@ impl Opened {
 
 fn tables(name: &str) -> String {
     format!("{name}.dat")
+}
+
+/// Where the records of the run stood.
+fn counts(setting: &Setting, from: &Archive) -> Result<Counts, OutputError> {
+    let frames = from.get_f64("run/frames")?.to_vec();
+    let mut numbers = vec![0; 1 + 5 * setting.steps.len()];
+    from.copy_u64("run/counts", &mut numbers)?;
+    let (increments, of_steps) = numbers.split_first().unwrap_or((&0, &[]));
+    let steps = setting.steps.iter().zip(of_steps.chunks_exact(5));
+    Ok(Counts {
+        increments: *increments,
+        steps: steps
+            .map(|(step, n)| StepSummary {
+                name: step.name.clone(),
+                increments: n.first().copied().unwrap_or(0),
+                iterations: n.get(1).copied().unwrap_or(0),
+                cutbacks: n.get(2).copied().unwrap_or(0),
+                linear_iterations: n.get(3).copied().unwrap_or(0),
+                fallbacks: n.get(4).copied().unwrap_or(0),
+            })
+            .collect(),
+        frames,
+    })
 }
 
 /// How far the file of all frames had got.
