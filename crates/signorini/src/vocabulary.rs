@@ -1,5 +1,6 @@
-//! Every key of a case, those of materials and laws among them.
+//! Every key of a case, those of materials, surfaces and laws among them.
 
+use signorini_geometry::surface;
 use signorini_io::case::vocabulary::{Kinds, Vocabulary};
 use signorini_mechanics::contact::{friction, law};
 use signorini_mechanics::material;
@@ -10,6 +11,7 @@ pub fn vocabulary() -> &'static Vocabulary {
     static VOCABULARY: LazyLock<Vocabulary> = LazyLock::new(|| {
         Vocabulary::new(Kinds {
             materials: material::descriptions(),
+            surfaces: surface::descriptions(),
             laws: law::descriptions(),
             frictions: friction::descriptions(),
         })

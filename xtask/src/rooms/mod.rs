@@ -52,6 +52,7 @@ const ROOMS: [Room; 39] = [
     room(
         "geometry::surface",
         &[
+            "vocabulary",
             "geometry::tensor",
             "geometry::element",
             "geometry::mesh",

@@ -155,6 +155,6 @@ fn rule(rule: &Rule) -> Option<Value> {
             needs.insert((*key).to_owned(), json!([other]));
             json!({ "dependentRequired": needs })
         }
-        Rule::NotAbove(..) => return None,
+        Rule::NotAbove(..) | Rule::Below(..) => return None,
     })
 }

@@ -291,14 +291,17 @@ fn nodes_meet_sides_circles_and_polynomials() {
     assert_eq!(sides.primary.value, "set-3");
     assert_eq!(circle.sliding, Sliding::Finite);
     assert_eq!(polynomial.primary.value, "segment-3");
-    assert!(matches!(
-        case.surfaces[0].shape,
-        Shape::Sphere { radius: 1.0, .. }
-    ));
-    assert!(matches!(
-        case.surfaces[1].shape,
-        Shape::Polynomial { above: true, .. }
-    ));
+    let shapes = case.surfaces.iter().map(|surface| match &surface.shape {
+        Shape::Analytical(shape) => shape,
+        Shape::Stl { .. } => panic!(),
+    });
+    let [circle, polynomial] = shapes.collect::<Vec<_>>()[..] else {
+        panic!()
+    };
+    assert_eq!(circle.name, "circle");
+    assert_eq!(circle.values.number("radius"), Ok(1.0));
+    assert_eq!(polynomial.name, "polynomial");
+    assert_eq!(polynomial.values.text("side"), Some("above"));
 }
 
 #[test]
