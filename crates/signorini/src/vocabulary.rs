@@ -1,9 +1,9 @@
-//! Every key of a case, those of materials, surfaces and laws among them.
+//! Every key of a case, those of materials, surfaces, laws and loads among them.
 
 use signorini_geometry::surface;
 use signorini_io::case::vocabulary::{Kinds, Vocabulary};
 use signorini_mechanics::contact::{friction, law};
-use signorini_mechanics::material;
+use signorini_mechanics::{load, material};
 use std::sync::LazyLock;
 
 /// The vocabulary of this program.
@@ -14,6 +14,7 @@ pub fn vocabulary() -> &'static Vocabulary {
             surfaces: surface::descriptions(),
             laws: law::descriptions(),
             frictions: friction::descriptions(),
+            loads: load::descriptions(),
         })
     });
     &VOCABULARY

@@ -1,7 +1,7 @@
 //! Entries of a table of things that a case may name.
 
 use crate::table::{Key, Rule};
-use crate::values::{Fault, Values};
+use crate::values::{Fault, Value, Values};
 
 /// What a thing is called, and the keys that it is made from.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +31,22 @@ impl Description {
             keys,
             rules: &[],
             models: Models::All,
+        }
+    }
+
+    /// Of a thing with one key only, which is called as the thing is: a case gives its value in place of a table.
+    #[must_use]
+    pub const fn bare(key: &'static [Key; 1]) -> Self {
+        let [only] = key;
+        Self::new(only.name, only.doc, key).hints(only.hints)
+    }
+
+    /// The only key of a thing whose value a case gives in place of a table.
+    #[must_use]
+    pub fn bare_key(&self) -> Option<&'static Key> {
+        match self.keys {
+            [only] if only.name == self.name => Some(only),
+            _ => None,
         }
     }
 
@@ -120,6 +136,25 @@ impl Chosen {
         Self {
             name,
             values: Values::numbers(numbers),
+        }
+    }
+
+    /// An entry with one key only, which is called as the entry is.
+    #[must_use]
+    pub fn bare(name: &'static str, value: Value) -> Self {
+        Self {
+            name,
+            values: Values::new().with(name, value),
+        }
+    }
+
+    /// The value of an entry with one key only, which is called as the entry is.
+    #[must_use]
+    pub fn bare_value(&self) -> Option<&Value> {
+        let mut values = self.values.iter();
+        match (values.next(), values.next()) {
+            (Some((key, value)), None) if key == self.name => Some(value),
+            _ => None,
         }
     }
 }

@@ -129,6 +129,8 @@ pub enum Default {
     Texts(&'static [&'static str]),
     /// A number.
     Number(f64),
+    /// A list of numbers, such as a vector.
+    Numbers(&'static [f64]),
     /// A whole number.
     Integer(i64),
     /// A truth value.

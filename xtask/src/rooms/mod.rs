@@ -67,7 +67,10 @@ const ROOMS: [Room; 39] = [
         "mechanics::solid",
         &["mechanics::system", "mechanics::material", "geometry"],
     ),
-    room("mechanics::load", &["mechanics::system", "geometry"]),
+    room(
+        "mechanics::load",
+        &["vocabulary", "mechanics::system", "geometry"],
+    ),
     room("mechanics::connector", &["mechanics::system", "geometry"]),
     room("mechanics::audit", &["mechanics::system", "geometry"]),
     room(

@@ -176,6 +176,7 @@ impl<'a> Fields<'a> {
                 .number_if(key.name)
                 .map(|number| Value::Number(number.value)),
             (None, Default::Number(number)) => Some(Value::Number(number)),
+            (None, Default::Numbers(numbers)) => Some(Value::Numbers(numbers.to_vec())),
             (None, Default::Text(text)) => Some(Value::Text(text.to_owned())),
             (None, _) => None,
         }

@@ -63,6 +63,7 @@ fn key(key: &Key) -> Value {
             Default::Text(text) => Some(json!(text)),
             Default::Texts(texts) => Some(json!(texts)),
             Default::Number(number) => Some(json!(number)),
+            Default::Numbers(numbers) => Some(json!(numbers)),
             Default::Integer(number) => Some(json!(number)),
             Default::Flag(flag) => Some(json!(flag)),
         };

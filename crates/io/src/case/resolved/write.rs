@@ -83,22 +83,29 @@ pub(super) fn names<'a>(items: impl IntoIterator<Item = &'a Name>) -> Value {
     list(items.into_iter().map(|name| &name.value))
 }
 
-/// A thing that another room describes: its name as the key, the values of its keys as a table.
+/// A thing that another room describes: its name as the key, its only value or the table of its values.
 pub(super) fn chosen(chosen: &Chosen) -> (&'static str, Value) {
-    (chosen.name, Value::Table(values(&chosen.values)))
+    let written = match chosen.bare_value() {
+        Some(value) => given(value),
+        None => Value::Table(values(&chosen.values)),
+    };
+    (chosen.name, written)
 }
 
 /// The values of the keys of a thing.
 pub(super) fn values(values: &Values) -> Entries {
-    let written = values.iter().map(|(key, value)| {
-        let value = match value {
-            Given::Number(number) => Value::Number(*number),
-            Given::Numbers(numbers) => list(numbers.iter().copied()),
-            Given::Text(text) => Value::Text(text.clone()),
-        };
-        (key, value)
-    });
-    written.collect()
+    values
+        .iter()
+        .map(|(key, value)| (key, given(value)))
+        .collect()
+}
+
+fn given(value: &Given) -> Value {
+    match value {
+        Given::Number(number) => Value::Number(*number),
+        Given::Numbers(numbers) => list(numbers.iter().copied()),
+        Given::Text(text) => Value::Text(text.clone()),
+    }
 }
 
 /// Writes the keys of a table in the order of the vocabulary: values first, then tables below headings.

@@ -1,7 +1,9 @@
-//! The vocabulary with what other rooms describe: materials, shapes of surfaces, contact laws, friction laws.
+//! The vocabulary with what other rooms describe: materials, shapes of surfaces, contact laws, friction laws,
+//! loads.
 
 use super::bodies::MATERIAL;
 use super::contact::{ENFORCEMENT, FRICTION};
+use super::steps::LOAD;
 use super::surface::SHAPE;
 use super::{CASE, Choice, Default, Key, Rule, Shape, Table, key, word};
 use signorini_vocabulary::Description;
@@ -17,6 +19,8 @@ pub struct Kinds {
     pub laws: Vec<Description>,
     /// Friction laws. The first key of each stands in `friction` and says which law is meant.
     pub frictions: Vec<Description>,
+    /// Loads, each a key in `[[step.load]]`.
+    pub loads: Vec<Description>,
 }
 
 /// Every key of a case, those of [`Kinds`] among them.
@@ -41,6 +45,7 @@ impl Vocabulary {
                 &ENFORCEMENT,
                 with_tables(&ENFORCEMENT, &kinds.laws, 1, LAWS),
             ),
+            (&LOAD, with_tables(&LOAD, &kinds.loads, 2, LOADS)),
             (&FRICTION, with_frictions(&FRICTION, &kinds.frictions)),
         ]
         .map(|(plain, table)| (plain, leak(table)));
@@ -80,6 +85,12 @@ impl Vocabulary {
     #[must_use]
     pub fn laws(&self) -> &[Description] {
         &self.kinds.laws
+    }
+
+    /// All loads.
+    #[must_use]
+    pub fn loads(&self) -> &[Description] {
+        &self.kinds.loads
     }
 
     /// All friction laws.
@@ -177,10 +188,14 @@ fn with_materials(table: &Table, materials: &[Description]) -> Table {
     }
 }
 
-/// Each thing is a key with a table of its own, behind the first keys of the table; its rules have the names of all
-/// things in place of `mark`.
+/// Each thing is a key with a table or a value of its own, behind the first keys of the table; its rules have the names
+/// of all things in place of `mark`.
 fn with_tables(table: &Table, things: &[Description], behind: usize, mark: &str) -> Table {
     let of_things = things.iter().map(|thing| {
+        if let Some(only) = thing.bare_key() {
+            let default = Default::Absent;
+            return Key { default, ..*only };
+        }
         let inner = leak(Table {
             heading: thing.name,
             doc: thing.doc,
@@ -217,6 +232,9 @@ pub(super) const LAWS: &str = "<laws>";
 
 /// Stands for the names of all shapes in a rule.
 pub(super) const SHAPES: &str = "<shapes>";
+
+/// Stands for the names of all loads in a rule.
+pub(super) const LOADS: &str = "<loads>";
 
 /// Keys of all laws, before those of the table; the first of each law says which one it is.
 fn with_frictions(table: &Table, laws: &[Description]) -> Table {
