@@ -506,18 +506,27 @@ impl Checker<'_> {
                     );
                 }
             }
-            Rule::NotAbove(key, other) => {
+            Rule::NotAbove(key, other) | Rule::Below(key, other) => {
+                // a number out of the range of its own key has been reported
                 let entry = |key: &str| {
                     let value = table.get(key)?;
-                    Some((number(value.get_ref())?, value.span()))
+                    let number = number(value.get_ref())?;
+                    let shape = words.key(key).map(|key| key.shape);
+                    let fits = !matches!(shape, Some(Shape::Number(range)) if !range.hold(number));
+                    fits.then(|| (number, value.span()))
+                };
+                let wrong = |small: f64, large: f64| match rule {
+                    Rule::Below(..) if small >= large => Some("not less"),
+                    Rule::NotAbove(..) if small > large => Some("greater"),
+                    _ => None,
                 };
                 if let (Some((small, at)), Some((large, limit))) = (entry(key), entry(other))
-                    && small > large
+                    && let Some(wrong) = wrong(small, large)
                 {
                     self.found.push(
                         Diagnostic::error(
                             &codes::OUT_OF_RANGE,
-                            format!("`{key}` = {small} is greater than `{other}` = {large}"),
+                            format!("`{key}` = {small} is {wrong} than `{other}` = {large}"),
                         )
                         .at(&self.origins.place(at), "")
                         .at(&self.origins.place(limit), ""),

@@ -1,6 +1,7 @@
 //! From a checked document to a [`Case`], and the checks that need more than one table.
 
 mod bodies;
+mod chosen;
 mod contact;
 mod geometry;
 mod names;
@@ -215,6 +216,18 @@ impl Builder<'_> {
                 format!("`{key}` leads out of the plane"),
                 place,
                 "a plane model has no z: write 0, or two entries",
+            );
+        }
+    }
+
+    /// Refuses what is not along z in a plane model.
+    fn across(&mut self, vector: [f64; 3], key: &str, place: &Place) {
+        if self.space.ndim() == 2 && vector[..2] != [0.0; 2] {
+            self.error(
+                &codes::CONTRADICTION,
+                format!("`{key}` leads out of the plane"),
+                place,
+                format!("a plane model turns about z: write [0, 0, {key}]"),
             );
         }
     }

@@ -24,6 +24,8 @@ fn vocabulary() -> &'static Vocabulary {
     static VOCABULARY: LazyLock<Vocabulary> = LazyLock::new(|| {
         Vocabulary::new(Kinds {
             materials: signorini_mechanics::material::descriptions(),
+            loads: signorini_mechanics::load::descriptions(),
+            surfaces: signorini_geometry::surface::descriptions(),
             laws: signorini_mechanics::contact::law::descriptions(),
             frictions: signorini_mechanics::contact::friction::descriptions(),
         })

@@ -195,7 +195,7 @@ pub(super) static ENFORCEMENT: Table = Table {
         .or(Default::Text("auto")),
     ],
     rules: &[
-        Rule::AtMostOne(&[LAWS, "lagrange", "augmented"]),
+        Rule::AtMostOne(&["lagrange", "augmented", LAWS]),
         Rule::AtMostOne(&["penalty", LAWS]),
         Rule::AtMostOne(&["penalty", "lagrange"]),
         Rule::AtMostOne(&["lagrange", "per"]),

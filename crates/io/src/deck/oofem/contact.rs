@@ -11,7 +11,7 @@
 use super::Translation;
 use super::condition::CONTACTS;
 use crate::case::{
-    Contact, Enforcement, Facing, Features, Friction, Method, Name, Normals, Pairs, Per, PointKind,
+    Contact, Enforcement, Features, Friction, Method, Name, Normals, Pairs, Per, PointKind,
     PointRule, Set, SetContent, Shape, Sliding, Space, Stick, Surface,
 };
 use crate::deck::Compat;
@@ -19,6 +19,7 @@ use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::oofem::{Family, Fault, Record};
 use signorini_geometry::mesh::{CellId, FaceIndex};
 use signorini_geometry::tensor::Vec3;
+use signorini_vocabulary::{Chosen, Value, Values};
 use std::collections::BTreeMap;
 
 /// Penalties that `autopenalty` may make for one surface.
@@ -111,6 +112,7 @@ impl Translation {
     fn segment(&mut self, record: &mut Record) -> Result<Option<(u64, Segment)>, Fault> {
         let number = record.number()?;
         let place = record.place();
+        let mut wrong = None;
         let shape = match record.kind().as_str() {
             "linear2delementedgecontactsegment" | "linear3delementsurfacecontactsegment" => {
                 let segment = self.sides(record)?;
@@ -120,16 +122,31 @@ impl Translation {
                 let center = record.need_reals("centerpoint")?;
                 let radius = record.need_real("radius")?;
                 let at = |k: usize| center.get(k).copied().unwrap_or(0.0);
-                Shape::Sphere {
-                    center: [at(0), at(1), at(2)],
-                    radius,
-                    facing: Facing::Outside,
+                if radius <= 0.0 {
+                    wrong = Some("the radius is not positive");
+                }
+                let name = if self.ndim() == 2 { "circle" } else { "sphere" };
+                let values = Values::new()
+                    .with("center", Value::Numbers(vec![at(0), at(1), at(2)]))
+                    .with("radius", Value::Number(radius))
+                    .with("side", Value::Text("outside".to_owned()));
+                Chosen { name, values }
+            }
+            "polynomialcontactsegment" => {
+                let coefficients = record.need_reals("coeffs")?;
+                if coefficients.is_empty() {
+                    wrong = Some("the polynomial has no coefficients");
+                } else if self.ndim() != 2 {
+                    wrong = Some("polynomials are curves of plane models");
+                }
+                let values = Values::new()
+                    .with("coefficients", Value::Numbers(coefficients))
+                    .with("side", Value::Text("above".to_owned()));
+                Chosen {
+                    name: "polynomial",
+                    values,
                 }
             }
-            "polynomialcontactsegment" => Shape::Polynomial {
-                coefficients: record.need_reals("coeffs")?,
-                above: true,
-            },
             other => {
                 let text = format!("the contact segment `{other}` is not supported");
                 let known =
@@ -139,16 +156,6 @@ impl Translation {
                 return Ok(None);
             }
         };
-        let wrong = match &shape {
-            Shape::Sphere { radius, .. } if *radius <= 0.0 => Some("the radius is not positive"),
-            Shape::Polynomial { coefficients, .. } if coefficients.is_empty() => {
-                Some("the polynomial has no coefficients")
-            }
-            Shape::Polynomial { .. } if self.ndim() != 2 => {
-                Some("polynomials are curves of plane models")
-            }
-            _ => None,
-        };
         if let Some(wrong) = wrong {
             self.error(&codes::OUT_OF_RANGE, wrong, &place, "");
             return Ok(None);
@@ -156,7 +163,7 @@ impl Translation {
         let name = self.fresh(&format!("segment-{number}"));
         self.case.surfaces.push(Surface {
             name: Spanned::new(name.clone(), place.clone()),
-            shape,
+            shape: Shape::Analytical(shape),
             reference: None,
             triangles: None,
             place,

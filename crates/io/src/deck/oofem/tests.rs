@@ -1,9 +1,11 @@
 use super::*;
 use crate::case::{
-    ConstraintKind, Enforcement, Features, Geometry, LoadKind, Locking, Method, Moment, Motion,
-    Normals, PointKind, Shape, Sliding, Space, Stick, Tolerance,
+    ConstraintKind, Enforcement, Features, Geometry, Locking, Method, Moment, Motion, Normals,
+    PointKind, Shape, Sliding, Space, Stick, Tolerance,
 };
+use crate::deck::load::vector;
 use crate::fs::RealFs;
+use signorini_vocabulary::Chosen;
 
 /// A square of one element between y = 0 and 1, with more of everything.
 struct Deck {
@@ -172,13 +174,13 @@ fn loads_act_on_nodes_sides_and_mass() {
         ..DECK
     };
     let case = deck.case();
-    let kinds: Vec<&LoadKind> = case.steps[0].loads.iter().map(|load| &load.kind).collect();
+    let kinds: Vec<&Chosen> = case.steps[0].loads.iter().map(|load| &load.kind).collect();
     assert_eq!(
         kinds,
         [
-            &LoadKind::PerNode([0.0, 5.0, 0.0]),
-            &LoadKind::Traction([1.0, 2.0, 0.0]),
-            &LoadKind::Gravity([0.0, -9.81, 0.0])
+            &vector("per_node", [0.0, 5.0, 0.0]),
+            &vector("traction", [1.0, 2.0, 0.0]),
+            &vector("gravity", [0.0, -9.81, 0.0])
         ]
     );
     assert_eq!(
@@ -219,7 +221,7 @@ fn old_records_name_conditions_at_nodes_and_slaves_follow() {
     assert_eq!(coefficients, [1.0, -0.25, -0.75]);
     assert_eq!(
         case.steps[0].loads[0].kind,
-        LoadKind::PerNode([7.0, 0.0, 0.0])
+        vector("per_node", [7.0, 0.0, 0.0])
     );
 }
 
@@ -291,14 +293,17 @@ fn nodes_meet_sides_circles_and_polynomials() {
     assert_eq!(sides.primary.value, "set-3");
     assert_eq!(circle.sliding, Sliding::Finite);
     assert_eq!(polynomial.primary.value, "segment-3");
-    assert!(matches!(
-        case.surfaces[0].shape,
-        Shape::Sphere { radius: 1.0, .. }
-    ));
-    assert!(matches!(
-        case.surfaces[1].shape,
-        Shape::Polynomial { above: true, .. }
-    ));
+    let shapes = case.surfaces.iter().map(|surface| match &surface.shape {
+        Shape::Analytical(shape) => shape,
+        Shape::Stl { .. } => panic!(),
+    });
+    let [circle, polynomial] = shapes.collect::<Vec<_>>()[..] else {
+        panic!()
+    };
+    assert_eq!(circle.name, "circle");
+    assert_eq!(circle.values.number("radius"), Ok(1.0));
+    assert_eq!(polynomial.name, "polynomial");
+    assert_eq!(polynomial.values.text("side"), Some("above"));
 }
 
 #[test]

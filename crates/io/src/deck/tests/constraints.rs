@@ -1,7 +1,8 @@
 //! Constraints between nodes.
 
 use super::*;
-use crate::case::{ConstraintKind, Geometry, LoadKind, Motion, SetContent};
+use crate::case::{ConstraintKind, Geometry, Motion, SetContent};
+use crate::deck::load::vector;
 
 #[test]
 fn a_pretension_is_a_cut_with_a_reference_for_its_overlap() {
@@ -20,7 +21,7 @@ fn a_pretension_is_a_cut_with_a_reference_for_its_overlap() {
     assert_eq!(case.references[0].name, *reference);
     let load = &case.steps[0].loads[0];
     assert_eq!(load.on, *reference);
-    assert_eq!(load.kind, LoadKind::Force([30.0, 0.0, 0.0]));
+    assert_eq!(load.kind, vector("force", [30.0, 0.0, 0.0]));
     assert_eq!(case.steps[1].moves[0].u[0], Some(Motion::Ramp(0.1)));
     let text = refused(&cube(
         "C3D8",

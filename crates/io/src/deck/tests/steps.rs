@@ -1,8 +1,10 @@
 //! What steps prescribe: supports, motions, loads and what holds at the start.
 
 use super::*;
-use crate::case::{AxesSystem, ConstraintKind, LoadKind, Motion, SetContent, Unstrained};
+use crate::case::{AxesSystem, ConstraintKind, Motion, SetContent, Unstrained};
+use crate::deck::load::vector;
 use signorini_geometry::tensor::Vec3;
+use signorini_vocabulary::{Chosen, Value};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 #[test]
@@ -89,18 +91,19 @@ fn loads_of_a_step_add_up_and_later_ones_replace_them() {
     let steps = "*STEP\n*STATIC\n*CLOAD\nTOP, 3, 1.\n5, 3, 10.\n*DLOAD\nCUBE, P2, 1.\nCUBE, P2, 2.\n*END STEP\n\
                  *STEP\n*STATIC\n*CLOAD\n5, 3, 2.\n*END STEP\n*STEP\n*STATIC\n*DLOAD, OP=NEW\n*END STEP\n";
     let case = case(&cube("C3D8", steps));
-    let kinds = |step: usize| -> Vec<LoadKind> {
+    let kinds = |step: usize| -> Vec<Chosen> {
         case.steps[step]
             .loads
             .iter()
             .map(|load| load.kind.clone())
             .collect()
     };
-    let up = |f: f64| LoadKind::PerNode([0.0, 0.0, f]);
-    assert_eq!(kinds(0), [up(11.0), up(1.0), LoadKind::Pressure(3.0)]);
+    let pressure = |p: f64| Chosen::bare("pressure", Value::Number(p));
+    let up = |f: f64| vector("per_node", [0.0, 0.0, f]);
+    assert_eq!(kinds(0), [up(11.0), up(1.0), pressure(3.0)]);
     assert_eq!(kinds(1), [up(2.0)]);
     assert_eq!(case.steps[1].loads[0].name, case.steps[0].loads[0].name);
-    assert_eq!(kinds(2), [LoadKind::Pressure(0.0)]);
+    assert_eq!(kinds(2), [pressure(0.0)]);
 }
 
 #[test]
@@ -110,7 +113,7 @@ fn local_axes_turn_loads_and_make_equations() {
     let case = case(&cube("C3D8", cards));
     assert_eq!(
         case.steps[0].loads[0].kind,
-        LoadKind::PerNode([0.0, 2.0, 0.0])
+        vector("per_node", [0.0, 2.0, 0.0])
     );
     let ConstraintKind::Equation { terms, rhs } = &case.constraints[0].kind else {
         panic!("{:?}", case.constraints);
