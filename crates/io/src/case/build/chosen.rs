@@ -2,7 +2,7 @@
 
 use super::super::fields::Fields;
 use super::super::parts::Space;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::codes;
 use signorini_vocabulary::{Chosen, Description, InPlane, Key, Shape, Value, Values};
 

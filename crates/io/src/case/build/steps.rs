@@ -2,7 +2,7 @@
 
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use signorini_vocabulary::Chosen;
 

@@ -2,7 +2,7 @@
 
 use super::super::fields::Fields;
 use super::super::parts::*;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Place, codes};
 use signorini_vocabulary::Models;
 

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::case::vocabulary::{Shape, Table};
-use std::fmt::Write as _;
 
 #[test]
 fn a_resolved_case_reads_back_to_the_same_case() {

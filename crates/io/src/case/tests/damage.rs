@@ -1,5 +1,6 @@
 //! Damaged, hostile and large texts.
 
+use super::options::WRONG_OPTIONS;
 use super::*;
 use crate::case::mutate::{Generator, mutate};
 use std::fmt::Write as _;

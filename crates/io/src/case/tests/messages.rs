@@ -1,5 +1,7 @@
 //! What is wrong with a text is reported with its place, its cause and a remedy.
 
+use super::faults::faults;
+use super::options::WRONG_OPTIONS;
 use super::*;
 use std::fmt::Write as _;
 
@@ -26,18 +28,6 @@ fn sets_that_contain_themselves_are_found_however_long_the_way() {
     .unwrap_err();
     assert!(all.plain().contains("the last the first: c, b"), "{all}");
 }
-
-/// The options of `--set` that name nothing, or give a wrong value.
-const WRONG_OPTIONS: &[(&str, &str)] = &[
-    ("material.sotf.E", "2000"),
-    ("contact.tap.reach", "1.0"),
-    ("solver.newton.max_iteratons", "30"),
-    ("solver.newton.max_iterations", "many"),
-    ("step.5.duration", "1.0"),
-    ("step..duration", "1.0"),
-    ("material.soft.E", "0,3"),
-    ("contact.tip.enforcement.penalty", "-1"),
-];
 
 fn messages() -> String {
     let mut text = String::new();

@@ -9,7 +9,6 @@ mod options;
 use super::vocabulary::{Kinds, Vocabulary};
 use super::*;
 use crate::diagnostic::Class;
-use std::fmt::Write as _;
 use std::sync::LazyLock;
 
 const PAPER_BRICK: &str = include_str!("../cases/paper_brick.toml");

@@ -2,6 +2,18 @@
 
 use super::*;
 
+/// The options of `--set` that name nothing, or give a wrong value.
+pub(super) const WRONG_OPTIONS: &[(&str, &str)] = &[
+    ("material.sotf.E", "2000"),
+    ("contact.tap.reach", "1.0"),
+    ("solver.newton.max_iteratons", "30"),
+    ("solver.newton.max_iterations", "many"),
+    ("step.5.duration", "1.0"),
+    ("step..duration", "1.0"),
+    ("material.soft.E", "0,3"),
+    ("contact.tip.enforcement.penalty", "-1"),
+];
+
 #[test]
 fn options_change_the_case() {
     let changed = |path: &str, value: &str| {

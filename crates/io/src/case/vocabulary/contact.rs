@@ -1,6 +1,6 @@
 //! Contacts, and their changes in a step.
 
-use super::kinds::LAWS;
+use super::placeholders::LAWS;
 use super::*;
 
 pub(super) static CONTACT: Table = Table {

@@ -3,9 +3,11 @@
 
 use super::bodies::MATERIAL;
 use super::contact::{ENFORCEMENT, FRICTION};
+use super::placeholders::{LAWS, LOADS, SHAPES};
 use super::steps::LOAD;
 use super::surface::SHAPE;
-use super::{CASE, Choice, Default, Key, Rule, Shape, Table, key, word};
+use super::whole::CASE;
+use super::{Choice, Default, Key, Rule, Shape, Table, key, word};
 use signorini_vocabulary::Description;
 
 /// Descriptions of the things that a case may name, each from the room that makes them.
@@ -226,15 +228,6 @@ fn with_tables(table: &Table, things: &[Description], behind: usize, mark: &str)
         ..*table
     }
 }
-
-/// Stands for the names of all contact laws in a rule.
-pub(super) const LAWS: &str = "<laws>";
-
-/// Stands for the names of all shapes in a rule.
-pub(super) const SHAPES: &str = "<shapes>";
-
-/// Stands for the names of all loads in a rule.
-pub(super) const LOADS: &str = "<loads>";
 
 /// Keys of all laws, before those of the table; the first of each law says which one it is.
 fn with_frictions(table: &Table, laws: &[Description]) -> Table {

@@ -1,7 +1,7 @@
 //! Amplitudes and steps.
 
 use super::contact::CONTACT_CHANGE;
-use super::kinds::LOADS;
+use super::placeholders::LOADS;
 use super::*;
 
 pub(super) static AMPLITUDE: Table = Table {

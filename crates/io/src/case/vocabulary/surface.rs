@@ -1,6 +1,6 @@
 //! Rigid surfaces that are given by a formula or by triangles.
 
-use super::kinds::SHAPES;
+use super::placeholders::SHAPES;
 use super::*;
 
 pub(super) static SURFACE: Table = Table {
