@@ -16,11 +16,10 @@ use common::Grid;
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId, boundary};
 use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::contact::discretization::SlidingRange;
-use signorini_mechanics::load::Course;
+use signorini_mechanics::load::{Course, Force, Load, Place};
 use signorini_mechanics::material::SaintVenantKirchhoff;
 use signorini_mechanics::model::{
-    Change, ContactPart, Load, LoadPart, Method, Model, Parts, PrimaryPart, SidePart, StepPart,
-    Target,
+    Change, ContactPart, LoadPart, Method, Model, Parts, PrimaryPart, SidePart, StepPart, Target,
 };
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
@@ -113,10 +112,8 @@ fn pressed(facets: f64, element: &str, sliding: SlidingRange) -> ContactFrame {
     };
     let load = LoadPart {
         name: "weight".into(),
-        load: Load::Force {
-            faces: outside.into_iter().filter(is_head).collect(),
-            total: Vec3::new(0.0, 0.0, -0.25 * force),
-        },
+        load: Force(Vec3::new(0.0, 0.0, -0.25 * force))
+            .on(Place::Faces(outside.into_iter().filter(is_head).collect())),
         course: Course::Ramp,
     };
     let solid = |name: &str, cells: &[CellId]| {

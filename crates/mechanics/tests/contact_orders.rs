@@ -21,11 +21,11 @@ use signorini_geometry::element::{Element, quadrature};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId, boundary};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use signorini_mechanics::contact::discretization::SlidingRange;
-use signorini_mechanics::load::Course;
+use signorini_mechanics::load::{Acting, Course};
 use signorini_mechanics::material::SaintVenantKirchhoff;
 use signorini_mechanics::model::{
-    BodyKind, BodyPart, Change, ContactPart, Load, LoadPart, Method, Model, Parts, PrimaryPart,
-    SidePart, StepPart, Target,
+    BodyKind, BodyPart, Change, ContactPart, LoadPart, Method, Model, Parts, PrimaryPart, SidePart,
+    StepPart, Target,
 };
 use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::{
@@ -277,7 +277,7 @@ impl Solution {
                 changes,
                 loads: vec![LoadPart {
                     name: "pressure".into(),
-                    load: Load::Nodes(self.forces()),
+                    load: Acting::forces(self.forces()),
                     course: Course::Ramp,
                 }],
                 contacts: Vec::new(),

@@ -14,10 +14,10 @@ mod common;
 use common::Grid;
 use signorini_geometry::element::by_name;
 use signorini_geometry::tensor::Vec3;
-use signorini_mechanics::load::Course;
+use signorini_mechanics::load::{Course, Force, Load, Place};
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
-    BodyKind, BodyPart, Change, Load, LoadPart, Model, Parts, StepPart, Target,
+    BodyKind, BodyPart, Change, LoadPart, Model, Parts, StepPart, Target,
 };
 use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::{
@@ -126,10 +126,8 @@ fn moved(name: &str, n: usize, problem: Panel, locking: Locking, nonlinear: bool
             changes,
             loads: vec![LoadPart {
                 name: "shear".into(),
-                load: Load::Force {
-                    faces: grid.faces(|x| x.x > 1.0 - 1e-9),
-                    total: Vec3::new(0.0, force, 0.0),
-                },
+                load: Force(Vec3::new(0.0, force, 0.0))
+                    .on(Place::Faces(grid.faces(|x| x.x > 1.0 - 1e-9))),
                 course: Course::Ramp,
             }],
             contacts: Vec::new(),

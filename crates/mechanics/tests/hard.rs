@@ -13,11 +13,11 @@ mod common;
 use common::{Grid, Part};
 use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
-use signorini_mechanics::load::Course;
+use signorini_mechanics::load::{Course, Force, Load, Place};
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
-    Change, ContactPart, Enforcement, FrictionPart, Load, LoadPart, Method, Model, Parts,
-    PointKind, PointRule, PrimaryPart, SidePart, StepPart, StickPart, Target,
+    Change, ContactPart, Enforcement, FrictionPart, LoadPart, Method, Model, Parts, PointKind,
+    PointRule, PrimaryPart, SidePart, StepPart, StickPart, Target,
 };
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
@@ -152,10 +152,8 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
         };
         loads.push(LoadPart {
             name: "weight".into(),
-            load: Load::Force {
-                faces: top.into_iter().filter(is_head).collect(),
-                total: Vec3::new(0.0, 0.0, -s.force * unit * unit),
-            },
+            load: Force(Vec3::new(0.0, 0.0, -s.force * unit * unit))
+                .on(Place::Faces(top.into_iter().filter(is_head).collect())),
             course: Course::Ramp,
         });
     } else {

@@ -15,11 +15,11 @@ use common::{Grid, Part};
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use signorini_linear::LinearKind;
-use signorini_mechanics::load::Course;
+use signorini_mechanics::load::{Course, Force, Load, Place};
 use signorini_mechanics::material::NeoHookean;
 use signorini_mechanics::model::{
-    Change, ConstraintKind, ConstraintPart, ContactPart, FrictionPart, Load, LoadPart, Model,
-    Parts, PrimaryPart, SidePart, StepPart, Target, TiePart,
+    Change, ConstraintKind, ConstraintPart, ContactPart, FrictionPart, LoadPart, Model, Parts,
+    PrimaryPart, SidePart, StepPart, Target, TiePart,
 };
 use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings,
@@ -177,10 +177,7 @@ fn model_of(s: &Situation) -> Model {
             changes,
             loads: vec![LoadPart {
                 name: "weight".into(),
-                load: Load::Force {
-                    faces: above(head),
-                    total: Vec3::new(0.0, 0.0, -20.0),
-                },
+                load: Force(Vec3::new(0.0, 0.0, -20.0)).on(Place::Faces(above(head))),
                 course: Course::Ramp,
             }],
             contacts: Vec::new(),

@@ -15,10 +15,10 @@ mod common;
 use common::{Grid, degree, sample, shape};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Mat3, Vec3};
-use signorini_mechanics::load::Course;
+use signorini_mechanics::load::{Acting, Course};
 use signorini_mechanics::material::SaintVenantKirchhoff;
 use signorini_mechanics::model::{
-    BodyKind, BodyPart, Change, Load, LoadPart, Model, Parts, StepPart, Target,
+    BodyKind, BodyPart, Change, LoadPart, Model, Parts, StepPart, Target,
 };
 use signorini_mechanics::solid::{Integration, Locking};
 use signorini_mechanics::solve::{
@@ -182,7 +182,7 @@ fn solution(
             changes: boundary.iter().map(prescribe).collect(),
             loads: vec![LoadPart {
                 name: "body force".into(),
-                load: Load::Nodes(forces.into_iter().collect()),
+                load: Acting::forces(forces.into_iter().collect()),
                 course: Course::Ramp,
             }],
             contacts: Vec::new(),

@@ -20,11 +20,11 @@ use common::{Grid, Point, degree, sample, shape, solid};
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::surface::{Analytical, Mount, Plane};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
-use signorini_mechanics::load::Course;
+use signorini_mechanics::load::{Course, Force, Load, Place};
 use signorini_mechanics::material::SaintVenantKirchhoff;
 use signorini_mechanics::model::{
-    BodyKind, Change, ContactPart, Enforcement, FrictionPart, Load, LoadPart, Model, Parts,
-    PrimaryPart, SidePart, StepPart, Target,
+    BodyKind, Change, ContactPart, Enforcement, FrictionPart, LoadPart, Model, Parts, PrimaryPart,
+    SidePart, StepPart, Target,
 };
 use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{
@@ -303,10 +303,8 @@ fn an_even_pressure_is_carried_by_every_kind_of_face() {
         let grid = Grid::new(element, 2, 2, |at| at);
         let load = LoadPart {
             name: "weight".into(),
-            load: Load::Force {
-                faces: grid.faces(|at| at.y > 1.0 - 1e-9),
-                total: Vec3::new(0.0, -1e-3, 0.0),
-            },
+            load: Force(Vec3::new(0.0, -1e-3, 0.0))
+                .on(Place::Faces(grid.faces(|at| at.y > 1.0 - 1e-9))),
             course: Course::Ramp,
         };
         let side = grid.nodes(|at| at.x < 1e-9);

@@ -17,11 +17,15 @@ pub use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 pub use signorini_linear::LinearKind;
 pub use signorini_mechanics::contact::friction::{Coulomb, FrictionLaw, Limit, Sliding};
 pub use signorini_mechanics::contact::law::{ContactLaw, Eval, Scale};
+pub use signorini_mechanics::load::{
+    Acting, BodyForce, Force, Gravity, Load, Moment, PerNode, Place, Pressure, Spin, Traction,
+    Wrench,
+};
 pub use signorini_mechanics::material::{Material, NeoHookean, SaintVenantKirchhoff};
 pub use signorini_mechanics::model::{
     BodyKind, BodyPart, Change, ConstraintKind, ConstraintPart, ContactPart, Enforcement,
-    FrictionPart, Load, LoadPart, Method, Model, ModelError, Parts, PrimaryPart, SidePart,
-    StepPart, Target,
+    FrictionPart, LoadPart, Method, Model, ModelError, Parts, PrimaryPart, SidePart, StepPart,
+    Target,
 };
 pub use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Observer, Outcome, RunError, Stepper, StepperSettings,

@@ -1,8 +1,9 @@
-//! Every key of a case, those of materials and laws among them.
+//! Every key of a case, those of materials, surfaces, laws and loads among them.
 
+use signorini_geometry::surface;
 use signorini_io::case::vocabulary::{Kinds, Vocabulary};
 use signorini_mechanics::contact::{friction, law};
-use signorini_mechanics::material;
+use signorini_mechanics::{load, material};
 use std::sync::LazyLock;
 
 /// The vocabulary of this program.
@@ -10,8 +11,10 @@ pub fn vocabulary() -> &'static Vocabulary {
     static VOCABULARY: LazyLock<Vocabulary> = LazyLock::new(|| {
         Vocabulary::new(Kinds {
             materials: material::descriptions(),
+            surfaces: surface::descriptions(),
             laws: law::descriptions(),
             frictions: friction::descriptions(),
+            loads: load::descriptions(),
         })
     });
     &VOCABULARY

@@ -1,7 +1,7 @@
 //! Entries of a table of things that a case may name.
 
 use crate::table::{Key, Rule};
-use crate::values::{Fault, Values};
+use crate::values::{Fault, Value, Values};
 
 /// What a thing is called, and the keys that it is made from.
 #[derive(Clone, Copy, Debug)]
@@ -16,23 +16,101 @@ pub struct Description {
     pub keys: &'static [Key],
     /// Which keys exclude or need each other.
     pub rules: &'static [Rule],
+    /// The models that have it.
+    pub models: Models,
 }
 
-/// A thing that a case may name.
+impl Description {
+    /// Of a thing that every model has, without hints and rules.
+    #[must_use]
+    pub const fn new(name: &'static str, doc: &'static str, keys: &'static [Key]) -> Self {
+        Self {
+            name,
+            doc,
+            hints: &[],
+            keys,
+            rules: &[],
+            models: Models::All,
+        }
+    }
+
+    /// Of a thing with one key only, which is called as the thing is: a case gives its value in place of a table.
+    #[must_use]
+    pub const fn bare(key: &'static [Key; 1]) -> Self {
+        let [only] = key;
+        Self::new(only.name, only.doc, key).hints(only.hints)
+    }
+
+    /// The only key of a thing whose value a case gives in place of a table.
+    #[must_use]
+    pub fn bare_key(&self) -> Option<&'static Key> {
+        match self.keys {
+            [only] if only.name == self.name => Some(only),
+            _ => None,
+        }
+    }
+
+    /// The same with other words that people use for it.
+    #[must_use]
+    pub const fn hints(mut self, hints: &'static [&'static str]) -> Self {
+        self.hints = hints;
+        self
+    }
+
+    /// The same with rules that its keys keep.
+    #[must_use]
+    pub const fn rules(mut self, rules: &'static [Rule]) -> Self {
+        self.rules = rules;
+        self
+    }
+
+    /// The same for models in space only: what to write in the plane instead.
+    #[must_use]
+    pub const fn in_space(mut self, instead: &'static str) -> Self {
+        self.models = Models::Space { instead };
+        self
+    }
+
+    /// The same for models in the plane only: what to write in space instead.
+    #[must_use]
+    pub const fn in_the_plane(mut self, instead: &'static str) -> Self {
+        self.models = Models::Plane { instead };
+        self
+    }
+}
+
+/// The models that have a thing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Models {
+    /// Those in space and those in the plane.
+    All,
+    /// Those in space.
+    Space {
+        /// What to write in the plane.
+        instead: &'static str,
+    },
+    /// Those in the plane.
+    Plane {
+        /// What to write in space.
+        instead: &'static str,
+    },
+}
+
+/// A thing that a case may name, and the error of making it.
 #[derive(Debug)]
-pub struct Entry<T: 'static> {
+pub struct Entry<T: 'static, E: 'static = Fault> {
     /// Its name and keys.
     pub description: Description,
     /// Makes it.
-    pub make: fn(&Values) -> Result<T, Fault>,
+    pub make: fn(&Values) -> Result<T, E>,
 }
 
-impl<T> Entry<T> {
+impl<T, E: From<Fault>> Entry<T, E> {
     /// Makes the thing that a case has chosen from these entries.
     ///
     /// # Errors
     /// No entry has this name; those of its `make`.
-    pub fn make(entries: &[Self], chosen: &Chosen) -> Result<T, Fault> {
+    pub fn make(entries: &[Self], chosen: &Chosen) -> Result<T, E> {
         let mut entries = entries.iter();
         let entry = entries.find(|entry| entry.description.name == chosen.name);
         let entry = entry.ok_or_else(|| Fault::Unfit {
@@ -60,6 +138,25 @@ impl Chosen {
             values: Values::numbers(numbers),
         }
     }
+
+    /// An entry with one key only, which is called as the entry is.
+    #[must_use]
+    pub fn bare(name: &'static str, value: Value) -> Self {
+        Self {
+            name,
+            values: Values::new().with(name, value),
+        }
+    }
+
+    /// The value of an entry with one key only, which is called as the entry is.
+    #[must_use]
+    pub fn bare_value(&self) -> Option<&Value> {
+        let mut values = self.values.iter();
+        match (values.next(), values.next()) {
+            (Some((key, value)), None) if key == self.name => Some(value),
+            _ => None,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -68,13 +165,11 @@ mod tests {
     use crate::table::{POSITIVE, key};
 
     static HALVES: [Entry<f64>; 1] = [Entry {
-        description: Description {
-            name: "half",
-            doc: "half a number",
-            hints: &[],
-            keys: &[key("of", POSITIVE, "the number").required()],
-            rules: &[],
-        },
+        description: Description::new(
+            "half",
+            "half a number",
+            &[key("of", POSITIVE, "the number").required()],
+        ),
         make: |values| Ok(0.5 * values.number("of")?),
     }];
 

@@ -14,6 +14,6 @@ mod entry;
 mod table;
 mod values;
 
-pub use entry::{Chosen, Description, Entry};
+pub use entry::{Chosen, Description, Entry, Models};
 pub use table::*;
 pub use values::{Fault, Value, Values};

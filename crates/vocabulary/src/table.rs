@@ -43,6 +43,19 @@ pub struct Key {
     pub hints: &'static [&'static str],
     /// Known, but not supported by this version: what to use instead, which may be empty.
     pub later: Option<&'static str>,
+    /// What a vector may be in a model of the plane.
+    pub plane: InPlane,
+}
+
+/// What a vector may be in a model of the plane, where it may have two entries in place of three.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InPlane {
+    /// Any vector.
+    Any,
+    /// One in the plane: z = 0.
+    Within,
+    /// One along z.
+    Across,
 }
 
 impl Key {
@@ -67,6 +80,20 @@ impl Key {
         self
     }
 
+    /// The same key, a vector that lies in the plane of a plane model.
+    #[must_use]
+    pub const fn within_plane(mut self) -> Self {
+        self.plane = InPlane::Within;
+        self
+    }
+
+    /// The same key, a vector along z in a plane model.
+    #[must_use]
+    pub const fn across_plane(mut self) -> Self {
+        self.plane = InPlane::Across;
+        self
+    }
+
     /// The same key, known but not supported by this version: what to use instead.
     #[must_use]
     pub const fn later(mut self, instead: &'static str) -> Self {
@@ -85,6 +112,7 @@ pub const fn key(name: &'static str, shape: Shape, doc: &'static str) -> Key {
         doc,
         hints: &[],
         later: None,
+        plane: InPlane::Any,
     }
 }
 
@@ -101,6 +129,8 @@ pub enum Default {
     Texts(&'static [&'static str]),
     /// A number.
     Number(f64),
+    /// A list of numbers, such as a vector.
+    Numbers(&'static [f64]),
     /// A whole number.
     Integer(i64),
     /// A truth value.
@@ -215,6 +245,8 @@ pub enum Rule {
     Needs(&'static str, &'static str),
     /// Both numbers: the first is at most the second.
     NotAbove(&'static str, &'static str),
+    /// Both numbers: the first is less than the second.
+    Below(&'static str, &'static str),
 }
 
 /// Any number.

@@ -52,6 +52,7 @@ const ROOMS: [Room; 39] = [
     room(
         "geometry::surface",
         &[
+            "vocabulary",
             "geometry::tensor",
             "geometry::element",
             "geometry::mesh",
@@ -66,7 +67,10 @@ const ROOMS: [Room; 39] = [
         "mechanics::solid",
         &["mechanics::system", "mechanics::material", "geometry"],
     ),
-    room("mechanics::load", &["mechanics::system", "geometry"]),
+    room(
+        "mechanics::load",
+        &["vocabulary", "mechanics::system", "geometry"],
+    ),
     room("mechanics::connector", &["mechanics::system", "geometry"]),
     room("mechanics::audit", &["mechanics::system", "geometry"]),
     room(

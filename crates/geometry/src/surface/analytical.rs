@@ -20,6 +20,7 @@ use super::{
 use crate::element::Element;
 use crate::proximity::Aabb;
 use crate::tensor::{Sym3, Vec3};
+use signorini_vocabulary::Fault;
 use std::fmt::Debug;
 use thiserror::Error;
 
@@ -184,6 +185,9 @@ pub enum AnalyticalError {
         /// Its number, from 1.
         triangle: usize,
     },
+    /// Values of a case that make no shape.
+    #[error(transparent)]
+    Values(#[from] Fault),
     /// Two triangles that disagree on where outside is, or more than two on one edge.
     #[error(
         "triangles {first} and {second} run along their common edge in the same direction: either one of them is turned \

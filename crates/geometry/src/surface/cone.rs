@@ -2,6 +2,49 @@ use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad, polar};
 use super::mount::{direction, finite};
 use super::{Feature, SurfaceError};
 use crate::tensor::{Sym3, Vec3};
+use signorini_vocabulary::{Bounds, Description, Entry, FREE, LINE, Shape as Form, VECTOR, key};
+
+/// The entry of [`Cone`].
+pub(super) const ENTRY: Entry<Box<dyn Shape>, AnalyticalError> = Entry {
+    description: Description::new(
+        "cone",
+        "a cone without end; bodies are outside",
+        &[
+            key("apex", VECTOR, "its tip")
+                .required()
+                .hints(&["tip", "point"])
+                .within_plane(),
+            key(
+                "axis",
+                LINE,
+                "\"x\", \"y\", \"z\" or a vector, from the tip into the cone",
+            )
+            .required()
+            .within_plane(),
+            key(
+                "half_angle",
+                ACUTE,
+                "between the axis and the surface (degrees)",
+            )
+            .required()
+            .hints(&["angle"]),
+        ],
+    )
+    .in_space("write `plane`, its section"),
+    make: |values| {
+        let apex = values.vector("apex")?.into();
+        let axis = values.vector("axis")?.into();
+        let half_angle = values.number("half_angle")?.to_radians();
+        Ok(Box::new(Cone::new(apex, axis, half_angle, Side::Outside)?))
+    },
+};
+
+/// An angle in degrees.
+const ACUTE: Form = Form::Number(Bounds {
+    above: Some(0.0),
+    below: Some(90.0),
+    ..FREE
+});
 
 /// How close to the apex, over its coordinates, a point cannot be distinguished from it.
 const TIP: f64 = 16.0 * f64::EPSILON;

@@ -1,7 +1,38 @@
 use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad, polar};
+use super::keys;
 use super::mount::{direction, finite, positive};
 use super::{NO_NORMAL, SurfaceError};
 use crate::tensor::{Sym3, Vec3};
+use signorini_vocabulary::{Description, Entry, VECTOR, key};
+
+/// The entry of [`Cylinder`].
+pub(super) const ENTRY: Entry<Box<dyn Shape>, AnalyticalError> = Entry {
+    description: Description::new(
+        "cylinder",
+        "a cylinder without ends",
+        &[
+            key("point", VECTOR, "a point of its axis")
+                .required()
+                .hints(&["center"])
+                .within_plane(),
+            keys::AXIS,
+            keys::RADIUS,
+            keys::SIDE,
+        ],
+    )
+    .in_space("write `circle`, its section"),
+    make: |values| {
+        let point = values.vector("point")?.into();
+        let axis = values.vector("axis")?.into();
+        let radius = values.number("radius")?;
+        Ok(Box::new(Cylinder::new(
+            point,
+            axis,
+            radius,
+            keys::side(values),
+        )?))
+    },
+};
 
 /// A round rod or bore without ends. In the plane, a circle where its axis is along z, a strip where it lies in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -38,9 +38,9 @@
 //! The rigid ones stand on a [`Mount`], fixed or carried by a rigid body, and are given in the initial configuration.
 //! From [`Plane`] on they are a [`Shape`] each, of which [`Analytical`] makes a surface.
 //!
-//! To add a shape: one file that implements [`Shape`], a line above and in the `zoo` of the tests, and one where cases
-//! are built. To add another surface: the same with [`ContactSurface`]. Its `jet` is checked by the conformance tests
-//! of this room against differences, its `project` against brute force.
+//! To add a shape: a file that implements [`Shape`] and describes its keys in an `ENTRY`, a line above and in [`TABLE`],
+//! and a line in the tests. Cases can name it then. To add another surface: a file that implements [`ContactSurface`]. Its
+//! `jet` is checked by the conformance tests of this room against differences, its `project` against brute force.
 //!
 //! Sources: Wriggers, *Computational Contact Mechanics*, 2nd ed. 2006, chapters 2 and 4; Konyukhov and Schweizerhof,
 //! *Computational Contact Mechanics*, 2013, chapters 2 to 4; Bærentzen and Aanæs, IEEE TVCG 11, 2005 (pseudonormals).
@@ -50,6 +50,7 @@ mod bent;
 mod cone;
 mod cylinder;
 mod facets;
+mod keys;
 mod mount;
 mod plane;
 mod polynomial;
@@ -82,7 +83,25 @@ use crate::element::{Element, MAX_FACET_NODES};
 use crate::mesh::NodeId;
 use crate::proximity::Aabb;
 use crate::tensor::{Mat3, Vec3};
+use signorini_vocabulary::{Description, Entry};
 use thiserror::Error;
+
+/// The shapes that a case may choose by name.
+pub static TABLE: [Entry<Box<dyn Shape>, AnalyticalError>; 7] = [
+    plane::ENTRY,
+    sphere::CIRCLE,
+    sphere::ENTRY,
+    cylinder::ENTRY,
+    cone::ENTRY,
+    torus::ENTRY,
+    polynomial::ENTRY,
+];
+
+/// The names and keys of all shapes of [`TABLE`].
+#[must_use]
+pub fn descriptions() -> Vec<Description> {
+    TABLE.iter().map(|entry| entry.description).collect()
+}
 
 /// The number of a rigid body, from 0.
 pub type RigidId = u32;

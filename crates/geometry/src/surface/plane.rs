@@ -2,6 +2,35 @@ use super::SurfaceError;
 use super::analytical::{AnalyticalError, Patch, Shape};
 use super::mount::{direction, finite};
 use crate::tensor::{Sym3, Vec3};
+use signorini_vocabulary::{Description, Entry, LINE, VECTOR, key};
+
+/// The entry of [`Plane`].
+pub(super) const ENTRY: Entry<Box<dyn Shape>, AnalyticalError> = Entry {
+    description: Description::new(
+        "plane",
+        "a plane without end; in the plane, a line",
+        &[
+            key("point", VECTOR, "a point of it")
+                .required()
+                .within_plane(),
+            key(
+                "normal",
+                LINE,
+                "\"x\", \"y\", \"z\" or a vector, towards the bodies",
+            )
+            .required()
+            .within_plane(),
+        ],
+    )
+    .hints(&["line", "plain"]),
+    make: |values| {
+        let point = values.vector("point")?.into();
+        Ok(Box::new(Plane::new(
+            point,
+            values.vector("normal")?.into(),
+        )?))
+    },
+};
 
 /// A half space, bounded by a plane; in the plane, by a straight line.
 #[derive(Clone, Copy, Debug, PartialEq)]

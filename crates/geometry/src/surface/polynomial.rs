@@ -19,6 +19,41 @@
 use super::SurfaceError;
 use super::analytical::{AnalyticalError, Patch, Shape, dyad};
 use crate::tensor::Vec3;
+use signorini_vocabulary::{ANY, Default, Description, Entry, MANY, Shape as Form, key, word};
+
+/// The entry of [`Polynomial`].
+pub(super) const ENTRY: Entry<Box<dyn Shape>, AnalyticalError> = Entry {
+    description: Description::new(
+        "polynomial",
+        "the curve y = c_n x^n + … + c_0, the same for all z",
+        &[
+            key(
+                "coefficients",
+                Form::List(&ANY, 1, MANY),
+                "[c_n, …, c_0], the highest power first",
+            )
+            .required()
+            .hints(&["coeffs"]),
+            key(
+                "side",
+                Form::Choice(&[word("above"), word("below")]),
+                "where bodies are",
+            )
+            .or(Default::Text("above")),
+        ],
+    )
+    .hints(&["parabola"]),
+    make: |values| {
+        let facing = match values.text("side") {
+            Some("below") => Facing::Below,
+            _ => Facing::Above,
+        };
+        Ok(Box::new(Polynomial::new(
+            values.list("coefficients")?,
+            facing,
+        )?))
+    },
+};
 
 /// The highest degree: (E2) squares the condition of the polynomial.
 pub const MAX_DEGREE: usize = 10;

@@ -1,7 +1,32 @@
 use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad};
+use super::keys;
 use super::mount::{finite, positive};
 use super::{NO_NORMAL, SurfaceError};
 use crate::tensor::{Sym3, Vec3};
+use signorini_vocabulary::{Description, Entry, Key, Values};
+
+/// The entry of [`Sphere`].
+pub(super) const ENTRY: Entry<Box<dyn Shape>, AnalyticalError> = Entry {
+    description: Description::new("sphere", "a sphere; in the plane, write `circle`", KEYS)
+        .hints(&["ball"])
+        .in_space("write `circle`"),
+    make,
+};
+
+/// The entry of [`Sphere`] in the plane.
+pub(super) const CIRCLE: Entry<Box<dyn Shape>, AnalyticalError> = Entry {
+    description: Description::new("circle", "of a model in the plane", KEYS)
+        .in_the_plane("write `sphere` or `cylinder`"),
+    make,
+};
+
+const KEYS: &[Key] = &[keys::CENTER, keys::RADIUS, keys::SIDE];
+
+fn make(values: &Values) -> Result<Box<dyn Shape>, AnalyticalError> {
+    let center = values.vector("center")?.into();
+    let radius = values.number("radius")?;
+    Ok(Box::new(Sphere::new(center, radius, keys::side(values))?))
+}
 
 /// A ball or a round hole; in the plane, a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]

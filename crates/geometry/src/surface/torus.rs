@@ -1,7 +1,46 @@
 use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad, polar};
+use super::keys;
 use super::mount::{direction, finite, positive};
 use super::{NO_NORMAL, SurfaceError};
 use crate::tensor::{Sym3, Vec3};
+use signorini_vocabulary::{Description, Entry, POSITIVE, Rule, key};
+
+/// The entry of [`Torus`].
+pub(super) const ENTRY: Entry<Box<dyn Shape>, AnalyticalError> = Entry {
+    description: Description::new(
+        "torus",
+        "a ring with a round section",
+        &[
+            keys::CENTER,
+            keys::AXIS,
+            key(
+                "radius",
+                POSITIVE,
+                "from the axis to the middle of the tube",
+            )
+            .required(),
+            key("tube", POSITIVE, "radius of the tube")
+                .required()
+                .hints(&["minor_radius"]),
+            keys::SIDE,
+        ],
+    )
+    .hints(&["ring"])
+    .rules(&[Rule::Below("tube", "radius")])
+    .in_space("write `circle`, its section"),
+    make: |values| {
+        let center = values.vector("center")?.into();
+        let axis = values.vector("axis")?.into();
+        let (radius, tube) = (values.number("radius")?, values.number("tube")?);
+        Ok(Box::new(Torus::new(
+            center,
+            axis,
+            radius,
+            tube,
+            keys::side(values),
+        )?))
+    },
+};
 
 /// A ring of round section, or a channel of that shape. In the plane, two circles: side by side where the axis lies in
 /// it, one in the other where it is along z.

@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::origin::Origins;
 use super::scalar::{count, found, has_type, is_usable, number, shortened, wanted, whole};
-use super::vocabulary::{Choice, Default, Key, Rule, Shape, Table};
+use super::vocabulary::{Bounds, Choice, Default, Key, Rule, Shape, Table};
 use crate::diagnostic::{Diagnostic, Diagnostics, closest, codes, listed};
 
 /// After so many findings the check ends: by then it is no case.
@@ -116,25 +116,8 @@ impl Checker<'_> {
                 self.choice(word, choices, span, key, words);
             }
             (Shape::Number(bounds), content) => {
-                let Some(number) = number(content) else {
-                    return;
-                };
-                if !is_usable(number) {
-                    let remark = if number.is_finite() {
-                        "too small to compute with"
-                    } else {
-                        "not finite"
-                    };
-                    let text = self.origins.text(span.clone());
-                    self.found.push(
-                        Diagnostic::error(
-                            &codes::NOT_FINITE,
-                            format!("`{}` needs a finite number, found {text}", key.name),
-                        )
-                        .at(&self.origins.place(span), remark),
-                    );
-                } else if !bounds.hold(number) {
-                    self.out_of_range(span, key, &bounds.words());
+                if let Some(number) = number(content) {
+                    self.number(number, bounds, span, key);
                 }
             }
             (Shape::Integer(from, to), DeValue::Integer(integer)) => {
@@ -169,7 +152,39 @@ impl Checker<'_> {
                     self.wrong_length(span, key, &format!("{} entries", shapes.len()), items.len());
                 }
             }
-            (Shape::Table(words), DeValue::Table(table)) => self.table(table, words, Some(span)),
+            _ => self.tables(value, shape, key),
+        }
+    }
+
+    /// A number of any kind: finite, not too small to compute with, and within its bounds.
+    fn number(&mut self, number: f64, bounds: &Bounds, span: Range<usize>, key: &Key) {
+        if is_usable(number) {
+            if !bounds.hold(number) {
+                self.out_of_range(span, key, &bounds.words());
+            }
+            return;
+        }
+        let remark = if number.is_finite() {
+            "too small to compute with"
+        } else {
+            "not finite"
+        };
+        let text = self.origins.text(span.clone());
+        self.found.push(
+            Diagnostic::error(
+                &codes::NOT_FINITE,
+                format!("`{}` needs a finite number, found {text}", key.name),
+            )
+            .at(&self.origins.place(span), remark),
+        );
+    }
+
+    /// A table, a list of tables, or tables by their names.
+    fn tables(&mut self, value: &Spanned<DeValue<'_>>, shape: &'static Shape, key: &Key) {
+        match (shape, value.get_ref()) {
+            (Shape::Table(words), DeValue::Table(table)) => {
+                self.table(table, words, Some(value.span()));
+            }
             (Shape::Tables(words), DeValue::Array(items)) => {
                 for one in items.iter() {
                     match one.get_ref() {
@@ -185,23 +200,29 @@ impl Checker<'_> {
                     }
                     match one.get_ref() {
                         DeValue::Table(table) => self.table(table, words, Some(one.span())),
-                        other => {
-                            let message = format!(
-                                "`{}` needs a table, found {}",
-                                shortened(name.get_ref()),
-                                found(other)
-                            );
-                            self.found.push(
-                                Diagnostic::error(&codes::WRONG_TYPE, message)
-                                    .at(&self.origins.place(one.span()), "not a table")
-                                    .note(keys_of(words)),
-                            );
-                        }
+                        other => self.no_table(name.get_ref(), other, one.span(), words),
                     }
                 }
             }
             _ => {}
         }
+    }
+
+    /// Reports a name whose value is no table.
+    fn no_table(
+        &mut self,
+        name: &str,
+        value: &DeValue<'_>,
+        span: Range<usize>,
+        words: &'static Table,
+    ) {
+        let name = shortened(name);
+        let message = format!("`{name}` needs a table, found {}", found(value));
+        self.found.push(
+            Diagnostic::error(&codes::WRONG_TYPE, message)
+                .at(&self.origins.place(span), "not a table")
+                .note(keys_of(words)),
+        );
     }
 
     /// Reports an unknown key and returns the key of this table that it was probably meant to be.
@@ -485,18 +506,27 @@ impl Checker<'_> {
                     );
                 }
             }
-            Rule::NotAbove(key, other) => {
+            Rule::NotAbove(key, other) | Rule::Below(key, other) => {
+                // a number out of the range of its own key has been reported
                 let entry = |key: &str| {
                     let value = table.get(key)?;
-                    Some((number(value.get_ref())?, value.span()))
+                    let number = number(value.get_ref())?;
+                    let shape = words.key(key).map(|key| key.shape);
+                    let fits = !matches!(shape, Some(Shape::Number(range)) if !range.hold(number));
+                    fits.then(|| (number, value.span()))
+                };
+                let wrong = |small: f64, large: f64| match rule {
+                    Rule::Below(..) if small >= large => Some("not less"),
+                    Rule::NotAbove(..) if small > large => Some("greater"),
+                    _ => None,
                 };
                 if let (Some((small, at)), Some((large, limit))) = (entry(key), entry(other))
-                    && small > large
+                    && let Some(wrong) = wrong(small, large)
                 {
                     self.found.push(
                         Diagnostic::error(
                             &codes::OUT_OF_RANGE,
-                            format!("`{key}` = {small} is greater than `{other}` = {large}"),
+                            format!("`{key}` = {small} is {wrong} than `{other}` = {large}"),
                         )
                         .at(&self.origins.place(at), "")
                         .at(&self.origins.place(limit), ""),

@@ -12,7 +12,7 @@ use super::origin::Origins;
 use super::scalar::{count, has_type, is_usable, number};
 use super::vocabulary::{Default, Key, Shape, Table};
 use crate::diagnostic::{Place, Spanned};
-use signorini_vocabulary::{Value, Values};
+use signorini_vocabulary::Value;
 
 /// A table of the document, or the empty one where the key is absent.
 #[derive(Clone, Copy)]
@@ -163,28 +163,23 @@ impl<'a> Fields<'a> {
         Some(Spanned::new(values?, self.place(key)))
     }
 
-    /// The values of these keys, defaults among them; keys without either are left out.
-    pub fn values(&self, keys: &[Key]) -> Values {
-        keys.iter().fold(Values::new(), |values, key| {
-            let given = self.get(key.name).map(|value| value.get_ref());
-            let value = match (given, key.default) {
-                (Some(DeValue::String(text)), _) => Some(Value::Text(text.clone().into_owned())),
-                (Some(DeValue::Array(_)), _) => {
-                    let numbers = self.numbers_if(key.name);
-                    numbers.map(|numbers| Value::Numbers(numbers.value))
-                }
-                (Some(_), _) => self
-                    .number_if(key.name)
-                    .map(|number| Value::Number(number.value)),
-                (None, Default::Number(number)) => Some(Value::Number(number)),
-                (None, Default::Text(text)) => Some(Value::Text(text.to_owned())),
-                (None, _) => None,
-            };
-            match value {
-                Some(value) => values.with(key.name, value),
-                None => values,
+    /// The value of a key, or its default.
+    pub fn value(&self, key: &Key) -> Option<Value> {
+        let given = self.get(key.name).map(|value| value.get_ref());
+        match (given, key.default) {
+            (Some(DeValue::String(text)), _) => Some(Value::Text(text.clone().into_owned())),
+            (Some(DeValue::Array(_)), _) => {
+                let numbers = self.numbers_if(key.name);
+                numbers.map(|numbers| Value::Numbers(numbers.value))
             }
-        })
+            (Some(_), _) => self
+                .number_if(key.name)
+                .map(|number| Value::Number(number.value)),
+            (None, Default::Number(number)) => Some(Value::Number(number)),
+            (None, Default::Numbers(numbers)) => Some(Value::Numbers(numbers.to_vec())),
+            (None, Default::Text(text)) => Some(Value::Text(text.to_owned())),
+            (None, _) => None,
+        }
     }
 
     /// A list of whole numbers.

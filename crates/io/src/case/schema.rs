@@ -63,6 +63,7 @@ fn key(key: &Key) -> Value {
             Default::Text(text) => Some(json!(text)),
             Default::Texts(texts) => Some(json!(texts)),
             Default::Number(number) => Some(json!(number)),
+            Default::Numbers(numbers) => Some(json!(numbers)),
             Default::Integer(number) => Some(json!(number)),
             Default::Flag(flag) => Some(json!(flag)),
         };
@@ -155,6 +156,6 @@ fn rule(rule: &Rule) -> Option<Value> {
             needs.insert((*key).to_owned(), json!([other]));
             json!({ "dependentRequired": needs })
         }
-        Rule::NotAbove(..) => return None,
+        Rule::NotAbove(..) | Rule::Below(..) => return None,
     })
 }

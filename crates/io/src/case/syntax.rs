@@ -81,78 +81,89 @@ fn describe(
         return (one, false);
     }
     if head == "duplicate key" {
-        let one = Diagnostic::error(&codes::TWICE, format!("`{found}` is given twice"))
-            .at(&place, "the second time");
-        let one = match first_time(text, found, span.start) {
-            Some(first) => one.at(&origins.place(first), "the first time"),
-            None => one,
-        };
-        let one = if origins.line_text(span.start).trim_start().starts_with('[') {
-            one.help(format!(
-                "open each table once; where entries of a list are meant, write [[{found}]]"
-            ))
-        } else {
-            one.help("delete one of the two")
-        };
+        return (given_twice(text, found, span, origins), true);
+    }
+    if head == "string values must be quoted" && looks_like_number(found) {
+        let one = Diagnostic::error(&codes::NOT_A_NUMBER, format!("a number was expected, found `{found}`"))
+            .at(&place, "not a number")
+            .help("write digits, a decimal point and an exponent only, as in 2.1e5; units are said once, by `units`");
         return (one, true);
     }
+    let behind = text.get(span.start..).unwrap_or_default();
+    match explain(head, found, behind) {
+        Some(Explained { what, help, local }) => {
+            let one = Diagnostic::error(&codes::SYNTAX, what).at(&place, "");
+            (one.help(help), local)
+        }
+        None => {
+            let one = Diagnostic::error(&codes::SYNTAX, "this is not TOML");
+            (one.at(&place, message.to_owned()), false)
+        }
+    }
+}
+
+/// The finding for a key or a heading that was given before.
+fn given_twice(text: &str, found: &str, span: Range<usize>, origins: &Origins) -> Diagnostic {
+    let one = Diagnostic::error(&codes::TWICE, format!("`{found}` is given twice"))
+        .at(&origins.place(span.clone()), "the second time");
+    let one = match first_time(text, found, span.start) {
+        Some(first) => one.at(&origins.place(first), "the first time"),
+        None => one,
+    };
+    if origins.line_text(span.start).trim_start().starts_with('[') {
+        one.help(format!(
+            "open each table once; where entries of a list are meant, write [[{found}]]"
+        ))
+    } else {
+        one.help("delete one of the two")
+    }
+}
+
+/// An error of the text in plain words.
+struct Explained {
+    what: &'static str,
+    help: String,
+    /// Whether it spoils no more than its own line.
+    local: bool,
+}
+
+/// What the reader of TOML means by the head of its message, by what it found and by the text from there on.
+fn explain(head: &str, found: &str, behind: &str) -> Option<Explained> {
+    if head == "string values must be quoted" {
+        return Some(Explained {
+            what: "a text needs quotes",
+            help: format!("write \"{found}\""),
+            local: true,
+        });
+    }
     let (what, help, local) = match head {
-        "string values must be quoted" if looks_like_number(found) => {
-            let one = Diagnostic::error(&codes::NOT_A_NUMBER, format!("a number was expected, found `{found}`"))
-                .at(&place, "not a number")
-                .help("write digits, a decimal point and an exponent only, as in 2.1e5; units are said once, by `units`");
-            return (one, true);
-        }
-        "string values must be quoted" => {
-            ("a text needs quotes", format!("write \"{found}\""), true)
-        }
-        "key with no value" => (
-            "a key without a value",
-            "write  key = value".to_owned(),
-            false,
-        ),
-        "missing value" => (
-            "a value is missing",
-            "write one behind the `=`".to_owned(),
-            false,
-        ),
-        "unclosed array" => (
-            "a list is not closed",
-            "add the missing `]`".to_owned(),
-            false,
-        ),
-        "unclosed inline table" => (
-            "a table is not closed",
-            "add the missing `}`".to_owned(),
-            false,
-        ),
+        "key with no value" => ("a key without a value", "write  key = value", false),
+        "missing value" => ("a value is missing", "write one behind the `=`", false),
+        "unclosed array" => ("a list is not closed", "add the missing `]`", false),
+        "unclosed inline table" => ("a table is not closed", "add the missing `}`", false),
         "unclosed table" | "unclosed array table" => (
             "the heading of a table is not closed",
-            "add the missing bracket".to_owned(),
+            "add the missing bracket",
             false,
         ),
         "missing comma between array elements"
-            if text
-                .get(span.start..)
-                .is_some_and(|rest| rest.starts_with('}') || heading_or_key(rest)) =>
+            if behind.starts_with('}') || heading_or_key(behind) =>
         {
             (
                 "a list is not closed before this",
-                "add the missing `]`".to_owned(),
+                "add the missing `]`",
                 false,
             )
         }
-        "missing comma between array elements" | "missing comma between key-value pairs" => (
-            "a comma is missing",
-            "separate entries by commas".to_owned(),
-            false,
-        ),
+        "missing comma between array elements" | "missing comma between key-value pairs" => {
+            ("a comma is missing", "separate entries by commas", false)
+        }
         "extra comma in array" | "extra comma in inline table" => {
-            ("a comma too much", "delete it".to_owned(), false)
+            ("a comma too much", "delete it", false)
         }
         "unexpected key or value" | "unexpected content" => (
             "something stands behind the value",
-            "one key and its value per line; remarks start with #".to_owned(),
+            "one key and its value per line; remarks start with #",
             true,
         ),
         "invalid basic string"
@@ -160,31 +171,20 @@ fn describe(
         | "invalid multi-line basic string"
         | "invalid multi-line literal string" => (
             "a text is not closed or holds a wrong character",
-            "close the quote; write \\\\ for a backslash, or use '…'".to_owned(),
+            "close the quote; write \\\\ for a backslash, or use '…'",
             false,
         ),
-        "unexpected leading zero" => (
-            "a number starts with 0",
-            "delete the leading zeros".to_owned(),
-            true,
-        ),
-        "invalid float" | "invalid integer number" | "unexpected sign" => (
-            "this is not a number",
-            "write it as 1.0, 25 or 2.1e5".to_owned(),
-            true,
-        ),
-        _ => {
-            return (
-                Diagnostic::error(&codes::SYNTAX, "this is not TOML")
-                    .at(&place, message.to_owned()),
-                false,
-            );
+        "unexpected leading zero" => ("a number starts with 0", "delete the leading zeros", true),
+        "invalid float" | "invalid integer number" | "unexpected sign" => {
+            ("this is not a number", "write it as 1.0, 25 or 2.1e5", true)
         }
+        _ => return None,
     };
-    let one = Diagnostic::error(&codes::SYNTAX, what)
-        .at(&place, "")
-        .help(help);
-    (one, local)
+    Some(Explained {
+        what,
+        help: help.to_owned(),
+        local,
+    })
 }
 
 /// Digits, a comma and digits as the whole value of the line: `nu = 0,3`.

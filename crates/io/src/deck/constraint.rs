@@ -1,5 +1,6 @@
 //! Local axes, equations, rigid bodies, couplings, pre-tension, multi-point constraints, sectors.
 
+use super::axes::{along, unit};
 use super::translation::{Target, Translation};
 use crate::case::{
     AtNodes, AxesSystem, Body, Constraint, ConstraintKind, Directions, LocalAxes, Name, Position,
@@ -535,24 +536,3 @@ impl Translation<'_> {
 
 /// Types of *MPC.
 const TYPES: [&str; 5] = ["PLANE", "STRAIGHT", "BEAM", "MEANROT", "DIST"];
-
-/// The unit vector along an axis.
-pub(super) fn unit(axis: usize) -> Vec3 {
-    Vec3::from(std::array::from_fn(|i| f64::from(u8::from(i == axis))))
-}
-
-/// What is left of a component of a unit vector is round-off.
-const ROUND_OFF: f64 = 1e-14;
-
-/// The displacement of a node along a direction, times a coefficient.
-pub(super) fn along(on: Name, direction: Vec3, coefficient: f64, ndim: usize) -> Vec<Summand> {
-    let components = direction.to_array().into_iter().take(ndim).enumerate();
-    components
-        .filter(|(_, part)| part.abs() > ROUND_OFF)
-        .map(|(component, part)| Summand {
-            on: on.clone(),
-            component: Spanned::new(component, on.place.clone()),
-            coefficient: coefficient * part,
-        })
-        .collect()
-}

@@ -14,7 +14,7 @@
 //!
 //! Source: the laws of CalculiX are those of its User's Manual, sections on contact.
 
-use super::Compat;
+use super::compat::Compat;
 use super::translation::Translation;
 use crate::case::{
     Area, Basis, Contact, ContactChange, Enforcement, Features, Friction, Interference, Method,

@@ -4,12 +4,12 @@
 //! Nodes and faces that bear the same are one load of the case; where some of them change, the load ends and others
 //! begin: a load that fades and one that grows are together the straight line from the old to the new.
 
-use super::constraint::unit;
-use super::step::global;
+use super::axes::{global, unit};
 use super::translation::{Target, Translation};
-use crate::case::{Course, Load, LoadKind, Name, Step};
+use crate::case::{Course, Load, Name, Step};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement};
+use signorini_vocabulary::{Chosen, Value, Values};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -31,7 +31,7 @@ enum Where {
 /// What acts there.
 #[derive(Clone, Debug, PartialEq)]
 struct What {
-    kind: LoadKind,
+    kind: Chosen,
     amplitude: Option<Name>,
     place: Place,
 }
@@ -88,33 +88,49 @@ fn is_on_surface(at: &Where) -> bool {
 }
 
 /// Two loads of one kind together.
-fn sum(a: &LoadKind, b: &LoadKind) -> LoadKind {
-    let add = |a: &[f64; 3], b: &[f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
-    match (a, b) {
-        (LoadKind::PerNode(a), LoadKind::PerNode(b)) => LoadKind::PerNode(add(a, b)),
-        (LoadKind::Force(a), LoadKind::Force(b)) => LoadKind::Force(add(a, b)),
-        (LoadKind::Moment(a), LoadKind::Moment(b)) => LoadKind::Moment(add(a, b)),
-        (LoadKind::Gravity(a), LoadKind::Gravity(b)) => LoadKind::Gravity(add(a, b)),
-        (LoadKind::Pressure(a), LoadKind::Pressure(b)) => LoadKind::Pressure(a + b),
-        _ => b.clone(),
+fn sum(a: &Chosen, b: &Chosen) -> Chosen {
+    let together = match (a.bare_value(), b.bare_value()) {
+        (Some(Value::Numbers(a)), Some(Value::Numbers(b))) => {
+            Value::Numbers(a.iter().zip(b).map(|(a, b)| a + b).collect())
+        }
+        (Some(Value::Number(a)), Some(Value::Number(b))) => Value::Number(a + b),
+        _ => return b.clone(),
+    };
+    if a.name == b.name {
+        Chosen::bare(b.name, together)
+    } else {
+        b.clone()
     }
 }
 
 /// The same kind of load, of nothing.
-fn nothing(of: &LoadKind) -> LoadKind {
-    match of {
-        LoadKind::PerNode(_) => LoadKind::PerNode([0.0; 3]),
-        LoadKind::Force(_) => LoadKind::Force([0.0; 3]),
-        LoadKind::Moment(_) => LoadKind::Moment([0.0; 3]),
-        LoadKind::Gravity(_) => LoadKind::Gravity([0.0; 3]),
-        LoadKind::Centrifugal { point, axis, .. } => LoadKind::Centrifugal {
-            speed: 0.0,
-            point: *point,
-            axis: *axis,
-        },
-        LoadKind::Pressure(_) => LoadKind::Pressure(0.0),
-        other => other.clone(),
+fn nothing(of: &Chosen) -> Chosen {
+    let values = of.values.iter().map(|(key, value)| {
+        let value = match value {
+            Value::Number(_) if key == of.name || key == SPEED => Value::Number(0.0),
+            Value::Numbers(numbers) if key == of.name => Value::Numbers(vec![0.0; numbers.len()]),
+            other => other.clone(),
+        };
+        (key, value)
+    });
+    Chosen {
+        name: of.name,
+        values: values.fold(Values::new(), |values, (key, value)| {
+            values.with(key, value)
+        }),
     }
+}
+
+/// The key of a centrifugal load that is its size.
+const SPEED: &str = "speed";
+
+/// A load that is a vector.
+pub(super) fn vector(name: &'static str, vector: impl Into<[f64; 3]>) -> Chosen {
+    Chosen::bare(name, Value::Numbers(vector.into().to_vec()))
+}
+
+fn pressure(pressure: f64) -> Chosen {
+    Chosen::bare("pressure", Value::Number(pressure))
 }
 
 impl Translation<'_> {
@@ -152,7 +168,7 @@ impl Translation<'_> {
                         continue;
                     }
                     let pressure = self.real(row.get(2));
-                    loads.put(Where::Surface(on.value), what(LoadKind::Pressure(pressure)));
+                    loads.put(Where::Surface(on.value), what(self::pressure(pressure)));
                 }
                 _ => {
                     for (at, kind) in self.distributed(card, &row) {
@@ -164,7 +180,7 @@ impl Translation<'_> {
     }
 
     /// A line of *CLOAD.
-    fn concentrated(&mut self, card: &Statement, row: &[Field<'_>]) -> Vec<(Where, LoadKind)> {
+    fn concentrated(&mut self, card: &Statement, row: &[Field<'_>]) -> Vec<(Where, Chosen)> {
         let targets = self.targets(card, row.first(), Kind::Nodes);
         let place = row.first().map_or(card.place.clone(), Field::place);
         let dof = self.count(row.get(1), 0) as usize;
@@ -181,9 +197,9 @@ impl Translation<'_> {
                 let vector = (unit(axis) * value).to_array();
                 let turns = carrier.turns || dof > 3;
                 let kind = if turns {
-                    LoadKind::Moment(vector)
+                    self::vector("moment", vector)
                 } else {
-                    LoadKind::Force(vector)
+                    self::vector("force", vector)
                 };
                 all.push((Where::Reference(carrier.name.clone(), turns, axis), kind));
             } else if dof > 3 {
@@ -200,7 +216,7 @@ impl Translation<'_> {
                     Some(axes) => global(axes, axis, value),
                     None => unit(axis) * value,
                 };
-                let kind = LoadKind::PerNode(direction.to_array());
+                let kind = vector("per_node", direction.to_array());
                 all.push((Where::Node(label, axis), kind));
             }
         }
@@ -208,13 +224,13 @@ impl Translation<'_> {
     }
 
     /// A line of *DLOAD.
-    fn distributed(&mut self, card: &Statement, row: &[Field<'_>]) -> Vec<(Where, LoadKind)> {
+    fn distributed(&mut self, card: &Statement, row: &[Field<'_>]) -> Vec<(Where, Chosen)> {
         let targets = self.targets(card, row.first(), Kind::Elements);
         let place = row.first().map_or(card.place.clone(), Field::place);
         let label = row.get(1).map(Field::key).unwrap_or_default();
         let [value, x, y, z, a, b, c] = self.reals(row.get(2..).unwrap_or_default());
         let mass = |target: &Target| Where::Mass(target.clone(), format!("{label} {x} {y} {z}"));
-        let on_mass = |kind: LoadKind| -> Vec<(Where, LoadKind)> {
+        let on_mass = |kind: Chosen| -> Vec<(Where, Chosen)> {
             targets
                 .iter()
                 .map(|target| (mass(target), kind.clone()))
@@ -228,7 +244,7 @@ impl Translation<'_> {
                     self.error(&codes::OUT_OF_RANGE, text, &place, "GRAV, g, nx, ny, nz");
                     return Vec::new();
                 };
-                on_mass(LoadKind::Gravity((direction * value).to_array()))
+                on_mass(vector("gravity", (direction * value).to_array()))
             }
             "CENTRIF" => {
                 if value < 0.0 {
@@ -236,11 +252,12 @@ impl Translation<'_> {
                     self.error(&codes::OUT_OF_RANGE, text, &place, "");
                     return Vec::new();
                 }
-                on_mass(LoadKind::Centrifugal {
-                    speed: value.sqrt(),
-                    point: [x, y, z],
-                    axis: [a, b, c],
-                })
+                let values = Values::new()
+                    .with(SPEED, Value::Number(value.sqrt()))
+                    .with("point", Value::Numbers(vec![x, y, z]))
+                    .with("axis", Value::Numbers(vec![a, b, c]));
+                let name = "centrifugal";
+                on_mass(Chosen { name, values })
             }
             pressure => {
                 let side = pressure
@@ -256,7 +273,7 @@ impl Translation<'_> {
                     return Vec::new();
                 };
                 let elements = targets.iter().flat_map(|target| self.elements(target));
-                let at = |element| (Where::Side(element, side), LoadKind::Pressure(value));
+                let at = |element| (Where::Side(element, side), self::pressure(value));
                 elements.map(at).collect()
             }
         }
@@ -366,21 +383,16 @@ fn together(all: BTreeMap<Where, What>) -> Vec<(BTreeSet<Where>, What)> {
 /// A number that all loads have that are equal, and hardly others.
 fn likeness(what: &What) -> u64 {
     let mut hasher = DefaultHasher::new();
-    std::mem::discriminant(&what.kind).hash(&mut hasher);
+    what.kind.name.hash(&mut hasher);
     what.amplitude
         .as_ref()
         .map(|name| &name.value)
         .hash(&mut hasher);
-    let numbers: &[f64] = match &what.kind {
-        LoadKind::PerNode(v)
-        | LoadKind::Force(v)
-        | LoadKind::Traction(v)
-        | LoadKind::Moment(v)
-        | LoadKind::BodyForce(v)
-        | LoadKind::Gravity(v) => v,
-        LoadKind::Pressure(p) => std::slice::from_ref(p),
-        LoadKind::Centrifugal { speed, .. } => std::slice::from_ref(speed),
-    };
+    let numbers = what.kind.values.iter().flat_map(|(_, value)| match value {
+        Value::Number(number) => std::slice::from_ref(number),
+        Value::Numbers(numbers) => numbers,
+        Value::Text(_) => &[],
+    });
     for number in numbers {
         // zeros of both signs are equal
         (number + 0.0).to_bits().hash(&mut hasher);
@@ -423,7 +435,7 @@ fn load_of(group: &Group, sudden: bool, duration: f64) -> Load {
 mod tests {
     use super::*;
 
-    fn what(kind: LoadKind) -> What {
+    fn what(kind: Chosen) -> What {
         What {
             kind,
             amplitude: None,
@@ -433,7 +445,7 @@ mod tests {
 
     #[test]
     fn equal_loads_are_one_and_others_differ_by_a_number() {
-        let force = |k: u64| LoadKind::PerNode([(k % 40) as f64, 0.0, -1.0]);
+        let force = |k: u64| vector("per_node", [(k % 40) as f64, 0.0, -1.0]);
         let all = (0..400).map(|k| (Where::Node(k, 0), what(force(k))));
         let groups = together(all.collect());
         assert_eq!(groups.len(), 40);
@@ -444,7 +456,7 @@ mod tests {
         }
         let numbers: BTreeSet<u64> = groups.iter().map(|(_, what)| likeness(what)).collect();
         assert_eq!(numbers.len(), 40);
-        let zero = |z: f64| likeness(&what(LoadKind::Pressure(z)));
+        let zero = |z: f64| likeness(&what(pressure(z)));
         assert_eq!(zero(0.0), zero(-0.0));
     }
 }

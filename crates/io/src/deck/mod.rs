@@ -21,6 +21,8 @@
 //!
 //! To add a card: one line in [`KEYWORDS`], and its translation in the stage where it belongs.
 
+mod axes;
+mod compat;
 mod constraint;
 mod contact;
 mod keywords;
@@ -36,6 +38,7 @@ mod step;
 mod tests;
 mod translation;
 
+pub use compat::Compat;
 pub use keywords::{KEYWORDS, Keyword, Support};
 
 use crate::case::Case;
@@ -44,18 +47,6 @@ use crate::fs::Fs;
 use crate::readers::inp;
 use signorini_geometry::mesh::Mesh;
 use translation::Translation;
-
-/// Whose laws hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Compat {
-    /// Ours: contact by the best method there is; a penalty that stands for a hard contact is not taken.
-    #[default]
-    None,
-    /// Those of CalculiX, as the deck states them.
-    Ccx,
-    /// Those of OOFEM: its elements as it integrates them.
-    Oofem,
-}
 
 /// A deck that was read.
 #[derive(Clone, Debug)]

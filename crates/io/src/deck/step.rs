@@ -4,7 +4,7 @@
 //! is. Zero is a support where nothing was moved before, a motion to zero elsewhere. Along local axes, three components
 //! make a vector; fewer are equations, which hold for the whole run.
 
-use super::constraint::along;
+use super::axes::along;
 use super::load::Loads;
 use super::translation::{Target, Translation};
 use crate::case::{
@@ -13,7 +13,6 @@ use crate::case::{
 };
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
-use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The course of a component.
@@ -638,9 +637,4 @@ fn words(field: &Field<'_>) -> Option<&'static [usize]> {
         "ZASYMM" => &[0, 1, 5],
         _ => return None,
     })
-}
-
-/// A vector of a local system in the global one.
-pub(super) fn global(axes: &[Vec3; 3], axis: usize, value: f64) -> Vec3 {
-    axes.get(axis).map_or(Vec3::ZERO, |e| *e * value)
 }

@@ -1,8 +1,9 @@
 //! What all stages of the translation share: the deck, the case so far, names, messages.
 
+use super::compat::Compat;
 use super::keywords::{Keyword, Support};
 use super::names::Names;
-use super::{Compat, constraint, contact, material};
+use super::{constraint, contact, material};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};

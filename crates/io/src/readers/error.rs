@@ -1,4 +1,4 @@
-use super::oofem::RecordError;
+use super::oofem::{Fault, RecordError};
 use crate::vtk::VtuReadError;
 use std::fmt;
 use thiserror::Error;
@@ -518,4 +518,20 @@ pub(super) fn excerpt(bytes: &[u8]) -> String {
         short.push('…');
     }
     short
+}
+
+impl From<Fault> for MeshError {
+    fn from(fault: Fault) -> Self {
+        let place = match fault.place.get() {
+            Some((file, range)) => Place::Line {
+                file: file.name().to_owned(),
+                line: file.line_index(range.start) + 1,
+            },
+            None => Place::File(String::new()),
+        };
+        Self::Record {
+            place,
+            error: Box::new(fault.error),
+        }
+    }
 }

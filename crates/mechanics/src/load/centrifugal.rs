@@ -1,22 +1,56 @@
 use super::course::Clock;
 use super::local::{Local, gather};
-use super::{Region, Schedule};
+use super::{Domain, Effect, Load, LoadError, Region, Schedule, Site};
 use crate::system::{
     Frame, Layout, Lifetime, Order, Part, PatternSink, Phase, Properties, Role, Sink, SpinFrame,
     State, Symmetry, Term, TermError, Work,
 };
 use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::{Mat3, Vec3};
+use signorini_vocabulary::{ANY, Default as Absent, Description, Entry, Fault, LINE, VECTOR, key};
 use std::sync::Arc;
 
-/// An axis about which everything turns, and how fast.
+/// The entry of [`Spin`].
+pub(super) const ENTRY: Entry<Arc<dyn Load>> = Entry {
+    description: Description::new(
+        "centrifugal",
+        "forces of a frame that rotates",
+        &[
+            key("speed", ANY, "angular velocity, in radian per time")
+                .required()
+                .hints(&["omega"]),
+            key("point", VECTOR, "a point of the axis; absent: the origin")
+                .or(Absent::Numbers(&[0.0; 3])),
+            key(
+                "axis",
+                LINE,
+                "\"x\", \"y\", \"z\" or a vector along the axis",
+            )
+            .required(),
+        ],
+    ),
+    make: |values| {
+        let axis = Vec3::from(values.vector("axis")?).normalized();
+        let axis = axis.ok_or_else(|| Fault::Unfit {
+            what: LoadError::NoAxis.to_string(),
+        })?;
+        Ok(Arc::new(Spin {
+            speed: values.number("speed")?,
+            point: values.vector("point")?.into(),
+            axis,
+        }))
+    },
+};
+
+/// An axis about which everything turns, and how fast: mass times centrifugal acceleration about an axis that stays where
+/// it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spin {
-    /// Angular velocity.
+    /// Angular velocity (radian per time); a course multiplies its square.
     pub speed: f64,
     /// A point of the axis.
     pub point: Vec3,
-    /// Unit vector along the axis.
+    /// Along the axis; a unit vector in a [`Centrifugal`].
     pub axis: Vec3,
 }
 
@@ -24,6 +58,38 @@ impl Spin {
     /// P
     fn projector(&self) -> Mat3 {
         Mat3::IDENTITY - Mat3::outer(self.axis, self.axis)
+    }
+}
+
+impl Load for Spin {
+    fn domain(&self) -> Domain {
+        Domain::Mass
+    }
+
+    fn quantity(&self) -> &'static str {
+        "centrifugal"
+    }
+
+    fn effect(&self, site: Site<'_>) -> Result<Effect, LoadError> {
+        let axis = self.axis.normalized().ok_or(LoadError::NoAxis)?;
+        let revolves = axis.cross(Vec3::unit(1)) == Vec3::ZERO && self.point.x == 0.0;
+        if site.revolved && !revolves {
+            return Err(LoadError::OtherAxis);
+        }
+        if self.speed == 0.0 {
+            return Ok(Effect::forces([]));
+        }
+        let what = (site.region, Self { axis, ..*self });
+        let reference = site.reference.clone();
+        let term = Centrifugal::new(
+            site.name,
+            what,
+            site.cells,
+            site.schedule,
+            site.layout,
+            reference,
+        );
+        Ok(Effect::Term(Box::new(term)))
     }
 }
 

@@ -35,23 +35,69 @@
 //! ends at it or after. Sources: Bonet and Wood 2008, sections 8.5.2 and 9.3 (following pressure); Schweizerhof and
 //! Ramm, Comput. Struct. 18, 1984 (its potentials).
 //!
-//! To add a load: a file with a term, and one line where models are built; a dead one needs no term but a function of
-//! [`spread`].
+//! | load | acts on |
+//! |---|---|
+//! | [`Force`] | faces, nodes, carriers |
+//! | [`PerNode`], [`Moment`] | nodes, carriers |
+//! | [`Wrench`] | carriers |
+//! | [`Traction`], [`Pressure`] | faces |
+//! | [`BodyForce`] | cells, by volume |
+//! | [`Gravity`], [`Spin`] | cells, by mass |
+//!
+//! To add a load: a file that implements [`Load`] and describes its keys in an `ENTRY`, a line above and in [`TABLE`]. A
+//! dead one needs no term but a function of [`spread`]. Cases can name it then.
 
+mod body_force;
 mod centrifugal;
 mod course;
 mod following_pressure;
+mod force;
+mod gravity;
+mod kind;
 mod local;
+mod moment;
 mod nodal_forces;
+mod per_node;
+mod pressure;
 mod region;
 mod section;
 pub mod spread;
 #[cfg(test)]
 mod tests;
+mod traction;
 
+pub use body_force::BodyForce;
 pub use centrifugal::{Centrifugal, Spin};
 pub use course::{Course, Schedule};
 pub use following_pressure::FollowingPressure;
+pub use force::{Force, Wrench};
+pub use gravity::Gravity;
+pub use kind::{Acting, Domain, Effect, Load, LoadError, Place, Site};
+pub use moment::Moment;
 pub use nodal_forces::NodalForces;
+pub use per_node::PerNode;
+pub use pressure::Pressure;
 pub use region::Region;
 pub use section::Section;
+pub use traction::Traction;
+
+use signorini_vocabulary::{Description, Entry};
+use std::sync::Arc;
+
+/// The loads that a case may choose by name.
+pub static TABLE: [Entry<Arc<dyn Load>>; 8] = [
+    force::ENTRY,
+    per_node::ENTRY,
+    traction::ENTRY,
+    pressure::ENTRY,
+    moment::ENTRY,
+    body_force::ENTRY,
+    gravity::ENTRY,
+    centrifugal::ENTRY,
+];
+
+/// The names and keys of all loads of [`TABLE`].
+#[must_use]
+pub fn descriptions() -> Vec<Description> {
+    TABLE.iter().map(|entry| entry.description).collect()
+}

@@ -165,12 +165,7 @@ pub fn by_name(name: &str) -> Option<&'static Law> {
 /// The names and constants of all laws.
 #[must_use]
 pub fn descriptions() -> Vec<Description> {
-    let described = TABLE.iter().map(|law| Description {
-        name: law.name,
-        doc: law.doc,
-        hints: &[],
-        keys: law.constants,
-        rules: &[],
-    });
+    let described = TABLE.iter();
+    let described = described.map(|law| Description::new(law.name, law.doc, law.constants));
     described.collect()
 }

@@ -1,4 +1,5 @@
 use super::{ConstraintError, Unheld};
+use crate::load::LoadError;
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
 use signorini_geometry::tensor::Vec3;
@@ -173,56 +174,4 @@ pub enum ModelError {
         /// Why.
         source: LoadError,
     },
-}
-
-/// Why a load cannot act.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum LoadError {
-    /// A name given twice in one step.
-    #[error("step \"{step}\" has two loads of this name")]
-    Twice {
-        /// Name of the step.
-        step: String,
-    },
-    /// No face, no cell.
-    #[error("it acts on nothing")]
-    Nowhere,
-    /// An element that is in no body.
-    #[error("element {element} belongs to no body")]
-    Outside {
-        /// The element, as numbered in the input.
-        element: u64,
-    },
-    /// Something that is no face of a solid.
-    #[error("side {side} of element {element} is no face of a solid")]
-    NoFace {
-        /// The element, as numbered in the input.
-        element: u64,
-        /// The side, from 1.
-        side: usize,
-    },
-    /// A total force on faces without area.
-    #[error("its faces have no area")]
-    NoArea,
-    /// A load by volume on an element without volume.
-    #[error("element {element} has no volume")]
-    NoVolume {
-        /// The element, as numbered in the input.
-        element: u64,
-    },
-    /// A load by mass on a body whose density is not known.
-    #[error("body \"{body}\" has no density")]
-    NoDensity {
-        /// Name of the body.
-        body: String,
-    },
-    /// A moment on nodes that cannot carry it.
-    #[error("its nodes lie in a point, or on a line about which the moment turns")]
-    NoArm,
-    /// A centrifugal load about an axis without direction.
-    #[error("its axis has no direction")]
-    NoAxis,
-    /// A centrifugal load about another axis than that of an axisymmetric model.
-    #[error("its axis is not the axis of the model: x = 0, along y")]
-    OtherAxis,
 }

@@ -1,8 +1,9 @@
 //! Loads of all steps, as terms.
 
-use super::{BodyKind, BodyPart, Context, Load, LoadError, LoadPart, ModelError};
-use crate::load::spread::{self, NodalVectors};
-use crate::load::{Centrifugal, Course, FollowingPressure, NodalForces, Region, Schedule, Spin};
+use super::{BodyKind, BodyPart, Context, LoadPart, ModelError};
+use crate::load::{
+    Acting, Course, Domain, Effect, LoadError, NodalForces, Place, Region, Schedule, Site,
+};
 use crate::solid::Integration;
 use crate::solve::Step;
 use crate::system::{Dof, Idealisation, NO_DOF, StepContext, Term};
@@ -53,7 +54,7 @@ fn schedules(
                 continue;
             };
             // a table speaks for what is there already
-            if after.course != Course::Ramp && place(&after.load) == place(&before.load) {
+            if after.course != Course::Ramp && after.load.is_alike(&before.load) {
                 schedule.stop();
             } else {
                 schedule.fade();
@@ -66,34 +67,6 @@ fn schedules(
         }
     }
     Ok(all)
-}
-
-/// Of what kind a load is, and where it acts.
-#[derive(PartialEq)]
-enum Place {
-    Nodes(BTreeSet<NodeId>),
-    Carrier(RigidId),
-    Force(BTreeSet<Face>),
-    Moment(BTreeSet<NodeId>),
-    Traction(BTreeSet<Face>),
-    Pressure(BTreeSet<Face>, bool),
-    Body(BTreeSet<CellId>),
-    Gravity(BTreeSet<CellId>),
-    Centrifugal(BTreeSet<CellId>),
-}
-
-fn place(load: &Load) -> Place {
-    match load {
-        Load::Nodes(forces) => Place::Nodes(forces.iter().map(|(n, _)| *n).collect()),
-        Load::Carrier { carrier, .. } => Place::Carrier(*carrier),
-        Load::Force { faces, .. } => Place::Force(set(faces)),
-        Load::Moment { nodes, .. } => Place::Moment(set(nodes)),
-        Load::Traction { faces, .. } => Place::Traction(set(faces)),
-        Load::Pressure { faces, follows, .. } => Place::Pressure(set(faces), *follows),
-        Load::Body { cells, .. } => Place::Body(set(cells)),
-        Load::Gravity { cells, .. } => Place::Gravity(set(cells)),
-        Load::Centrifugal { cells, .. } => Place::Centrifugal(set(cells)),
-    }
 }
 
 fn set<T: Copy + Ord>(members: &[T]) -> BTreeSet<T> {
@@ -138,13 +111,6 @@ impl Substance {
     }
 }
 
-/// What the measure of a cell is multiplied by.
-#[derive(Clone, Copy, PartialEq)]
-enum Per {
-    Volume,
-    Mass,
-}
-
 impl Context<'_> {
     /// The term of a load; none where it has no size.
     fn load(
@@ -153,85 +119,63 @@ impl Context<'_> {
         schedule: Schedule,
         steps: &[Step],
     ) -> Result<Option<Box<dyn Term>>, ModelError> {
-        let (reference, name) = (&self.reference[..], &part.name[..]);
+        let name = &part.name[..];
         let named = |source| ModelError::Load {
             load: name.into(),
             source,
         };
-        let forces = match &part.load {
-            Load::Nodes(nodes) => {
-                for &(node, _) in nodes {
-                    self.on_rigid(node)?;
-                }
-                self.at_nodes(nodes.iter().copied())
+        let Acting { load, place } = &part.load;
+        let site = match place {
+            Place::Carrier(carrier) => {
+                let wrench = load
+                    .resultant()
+                    .ok_or_else(|| named(LoadError::Misplaced))?;
+                return Ok(self.on_carrier(name, *carrier, wrench, schedule, steps));
             }
-            Load::Carrier {
-                carrier,
-                force,
-                moment,
-            } => return Ok(self.on_carrier(name, *carrier, [*force, *moment], schedule, steps)),
-            Load::Force { faces, total } => {
-                let faces = self.faces(faces).map_err(named)?;
-                let area = spread::area(&faces, reference);
-                if area <= 0.0 {
-                    return Err(named(LoadError::NoArea));
-                }
-                let traction = *total / area;
-                let forces = spread::over_faces(&faces, reference, |n| traction * n.norm());
-                self.at_nodes(forces)
-            }
-            Load::Moment { nodes, moment } => {
+            Place::Nodes(nodes) => {
                 for &node in nodes {
                     self.on_rigid(node)?;
                 }
-                self.at_nodes(self.moment(nodes, *moment).map_err(named)?)
+                self.site(part, schedule.clone())
             }
-            Load::Traction { faces, traction } => {
-                let faces = self.faces(faces).map_err(named)?;
-                let forces = spread::over_faces(&faces, reference, |n| *traction * n.norm());
-                self.at_nodes(forces)
-            }
-            Load::Pressure {
-                faces,
-                pressure,
-                follows,
-            } => {
-                let faces = self.faces(faces).map_err(named)?;
-                if *follows && *pressure != 0.0 {
-                    let what = (faces, *pressure);
-                    let (layout, reference) = (self.layout, self.reference.clone());
-                    let term = FollowingPressure::new(name, what, schedule, layout, reference);
-                    return Ok(Some(Box::new(term)));
-                }
-                let forces = spread::over_faces(&faces, reference, |n| n * -*pressure);
-                self.at_nodes(forces)
-            }
-            Load::Body { cells, force } => {
-                let cells = self.cells(cells, Per::Volume).map_err(named)?;
-                self.at_nodes(spread::over_cells(&cells, reference, *force))
-            }
-            Load::Gravity {
-                cells,
-                acceleration,
-            } => {
-                let cells = self.cells(cells, Per::Mass).map_err(named)?;
-                self.at_nodes(spread::over_cells(&cells, reference, *acceleration))
-            }
-            Load::Centrifugal {
-                cells,
-                speed,
-                point,
-                axis,
-            } => {
-                let spin = self.spin(cells, *speed, *point, *axis).map_err(named)?;
-                let what = (self.cells(cells, Per::Mass).map_err(named)?, spin);
-                let (layout, reference) = (self.layout, self.reference.clone());
-                let term = Centrifugal::new(name, what, cells, schedule, layout, reference);
-                return Ok((*speed != 0.0).then(|| Box::new(term) as Box<dyn Term>));
-            }
+            Place::Faces(_) | Place::Cells(_) => self.site(part, schedule.clone()),
         };
-        let term = self.dead(name, &forces, schedule);
-        Ok(term.map(|t| Box::new(t) as Box<dyn Term>))
+        match load.effect(site.map_err(named)?).map_err(named)? {
+            Effect::Term(term) => Ok(Some(term)),
+            Effect::Forces(forces) => {
+                let term = self.dead(name, &self.at_nodes(forces), schedule);
+                Ok(term.map(|t| Box::new(t) as Box<dyn Term>))
+            }
+        }
+    }
+
+    /// Where a load acts, apart from carriers.
+    fn site<'a>(&'a self, part: &'a LoadPart, schedule: Schedule) -> Result<Site<'a>, LoadError> {
+        let mut site = Site {
+            name: &part.name,
+            nodes: &[],
+            cells: &[],
+            region: Region::default(),
+            revolved: false,
+            schedule,
+            layout: self.layout,
+            reference: self.reference,
+        };
+        match (part.load.load.domain(), &part.load.place) {
+            (Domain::Nodes | Domain::FacesOrNodes, Place::Nodes(nodes)) => site.nodes = nodes,
+            (Domain::Faces | Domain::FacesOrNodes, Place::Faces(faces)) => {
+                site.region = self.faces(faces)?;
+            }
+            (domain @ (Domain::Volume | Domain::Mass), Place::Cells(cells)) => {
+                let of_revolution =
+                    |&cell: &CellId| self.spaces.of_cell(cell) == Idealisation::Axisymmetric;
+                site.revolved = cells.iter().any(of_revolution);
+                site.region = self.cells(cells, domain)?;
+                site.cells = cells;
+            }
+            _ => return Err(LoadError::Misplaced),
+        }
+        Ok(site)
     }
 
     /// A dead load.
@@ -271,29 +215,6 @@ impl Context<'_> {
         Some(Box::new(load.swivelling(swivels)))
     }
 
-    fn moment(&self, nodes: &[NodeId], mut moment: Vec3) -> Result<NodalVectors, LoadError> {
-        if self.space.ndim() == 2 {
-            moment = Vec3::unit(2) * moment.z;
-        }
-        spread::moment(nodes, self.reference, moment).ok_or(LoadError::NoArm)
-    }
-
-    fn spin(
-        &self,
-        cells: &[CellId],
-        speed: f64,
-        point: Vec3,
-        axis: Vec3,
-    ) -> Result<Spin, LoadError> {
-        let axis = axis.normalized().ok_or(LoadError::NoAxis)?;
-        let revolves = axis.cross(Vec3::unit(1)) == Vec3::ZERO && point.x == 0.0;
-        let revolved = |&cell: &CellId| self.spaces.of_cell(cell) == Idealisation::Axisymmetric;
-        if cells.iter().any(revolved) && !revolves {
-            return Err(LoadError::OtherAxis);
-        }
-        Ok(Spin { speed, point, axis })
-    }
-
     /// The body of a cell that a load acts on.
     fn body(&self, cell: CellId) -> Result<&Substance, LoadError> {
         let body = self.owner.get(&cell);
@@ -319,8 +240,8 @@ impl Context<'_> {
         some(region)
     }
 
-    /// Cells of bodies that a load acts on.
-    fn cells(&self, cells: &[CellId], per: Per) -> Result<Region, LoadError> {
+    /// Cells of bodies that a load acts on, with their densities where it acts by mass.
+    fn cells(&self, cells: &[CellId], domain: Domain) -> Result<Region, LoadError> {
         let mut region = Region::default();
         for &cell in &set(cells) {
             let body = self.body(cell)?;
@@ -329,9 +250,9 @@ impl Context<'_> {
             let element = element.ok_or_else(|| LoadError::NoVolume {
                 element: self.number(cell),
             })?;
-            let density = match per {
-                Per::Volume => Some(1.0),
-                Per::Mass => body.density,
+            let density = match domain {
+                Domain::Mass => body.density,
+                _ => Some(1.0),
             };
             let density = density.ok_or_else(|| LoadError::NoDensity {
                 body: body.name.clone(),

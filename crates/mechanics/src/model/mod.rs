@@ -29,14 +29,15 @@ mod parts;
 mod reduction;
 mod steps;
 
+pub use crate::load::LoadError;
 pub use constraints::ConstraintError;
-pub use error::{LoadError, ModelError};
+pub use error::ModelError;
 pub use held::Unheld;
 pub use parts::{
     AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart,
-    ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart, Interference, Load,
-    LoadPart, Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart,
-    SpringPart, StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
+    ContactChange, ContactPart, Enforcement, FeaturesPart, FrictionPart, Interference, LoadPart,
+    Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart,
+    StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
 
 use crate::contact::discretization::SlidingRange;

@@ -1,6 +1,7 @@
 use super::ConstraintError;
 use super::constraints::components;
-use super::{Change, Context, Load, LoadPart, ModelError, StepPart, Target, label};
+use super::{Change, Context, LoadPart, ModelError, StepPart, Target, label};
+use crate::load::Place;
 use crate::solve::{Motion, Prescription, Step};
 use crate::system::{Dof, DofName, Idealisation, NO_DOF};
 use signorini_geometry::mesh::NodeId;
@@ -197,14 +198,10 @@ impl Context<'_> {
         let layout = &self.layout;
         let mut dofs = Vec::new();
         for part in loads {
-            let Load::Carrier {
-                carrier,
-                force,
-                moment,
-            } = part.load
-            else {
+            let Place::Carrier(carrier) = part.load.place else {
                 continue;
             };
+            let [force, moment] = part.load.load.resultant().unwrap_or_default();
             let values = force.to_array().into_iter().chain(moment.to_array());
             for (component, _) in values.enumerate().filter(|(_, value)| *value != 0.0) {
                 self.may_move(step, carrier, component)?;

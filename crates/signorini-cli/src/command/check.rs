@@ -1,8 +1,8 @@
 //! `signorini check CASE`
 
 use super::console::Console;
-use super::run::joined;
-use super::{CaseOptions, FolderOption};
+use super::findings::{joined, not_written};
+use super::options::{CaseOptions, FolderOption};
 use clap::Args;
 use signorini::preview;
 use signorini::{Diagnostics, build, load};
@@ -81,11 +81,6 @@ pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Pa
 fn write(path: &Path, bytes: &[u8]) -> Result<(), FsError> {
     RealFs.create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
     RealFs.write_atomic(path, bytes)
-}
-
-/// The message for a file that could not be written.
-pub fn not_written(error: &FsError) -> Diagnostic {
-    Diagnostic::error(&codes::NOT_WRITTEN, error.to_string()).help(error.help())
 }
 
 fn refused(found: &Diagnostics) -> u8 {

@@ -1,8 +1,7 @@
 //! `signorini completions SHELL`
 
-use super::Cli;
 use super::console::Console;
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 /// Print completions for a shell.
@@ -13,9 +12,9 @@ pub struct Completions {
 }
 
 impl Completions {
-    pub fn execute(self) -> u8 {
+    pub fn execute(self, mut command: Command) -> u8 {
         let mut text = Vec::new();
-        clap_complete::generate(self.shell, &mut Cli::command(), "signorini", &mut text);
+        clap_complete::generate(self.shell, &mut command, "signorini", &mut text);
         Console::stdout().text(&String::from_utf8_lossy(&text));
         0
     }

@@ -1,7 +1,8 @@
 //! `signorini convert DECK CASE`
 
 use super::console::Console;
-use super::{CaseOptions, WRONG_COMMAND};
+use super::exit::WRONG_COMMAND;
+use super::options::CaseOptions;
 use clap::Args;
 use signorini::load_case;
 use signorini_io::case::{MeshSource, resolved};

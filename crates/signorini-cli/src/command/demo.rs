@@ -1,10 +1,13 @@
 //! `signorini demo [NAME]`
 
 use super::console::Console;
-use super::run::{Job, refused};
+use super::exit::WRONG_COMMAND;
+use super::findings::not_written;
+use super::init;
+use super::job::{Job, refused};
+use super::options::SolveOptions;
 use super::signals::Signals;
 use super::templates::{self, TEMPLATES};
-use super::{SolveOptions, WRONG_COMMAND, init};
 use clap::Args;
 use signorini::{Reading, load};
 use signorini_io::fs::FsError;
@@ -32,7 +35,7 @@ impl Demo {
         let folder = std::env::temp_dir().join(format!("signorini-demo-{}", std::process::id()));
         let path = folder.join(init::file_name(template));
         if let Err(error) = init::write(&path, template) {
-            console.findings(&super::check::not_written(&error).into());
+            console.findings(&not_written(&error).into());
             return FsError::EXIT_CODE;
         }
         console.line(&format!("{}: {}", template.name, template.about));

@@ -1,7 +1,7 @@
 //! `signorini explain CODE`
 
-use super::WRONG_COMMAND;
 use super::console::Console;
+use super::exit::WRONG_COMMAND;
 use clap::Args;
 use signorini_io::diagnostic::{Code, codes};
 

@@ -1,8 +1,8 @@
 //! `signorini init [TEMPLATE] [DIR]`
 
-use super::WRONG_COMMAND;
-use super::check::not_written;
 use super::console::Console;
+use super::exit::WRONG_COMMAND;
+use super::findings::not_written;
 use super::templates::{self, TEMPLATES, Template};
 use clap::Args;
 use signorini_io::fs::{Fs, FsError, RealFs};

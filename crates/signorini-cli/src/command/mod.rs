@@ -9,12 +9,16 @@ mod demo;
 mod diff;
 mod doctor;
 mod exhausted;
+mod exit;
 mod explain;
+mod findings;
 mod guard;
 mod info;
 mod init;
+mod job;
 mod keywords;
 mod ndjson;
+mod options;
 mod pages;
 mod resume;
 mod run;
@@ -25,17 +29,13 @@ mod templates;
 mod terminal;
 mod threads;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
-use signorini::{Compat, Reading};
-use std::path::PathBuf;
+use exit::WRONG_COMMAND;
 use std::process::ExitCode;
 
 #[global_allocator]
 static MEMORY: pages::LargePages = pages::LargePages;
-
-/// The exit code for a command line that is not understood.
-const WRONG_COMMAND: u8 = 2;
 
 /// Contact mechanics by finite elements.
 #[derive(Debug, Parser)]
@@ -81,78 +81,6 @@ enum Verb {
     Completions(completions::Completions),
 }
 
-/// Options of all commands that read a case.
-#[derive(Clone, Debug, Default, Args)]
-struct CaseOptions {
-    /// Change a value of the case: --set material.steel.E=2000
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = assignment)]
-    set: Vec<(String, String)>,
-    /// The laws of a deck: the best there are, or those of a program; by default oofem for .in, else none
-    #[arg(long, value_name = "PROGRAM")]
-    compat: Option<CompatWord>,
-}
-
-/// A word for [`Compat`].
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum CompatWord {
-    /// The best way to hold surfaces apart, the best elements
-    None,
-    /// Penalties and types as the deck says
-    Ccx,
-    /// Elements as OOFEM integrates them
-    Oofem,
-}
-
-impl CaseOptions {
-    fn reading(&self) -> Reading {
-        Reading {
-            set: self.set.clone(),
-            compat: self.compat.map(|word| match word {
-                CompatWord::None => Compat::None,
-                CompatWord::Ccx => Compat::Ccx,
-                CompatWord::Oofem => Compat::Oofem,
-            }),
-        }
-    }
-}
-
-/// Options of all commands that solve.
-#[derive(Clone, Debug, Default, Args)]
-struct SolveOptions {
-    /// Number of threads; results do not depend on it
-    #[arg(short = 'j', long, value_name = "N", env = "SIGNORINI_THREADS", value_parser = clap::value_parser!(u64).range(1..=4096))]
-    threads: Option<u64>,
-    /// Events as lines of JSON on standard output
-    #[arg(long)]
-    json: bool,
-    /// Only errors and the ending
-    #[arg(short, long, conflicts_with = "verbose")]
-    quiet: bool,
-    /// Every iteration, too
-    #[arg(short, long)]
-    verbose: bool,
-    /// No progress bar
-    #[arg(long)]
-    no_progress: bool,
-    /// Stop after this time, resumable: 90s, 10min, 2h
-    #[arg(long, value_name = "TIME", value_parser = duration)]
-    max_wall: Option<f64>,
-    /// Tell where the time went
-    #[arg(long)]
-    timings: bool,
-    /// Exit code 1 where the audit of the results finds something wrong, not just a warning
-    #[arg(long)]
-    strict: bool,
-}
-
-/// A folder for results.
-#[derive(Clone, Debug, Default, Args)]
-struct FolderOption {
-    /// The folder for the results; CASE.out next to the case where absent
-    #[arg(short = 'o', long = "output", value_name = "DIR")]
-    output: Option<PathBuf>,
-}
-
 /// Runs the command that the command line names.
 pub fn main() -> ExitCode {
     pages::keep_memory();
@@ -176,7 +104,7 @@ pub fn main() -> ExitCode {
             Verb::Keywords => keywords::execute(),
             Verb::Explain(explain) => explain.execute(),
             Verb::Doctor => doctor::execute(),
-            Verb::Completions(completions) => completions.execute(),
+            Verb::Completions(completions) => completions.execute(Cli::command()),
         }
     })
 }
@@ -192,33 +120,12 @@ fn refused(error: &clap::Error) -> u8 {
     }
 }
 
-fn assignment(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() => {
-            Ok((key.trim().to_owned(), value.to_owned()))
-        }
-        _ => Err("write KEY=VALUE, as in material.steel.E=2000".to_owned()),
-    }
-}
-
-fn duration(text: &str) -> Result<f64, String> {
-    signorini::text::seconds(text).ok_or_else(|| "write 90s, 10min or 2h".to_owned())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn assignments_are_split_at_the_first_equals_sign() {
-        assert_eq!(assignment("a.b=c=d"), Ok(("a.b".into(), "c=d".into())));
-        assert!(assignment("ab").is_err());
-        assert!(assignment("=1").is_err());
     }
 }

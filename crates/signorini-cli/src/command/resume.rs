@@ -1,8 +1,8 @@
 //! `signorini resume DIR`
 
-use super::SolveOptions;
 use super::console::Console;
-use super::run::{Job, refused};
+use super::job::{Job, refused};
+use super::options::SolveOptions;
 use super::signals::Signals;
 use clap::Args;
 use signorini::resume::{Stopped, stopped};

@@ -1,21 +1,13 @@
 //! `signorini run CASE`
 
-use super::console::Console;
-use super::ndjson::Ndjson;
-use super::signals::{Notice, Signals};
-use super::terminal::Terminal;
-use super::{CaseOptions, FolderOption, SolveOptions, threads};
+use super::job::{Job, refused};
+use super::options::{CaseOptions, FolderOption, SolveOptions};
+use super::signals::Signals;
+use super::threads;
 use clap::Args;
-use signorini::run::{Detail, Finished};
-use signorini::{
-    Diagnostics, Limits, Listener, Loaded, Model, News, RunOptions, Source, build, load_case,
-};
-use signorini_geometry::mesh::Mesh;
-use signorini_io::case::Case;
-use signorini_io::writers::json::Event;
+use signorini::load_case;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Solve a case.
 #[derive(Debug, Args)]
@@ -76,125 +68,4 @@ impl Run {
         }
         job.solve(&self.solve)
     }
-}
-
-/// Everything that is solved from: what `run` and `resume` have in common.
-pub struct Job {
-    pub case: Case,
-    pub mesh: Mesh,
-    pub warnings: Diagnostics,
-    pub source: Source,
-    pub folder: Option<PathBuf>,
-    pub fresh: bool,
-    pub resume: bool,
-    pub threads: usize,
-    pub signals: Signals,
-    /// When the command began.
-    pub clock: Instant,
-    pub read_seconds: f64,
-}
-
-impl Job {
-    /// What was loaded since `clock`, to be solved in its own folder.
-    pub fn new(loaded: Loaded, signals: Signals, clock: Instant, options: &SolveOptions) -> Self {
-        Self {
-            signals,
-            clock,
-            threads: threads::make(options.threads, loaded.case.solver.threads),
-            case: loaded.case,
-            mesh: loaded.mesh,
-            warnings: loaded.warnings,
-            source: loaded.source,
-            folder: None,
-            fresh: false,
-            resume: false,
-            read_seconds: clock.elapsed().as_secs_f64(),
-        }
-    }
-
-    /// Builds, solves, reports; returns the exit code.
-    pub fn solve(self, options: &SolveOptions) -> u8 {
-        let clock = Instant::now();
-        let mut model = match build(self.case, self.mesh) {
-            Ok(model) => model,
-            Err(found) => return refused(&joined(self.warnings, found), options),
-        };
-        model.name.clone_from(&self.source.name);
-        let mut run = RunOptions::new(self.source);
-        run.warnings = self.warnings;
-        run.folder = self.folder.unwrap_or(run.folder);
-        run.fresh = self.fresh;
-        run.resume = self.resume;
-        run.strict = options.strict;
-        run.threads = self.threads;
-        run.seconds = [self.read_seconds, clock.elapsed().as_secs_f64()];
-        run.limits = Limits {
-            signal: Arc::clone(&self.signals.seen),
-            deadline: options
-                .max_wall
-                .map(|s| self.clock + Duration::from_secs_f64(s.min(1e9))),
-        };
-        self.signals.are_requests();
-        let finished = solve(model, &run, options);
-        if options.timings {
-            timings(&finished);
-        }
-        finished.exit_code
-    }
-}
-
-/// Solves and reports as the options say.
-fn solve(model: Model, run: &RunOptions, options: &SolveOptions) -> Finished {
-    let level = if options.json {
-        signorini::run::narration::Level::Important
-    } else {
-        Terminal::level(options.quiet, options.verbose)
-    };
-    let notice = Notice::new(run.limits.clone());
-    let _watch = notice.clone().watch();
-    let progress = !options.no_progress && !options.json;
-    let mut terminal = Terminal::new(level, progress, notice);
-    if options.json {
-        signorini::solve(model, run, &mut (Ndjson(Console::stdout()), terminal))
-    } else {
-        signorini::solve(model, run, &mut terminal)
-    }
-}
-
-/// Tells why nothing is solved, and returns the exit code.
-pub fn refused(found: &Diagnostics, options: &SolveOptions) -> u8 {
-    Console::stderr().findings(found);
-    let code = found.exit_code().unwrap_or(3);
-    if options.json {
-        let mut out = Ndjson(Console::stdout());
-        signorini::run::tell(found, &mut out);
-        let event = Event::End {
-            status: "not started".into(),
-            exit_code: code,
-            seconds: 0.0,
-        };
-        let _ = out.hear(&News {
-            event: &event,
-            detail: Detail::None,
-        });
-    }
-    code
-}
-
-pub fn joined(mut first: Diagnostics, second: Diagnostics) -> Diagnostics {
-    first.append(second);
-    first
-}
-
-fn timings(finished: &Finished) {
-    let console = Console::stderr();
-    for (phase, seconds) in &finished.summary.time {
-        console.line(&format!("  {phase:<10}{seconds:>9.3} s"));
-    }
-    let steps = &finished.summary.steps;
-    let iterations: u64 = steps.iter().map(|step| step.linear_iterations).sum();
-    let fallbacks: u64 = steps.iter().map(|step| step.fallbacks).sum();
-    console.line(&format!(
-        "  {iterations} linear iterations, {fallbacks} times given way to a direct solution"
-    ));
 }

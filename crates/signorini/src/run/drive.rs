@@ -19,7 +19,7 @@ use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_io::fs::{BehindFs, FsError};
 use signorini_io::writers::frd::FrdError;
-use signorini_io::writers::json::{DiagnosticSummary, Event, StepSummary, Summary};
+use signorini_io::writers::json::{DiagnosticSummary, Event, Expectation, StepSummary, Summary};
 use signorini_io::writers::pvd::Pvd;
 use signorini_mechanics::solve::{LinearSeconds, Outcome, RunError, Stepper};
 use signorini_mechanics::system::{Archive, ArchiveError};
@@ -166,6 +166,19 @@ enum Ending {
     Failed(Diagnostic),
 }
 
+/// The exit code of a run and the status in its summary.
+#[derive(Clone, Copy)]
+struct Verdict {
+    exit_code: u8,
+    status: &'static str,
+}
+
+impl Verdict {
+    fn new(exit_code: u8, status: &'static str) -> Self {
+        Self { exit_code, status }
+    }
+}
+
 impl Run<'_, '_> {
     fn finish(mut self, start: Start, from: Option<&Checkpoint>) -> Finished {
         let mut found = self.options.warnings.clone();
@@ -269,66 +282,86 @@ impl Run<'_, '_> {
         let solved = matches!(ending, Ending::Solved) && self.recorder.error.is_none();
         self.recorder.finish(solved);
         self.recorder.settle();
-        let mut verdicts = Vec::new();
         let audited = self.recorder.audit.warnings(self.model);
         let wrong = self.report_unless_allowed(audited, &mut found);
-        let (mut exit_code, mut status) = match ending {
+        let (mut verdict, expectations) = self.judge(ending, &mut found);
+        let names: Vec<String> = self.model.contacts.iter().map(|c| c.name.clone()).collect();
+        let idle = self.recorder.idle.notes(&names, &self.model.mesh);
+        self.report_unless_allowed(idle, &mut found);
+        let far = drift::warnings(&self.recorder.drifts, self.model);
+        self.report_unless_allowed(far, &mut found);
+        if verdict.exit_code == 0 && wrong && self.options.strict {
+            verdict = Verdict::new(1, "audit failed");
+        }
+        let mut summary = self.summary(expectations, nunknown, solving);
+        self.write_ending(verdict, &mut summary, &mut found);
+        Finished {
+            exit_code: summary.exit_code,
+            diagnostics: found,
+            summary,
+            in_trouble: self.in_trouble,
+        }
+    }
+
+    /// What an ending means, and what became of the expectations where the case is solved.
+    fn judge(&mut self, ending: Ending, found: &mut Diagnostics) -> (Verdict, Vec<Expectation>) {
+        match ending {
             Ending::Solved => {
-                verdicts = self.expectations();
+                let expectations = self.expectations();
                 let open = self.never_closed();
-                self.report_unless_allowed(open, &mut found);
-                let ok = verdicts.iter().all(|v| v.ok);
-                (
-                    u8::from(!ok),
-                    if ok { "solved" } else { "expectation failed" },
-                )
+                self.report_unless_allowed(open, found);
+                let verdict = match expectations.iter().all(|one| one.ok) {
+                    true => Verdict::new(0, "solved"),
+                    false => Verdict::new(1, "expectation failed"),
+                };
+                (verdict, expectations)
             }
             Ending::Stopped(stop) => {
                 if stop == Stop::Time {
                     let limit = self.stopped_by_time();
-                    self.report(limit, &mut found);
+                    self.report(limit, found);
                 }
-                (stop.exit_code(), stop.status())
+                (Verdict::new(stop.exit_code(), stop.status()), Vec::new())
             }
             Ending::Failed(one) => {
                 let code = one.code.class.exit_code();
-                self.report(one, &mut found);
+                self.report(one, found);
                 let status = match code {
                     4 => "model ill-posed",
                     7 => "cannot resume",
                     8 => "out of memory",
                     _ => "not converged",
                 };
-                (code, status)
+                (Verdict::new(code, status), Vec::new())
             }
-        };
-        let names: Vec<String> = self.model.contacts.iter().map(|c| c.name.clone()).collect();
-        let idle = self.recorder.idle.notes(&names, &self.model.mesh);
-        self.report_unless_allowed(idle, &mut found);
-        let far = drift::warnings(&self.recorder.drifts, self.model);
-        self.report_unless_allowed(far, &mut found);
-        if exit_code == 0 && wrong && self.options.strict {
-            (exit_code, status) = (1, "audit failed");
         }
-        let mut summary = Summary {
+    }
+
+    /// The summary but for how the run ended.
+    fn summary(
+        &mut self,
+        expectations: Vec<Expectation>,
+        nunknown: usize,
+        solving: f64,
+    ) -> Summary {
+        let [read, build] = self.options.seconds;
+        let total = self.clock.elapsed().as_secs_f64() + self.options.seconds.iter().sum::<f64>();
+        Summary {
             audit: self.recorder.audit.summary(&self.model.mesh),
             steps: self.recorder.counts.steps.clone(),
             contacts: std::mem::take(&mut self.recorder.contacts),
-            expectations: verdicts,
+            expectations,
             work_stabilization: self.recorder.work_stabilization,
             work_external: self.recorder.work_external,
             time: [
-                ("read", self.options.seconds[0]),
-                ("build", self.options.seconds[1]),
+                ("read", read),
+                ("build", build),
                 ("solve", solving),
                 ("analyze", self.linear.analyze),
                 ("factorize", self.linear.factorize),
                 ("substitute", self.linear.solve),
                 ("write", self.recorder.write_seconds),
-                (
-                    "total",
-                    self.clock.elapsed().as_secs_f64() + self.options.seconds.iter().sum::<f64>(),
-                ),
+                ("total", total),
             ]
             .map(|(phase, seconds)| (phase.to_owned(), seconds))
             .into(),
@@ -337,33 +370,37 @@ impl Run<'_, '_> {
             version: crate::VERSION.into(),
             inputs: self.options.source.inputs.clone(),
             ..Summary::default()
-        };
+        }
+    }
+
+    /// Writes the ending into summary, events and log, and reports it.
+    fn write_ending(
+        &mut self,
+        mut verdict: Verdict,
+        summary: &mut Summary,
+        found: &mut Diagnostics,
+    ) {
         let path = self.recorder.setting.tree.path("summary.json");
-        let mut event = Event::End {
-            status: String::new(),
-            exit_code,
-            seconds: summary.time.get("total").copied().unwrap_or(0.0),
-        };
-        let totals = self.totals(&summary);
+        let seconds = summary.time.get("total").copied().unwrap_or(0.0);
+        let totals = self.totals(summary);
         // twice at most: the writing of the ending may fail, which makes another ending
-        loop {
+        let event = loop {
             let failed = self.recorder.error.take();
             if let Some(error) = &failed {
-                (exit_code, status) = (6, "not written");
+                verdict = Verdict::new(6, "not written");
                 let one = self.not_written(error);
                 self.recorder
                     .tell_listener(&event_of(&one), Detail::Finding(&one));
                 found.push(one);
             }
-            summary.exit_code = exit_code;
-            summary.status = status.to_owned();
-            summary.diagnostics = summaries(&found);
-            if let Event::End {
-                status, exit_code, ..
-            } = &mut event
-            {
-                (*status, *exit_code) = (summary.status.clone(), summary.exit_code);
-            }
+            summary.exit_code = verdict.exit_code;
+            summary.status = verdict.status.to_owned();
+            summary.diagnostics = summaries(found);
+            let event = Event::End {
+                status: summary.status.clone(),
+                exit_code: summary.exit_code,
+                seconds,
+            };
             let written = summary.write(self.recorder.setting.fs.as_ref(), &path);
             if failed.is_none() {
                 self.recorder.record(&event, Detail::End(&totals));
@@ -373,16 +410,10 @@ impl Run<'_, '_> {
             }
             self.recorder.settle();
             if failed.is_some() || self.recorder.error.is_none() {
-                break;
+                break event;
             }
-        }
+        };
         self.recorder.tell_listener(&event, Detail::End(&totals));
-        Finished {
-            exit_code,
-            diagnostics: found,
-            summary,
-            in_trouble: self.in_trouble,
-        }
     }
 
     /// Passes a finding to the files and the listener, and adds it to the summary.
@@ -417,7 +448,7 @@ impl Run<'_, '_> {
         }
     }
 
-    fn expectations(&mut self) -> Vec<signorini_io::writers::json::Expectation> {
+    fn expectations(&mut self) -> Vec<Expectation> {
         let verdicts = self.recorder.expectations.judge();
         let tolerances = self.recorder.expectations.tolerances();
         for (verdict, tolerance) in verdicts.iter().zip(&tolerances) {

@@ -10,8 +10,7 @@
 //!   expect ball-block.pressure_max  38.12  (38.80 ± 3 %)  ✓
 //! ```
 
-use super::news::{Detail, Effort, Facts, News, Totals};
-use super::recorder::SLOW;
+use super::news::{Detail, Effort, Facts, News, SLOW, Totals};
 use crate::text::{count, plural, short};
 use signorini_io::diagnostic::{Diagnostics, Severity};
 use signorini_io::writers::json::Event;
@@ -70,84 +69,14 @@ impl Narrator {
                 lines
             }
             (
-                Event::Cutback {
-                    step,
-                    inc,
-                    att,
-                    size,
-                    why,
-                    ..
-                },
+                Event::Cutback { .. }
+                | Event::Followed { .. }
+                | Event::Stabilized { .. }
+                | Event::Held { .. },
                 _,
             ) => {
                 let mut lines = self.head();
-                lines.push(line(
-                    format!(
-                        " {step:<12}{inc:>4}  {att:>3}  cut to {}: {why}",
-                        short(*size)
-                    ),
-                    Level::Normal,
-                ));
-                lines
-            }
-            (
-                Event::Followed {
-                    step,
-                    inc,
-                    att,
-                    parts,
-                    ..
-                },
-                _,
-            ) => {
-                let mut lines = self.head();
-                lines.push(line(
-                    format!(" {step:<12}{inc:>4}  {att:>3}  gone through in {parts} parts"),
-                    Level::Normal,
-                ));
-                lines
-            }
-            (
-                Event::Stabilized {
-                    step,
-                    inc,
-                    att,
-                    stages,
-                    work,
-                    work_external,
-                    ..
-                },
-                _,
-            ) => {
-                let mut lines = self.head();
-                let part = match 100.0 * work / work_external.abs() {
-                    part if part.is_finite() => {
-                        format!(", {part:.2} % of that of supports and loads")
-                    }
-                    _ => String::new(),
-                };
-                lines.push(line(
-                    format!(
-                        " {step:<12}{inc:>4}  {att:>3}  no equilibrium nearby: led to another by viscous forces, in \
-                         {stages} stages; their work is {work:.3e}{part}"
-                    ),
-                    Level::Normal,
-                ));
-                lines
-            }
-            (Event::Held { step, at }, _) => {
-                let mut lines = self.head();
-                lines.push(line(
-                    format!(
-                        " {step:<12}      warning: nothing resists {}, and no load acts there: held at {}",
-                        match at.len() {
-                            1 => "a motion".to_owned(),
-                            n => format!("{n} motions"),
-                        },
-                        at.join(", ")
-                    ),
-                    Level::Normal,
-                ));
+                lines.extend(remedy(news.event).map(|text| line(text, Level::Normal)));
                 lines
             }
             (Event::Solver { note, .. }, _) => {
@@ -251,6 +180,61 @@ fn iteration(record: &IterationRecord) -> String {
     )
 }
 
+/// What was done where Newton's method failed or nothing resists a motion.
+fn remedy(event: &Event) -> Option<String> {
+    Some(match event {
+        Event::Cutback {
+            step,
+            inc,
+            att,
+            size,
+            why,
+            ..
+        } => {
+            let size = short(*size);
+            format!(" {step:<12}{inc:>4}  {att:>3}  cut to {size}: {why}")
+        }
+        Event::Followed {
+            step,
+            inc,
+            att,
+            parts,
+            ..
+        } => format!(" {step:<12}{inc:>4}  {att:>3}  gone through in {parts} parts"),
+        Event::Stabilized {
+            step,
+            inc,
+            att,
+            stages,
+            work,
+            work_external,
+            ..
+        } => {
+            let part = match 100.0 * work / work_external.abs() {
+                part if part.is_finite() => {
+                    format!(", {part:.2} % of that of supports and loads")
+                }
+                _ => String::new(),
+            };
+            format!(
+                " {step:<12}{inc:>4}  {att:>3}  no equilibrium nearby: led to another by viscous forces, in \
+                 {stages} stages; their work is {work:.3e}{part}"
+            )
+        }
+        Event::Held { step, at } => {
+            let motions = match at.len() {
+                1 => "a motion".to_owned(),
+                n => format!("{n} motions"),
+            };
+            let at = at.join(", ");
+            format!(
+                " {step:<12}      warning: nothing resists {motions}, and no load acts there: held at {at}"
+            )
+        }
+        _ => return None,
+    })
+}
+
 fn increment(step: &str, record: &IncrementRecord, frame: &Frame, effort: &Effort) -> String {
     let pressure = frame
         .contacts
@@ -335,8 +319,8 @@ mod tests {
     use super::digits;
 
     #[test]
-    fn values_are_told_with_seven_digits() {
-        let told = [
+    fn values_are_printed_with_seven_digits() {
+        let found = [
             38.8,
             25.0,
             -0.000725088618977,
@@ -355,7 +339,7 @@ mod tests {
             "0",
             "2.000000e9",
         ];
-        assert_eq!(told, wanted);
+        assert_eq!(found, wanted);
         assert_eq!(digits(f64::NAN), "was never reached");
     }
 }

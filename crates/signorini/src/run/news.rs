@@ -5,6 +5,9 @@ use signorini_io::writers::json::Event;
 use signorini_mechanics::solve::{Cause, Flow, IncrementRecord, IterationRecord};
 use signorini_mechanics::system::Frame;
 
+/// Iterations from which on an increment is called slow.
+pub const SLOW: usize = 8;
+
 /// One piece of news.
 #[derive(Clone, Copy, Debug)]
 pub struct News<'a> {

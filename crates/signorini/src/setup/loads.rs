@@ -7,17 +7,50 @@ use super::quoted;
 use super::steps::idle;
 use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::surface::RigidId;
-use signorini_geometry::tensor::Vec3;
-use signorini_io::case::{self, Axis, Case, Directions, LoadKind, Step};
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
-use signorini_mechanics::model::{BodyKind, BodyPart, ConstraintKind, ConstraintPart, Load};
+use signorini_io::case::{self, Axis, Case, Directions, Step};
+use signorini_io::diagnostic::{self, Diagnostic, Diagnostics, codes};
+use signorini_mechanics::load::{self, Acting, Domain, Load, Place};
+use signorini_mechanics::model::{BodyKind, BodyPart, ConstraintKind, ConstraintPart};
 use signorini_mechanics::system::Idealisation;
+use signorini_vocabulary::Entry;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// What a load is called: by its own name, or by its step and its number there.
 pub(super) fn name(step: &Step, number: usize, load: &case::Load) -> String {
     let given = load.name.as_ref().map(|name| name.value.clone());
     given.unwrap_or_else(|| format!("{}#{number}", step.name.value))
+}
+
+/// What acts, as its entry makes it.
+fn acting(load: &case::Load, found: &mut Diagnostics) -> Option<Arc<dyn Load>> {
+    let acts = match Entry::make(&load::TABLE, &load.kind) {
+        Ok(acts) => acts,
+        Err(fault) => {
+            let message = format!("`{}` of a load: {fault}", load.kind.name);
+            found.push(
+                Diagnostic::error(&codes::CONTRADICTION, message)
+                    .at(&load.what, "")
+                    .help("correct its values"),
+            );
+            return None;
+        }
+    };
+    let Some(follows) = &load.follows else {
+        return Some(acts);
+    };
+    let following = acts.following(follows.value);
+    if follows.value && following.is_none() {
+        found.push(
+            Diagnostic::error(
+                &codes::CONTRADICTION,
+                format!("`{}` keeps its direction", load.kind.name),
+            )
+            .at(&follows.place, "only a pressure follows")
+            .help("delete `follows`; or load with a `pressure`"),
+        );
+    }
+    Some(following.unwrap_or(acts))
 }
 
 /// What loads refer to.
@@ -29,124 +62,93 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// What acts; nothing where it cannot act on what is named.
-    pub fn load(&self, load: &case::Load, found: &mut Diagnostics) -> Option<Load> {
-        self.check_follower(load, found);
-        if let Some(carrier) = self.carriers.get(&load.on) {
-            return self.on_carrier(load, carrier, found);
-        }
-        let (on, names) = (&load.on, self.names);
-        match &load.kind {
-            LoadKind::Force(force) => {
-                let total = Vec3::from(*force);
-                let nodes = names.nodes(on, found)?;
-                Some(match names.covering(on, &nodes) {
-                    Some(faces) => Load::Force { faces, total },
-                    None => Load::Nodes(even(&nodes, total / nodes.len() as f64)),
-                })
+    /// What acts and where; nothing where it cannot act on what is named.
+    pub fn load(&self, load: &case::Load, found: &mut Diagnostics) -> Option<Acting> {
+        let acts = acting(load, found)?;
+        let place = match self.carriers.get(&load.on) {
+            Some(carrier) => {
+                self.check_carrier(load, acts.as_ref(), carrier, found)?;
+                Place::Carrier(carrier)
             }
-            LoadKind::PerNode(force) => {
-                let nodes = names.nodes(on, found)?;
-                Some(Load::Nodes(even(&nodes, Vec3::from(*force))))
-            }
-            LoadKind::Moment(moment) => Some(Load::Moment {
-                nodes: names.nodes(on, found)?,
-                moment: Vec3::from(*moment),
-            }),
-            LoadKind::Traction(traction) => Some(Load::Traction {
-                faces: names.faces(on, "a traction", found)?,
-                traction: Vec3::from(*traction),
-            }),
-            LoadKind::Pressure(pressure) => Some(Load::Pressure {
-                faces: names.faces(on, "a pressure", found)?,
-                pressure: *pressure,
-                follows: load.follows.as_ref().is_none_or(|follows| follows.value),
-            }),
-            LoadKind::BodyForce(force) => Some(Load::Body {
-                cells: self.cells(load, found)?,
-                force: Vec3::from(*force),
-            }),
-            LoadKind::Gravity(acceleration) => {
-                self.check_axial(load, *acceleration, found);
-                Some(Load::Gravity {
-                    cells: self.heavy(load, found)?,
-                    acceleration: Vec3::from(*acceleration),
-                })
-            }
-            LoadKind::Centrifugal { speed, point, axis } => Some(Load::Centrifugal {
-                cells: self.heavy(load, found)?,
-                speed: *speed,
-                point: Vec3::from(*point),
-                axis: Vec3::from(*axis).normalized()?,
-            }),
-        }
+            None => self.place(load, acts.as_ref(), found)?,
+        };
+        Some(Acting { load: acts, place })
     }
 
-    fn on_carrier(
-        &self,
-        load: &case::Load,
-        carrier: RigidId,
-        found: &mut Diagnostics,
-    ) -> Option<Load> {
-        let (force, moment) = match &load.kind {
-            LoadKind::Force(force) | LoadKind::PerNode(force) => (Vec3::from(*force), Vec3::ZERO),
-            LoadKind::Moment(moment) => (Vec3::ZERO, Vec3::from(*moment)),
-            kind => {
-                let message = format!(
-                    "`{}` does not act on {}, which moves as a whole",
-                    kind.key(),
-                    quoted(&load.on)
-                );
-                found.push(
-                    Diagnostic::error(&codes::WRONG_KIND, message)
-                        .at(&load.what, "it takes `force` and `moment`")
-                        .help("write its resultant as  force = [x, y, z]  or  moment = [x, y, z]"),
-                );
-                return None;
+    /// Where a load acts that does not act on a carrier.
+    fn place(&self, load: &case::Load, acts: &dyn Load, found: &mut Diagnostics) -> Option<Place> {
+        let (on, names) = (&load.on, self.names);
+        Some(match acts.domain() {
+            Domain::Nodes => Place::Nodes(names.nodes(on, found)?),
+            Domain::FacesOrNodes => {
+                let nodes = names.nodes(on, found)?;
+                match names.covering(on, &nodes) {
+                    Some(faces) => Place::Faces(faces),
+                    None => Place::Nodes(nodes),
+                }
             }
-        };
-        if !self.carriers.moves_something(carrier) {
-            found.push(idle(&load.on));
-        }
-        Some(Load::Carrier {
-            carrier,
-            force,
-            moment,
+            Domain::Faces => {
+                let what = format!("a {}", load.kind.name);
+                Place::Faces(names.faces(on, &what, found)?)
+            }
+            Domain::Volume => {
+                self.check_axial(load, acts, found);
+                Place::Cells(self.cells(load, found)?)
+            }
+            Domain::Mass => {
+                self.check_axial(load, acts, found);
+                Place::Cells(self.heavy(load, found)?)
+            }
         })
     }
 
-    /// Only a pressure has a direction that a surface can turn.
-    fn check_follower(&self, load: &case::Load, found: &mut Diagnostics) {
-        let Some(follows) = load.follows.as_ref().filter(|follows| follows.value) else {
-            return;
-        };
-        if !matches!(load.kind, LoadKind::Pressure(_)) {
-            found.push(
-                Diagnostic::error(
-                    &codes::CONTRADICTION,
-                    format!("`{}` keeps its direction", load.kind.key()),
-                )
-                .at(&follows.place, "only a pressure follows")
-                .help("delete `follows`; or load with a `pressure`"),
+    /// Refuses loads that do not act on what moves as a whole.
+    fn check_carrier(
+        &self,
+        load: &case::Load,
+        acts: &dyn Load,
+        carrier: RigidId,
+        found: &mut Diagnostics,
+    ) -> Option<()> {
+        if acts.resultant().is_none() {
+            let message = format!(
+                "`{}` does not act on {}, which moves as a whole",
+                load.kind.name,
+                quoted(&load.on)
             );
+            found.push(
+                Diagnostic::error(&codes::WRONG_KIND, message)
+                    .at(&load.what, "it takes `force` and `moment`")
+                    .help("write its resultant as  force = [x, y, z]  or  moment = [x, y, z]"),
+            );
+            return None;
         }
+        if !self.carriers.moves_something(carrier) {
+            found.push(idle(&load.on));
+        }
+        Some(())
     }
 
-    /// Gravity across the axis of a body of revolution is no load of revolution.
-    fn check_axial(&self, load: &case::Load, acceleration: [f64; 3], found: &mut Diagnostics) {
+    /// Refuses loads that are not the same all around the axis of a body of revolution.
+    fn check_axial(&self, load: &case::Load, acts: &dyn Load, found: &mut Diagnostics) {
+        let Some(what_can) = acts.off_axis() else {
+            return;
+        };
         let of_model = super::idealisation(&self.case.model);
         let is_ring = |body: &BodyPart| body.kind.space(of_model) == Idealisation::Axisymmetric;
-        let falls = acceleration[0] != 0.0;
         // names that are not there are reported where the cells are looked for
-        let bodies = falls.then(|| self.deformable(load, &mut Diagnostics::new()));
-        let bodies = bodies.flatten().unwrap_or_default();
-        if bodies.iter().any(|(body, _)| is_ring(body)) {
+        let bodies = self.deformable(load, &mut Diagnostics::new());
+        if bodies
+            .unwrap_or_default()
+            .iter()
+            .any(|(body, _)| is_ring(body))
+        {
             found.push(
                 Diagnostic::error(
                     &codes::CONTRADICTION,
-                    "gravity across the axis is not axisymmetric",
+                    format!("{} across the axis is not axisymmetric", acts.quantity()),
                 )
-                .at(&load.what, "only its part along y can act"),
+                .at(&load.what, what_can),
             );
         }
     }
@@ -171,8 +173,7 @@ impl Context<'_> {
                         &codes::MISSING,
                         format!(
                             "`{}` needs the mass of body \"{}\"",
-                            load.kind.key(),
-                            body.name
+                            load.kind.name, body.name
                         ),
                     )
                     .at(&load.what, "its material has no `density`")
@@ -216,7 +217,7 @@ impl Context<'_> {
             );
             found.push(Diagnostic::error(&codes::WRONG_KIND, message).at(
                 &load.on.place,
-                format!("`{}` acts on bodies", load.kind.key()),
+                format!("`{}` acts on bodies", load.kind.name),
             ));
         }
         of_bodies.retain(|(_, cells)| !cells.is_empty());
@@ -252,16 +253,12 @@ impl Context<'_> {
     }
 }
 
-fn even(nodes: &[NodeId], force: Vec3) -> Vec<(NodeId, Vec3)> {
-    nodes.iter().map(|&node| (node, force)).collect()
-}
-
 /// Nodes with one common displacement.
 pub(super) struct Coupling {
     name: String,
     nodes: Vec<NodeId>,
     axes: [bool; 3],
-    place: Place,
+    place: diagnostic::Place,
 }
 
 impl Coupling {

@@ -247,7 +247,7 @@ fn of_load_error(error: &LoadError) -> (&'static Code, &'static str) {
             &codes::BAD_LOAD,
             "make the element part of a [[body]], or load another set",
         ),
-        LoadError::NoFace { .. } | LoadError::NoVolume { .. } => (
+        LoadError::Misplaced | LoadError::NoFace { .. } | LoadError::NoVolume { .. } => (
             &codes::WRONG_KIND,
             "name something that this load can act on",
         ),

@@ -4,12 +4,11 @@ use super::carriers::Carriers;
 use super::quoted;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::surface::{
-    self as geometry, Analytical, AnalyticalError, Cone, ContactSurface, Cylinder, Mount, Plane,
-    Polynomial, Side, Sphere, Torus, Triangulated,
+    self, Analytical, AnalyticalError, ContactSurface, Mount, Triangulated,
 };
-use signorini_geometry::tensor::Vec3;
-use signorini_io::case::{Case, Facing, Name, Shape, Surface};
+use signorini_io::case::{Case, Name, Shape, Surface};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_vocabulary::Entry;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -29,7 +28,7 @@ impl Surfaces {
             let mount = moved.map_or(Mount::fixed(ntan), |body| {
                 Mount::on(ntan, body, at.unwrap_or_default())
             });
-            let made = match surface(one, mount) {
+            let made = match made(one, mount) {
                 Ok(made) => Some(made),
                 Err(error) => {
                     let message = format!("surface {}: {error}", quoted(&one.name));
@@ -68,69 +67,24 @@ const fn remedy(error: &AnalyticalError) -> &'static str {
         | AnalyticalError::Tube { .. }
         | AnalyticalError::NoCoefficients
         | AnalyticalError::OutOfPlane { .. }
+        | AnalyticalError::Values(_)
         | AnalyticalError::Tangents { .. } => "correct the numbers of its `shape`",
     }
 }
 
 /// The surface of a shape on its mount.
-fn surface(one: &Surface, mount: Mount) -> Result<Arc<dyn ContactSurface>, AnalyticalError> {
-    let side = |facing: &Facing| match facing {
-        Facing::Outside => Side::Outside,
-        Facing::Inside => Side::Inside,
-    };
-    let vec = |v: &[f64; 3]| Vec3::from(*v);
-    let shape: Box<dyn geometry::Shape> = match &one.shape {
-        Shape::Plane { point, normal } => Box::new(Plane::new(vec(point), vec(normal))?),
-        Shape::Sphere {
-            center,
-            radius,
-            facing,
-        } => Box::new(Sphere::new(vec(center), *radius, side(facing))?),
-        Shape::Cylinder {
-            point,
-            axis,
-            radius,
-            facing,
-        } => {
-            let side = side(facing);
-            Box::new(Cylinder::new(vec(point), vec(axis), *radius, side)?)
-        }
-        Shape::Cone {
-            apex,
-            axis,
-            half_angle,
-        } => {
-            let half_angle = half_angle.to_radians();
-            Box::new(Cone::new(vec(apex), vec(axis), half_angle, Side::Outside)?)
-        }
-        Shape::Torus {
-            center,
-            axis,
-            radius,
-            tube,
-            facing,
-        } => {
-            let side = side(facing);
-            Box::new(Torus::new(vec(center), vec(axis), *radius, *tube, side)?)
-        }
-        Shape::Polynomial {
-            coefficients,
-            above,
-        } => {
-            let facing = if *above {
-                geometry::Facing::Above
-            } else {
-                geometry::Facing::Below
-            };
-            Box::new(Polynomial::new(coefficients, facing)?)
+fn made(one: &Surface, mount: Mount) -> Result<Arc<dyn ContactSurface>, AnalyticalError> {
+    match &one.shape {
+        Shape::Analytical(chosen) => {
+            let shape = Entry::make(&surface::TABLE, chosen)?;
+            Ok(Arc::new(Analytical::new(mount, shape)?))
         }
         Shape::Stl { .. } => {
             let (points, triangles) = one.triangles.clone().unwrap_or_default();
             let surface = Triangulated::new(mount, points, &triangles)?;
-            return Ok(Arc::new(surface));
+            Ok(Arc::new(surface))
         }
-    };
-    Ok(Arc::new(Analytical::new(mount, shape)?))
+    }
 }
 
 fn of_mesh(name: &Name) -> Diagnostic {

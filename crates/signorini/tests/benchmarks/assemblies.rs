@@ -49,57 +49,130 @@ struct Assembly {
     load: Option<f64>,
 }
 
-fn assembly(seed: u64, size: Size) -> Assembly {
-    let [fewest, most] = size.bodies;
-    let mut random = Random(seed);
-    let piled = random.next() < 0.35;
-    let sizes = loop {
-        let sizes = [0; 3].map(|_| 1 + random.below(size.along));
-        if (fewest..=most).contains(&sizes.iter().product::<usize>()) && (!piled || sizes[2] > 1) {
-            break sizes;
+/// What all bodies of an assembly share.
+struct Pattern {
+    /// Whether friction alone holds the sides.
+    piled: bool,
+    /// Bodies along every axis.
+    sizes: [usize; 3],
+    mu: f64,
+    /// Between neighbours along every axis; negative is overlap.
+    gaps: [f64; 3],
+    young: f64,
+    nu: f64,
+    /// Of the layers.
+    heights: Vec<f64>,
+}
+
+impl Pattern {
+    fn draw(random: &mut Random, size: Size) -> Self {
+        let [fewest, most] = size.bodies;
+        let piled = random.next() < 0.35;
+        let sizes = loop {
+            let sizes = [0; 3].map(|_| 1 + random.below(size.along));
+            let nbody = sizes.iter().product::<usize>();
+            if (fewest..=most).contains(&nbody) && (!piled || sizes[2] > 1) {
+                break sizes;
+            }
+        };
+        let mu = match random.next() {
+            x if x < 0.25 && !piled => 0.0,
+            _ => random.within(0.1, 0.6),
+        };
+        let gaps: [f64; 3] = [0; 3].map(|_| random.of(&[0.0, 0.0, 0.001, 0.01, -0.001]));
+        // what is not pushed together leaves gaps at its sides as they are
+        let gaps = if piled {
+            [gaps[0].abs(), gaps[1].abs(), gaps[2]]
+        } else {
+            gaps
+        };
+        let young = random.of(&[1e3, 7e4, 2e5]);
+        let nu = random.of(&[0.0, 0.2, 0.3, 0.4]);
+        let heights: Vec<f64> = (0..sizes[2])
+            .map(|_| random.of(&[1.0, 1.0, 0.25]))
+            .collect();
+        Self {
+            piled,
+            sizes,
+            mu,
+            gaps,
+            young,
+            nu,
+            heights,
         }
-    };
-    let single = sizes[0] * sizes[1] == 1;
-    let mu = match random.next() {
-        x if x < 0.25 && !piled => 0.0,
-        _ => random.within(0.1, 0.6),
-    };
-    let gaps: [f64; 3] = [0; 3].map(|_| random.of(&[0.0, 0.0, 0.001, 0.01, -0.001]));
-    // what is not pushed together leaves gaps at its sides as they are
-    let gaps = if piled {
-        [gaps[0].abs(), gaps[1].abs(), gaps[2]]
+    }
+
+    fn nbody(&self) -> usize {
+        self.sizes.iter().product()
+    }
+
+    /// Where a body begins along every axis.
+    fn origin(&self, [i, j, k]: [usize; 3]) -> Vec3 {
+        let floor = self.heights[..k].iter().sum::<f64>() + self.gaps[2] * k as f64;
+        Vec3::new(
+            i as f64 * (1.0 + self.gaps[0]),
+            j as f64 * (1.0 + self.gaps[1]),
+            floor,
+        )
+    }
+
+    /// Where a body ends along an axis.
+    fn end(&self, body: &Block, axis: usize) -> f64 {
+        let length = match axis {
+            2 => self.heights[body.at[2]],
+            _ => 1.0,
+        };
+        body.origin[axis] + length
+    }
+
+    /// The way along an axis until all gaps are closed.
+    fn closes(&self, axis: usize) -> f64 {
+        self.gaps[axis] * (self.sizes[axis] - 1) as f64
+    }
+}
+
+/// A body of an assembly.
+struct Block {
+    name: String,
+    /// Its place in the grid.
+    at: [usize; 3],
+    origin: Vec3,
+    /// Its elements, and whether it is a cylinder.
+    what: String,
+}
+
+/// Unknowns of a block.
+fn count(element: &str, cells: [usize; 3]) -> usize {
+    let per = if element.ends_with("20") || element.ends_with("10") {
+        2
     } else {
-        gaps
+        1
     };
-    let young = random.of(&[1e3, 7e4, 2e5]);
-    let nu = random.of(&[0.0, 0.2, 0.3, 0.4]);
-    let heights: Vec<f64> = (0..sizes[2])
-        .map(|_| random.of(&[1.0, 1.0, 0.25]))
-        .collect();
-    let floor = |layer: usize| heights[..layer].iter().sum::<f64>() + gaps[2] * layer as f64;
-    let mut scene = Scene::default();
-    let mut names = Vec::new();
-    let mut elements = Vec::new();
+    3 * cells.iter().map(|n| per * n + 1).product::<usize>()
+}
+
+/// Meshes all bodies, and counts their unknowns.
+fn blocks(
+    scene: &mut Scene,
+    pattern: &Pattern,
+    random: &mut Random,
+    most: usize,
+) -> (Vec<Block>, usize) {
+    let sizes = pattern.sizes;
+    let single = sizes[0] * sizes[1] == 1;
+    let mut blocks = Vec::new();
     let mut unknowns = 0;
-    for place in 0..sizes.iter().product::<usize>() {
-        let [i, j, k] = [
+    for place in 0..pattern.nbody() {
+        let at = [
             place % sizes[0],
             place / sizes[0] % sizes[1],
             place / (sizes[0] * sizes[1]),
         ];
+        let [i, j, k] = at;
         let name = format!("b{i}{j}{k}");
         let mut element = random.of(&["hex8", "hex8", "wedge6", "tet4", "hex20", "tet10"]);
         let mut cells = [0; 3].map(|_| 1 + random.below(3));
-        let rest =
-            size.unknowns.saturating_sub(unknowns) / (sizes.iter().product::<usize>() - place);
-        let count = |element: &str, cells: [usize; 3]| {
-            let per = if element.ends_with("20") || element.ends_with("10") {
-                2
-            } else {
-                1
-            };
-            3 * cells.iter().map(|n| per * n + 1).product::<usize>()
-        };
+        let rest = most.saturating_sub(unknowns) / (pattern.nbody() - place);
         if count(element, cells) > rest {
             element = "hex8";
         }
@@ -107,34 +180,39 @@ fn assembly(seed: u64, size: Size) -> Assembly {
             cells = cells.map(|n| (n - 1).max(1));
         }
         unknowns += count(element, cells);
-        let round = single && piled && random.next() < 0.5;
-        let origin = Vec3::new(
-            i as f64 * (1.0 + gaps[0]),
-            j as f64 * (1.0 + gaps[1]),
-            floor(k),
-        );
+        let round = single && pattern.piled && random.next() < 0.5;
+        let origin = pattern.origin(at);
         let corner = |at: [usize; 3]| {
             let [x, y, z] = [0, 1, 2].map(|a| at[a] as f64 / cells[a] as f64);
             let [x, y] = if round { disc([x, y]) } else { [x, y] };
-            origin + Vec3::new(x, y, z * heights[k])
+            origin + Vec3::new(x, y, z * pattern.heights[k])
         };
         scene.straight(&name, element, cells, corner);
-        elements.push(format!("{element}{}", if round { " round" } else { "" }));
-        names.push((name, [i, j, k], origin));
+        blocks.push(Block {
+            name,
+            at,
+            origin,
+            what: format!("{element}{}", if round { " round" } else { "" }),
+        });
     }
-    let low = |axis: usize, origin: &Vec3| origin[axis];
-    let high = |axis: usize, at: [usize; 3], origin: &Vec3| {
-        origin[axis] + if axis == 2 { heights[at[2]] } else { 1.0 }
-    };
-    let mut contacts = String::new();
-    for (name, at, origin) in &names {
+    (blocks, unknowns)
+}
+
+/// Contacts between all neighbours, either of which may be the secondary side.
+fn contacts(scene: &mut Scene, pattern: &Pattern, blocks: &[Block], random: &mut Random) -> String {
+    let mut text = String::new();
+    for block in blocks {
         for axis in 0..3 {
-            let mut next = *at;
+            let mut next = block.at;
             next[axis] += 1;
-            let Some((other, _, beyond)) = names.iter().find(|(_, at, _)| *at == next) else {
+            let Some(neighbour) = blocks.iter().find(|other| other.at == next) else {
                 continue;
             };
-            let faces = [(name, high(axis, *at, origin)), (other, low(axis, beyond))];
+            let (name, other) = (&block.name, &neighbour.name);
+            let faces = [
+                (name, pattern.end(block, axis)),
+                (other, neighbour.origin[axis]),
+            ];
             let sides = faces.map(|(group, level)| {
                 let set = format!("{group}_of_{name}_{other}");
                 let facets = scene.facets(group, axis, level);
@@ -150,52 +228,83 @@ fn assembly(seed: u64, size: Size) -> Assembly {
                 true => [first, second],
                 false => [second, first],
             };
-            write!(contacts, "[[contact]]\nname = \"{name}-{other}\"\nsecondary = \"{secondary}\"\nprimary = \"{primary}\"\n").unwrap();
-            if mu > 0.0 {
-                writeln!(contacts, "friction = {mu:?}").unwrap();
+            write!(text, "[[contact]]\nname = \"{name}-{other}\"\nsecondary = \"{secondary}\"\nprimary = \"{primary}\"\n").unwrap();
+            if pattern.mu > 0.0 {
+                writeln!(text, "friction = {:?}", pattern.mu).unwrap();
             }
         }
     }
-    let ends = [0, 1, 2].map(|axis| {
-        let last = &names[names.len() - 1];
-        high(axis, last.1, &last.2)
-    });
+    text
+}
+
+/// The outer planes of the assembly; of a pile the lowest and the highest.
+fn outer_planes(scene: &mut Scene, pattern: &Pattern, last: &Block) {
     let axes = [(0, "x"), (1, "y"), (2, "z")];
-    for (axis, name) in axes.into_iter().filter(|(axis, _)| !piled || *axis == 2) {
-        for (side, at) in [("0", 0.0), ("1", ends[axis])] {
+    for (axis, name) in axes {
+        if pattern.piled && axis != 2 {
+            continue;
+        }
+        for (side, at) in [("0", 0.0), ("1", pattern.end(last, axis))] {
             let place = format!("plane = \"{name}\", at = {at:?}");
             scene.place(&format!("{name}{side}"), &place);
         }
     }
-    let closes = |axis: usize| gaps[axis] * (sizes[axis] - 1) as f64;
-    let area = (sizes[0] * sizes[1]) as f64;
-    let load = (random.next() < 0.3).then(|| -1e-3 * young * area);
-    let increments = random.of(&[1, 2, 5]);
-    let groups: Vec<&str> = names.iter().map(|(name, ..)| name.as_str()).collect();
-    let mut case = scene
-        .elastic("3d", young, nu)
-        .body(&groups, "")
-        .also(&contacts)
-        .step("press", increments);
-    if piled {
+}
+
+/// The supports, and what pushes on the sides and on the top.
+fn pushed(mut case: Case, pattern: &Pattern, random: &mut Random, load: Option<f64>) -> Case {
+    if pattern.piled {
         case = case.fix("z0", "xyz");
     } else {
         case = case.fix("z0", "z").fix("x0", "x").fix("y0", "y");
         for (axis, name) in ["x", "y"].iter().enumerate() {
-            let motion = -1e-3 * random.next() - closes(axis).max(0.0);
+            let motion = -1e-3 * random.next() - pattern.closes(axis).max(0.0);
             case = case.displace(&format!("{name}1"), &format!("u{name} = {motion:?}"));
         }
     }
-    case = match load {
+    match load {
         Some(force) => case.load("z1", &format!("force = [0.0, 0.0, {force:?}]")),
         None => {
-            let motion = -random.within(1e-3, 4e-3) - closes(2).max(0.0);
-            let held = if piled { "ux = 0.0\nuy = 0.0\n" } else { "" };
+            let motion = -random.within(1e-3, 4e-3) - pattern.closes(2).max(0.0);
+            let held = if pattern.piled {
+                "ux = 0.0\nuy = 0.0\n"
+            } else {
+                ""
+            };
             case.displace("z1", &format!("{held}uz = {motion:?}"))
         }
-    };
+    }
+}
+
+fn assembly(seed: u64, size: Size) -> Assembly {
+    let mut random = Random(seed);
+    let pattern = Pattern::draw(&mut random, size);
+    let mut scene = Scene::default();
+    let (blocks, unknowns) = blocks(&mut scene, &pattern, &mut random, size.unknowns);
+    let contacts = contacts(&mut scene, &pattern, &blocks, &mut random);
+    outer_planes(&mut scene, &pattern, &blocks[blocks.len() - 1]);
+    let Pattern {
+        piled,
+        sizes,
+        mu,
+        gaps,
+        young,
+        nu,
+        ref heights,
+    } = pattern;
+    let area = (sizes[0] * sizes[1]) as f64;
+    let load = (random.next() < 0.3).then(|| -1e-3 * young * area);
+    let increments = random.of(&[1, 2, 5]);
+    let groups: Vec<&str> = blocks.iter().map(|block| block.name.as_str()).collect();
+    let case = scene
+        .elastic("3d", young, nu)
+        .body(&groups, "")
+        .also(&contacts)
+        .step("press", increments);
+    let case = pushed(case, &pattern, &mut random, load);
     let case = case.newton(&format!("force_tol = {FORCE_TOL:?}"));
     let kind = if piled { "piled" } else { "caged" };
+    let elements: Vec<&str> = blocks.iter().map(|block| block.what.as_str()).collect();
     let what = format!(
         "seed {seed}: {kind} {sizes:?}, mu {mu:.2}, gaps {gaps:?}, nu {nu}, heights {heights:?}, {} increments, {}, {unknowns} unknowns, {elements:?}",
         increments,

@@ -23,7 +23,7 @@ mod scene;
 use scene::{
     Below, EXACT, LAWS, METHODS, MU, Outcome, PRESS, SURFACES, Scene, is_plane, write_floor,
 };
-use signorini_geometry::mesh::{CellId, Face, boundary};
+use signorini_geometry::mesh::{CellId, Face, NodeId, boundary};
 use signorini_geometry::surface::{Analytical, Mount, SignedDistance};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_mechanics::material::NeoHookean;
@@ -199,10 +199,9 @@ fn quadratic_blocks_of_space_are_pressed_and_slid_by_every_way() {
     walk(&["hex20", "hex27", "wedge15", "tet10"], |_| true);
 }
 
-/// The same block on a surface of closures: distance, gradient and Hessian of a ball, or in the plane of a circle.
-fn on_closures(scene: &Scene, friction: bool) -> Vec3 {
-    let center = Vec3::new(0.5, -10.0, if scene.is_plane() { 0.0 } else { -0.5 });
-    let flat = scene.is_plane();
+/// A ball below the block, or in the plane a circle: its distance, gradient and Hessian as closures.
+fn ball(flat: bool) -> Analytical {
+    let center = Vec3::new(0.5, -10.0, if flat { 0.0 } else { -0.5 });
     let value = move |x: Vec3| Ok((x - center).norm() - 10.0);
     let gradient = move |x: Vec3| Ok((x - center) * (1.0 / (x - center).norm()));
     let hessian = move |x: Vec3| {
@@ -216,7 +215,36 @@ fn on_closures(scene: &Scene, friction: bool) -> Vec3 {
     };
     let shape = SignedDistance::new(10.0, Box::new(value), Box::new(gradient), Box::new(hessian));
     let ntan = if flat { 1 } else { 2 };
-    let surface = Analytical::new(Mount::fixed(ntan), Box::new(shape.unwrap())).unwrap();
+    Analytical::new(Mount::fixed(ntan), Box::new(shape.unwrap())).unwrap()
+}
+
+/// Presses the head down, then slides it.
+fn press_and_slide(head: &[NodeId], flat: bool) -> Vec<StepPart> {
+    let step = |name: &str, size, motions| StepPart {
+        name: name.into(),
+        duration: 1.0,
+        increments: Increments::Adaptive {
+            initial: size,
+            min: 1e-5,
+            max: size,
+            count_max: 100,
+        },
+        nonlinear: true,
+        changes: vec![Change::Prescribe(Target::Nodes(head.to_vec()), motions)],
+        loads: Vec::new(),
+        contacts: Vec::new(),
+        temperatures: Vec::new(),
+    };
+    let axes = if flat { vec![0] } else { vec![0, 2] };
+    let mut held: Vec<(usize, Motion)> = axes.into_iter().map(|a| (a, Motion::Hold)).collect();
+    held.push((1, Motion::Ramp(-PRESS)));
+    let slid = vec![(0, Motion::Ramp(scene::SLIDE))];
+    vec![step("press", 0.5, held), step("slide", 0.25, slid)]
+}
+
+/// The same block on a surface of closures; the force on its foot.
+fn on_closures(scene: &Scene, friction: bool) -> Vec3 {
+    let flat = scene.is_plane();
     let built = scene.model().unwrap();
     let mesh = built.mesh.clone();
     let cells: Vec<_> = mesh
@@ -235,26 +263,6 @@ fn on_closures(scene: &Scene, friction: bool) -> Vec3 {
     };
     let faces = boundary(&mesh, cells.iter().copied());
     let faces = faces.into_iter().filter(is_foot).collect();
-    let head = built.nodes_of("head").unwrap();
-    let moved = |motions| Change::Prescribe(Target::Nodes(head.clone()), motions);
-    let axes = if flat { vec![0] } else { vec![0, 2] };
-    let mut held: Vec<(usize, Motion)> = axes.into_iter().map(|a| (a, Motion::Hold)).collect();
-    held.push((1, Motion::Ramp(-PRESS)));
-    let step = |name: &str, size, change| StepPart {
-        name: name.into(),
-        duration: 1.0,
-        increments: Increments::Adaptive {
-            initial: size,
-            min: 1e-5,
-            max: size,
-            count_max: 100,
-        },
-        nonlinear: true,
-        changes: vec![change],
-        loads: Vec::new(),
-        contacts: Vec::new(),
-        temperatures: Vec::new(),
-    };
     let contact = ContactPart {
         method: Method::NodeToSegment,
         enforcement: if scene.law == LAWS[0].1 {
@@ -266,7 +274,7 @@ fn on_closures(scene: &Scene, friction: bool) -> Vec3 {
         ..ContactPart::new(
             "touch",
             SidePart::Faces(faces),
-            PrimaryPart::Surface(Arc::new(surface)),
+            PrimaryPart::Surface(Arc::new(ball(flat))),
         )
     };
     let space = if flat {
@@ -281,10 +289,7 @@ fn on_closures(scene: &Scene, friction: bool) -> Vec3 {
             kind: BodyKind::solid(Box::new(NeoHookean::new(scene::MODULUS, 0.3))),
         }],
         contacts: vec![contact],
-        steps: vec![
-            step("press", 0.5, moved(held)),
-            step("slide", 0.25, moved(vec![(0, Motion::Ramp(scene::SLIDE))])),
-        ],
+        steps: press_and_slide(&built.nodes_of("head").unwrap(), flat),
         ..Parts::new(&mesh, space)
     };
     let mut model = Model::assemble(parts).unwrap();

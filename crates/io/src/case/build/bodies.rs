@@ -7,7 +7,7 @@ use signorini_vocabulary::Description;
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
 use super::super::scalar::number;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes, listed};
 
 impl Builder<'_> {

@@ -2,7 +2,7 @@
 
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use signorini_vocabulary::{Chosen, Description};
 
@@ -327,12 +327,10 @@ impl Builder<'_> {
             };
             return Enforcement::Augmented { by, penalty };
         }
-        let mut laws = self.vocabulary.laws().iter();
+        let vocabulary = self.vocabulary;
+        let mut laws = vocabulary.laws().iter();
         if let Some(law) = laws.find(|law| table.has(law.name)) {
-            return Enforcement::Law(Chosen {
-                name: law.name,
-                values: table.table(law.name).values(law.keys),
-            });
+            return Enforcement::Law(self.chosen(table, law));
         }
         if table.has("lagrange") {
             return Enforcement::Lagrange;
@@ -409,10 +407,11 @@ impl Builder<'_> {
             return None;
         }
         let is_meant = |law: &&Description| law.keys.first().is_some_and(|key| table.has(key.name));
-        let law = self.vocabulary.frictions().iter().find(is_meant)?;
+        let vocabulary = self.vocabulary;
+        let law = vocabulary.frictions().iter().find(is_meant)?;
         let limit = Chosen {
             name: law.name,
-            values: table.values(law.keys),
+            values: self.values(table, law.keys),
         };
         let stick = value("stiffness").map(Stick::Stiffness);
         Some(Friction {

@@ -6,7 +6,7 @@ use super::super::check::id;
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
 use super::super::scalar::{is_usable, number, shortened};
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Place, Spanned, codes};
 
 impl Builder<'_> {

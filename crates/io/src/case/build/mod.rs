@@ -1,6 +1,8 @@
 //! From a checked document to a [`Case`], and the checks that need more than one table.
 
 mod bodies;
+mod builder;
+mod chosen;
 mod contact;
 mod geometry;
 mod names;
@@ -8,17 +10,17 @@ mod run;
 mod steps;
 mod surface;
 
-use toml::de::{DeTable, DeValue};
-
-use super::fields::{Fields, numbers};
+use super::fields::Fields;
 use super::origin::Origins;
 use super::parts::*;
 use super::scalar::shortened;
 use super::vocabulary::Vocabulary;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, SourceFile, closest, codes};
+use crate::diagnostic::{Code, Diagnostics, SourceFile, closest, codes};
 pub(super) use bodies::COMPONENTS;
+use builder::Builder;
 use geometry::{at_points, temperatures_at};
 use run::{expectation, output};
+use toml::de::DeTable;
 
 /// The version of the case format that this program reads and writes.
 pub(super) const FORMAT: u64 = 1;
@@ -53,24 +55,7 @@ pub(super) fn empty() -> Case {
     build(&DeTable::new(), &Vocabulary::plain(), &origins).0
 }
 
-struct Builder<'v> {
-    vocabulary: &'v Vocabulary,
-    space: Space,
-    found: Diagnostics,
-}
-
 impl Builder<'_> {
-    fn error(
-        &mut self,
-        code: &'static Code,
-        message: impl Into<String>,
-        place: &Place,
-        remark: impl Into<String>,
-    ) {
-        self.found
-            .push(Diagnostic::error(code, message).at(place, remark));
-    }
-
     fn case(&mut self, root: Fields<'_>) -> Case {
         let format = root.count("format");
         if format > FORMAT {
@@ -176,72 +161,5 @@ impl Builder<'_> {
             }
         }
         allowed.into_iter().map(|one| one.value).collect()
-    }
-
-    /// A vector, or a point. In the plane its third component may be left away; it has to be zero.
-    fn vector(&mut self, fields: Fields<'_>, key: &str) -> Option<[f64; 3]> {
-        let value = fields.get(key)?;
-        self.vector_at(value.get_ref(), fields.at(value.span()), key)
-    }
-
-    fn vector_at(&mut self, value: &DeValue<'_>, place: Place, key: &str) -> Option<[f64; 3]> {
-        let plane = self.space.ndim() == 2;
-        if let Some([x, y]) = numbers::<2>(value) {
-            if !plane {
-                self.error(
-                    &codes::WRONG_LENGTH,
-                    format!("`{key}` needs 3 entries, found 2"),
-                    &place,
-                    "x, y and z",
-                );
-            }
-            return Some([x, y, 0.0]);
-        }
-        numbers::<3>(value)
-    }
-
-    /// A vector in the plane of a plane model.
-    fn vector_within(&mut self, fields: Fields<'_>, key: &str) -> Option<[f64; 3]> {
-        let vector = self.vector(fields, key)?;
-        self.within(vector, key, &fields.place(key));
-        Some(vector)
-    }
-
-    /// Refuses what leads out of a plane model.
-    fn within(&mut self, vector: [f64; 3], key: &str, place: &Place) {
-        if self.space.ndim() == 2 && vector[2] != 0.0 {
-            self.error(
-                &codes::CONTRADICTION,
-                format!("`{key}` leads out of the plane"),
-                place,
-                "a plane model has no z: write 0, or two entries",
-            );
-        }
-    }
-
-    /// A direction: the name of an axis, or a vector that is not zero.
-    fn line(&mut self, fields: Fields<'_>, key: &str) -> Option<[f64; 3]> {
-        if let Some(word) = fields.text_if(key) {
-            return Some(match word.value.as_str() {
-                "x" => [1.0, 0.0, 0.0],
-                "y" => [0.0, 1.0, 0.0],
-                _ => [0.0, 0.0, 1.0],
-            });
-        }
-        let vector = self.vector(fields, key)?;
-        self.has_direction(vector, key, &fields.place(key));
-        Some(vector)
-    }
-
-    /// Refuses a vector of length zero.
-    fn has_direction(&mut self, vector: [f64; 3], key: &str, place: &Place) {
-        if vector == [0.0; 3] {
-            self.error(
-                &codes::OUT_OF_RANGE,
-                format!("`{key}` has no direction"),
-                place,
-                "a vector of length zero",
-            );
-        }
     }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::fields::Fields;
 use super::super::parts::*;
 use super::super::scalar::shortened;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, closest, codes, listed};
 
 impl Builder<'_> {

@@ -3,7 +3,7 @@
 use super::super::fields::Fields;
 use super::super::parts::*;
 use super::super::scalar::shortened;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Place, Spanned, codes};
 
 impl Builder<'_> {

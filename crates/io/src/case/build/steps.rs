@@ -2,8 +2,9 @@
 
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
+use signorini_vocabulary::Chosen;
 
 impl Builder<'_> {
     pub(super) fn amplitude(&mut self, name: Name, fields: Fields<'_>) -> Amplitude {
@@ -225,7 +226,7 @@ impl Builder<'_> {
         Load {
             name: fields.text_if("name"),
             on: fields.text("on"),
-            what: fields.place(kind.key()),
+            what: fields.place(kind.name),
             kind,
             follows: fields
                 .flag_if("follows")
@@ -246,54 +247,14 @@ impl Builder<'_> {
         }
     }
 
-    /// A moment; in the plane it turns about z, and nothing turns in a body of revolution.
-    fn moment(&mut self, fields: Fields<'_>) -> Option<[f64; 3]> {
-        let place = fields.place("moment");
-        if self.space == Space::Axisymmetric {
-            self.error(
-                &codes::CONTRADICTION,
-                "a body of revolution takes no moment",
-                &place,
-                "its sections do not turn",
-            );
+    /// What acts; nothing where it is missing, which has been reported.
+    fn load_kind(&mut self, fields: Fields<'_>) -> Chosen {
+        let vocabulary = self.vocabulary;
+        let mut loads = vocabulary.loads().iter();
+        match loads.find(|load| fields.has(load.name)) {
+            Some(load) => self.chosen(fields, load),
+            None => Chosen::new("", []),
         }
-        let moment = self.vector(fields, "moment")?;
-        if self.space.ndim() == 2 && moment[..2] != [0.0; 2] {
-            self.error(
-                &codes::CONTRADICTION,
-                "`moment` leads out of the plane",
-                &place,
-                "a plane model turns about z: write [0, 0, moment]",
-            );
-        }
-        Some(moment)
-    }
-
-    fn load_kind(&mut self, fields: Fields<'_>) -> LoadKind {
-        let vectors = [
-            ("force", LoadKind::Force as fn([f64; 3]) -> LoadKind),
-            ("traction", LoadKind::Traction),
-            ("moment", LoadKind::Moment),
-            ("per_node", LoadKind::PerNode),
-            ("body_force", LoadKind::BodyForce),
-            ("gravity", LoadKind::Gravity),
-        ];
-        if let Some((key, kind)) = vectors.into_iter().find(|(key, _)| fields.has(key)) {
-            let vector = match key {
-                "moment" => self.moment(fields),
-                _ => self.vector_within(fields, key),
-            };
-            return kind(vector.unwrap_or_default());
-        }
-        if fields.has("centrifugal") {
-            let table = fields.table("centrifugal");
-            return LoadKind::Centrifugal {
-                speed: table.number("speed"),
-                point: self.vector(table, "point").unwrap_or_default(),
-                axis: self.line(table, "axis").unwrap_or_default(),
-            };
-        }
-        LoadKind::Pressure(fields.number("pressure"))
     }
 }
 

@@ -2,18 +2,9 @@
 
 use super::super::fields::Fields;
 use super::super::parts::*;
-use super::super::scalar::number;
-use super::Builder;
+use super::builder::Builder;
 use crate::diagnostic::{Place, codes};
-
-/// Shapes that only models in space have, and what is meant in the plane.
-const OF_SPACE: [(&str, &str); 5] = [
-    ("sphere", "write `circle`"),
-    ("cylinder", "write `circle`, its section"),
-    ("cone", "write `plane`, its section"),
-    ("torus", "write `circle`, its section"),
-    ("stl", "write `circle`, `plane` or `polynomial`"),
-];
+use signorini_vocabulary::Models;
 
 impl Builder<'_> {
     pub(super) fn surface(&mut self, fields: Fields<'_>, place: Place) -> Surface {
@@ -27,118 +18,33 @@ impl Builder<'_> {
     }
 
     fn shape(&mut self, fields: Fields<'_>) -> Shape {
-        self.shapes_of_the_space(fields);
-        let of = |key: &str| fields.table(key);
-        if let Some(path) = fields.text_if("stl") {
-            if path.trim().is_empty() {
-                let remark = "write the path of a file of triangles";
-                self.error(&codes::MISSING, "`stl` names no file", &path.place, remark);
-            }
-            Shape::Stl { path }
-        } else if fields.has("sphere") || fields.has("circle") {
-            let key = if fields.has("sphere") {
-                "sphere"
-            } else {
-                "circle"
-            };
-            let ball = of(key);
-            Shape::Sphere {
-                center: self.point(ball, "center"),
-                radius: ball.number("radius"),
-                facing: facing(ball),
-            }
-        } else if fields.has("cylinder") {
-            let cylinder = of("cylinder");
-            Shape::Cylinder {
-                point: self.point(cylinder, "point"),
-                axis: self.direction(cylinder, "axis"),
-                radius: cylinder.number("radius"),
-                facing: facing(cylinder),
-            }
-        } else if fields.has("cone") {
-            let cone = of("cone");
-            Shape::Cone {
-                apex: self.point(cone, "apex"),
-                axis: self.direction(cone, "axis"),
-                half_angle: cone.number("half_angle"),
-            }
-        } else if fields.has("torus") {
-            self.torus(of("torus"))
-        } else if fields.has("polynomial") {
-            let polynomial = of("polynomial");
-            let coefficients = polynomial.rows("coefficients");
-            Shape::Polynomial {
-                coefficients: coefficients.filter_map(|c| number(c.get_ref())).collect(),
-                above: polynomial.text("side").value != "below",
-            }
-        } else {
-            let plane = of("plane");
-            Shape::Plane {
-                point: self.point(plane, "point"),
-                normal: self.direction(plane, "normal"),
-            }
+        let vocabulary = self.vocabulary;
+        let mut shapes = vocabulary.surfaces().iter();
+        if let Some(shape) = shapes.find(|shape| fields.has(shape.name)) {
+            self.fits_the_space(shape.name, shape.models, fields);
+            return Shape::Analytical(self.chosen(fields, shape));
         }
+        let path = fields.text("stl");
+        if fields.has("stl") && path.trim().is_empty() {
+            let remark = "write the path of a file of triangles";
+            self.error(&codes::MISSING, "`stl` names no file", &path.place, remark);
+        }
+        let instead = "write `circle`, `plane` or `polynomial`";
+        self.fits_the_space("stl", Models::Space { instead }, fields);
+        Shape::Stl { path }
     }
 
-    fn torus(&mut self, fields: Fields<'_>) -> Shape {
-        let (radius, tube) = (fields.number("radius"), fields.number("tube"));
-        if radius > 0.0 && tube >= radius {
-            self.error(
-                &codes::OUT_OF_RANGE,
-                format!("a tube of radius {tube} around a circle of radius {radius} meets itself"),
-                &fields.place("tube"),
-                "must be less than `radius`",
-            );
-        }
-        Shape::Torus {
-            center: self.point(fields, "center"),
-            axis: self.direction(fields, "axis"),
-            radius,
-            tube,
-            facing: facing(fields),
-        }
-    }
-
-    /// Refuses shapes that the model has no room for.
-    fn shapes_of_the_space(&mut self, fields: Fields<'_>) {
-        if self.space.ndim() == 3 {
-            if fields.has("circle") {
-                self.error(
-                    &codes::CONTRADICTION,
-                    "`circle` is no surface in space",
-                    &fields.place("circle"),
-                    "write `sphere` or `cylinder`",
-                );
+    /// Refuses shapes that models of this space do not have.
+    fn fits_the_space(&mut self, name: &str, models: Models, fields: Fields<'_>) {
+        let (message, instead) = match (models, self.space.ndim()) {
+            (Models::Space { instead }, 2) => {
+                (format!("`{name}` is no curve in the plane"), instead)
             }
-            return;
+            (Models::Plane { instead }, 3) => (format!("`{name}` is no surface in space"), instead),
+            _ => return,
+        };
+        if fields.has(name) {
+            self.error(&codes::CONTRADICTION, message, &fields.place(name), instead);
         }
-        for (key, meant) in OF_SPACE.iter().filter(|(key, _)| fields.has(key)) {
-            self.error(
-                &codes::CONTRADICTION,
-                format!("`{key}` is no curve in the plane"),
-                &fields.place(key),
-                *meant,
-            );
-        }
-    }
-
-    /// A point, in the plane of a plane model.
-    fn point(&mut self, fields: Fields<'_>, key: &str) -> [f64; 3] {
-        self.vector_within(fields, key).unwrap_or_default()
-    }
-
-    /// A direction, in the plane of a plane model.
-    fn direction(&mut self, fields: Fields<'_>, key: &str) -> [f64; 3] {
-        let along = self.line(fields, key).unwrap_or_default();
-        self.within(along, key, &fields.place(key));
-        along
-    }
-}
-
-fn facing(fields: Fields<'_>) -> Facing {
-    if fields.text("side").value == "inside" {
-        Facing::Inside
-    } else {
-        Facing::Outside
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Axis, ContactChange, Name};
 use crate::diagnostic::{Place, Spanned};
+use signorini_vocabulary::Chosen;
 
 /// A function of time: linear between its rows, constant outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,8 +178,8 @@ pub struct Load {
     pub name: Option<Name>,
     /// A set, group, reference or rigid body.
     pub on: Name,
-    /// What acts.
-    pub kind: LoadKind,
+    /// What acts, by its name in the vocabulary.
+    pub kind: Chosen,
     /// Where what acts was written.
     pub what: Place,
     /// Whether it turns with the surface; none: as its kind has it.
@@ -189,63 +190,6 @@ pub struct Load {
     pub course: Course,
     /// Where it was written.
     pub place: Place,
-}
-
-/// What acts.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LoadKind {
-    /// A total force, spread over what it acts on.
-    Force([f64; 3]),
-    /// Force per area.
-    Traction([f64; 3]),
-    /// Pressure, positive in compression.
-    Pressure(f64),
-    /// A moment.
-    Moment([f64; 3]),
-    /// The same force at every node.
-    PerNode([f64; 3]),
-    /// Force per volume.
-    BodyForce([f64; 3]),
-    /// An acceleration of all mass.
-    Gravity([f64; 3]),
-    /// Centrifugal acceleration of all mass.
-    Centrifugal {
-        /// Angular velocity (radian per time).
-        speed: f64,
-        /// A point of the axis.
-        point: [f64; 3],
-        /// Along the axis, of any length.
-        axis: [f64; 3],
-    },
-}
-
-impl LoadKind {
-    /// Its key in a case.
-    pub fn key(&self) -> &'static str {
-        match self {
-            Self::Force(_) => "force",
-            Self::Traction(_) => "traction",
-            Self::Pressure(_) => "pressure",
-            Self::Moment(_) => "moment",
-            Self::PerNode(_) => "per_node",
-            Self::BodyForce(_) => "body_force",
-            Self::Gravity(_) => "gravity",
-            Self::Centrifugal { .. } => "centrifugal",
-        }
-    }
-
-    /// The vector it is, where it is one.
-    pub fn vector(&self) -> Option<[f64; 3]> {
-        match *self {
-            Self::Force(v)
-            | Self::Traction(v)
-            | Self::Moment(v)
-            | Self::PerNode(v)
-            | Self::BodyForce(v)
-            | Self::Gravity(v) => Some(v),
-            Self::Pressure(_) | Self::Centrifugal { .. } => None,
-        }
-    }
 }
 
 /// How a load goes over time.

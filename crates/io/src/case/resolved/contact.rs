@@ -1,9 +1,8 @@
 //! Contacts, and their changes in a step.
 
 use super::super::parts::*;
-use super::write::{Entries, Value, list};
+use super::write::{Entries, Value, chosen, list, values};
 use crate::diagnostic::Spanned;
-use signorini_vocabulary::{Chosen, Value as Given};
 
 pub(super) fn contact(contact: &Contact) -> Entries {
     let method = match *contact.method {
@@ -116,7 +115,7 @@ fn enforcement(contact: &Contact) -> Value {
         Enforcement::Auto => return "auto".into(),
         Enforcement::Penalty(penalty) => vec![("penalty", number(penalty))],
         Enforcement::Table(rows) => vec![("penalty", list(rows))],
-        Enforcement::Law(law) => vec![(law.name, Value::Table(values(law)))],
+        Enforcement::Law(law) => vec![chosen(law)],
         Enforcement::Lagrange => vec![("lagrange", Value::Table(Vec::new()))],
         Enforcement::Augmented { by, penalty } => {
             let by = match by {
@@ -145,7 +144,7 @@ fn friction(friction: Option<&Friction>) -> Value {
     if let Some(mu) = friction.coefficient() {
         return mu.into();
     }
-    let mut entries = values(&friction.limit);
+    let mut entries = values(&friction.limit.values);
     entries.extend(friction.stick.map(|stick| match stick {
         Stick::Stiffness(stiffness) => ("stiffness", stiffness.into()),
         Stick::Slip(slip) => ("elastic_slip", slip.into()),
@@ -210,17 +209,4 @@ pub(super) fn contact_change(change: &ContactChange) -> Entries {
     let friction = change.friction.as_ref();
     entries.extend(friction.map(|friction| ("friction", self::friction(friction.as_ref()))));
     entries
-}
-
-/// The values of the keys of an entry.
-fn values(chosen: &Chosen) -> Entries {
-    let values = chosen.values.iter().map(|(key, value)| {
-        let value = match value {
-            Given::Number(number) => Value::Number(*number),
-            Given::Numbers(numbers) => list(numbers.iter().copied()),
-            Given::Text(text) => Value::Text(text.clone()),
-        };
-        (key, value)
-    });
-    values.collect()
 }

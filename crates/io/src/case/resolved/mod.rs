@@ -56,10 +56,7 @@ fn tree(case: &Case) -> Entries {
         ),
         ("body", tables(&case.bodies, body)),
         ("spring", tables(&case.springs, spring)),
-        (
-            "surface",
-            tables(&case.surfaces, |one| surface(one, case.model.space.ndim())),
-        ),
+        ("surface", tables(&case.surfaces, surface)),
         ("contact", tables(&case.contacts, contact)),
         ("constraint", tables(&case.constraints, constraint)),
     ]);

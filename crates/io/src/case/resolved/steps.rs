@@ -2,7 +2,7 @@
 
 use super::super::parts::*;
 use super::contact::contact_change;
-use super::write::{Entries, Value, list, names, tables};
+use super::write::{Entries, Value, chosen, list, names, tables};
 
 pub(super) fn amplitude(one: &Amplitude) -> Entries {
     let time = match one.time {
@@ -115,7 +115,7 @@ fn load(load: &Load) -> Entries {
             .map(|name| ("name", (&name.value).into())),
     );
     entries.push(("on", (&load.on.value).into()));
-    entries.push((load.kind.key(), what(&load.kind)));
+    entries.push(chosen(&load.kind));
     entries.extend(
         load.follows
             .as_ref()
@@ -134,23 +134,6 @@ fn load(load: &Load) -> Entries {
         Course::Amplitude(name) => entries.push(("amplitude", (&name.value).into())),
     }
     entries
-}
-
-fn what(kind: &LoadKind) -> Value {
-    match kind {
-        LoadKind::Force(vector)
-        | LoadKind::Traction(vector)
-        | LoadKind::Moment(vector)
-        | LoadKind::PerNode(vector)
-        | LoadKind::BodyForce(vector)
-        | LoadKind::Gravity(vector) => vector.into(),
-        LoadKind::Pressure(pressure) => (*pressure).into(),
-        LoadKind::Centrifugal { speed, point, axis } => Value::Table(vec![
-            ("speed", (*speed).into()),
-            ("point", point.into()),
-            ("axis", axis.into()),
-        ]),
-    }
 }
 
 fn material(one: &MaterialChange) -> Entries {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::super::parts::Name;
 use super::super::vocabulary::{Shape, Table};
+use signorini_vocabulary::{Chosen, Value as Given, Values};
 
 /// A value as it is to be written.
 pub(super) enum Value {
@@ -80,6 +81,31 @@ pub(super) fn tables<T>(items: &[T], entries: impl Fn(&T) -> Entries) -> Value {
 
 pub(super) fn names<'a>(items: impl IntoIterator<Item = &'a Name>) -> Value {
     list(items.into_iter().map(|name| &name.value))
+}
+
+/// A thing that another room describes: its name as the key, its only value or the table of its values.
+pub(super) fn chosen(chosen: &Chosen) -> (&'static str, Value) {
+    let written = match chosen.bare_value() {
+        Some(value) => given(value),
+        None => Value::Table(values(&chosen.values)),
+    };
+    (chosen.name, written)
+}
+
+/// The values of the keys of a thing.
+pub(super) fn values(values: &Values) -> Entries {
+    values
+        .iter()
+        .map(|(key, value)| (key, given(value)))
+        .collect()
+}
+
+fn given(value: &Given) -> Value {
+    match value {
+        Given::Number(number) => Value::Number(*number),
+        Given::Numbers(numbers) => list(numbers.iter().copied()),
+        Given::Text(text) => Value::Text(text.clone()),
+    }
 }
 
 /// Writes the keys of a table in the order of the vocabulary: values first, then tables below headings.

@@ -1,6 +1,6 @@
 //! Contacts, and their changes in a step.
 
-use super::kinds::LAWS;
+use super::placeholders::LAWS;
 use super::*;
 
 pub(super) static CONTACT: Table = Table {
@@ -195,7 +195,7 @@ pub(super) static ENFORCEMENT: Table = Table {
         .or(Default::Text("auto")),
     ],
     rules: &[
-        Rule::AtMostOne(&[LAWS, "lagrange", "augmented"]),
+        Rule::AtMostOne(&["lagrange", "augmented", LAWS]),
         Rule::AtMostOne(&["penalty", LAWS]),
         Rule::AtMostOne(&["penalty", "lagrange"]),
         Rule::AtMostOne(&["lagrange", "per"]),

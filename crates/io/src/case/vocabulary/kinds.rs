@@ -1,8 +1,13 @@
-//! The vocabulary with what other rooms describe: materials, contact laws, friction laws.
+//! The vocabulary with what other rooms describe: materials, shapes of surfaces, contact laws, friction laws,
+//! loads.
 
 use super::bodies::MATERIAL;
 use super::contact::{ENFORCEMENT, FRICTION};
-use super::{CASE, Choice, Default, Key, Rule, Shape, Table, key, word};
+use super::placeholders::{LAWS, LOADS, SHAPES};
+use super::steps::LOAD;
+use super::surface::SHAPE;
+use super::whole::CASE;
+use super::{Choice, Default, Key, Rule, Shape, Table, key, word};
 use signorini_vocabulary::Description;
 
 /// Descriptions of the things that a case may name, each from the room that makes them.
@@ -10,10 +15,14 @@ use signorini_vocabulary::Description;
 pub struct Kinds {
     /// Materials, by their `model`; the keys are their constants.
     pub materials: Vec<Description>,
+    /// Shapes of surfaces, each a table in `shape`.
+    pub surfaces: Vec<Description>,
     /// Curves of gap and pressure, each a table in `enforcement`.
     pub laws: Vec<Description>,
     /// Friction laws. The first key of each stands in `friction` and says which law is meant.
     pub frictions: Vec<Description>,
+    /// Loads, each a key in `[[step.load]]`.
+    pub loads: Vec<Description>,
 }
 
 /// Every key of a case, those of [`Kinds`] among them.
@@ -33,7 +42,12 @@ impl Vocabulary {
     pub fn new(kinds: Kinds) -> Self {
         let changes = [
             (&MATERIAL, with_materials(&MATERIAL, &kinds.materials)),
-            (&ENFORCEMENT, with_laws(&ENFORCEMENT, &kinds.laws)),
+            (&SHAPE, with_tables(&SHAPE, &kinds.surfaces, 0, SHAPES)),
+            (
+                &ENFORCEMENT,
+                with_tables(&ENFORCEMENT, &kinds.laws, 1, LAWS),
+            ),
+            (&LOAD, with_tables(&LOAD, &kinds.loads, 2, LOADS)),
             (&FRICTION, with_frictions(&FRICTION, &kinds.frictions)),
         ]
         .map(|(plain, table)| (plain, leak(table)));
@@ -63,10 +77,22 @@ impl Vocabulary {
         &self.kinds.materials
     }
 
+    /// All shapes of surfaces.
+    #[must_use]
+    pub fn surfaces(&self) -> &[Description] {
+        &self.kinds.surfaces
+    }
+
     /// All contact laws.
     #[must_use]
     pub fn laws(&self) -> &[Description] {
         &self.kinds.laws
+    }
+
+    /// All loads.
+    #[must_use]
+    pub fn loads(&self) -> &[Description] {
+        &self.kinds.loads
     }
 
     /// All friction laws.
@@ -164,27 +190,36 @@ fn with_materials(table: &Table, materials: &[Description]) -> Table {
     }
 }
 
-/// Each law is a key with a table of its own; they exclude each other and every other way to enforce contact.
-fn with_laws(table: &Table, laws: &[Description]) -> Table {
-    let law_keys = laws.iter().map(|law| {
+/// Each thing is a key with a table or a value of its own, behind the first keys of the table; its rules have the names
+/// of all things in place of `mark`.
+fn with_tables(table: &Table, things: &[Description], behind: usize, mark: &str) -> Table {
+    let of_things = things.iter().map(|thing| {
+        if let Some(only) = thing.bare_key() {
+            let default = Default::Absent;
+            return Key { default, ..*only };
+        }
         let inner = leak(Table {
-            heading: law.name,
-            doc: law.doc,
-            keys: law.keys,
-            rules: law.rules,
+            heading: thing.name,
+            doc: thing.doc,
+            keys: thing.keys,
+            rules: thing.rules,
         });
-        key(law.name, Shape::Table(inner), law.doc).hints(law.hints)
+        key(thing.name, Shape::Table(inner), thing.doc).hints(thing.hints)
     });
     let mut keys = table.keys.to_vec();
-    let behind = keys.len().min(1);
-    keys.splice(behind..behind, law_keys);
-    let names: Vec<&'static str> = laws.iter().map(|law| law.name).collect();
+    let behind = keys.len().min(behind);
+    keys.splice(behind..behind, of_things);
+    let all: Vec<&'static str> = things.iter().map(|thing| thing.name).collect();
+    let names = |keys: &'static [&'static str]| {
+        let names = keys.iter().flat_map(|key| match *key {
+            key if key == mark => all.as_slice(),
+            _ => std::slice::from_ref(key),
+        });
+        leak_all(names.copied().collect())
+    };
     let rules = table.rules.iter().map(|rule| match rule {
-        Rule::AtMostOne(keys) if keys.contains(&LAWS) => {
-            let others = keys.iter().filter(|key| **key != LAWS);
-            let all = others.copied().chain(names.iter().copied());
-            Rule::AtMostOne(leak_all(all.collect()))
-        }
+        Rule::ExactlyOne(keys) => Rule::ExactlyOne(names(keys)),
+        Rule::AtMostOne(keys) => Rule::AtMostOne(names(keys)),
         other => *other,
     });
     Table {
@@ -193,9 +228,6 @@ fn with_laws(table: &Table, laws: &[Description]) -> Table {
         ..*table
     }
 }
-
-/// Stands for the names of all contact laws in a rule.
-pub(super) const LAWS: &str = "<laws>";
 
 /// Keys of all laws, before those of the table; the first of each law says which one it is.
 fn with_frictions(table: &Table, laws: &[Description]) -> Table {

@@ -10,19 +10,14 @@ mod bodies;
 mod contact;
 mod geometry;
 mod kinds;
+mod placeholders;
 mod run;
 mod steps;
 mod surface;
+mod whole;
 
 pub use kinds::{Kinds, Vocabulary};
 pub use run::FIELDS;
-
-use bodies::{BODY, CONSTRAINT, MATERIAL, SPRING};
-use contact::CONTACT;
-use geometry::{AXES, INITIAL, MESH, MODEL, REFERENCE, SET};
-use run::{CHECKPOINT, EXPECT, OUTPUT, SOLVER};
-use steps::{AMPLITUDE, STEP};
-use surface::SURFACE;
 
 use signorini_vocabulary::ANY;
 pub use signorini_vocabulary::{
@@ -37,36 +32,3 @@ const NAMES: Shape = Shape::Either(&[Shape::Text, Shape::List(&Shape::Text, 1, M
 const TIME_TABLE: Shape = Shape::List(&Shape::List(&ANY, 2, 2), 1, MANY);
 const AUTO: Shape = Shape::Choice(&[word("auto")]);
 const ON_DOC: &str = "the set, mesh group, reference or rigid body it acts on";
-
-/// The whole case, without the kinds of things that other rooms describe.
-static CASE: Table = Table {
-    heading: "the case",
-    doc: "A contact problem: geometry, materials, bodies, contacts, and what happens step by step.",
-    keys: &[
-        key("format", Shape::Integer(1, i64::MAX), "version of the case format").or(Default::Integer(1)),
-        key("title", Shape::Text, "what the run is about, for reports").or(Default::Text("")),
-        key("units", Shape::Text, "length-force-stress, as in mm-N-MPa: a label for reports and plausibility; nothing is converted")
-            .or(Default::Text("")),
-        key("allow", Shape::List(&Shape::Text, 0, MANY), "codes of warnings to silence").or(Default::Texts(&[])),
-        key("mesh", Shape::Table(&MESH), MESH.doc).required(),
-        key("model", Shape::Table(&MODEL), MODEL.doc),
-        key("sets", Shape::Named(&SET), SET.doc).hints(&["set"]),
-        key("reference", Shape::Named(&REFERENCE), REFERENCE.doc).hints(&["references", "point"]),
-        key("axes", Shape::Tables(&AXES), AXES.doc).hints(&["transform", "orientation"]),
-        key("amplitude", Shape::Named(&AMPLITUDE), AMPLITUDE.doc).hints(&["amplitudes"]),
-        key("material", Shape::Named(&MATERIAL), MATERIAL.doc).hints(&["materials"]),
-        key("body", Shape::Tables(&BODY), BODY.doc).hints(&["bodies", "part", "section"]),
-        key("surface", Shape::Tables(&SURFACE), SURFACE.doc).hints(&["surfaces"]),
-        key("contact", Shape::Tables(&CONTACT), CONTACT.doc).hints(&["contacts", "pair", "interface"]),
-        key("spring", Shape::Tables(&SPRING), SPRING.doc).hints(&["springs"]),
-        key("constraint", Shape::Tables(&CONSTRAINT), CONSTRAINT.doc)
-            .hints(&["constraints", "coupling", "equation", "mpc", "tie"]),
-        key("initial", Shape::Table(&INITIAL), INITIAL.doc),
-        key("step", Shape::Tables(&STEP), STEP.doc).required().hints(&["steps"]),
-        key("solver", Shape::Table(&SOLVER), SOLVER.doc),
-        key("output", Shape::Table(&OUTPUT), OUTPUT.doc).hints(&["results"]),
-        key("checkpoint", Shape::Table(&CHECKPOINT), CHECKPOINT.doc).hints(&["restart"]),
-        key("expect", Shape::Tables(&EXPECT), EXPECT.doc).hints(&["check", "test"]),
-    ],
-    rules: &[Rule::AtLeastOne(&["body", "spring"])],
-};

@@ -1,6 +1,7 @@
 //! Amplitudes and steps.
 
 use super::contact::CONTACT_CHANGE;
+use super::placeholders::LOADS;
 use super::*;
 
 pub(super) static AMPLITUDE: Table = Table {
@@ -191,6 +192,7 @@ pub(super) static MOTION_TABLE: Table = Table {
     ],
 };
 
+/// Without what acts, which another room describes.
 pub(super) static LOAD: Table = Table {
     heading: "[[step.load]]",
     doc: "loads, reached linearly over the step unless `table` or `amplitude` says otherwise",
@@ -203,23 +205,6 @@ pub(super) static LOAD: Table = Table {
         key("on", Shape::Text, ON_DOC)
             .required()
             .hints(&["set", "group"]),
-        key(
-            "force",
-            VECTOR,
-            "the total force [x, y, z], spread over what it acts on",
-        ),
-        key("per_node", VECTOR, "the same force [x, y, z] at every node"),
-        key("traction", VECTOR, "force per area [x, y, z]"),
-        key("pressure", ANY, "pressure on a surface, positive inwards"),
-        key(
-            "moment",
-            VECTOR,
-            "the moment [x, y, z] about the centre of what it acts on",
-        )
-        .hints(&["torque"]),
-        key("body_force", VECTOR, "force per volume [x, y, z]"),
-        key("gravity", VECTOR, "acceleration [x, y, z] of all mass").hints(&["acceleration"]),
-        key("centrifugal", Shape::Table(&CENTRIFUGAL), CENTRIFUGAL.doc),
         key(
             "follows",
             Shape::Flag,
@@ -249,36 +234,9 @@ pub(super) static LOAD: Table = Table {
         ),
     ],
     rules: &[
-        Rule::ExactlyOne(&[
-            "force",
-            "per_node",
-            "traction",
-            "pressure",
-            "moment",
-            "body_force",
-            "gravity",
-            "centrifugal",
-        ]),
+        Rule::ExactlyOne(&[LOADS]),
         Rule::AtMostOne(&["table", "amplitude"]),
     ],
-};
-
-static CENTRIFUGAL: Table = Table {
-    heading: "centrifugal",
-    doc: "forces of a frame that rotates",
-    keys: &[
-        key("speed", ANY, "angular velocity, in radian per time")
-            .required()
-            .hints(&["omega"]),
-        key("point", VECTOR, "a point of the axis; absent: the origin"),
-        key(
-            "axis",
-            LINE,
-            "\"x\", \"y\", \"z\" or a vector along the axis",
-        )
-        .required(),
-    ],
-    rules: &[],
 };
 
 static MATERIAL_CHANGE: Table = Table {

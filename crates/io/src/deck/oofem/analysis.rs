@@ -7,7 +7,8 @@
 //! | `NonLinearStatic` | (n − 1) `deltat` | n `deltat` |
 
 use super::Translation;
-use crate::case::{Geometry, Increments, Step};
+use super::time::empty_step;
+use crate::case::Geometry;
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::oofem::{Fault, Record};
 
@@ -16,13 +17,6 @@ const MOST: u64 = 10_000;
 
 /// Residuals are pressed down to this part of the forces, whatever the deck says: values are checked absolutely.
 const FORCE_TOL: f64 = 1e-10;
-
-/// When steps end.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Clock {
-    /// The time of the deck, and ours, at the end of each step.
-    pub ends: Vec<[f64; 2]>,
-}
 
 /// Fields that change no result here, and how many words they have.
 const IGNORED: [(&str, usize); 20] = [
@@ -47,25 +41,6 @@ const IGNORED: [(&str, usize); 20] = [
     ("rtolv", 1),
     ("rtolf", 1),
 ];
-
-/// A step of nothing.
-pub(super) fn empty_step() -> Step {
-    Step {
-        name: Spanned::from("step-1"),
-        geometry: Geometry::Auto,
-        duration: 1.0,
-        increments: Increments::Count(1),
-        fixes: Vec::new(),
-        moves: Vec::new(),
-        frees: Vec::new(),
-        loads: Vec::new(),
-        contacts: Vec::new(),
-        temperatures: Vec::new(),
-        materials: Vec::new(),
-        prints: None,
-        place: Place::nowhere(),
-    }
-}
 
 impl Translation {
     pub fn analysis(&mut self) {

@@ -3,9 +3,10 @@
 //! A value of a condition is total, and its function of time a factor. What is zero at all times is a support.
 
 use super::Translation;
-use crate::case::{Course, Directions, Fix, Load, LoadKind, Motion, Move, Name, Space};
+use crate::case::{Course, Directions, Fix, Load, Motion, Move, Name, Space};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::oofem::{Fault, Record, RecordError};
+use signorini_vocabulary::{Chosen, Value};
 use std::collections::BTreeMap;
 
 /// Contacts, which have a stage of their own.
@@ -240,17 +241,23 @@ impl Translation {
         }
     }
 
-    fn push_load(&mut self, number: u64, on: Name, kind: LoadKind, driver: &Driver, place: &Place) {
-        let is_nothing = kind.vector().is_some_and(|v| v == [0.0; 3]);
-        if is_nothing || driver.is_zero {
+    fn push_load(
+        &mut self,
+        number: u64,
+        on: Name,
+        (name, vector): (&'static str, [f64; 3]),
+        driver: &Driver,
+        place: &Place,
+    ) {
+        if vector == [0.0; 3] || driver.is_zero {
             return;
         }
         let course = self.amplitude(driver.function);
-        let name = self.fresh(&format!("load-{number}"));
+        let own = self.fresh(&format!("load-{number}"));
         self.first.loads.push(Load {
-            name: Some(Spanned::new(name, place.clone())),
+            name: Some(Spanned::new(own, place.clone())),
             on,
-            kind,
+            kind: Chosen::bare(name, Value::Numbers(vector.into())),
             what: place.clone(),
             follows: None,
             coupling: None,
@@ -319,7 +326,7 @@ impl Translation {
         }
         if let (Some(driver), Some(force)) = (driver, force) {
             let on = self.nodes_named(nodes, &place);
-            self.push_load(number, on, LoadKind::PerNode(force), &driver, &place);
+            self.push_load(number, on, ("per_node", force), &driver, &place);
         }
         Ok(())
     }
@@ -343,7 +350,7 @@ impl Translation {
         }
         if let (Some(driver), Some(acceleration)) = (driver, acceleration) {
             let on = Spanned::new(name, place.clone());
-            self.push_load(number, on, LoadKind::Gravity(acceleration), &driver, &place);
+            self.push_load(number, on, ("gravity", acceleration), &driver, &place);
         }
         Ok(())
     }
@@ -378,7 +385,7 @@ impl Translation {
         }
         if let (Some(driver), Some(traction)) = (driver, traction) {
             let on = Spanned::new(name, place.clone());
-            self.push_load(number, on, LoadKind::Traction(traction), &driver, &place);
+            self.push_load(number, on, ("traction", traction), &driver, &place);
         }
         Ok(())
     }

@@ -11,7 +11,7 @@
 use super::Translation;
 use super::condition::CONTACTS;
 use crate::case::{
-    Contact, Enforcement, Facing, Features, Friction, Method, Name, Normals, Pairs, Per, PointKind,
+    Contact, Enforcement, Features, Friction, Method, Name, Normals, Pairs, Per, PointKind,
     PointRule, Set, SetContent, Shape, Sliding, Space, Stick, Surface,
 };
 use crate::deck::Compat;
@@ -19,6 +19,7 @@ use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::oofem::{Family, Fault, Record};
 use signorini_geometry::mesh::{CellId, FaceIndex};
 use signorini_geometry::tensor::Vec3;
+use signorini_vocabulary::{Chosen, Value, Values};
 use std::collections::BTreeMap;
 
 /// Penalties that `autopenalty` may make for one surface.
@@ -44,6 +45,32 @@ struct FacetSurface {
     rule: Option<PointRule>,
     /// Whether its normals point into the body.
     inward: bool,
+}
+
+/// Penalties and friction of contact between facets.
+struct FacetNumbers {
+    /// Per area; none where it is made from the elements behind each facet.
+    penalty: Option<f64>,
+    /// Per area, of sticking.
+    tangential: Option<f64>,
+    /// The coefficient of friction.
+    mu: f64,
+    /// Where the penalty stands.
+    at: Place,
+}
+
+impl FacetNumbers {
+    /// The friction next to this normal penalty; sticking is as stiff as the normal direction where that is automatic.
+    fn friction(&self, penalty: f64) -> Option<Friction> {
+        let along = match self.penalty {
+            Some(_) => self.tangential,
+            None => Some(penalty),
+        };
+        (self.mu > 0.0).then(|| Friction {
+            stick: along.filter(|pt| *pt > 0.0).map(Stick::Stiffness),
+            ..Friction::coulomb(self.mu)
+        })
+    }
 }
 
 impl Translation {
@@ -85,6 +112,7 @@ impl Translation {
     fn segment(&mut self, record: &mut Record) -> Result<Option<(u64, Segment)>, Fault> {
         let number = record.number()?;
         let place = record.place();
+        let mut wrong = None;
         let shape = match record.kind().as_str() {
             "linear2delementedgecontactsegment" | "linear3delementsurfacecontactsegment" => {
                 let segment = self.sides(record)?;
@@ -94,16 +122,31 @@ impl Translation {
                 let center = record.need_reals("centerpoint")?;
                 let radius = record.need_real("radius")?;
                 let at = |k: usize| center.get(k).copied().unwrap_or(0.0);
-                Shape::Sphere {
-                    center: [at(0), at(1), at(2)],
-                    radius,
-                    facing: Facing::Outside,
+                if radius <= 0.0 {
+                    wrong = Some("the radius is not positive");
+                }
+                let name = if self.ndim() == 2 { "circle" } else { "sphere" };
+                let values = Values::new()
+                    .with("center", Value::Numbers(vec![at(0), at(1), at(2)]))
+                    .with("radius", Value::Number(radius))
+                    .with("side", Value::Text("outside".to_owned()));
+                Chosen { name, values }
+            }
+            "polynomialcontactsegment" => {
+                let coefficients = record.need_reals("coeffs")?;
+                if coefficients.is_empty() {
+                    wrong = Some("the polynomial has no coefficients");
+                } else if self.ndim() != 2 {
+                    wrong = Some("polynomials are curves of plane models");
+                }
+                let values = Values::new()
+                    .with("coefficients", Value::Numbers(coefficients))
+                    .with("side", Value::Text("above".to_owned()));
+                Chosen {
+                    name: "polynomial",
+                    values,
                 }
             }
-            "polynomialcontactsegment" => Shape::Polynomial {
-                coefficients: record.need_reals("coeffs")?,
-                above: true,
-            },
             other => {
                 let text = format!("the contact segment `{other}` is not supported");
                 let known =
@@ -113,16 +156,6 @@ impl Translation {
                 return Ok(None);
             }
         };
-        let wrong = match &shape {
-            Shape::Sphere { radius, .. } if *radius <= 0.0 => Some("the radius is not positive"),
-            Shape::Polynomial { coefficients, .. } if coefficients.is_empty() => {
-                Some("the polynomial has no coefficients")
-            }
-            Shape::Polynomial { .. } if self.ndim() != 2 => {
-                Some("polynomials are curves of plane models")
-            }
-            _ => None,
-        };
         if let Some(wrong) = wrong {
             self.error(&codes::OUT_OF_RANGE, wrong, &place, "");
             return Ok(None);
@@ -130,7 +163,7 @@ impl Translation {
         let name = self.fresh(&format!("segment-{number}"));
         self.case.surfaces.push(Surface {
             name: Spanned::new(name.clone(), place.clone()),
-            shape,
+            shape: Shape::Analytical(shape),
             reference: None,
             triangles: None,
             place,
@@ -440,21 +473,66 @@ impl Translation {
         // it acts at all times
         record.ignore("loadtimefunction", 1);
         record.wholes("dofs")?;
-        for (keyword, words) in [
-            ("algo", 1),
-            ("searchpadding", 1),
-            ("searchtol", 1),
-            ("tangentmode", 1),
-            ("fdcheck", 1),
-            ("fdperturbation", 1),
-            ("fdoutputprefix", 1),
-            ("fdtolerance", 1),
-            ("facethysteresis", 1),
+        for keyword in [
+            "algo",
+            "searchpadding",
+            "searchtol",
+            "tangentmode",
+            "fdcheck",
+            "fdperturbation",
+            "fdoutputprefix",
+            "fdtolerance",
+            "facethysteresis",
         ] {
-            record.ignore(keyword, words);
+            record.ignore(keyword, 1);
         }
+        let numbers = self.facet_numbers(record)?;
+        self.refuse_facet_options(record)?;
+        let features = match record.whole("generalizedfeatures")? {
+            Some(1..) => Features::Edges,
+            _ => Features::Faces,
+        };
+        let primary = record.need_whole("mastersurface")?;
+        let secondary = record.need_whole("slavesurface")?;
+        let mut side = |number: u64| {
+            let found = surfaces.get(&number);
+            if found.is_none() {
+                let text = format!("there is no contact surface {number}");
+                self.error(&codes::UNDEFINED, text, &place, "");
+            }
+            found
+        };
+        let (Some(primary), Some(secondary)) = (side(primary), side(secondary)) else {
+            return Ok(());
+        };
+        self.check_facets(primary, &place);
+        let passes = match numbers.penalty {
+            Some(penalty) => vec![(penalty, secondary.set.clone())],
+            None => self.automatic_passes(&secondary.set, &numbers.at),
+        };
+        for (penalty, set) in passes {
+            let sides = [
+                Spanned::new(set, place.clone()),
+                Spanned::new(primary.set.clone(), place.clone()),
+            ];
+            let mut contact = self.contact(format!("contact-{number}"), sides, &place);
+            contact.method = Method::GaussPoint.into();
+            contact.rule = secondary.rule.unwrap_or_default();
+            contact.features = features;
+            let spanned = Spanned::new(penalty, numbers.at.clone());
+            contact.enforcement = Enforcement::Penalty(Some(spanned));
+            contact.per = Some(Per::Area);
+            contact.friction = numbers.friction(penalty);
+            contact.remembers_traction = contact.friction.is_some() && self.compat == Compat::Oofem;
+            self.case.contacts.push(contact);
+        }
+        Ok(())
+    }
+
+    /// Reads and checks penalties and the coefficient of friction.
+    fn facet_numbers(&mut self, record: &mut Record) -> Result<FacetNumbers, Fault> {
         let automatic = record.whole("autopenalty")?.is_some_and(|value| value != 0);
-        let given = match automatic {
+        let penalty = match automatic {
             // what the record says is not taken
             true => record.real("pn")?.and(None),
             false => Some(record.need_real("pn")?),
@@ -462,7 +540,7 @@ impl Translation {
         let tangential = record.real("pt")?;
         let at = record.place_of_field(if automatic { "autopenalty" } else { "pn" });
         let mu = record.real("friction")?.unwrap_or(0.0);
-        if let Some(penalty) = given.filter(|penalty| *penalty <= 0.0) {
+        if let Some(penalty) = penalty.filter(|penalty| *penalty <= 0.0) {
             let text = format!("the penalty is {penalty}");
             self.error(&codes::OUT_OF_RANGE, text, &at, "it must be positive");
         }
@@ -470,6 +548,16 @@ impl Translation {
             let at = record.place_of_field("friction");
             self.error(&codes::OUT_OF_RANGE, "the friction is negative", &at, "");
         }
+        Ok(FacetNumbers {
+            penalty,
+            tangential,
+            mu,
+            at,
+        })
+    }
+
+    /// Reports options that are not built, and a number of dimensions that is not that of the model.
+    fn refuse_facet_options(&mut self, record: &mut Record) -> Result<(), Fault> {
         for (keyword, why) in [
             (
                 "frictiontransition",
@@ -489,67 +577,24 @@ impl Translation {
         let space = record.whole("nsd")?.unwrap_or(self.ndim() as u64);
         if space != self.ndim() as u64 {
             let text = format!("`nsd` is {space} in a model of {} dimensions", self.ndim());
-            self.error(
-                &codes::CONTRADICTION,
-                text,
-                &record.place_of_field("nsd"),
-                "",
-            );
+            let at = record.place_of_field("nsd");
+            self.error(&codes::CONTRADICTION, text, &at, "");
         }
-        let features = match record.whole("generalizedfeatures")? {
-            Some(1..) => Features::Edges,
-            _ => Features::Faces,
-        };
-        let primary = record.need_whole("mastersurface")?;
-        let secondary = record.need_whole("slavesurface")?;
-        let mut side = |number: u64| {
-            let found = surfaces.get(&number);
-            if found.is_none() {
-                let text = format!("there is no contact surface {number}");
-                self.error(&codes::UNDEFINED, text, &place, "");
-            }
-            found
-        };
-        let (Some(primary), Some(secondary)) = (side(primary), side(secondary)) else {
-            return Ok(());
-        };
+        Ok(())
+    }
+
+    /// Reports what contact of facets with this primary surface cannot be, or is only with another normal.
+    fn check_facets(&mut self, primary: &FacetSurface, place: &Place) {
         if *self.case.model.space == Space::Axisymmetric {
             let text = "contact surfaces of bodies of revolution are not supported in decks";
-            self.not_built(
-                text,
-                &place,
-                "what their penalties refer to was not verified",
-            );
+            let why = "what their penalties refer to was not verified";
+            self.not_built(text, place, why);
         }
         if primary.inward {
             let text =
                 "the nodes of the master surface run round so that its normals point into the body";
-            self.warn(text, &place, "here normals point out of it");
+            self.warn(text, place, "here normals point out of it");
         }
-        let passes = match given {
-            Some(penalty) => vec![(penalty, secondary.set.clone())],
-            None => self.automatic_passes(&secondary.set, &at),
-        };
-        for (penalty, set) in passes {
-            let along = if automatic { Some(penalty) } else { tangential };
-            let sides = [
-                Spanned::new(set, place.clone()),
-                Spanned::new(primary.set.clone(), place.clone()),
-            ];
-            let mut contact = self.contact(format!("contact-{number}"), sides, &place);
-            contact.method = Method::GaussPoint.into();
-            contact.rule = secondary.rule.unwrap_or_default();
-            contact.features = features;
-            contact.enforcement = Enforcement::Penalty(Some(Spanned::new(penalty, at.clone())));
-            contact.per = Some(Per::Area);
-            contact.friction = (mu > 0.0).then(|| Friction {
-                stick: along.filter(|pt| *pt > 0.0).map(Stick::Stiffness),
-                ..Friction::coulomb(mu)
-            });
-            contact.remembers_traction = contact.friction.is_some() && self.compat == Compat::Oofem;
-            self.case.contacts.push(contact);
-        }
-        Ok(())
     }
 
     /// Penalties made from the elements behind the facets of a set, each with the set of those that have it: one contact

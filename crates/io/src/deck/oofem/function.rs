@@ -5,15 +5,6 @@ use super::expression;
 use crate::case::{Amplitude, TimeBase};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::oofem::{Fault, Record};
-use std::collections::BTreeMap;
-
-/// The values of functions at the ends of the steps, by their numbers.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Functions {
-    values: BTreeMap<u64, Option<Vec<f64>>>,
-    /// Those that the case has already.
-    named: BTreeMap<u64, String>,
-}
 
 /// A function of the deck.
 enum Function {

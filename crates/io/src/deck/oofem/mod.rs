@@ -31,6 +31,7 @@ mod function;
 mod model;
 #[cfg(test)]
 mod tests;
+mod time;
 
 use super::names::Names;
 use super::{Compat, Read};
@@ -38,9 +39,8 @@ use crate::case::{Case, MeshSource, Name, Set, SetContent};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::fs::Fs;
 use crate::readers::oofem::{Fault, Meshed, Parts, Record, read_deck};
-use analysis::Clock;
-use function::Functions;
 use std::collections::{BTreeMap, BTreeSet};
+use time::{Clock, Functions, empty_step};
 
 /// Reads a deck. `name` is its path, to which files that it includes are relative.
 ///
@@ -118,7 +118,7 @@ impl Translation {
             functions: Functions::default(),
             nonlinear: false,
             slaves: BTreeMap::new(),
-            first: analysis::empty_step(),
+            first: empty_step(),
             sets: BTreeMap::new(),
         }
     }

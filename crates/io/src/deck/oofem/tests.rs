@@ -1,9 +1,11 @@
 use super::*;
 use crate::case::{
-    ConstraintKind, Enforcement, Features, Geometry, LoadKind, Locking, Method, Moment, Motion,
-    Normals, PointKind, Shape, Sliding, Space, Stick, Tolerance,
+    ConstraintKind, Enforcement, Features, Geometry, Locking, Method, Moment, Motion, Normals,
+    PointKind, Shape, Sliding, Space, Stick, Tolerance,
 };
+use crate::deck::load::vector;
 use crate::fs::RealFs;
+use signorini_vocabulary::Chosen;
 
 /// A square of one element between y = 0 and 1, with more of everything.
 struct Deck {
@@ -172,13 +174,13 @@ fn loads_act_on_nodes_sides_and_mass() {
         ..DECK
     };
     let case = deck.case();
-    let kinds: Vec<&LoadKind> = case.steps[0].loads.iter().map(|load| &load.kind).collect();
+    let kinds: Vec<&Chosen> = case.steps[0].loads.iter().map(|load| &load.kind).collect();
     assert_eq!(
         kinds,
         [
-            &LoadKind::PerNode([0.0, 5.0, 0.0]),
-            &LoadKind::Traction([1.0, 2.0, 0.0]),
-            &LoadKind::Gravity([0.0, -9.81, 0.0])
+            &vector("per_node", [0.0, 5.0, 0.0]),
+            &vector("traction", [1.0, 2.0, 0.0]),
+            &vector("gravity", [0.0, -9.81, 0.0])
         ]
     );
     assert_eq!(
@@ -219,7 +221,7 @@ fn old_records_name_conditions_at_nodes_and_slaves_follow() {
     assert_eq!(coefficients, [1.0, -0.25, -0.75]);
     assert_eq!(
         case.steps[0].loads[0].kind,
-        LoadKind::PerNode([7.0, 0.0, 0.0])
+        vector("per_node", [7.0, 0.0, 0.0])
     );
 }
 
@@ -291,14 +293,17 @@ fn nodes_meet_sides_circles_and_polynomials() {
     assert_eq!(sides.primary.value, "set-3");
     assert_eq!(circle.sliding, Sliding::Finite);
     assert_eq!(polynomial.primary.value, "segment-3");
-    assert!(matches!(
-        case.surfaces[0].shape,
-        Shape::Sphere { radius: 1.0, .. }
-    ));
-    assert!(matches!(
-        case.surfaces[1].shape,
-        Shape::Polynomial { above: true, .. }
-    ));
+    let shapes = case.surfaces.iter().map(|surface| match &surface.shape {
+        Shape::Analytical(shape) => shape,
+        Shape::Stl { .. } => panic!(),
+    });
+    let [circle, polynomial] = shapes.collect::<Vec<_>>()[..] else {
+        panic!()
+    };
+    assert_eq!(circle.name, "circle");
+    assert_eq!(circle.values.number("radius"), Ok(1.0));
+    assert_eq!(polynomial.name, "polynomial");
+    assert_eq!(polynomial.values.text("side"), Some("above"));
 }
 
 #[test]
@@ -375,7 +380,7 @@ fn penalties_are_made_from_the_elements_behind() {
         read.unwrap_or_else(|found| panic!("{}", found.plain()))
             .case
     };
-    let told = |case: &Case| -> Vec<(f64, Option<Vec<u64>>)> {
+    let found = |case: &Case| -> Vec<(f64, Option<Vec<u64>>)> {
         let of = |contact: &crate::case::Contact| {
             let Enforcement::Penalty(Some(penalty)) = &contact.enforcement else {
                 panic!()
@@ -399,13 +404,13 @@ fn penalties_are_made_from_the_elements_behind() {
             assert_eq!(found.1, wanted.1);
         }
     };
-    about(&told(&read("1 3", "autopenalty 1")), &[(500.0, None)]);
+    about(&found(&read("1 3", "autopenalty 1")), &[(500.0, None)]);
     about(
-        &told(&read("3 3 4 5", "autopenalty 1 pn 7.")),
+        &found(&read("3 3 4 5", "autopenalty 1 pn 7.")),
         &[(500.0, Some(vec![3])), (1000.0, Some(vec![4, 5]))],
     );
     about(
-        &told(&read("1 3", "autopenalty 0 pn 7. pt 7.")),
+        &found(&read("1 3", "autopenalty 0 pn 7. pt 7.")),
         &[(7.0, None)],
     );
 }
@@ -423,7 +428,7 @@ fn checks_become_expectations() {
         ..DECK
     };
     let case = deck.case();
-    let told: Vec<_> = (case.expectations.iter())
+    let found: Vec<_> = (case.expectations.iter())
         .map(|one| (one.what.value.as_str(), one.at, one.value, one.tolerance))
         .collect();
     let (end, half) = (Moment::Time(1.0), Moment::Time(0.5));
@@ -438,7 +443,7 @@ fn checks_become_expectations() {
         + 1;
     let strain = format!("strain.xy @ element 1 point {third}");
     assert_eq!(
-        told,
+        found,
         [
             ("displacement.y @ node 3", end, 1.5, within(1e-3)),
             ("reaction_force.x @ node 1", half, 2.0, within(0.5)),
@@ -451,107 +456,129 @@ fn checks_become_expectations() {
     assert!(unasked.found.plain().contains("no module `errorcheck`"));
 }
 
-#[test]
-fn faults_and_what_is_not_built_are_told_with_their_records() {
-    let deck = |change: &dyn Fn(&mut Deck)| {
+/// Changes of the deck, and what the message contains that follows.
+fn assert_refused(changes: &[(fn(&mut Deck), &str)]) {
+    for (change, expected) in changes {
         let mut deck = DECK;
         change(&mut deck);
-        deck.refused()
-    };
-    for (told, wanted) in [
+        let message = deck.refused();
+        assert!(message.contains(expected), "{message}\n{expected}");
+    }
+}
+
+#[test]
+fn analyses_and_domains_that_are_not_built_are_refused_by_name() {
+    assert_refused(&[
+        (|d| d.analysis = "NonLinearStatic nsteps 2", "arc length"),
         (
-            deck(&|d| d.analysis = "NonLinearStatic nsteps 2"),
+            |d| d.analysis = "NonLinearStatic nsteps 2 controlmode 0",
             "arc length",
         ),
         (
-            deck(&|d| d.analysis = "NonLinearStatic nsteps 2 controlmode 0"),
-            "arc length",
-        ),
-        (
-            deck(&|d| d.analysis = "EigenValueDynamic nroot 2"),
+            |d| d.analysis = "EigenValueDynamic nroot 2",
             "the analysis `eigenvaluedynamic`",
         ),
         (
-            deck(&|d| d.analysis = "StaticStructural nsteps 0"),
+            |d| d.analysis = "StaticStructural nsteps 0",
             "the deck has 0 steps",
         ),
         (
-            deck(&|d| d.analysis = "StaticStructural nsteps 1 deltat -1."),
+            |d| d.analysis = "StaticStructural nsteps 1 deltat -1.",
             "the length of steps is -1",
         ),
         (
-            deck(&|d| d.analysis = "StaticStructural nsteps 1 ddm 2 1 1"),
+            |d| d.analysis = "StaticStructural nsteps 1 ddm 2 1 1",
             "`ddm` of this staticstructural",
         ),
-        (deck(&|d| d.domain = "3dShell"), "the domain `3dshell`"),
+        (|d| d.domain = "3dShell", "the domain `3dshell`"),
+    ]);
+}
+
+#[test]
+fn faults_of_materials_and_elements_are_reported_with_their_records() {
+    assert_refused(&[
         (
-            deck(&|d| d.material = "Concrete2 1 d 0."),
+            |d| d.material = "Concrete2 1 d 0.",
             "the material `concrete2`",
         ),
         (
-            deck(&|d| d.material = "isoLE 1 d 0. n 0.2"),
+            |d| d.material = "isoLE 1 d 0. n 0.2",
             "this record has no `e`",
         ),
         (
-            deck(&|d| d.material = "isoLE 2 d 0. E 1. n 0.2 talpha 0."),
+            |d| d.material = "isoLE 2 d 0. E 1. n 0.2 talpha 0.",
             "have material 1, which",
         ),
         (
-            deck(&|d| d.element = "quad1planestrain 1 nodes 4 1 2 3 4 crosssect 1 mat 1 nlgeo 2"),
+            |d| d.element = "quad1planestrain 1 nodes 4 1 2 3 4 crosssect 1 mat 1 nlgeo 2",
             "`nlgeo` other",
         ),
         (
-            deck(&|d| {
-                d.element = "quad1planestrain 1 nodes 4 1 2 3 4 crosssect 1 mat 1 activityltf 2"
-            }),
+            |d| d.element = "quad1planestrain 1 nodes 4 1 2 3 4 crosssect 1 mat 1 activityltf 2",
             "`activityltf` of this quad1planestrain record is not read",
         ),
+    ]);
+}
+
+#[test]
+fn faults_of_conditions_are_reported_with_their_records() {
+    assert_refused(&[
         (
-            deck(&|d| d.conditions = &["BoundaryCondition 1 loadTimeFunction 9 values 1 0 set 1"]),
+            |d| d.conditions = &["BoundaryCondition 1 loadTimeFunction 9 values 1 0 set 1"],
             "no function of time 9",
         ),
         (
-            deck(&|d| d.conditions = &["BoundaryCondition 1 loadTimeFunction 1 values 1 0 set 8"]),
+            |d| d.conditions = &["BoundaryCondition 1 loadTimeFunction 1 values 1 0 set 8"],
             "there is no set 8",
         ),
         (
-            deck(&|d| {
+            |d| {
                 d.conditions = &["BoundaryCondition 1 loadTimeFunction 1 dofs 1 3 values 1 0 set 1"]
-            }),
+            },
             "`dofs` is 3",
         ),
         (
-            deck(&|d| d.conditions = &["LinearConstraintBC 1 weights 1 1."]),
+            |d| d.conditions = &["LinearConstraintBC 1 weights 1 1."],
             "the condition `linearconstraintbc`",
         ),
+    ]);
+}
+
+#[test]
+fn functions_without_a_value_at_some_step_are_refused() {
+    assert_refused(&[
         (
-            deck(&|d| d.functions = &["PiecewiseLinFunction 1 t 2 1 1 f(t) 2 0 1"]),
+            |d| d.functions = &["PiecewiseLinFunction 1 t 2 1 1 f(t) 2 0 1"],
             "do not increase",
         ),
         (
-            deck(&|d| d.functions = &["PiecewiseLinFunction 1 t 2 2 3 f(t) 2 0 1"]),
+            |d| d.functions = &["PiecewiseLinFunction 1 t 2 2 3 f(t) 2 0 1"],
             "begins at 2, after",
         ),
         (
-            deck(&|d| d.functions = &["UsrDefLTF 1 f(t) $ 1/(t-1) $"]),
+            |d| d.functions = &["UsrDefLTF 1 f(t) $ 1/(t-1) $"],
             "its value at t = 1 is inf",
         ),
+    ]);
+}
+
+#[test]
+fn faults_of_checks_are_reported_with_their_step() {
+    assert_refused(&[
         (
-            deck(&|d| d.checks = "#%BEGIN_CHECK%\n#NODE tStep 1 number 3"),
+            |d| d.checks = "#%BEGIN_CHECK%\n#NODE tStep 1 number 3",
             "has no end",
         ),
         (
-            deck(&|d| {
+            |d| {
                 d.checks =
                     "#%BEGIN_CHECK%\n#NODE tStep 9 number 3 dof 1 unknown d value 0\n#%END_CHECK%"
-            }),
+            },
             "there is no step 9",
         ),
         (
-            deck(&|d| d.checks = "#%BEGIN_CHECK%\n#TIME tStep 1 value 9.\n#%END_CHECK%"),
+            |d| d.checks = "#%BEGIN_CHECK%\n#TIME tStep 1 value 9.\n#%END_CHECK%",
             "the time of step 1 is 0.5, not 9",
         ),
-    ] {
-        assert!(told.contains(wanted), "{told}\n{wanted}");
-    }
+    ]);
 }

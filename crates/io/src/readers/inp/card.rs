@@ -116,6 +116,12 @@ pub(super) fn key(name: &str) -> String {
     upper.flat_map(char::to_uppercase).collect()
 }
 
+/// What names are compared by: in capitals, without blanks and quotes.
+#[must_use]
+pub fn compared(name: &str) -> String {
+    key(name.trim_matches('"'))
+}
+
 /// Bytes as text, UTF-8 or else Latin-1.
 pub(super) fn text(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {

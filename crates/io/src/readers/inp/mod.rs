@@ -35,6 +35,7 @@ mod statement;
 #[cfg(test)]
 mod tests;
 
+pub use card::compared;
 pub use directory::{Directory, Kind, Special};
 pub use statement::{Field, Statement};
 
@@ -62,12 +63,6 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> 
 pub fn read_from(fs: &dyn Fs, name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
     let whole = read_all(fs, name, bytes, false)?;
     Ok((whole.mesh, whole.notes))
-}
-
-/// What names are compared by: in capitals, without blanks and quotes.
-#[must_use]
-pub fn compared(name: &str) -> String {
-    card::key(name.trim_matches('"'))
 }
 
 /// A real number as Fortran writes it; finite.

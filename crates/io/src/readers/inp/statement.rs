@@ -1,7 +1,7 @@
 //! Cards that say something else than the mesh: kept with their data, and with the places of both.
 
+use super::card::compared;
 use super::card::{Card, Fields, Parameter, real, text, whole};
-use super::compared;
 use super::lines::{Lines, Spot};
 use crate::diagnostic::{Place, SourceFile};
 use std::cell::Cell;

@@ -1,7 +1,6 @@
 //! What is wrong with a record.
 
 use crate::diagnostic::{Code, Diagnostic, Place, codes};
-use crate::readers::{MeshError, Place as MeshPlace};
 use thiserror::Error;
 
 /// A fault and where it is.
@@ -163,22 +162,6 @@ impl RecordError {
 impl From<Fault> for Diagnostic {
     fn from(fault: Fault) -> Self {
         Self::error(fault.error.code(), fault.error.to_string()).at(&fault.place, "")
-    }
-}
-
-impl From<Fault> for MeshError {
-    fn from(fault: Fault) -> Self {
-        let place = match fault.place.get() {
-            Some((file, range)) => MeshPlace::Line {
-                file: file.name().to_owned(),
-                line: file.line_index(range.start) + 1,
-            },
-            None => MeshPlace::File(String::new()),
-        };
-        Self::Record {
-            place,
-            error: Box::new(fault.error),
-        }
     }
 }
 

@@ -4,16 +4,14 @@ use std::sync::Arc;
 
 /// The entry of the law.
 pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
-    description: Description {
-        name: "coulomb",
-        doc: "a share of the pressure, at most a cap",
-        hints: &[],
-        keys: &[
+    description: Description::new(
+        "coulomb",
+        "a share of the pressure, at most a cap",
+        &[
             key("mu", NOT_NEGATIVE, "coefficient of friction").required(),
             key("cap", POSITIVE, "largest shear traction, with `mu`").hints(&["tau_max", "taumax"]),
         ],
-        rules: &[],
-    },
+    ),
     make: |values| {
         Ok(Arc::new(Coulomb {
             mu: values.number("mu")?,

@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 /// The entry of the law.
 pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
-    description: Description {
-        name: "falling",
-        doc: "a share of the pressure that falls with the length of slip",
-        hints: &[],
-        keys: &[
+    description: Description::new(
+        "falling",
+        "a share of the pressure that falls with the length of slip",
+        &[
             key("static", POSITIVE, "coefficient before any slip")
                 .required()
                 .hints(&["mu_s", "mu_static"]),
@@ -23,8 +22,8 @@ pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
             .required()
             .hints(&["decay"]),
         ],
-        rules: &[Rule::NotAbove("kinetic", "static")],
-    },
+    )
+    .rules(&[Rule::NotAbove("kinetic", "static")]),
     make: |values| {
         Ok(Arc::new(Falling {
             stationary: values.number("static")?,

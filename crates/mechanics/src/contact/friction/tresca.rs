@@ -4,17 +4,15 @@ use std::sync::Arc;
 
 /// The entry of the law.
 pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
-    description: Description {
-        name: "tresca",
-        doc: "a constant wherever it touches",
-        hints: &[],
-        keys: &[
+    description: Description::new(
+        "tresca",
+        "a constant wherever it touches",
+        &[
             key("tresca", POSITIVE, "shear traction wherever it touches")
                 .required()
                 .hints(&["shear"]),
         ],
-        rules: &[],
-    },
+    ),
     make: |values| Ok(Arc::new(Tresca(values.number("tresca")?))),
 };
 

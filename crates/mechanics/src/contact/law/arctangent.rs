@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 /// The entry of [`Arctangent`].
 pub(super) const ENTRY: Entry<Arc<dyn ContactLaw>> = Entry {
-    description: Description {
-        name: "arctangent",
-        doc: "a penalty rounded by an arctangent, with a tension at a distance",
-        hints: &[],
-        keys: &[
+    description: Description::new(
+        "arctangent",
+        "a penalty rounded by an arctangent, with a tension at a distance",
+        &[
             key(
                 "stiffness",
                 POSITIVE,
@@ -23,8 +22,7 @@ pub(super) const ENTRY: Entry<Arc<dyn ContactLaw>> = Entry {
                 "the gap beyond which nothing acts, in sizes of the facets; absent: it acts at any distance",
             ),
         ],
-        rules: &[],
-    },
+    ),
     make: |values| {
         Ok(Arc::new(Arctangent {
             stiffness: values.number("stiffness")?,

@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 /// The entry of [`Exponential`].
 pub(super) const ENTRY: Entry<Arc<dyn ContactLaw>> = Entry {
-    description: Description {
-        name: "exponential",
-        doc: "a pressure that grows exponentially as the gap closes",
-        hints: &[],
-        keys: &[
+    description: Description::new(
+        "exponential",
+        "a pressure that grows exponentially as the gap closes",
+        &[
             key("p0", POSITIVE, "pressure at zero gap").required(),
             key("c0", POSITIVE, "the gap at which it has fallen to 1 %").required(),
             key(
@@ -17,8 +16,7 @@ pub(super) const ENTRY: Entry<Arc<dyn ContactLaw>> = Entry {
                 "the gap beyond which nothing acts (length); absent: it acts at any distance",
             ),
         ],
-        rules: &[],
-    },
+    ),
     make: |values| {
         Ok(Arc::new(Exponential {
             p0: values.number("p0")?,

@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::material::NeoHookean;
-use crate::model::{BodyKind, BodyPart, Change, Load, LoadPart, Model, Parts, StepPart, Target};
+use crate::model::{BodyKind, BodyPart, Change, LoadPart, Model, Parts, StepPart, Target};
 use crate::solve::{Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings};
 use crate::system::Archive;
 
 /// What a test says of a load: name, load, course.
-type Said = (&'static str, Load, Course);
+type Said = (&'static str, Acting, Course);
 
 /// A square of 1 × 1 held at its left side, under loads given step by step; steps last 1, 2, 1, 1.
 fn model(loads: [Vec<Said>; 4], nonlinear: bool) -> Model {
@@ -65,15 +65,12 @@ const FREE: Face = Face {
     side: 1,
 };
 
-fn traction(x: f64, y: f64) -> Load {
-    Load::Traction {
-        faces: vec![FREE],
-        traction: Vec3::new(x, y, 0.0),
-    }
+fn traction(x: f64, y: f64) -> Acting {
+    Traction(Vec3::new(x, y, 0.0)).on(Place::Faces(vec![FREE]))
 }
 
-fn nodes(y: f64) -> Load {
-    Load::Nodes(vec![(2, Vec3::new(0.0, y, 0.0))])
+fn nodes(y: f64) -> Acting {
+    Acting::forces(vec![(2, Vec3::new(0.0, y, 0.0))])
 }
 
 /// Runs a model and gives the sum of all loads at the end of every increment, from the reactions.
@@ -196,10 +193,12 @@ fn a_table_of_total_time_goes_on_until_a_ramp_takes_over_from_its_value() {
 
 /// Loads of every kind of course, a following pressure among them.
 fn mixed() -> Model {
-    let pressure = |p: f64| Load::Pressure {
-        faces: vec![FREE],
-        pressure: p,
-        follows: true,
+    let pressure = |p: f64| {
+        Pressure {
+            pressure: p,
+            follows: true,
+        }
+        .on(Place::Faces(vec![FREE]))
     };
     let total = Course::TotalTable(vec![[0.0, 0.0], [1.7, 1.0], [4.2, -1.0]]);
     let table = Course::Table(vec![[0.0, 0.2], [0.7, 1.1], [1.5, 0.6]]);

@@ -7,7 +7,8 @@ mod resultants;
 mod rigid;
 
 use super::{
-    Centrifugal, Course, FollowingPressure, NodalForces, Region, Schedule, Section, Spin, spread,
+    Acting, BodyForce, Centrifugal, Course, FollowingPressure, Force, Gravity, Load, Moment,
+    NodalForces, Place, Pressure, Region, Schedule, Section, Spin, Traction, Wrench, spread,
 };
 use crate::system::{
     Dof, Elimination, Idealisation, Layout, Order, Phase, Sink, State, StepContext, Symmetry, Term,

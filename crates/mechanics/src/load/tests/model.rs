@@ -3,7 +3,7 @@
 use super::*;
 use crate::material::NeoHookean;
 use crate::model::{
-    BodyKind, BodyPart, CarrierPart, Change, Load, LoadError, LoadPart, Model, ModelError, Parts,
+    BodyKind, BodyPart, CarrierPart, Change, LoadError, LoadPart, Model, ModelError, Parts,
     StepPart, Target,
 };
 use crate::solve::{Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings};
@@ -26,8 +26,8 @@ fn hold(nodes: Vec<NodeId>, axes: &[usize]) -> Change {
     Change::Prescribe(Target::Nodes(nodes), motions)
 }
 
-fn step_with(changes: Vec<Change>, loads: Vec<Load>, nonlinear: bool) -> StepPart {
-    let part = |(number, load): (usize, Load)| LoadPart {
+fn step_with(changes: Vec<Change>, loads: Vec<Acting>, nonlinear: bool) -> StepPart {
+    let part = |(number, load): (usize, Acting)| LoadPart {
         name: format!("load {number}"),
         load,
         course: Course::Ramp,
@@ -50,7 +50,7 @@ const NU: f64 = 0.3;
 #[test]
 fn loads_that_cannot_act_are_refused_by_name() {
     let quad = element::by_name("quad4").unwrap();
-    let refused = |space: Idealisation, load: Load| {
+    let refused = |space: Idealisation, load: Acting| {
         let single = Single::new(quad, space, 0.0);
         let mut mesh = single.mesh.clone();
         let stray = mesh.push_cell(quad, &[0, 1, 2, 3], 9);
@@ -76,10 +76,7 @@ fn loads_that_cannot_act_are_refused_by_name() {
         cell: cell(index),
         side,
     };
-    let traction = |faces| Load::Traction {
-        faces,
-        traction: Vec3::unit(0),
-    };
+    let traction = |faces| Traction(Vec3::unit(0)).on(Place::Faces(faces));
     assert_eq!(refused(plane, traction(vec![face(0, 1)])), None);
     assert_eq!(refused(plane, traction(vec![])), Some(LoadError::Nowhere));
     let no_face = LoadError::NoFace {
@@ -89,18 +86,12 @@ fn loads_that_cannot_act_are_refused_by_name() {
     assert_eq!(refused(plane, traction(vec![face(0, 8)])), Some(no_face));
     let outside = LoadError::Outside { element: 9 };
     assert_eq!(refused(plane, traction(vec![face(1, 0)])), Some(outside));
-    let gravity = Load::Gravity {
-        cells: vec![cell(0)],
-        acceleration: Vec3::unit(1),
-    };
+    let gravity = Gravity(Vec3::unit(1)).on(Place::Cells(vec![cell(0)]));
     let no_density = LoadError::NoDensity {
         body: "square".into(),
     };
     assert_eq!(refused(plane, gravity), Some(no_density));
-    let moment = Load::Moment {
-        nodes: vec![2],
-        moment: Vec3::unit(2),
-    };
+    let moment = Moment(Vec3::unit(2)).on(Place::Nodes(vec![2]));
     assert_eq!(refused(plane, moment), Some(LoadError::NoArm));
 }
 
@@ -112,7 +103,7 @@ fn a_name_given_twice_in_a_step_is_refused() {
         0.0,
     );
     let held = hold(vec![0, 1], &[0, 1]);
-    let pull = Load::Nodes(vec![(2, Vec3::unit(0))]);
+    let pull = Acting::forces(vec![(2, Vec3::unit(0))]);
     let mut step = step_with(vec![held], vec![pull.clone(), pull], true);
     step.loads[1].name = "load 0".into();
     let parts = Parts {
@@ -145,16 +136,13 @@ fn gravity_and_centrifugal_forces_take_the_density_of_each_body() {
             k as u64 + 1,
         ));
     }
-    let gravity = Load::Gravity {
-        cells: cells.clone(),
-        acceleration: Vec3::new(0.0, -10.0, 0.0),
-    };
-    let spin = Load::Centrifugal {
-        cells: cells.clone(),
+    let gravity = Gravity(Vec3::new(0.0, -10.0, 0.0)).on(Place::Cells(cells.clone()));
+    let spin = Spin {
         speed: 2.0,
         point: Vec3::ZERO,
         axis: Vec3::new(0.0, 0.0, 5.0),
-    };
+    }
+    .on(Place::Cells(cells.clone()));
     let parts = Parts {
         bodies: vec![
             solid("light", vec![cells[0]], Some(2.0)),
@@ -229,11 +217,11 @@ fn tube(n: usize, space: Idealisation, pressure: f64, nonlinear: bool) -> Model 
             }
         }
     }
-    let load = Load::Pressure {
-        faces,
+    let load = Pressure {
         pressure,
         follows: true,
-    };
+    }
+    .on(Place::Faces(faces));
     let changes = vec![
         hold((0..=n).map(|i| node(i, 0)).collect(), &[1]),
         hold(
@@ -296,11 +284,11 @@ fn a_tube_inflated_by_a_large_following_pressure_is_the_same_in_the_plane_and_ax
 fn a_moment_on_a_carrier_swivels_where_more_than_one_rotation_is_free() {
     let (mesh, [soft, hard]) = stack();
     let twist = |moment: Vec3| {
-        let load = Load::Carrier {
-            carrier: 0,
+        let load = Wrench {
             force: Vec3::ZERO,
             moment,
-        };
+        }
+        .on(Place::Carrier(0));
         let held = hold(vec![0, 1, 2, 3], &[0, 1, 2]);
         let mut model = lid(&mesh, soft, hard, step_with(vec![held], vec![load], true));
         run(&mut model);
@@ -313,7 +301,7 @@ fn a_moment_on_a_carrier_swivels_where_more_than_one_rotation_is_free() {
 }
 
 /// A unit cube of one element under one load, every node held: the sum of its reactions and their moment about the origin.
-fn supports(load: Load) -> [Vec3; 2] {
+fn supports(load: Acting) -> [Vec3; 2] {
     let hex = element::by_name("hex8").unwrap();
     let single = Single::new(hex, Idealisation::Space, 0.0);
     let held = hold((0..8).collect(), &[0, 1, 2]);
@@ -336,38 +324,25 @@ fn what_every_kind_of_load_exerts_arrives_at_the_supports() {
     let faces = vec![Face { cell, side: 3 }; 2];
     let (cells, v) = (vec![cell; 2], Vec3::new(2.0, -3.0, 0.5));
     let (face, centre) = (Vec3::unit(0) * 3.0, Vec3::unit(0) * 2.0);
-    let pressure = |follows| Load::Pressure {
-        faces: faces.clone(),
-        pressure: 2.5,
-        follows,
+    let pressure = |follows| {
+        Pressure {
+            pressure: 2.5,
+            follows,
+        }
+        .on(Place::Faces(faces.clone()))
     };
     let push = Vec3::unit(0) * -10.0;
-    let total = Load::Force {
-        faces: faces.clone(),
-        total: v,
-    };
-    let traction = Load::Traction {
-        faces: faces.clone(),
-        traction: v,
-    };
-    let body = Load::Body {
-        cells: cells.clone(),
-        force: v,
-    };
-    let gravity = Load::Gravity {
-        cells: cells.clone(),
-        acceleration: v,
-    };
-    let spin = Load::Centrifugal {
-        cells,
+    let total = Force(v).on(Place::Faces(faces.clone()));
+    let traction = Traction(v).on(Place::Faces(faces.clone()));
+    let body = BodyForce(v).on(Place::Cells(cells.clone()));
+    let gravity = Gravity(v).on(Place::Cells(cells.clone()));
+    let spin = Spin {
         speed: 2.0,
         point: Vec3::new(0.0, 0.0, 9.0),
         axis: Vec3::unit(2) * -3.0,
-    };
-    let moment = Load::Moment {
-        nodes: vec![0, 1, 2, 5],
-        moment: v,
-    };
+    }
+    .on(Place::Cells(cells));
+    let moment = Moment(v).on(Place::Nodes(vec![0, 1, 2, 5]));
     for (load, force, moment) in [
         (total, v, face.cross(v)),
         (traction, v * 4.0, face.cross(v) * 4.0),
@@ -391,10 +366,7 @@ fn bars_weigh_their_cross_section_times_their_length() {
     let single = Single::new(quad, Idealisation::PlaneStrain { thickness: 9.0 }, 0.0);
     let mut mesh = single.mesh.clone();
     let bar = mesh.push_cell(element::by_name("line2").unwrap(), &[0, 2], 8);
-    let gravity = Load::Gravity {
-        cells: vec![bar],
-        acceleration: Vec3::new(0.0, -10.0, 0.0),
-    };
+    let gravity = Gravity(Vec3::new(0.0, -10.0, 0.0)).on(Place::Cells(vec![bar]));
     let truss = BodyPart {
         name: "bar".into(),
         cells: vec![bar],
@@ -424,7 +396,7 @@ fn bars_weigh_their_cross_section_times_their_length() {
 #[test]
 fn loads_on_faces_and_cells_of_a_rigid_body_are_forces_on_the_body() {
     let (mesh, [soft, hard]) = stack();
-    let shift = |load: Load| {
+    let shift = |load: Acting| {
         let changes = vec![
             hold(vec![0, 1, 2, 3], &[0, 1, 2]),
             Change::Release(Target::Rigid(0), vec![0, 1, 2]),
@@ -433,24 +405,20 @@ fn loads_on_faces_and_cells_of_a_rigid_body_are_forces_on_the_body() {
         run(&mut model).pop().unwrap().0
     };
     let force = Vec3::new(4.0, -2.0, -30.0);
-    let expected = shift(Load::Carrier {
-        carrier: 0,
-        force,
-        moment: Vec3::ZERO,
-    });
+    let expected = shift(
+        Wrench {
+            force,
+            moment: Vec3::ZERO,
+        }
+        .on(Place::Carrier(0)),
+    );
     assert!(expected[10].z < -0.01, "{:?}", expected[10]);
     let top = Face {
         cell: hard,
         side: 1,
     };
-    let on_face = Load::Force {
-        faces: vec![top],
-        total: force,
-    };
-    let on_cell = Load::Body {
-        cells: vec![hard],
-        force,
-    };
+    let on_face = Force(force).on(Place::Faces(vec![top]));
+    let on_cell = BodyForce(force).on(Place::Cells(vec![hard]));
     for load in [on_face, on_cell] {
         for (a, b) in shift(load).iter().zip(&expected) {
             assert_near(*a, *b, 1e-7, "displacement");

@@ -2,11 +2,10 @@
 
 use super::*;
 use crate::connector::SpringLaw;
+use crate::load::{Acting, Load, Place, Wrench};
 use crate::material::{NeoHookean, SaintVenantKirchhoff};
 use crate::model::Parts;
-use crate::model::{
-    Change, ContactPart, Load, LoadPart, Model, PrimaryPart, SidePart, StepPart, Target,
-};
+use crate::model::{Change, ContactPart, LoadPart, Model, PrimaryPart, SidePart, StepPart, Target};
 use crate::solve::{Event, Flow, Increments, NewtonSettings, Outcome, Stepper, StepperSettings};
 use crate::system::{Archive, Assembler, Assembly, Frame, Order, State};
 use signorini_geometry::element::by_name;
@@ -346,11 +345,11 @@ fn a_coupling_along_one_axis_leaves_the_others_free() {
     let mut pull = step(3, true, vec![fix(0), fix(1), fix(2)]);
     pull.loads.push(LoadPart {
         name: "pull".into(),
-        load: Load::Carrier {
-            carrier: 0,
+        load: Wrench {
             force: Vec3::unit(2) * 120.0,
             moment: Vec3::ZERO,
-        },
+        }
+        .on(Place::Carrier(0)),
         course: crate::load::Course::default(),
     });
     let ran = run(Parts {
@@ -389,11 +388,7 @@ fn a_distributing_coupling_acts_as_equivalent_forces_and_follows_the_mean() {
     let mut loaded = step(1, false, vec![prescribe(base.clone(), &ALL)]);
     loaded.loads.push(LoadPart {
         name: "wrench".into(),
-        load: Load::Carrier {
-            carrier: 0,
-            force,
-            moment,
-        },
+        load: Wrench { force, moment }.on(Place::Carrier(0)),
         course: crate::load::Course::default(),
     });
     let coupled = |steps: StepPart| {
@@ -424,7 +419,7 @@ fn a_distributing_coupling_acts_as_equivalent_forces_and_follows_the_mean() {
     let mut direct = step(1, false, vec![prescribe(base, &ALL)]);
     direct.loads.push(LoadPart {
         name: "forces".into(),
-        load: Load::Nodes(forces.collect()),
+        load: Acting::forces(forces.collect()),
         course: crate::load::Course::default(),
     });
     let expected = run(Parts {
@@ -453,11 +448,11 @@ fn a_distributing_coupling_acts_as_equivalent_forces_and_follows_the_mean() {
     // large: force and moment at the supports balance the load
     let mut large = loaded;
     (large.nonlinear, large.increments) = (true, Increments::Fixed(4));
-    large.loads[0].load = Load::Carrier {
-        carrier: 0,
+    large.loads[0].load = Wrench {
         force: force * 20.0,
         moment: moment * 10.0,
-    };
+    }
+    .on(Place::Carrier(0));
     let ran = coupled(large);
     let (f, m) = ran.reactions();
     let arm = ran.state.poses[0].origin;

@@ -5,12 +5,12 @@ mod contact;
 pub use contact::*;
 
 use crate::connector::SpringLaw;
-use crate::load::Course;
+use crate::load::{Acting, Course};
 use crate::material::Material;
 use crate::solid::{AtNodes, AtStart, Integration, Locking};
 use crate::solve::{Increments, Motion};
 use crate::system::Idealisation;
-use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
+use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::surface::RigidId;
 use signorini_geometry::tensor::Vec3;
 
@@ -273,85 +273,14 @@ pub enum Change {
 }
 
 /// A load. A later load of the same name replaces it; a load stays as it is until then.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct LoadPart {
     /// Its name.
     pub name: String,
-    /// What acts, at full size.
-    pub load: Load,
+    /// What acts, at full size, and where.
+    pub load: Acting,
     /// The factor over time: from what the load of this name was before to full size by default.
     pub course: Course,
-}
-
-/// What acts.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Load {
-    /// Forces on nodes, which keep their direction.
-    Nodes(Vec<(NodeId, Vec3)>),
-    /// A force and a moment on a carrier, which keep their direction.
-    Carrier {
-        /// Where they act.
-        carrier: RigidId,
-        /// The force.
-        force: Vec3,
-        /// The moment.
-        moment: Vec3,
-    },
-    /// A total force, spread evenly over the reference area of faces; it keeps its direction.
-    Force {
-        /// Where it acts.
-        faces: Vec<Face>,
-        /// The sum.
-        total: Vec3,
-    },
-    /// A moment on nodes: forces that are statically equivalent to it at the start, and keep their direction.
-    Moment {
-        /// Where it acts.
-        nodes: Vec<NodeId>,
-        /// The moment about their centre.
-        moment: Vec3,
-    },
-    /// Force per reference area, which keeps its direction.
-    Traction {
-        /// Where it acts.
-        faces: Vec<Face>,
-        /// Force per area.
-        traction: Vec3,
-    },
-    /// Pressure, positive in compression.
-    Pressure {
-        /// Where it acts.
-        faces: Vec<Face>,
-        /// Force per area.
-        pressure: f64,
-        /// Whether it follows area and normal of the deformed faces.
-        follows: bool,
-    },
-    /// Force per reference volume.
-    Body {
-        /// Where it acts.
-        cells: Vec<CellId>,
-        /// Force per volume.
-        force: Vec3,
-    },
-    /// Mass times an acceleration.
-    Gravity {
-        /// Where it acts.
-        cells: Vec<CellId>,
-        /// The acceleration.
-        acceleration: Vec3,
-    },
-    /// Mass times centrifugal acceleration about an axis that stays where it is.
-    Centrifugal {
-        /// Where it acts.
-        cells: Vec<CellId>,
-        /// Angular velocity (radian per time); a course multiplies its square.
-        speed: f64,
-        /// A point of the axis.
-        point: Vec3,
-        /// The direction of the axis.
-        axis: Vec3,
-    },
 }
 
 /// A step: what it changes.

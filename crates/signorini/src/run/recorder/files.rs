@@ -1,5 +1,6 @@
 //! The files of a run: begun again, or gone on with from a checkpoint.
 
+use super::growing::Files;
 use super::{Counts, Recorder, Setting, frame_file};
 use crate::run::audit::Audit;
 use crate::run::closure::Closure;
@@ -9,7 +10,6 @@ use crate::run::idle::Idle;
 use crate::run::narration::Narrator;
 use crate::run::news::Listener;
 use signorini_io::checkpoint::{Archive, Checkpoints};
-use signorini_io::fs::Log;
 use signorini_io::writers::csv::{CONVERGENCE_COLUMNS, Table};
 use signorini_io::writers::dat;
 use signorini_io::writers::frd::{FrdFile, Mark};
@@ -18,18 +18,6 @@ use signorini_io::writers::pvd::{Entry, Pvd};
 use signorini_io::writers::sta::StatusTable;
 use std::collections::BTreeMap;
 use std::time::Instant;
-
-/// The growing files.
-pub(super) struct Files {
-    pub(super) history: Table,
-    pub(super) convergence: Table,
-    pub(super) sta: StatusTable,
-    pub(super) events: EventLog,
-    /// Where some step prints tables.
-    pub(super) tables: Option<dat::Tables>,
-    pub(super) log: Box<dyn Log>,
-    pub(super) frd: Option<FrdFile>,
-}
 
 /// The open files of a run, and where they stand.
 pub struct Opened {
@@ -115,25 +103,7 @@ impl Opened {
         let mut rows = [0; 4];
         from.copy_u64("run/rows", &mut rows)?;
         let [history, convergence, attempts, events] = rows;
-        let frames = from.get_f64("run/frames")?.to_vec();
-        let mut numbers = vec![0; 1 + 5 * setting.steps.len()];
-        from.copy_u64("run/counts", &mut numbers)?;
-        let (increments, of_steps) = numbers.split_first().unwrap_or((&0, &[]));
-        let steps = setting.steps.iter().zip(of_steps.chunks_exact(5));
-        let counts = Counts {
-            increments: *increments,
-            steps: steps
-                .map(|(step, n)| StepSummary {
-                    name: step.name.clone(),
-                    increments: n.first().copied().unwrap_or(0),
-                    iterations: n.get(1).copied().unwrap_or(0),
-                    cutbacks: n.get(2).copied().unwrap_or(0),
-                    linear_iterations: n.get(3).copied().unwrap_or(0),
-                    fallbacks: n.get(4).copied().unwrap_or(0),
-                })
-                .collect(),
-            frames,
-        };
+        let counts = counts(&setting, from)?;
         expectations.load(from.get_f64("run/expectations")?);
         let closure = Closure::restore(from.get_f64("run/closure").unwrap_or_default());
         let idle = Idle::restore(from.get_f64("run/idle").unwrap_or_default());
@@ -274,6 +244,29 @@ impl Opened {
 
 fn tables(name: &str) -> String {
     format!("{name}.dat")
+}
+
+/// Where the records of the run stood.
+fn counts(setting: &Setting, from: &Archive) -> Result<Counts, OutputError> {
+    let frames = from.get_f64("run/frames")?.to_vec();
+    let mut numbers = vec![0; 1 + 5 * setting.steps.len()];
+    from.copy_u64("run/counts", &mut numbers)?;
+    let (increments, of_steps) = numbers.split_first().unwrap_or((&0, &[]));
+    let steps = setting.steps.iter().zip(of_steps.chunks_exact(5));
+    Ok(Counts {
+        increments: *increments,
+        steps: steps
+            .map(|(step, n)| StepSummary {
+                name: step.name.clone(),
+                increments: n.first().copied().unwrap_or(0),
+                iterations: n.get(1).copied().unwrap_or(0),
+                cutbacks: n.get(2).copied().unwrap_or(0),
+                linear_iterations: n.get(3).copied().unwrap_or(0),
+                fallbacks: n.get(4).copied().unwrap_or(0),
+            })
+            .collect(),
+        frames,
+    })
 }
 
 /// How far the file of all frames had got.

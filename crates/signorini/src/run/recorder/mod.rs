@@ -4,11 +4,12 @@
 
 mod checkpoint;
 mod files;
+mod growing;
 mod progress;
 
 pub use files::Opened;
 
-use files::Files;
+use growing::Files;
 
 use crate::run::audit::Audit;
 use crate::run::closure::Closure;
@@ -38,9 +39,6 @@ use signorini_mechanics::system::{Dof, Frame, Layout, System};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// Iterations from which on an increment is called slow.
-pub const SLOW: usize = 8;
 
 /// What stays the same during a run.
 pub struct Setting {

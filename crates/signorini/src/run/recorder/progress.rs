@@ -1,6 +1,7 @@
 //! Iterations, cut-backs and increments: what becomes of each in tables and news.
 
-use super::{Recorder, SLOW};
+use super::Recorder;
+use crate::run::news::SLOW;
 use crate::run::news::{Detail, Effort};
 use signorini_io::case::Every;
 use signorini_io::writers::csv::Cell;

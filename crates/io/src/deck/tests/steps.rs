@@ -1,0 +1,229 @@
+//! What steps prescribe: supports, motions, loads and what holds at the start.
+
+use super::*;
+use crate::case::{AxesSystem, ConstraintKind, Motion, SetContent, Unstrained};
+use crate::deck::load::vector;
+use signorini_geometry::tensor::Vec3;
+use signorini_vocabulary::{Chosen, Value};
+use std::f64::consts::FRAC_1_SQRT_2;
+
+#[test]
+fn supports_in_the_first_step_hold_and_motions_ramp() {
+    let cards = format!(
+        "*BOUNDARY\nBASE, 1, 3\n{}",
+        STEP.replace(
+            "*CLOAD\nTOP, 3, 1.",
+            "*BOUNDARY\n5,3,3,0.1\n6,3,3,0.1\n7,1,2"
+        )
+    );
+    let case = case(&cube("C3D8", &cards));
+    let step = &case.steps[0];
+    assert_eq!(step.fixes.len(), 2);
+    assert_eq!(step.fixes[0].on.value, "BASE");
+    assert_eq!(step.fixes[0].u.xyz, [true; 3]);
+    // lines of single nodes that say the same are one set
+    assert_eq!(step.moves.len(), 1);
+    assert_eq!(step.moves[0].u, [None, None, Some(Motion::Ramp(0.1))]);
+    let set = case
+        .sets
+        .iter()
+        .find(|set| set.name == step.moves[0].on)
+        .unwrap();
+    assert_eq!(set.content, SetContent::Nodes(vec![5, 6]));
+}
+
+#[test]
+fn what_is_released_is_free_and_what_is_held_again_goes_back() {
+    let steps = "*BOUNDARY\nBASE, 1, 3\n*STEP\n*STATIC\n*BOUNDARY\nTOP, 3, 3, 0.1\n*END STEP\n\
+                 *STEP\n*STATIC\n*BOUNDARY, OP=NEW\nBASE, 1, 3\n*CLOAD\n5, 3, 1.\n*END STEP\n\
+                 *STEP\n*STATIC\n*BOUNDARY\nTOP, 3, 3\n*END STEP\n";
+    let case = case(&cube("C3D8", steps));
+    let free: Vec<&str> = case.steps[1]
+        .frees
+        .iter()
+        .map(|f| f.on.value.as_str())
+        .collect();
+    assert_eq!(free, ["BASE", "TOP"]);
+    // BASE was set free and is taken back to zero
+    assert_eq!(case.steps[1].moves.len(), 1);
+    assert_eq!(case.steps[2].moves[0].u[2], Some(Motion::Ramp(0.0)));
+}
+
+#[test]
+fn the_last_boundary_of_a_node_counts_of_the_model_or_the_step() {
+    let held = "*BOUNDARY\nBASE, 1, 3\nTOP, 2, 3\n*STEP\n*STATIC\n*BOUNDARY\n";
+    let moves_of = |lines: &str| {
+        let case = case(&cube("C3D8", &format!("{held}{lines}\n*END STEP\n")));
+        let nodes = |name: &str| {
+            let set = case.sets.iter().find(|set| set.name.value == name);
+            match set.map(|set| &set.content) {
+                Some(SetContent::Nodes(nodes)) => nodes.clone(),
+                _ => Vec::new(),
+            }
+        };
+        let step = &case.steps[0];
+        let fixes: Vec<_> = step
+            .fixes
+            .iter()
+            .map(|f| (f.on.value.clone(), f.u))
+            .collect();
+        let moves = step.moves.iter();
+        let moves: Vec<_> = moves
+            .map(|m| (nodes(&m.on.value), m.u[2].clone()))
+            .collect();
+        (fixes, moves)
+    };
+    // all of what the model holds along an axis is moved by the step
+    let (fixes, moves) = moves_of("TOP, 3, 3, -0.001");
+    assert_eq!(fixes.len(), 2, "{fixes:?}");
+    assert_eq!(moves.len(), 1);
+    assert_eq!(moves[0].1, Some(Motion::Ramp(-0.001)));
+    // one node of it: the others stay held
+    let (_, moves) = moves_of("5, 3, 3, -0.001\n5, 3, 3, -0.002");
+    assert_eq!(moves, [(vec![5], Some(Motion::Ramp(-0.002)))]);
+    // the same again is no change
+    let (fixes, moves) = moves_of("TOP, 3, 3");
+    assert_eq!((fixes.len(), moves.len()), (3, 0), "{fixes:?}");
+}
+
+#[test]
+fn loads_of_a_step_add_up_and_later_ones_replace_them() {
+    let steps = "*STEP\n*STATIC\n*CLOAD\nTOP, 3, 1.\n5, 3, 10.\n*DLOAD\nCUBE, P2, 1.\nCUBE, P2, 2.\n*END STEP\n\
+                 *STEP\n*STATIC\n*CLOAD\n5, 3, 2.\n*END STEP\n*STEP\n*STATIC\n*DLOAD, OP=NEW\n*END STEP\n";
+    let case = case(&cube("C3D8", steps));
+    let kinds = |step: usize| -> Vec<Chosen> {
+        case.steps[step]
+            .loads
+            .iter()
+            .map(|load| load.kind.clone())
+            .collect()
+    };
+    let pressure = |p: f64| Chosen::bare("pressure", Value::Number(p));
+    let up = |f: f64| vector("per_node", [0.0, 0.0, f]);
+    assert_eq!(kinds(0), [up(11.0), up(1.0), pressure(3.0)]);
+    assert_eq!(kinds(1), [up(2.0)]);
+    assert_eq!(case.steps[1].loads[0].name, case.steps[0].loads[0].name);
+    assert_eq!(kinds(2), [pressure(0.0)]);
+}
+
+#[test]
+fn local_axes_turn_loads_and_make_equations() {
+    let cards = "*TRANSFORM, NSET=TOP, TYPE=R\n0.,1.,0., -1.,0.,0.\n*STEP\n*STATIC\n\
+                 *BOUNDARY\n5, 1, 1\n*CLOAD\n6, 1, 2.\n*END STEP\n";
+    let case = case(&cube("C3D8", cards));
+    assert_eq!(
+        case.steps[0].loads[0].kind,
+        vector("per_node", [0.0, 2.0, 0.0])
+    );
+    let ConstraintKind::Equation { terms, rhs } = &case.constraints[0].kind else {
+        panic!("{:?}", case.constraints);
+    };
+    assert_eq!((terms.len(), *rhs), (1, 0.0));
+    assert_eq!((terms[0].component.value, terms[0].coefficient), (1, 1.0));
+}
+
+#[test]
+fn a_motion_along_a_local_axis_is_that_of_a_reference() {
+    let cards = "*TRANSFORM, NSET=TOP, TYPE=R\n0.,1.,0., -1.,0.,0.\n*STEP\n*STATIC\n*BOUNDARY\n5, 1, 1, 0.1\n*END STEP\n\
+                 *STEP\n*STATIC\n*BOUNDARY\n5, 1, 1, 0.2\n*END STEP\n";
+    let case = case(&cube("C3D8", cards));
+    let ConstraintKind::Equation { terms, .. } = &case.constraints[0].kind else {
+        panic!("{:?}", case.constraints);
+    };
+    // u_y − r_x = 0
+    let of_terms: Vec<(usize, f64)> = (terms.iter())
+        .map(|t| (t.component.value, t.coefficient))
+        .collect();
+    assert_eq!(of_terms, [(1, 1.0), (0, -1.0)]);
+    for (step, value) in case.steps.iter().zip([0.1, 0.2]) {
+        assert_eq!(step.moves[0].on, terms[1].on);
+        assert_eq!(step.moves[0].u[0], Some(Motion::Ramp(value)));
+    }
+    assert_eq!(case.constraints.len(), 1);
+}
+
+#[test]
+fn points_of_elements_have_stress_and_strain_at_the_start() {
+    let cards = format!(
+        "*INITIAL CONDITIONS, TYPE=STRESS\n1, 2, 1., 2., 3., 4., 5., 6.\n\
+         *INITIAL CONDITIONS, TYPE=PLASTIC STRAIN\nCUBE, 1, .1\n{STEP}"
+    );
+    let case = case(&cube("C3D8", &cards));
+    let [at] = &case.initial_stress[..] else {
+        panic!("{:?}", case.initial_stress);
+    };
+    assert_eq!((at.element, at.point), (1, 2));
+    assert_eq!(at.value, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    assert_eq!(case.initial_strain[0].value, [0.1, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let text = refused(&cube("C3D8R", &cards));
+    assert!(
+        text.contains("values at the points of this element"),
+        "{text}"
+    );
+    let text = refused(&cube("C3D8", &cards.replace("STRESS\n", "STRESS, USER\n")));
+    assert!(
+        text.contains("TYPE=STRESS, USER is not supported"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_time_delay_is_an_amplitude_of_its_own() {
+    let cards = "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*STEP\n*STATIC\n*CLOAD, AMPLITUDE=A, TIME DELAY=0.5\nTOP, 3, 1.\n\
+                 *CLOAD, AMPLITUDE=A\nTOP, 1, 1.\n*END STEP\n";
+    let case = case(&cube("C3D8", cards));
+    let tables: Vec<_> = case
+        .amplitudes
+        .iter()
+        .map(|one| one.table.clone())
+        .collect();
+    assert_eq!(tables, [[[0.0, 0.0], [1.0, 1.0]], [[0.5, 0.0], [1.5, 1.0]]]);
+}
+
+#[test]
+fn temperatures_at_the_start_that_differ_are_those_of_sets_in_their_order() {
+    let start = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 100.\nTOP, 20.\n*STEP";
+    let deck = cube("C3D8", STEP).replace("1000., 0.3\n", "1000., 0.3\n*EXPANSION\n1e-5\n");
+    let case = case(&deck.replace("*STEP", start));
+    let sets = case.initial_temperatures.iter();
+    let sets: Vec<_> = sets.map(|one| (one.on.as_str(), one.temperature)).collect();
+    assert_eq!(sets, [("ALL", 100.0), ("TOP", 20.0)]);
+    let expansion = case.materials[0].expansion.as_ref().unwrap();
+    assert_eq!(expansion.free.value, Unstrained::AtStart);
+}
+
+#[test]
+fn cylindrical_axes_have_a_radius_on_their_axis_too() {
+    let system = AxesSystem::Cylindrical {
+        from: [1.0, 0.0, 0.0],
+        to: [1.0, 0.0, 4.0],
+    };
+    let off = system.at([1.0, 2.0, 3.0].into()).unwrap();
+    assert_eq!(
+        off.map(Vec3::to_array),
+        [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    );
+    let on = system.at([1.0, 0.0, 9.0].into()).unwrap();
+    assert_eq!(
+        on.map(Vec3::to_array),
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    );
+    // along which ccx 2.20 moves a node on these axes that is moved along its first local axis
+    let printed = [
+        ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
+        ([0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
+        ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+        ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]),
+        ([1.0, 1.0, 1.0], [-FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.0]),
+        ([1.0, 2.0, 3.0], [-0.89443, 0.44721, 0.0]),
+        ([1.0, 1.0, 0.0], [-FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.0]),
+        ([1.0, 3.0, 2.0], [-0.94868, 0.31623, 0.0]),
+    ];
+    for (to, radial) in printed {
+        let from = [0.0; 3];
+        let system = AxesSystem::Cylindrical { from, to };
+        let [first, ..] = system.at(Vec3::ZERO).unwrap();
+        let off = (first - Vec3::from(radial)).norm();
+        assert!(off < 1e-5, "{to:?}: {first:?}");
+    }
+}

@@ -1,0 +1,34 @@
+use super::{Domain, Effect, Load, LoadError, Site, spread};
+use signorini_geometry::tensor::Vec3;
+use signorini_vocabulary::{Description, Entry, VECTOR, key};
+use std::sync::Arc;
+
+/// The entry of [`BodyForce`].
+pub(super) const ENTRY: Entry<Arc<dyn Load>> = Entry {
+    description: Description::bare(&[
+        key("body_force", VECTOR, "force per volume [x, y, z]").within_plane()
+    ]),
+    make: |values| Ok(Arc::new(BodyForce(values.vector("body_force")?.into()))),
+};
+
+/// Force per reference volume, which keeps its direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyForce(
+    /// Force per volume.
+    pub Vec3,
+);
+
+impl Load for BodyForce {
+    fn domain(&self) -> Domain {
+        Domain::Volume
+    }
+
+    fn quantity(&self) -> &'static str {
+        "body force"
+    }
+
+    fn effect(&self, site: Site<'_>) -> Result<Effect, LoadError> {
+        let forces = spread::over_cells(&site.region, site.reference, self.0);
+        Ok(Effect::forces(forces))
+    }
+}

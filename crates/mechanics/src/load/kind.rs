@@ -1,0 +1,224 @@
+//! What acts, and where.
+
+use super::{Region, Schedule};
+use crate::system::{Layout, Term};
+use signorini_geometry::mesh::{CellId, Face, NodeId};
+use signorini_geometry::surface::RigidId;
+use signorini_geometry::tensor::Vec3;
+use std::collections::BTreeSet;
+use std::fmt::Debug;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// What acts, at full size. Where it acts is a matter of its [`Place`].
+pub trait Load: Debug + Send + Sync {
+    /// What it acts on.
+    fn domain(&self) -> Domain;
+
+    /// What it is an amount of. Two loads of one quantity in one place can take each other's place at once.
+    fn quantity(&self) -> &'static str;
+
+    /// Its force and moment on a carrier; `None` where it does not act on what moves as a whole.
+    fn resultant(&self) -> Option<[Vec3; 2]> {
+        None
+    }
+
+    /// The same load, turning with the surface that it acts on or not; `None` where it always keeps its direction.
+    fn following(&self, follows: bool) -> Option<Arc<dyn Load>> {
+        let _ = follows;
+        None
+    }
+
+    /// The part of it that can act on a body of revolution, in words, where that is not all of it.
+    fn off_axis(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// What it does at a site, at full size.
+    ///
+    /// # Errors
+    /// It cannot act there.
+    fn effect(&self, site: Site<'_>) -> Result<Effect, LoadError>;
+
+    /// This load in a place.
+    fn on(self, place: Place) -> Acting
+    where
+        Self: Sized + 'static,
+    {
+        Acting {
+            load: Arc::new(self),
+            place,
+        }
+    }
+}
+
+/// What a load acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// Nodes.
+    Nodes,
+    /// Faces; nodes where there are none.
+    FacesOrNodes,
+    /// Faces.
+    Faces,
+    /// Cells, by their volume.
+    Volume,
+    /// Cells, by their mass.
+    Mass,
+}
+
+/// Where a load acts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Place {
+    /// On nodes.
+    Nodes(Vec<NodeId>),
+    /// On faces.
+    Faces(Vec<Face>),
+    /// On cells.
+    Cells(Vec<CellId>),
+    /// On a carrier.
+    Carrier(RigidId),
+}
+
+/// A load in its place.
+#[derive(Clone, Debug)]
+pub struct Acting {
+    /// What acts, at full size.
+    pub load: Arc<dyn Load>,
+    /// Where.
+    pub place: Place,
+}
+
+impl Acting {
+    /// Forces on nodes, which keep their direction.
+    #[must_use]
+    pub fn forces(forces: Vec<(NodeId, Vec3)>) -> Self {
+        let nodes = forces.iter().map(|(node, _)| *node).collect();
+        Forces(forces).on(Place::Nodes(nodes))
+    }
+
+    /// Whether another load is of the same quantity in the same place; on a carrier, whether it acts on that.
+    #[must_use]
+    pub fn is_alike(&self, other: &Self) -> bool {
+        let alike = match (&self.place, &other.place) {
+            (Place::Carrier(a), Place::Carrier(b)) => return a == b,
+            (Place::Nodes(a), Place::Nodes(b)) => set(a) == set(b),
+            (Place::Faces(a), Place::Faces(b)) => set(a) == set(b),
+            (Place::Cells(a), Place::Cells(b)) => set(a) == set(b),
+            _ => false,
+        };
+        alike && self.load.quantity() == other.load.quantity()
+    }
+}
+
+fn set<T: Copy + Ord>(members: &[T]) -> BTreeSet<T> {
+    members.iter().copied().collect()
+}
+
+/// The place of a load in a model, and what it needs there.
+pub struct Site<'a> {
+    /// The name of the load.
+    pub name: &'a str,
+    /// Its nodes, in the order in which they were named; none on faces and cells.
+    pub nodes: &'a [NodeId],
+    /// Its cells; none on nodes and faces.
+    pub cells: &'a [CellId],
+    /// Its faces, or its cells with densities as factors where it acts by mass; empty on nodes.
+    pub region: Region,
+    /// Whether some of its cells are of a body of revolution.
+    pub revolved: bool,
+    /// Its factor over time.
+    pub schedule: Schedule,
+    /// The unknowns.
+    pub layout: Layout,
+    /// Positions of all nodes at the start.
+    pub reference: &'a Arc<[Vec3]>,
+}
+
+/// What a load does.
+pub enum Effect {
+    /// Forces on nodes that keep direction and size, in the order in which they are added up.
+    Forces(Vec<(NodeId, Vec3)>),
+    /// Forces that go by the state.
+    Term(Box<dyn Term>),
+}
+
+impl Effect {
+    /// Forces on nodes that keep direction and size.
+    pub(super) fn forces(forces: impl IntoIterator<Item = (NodeId, Vec3)>) -> Self {
+        Self::Forces(forces.into_iter().collect())
+    }
+}
+
+/// Forces of their own at several nodes.
+#[derive(Debug)]
+struct Forces(Vec<(NodeId, Vec3)>);
+
+impl Load for Forces {
+    fn domain(&self) -> Domain {
+        Domain::Nodes
+    }
+
+    fn quantity(&self) -> &'static str {
+        "force"
+    }
+
+    fn effect(&self, _: Site<'_>) -> Result<Effect, LoadError> {
+        Ok(Effect::forces(self.0.iter().copied()))
+    }
+}
+
+/// Why a load cannot act.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum LoadError {
+    /// A name given twice in one step.
+    #[error("step \"{step}\" has two loads of this name")]
+    Twice {
+        /// Name of the step.
+        step: String,
+    },
+    /// A load in a place that it does not act on, such as a pressure on nodes.
+    #[error("it does not act on a place of this kind")]
+    Misplaced,
+    /// No face, no cell.
+    #[error("it acts on nothing")]
+    Nowhere,
+    /// An element that is in no body.
+    #[error("element {element} belongs to no body")]
+    Outside {
+        /// The element, as numbered in the input.
+        element: u64,
+    },
+    /// Something that is no face of a solid.
+    #[error("side {side} of element {element} is no face of a solid")]
+    NoFace {
+        /// The element, as numbered in the input.
+        element: u64,
+        /// The side, from 1.
+        side: usize,
+    },
+    /// A total force on faces without area.
+    #[error("its faces have no area")]
+    NoArea,
+    /// A load by volume on an element without volume.
+    #[error("element {element} has no volume")]
+    NoVolume {
+        /// The element, as numbered in the input.
+        element: u64,
+    },
+    /// A load by mass on a body whose density is not known.
+    #[error("body \"{body}\" has no density")]
+    NoDensity {
+        /// Name of the body.
+        body: String,
+    },
+    /// A moment on nodes that cannot carry it.
+    #[error("its nodes lie in a point, or on a line about which the moment turns")]
+    NoArm,
+    /// A centrifugal load about an axis without direction.
+    #[error("its axis has no direction")]
+    NoAxis,
+    /// A centrifugal load about another axis than that of an axisymmetric model.
+    #[error("its axis is not the axis of the model: x = 0, along y")]
+    OtherAxis,
+}
