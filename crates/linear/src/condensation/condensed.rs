@@ -32,6 +32,34 @@ const CORRECTION: f64 = 1e-6;
 /// # Limits
 /// A multiplier that acts on very many dofs, on none that is free, or in a circle with others on each other's hosts stays
 /// an unknown.
+///
+/// # Example
+/// ```
+/// use signorini_linear::sparsity::{BlockPattern, Pattern};
+/// use signorini_linear::{Condensed, Direct, LinearSolver, Problem, Symmetry, Values};
+///
+/// // a spring k = 2 to the ground, whose end a multiplier moves to u = 0.5: k u + λ = 0
+/// let bulk = BlockPattern::from_cliques(1, 1, &[0], &[0, 1]);
+/// let interface = Pattern::from_cliques(2, &[0, 1], &[0, 2]);
+/// let values = Values { bulk: &[2.0], interface: &[0.0, 1.0, 1.0, 0.0] };
+/// let mut solver = Condensed::new(Direct::reproducible);
+/// solver.analyze(&Problem {
+///     ndof: 2,
+///     bulk: &bulk,
+///     interface: &interface,
+///     equation: &[0, 1],
+///     nequation: 2,
+///     symmetry: Symmetry::Symmetric,
+///     sign: &[1, -1],
+///     coordinates: &[[0.0; 3]],
+///     between: &[],
+/// })?;
+/// solver.factorize(&values)?;
+/// let mut x = [0.0; 2];
+/// solver.solve(&values, &[0.0, 0.5], &mut x, 1e-12)?;
+/// assert!((x[0] - 0.5).abs() < 1e-12 && (x[1] + 1.0).abs() < 1e-12);
+/// # Ok::<(), signorini_linear::LinearError>(())
+/// ```
 pub struct Condensed<S = Direct> {
     build: fn() -> S,
     inner: S,

@@ -277,6 +277,16 @@ pub struct ContactPart {
 
 impl FrictionPart {
     /// Coulomb's friction with a coefficient; what sticking yields is chosen.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_mechanics::contact::friction::Sliding;
+    /// use signorini_mechanics::model::FrictionPart;
+    ///
+    /// let friction = FrictionPart::coulomb(0.2);
+    /// let limit = friction.limit.limit(&Sliding { pressure: 10.0, path: 0.0 });
+    /// assert_eq!(limit.value, 2.0);
+    /// ```
     #[must_use]
     pub fn coulomb(mu: f64) -> Self {
         Self {

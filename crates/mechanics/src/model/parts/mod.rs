@@ -355,6 +355,15 @@ pub enum Load {
 }
 
 /// A step: what it changes.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::model::StepPart;
+/// use signorini_mechanics::solve::Increments;
+///
+/// let step = StepPart::new("press", Increments::Fixed(4));
+/// assert_eq!((step.duration, step.nonlinear), (1.0, true));
+/// ```
 #[derive(Clone, Debug)]
 pub struct StepPart {
     /// Its name.
