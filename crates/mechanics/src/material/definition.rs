@@ -56,7 +56,7 @@ pub struct Response {
     pub tangent: [[f64; 6]; 6],
     /// The potential of the stress over the increment, per volume of the reference: its derivative with respect to
     /// the strain, at fixed old history, is the stress. For elastic laws the stored energy; with plasticity the stored
-    /// energy and what is dissipated.
+    /// and the dissipated energy.
     pub energy: f64,
     /// The strain zz that a law with stress-free directions found; the others leave it alone.
     pub across: f64,

@@ -36,7 +36,7 @@ use signorini_geometry::tensor::Sym3;
 /// does not oscillate in shear (Nagtegaal, de Jong 1982). Where the centre is not coaxial with the trial strain, elastic
 /// strain is what the subtraction of logarithms leaves, off by elastic strain times `Δε_p`.
 ///
-/// The energy is the potential of the increment: what is stored elastically plus the plastic work so far, `∫ (q + a:N) dp`;
+/// The energy is the potential of the increment: the elastic energy plus the plastic work so far, `∫ (q + a:N) dp`;
 /// its gradient at fixed old history is the stress (Ortiz, Stainier 1999).
 ///
 /// History, 14 numbers: plastic strain (six, tensor components in the order of [`Sym3::PAIRS`]; at finite strain the

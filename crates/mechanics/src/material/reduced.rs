@@ -198,7 +198,7 @@ impl Reduced {
         }
     }
 
-    /// What a last step is small against: the strain, at finite strain no more than what is left of the free stretches.
+    /// The scale of a last step: the strain, at finite strain at most the free stretches themselves.
     fn size(&self, strain: &Strain) -> f64 {
         let largest = largest(&strain.value.to_pairs());
         match (strain.value * 2.0 + Sym3::IDENTITY).inverse() {

@@ -52,7 +52,7 @@ fn schedules(
                 schedule.stay(&here);
                 continue;
             };
-            // a table speaks for what is there already
+            // a table accounts for the earlier load there
             if after.course != Course::Ramp && place(&after.load) == place(&before.load) {
                 schedule.stop();
             } else {

@@ -48,7 +48,7 @@ struct Told {
     /// Whether its law acts.
     acts: bool,
     area: f64,
-    /// Pressures are those of an area so many times as large.
+    /// Pressures are those of an area larger by this factor.
     stretch: f64,
     energy: f64,
     /// None where it meets nothing.
@@ -147,7 +147,7 @@ impl Interface {
         let place = |c: &ContactFrame| self.parts.swapped && c.name == report.name;
         let first = frame.contacts.iter().position(place);
         let mut across = Means::new(first.map_or(0, |c| frame.contacts[c].nodes.len()));
-        let (mut guests, mut hosted) = (Vec::new(), Vec::new());
+        let (mut guests, mut taken) = (Vec::new(), Vec::new());
         let of = self.parts.discretization.capabilities();
         let inside = of.inside.is_some();
         let (told, mut on_rows) = self.tell(state, (&mut report, first), frame)?;
@@ -193,7 +193,7 @@ impl Interface {
                     report.status[k] = status;
                     report.acts[k] = status.is_closed();
                     report.pressure_peak[k] = report.pressure_peak[k].max(pressure);
-                    hosted.push(k);
+                    taken.push(k);
                 }
             }
             // shares of a point's area: those of a lumped mass
@@ -251,8 +251,8 @@ impl Interface {
         for (_, sum) in report.faces.iter_mut().flatten() {
             sum.divide();
         }
-        for k in hosted {
-            // they are parts of those of its host
+        for k in taken {
+            // they are parts of those of its borrower
             report.area[k] = 0.0;
         }
         if let Some(first) = first.and_then(|c| frame.contacts.get_mut(c)) {
@@ -285,7 +285,7 @@ impl Interface {
         Ok(())
     }
 
-    /// What rows report, and what acts on them; adds up their forces.
+    /// Reports rows with their forces, and sums these.
     fn tell(
         &self,
         state: &State,

@@ -214,7 +214,7 @@ pub enum Interference {
     /// The first increment resolves its part of the step of them, the second the rest. They are measured when the contact
     /// begins to act.
     Increment,
-    /// What overlaps at the start of an increment of that step is resolved over what is left of the step, and measured
+    /// What overlaps at the start of an increment of that step is resolved over the rest of the step, and measured
     /// again at the start of the next.
     Increments,
     /// They are resolved in the first increment.

@@ -263,7 +263,7 @@ pub enum Target {
     Rigid(RigidId),
 }
 
-/// A change of what is prescribed.
+/// A change of prescribed motions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
     /// Components 0 to 2 (displacements) and 3 to 5 (rotations) get a motion.
