@@ -3,7 +3,7 @@
 //! ```text
 //! bytes ──readers::inp──▶ Mesh, statements ──▶ Case
 //!                                  material    materials
-//!                                  model       sections, amplitudes, what is there at the start
+//!                                  model       sections, amplitudes, initial conditions
 //!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
 //!                                  spring      springs between nodes, and to the ground
 //!                                  contact     interactions, pairs, ties, gaps

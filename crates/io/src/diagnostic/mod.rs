@@ -1,4 +1,4 @@
-//! What the program reports to users about their input: what is wrong, where, and what to do.
+//! What the program reports to users about their input: faults, their places, and remedies.
 //!
 //! ```text
 //! error[S0102]: unknown key `penaltty`                      severity, code, message

@@ -1,4 +1,4 @@
-//! Meshes from files and from inline data, and what is wrong with them.
+//! Meshes from files and from inline data, and their faults.
 //!
 //! ```text
 //! bytes ──reader by extension──▶ (Mesh, notes) ──validate──▶ issues

@@ -133,7 +133,7 @@ const HEAD: usize = 84;
 /// Bytes of a triangle.
 const RECORD: usize = 50;
 
-/// Reads triangles and what is worth telling about them. `name` appears in messages.
+/// Reads triangles, with notes. `name` appears in messages.
 ///
 /// # Errors
 /// Any fault in the file, with the line or the byte.

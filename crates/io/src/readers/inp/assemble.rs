@@ -351,7 +351,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Refuses solids that have no element here; notes what is left out and what types mean.
+    /// Refuses solids that have no element here; notes what it leaves out and what types mean.
     fn judge_kinds(&mut self, whole: bool) -> Result<()> {
         let dim = self.mesh.dim();
         let in_words = |count: u64, name: &str| {
@@ -746,7 +746,7 @@ impl Assembly<'_> {
         set.nodes.dedup();
         set.cells.sort_unstable();
         set.cells.dedup();
-        // in the order of their lines: what is made from them is numbered by it
+        // in the order of their lines: whatever is made from them is numbered by it
         let mut seen = HashSet::new();
         set.faces.retain(|face| seen.insert(*face));
         if set.is_empty() {
