@@ -1,4 +1,4 @@
-//! Reading what a run starts from: the case and its mesh, and what is remembered of both.
+//! Reading what a run starts from: the case and its mesh, with a record of both.
 
 use crate::setup::{judge_mesh_of, read_mesh_of, read_surfaces_of};
 use crate::vocabulary::vocabulary;

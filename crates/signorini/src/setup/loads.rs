@@ -1,4 +1,4 @@
-//! Loads: what acts, where, and what they keep together.
+//! Loads: their kinds and places, and the couplings that carry them.
 
 use super::carriers::Carriers;
 use super::constraints::axes;
@@ -29,7 +29,7 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// What acts; nothing where it cannot act on what is named.
+    /// The load; nothing where it cannot act on the named set.
     pub fn load(&self, load: &case::Load, found: &mut Diagnostics) -> Option<Load> {
         self.check_follower(load, found);
         if let Some(carrier) = self.carriers.get(&load.on) {
