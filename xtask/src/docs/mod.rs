@@ -60,7 +60,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Checks all pages and prints what is wrong.
+/// Checks all pages and prints their faults.
 pub(crate) fn check(root: &Path) -> Outcome {
     let facts = Facts::read(root)?;
     let (mut pages, mut faults) = (Vec::new(), Vec::new());

@@ -231,7 +231,7 @@ struct Report {
     violations: BTreeSet<Violation>,
 }
 
-/// Reads every source file and prints what is against the table.
+/// Reads every source file and prints violations of the table.
 pub(crate) fn check(root: &Path) -> Outcome {
     let files = source_files(root)?;
     let report = judge(&files);
