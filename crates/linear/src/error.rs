@@ -1,6 +1,35 @@
 //! Why a linear system was not solved.
 
 /// Why a linear system was not solved.
+///
+/// # Example
+/// ```
+/// use signorini_linear::sparsity::{BlockPattern, Pattern};
+/// use signorini_linear::{LinearError, LinearKind, Problem, Symmetry, Values, choose};
+///
+/// // a spring that nothing holds
+/// let bulk = BlockPattern::from_cliques(2, 1, &[0, 1], &[0, 2]);
+/// let interface = Pattern::empty(2);
+/// let values = Values { bulk: &[2.0, -2.0, -2.0, 2.0], interface: &[] };
+/// let mut solver = choose(LinearKind::Direct);
+/// solver.analyze(&Problem {
+///     ndof: 2,
+///     bulk: &bulk,
+///     interface: &interface,
+///     equation: &[0, 1],
+///     nequation: 2,
+///     symmetry: Symmetry::Definite,
+///     sign: &[1; 2],
+///     coordinates: &[[0.0; 3]; 2],
+///     between: &[],
+/// })?;
+/// let mut x = [0.0; 2];
+/// let outcome = solver
+///     .factorize(&values)
+///     .and_then(|()| solver.solve(&values, &[-1.0, 1.0], &mut x, 1e-10));
+/// assert!(matches!(outcome, Err(LinearError::Singular { .. })));
+/// # Ok::<(), LinearError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LinearError {
     /// A motion costs no force: the matrix is singular to round-off.

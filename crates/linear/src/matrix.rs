@@ -320,7 +320,7 @@ impl Matrix {
         }
     }
 
-    /// The equilibrated operator times a vector; with `of` the absolute value, the size of what is added up.
+    /// The equilibrated operator times a vector; with `of` the absolute value, the sum of absolute values.
     pub fn multiply(&self, x: &[f64], y: &mut [f64], of: impl Fn(f64) -> f64 + Sync) {
         let entries = |e: usize| {
             let range = self.range(e);
@@ -470,7 +470,7 @@ impl Places<'_> {
     }
 }
 
-/// Columns of one task, with their values and what is measured of their rows of the operator.
+/// Columns of one task, with their values and the norms of their rows of the operator.
 struct Share<'m> {
     columns: Range<usize>,
     value: &'m mut [f64],
@@ -478,7 +478,7 @@ struct Share<'m> {
 }
 
 impl<'m> Share<'m> {
-    /// Each column with the places of its entries, their values, and what is measured of it.
+    /// Each column with the places of its entries, their values, and its norms.
     fn each(
         self,
         start: &[u32],

@@ -14,6 +14,41 @@ const ROWS_PER_TASK: usize = 1024;
 ///
 /// # Shapes
 /// `x` and `y` have one entry per raw degree of freedom; `values` belong to the patterns. Blocks are 1, 2 or 3 wide.
+///
+/// # Example
+/// ```
+/// use signorini_linear::sparsity::{BlockPattern, NONE, Pattern};
+/// use signorini_linear::{Problem, Symmetry, Values, apply};
+///
+/// // four springs in a row, k = 2, held at node 0
+/// let bulk = BlockPattern::from_cliques(5, 1, &[0, 1, 1, 2, 2, 3, 3, 4], &[0, 2, 4, 6, 8]);
+/// let interface = Pattern::empty(5);
+/// let mut stiffness = vec![0.0; bulk.nvalue()];
+/// for spring in 0..4 {
+///     for (row, column, k) in [(0, 0, 2.0), (0, 1, -2.0), (1, 0, -2.0), (1, 1, 2.0)] {
+///         let at = bulk.position(spring + row, spring + column).ok_or("not in the pattern")?;
+///         stiffness[at] += k;
+///     }
+/// }
+/// let values = Values { bulk: &stiffness, interface: &[] };
+/// let problem = Problem {
+///     ndof: 5,
+///     bulk: &bulk,
+///     interface: &interface,
+///     equation: &[NONE, 0, 1, 2, 3],
+///     nequation: 4,
+///     symmetry: Symmetry::Definite,
+///     sign: &[1; 4],
+///     coordinates: &[[0.0; 3]; 5],
+///     between: &[],
+/// };
+///
+/// // unit elongation of each spring: its force at both ends, nothing between
+/// let mut force = [0.0; 5];
+/// apply(problem.bulk, problem.interface, &values, &[0.0, 1.0, 2.0, 3.0, 4.0], &mut force);
+/// assert_eq!(force, [-2.0, 0.0, 0.0, 0.0, 2.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn apply(bulk: &BlockPattern, interface: &Pattern, values: &Values, x: &[f64], y: &mut [f64]) {
     multiply(bulk, interface, values, x, y, |a| a);
 }

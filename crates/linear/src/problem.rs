@@ -15,6 +15,47 @@ pub enum Symmetry {
 }
 
 /// What a solver knows before it sees values.
+///
+/// # Example
+/// ```
+/// use signorini_linear::sparsity::{BlockPattern, NONE, Pattern};
+/// use signorini_linear::{LinearKind, Problem, Symmetry, Values, choose};
+///
+/// // four springs in a row, k = 2, held at node 0
+/// let bulk = BlockPattern::from_cliques(5, 1, &[0, 1, 1, 2, 2, 3, 3, 4], &[0, 2, 4, 6, 8]);
+/// let interface = Pattern::empty(5);
+/// let mut stiffness = vec![0.0; bulk.nvalue()];
+/// for spring in 0..4 {
+///     for (row, column, k) in [(0, 0, 2.0), (0, 1, -2.0), (1, 0, -2.0), (1, 1, 2.0)] {
+///         let at = bulk.position(spring + row, spring + column).ok_or("not in the pattern")?;
+///         stiffness[at] += k;
+///     }
+/// }
+/// let values = Values { bulk: &stiffness, interface: &[] };
+/// let problem = Problem {
+///     ndof: 5,
+///     bulk: &bulk,
+///     interface: &interface,
+///     equation: &[NONE, 0, 1, 2, 3],
+///     nequation: 4,
+///     symmetry: Symmetry::Definite,
+///     sign: &[1; 4],
+///     coordinates: &[[0.0; 3]; 5],
+///     between: &[],
+/// };
+/// problem.check()?;
+///
+/// let mut solver = choose(LinearKind::Direct);
+/// solver.analyze(&problem)?;
+/// solver.factorize(&values)?;
+/// let mut x = [0.0; 4];
+/// solver.solve(&values, &[0.0, 0.0, 0.0, 3.0], &mut x, 1e-12)?;
+/// // a force of 3 at the end: u = F n/k at node n
+/// for (n, u) in (1..).zip(x) {
+///     assert!((u - 1.5 * f64::from(n)).abs() < 1e-12);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// The number of raw degrees of freedom.

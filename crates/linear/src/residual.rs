@@ -4,7 +4,7 @@ use crate::operator::{apply, apply_absolute};
 use crate::problem::{Kept, Values};
 use crate::sparsity::NONE;
 
-/// A residual of so many units of round-off of what is added up cannot be improved.
+/// A residual of this many units of round-off of the summands cannot be improved.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
 /// A residual with the buffers to measure it.

@@ -81,6 +81,17 @@ impl BlockPattern {
     }
 
     /// The position in `column` of the block at (`row`, `column`), if it is in the pattern.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_linear::sparsity::BlockPattern;
+    ///
+    /// // two bars: nodes 0 and 1, nodes 1 and 2
+    /// let pattern = BlockPattern::from_cliques(3, 2, &[0, 1, 1, 2], &[0, 2, 4]);
+    /// assert_eq!((pattern.nblock(), pattern.nvalue()), (7, 28));
+    /// assert!(pattern.position(0, 1).is_some());
+    /// assert!(pattern.position(0, 2).is_none());
+    /// ```
     pub fn position(&self, row: u32, column: u32) -> Option<usize> {
         position(&self.row_start, &self.column, row, column)
     }

@@ -37,6 +37,47 @@ pub struct SolverEntry {
 }
 
 /// The table of solvers.
+///
+/// # Example
+/// ```
+/// use signorini_linear::sparsity::{BlockPattern, NONE, Pattern};
+/// use signorini_linear::{Problem, SOLVERS, Symmetry, Values};
+///
+/// // four springs in a row, k = 2, held at node 0
+/// let bulk = BlockPattern::from_cliques(5, 1, &[0, 1, 1, 2, 2, 3, 3, 4], &[0, 2, 4, 6, 8]);
+/// let interface = Pattern::empty(5);
+/// let mut stiffness = vec![0.0; bulk.nvalue()];
+/// for spring in 0..4 {
+///     for (row, column, k) in [(0, 0, 2.0), (0, 1, -2.0), (1, 0, -2.0), (1, 1, 2.0)] {
+///         let at = bulk.position(spring + row, spring + column).ok_or("not in the pattern")?;
+///         stiffness[at] += k;
+///     }
+/// }
+/// let values = Values { bulk: &stiffness, interface: &[] };
+/// let problem = Problem {
+///     ndof: 5,
+///     bulk: &bulk,
+///     interface: &interface,
+///     equation: &[NONE, 0, 1, 2, 3],
+///     nequation: 4,
+///     symmetry: Symmetry::Definite,
+///     sign: &[1; 4],
+///     coordinates: &[[0.0; 3]; 5],
+///     between: &[],
+/// };
+///
+/// // every solver measures its residual, and finds the same end displacement F n/k
+/// for entry in SOLVERS {
+///     let mut solver = (entry.build)();
+///     solver.analyze(&problem)?;
+///     solver.factorize(&values)?;
+///     let mut x = [0.0; 4];
+///     let report = solver.solve(&values, &[0.0, 0.0, 0.0, 1.0], &mut x, 1e-10)?;
+///     assert!(report.residual <= 1e-10, "{}", entry.name);
+///     assert!((x[3] - 2.0).abs() < 1e-9, "{}", entry.name);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub const SOLVERS: &[SolverEntry] = &[
     SolverEntry {
         kind: LinearKind::Auto,

@@ -39,7 +39,7 @@ struct Panel {
     force: f64,
     /// In space: whether the layer is between two planes, or free on one side.
     between: bool,
-    /// Where at the end its motion is measured, in parts of the height.
+    /// Where at the end its motion is measured, relative to the height.
     at: f64,
 }
 

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{Brick, forces, moved};
+use common::{Brick, frames, moved};
 use signorini::prelude::*;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -44,7 +44,9 @@ fn press() -> Result<Vec<Vec3>, Box<dyn std::error::Error>> {
         steps: vec![press],
         ..Parts::new(&mesh, Idealisation::Space)
     };
-    forces(parts)
+    frames(Model::assemble(parts)?, |frame| {
+        frame.contacts.iter().map(|c| c.secondary.force).sum()
+    })
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Reading what a run starts from: the case and its mesh, and what is remembered of both.
+//! Reading what a run starts from: the case and its mesh, with a record of both.
 
 use crate::setup::{judge_mesh_of, read_mesh_of, read_surfaces_of};
 use crate::vocabulary::vocabulary;
@@ -122,6 +122,51 @@ impl Opened {
 ///
 /// # Errors
 /// All faults of the case at once; else all faults of the mesh.
+///
+/// # Example
+/// ```
+/// use signorini::{Reading, build, load};
+///
+/// let text = r#"
+/// [mesh]
+/// nodes = [
+///   [1, 0.0, 0.0], [2, 1.0, 0.0], [3, 1.0, 1.0], [4, 0.0, 1.0],
+/// ]
+/// elements = [{ id = 1, type = "quad4", group = "plate", nodes = [1, 2, 3, 4] }]
+/// [model]
+/// space = "plane-stress"
+/// [sets]
+/// base = { nodes = [1, 2] }
+/// head = { nodes = [3, 4] }
+/// [material.soft]
+/// model = "linear-elastic"
+/// E = 1000.0
+/// nu = 0.0
+/// [[body]]
+/// group = "plate"
+/// material = "soft"
+/// [[step]]
+/// name = "pull"
+/// geometry = "linear"
+/// fix = [{ on = "base", u = "all" }]
+/// move = [{ on = "head", ux = 0.0, uy = 0.01 }]
+/// [[expect]]
+/// what = "reaction_force.y @ set head"
+/// value = 10.0
+/// tol = { abs = 1e-6 }
+/// "#;
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("plate.toml");
+/// std::fs::write(&path, text)?;
+/// let reading = Reading {
+///     set: vec![("material.soft.E".to_owned(), "2000.0".to_owned())],
+///     ..Reading::default()
+/// };
+/// let loaded = load(&path, &reading)?;
+/// assert_eq!(loaded.case.materials[0].number("E"), Some(2000.0));
+/// assert_eq!(build(loaded.case, loaded.mesh)?.system.layout.nnode, 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn load(path: &Path, reading: &Reading) -> Result<Loaded, Diagnostics> {
     load_case(path, reading)?.with_mesh()
 }

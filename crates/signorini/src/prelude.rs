@@ -5,7 +5,7 @@
 //! ```
 //!
 //! `examples/two_blocks.rs` is such a program; `examples/contact_law.rs`, `examples/rigid_surface.rs` and
-//! `examples/term.rs` bring a contact law, a surface and a term of their own.
+//! `examples/own_term.rs` bring a contact law, a surface and a term of their own.
 
 pub use signorini_geometry::element::{self, Element};
 pub use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId, boundary};
@@ -30,4 +30,8 @@ pub use signorini_mechanics::model::{
 pub use signorini_mechanics::solve::{
     Event, Flow, Increments, Motion, Observer, Outcome, RunError, Stepper, StepperSettings,
 };
-pub use signorini_mechanics::system::{Frame, Idealisation, State, System};
+pub use signorini_mechanics::system::{
+    Archive, ArchiveError, Capabilities, Dof, Frame, Idealisation, Layout, NO_DOF, Order, Part,
+    PatternSink, Phase, Properties, Role, Sink, State, Stored, Symmetry, System, Term, TermError,
+    Work,
+};

@@ -50,6 +50,15 @@ pub fn clock(seconds: f64) -> String {
 }
 
 /// The seconds in `90`, `90 s`, `10 min`, `2h` or `1d`; none where it is no such text.
+///
+/// # Example
+/// ```
+/// use signorini::text::{clock, seconds};
+///
+/// assert_eq!(seconds("2h"), Some(7200.0));
+/// assert_eq!(clock(7509.0), "2:05:09");
+/// assert_eq!(seconds("soon"), None);
+/// ```
 #[must_use]
 pub fn seconds(text: &str) -> Option<f64> {
     let text = text.trim();

@@ -7,6 +7,16 @@ use signorini_mechanics::{load, material};
 use std::sync::LazyLock;
 
 /// The vocabulary of this program.
+///
+/// # Example
+/// ```
+/// use signorini::vocabulary;
+/// use signorini_io::case::read_case;
+///
+/// let wrong = b"mesh = { file = \"a.msh\" }\nbody = [{ group = \"a\", materiel = \"steel\" }]\n";
+/// let faults = read_case("case.toml", wrong, &[], vocabulary()).unwrap_err();
+/// assert!(faults.plain().contains("did you mean `material`?"));
+/// ```
 pub fn vocabulary() -> &'static Vocabulary {
     static VOCABULARY: LazyLock<Vocabulary> = LazyLock::new(|| {
         Vocabulary::new(Kinds {

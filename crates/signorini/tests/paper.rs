@@ -94,7 +94,7 @@ fn arbitrary(penalty: &str) -> Run {
     run
 }
 
-/// The residual is measured in the energy norm, √|du·r|: in the largest component, stiff contact hides what is left in
+/// The residual is measured in the energy norm, √|du·r|: in the largest component, stiff contact hides the residual in
 /// soft directions, and reveals it one iteration later.
 #[test]
 fn arbitrary_brick_converges_quadratically_for_every_penalty() {

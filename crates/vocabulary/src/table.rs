@@ -209,6 +209,14 @@ pub struct Bounds {
 
 impl Bounds {
     /// Whether a number lies in the range.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_vocabulary::{Bounds, FREE};
+    ///
+    /// let poisson = Bounds { above: Some(-1.0), below: Some(0.5), ..FREE };
+    /// assert!(poisson.hold(0.3) && !poisson.hold(0.5));
+    /// ```
     pub fn hold(&self, value: f64) -> bool {
         self.above.is_none_or(|end| value > end)
             && self.from.is_none_or(|end| value >= end)

@@ -14,6 +14,17 @@ pub enum Value {
 }
 
 /// The values of the keys of a table, in the order of the table.
+///
+/// # Example
+/// ```
+/// use signorini_vocabulary::{Fault, Value, Values};
+///
+/// let values = Values::numbers([("p0", 5.0)]).with("at", Value::Numbers(vec![1.0, 2.0]));
+/// assert_eq!(values.number("p0"), Ok(5.0));
+/// // vectors of the plane have two entries
+/// assert_eq!(values.vector("at"), Ok([1.0, 2.0, 0.0]));
+/// assert_eq!(values.number("c0"), Err(Fault::Missing { key: "c0" }));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Values(Vec<(&'static str, Value)>);
 

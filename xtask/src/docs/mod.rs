@@ -6,6 +6,7 @@
 //! | a command in a block or between backquotes | a subcommand with these options, a script, a package, a test |
 //! | a block in TOML, a key or a value between backquotes | in the schema of cases |
 //! | a path of Rust or a single word between backquotes | defined in the sources, or a word that programs read or write |
+//! | a table of rooms or of traits | what `ROOMS` and the sources say, see `tables.rs` |
 //!
 //! Everything is looked up where it is defined: sources by `syn`, packages by `cargo metadata`, options and keys by
 //! the command itself, `cargo run --release -- …`, which is built for it.
@@ -20,6 +21,7 @@ mod keys;
 mod markdown;
 mod spans;
 mod symbols;
+mod tables;
 mod toml;
 
 use crate::tree::Tree;
@@ -57,14 +59,22 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Checks all pages and prints what is wrong.
+/// Checks all pages and prints their faults.
 pub(crate) fn check(root: &Path) -> Outcome {
     let facts = Facts::read(root)?;
-    let mut pages = Vec::new();
+    let (mut pages, mut faults) = (Vec::new(), Vec::new());
     for path in facts.tree.files().filter(|path| is_page(path)) {
-        pages.push(markdown::page(path.to_path_buf(), &read(&root.join(path))?));
+        let source = read(&root.join(path))?;
+        let of_tables = tables::faults(&source, &facts.symbols).into_iter();
+        faults.extend(of_tables.map(|(line, what)| Fault {
+            path: path.to_path_buf(),
+            line,
+            what,
+        }));
+        pages.push(markdown::page(path.to_path_buf(), &source));
     }
-    let faults = judge(&pages, &facts);
+    faults.append(&mut judge(&pages, &facts));
+    faults.sort();
     for fault in &faults {
         println!("{fault}");
     }

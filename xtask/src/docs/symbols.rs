@@ -13,6 +13,8 @@ pub(super) struct Symbols {
     defined: BTreeMap<String, BTreeSet<Vec<String>>>,
     /// Words in literals and in data, in lower case: names of files, columns, foreign keywords.
     words: BTreeSet<String>,
+    /// Methods of traits, in the order of the source, by crate and name.
+    traits: BTreeMap<(String, String), Vec<Vec<String>>>,
 }
 
 impl Symbols {
@@ -26,6 +28,7 @@ impl Symbols {
         let mut visitor = Definitions {
             within: module(path),
             out: &mut self.defined,
+            traits: &mut self.traits,
         };
         visitor.add_path();
         visitor.visit_file(&file);
@@ -139,6 +142,12 @@ impl Symbols {
             .is_some_and(|paths| paths.iter().any(is_around))
     }
 
+    /// The methods of each trait of this name in a crate.
+    pub fn traits(&self, within: &str, name: &str) -> impl Iterator<Item = &Vec<String>> {
+        let key = (within.to_string(), name.to_string());
+        self.traits.get(&key).into_iter().flatten()
+    }
+
     /// Whether a filter for tests selects any.
     pub fn has_filter(&self, filter: &str) -> bool {
         let mut paths = self.defined.values().flatten();
@@ -181,6 +190,7 @@ fn module(path: &Path) -> Vec<String> {
 struct Definitions<'a> {
     within: Vec<String>,
     out: &'a mut BTreeMap<String, BTreeSet<Vec<String>>>,
+    traits: &'a mut BTreeMap<(String, String), Vec<Vec<String>>>,
 }
 
 impl Definitions<'_> {
@@ -243,9 +253,19 @@ impl<'ast> Visit<'ast> for Definitions<'_> {
     containers! {
         visit_item_struct(ItemStruct);
         visit_item_enum(ItemEnum);
-        visit_item_trait(ItemTrait);
         visit_item_mod(ItemMod);
         visit_variant(Variant);
+    }
+
+    fn visit_item_trait(&mut self, found: &'ast syn::ItemTrait) {
+        let methods = found.items.iter().filter_map(|item| match item {
+            syn::TraitItem::Fn(method) => Some(method.sig.ident.to_string()),
+            _ => None,
+        });
+        let within = self.within.first().cloned().unwrap_or_default();
+        let known = self.traits.entry((within, found.ident.to_string()));
+        known.or_default().push(methods.collect());
+        self.inside(&found.ident, |inner| visit::visit_item_trait(inner, found));
     }
 
     fn visit_field(&mut self, field: &'ast syn::Field) {

@@ -112,7 +112,7 @@ impl<'a> House<'a> {
         let found = inside.filter_map(|n| Some((n, self.names.get(&path[..n])?)));
         let (length, (file, names)) = found.into_iter().next()?;
         let Some(name) = path.get(length) else {
-            // a module: what is used of it is not known
+            // a module: the used part of it is not known
             return None;
         };
         match names.handed_on.get(name) {

@@ -146,6 +146,17 @@ const ROOMS: [Room; 39] = [
     ),
 ];
 
+/// The names of all rooms, in the order of the table.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    ROOMS.iter().map(|room| room.name)
+}
+
+/// What a room may import, in the order of its line.
+pub(crate) fn may_import(name: &str) -> Option<&'static [&'static str]> {
+    let room = ROOMS.iter().find(|room| room.name == name);
+    room.map(|room| room.may_import)
+}
+
 /// Whether the module `path` is `room` or lies inside it.
 fn is_inside(path: &str, room: &str) -> bool {
     path.strip_prefix(room)
@@ -224,7 +235,7 @@ struct Report {
     violations: BTreeSet<Violation>,
 }
 
-/// Reads every source file and prints what is against the table.
+/// Reads every source file and prints violations of the table.
 pub(crate) fn check(root: &Path) -> Outcome {
     let files = source_files(root)?;
     let report = judge(&files);

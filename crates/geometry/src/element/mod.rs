@@ -60,6 +60,18 @@ pub(crate) use quad4::Quad4;
 pub use reference::{EdgeNode, Element, MAX_FACET_NODES, MAX_NODES, ReferenceElement, Side};
 
 /// Every element there is.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::TABLE;
+///
+/// // shape functions sum to one in every element
+/// for element in TABLE {
+///     let mut shape = vec![0.0; element.nnode()];
+///     element.shape(&element.centre(), &mut shape);
+///     assert!((shape.iter().sum::<f64>() - 1.0).abs() < 1e-14, "{}", element.name());
+/// }
+/// ```
 pub static TABLE: [Element; 14] = [
     &line2::Line2,
     &line3::Line3,
@@ -78,6 +90,16 @@ pub static TABLE: [Element; 14] = [
 ];
 
 /// The element of this name.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::by_name;
+///
+/// let brick = by_name("hex20").ok_or("not in the table")?;
+/// assert_eq!((brick.nnode(), brick.ncorner(), brick.sides().len()), (20, 8, 6));
+/// assert!(by_name("hex21").is_none());
+/// # Ok::<(), &str>(())
+/// ```
 #[must_use]
 pub fn by_name(name: &str) -> Option<Element> {
     TABLE.iter().copied().find(|e| e.name() == name)

@@ -14,6 +14,17 @@ pub const MAX_NODES: usize = 27;
 pub const MAX_FACET_NODES: usize = 10;
 
 /// A reference element: the one description of it that meshes, solids and contact surfaces share.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::by_name;
+///
+/// // the volume of the reference tetrahedron
+/// let tetrahedron = by_name("tet10").ok_or("not in the table")?;
+/// let volume: f64 = tetrahedron.full_rule().iter().map(|(_, weight)| weight).sum();
+/// assert!((volume - 1.0 / 6.0).abs() < 1e-15);
+/// # Ok::<(), &str>(())
+/// ```
 pub trait ReferenceElement: Send + Sync {
     /// The name in cases and messages, such as `"quad4"`.
     fn name(&self) -> &'static str;

@@ -106,6 +106,28 @@ impl Set {
 }
 
 /// A mesh.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::by_name;
+/// use signorini_geometry::mesh::{Mesh, boundary};
+/// use signorini_geometry::tensor::Vec3;
+///
+/// let brick = by_name("hex8").ok_or("not in the table")?;
+/// let mut mesh = Mesh::default();
+/// for z in 0..3 {
+///     for [x, y] in [[0, 0], [1, 0], [1, 1], [0, 1]] {
+///         mesh.points.push(Vec3::from([x, y, z].map(f64::from)));
+///         mesh.node_labels.push(mesh.points.len() as u64);
+///     }
+/// }
+/// mesh.push_cell(brick, &[0, 1, 2, 3, 4, 5, 6, 7], 1);
+/// mesh.push_cell(brick, &[4, 5, 6, 7, 8, 9, 10, 11], 2);
+/// assert_eq!((mesh.nnode(), mesh.ncell(), mesh.dim()), (12, 2, 3));
+/// // two bricks have twelve sides, of which they share one
+/// assert_eq!(boundary(&mesh, mesh.cells(3)).len(), 10);
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions of the nodes.

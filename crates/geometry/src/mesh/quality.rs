@@ -86,6 +86,26 @@ pub struct Quality {
 }
 
 /// The quality of these cells; nothing for no cells.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::by_name;
+/// use signorini_geometry::mesh::Mesh;
+/// use signorini_geometry::mesh::quality::quality;
+/// use signorini_geometry::tensor::Vec3;
+///
+/// let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let mut mesh = Mesh {
+///     points: square.map(Vec3::from).to_vec(),
+///     node_labels: vec![1, 2, 3, 4],
+///     ..Mesh::default()
+/// };
+/// mesh.push_cell(by_name("quad4").ok_or("not in the table")?, &[0, 3, 2, 1], 1);
+/// // it runs clockwise: its area is negative
+/// let found = quality(&mesh, mesh.cells(2)).ok_or("no cells")?;
+/// assert_eq!(found.nbad, 1);
+/// # Ok::<(), &str>(())
+/// ```
 #[must_use]
 pub fn quality(mesh: &Mesh, cells: impl IntoIterator<Item = CellId>) -> Option<Quality> {
     let mut measures = Measures::of(mesh);

@@ -10,6 +10,16 @@ use crate::tensor::Vec3;
 pub const TOLERANCE: f64 = 1e-6;
 
 /// A part of space.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::mesh::select::Region;
+/// use signorini_geometry::tensor::Vec3;
+///
+/// let top = Region::Plane { normal: Vec3::unit(2), point: Vec3::new(0.0, 0.0, 1.0) };
+/// assert!(top.contains(Vec3::new(5.0, -3.0, 1.0), 1e-9));
+/// assert!(!top.contains(Vec3::new(5.0, -3.0, 1.1), 1e-9));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Region {
     /// The plane through a point, with a normal of any length but zero.
@@ -103,6 +113,19 @@ impl Mesh {
 
     /// The node nearest to a point and its distance, of those in `among` (all, where that is nothing). Of several
     /// equally near ones the lowest.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::mesh::Mesh;
+    /// use signorini_geometry::tensor::Vec3;
+    ///
+    /// let mesh = Mesh {
+    ///     points: vec![Vec3::ZERO, Vec3::new(3.0, 4.0, 0.0)],
+    ///     node_labels: vec![1, 2],
+    ///     ..Mesh::default()
+    /// };
+    /// assert_eq!(mesh.nearest_node(Vec3::new(3.0, 4.0, 2.0), None), Some((1, 2.0)));
+    /// ```
     #[must_use]
     pub fn nearest_node(&self, point: Vec3, among: Option<&[NodeId]>) -> Option<(NodeId, f64)> {
         let distance = |node: NodeId| {

@@ -225,7 +225,7 @@ impl Flat {
         }
     }
 
-    /// Its convex parts: itself, or what is convex around it and, to be taken away, dents; or triangles around its centre.
+    /// Its convex parts: itself, or its convex outline and, to be taken away, dents; or triangles around its centre.
     pub(super) fn pieces(&self) -> impl Iterator<Item = Piece> {
         let (dents, triangles) = match self.outline {
             Outline::Convex => (0, 0),

@@ -28,7 +28,7 @@
 //! ```
 //!
 //! and a line of the plane is a strip, with `t2 = e_z`. Boundaries of both facets become polygons of the plane, intersected
-//! by cutting one along the sides of the other (Sutherland and Hodgman); what is left is integrated triangle by triangle,
+//! by cutting one along the sides of the other (Sutherland and Hodgman); the intersection is integrated triangle by triangle,
 //! or as an interval of the line.
 //!
 //! *Derivatives.* A polygon knows of each corner what makes it, a node or two lines that cross, and how it moves with the
@@ -55,7 +55,7 @@
 //! k = ⌊(d − q)/(q − 1)⌋ + 1,     error of ∫N_j / area ≤ c δ^k 4^(k − 1 − (d − q))          (E3)
 //! ```
 //!
-//! on. `c = 1/50`, of lines 1/10, and the 4 bound what is measured over distorted facets of every kind up to δ = 0.5, as
+//! on. `c = 1/50`, of lines 1/10, and the 4 bound the errors measured over distorted facets of every kind up to δ = 0.5, as
 //! cells of their own (`errors_of_rules_fall_as_stated`); above order 2, three times δ stands for it. A cell that is a part s of its facet sees
 //! `δ s/(1 − δ (1 − s))`: it is smaller, and at worst at the corner where the facet is narrowest. The degree is the
 //! least, up to [`MAX_DEGREE`], for which
@@ -114,7 +114,7 @@ pub struct Point {
     pub at: Pair<f64>,
     /// s_c: how it goes with the corners of its simplex.
     pub shares: [f64; 3],
-    /// ξ, and what is there.
+    /// ξ, with shape functions and derivatives.
     pub secondary: Parameters,
     /// ξ^m.
     pub primary: Parameters,

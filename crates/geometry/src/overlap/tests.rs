@@ -229,7 +229,7 @@ fn areas_of_random_overlaps_are_those_of_brute_force() {
             let flat = |x: Vec<Vec3>| -> Vec<Vec3> {
                 x.into_iter().map(|x| Vec3::new(x.x, x.y, 0.0)).collect()
             };
-            // straight edges: the corners alone say what is covered
+            // straight edges: the corners alone determine the covered area
             let linear = elements.map(|e| e.family().linear());
             let a = flat(facet(linear[0], 0.15, &mut random));
             let mut b = flat(opposite(linear[1], 0.15, &mut random));

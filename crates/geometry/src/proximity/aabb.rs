@@ -1,6 +1,17 @@
 use crate::tensor::Vec3;
 
 /// A box with sides along the axes. May be empty (`min > max`) or unbounded.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::proximity::Aabb;
+/// use signorini_geometry::tensor::Vec3;
+///
+/// let unit = Aabb::around([Vec3::ZERO, Vec3::new(1.0, 1.0, 1.0)]);
+/// assert!(unit.contains(Vec3::new(0.5, 0.5, 1.0)));
+/// // the closest point is an edge at the distance 5
+/// assert_eq!(unit.distance_squared(Vec3::new(4.0, 5.0, 0.5)), 25.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The smallest coordinates.

@@ -157,7 +157,7 @@ impl Bvh {
 
     /// Visits the boxes near a point, the nearer of two subtrees first, and leaves out those that cannot matter.
     ///
-    /// `visit` looks at what is in a box and returns the smallest distance found so far, in any box, `∞` while there
+    /// `visit` examines the content of a box and returns the smallest distance found so far, in any box, `∞` while there
     /// is none. Boxes farther away than that are not visited; boxes exactly as far away are, so that a visitor which
     /// prefers the smaller number among equals gets the same answer from every tree.
     ///
@@ -390,7 +390,7 @@ fn cheapest_cut(items: &[Item], bin_of: impl Fn(&Item) -> usize) -> Option<usize
         bin.bounds = bin.bounds.union(item.bounds);
         bin.count += 1;
     }
-    // from[i]: what is in bin i and beyond
+    // from[i]: the content of bin i and those beyond
     let mut from = bins;
     for i in (1..NBIN).rev() {
         from[i - 1] = join(from[i], &from[i - 1]);

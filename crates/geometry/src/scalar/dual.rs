@@ -2,6 +2,17 @@ use super::Real;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number and its first derivatives with respect to `N` variables.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::scalar::{Dual, Real};
+///
+/// // √(x y) at (4, 9), with its derivatives y/(2√(x y)) and x/(2√(x y))
+/// let (x, y) = (Dual::<2>::variable(4.0, 0), Dual::<2>::variable(9.0, 1));
+/// let root = (x * y).sqrt();
+/// assert_eq!(root.value, 6.0);
+/// assert_eq!(root.slope, [0.75, 1.0 / 3.0]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize> {
     /// The value.

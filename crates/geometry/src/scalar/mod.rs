@@ -1,4 +1,4 @@
-//! Numbers that carry their derivatives: what is written once for any [`Real`] is differentiated by [`Dual`] numbers.
+//! Numbers that carry their derivatives: code written once for any [`Real`] is differentiated by [`Dual`] numbers.
 //!
 //! ```text
 //! a = (a, a')      a + b = (a + b, a' + b')        a b = (a b, a b' + b a')        (E1)
@@ -10,7 +10,7 @@
 //! | a | `value` | number |
 //! | a' = ∂a/∂v | `slope` | one number for each of the `N` variables v |
 //!
-//! Comparisons and choices look at values alone, so that what is differentiated is the branch that was taken. The
+//! Comparisons and choices look at values alone, so that the branch that was taken is differentiated. The
 //! number of variables is fixed at compile time; where it varies, the next larger one of a few serves, and the slopes
 //! beyond stay zero.
 //!

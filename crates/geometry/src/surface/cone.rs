@@ -74,6 +74,18 @@ impl Cone {
     ///
     /// # Errors
     /// Components that are not finite, an axis that is zero, an angle that is not between 0 and a right angle.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::surface::{Cone, Shape, Side};
+    /// use signorini_geometry::tensor::Vec3;
+    ///
+    /// // 45° about z: the closest point of (2, 0, 0) is (1, 0, 1)
+    /// let cone = Cone::new(Vec3::ZERO, Vec3::unit(2), std::f64::consts::FRAC_PI_4, Side::Outside)?;
+    /// let on = cone.closest(Vec3::new(2.0, 0.0, 0.0))?.ok_or("no closest point")?;
+    /// assert!((on - Vec3::new(1.0, 0.0, 1.0)).norm() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(
         apex: Vec3,
         axis: Vec3,

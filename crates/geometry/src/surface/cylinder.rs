@@ -48,6 +48,19 @@ impl Cylinder {
     ///
     /// # Errors
     /// Components that are not finite, an axis that is zero, a radius that is not positive.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::surface::{Cylinder, Shape, Side};
+    /// use signorini_geometry::tensor::Vec3;
+    ///
+    /// let hole = Cylinder::new(Vec3::ZERO, Vec3::unit(2), 2.0, Side::Inside)?;
+    /// let on = hole.closest(Vec3::new(1.0, 0.0, 7.0))?.ok_or("on the axis")?;
+    /// assert_eq!(on, Vec3::new(2.0, 0.0, 7.0));
+    /// // a point inside the hole sees a normal that points to the axis
+    /// assert_eq!(hole.patch(on)?.normal, -Vec3::unit(0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(point: Vec3, axis: Vec3, radius: f64, side: Side) -> Result<Self, AnalyticalError> {
         Ok(Self {
             point: finite("the point of the cylinder", point)?,

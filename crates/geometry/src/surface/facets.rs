@@ -12,6 +12,39 @@ use std::collections::HashMap;
 use thiserror::Error;
 
 /// Facets of elements, with who is whose neighbour.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::by_name;
+/// use signorini_geometry::mesh::{Mesh, boundary};
+/// use signorini_geometry::tensor::Vec3;
+///
+/// let brick = by_name("hex8").ok_or("not in the table")?;
+/// let mut mesh = Mesh::default();
+/// for z in 0..3 {
+///     for [x, y] in [[0, 0], [1, 0], [1, 1], [0, 1]] {
+///         mesh.points.push(Vec3::from([x, y, z].map(f64::from)));
+///         mesh.node_labels.push(mesh.points.len() as u64);
+///     }
+/// }
+/// mesh.push_cell(brick, &[0, 1, 2, 3, 4, 5, 6, 7], 1);
+/// mesh.push_cell(brick, &[4, 5, 6, 7, 8, 9, 10, 11], 2);
+///
+/// use signorini_geometry::surface::{ContactSurface, Facets, Placement, SurfaceJet};
+///
+/// let surface = Facets::new(&mesh, &boundary(&mesh, mesh.cells(3)))?;
+/// let at = Placement { x: &mesh.points, poses: &[] };
+/// let point = Vec3::new(0.25, 0.75, 2.5);
+/// let mut jet = SurfaceJet::default();
+/// let mut distances = Vec::new();
+/// for facet in 0..surface.nfacet() as u32 {
+///     let found = surface.project(&at, facet, point, None, &mut jet)?;
+///     distances.extend(found.map(|found| found.distance));
+/// }
+/// // the top, at z = 2, is closest
+/// assert_eq!(distances.into_iter().fold(f64::INFINITY, f64::min), 0.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Facets {
     ntan: usize,
@@ -173,6 +206,28 @@ impl Facets {
     ///
     /// # Errors
     /// A facet without a normal.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::element::by_name;
+    /// use signorini_geometry::mesh::{Mesh, boundary};
+    /// use signorini_geometry::surface::Facets;
+    /// use signorini_geometry::tensor::Vec3;
+    ///
+    /// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let mut mesh = Mesh {
+    ///     points: corners.map(Vec3::from).to_vec(),
+    ///     node_labels: vec![1, 2, 3, 4],
+    ///     ..Mesh::default()
+    /// };
+    /// mesh.push_cell(by_name("tet4").ok_or("not in the table")?, &[0, 1, 2, 3], 1);
+    /// let surface = Facets::new(&mesh, &boundary(&mesh, mesh.cells(3)))?;
+    /// let areas = surface.nodal_areas(&mesh.points, &|_, _| 1.0)?;
+    /// // three right-angled triangles and one with sides √2
+    /// let exact = 1.5 + 3_f64.sqrt() / 2.0;
+    /// assert!((areas.iter().map(|(_, area)| area).sum::<f64>() - exact).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn nodal_areas(
         &self,
         x: &[Vec3],

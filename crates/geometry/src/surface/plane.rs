@@ -44,6 +44,17 @@ impl Plane {
     ///
     /// # Errors
     /// Components that are not finite, a normal that is zero.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::surface::{Plane, Shape};
+    /// use signorini_geometry::tensor::Vec3;
+    ///
+    /// let floor = Plane::new(Vec3::ZERO, Vec3::unit(2))?;
+    /// let below = floor.closest(Vec3::new(1.0, 2.0, 3.0))?;
+    /// assert_eq!(below, Some(Vec3::new(1.0, 2.0, 0.0)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(point: Vec3, normal: Vec3) -> Result<Self, AnalyticalError> {
         Ok(Self {
             point: finite("the point of the plane", point)?,

@@ -94,6 +94,18 @@ impl Polynomial {
     ///
     /// # Errors
     /// No coefficients, one that is not finite, a degree above [`MAX_DEGREE`].
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::surface::{Facing, Polynomial, Shape};
+    /// use signorini_geometry::tensor::Vec3;
+    ///
+    /// // y = x²: the closest point of (0, 0.4) is the vertex, as 0.4 < 1/2, the radius of curvature there
+    /// let parabola = Polynomial::new(&[1.0, 0.0, 0.0], Facing::Above)?;
+    /// let on = parabola.closest(Vec3::new(0.0, 0.4, 0.0))?.ok_or("no closest point")?;
+    /// assert!(on.norm() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(coefficients: &[f64], facing: Facing) -> Result<Self, AnalyticalError> {
         if coefficients.is_empty() {
             return Err(AnalyticalError::NoCoefficients);

@@ -62,6 +62,24 @@ impl SignedDistance {
     ///
     /// # Errors
     /// A size that is not positive.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::surface::{Shape, SignedDistance};
+    /// use signorini_geometry::tensor::{Sym3, Vec3};
+    ///
+    /// // an ellipsoid, φ = (x² + y² + z²/4 − 1)/2
+    /// let scaled = |x: Vec3| Vec3::new(x.x, x.y, x.z / 4.0);
+    /// let ellipsoid = SignedDistance::new(
+    ///     1.0,
+    ///     Box::new(move |x: Vec3| Ok(0.5 * (x.dot(scaled(x)) - 1.0))),
+    ///     Box::new(move |x: Vec3| Ok(scaled(x))),
+    ///     Box::new(|_: Vec3| Ok(Sym3::diagonal(1.0, 1.0, 0.25))),
+    /// )?;
+    /// let on = ellipsoid.closest(Vec3::new(0.0, 0.0, 3.0))?.ok_or("no closest point")?;
+    /// assert!((on - Vec3::new(0.0, 0.0, 2.0)).norm() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(
         size: f64,
         value: Box<UserFunction<f64>>,

@@ -41,6 +41,19 @@ impl Sphere {
     ///
     /// # Errors
     /// A centre that is not finite, a radius that is not positive.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::surface::{Shape, Side, Sphere};
+    /// use signorini_geometry::tensor::Vec3;
+    ///
+    /// let ball = Sphere::new(Vec3::ZERO, 2.0, Side::Outside)?;
+    /// assert_eq!(ball.closest(Vec3::new(0.0, 0.0, 5.0))?, Some(Vec3::new(0.0, 0.0, 2.0)));
+    /// // both curvatures are 1/R
+    /// let patch = ball.patch(Vec3::new(0.0, 0.0, 2.0))?;
+    /// assert_eq!((patch.gradient.xx(), patch.gradient.yy()), (0.5, 0.5));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(centre: Vec3, radius: f64, side: Side) -> Result<Self, AnalyticalError> {
         Ok(Self {
             centre: finite("the centre of the sphere", centre)?,

@@ -62,6 +62,17 @@ impl Torus {
     /// # Errors
     /// Components that are not finite, an axis that is zero, a radius that is not positive, a tube that is not thinner
     /// than the ring.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::surface::{Shape, Side, Torus};
+    /// use signorini_geometry::tensor::Vec3;
+    ///
+    /// let ring = Torus::new(Vec3::ZERO, Vec3::unit(2), 3.0, 1.0, Side::Outside)?;
+    /// let on = ring.closest(Vec3::new(0.0, 7.0, 0.0))?.ok_or("on the axis")?;
+    /// assert!((on - Vec3::new(0.0, 4.0, 0.0)).norm() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(
         centre: Vec3,
         axis: Vec3,

@@ -46,6 +46,15 @@ impl Mat3 {
     }
 
     /// The rotation by the vector `theta` (axis times angle in radians), Rodrigues' formula.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::tensor::{Mat3, Vec3};
+    ///
+    /// let quarter = Vec3::unit(2) * std::f64::consts::FRAC_PI_2;
+    /// let turned = Mat3::rotation(quarter) * Vec3::unit(0);
+    /// assert!((turned - Vec3::unit(1)).norm() < 1e-15);
+    /// ```
     #[must_use]
     pub fn rotation(theta: Vec3) -> Self {
         let angle_squared = theta.norm_squared();
@@ -81,6 +90,17 @@ impl Mat3 {
     }
 
     /// The inverse and the determinant, or `None` where the determinant is zero or not finite.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::tensor::{Mat3, Vec3};
+    ///
+    /// let stretch = Mat3::from_rows([Vec3::unit(0) * 2.0, Vec3::unit(1) * 4.0, Vec3::unit(2)]);
+    /// let (inverse, determinant) = stretch.inverse().ok_or("singular")?;
+    /// assert_eq!(determinant, 8.0);
+    /// assert_eq!(inverse * Vec3::new(2.0, 4.0, 1.0), Vec3::new(1.0, 1.0, 1.0));
+    /// # Ok::<(), &str>(())
+    /// ```
     #[inline]
     #[must_use]
     pub fn inverse(self) -> Option<(Self, f64)> {

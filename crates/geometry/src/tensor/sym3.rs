@@ -172,6 +172,19 @@ impl Sym3 {
     ///
     /// # Source
     /// Golub and Van Loan, Matrix Computations, 4th ed., section 8.5.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::tensor::Sym3;
+    ///
+    /// // pure shear has the principal stresses τ, 0, −τ
+    /// let shear = Sym3::new(0.0, 0.0, 0.0, 5.0, 0.0, 0.0);
+    /// let mut principal = shear.eigenvalues();
+    /// principal.sort_by(f64::total_cmp);
+    /// for (found, exact) in principal.iter().zip([-5.0, 0.0, 5.0]) {
+    ///     assert!((found - exact).abs() < 1e-14);
+    /// }
+    /// ```
     #[must_use]
     pub fn eigenvalues(self) -> [f64; 3] {
         let mut m = self.to_mat3().rows.map(Vec3::to_array);
@@ -192,6 +205,16 @@ impl Sym3 {
     }
 
     /// The equivalent stress of von Mises, `√(3/2 s:s)` of the deviator `s`.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::tensor::Sym3;
+    ///
+    /// let uniaxial = Sym3::diagonal(250.0, 0.0, 0.0);
+    /// let shear = Sym3::new(0.0, 0.0, 0.0, 100.0, 0.0, 0.0);
+    /// assert!((uniaxial.von_mises() - 250.0).abs() < 1e-12);
+    /// assert!((shear.von_mises() - 100.0 * 3_f64.sqrt()).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn von_mises(self) -> f64 {
         let mean = self.trace() / 3.0;

@@ -2,6 +2,15 @@ use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A vector, or a point, of three-dimensional space.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::tensor::Vec3;
+///
+/// let (a, b) = (Vec3::new(3.0, 0.0, 0.0), Vec3::new(0.0, 4.0, 0.0));
+/// assert_eq!((b - a).norm(), 5.0);
+/// assert_eq!(a.cross(b), Vec3::unit(2) * 12.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Vec3 {

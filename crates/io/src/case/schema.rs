@@ -7,6 +7,16 @@ use super::vocabulary::{Choice, Default, Key, Rule, Shape, Table, Vocabulary};
 /// The schema of a case, in JSON Schema 2020-12.
 ///
 /// What the format knows but this version cannot do is listed and refused.
+///
+/// # Example
+/// ```
+/// use signorini_io::case::schema;
+/// use signorini_io::case::vocabulary::{Kinds, Vocabulary};
+///
+/// let schema = schema(&Vocabulary::new(Kinds::default()));
+/// assert!(schema["properties"]["step"].is_object());
+/// assert_eq!(schema["additionalProperties"], false);
+/// ```
 pub fn schema(vocabulary: &Vocabulary) -> Value {
     let mut schema = table(vocabulary.case);
     if let Some(map) = schema.as_object_mut() {

@@ -88,6 +88,17 @@ pub enum ArchiveError {
 /// Named arrays of numbers, kept in the order of their names.
 ///
 /// Names are the caller's; a path like `contact/ball-block/multiplier` keeps terms apart.
+///
+/// # Example
+/// ```
+/// use signorini_io::checkpoint::Archive;
+///
+/// let mut archive = Archive::new();
+/// archive.put_f64("state.u", &[0.0, 0.25])?;
+/// assert_eq!(archive.get_f64("state.u")?, [0.0, 0.25]);
+/// assert!(archive.get_u64("state.u").is_err());
+/// # Ok::<(), signorini_io::checkpoint::ArchiveError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Archive {
     arrays: BTreeMap<String, Values>,

@@ -1,4 +1,4 @@
-//! Results of one run against those of another: by table, and in parts of the largest value of each.
+//! Results of one run against those of another: by table, relative to the largest value of each.
 //!
 //! ```text
 //! file ──tables──▶ Table, Table, …  ┐
@@ -114,7 +114,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// The largest difference in parts of the largest value of the reference.
+    /// The largest difference relative to the largest value of the reference.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         if self.difference == 0.0 {

@@ -409,7 +409,7 @@ impl Translation<'_> {
                 contact.per = Some(Per::Area);
             }
         }
-        // what is tied does not slide
+        // tied sides do not slide
         let rubs = to.friction.filter(|_| contact.tied.is_none());
         contact.friction = rubs.and_then(|given| self.rubbing(given));
     }

@@ -3,7 +3,7 @@
 //! ```text
 //! bytes ──readers::inp──▶ Mesh, statements ──▶ Case
 //!                                  material    materials
-//!                                  model       sections, amplitudes, what is there at the start
+//!                                  model       sections, amplitudes, initial conditions
 //!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
 //!                                  spring      springs between nodes, and to the ground
 //!                                  contact     interactions, pairs, ties, gaps
@@ -63,6 +63,22 @@ pub struct Read {
 ///
 /// # Errors
 /// The first fault of its mesh; else all faults of its other cards at once, each with its line.
+///
+/// # Example
+/// ```
+/// use signorini_io::deck::{Compat, read};
+/// use signorini_io::fs::RealFs;
+///
+/// let deck = b"*NODE, NSET=ALL\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n\
+///     *ELEMENT, TYPE=C3D4, ELSET=PART\n1, 1, 2, 3, 4\n\
+///     *MATERIAL, NAME=STEEL\n*ELASTIC\n210000, 0.3\n*SOLID SECTION, ELSET=PART, MATERIAL=STEEL\n\
+///     *BOUNDARY\n1, 1, 3\n2, 1, 3\n3, 1, 3\n\
+///     *STEP\n*STATIC\n*CLOAD\n4, 3, -1\n*END STEP\n";
+/// let found = read(&RealFs, "part.inp", deck, Compat::None)?;
+/// assert_eq!(found.case.materials[0].number("E"), Some(210000.0));
+/// assert_eq!(found.case.steps.len(), 1);
+/// # Ok::<(), signorini_io::diagnostic::Diagnostics>(())
+/// ```
 pub fn read(fs: &dyn Fs, name: &str, bytes: &[u8], compat: Compat) -> Result<Read, Diagnostics> {
     let deck = inp::read_deck(fs, name, bytes)
         .map_err(|error| Diagnostic::error(&codes::BAD_MESH, error.to_string()))?;

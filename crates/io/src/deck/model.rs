@@ -1,4 +1,4 @@
-//! Sections, amplitudes, what is there at the start.
+//! Sections, amplitudes, initial conditions.
 
 use super::Compat;
 use super::translation::{Target, Translation, is_truss};

@@ -470,7 +470,7 @@ impl Translation<'_> {
         let Some(place) = given().next().map(|(_, place)| place.clone()) else {
             return;
         };
-        // what is prescribed along all three axes, and not said again, stays
+        // a motion prescribed along all three axes, and not repeated, stays
         let known = standing.along.get(&label).copied();
         let values: Vec<Option<f64>> = (components.iter().zip(0..))
             .map(|(one, axis)| match one {

@@ -63,6 +63,16 @@ pub struct Code {
 
 impl Code {
     /// The entry of a code such as `S0102`; letters may be small.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_io::diagnostic::codes::Code;
+    ///
+    /// let code = Code::find("s0302").ok_or("no such code")?;
+    /// // a body that moves freely is a fault of the model
+    /// assert_eq!(code.class.exit_code(), 4);
+    /// # Ok::<(), &str>(())
+    /// ```
     pub fn find(id: &str) -> Option<&'static Code> {
         ALL.iter()
             .copied()

@@ -1,4 +1,4 @@
-//! What the program reports to users about their input: what is wrong, where, and what to do.
+//! What the program reports to users about their input: faults, their places, and remedies.
 //!
 //! ```text
 //! error[S0102]: unknown key `penaltty`                      severity, code, message
@@ -123,6 +123,18 @@ impl Diagnostic {
 }
 
 /// The findings of a phase, in the order in which they were made.
+///
+/// # Example
+/// ```
+/// use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+///
+/// let mut found = Diagnostics::new();
+/// found.push(Diagnostic::warning(&codes::EMPTY, "nothing to do"));
+/// assert!(!found.has_errors() && found.exit_code().is_none());
+/// found.push(Diagnostic::error(&codes::EMPTY, "case.toml is empty").help("start from a template"));
+/// // a fault of the input
+/// assert_eq!(found.exit_code(), Some(3));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,

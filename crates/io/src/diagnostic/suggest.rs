@@ -7,6 +7,15 @@ const LONGEST: usize = 64;
 ///
 /// A word qualifies when it differs by a third of its letters at most (one at least), an exchange of neighbours
 /// counting as one difference; case, hyphens and underscores do not count.
+///
+/// # Example
+/// ```
+/// use signorini_io::diagnostic::closest;
+///
+/// let known = ["node-to-segment", "gauss-point", "mortar"];
+/// assert_eq!(closest("Node_to_segmnt", known), Some("node-to-segment"));
+/// assert_eq!(closest("penalty", known), None);
+/// ```
 pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if word.is_empty() || word.len() > LONGEST {
         return None;

@@ -16,7 +16,7 @@ use signorini_geometry::element::{self, Element};
 
 /// The number in the file, our name, and for each node in the file its place in our element (none: the same).
 ///
-/// Of two lines for one number the first is what is read.
+/// Of two lines for one number the first is the one for reading.
 #[rustfmt::skip]
 const TABLE: [(u8, &str, &[usize]); 14] = [
     (1, "hex8", &[]),

@@ -2,13 +2,13 @@
 //!
 //! ```text
 //!   write_atomic, append, sync ──▶ queue ──▶ thread ──▶ the disk
-//!                                              └── a fault: what is queued behind it is dropped
+//!                                              └── a fault: the rest of the queue is dropped
 //!   the next call, whichever ◀──────────────── and reports the fault
 //! ```
 //!
 //! A fault is reported late, but nothing that was asked for after it reaches the disk before it is reported: at any instant the
-//! disk is as it would be had each call waited and the program stopped at one of them. What reads, and what is rare,
-//! waits for the queue; a file that is in it is said to exist.
+//! disk is as it would be had each call waited and the program stopped at one of them. Operations that read, and rare ones,
+//! wait for the queue; a file that is in it is said to exist.
 //!
 //! # Limits
 //! The call that reports a fault is not the one that met it: what that one said of the state of its file, such as that a

@@ -89,7 +89,7 @@ pub enum FsError {
         /// The lock file.
         path: PathBuf,
     },
-    /// A growing file is shorter than what is to be kept of it.
+    /// A growing file is shorter than the part to be kept.
     #[error("{} has {have} bytes where {keep} were to be kept", path.display())]
     TooShort {
         /// The file.

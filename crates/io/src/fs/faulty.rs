@@ -1,4 +1,4 @@
-//! Disks that fail on purpose, for tests of what is left after a fault.
+//! Disks that fail on purpose, for tests of the state after a fault.
 //!
 //! Both wrap another [`Fs`] and count its write-like operations: `create_dir_all`, `write`, `rename`, `sync_dir`,
 //! `remove`, `open_log`, `lock`, and a log's `append`, `cut` and `sync`. Run once with [`FailingFs::counting`] to learn how many there are,

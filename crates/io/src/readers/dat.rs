@@ -85,6 +85,18 @@ impl Block {
 ///
 /// # Limits
 /// Headers of 400 bytes; identifiers of 63 bits. Memory is a small multiple of the size of the file.
+///
+/// # Example
+/// ```
+/// use signorini_io::readers::dat::parse;
+///
+/// let text = b"\n displacements (vx,vy,vz) for set ALL and time  0.1000000E+01\n\n\
+///     \x20        1  0.000000E+00  0.000000E+00  2.500000E-01\n";
+/// let tables = parse(text)?;
+/// assert_eq!(tables[0].time, Some(1.0));
+/// assert_eq!((tables[0].ids[0], tables[0].values[2]), (1, 0.25));
+/// # Ok::<(), signorini_io::readers::LineError>(())
+/// ```
 pub fn parse(bytes: &[u8]) -> Result<Vec<Block>, LineError> {
     let mut blocks: Vec<Block> = Vec::new();
     let mut row = Row::default();

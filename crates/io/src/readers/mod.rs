@@ -1,4 +1,4 @@
-//! Meshes from files and from inline data, and what is wrong with them.
+//! Meshes from files and from inline data, and their faults.
 //!
 //! ```text
 //! bytes ──reader by extension──▶ (Mesh, notes) ──validate──▶ issues
@@ -53,6 +53,19 @@ pub const READERS: [(&str, Reader); 5] = [
 ///
 /// # Errors
 /// An extension that [`READERS`] does not list; any fault in the file.
+///
+/// # Example
+/// ```
+/// use signorini_io::readers::read_mesh;
+///
+/// let deck = b"*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n\
+///     *ELEMENT, TYPE=C3D4, ELSET=part\n7, 1, 2, 3, 4\n";
+/// let (mesh, notes) = read_mesh("part.inp", deck)?;
+/// assert_eq!((mesh.nnode(), mesh.ncell()), (4, 1));
+/// assert_eq!(mesh.blocks[0].element.name(), "tet4");
+/// assert!(mesh.sets.contains_key("part") && notes.is_empty());
+/// # Ok::<(), signorini_io::readers::MeshError>(())
+/// ```
 pub fn read_mesh(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<String>), MeshError> {
     let extension = name.rsplit_once('.').map_or("", |(_, e)| e);
     let extension = extension.to_lowercase();

@@ -66,6 +66,19 @@ pub enum SideError {
 ///
 /// # Errors
 /// A name that is neither, a number that the element does not have, an axis that no side faces.
+///
+/// # Example
+/// ```
+/// use signorini_io::readers::{read_mesh, side_by_normal};
+///
+/// let deck = b"*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*ELEMENT, TYPE=CPE4\n1, 1, 2, 3, 4\n";
+/// let (mesh, _) = read_mesh("plate.inp", deck)?;
+/// let cell = mesh.cells(2).next().ok_or("no cells")?;
+/// // the second side, from 0 the first, faces +x
+/// assert_eq!(side_by_normal(&mesh, cell, "+x"), Ok(1));
+/// assert_eq!(side_by_normal(&mesh, cell, "S2"), Ok(1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn side_by_normal(mesh: &Mesh, cell: CellId, name: &str) -> Result<u8, SideError> {
     let element = mesh.element(cell).ok_or(SideError::NoCell)?;
     let label = mesh.cell_label(cell).ok_or(SideError::NoCell)?;

@@ -133,10 +133,21 @@ const HEAD: usize = 84;
 /// Bytes of a triangle.
 const RECORD: usize = 50;
 
-/// Reads triangles and what is worth telling about them. `name` appears in messages.
+/// Reads triangles, with notes. `name` appears in messages.
 ///
 /// # Errors
 /// Any fault in the file, with the line or the byte.
+///
+/// # Example
+/// ```
+/// use signorini_io::readers::stl::read;
+///
+/// let text = b"solid tool\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n\
+///     endloop\nendfacet\nendsolid tool\n";
+/// let (found, _) = read("tool.stl", text)?;
+/// assert_eq!((found.points.len(), found.triangles.len()), (3, 1));
+/// # Ok::<(), signorini_io::readers::stl::StlError>(())
+/// ```
 pub fn read(name: &str, bytes: &[u8]) -> Result<(Triangles, Vec<String>)> {
     let place = || Place::File(name.into());
     if bytes.trim_ascii().is_empty() {

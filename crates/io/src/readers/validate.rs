@@ -199,6 +199,18 @@ impl MeshIssue {
 ///
 /// The sign of the Jacobian is that of the determinant in space, of the area in the plane; a surface in space has none
 /// and can only be flat. It is looked at in the quadrature points and the nodes, relative to the size of the cell.
+///
+/// # Example
+/// ```
+/// use signorini_io::readers::{read_mesh, validate};
+///
+/// // the fourth node lies on the wrong side: the volume is negative
+/// let deck = b"*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, -1\n\
+///     *ELEMENT, TYPE=C3D4\n7, 1, 2, 3, 4\n";
+/// let (mesh, _) = read_mesh("part.inp", deck)?;
+/// assert_eq!(validate(&mesh).len(), 1);
+/// # Ok::<(), signorini_io::readers::MeshError>(())
+/// ```
 #[must_use]
 pub fn validate(mesh: &Mesh) -> Vec<MeshIssue> {
     let mut issues = Vec::new();

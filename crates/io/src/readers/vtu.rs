@@ -51,7 +51,7 @@ const NODE_ID: &str = "node_id";
 /// VTK's single points, which mark nodes.
 const VERTICES: [u8; 2] = [cells::VERTEX, 2];
 
-/// Reads a grid and what is worth telling about it. `name` appears in messages.
+/// Reads a grid, with notes. `name` appears in messages.
 ///
 /// # Errors
 /// Any fault in the file, with the array or the byte; a type of cells that is not read.

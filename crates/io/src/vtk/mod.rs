@@ -1,4 +1,4 @@
-//! VTK's XML files: a scanner for what is text in them, and the grid with its arrays in a `.vtu`.
+//! VTK's XML files: a scanner for the text in them, and the grid with its arrays in a `.vtu`.
 //!
 //! Read are arrays as text, in base64 or raw, in their tags or appended; of all widths and both byte orders; with sizes
 //! of 4 or 8 bytes; plain or compressed by zlib. Nothing is believed: every size is checked against the bytes that are

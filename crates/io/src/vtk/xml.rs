@@ -243,7 +243,7 @@ fn unescape(text: &str) -> Option<Cow<'_, str>> {
     Some(Cow::Owned(out))
 }
 
-/// Reads a document to its end; the error states what is not well formed.
+/// Reads a document to its end; the error names the fault.
 #[cfg(test)]
 pub(crate) fn assert_well_formed(text: &str) {
     let mut scanner = Scanner::new(text);

@@ -88,7 +88,7 @@ pub fn history_columns(contacts: &[&str], references: &[&str], chosen: &[&str]) 
 /// One entry of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'a> {
-    /// A number; what is not finite is written as `NaN`, `inf` or `-inf`.
+    /// A number; infinities and invalid ones are written as `NaN`, `inf` or `-inf`.
     Real(f64),
     /// A count.
     Count(u64),

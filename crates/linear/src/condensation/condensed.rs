@@ -1,16 +1,16 @@
 //! Solution with multipliers condensed: only unknowns of the size of the displacements reach the solver.
 //!
 //! ```text
-//!   no multipliers, or none that has a host  ──▶  the whole problem
+//!   no multipliers, or none that has a partner  ──▶  the whole problem
 //!   else  eliminate ──▶ condensed problem ──▶ factor ──▶ x ──residual of the whole problem──▶ refine
 //!                                                        └──stays──▶  the whole problem
 //! ```
 //!
-//! Hosts are chosen by the pattern, and again by values where a choice does not serve, which is forgotten when an increment
-//! begins: what is saved then is enough to go on alike. Each choice is analyzed once. A contact that opens or closes changes
+//! Partners are chosen by the pattern, and again by values where a choice does not serve, which is forgotten when an increment
+//! begins: the data saved then suffice to continue alike. Each choice is analyzed once. A contact that opens or closes changes
 //! numbers only.
 
-use super::hosts::Multipliers;
+use super::partners::Multipliers;
 use crate::condensation::{Condensation, Numbers, Refusal};
 use crate::direct::Direct;
 use crate::error::LinearError;
@@ -20,7 +20,7 @@ use crate::residual::Residual;
 use crate::solver::{Iterative, LinearSolver, SolveReport};
 use crate::sparsity::NONE;
 
-/// Choices of hosts for one set of values before the whole problem is solved instead.
+/// Choices of partners for one set of values before the whole problem is solved instead.
 const CHOICES: usize = 8;
 /// Refinements of one solution.
 const REFINEMENTS: usize = 3;
@@ -30,8 +30,36 @@ const CORRECTION: f64 = 1e-6;
 /// A solver of the condensed system, the direct one unless said.
 ///
 /// # Limits
-/// A multiplier that acts on very many dofs, on none that is free, or in a circle with others on each other's hosts stays
+/// A multiplier that acts on very many dofs, on none that is free, or in a circle with others on each other's partners stays
 /// an unknown.
+///
+/// # Example
+/// ```
+/// use signorini_linear::sparsity::{BlockPattern, Pattern};
+/// use signorini_linear::{Condensed, Direct, LinearSolver, Problem, Symmetry, Values};
+///
+/// // a spring k = 2 to the ground, whose end a multiplier moves to u = 0.5: k u + λ = 0
+/// let bulk = BlockPattern::from_cliques(1, 1, &[0], &[0, 1]);
+/// let interface = Pattern::from_cliques(2, &[0, 1], &[0, 2]);
+/// let values = Values { bulk: &[2.0], interface: &[0.0, 1.0, 1.0, 0.0] };
+/// let mut solver = Condensed::new(Direct::reproducible);
+/// solver.analyze(&Problem {
+///     ndof: 2,
+///     bulk: &bulk,
+///     interface: &interface,
+///     equation: &[0, 1],
+///     nequation: 2,
+///     symmetry: Symmetry::Symmetric,
+///     sign: &[1, -1],
+///     coordinates: &[[0.0; 3]],
+///     between: &[],
+/// })?;
+/// solver.factorize(&values)?;
+/// let mut x = [0.0; 2];
+/// solver.solve(&values, &[0.0, 0.5], &mut x, 1e-12)?;
+/// assert!((x[0] - 0.5).abs() < 1e-12 && (x[1] + 1.0).abs() < 1e-12);
+/// # Ok::<(), signorini_linear::LinearError>(())
+/// ```
 pub struct Condensed<S = Direct> {
     build: fn() -> S,
     inner: S,
@@ -46,11 +74,11 @@ pub struct Condensed<S = Direct> {
     is_new: bool,
     /// Whether the whole problem was factorized last.
     is_whole: bool,
-    /// Per raw dof of a multiplier, its host so far.
-    hosts: Vec<u32>,
+    /// Per raw dof of a multiplier, its partner so far.
+    partners: Vec<u32>,
     /// Per raw dof, whether its multiplier stays an unknown.
     stays: Vec<bool>,
-    /// Whether the pattern at hand alone has chosen hosts.
+    /// Whether the pattern at hand alone has chosen partners.
     by_pattern: bool,
     /// Whether earlier choices are to count no more.
     forgotten: bool,
@@ -75,7 +103,7 @@ impl<S: LinearSolver> Condensed<S> {
             seen: Vec::new(),
             is_new: false,
             is_whole: false,
-            hosts: Vec::new(),
+            partners: Vec::new(),
             stays: Vec::new(),
             by_pattern: true,
             forgotten: true,
@@ -99,15 +127,15 @@ impl<S: LinearSolver> Condensed<S> {
         &self.inner
     }
 
-    /// Chooses hosts; without values, by the pattern.
+    /// Chooses partners; without values, by the pattern.
     fn choose(&mut self, values: Option<&Values>) {
         self.condensation = None;
         if let Some(kept) = &self.kept {
-            let (stays, hosts) = (&self.stays, &mut self.hosts);
-            let groups = self.multipliers.groups(kept, values, stays, hosts);
+            let (stays, partners) = (&self.stays, &mut self.partners);
+            let groups = self.multipliers.groups(kept, values, stays, partners);
             for group in &groups {
-                for (&m, &d) in group.multiplier.iter().zip(group.host.iter().cycle()) {
-                    hosts[m as usize] = kept.node_of(d);
+                for (&m, &d) in group.multiplier.iter().zip(group.partner.iter().cycle()) {
+                    partners[m as usize] = kept.node_of(d);
                 }
             }
             if !groups.is_empty() {
@@ -116,11 +144,11 @@ impl<S: LinearSolver> Condensed<S> {
         }
     }
 
-    /// Chooses hosts by the pattern and analyzes what is left.
+    /// Chooses partners by the pattern and analyzes the condensed system.
     fn begin(&mut self) -> Result<(), LinearError> {
         self.by_pattern = self.forgotten;
         if std::mem::take(&mut self.forgotten) {
-            self.hosts.fill(NONE);
+            self.partners.fill(NONE);
             self.stays.fill(false);
         }
         self.seen.clear();
@@ -147,7 +175,7 @@ impl<S: LinearSolver> Condensed<S> {
         }
     }
 
-    /// Eliminates; false where no choice of hosts serves.
+    /// Eliminates; false where no choice of partners serves.
     fn eliminate(&mut self, values: &Values) -> Result<bool, LinearError> {
         let mut changed = false;
         for _ in 0..CHOICES {
@@ -169,7 +197,7 @@ impl<S: LinearSolver> Condensed<S> {
                     return Ok(true);
                 }
                 Err(Refusal::Pattern) => condensation.grow(kept, numbers),
-                Err(Refusal::Host) => self.choose(Some(values)),
+                Err(Refusal::Partner) => self.choose(Some(values)),
                 Err(Refusal::Stay(multipliers)) => {
                     multipliers
                         .iter()
@@ -189,7 +217,7 @@ impl<S: LinearSolver> Condensed<S> {
         self.whole.factorize(values)
     }
 
-    /// Makes the numbers those of the values at hand; false where the present hosts do not serve them.
+    /// Makes the numbers those of the values at hand; false where the present partners do not serve them.
     fn follow(&mut self, values: &Values) -> bool {
         let (Some(kept), Some(condensation)) = (&self.kept, &self.condensation) else {
             return false;
@@ -314,8 +342,8 @@ impl<S: LinearSolver> LinearSolver for Condensed<S> {
         }
         problem.check()?;
         let (build, ndof) = (self.build, problem.ndof);
-        if self.hosts.len() != ndof {
-            self.hosts = vec![NONE; ndof];
+        if self.partners.len() != ndof {
+            self.partners = vec![NONE; ndof];
             self.stays = vec![false; ndof];
             self.forgotten = true;
         }

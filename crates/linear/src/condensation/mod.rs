@@ -1,7 +1,7 @@
-//! The condensed operator: multipliers eliminated with the equations of their hosts.
+//! The condensed operator: multipliers eliminated with the equations of their partners.
 //!
 //! ```text
-//!            others  hosts   λ           P   dofs of hosts that are pivots, one for each multiplier
+//!            others  partners   λ           P   dofs of partners that are pivots, one for each multiplier
 //!   others  ⎡  K      K      B ⎤         S   B at P: small blocks, triangular as a whole
 //!   P       ⎢  K_P    K_PP   S ⎥         E = B S⁻¹
 //!   λ       ⎣  C      C      D ⎦
@@ -23,41 +23,41 @@
 //!
 //! is positive definite where K is on these motions. A row P then holds nothing but a diagonal.
 //!
-//! A multiplier that acts on the host of another, as those of edges do on the corners of a quadratic face, is eliminated
-//! before it: S⁻¹ is applied group by group in that order, and multipliers that act on each other's hosts stay unknowns.
-//! What is open, a row with nothing but its diagonal, is known beforehand; its host keeps its equation.
+//! A multiplier that acts on the partner of another, as those of edges do on the corners of a quadratic face, is eliminated
+//! before it: S⁻¹ is applied group by group in that order, and multipliers that act on each other's partners stay unknowns.
+//! An open multiplier, whose row has nothing but its diagonal, is known beforehand; its partner keeps its equation.
 //!
 //! The bulk stays as it is. What elimination changes goes into the interface, whose pattern here holds for all statuses
 //! of the contact: an entry of the bulk that has to vanish meets its own negative there, alone, so that zero is exact.
 
 mod condensed;
-mod hosts;
+mod partners;
 
 pub use condensed::Condensed;
 
 use crate::problem::{Kept, Problem, Symmetry, Values};
 use crate::sparsity::{NONE, Pattern};
-use hosts::{Group, Multipliers, Pivots, WIDTH};
+use partners::{Group, Multipliers, Pivots, WIDTH};
 
-/// What stands against a condensation with the present hosts.
+/// What stands against a condensation with the present partners.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Refusal {
-    /// These groups have no pivot in their host.
-    Host,
+    /// These groups have no pivot in their partner.
+    Partner,
     /// These multipliers cannot be eliminated.
     Stay(Vec<u32>),
     /// An entry has no place in the pattern.
     Pattern,
 }
 
-/// The structure of the condensed operator, for one pattern and one choice of hosts.
+/// The structure of the condensed operator, for one pattern and one choice of partners.
 pub(crate) struct Condensation {
     symmetric: bool,
     pub groups: Vec<Group>,
     /// Per raw dof, the group whose multiplier it is, or `NONE`.
     group_of: Vec<u32>,
     lines: Lines,
-    /// The rows that each group changes, its host included.
+    /// The rows that each group changes, its partner included.
     supports: Vec<Vec<u32>>,
     /// The interface of the condensed operator, over the raw dofs.
     pub pattern: Pattern,
@@ -66,7 +66,7 @@ pub(crate) struct Condensation {
     pub sign: Vec<i8>,
 }
 
-/// The rows of the operator at the hosts, bulk and interface added up.
+/// The rows of the operator at the partners, bulk and interface added up.
 struct Lines {
     /// The line of each raw dof, or `NONE`.
     number: Vec<u32>,
@@ -138,7 +138,7 @@ impl Lines {
             interface_at: Vec::new(),
         };
         let mut entries: Vec<(u32, usize, usize)> = Vec::new();
-        for &dof in groups.iter().flat_map(|g| &g.host) {
+        for &dof in groups.iter().flat_map(|g| &g.partner) {
             entries.clear();
             let bulk = kept.bulk_row(dof);
             entries.extend(bulk.map(|(column, at)| (column, at, NOWHERE)));
@@ -188,7 +188,7 @@ impl Lines {
 }
 
 impl Condensation {
-    /// The structure for these hosts.
+    /// The structure for these partners.
     pub fn new(kept: &Kept, multipliers: &Multipliers, groups: Vec<Group>) -> Self {
         let ndof = kept.equation.len();
         let mut group_of = vec![NONE; ndof];
@@ -218,14 +218,14 @@ impl Condensation {
         let columns = |group: &Group| {
             let columns = group.multiplier.iter().map(|&m| multipliers.column(m));
             let rows = columns.flatten().map(|(row, _)| row);
-            rows.chain(group.host.iter().copied()).collect()
+            rows.chain(group.partner.iter().copied()).collect()
         };
         condensation.supports = condensation.groups.iter().map(columns).collect();
         condensation.couple(kept);
         condensation
     }
 
-    /// The structure for the hosts that the pattern alone chooses; none where there is nothing to eliminate.
+    /// The structure for the partners that the pattern alone chooses; none where there is nothing to eliminate.
     pub fn by_pattern(kept: &Kept) -> Option<Self> {
         let multipliers = Multipliers::new(kept);
         let ndof = kept.equation.len();
@@ -233,7 +233,7 @@ impl Condensation {
         (!groups.is_empty()).then(|| Self::new(kept, &multipliers, groups))
     }
 
-    /// Makes room for the numbers of an elimination: a multiplier that acts on the host of another changes what that
+    /// Makes room for the numbers of an elimination: a multiplier that acts on the partner of another changes what that
     /// one acts on, too.
     pub fn grow(&mut self, kept: &Kept, numbers: &Numbers) {
         for (k, &(multiplier, _)) in numbers.pair.iter().enumerate() {
@@ -263,7 +263,7 @@ impl Condensation {
         }
     }
 
-    /// Rows that are equations here, each once; the constraint of another group stands in its host.
+    /// Rows that are equations here, each once; the constraint of another group stands in its partner.
     fn settle_supports(&mut self) {
         let Self {
             supports,
@@ -276,7 +276,7 @@ impl Condensation {
             let others = rows.iter().map(|&row| group_of[row as usize]);
             let others: Vec<u32> = others.filter(|&o| o != NONE && o as usize != g).collect();
             for other in others {
-                rows.extend(&groups[other as usize].host);
+                rows.extend(&groups[other as usize].partner);
             }
             rows.retain(|&row| equation[row as usize] != NONE);
             rows.sort_unstable();
@@ -291,20 +291,20 @@ impl Condensation {
         let ndof = self.equation.len();
         let mut sets: Vec<&[u32]> = Vec::new();
         let mut joins: Vec<(u32, u32)> = Vec::new();
-        let host_of = |dof: u32| self.lines.number[dof as usize];
+        let partner_of = |dof: u32| self.lines.number[dof as usize];
         let mut group_of_line = Vec::new();
         for (g, group) in self.groups.iter().enumerate() {
-            group_of_line.extend(group.host.iter().map(|_| g as u32));
+            group_of_line.extend(group.partner.iter().map(|_| g as u32));
         }
         let mut near: Vec<u32> = Vec::new();
         for (g, group) in self.groups.iter().enumerate() {
             let support = &supports[g];
             near.clear();
-            for &host in &group.host {
+            for &partner in &group.partner {
                 let row = sets.len() as u32;
-                sets.push(self.lines.columns(host));
+                sets.push(self.lines.columns(partner));
                 joins.extend(support.iter().map(|&t| (t, row)));
-                near.extend(self.lines.columns(host));
+                near.extend(self.lines.columns(partner));
             }
             near.sort_unstable();
             near.dedup();
@@ -313,7 +313,7 @@ impl Condensation {
                 sets.push(support);
                 joins.extend(near.iter().map(|&t| (t, own)));
                 joins.extend(support.iter().map(|&t| (t, own)));
-                let lines = near.iter().map(|&d| host_of(d)).filter(|&l| l != NONE);
+                let lines = near.iter().map(|&d| partner_of(d)).filter(|&l| l != NONE);
                 let mut others: Vec<u32> = lines.map(|l| group_of_line[l as usize]).collect();
                 others.dedup();
                 for &other in others.iter().filter(|&&o| o as usize != g) {
@@ -325,7 +325,7 @@ impl Condensation {
                         ..kept.interface.row_start[m as usize + 1];
                     let row = sets.len() as u32;
                     sets.push(&kept.interface.column[range]);
-                    joins.extend(group.host.iter().map(|&t| (t, row)));
+                    joins.extend(group.partner.iter().map(|&t| (t, row)));
                 }
             }
         }
@@ -373,7 +373,7 @@ impl Condensation {
         let mut diagonal = Vec::new();
         for group in &self.groups {
             let found = multipliers.pivots(kept, group, interface);
-            let pivots = found.ok_or(Refusal::Host)?;
+            let pivots = found.ok_or(Refusal::Partner)?;
             numbers.pivots.push(pivots);
             let acts = |&(column, at): &(u32, usize)| {
                 self.group_of[column as usize] != NONE && interface[at] != 0.0
@@ -443,7 +443,7 @@ impl Condensation {
                 }
                 next += 1;
             }
-            // what is left acts on its own pivots in a circle: the group that waits for most stays an unknown
+            // the remaining groups act on each other's pivots in a circle: the group that waits for most stays an unknown
             waiting.retain(|&g| before[g] > 0);
             let Some(&most) = waiting.iter().max_by_key(|&&g| (before[g], usize::MAX - g)) else {
                 break;
@@ -494,7 +494,7 @@ impl Condensation {
         for &(_, own) in pair.iter() {
             let g = pair[pivot[own as usize] as usize].0;
             due.push(rank[self.group_of[g as usize] as usize]);
-            // a unit force on the pivot; each group takes what is on its pivots and hands it on
+            // a unit force on the pivot; each group takes the entries at its pivots and hands them on
             sum[own as usize] = -1.0;
             while let Some(first) = due.iter().copied().min() {
                 due.retain(|&r| r != first);
@@ -643,7 +643,7 @@ impl Condensation {
         }
     }
 
-    /// The right-hand side of the condensed system. Both are over raw dofs; `x` receives what is known: open
+    /// The right-hand side of the condensed system. Both are over raw dofs; `x` receives the known values: open
     /// multipliers, and d at the pivots where the system is symmetric.
     pub fn reduce(
         &self,

@@ -18,7 +18,7 @@ use crate::solver::SolveReport;
 const REFINEMENTS: usize = 3;
 /// A displacement does not take part in a free motion where it is below this part of what moves most, equilibrated.
 const STILL: f64 = 1e-6;
-/// What is left of a free motion after multiplication, relative to what is added up: at most this, or
+/// The residual of a free motion after multiplication, relative to the sum of absolute values: at most this, or
 const FREE: f64 = 4e-15;
 /// this times the root of the number of equations (measured: a third of it at 30,000).
 const FREE_PER_ROOT: f64 = 0.5 * f64::EPSILON;

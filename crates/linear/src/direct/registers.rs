@@ -1,7 +1,7 @@
 //! The state that kernels for wide registers leave behind.
 //!
 //! A function that uses the upper halves of vector registers should clear them when it returns: what follows in narrow
-//! instructions on the same thread otherwise waits for what is in them. Matrix products of faer 0.24 with 512 bits do not;
+//! instructions on the same thread otherwise waits for their content. Matrix products of faer 0.24 with 512 bits do not;
 //! the tangents of elements evaluated after them took 1.7 times as long (sliding blocks of 50,000 unknowns).
 #![allow(unsafe_code)]
 
@@ -33,7 +33,7 @@ mod tests {
             return None;
         }
         let low: u32;
-        // SAFETY: the processor has XGETBV, and with XSAVEC or XSAVES the form that reports what is in use.
+        // SAFETY: the processor has XGETBV, and with XSAVEC or XSAVES the form that reports the components in use.
         unsafe { asm!("xgetbv", in("ecx") 1, out("eax") low, out("edx") _) };
         Some(low & 0b100 != 0)
     }

@@ -16,7 +16,7 @@ pub(super) struct Aggregates {
 }
 
 impl Aggregates {
-    /// Neighbourhoods that do not touch; what is between them joins the one it hangs on most.
+    /// Neighbourhoods that do not touch; nodes between them join the one with the strongest coupling.
     ///
     /// Source: Vaněk, Mandel, Brezina, *Computing* 56 (1996) 179–196, algorithm 5.1 without a threshold.
     pub fn new<const N: usize>(matrix: &Blocks<N, N>) -> Self {

@@ -27,7 +27,7 @@ fn row<'a>(kept: &'a Kept, values: &'a Values<'_>, dof: usize) -> impl Iterator<
     columns.iter().copied().zip(values.iter().copied())
 }
 
-/// Whether interface values act on each node, but for what is little and acts on single unknowns.
+/// Whether interface values act on each node, apart from small values at single unknowns.
 pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
     let counts = |dof: usize, (column, v): (u32, f64)| {
         let is_alone = column as usize == dof;
@@ -52,7 +52,7 @@ pub(super) fn coupled(kept: &Kept) -> Vec<bool> {
     (0..kept.bulk.nrow()).map(is_coupled).collect()
 }
 
-/// Adds what is little and acts on single unknowns to the stiffness of the bodies.
+/// Adds small values at single unknowns to the stiffness of the bodies.
 pub(super) fn add(kept: &Kept, values: &Values, fine: &Fine, matrix: &mut Blocks<3, 3>) {
     for (row, at) in places(fine, matrix) {
         for (axis, v) in at_node(kept, values, fine.node[row]) {

@@ -116,7 +116,7 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         let mut sum = Self {
             ncolumn: self.ncolumn,
             start: Vec::with_capacity(nrow + 1),
-            // what is not needed of it is never touched, and a sum that grew would be copied
+            // the surplus is never touched, and a sum that grew would be copied
             column: Vec::with_capacity(self.column.len() + other.column.len()),
             value: Vec::with_capacity(self.column.len() + other.column.len()),
         };
@@ -275,7 +275,7 @@ fn product_row<const R: usize, const C: usize, const D: usize>(
 }
 
 impl<const N: usize> Blocks<N, N> {
-    /// `Pᵀ A P`, strip by strip of the rows: what is in between never stands there as a whole, for it is larger than A.
+    /// `Pᵀ A P`, strip by strip of the rows: the product A P is never stored as a whole, for it is larger than A.
     pub fn projected<const D: usize>(&self, onto: &Blocks<N, D>) -> Blocks<D, D> {
         let mut sum: Option<Blocks<D, D>> = None;
         let size = self.nrow().div_ceil(STRIPS).max(ROWS_PER_STRIP);

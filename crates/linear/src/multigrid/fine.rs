@@ -23,7 +23,7 @@ pub(super) struct Fine {
     pub node: Vec<u32>,
     /// The row of each node, or `NONE`.
     row: Vec<u32>,
-    /// Ranges of rows that do not couple with one another; what is between them comes last.
+    /// Ranges of rows that do not couple with one another; rows between them come last.
     pub parts: Vec<Range<usize>>,
     /// Motions of a rigid body at each row; nothing where a node is held.
     pub modes: Vec<[[f64; MODES]; 3]>,
@@ -44,7 +44,7 @@ pub(super) struct Corners {
     pub row: Vec<u32>,
     /// Ranges of corners in the parts.
     pub parts: Vec<Range<usize>>,
-    /// From corners to rows: what is between two moves by their mean.
+    /// From corners to rows: a node between two corners moves by their mean.
     pub prolong: Blocks<3, 3>,
 }
 
@@ -123,7 +123,7 @@ impl Fine {
         self.bulk == kept.bulk && freedom(kept).eq(self.is_free.iter().copied())
     }
 
-    /// The stiffness over the rows: what is held has its own diagonal and no more.
+    /// The stiffness over the rows: a prescribed row has its own diagonal and no more.
     pub fn matrix(&self, kept: &Kept, values: &Values) -> Blocks<3, 3> {
         let is_free = |dof: usize| kept.is_free(dof);
         let bulk = &kept.bulk;
@@ -220,7 +220,7 @@ impl Corners {
                 if to == NONE {
                     continue;
                 }
-                // what is held does not move others, nor do they move it
+                // a prescribed unknown does not move others, nor do they move it
                 let moves =
                     |i: usize| is_free(3 * own as usize + i) && is_free(3 * corner as usize + i);
                 let mut block = [[0.0; 3]; 3];
@@ -310,7 +310,7 @@ fn floating(
     rows
 }
 
-/// Whether what is held of a body leaves it no motion as a whole.
+/// Whether the supports of a body leave it no rigid motion.
 fn is_held(body: &[u32], coordinates: &[[f64; 3]], is_free: impl Fn(usize) -> bool) -> bool {
     let held = |&&node: &&u32| (0..3).any(|axis| !is_free(3 * node as usize + axis));
     let held: Vec<u32> = body.iter().filter(held).copied().collect();

@@ -75,7 +75,7 @@ pub(crate) struct Grid {
     pub(super) worn: usize,
 }
 
-/// What is known of the stiffness at the start of the run: a hierarchy of it is the same in every run, resumed or not.
+/// The initial stiffness, as far as known: a hierarchy of it is the same in every run, resumed or not.
 #[derive(Default)]
 pub(super) struct Start {
     /// Which one was given.

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 /// Vectors of the flexible iteration before it starts again.
 const RESTART: usize = 50;
 
-/// The largest entry of a residual is looked at from so many times what is wanted on, estimated from the norm.
+/// The largest entry of a residual is examined once the estimate from the norm is below this multiple of the tolerance.
 const NEARLY: f64 = 2.0;
 
 /// After so many iterations it is foreseen how many it will be in all.

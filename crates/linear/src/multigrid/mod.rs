@@ -20,7 +20,7 @@
 //!
 //! Multipliers are in the block with all they act on. Where operator and block are positive definite, iterations are by
 //! conjugate gradients; elsewhere by minimal residuals, from a start that leaves nothing at the equations of the block,
-//! nor does what follows: gaps close exactly, and what is measured are forces away from the interface.
+//! nor does what follows: gaps close exactly, and the residual measures forces away from the interface.
 //!
 //! Where the hierarchy does not serve (thin bodies, iterations that stay slow), a factor of the stiffness of the bodies
 //! stands for it ([`factor`]) for the rest of the run. Where that does not serve either, or in the plane, the direct solver
@@ -130,7 +130,7 @@ impl Multigrid {
         grid.map_or(0, |grid| grid.block.whole.len())
     }
 
-    /// Whether the hierarchy is that of the stiffness at the start.
+    /// Whether the hierarchy is that of the initial stiffness.
     #[cfg(test)]
     pub(crate) fn is_of_start(&self) -> bool {
         self.grid.as_ref().is_some_and(|grid| grid.start.is_in_use)

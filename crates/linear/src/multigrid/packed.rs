@@ -16,7 +16,7 @@ const ROWS_PER_TASK: usize = 1024;
 pub(super) struct Packed<const R: usize, const C: usize, T = f32> {
     start: Vec<usize>,
     column: Vec<u32>,
-    /// The blocks, and what is read beyond the last one.
+    /// The blocks, with padding behind the last one.
     value: Vec<T>,
     /// The unit of the numbers of each row of blocks.
     unit: Vec<f32>,
@@ -182,7 +182,7 @@ impl<const R: usize, const C: usize, T: Number> Packed<R, C, T> {
         let sums = if R <= FEW {
             let mut by_column = [vectors.four(&[0.0; FEW]); C];
             for (k, &column) in columns.iter().enumerate() {
-                // as long as what is read of it
+                // as long as the vector read from it
                 let block = &values[k * R * C..k * R * C + (C - 1) * R + FEW];
                 let x = x(column as usize);
                 for c in 0..C {

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! No stiffer than the smoother stands: `D⁻¹ S`, with the diagonal D of A, has no eigenvalue above [`STIFFEST`]. What
-//! slips has a small row, and what is open none.
+//! slips has a small row; an open contact has none.
 
 use super::blocks::Blocks;
 use super::fine::Fine;

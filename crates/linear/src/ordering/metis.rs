@@ -85,7 +85,7 @@ mod handlers {
         fn drop(&mut self) {
             for (signal, kept) in SIGNALS.iter().zip(&self.0) {
                 if let Some(kept) = kept {
-                    // SAFETY: what is set is what was set before; the old one is not asked for.
+                    // SAFETY: the handler set here is the one set before; the old one is not asked for.
                     unsafe {
                         libc::sigaction(*signal, kept, std::ptr::null_mut());
                     }

@@ -324,7 +324,7 @@ pub(super) fn turned_above(placed: &Placed, angle: f64) -> Placed {
     turned
 }
 
-/// Iterations and the solution in an increment of a step, where the solver is given the stiffness at the start if it
+/// Iterations and the solution in an increment of a step, where the solver is given the initial stiffness if it
 /// asks.
 pub(super) fn solve_from(
     which: u64,

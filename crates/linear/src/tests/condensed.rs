@@ -17,7 +17,7 @@ struct Kind {
     /// Multipliers of a point: 1, or one for each direction.
     width: usize,
     symmetry: Symmetry,
-    /// Multipliers of some points act on the hosts of others.
+    /// Multipliers of some points act on the partners of others.
     quadratic: bool,
     /// Some secondary nodes are prescribed, whole or in one direction.
     prescribed: bool,
@@ -191,7 +191,7 @@ fn statuses_change_numbers_and_no_analysis() {
 }
 
 #[test]
-fn hosts_chosen_blindly_are_chosen_again() {
+fn partners_chosen_blindly_are_chosen_again() {
     for kind in kinds() {
         let mut solver = Condensed::new(Direct::new);
         check(
@@ -235,7 +235,7 @@ fn a_body_held_only_by_multipliers_is_solved_by_cholesky() {
 }
 
 #[test]
-fn multipliers_on_each_others_hosts_stay_in_part() {
+fn multipliers_on_each_others_partners_stay_in_part() {
     // contact of both sides with each other: every node has a multiplier that acts on nodes of the other side
     for symmetry in [Symmetry::Symmetric, Symmetry::Unsymmetric] {
         let (side, ndim) = (6, 2);
@@ -270,7 +270,7 @@ fn multipliers_on_each_others_hosts_stay_in_part() {
 }
 
 #[test]
-fn a_multiplier_on_a_shared_node_finds_a_host_elsewhere() {
+fn a_multiplier_on_a_shared_node_finds_a_partner_elsewhere() {
     // two multipliers at one node, as where two pairs meet; the second leans on its primary node
     let mut system = System::new(4, 2, 4, Symmetry::Symmetric);
     let mut random = Random(1);

@@ -303,7 +303,7 @@ fn values_of_another_size_are_solved_after_others() {
             assert!(report.unwrap().residual < 1e-12);
             x
         };
-        // scales that go on from others are as good, and what is forgotten leaves no trace
+        // scales that go on from others are as good, and forgotten ones leave no trace
         solve(&mut solver);
         solver.forget();
         assert_eq!(solve(&mut solver), solve(&mut Direct::new()));

@@ -22,7 +22,7 @@ pub struct Line {
     nonlinear: bool,
 }
 
-/// How far nodes may be from their line at the start, in parts of its length.
+/// How far nodes may be from their line at the start, relative to its length.
 const UNEVEN: f64 = 1e-4;
 /// Unknowns of one constraint, besides its multiplier: those of three nodes.
 const N: usize = 9;

@@ -54,7 +54,7 @@
 //!   g = r (Σ θ_i / n − γ),     tan θ_i = a · (p_i × q_i) / (p_i · q_i),     ∂θ_i/∂q_i = a × q_i / |q_i|²
 //! ```
 //!
-//! The rows of a multiplier are added up in parts, node by node: what is small is judged by what cancels in it.
+//! The rows of a multiplier are added up node by node: a small sum is judged by the size of its summands.
 //! Terms with multipliers have no energy that a step could lower: `energy` says `None`.
 //!
 //! Limits: what turns with a plane, or with a spring along a line, must keep a length; nodes on a line carry no moment

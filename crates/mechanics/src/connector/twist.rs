@@ -157,7 +157,7 @@ impl Constraints for Twist {
                 if self.nonlinear {
                     bend = (turn * (share / square)) - Mat3::outer(slope, q) * (2.0 / square);
                     let angle = self.axis.dot(p.cross(q)).atan2(p.dot(q));
-                    // of all angles that look alike, the one next to what is wanted
+                    // of all angles that look alike, the one closest to the wanted angle
                     let turns = ((given - angle) / std::f64::consts::TAU).round();
                     sum += share * (angle + std::f64::consts::TAU * turns);
                 } else {

@@ -113,7 +113,7 @@ pub(super) struct Derivatives {
     trial: Vec<Vec3>,
     actual_pressure: Vec<f64>,
     actual_tangential: Vec<Vec3>,
-    /// Those of what acts, component by component: the tangential traction, then the pressure.
+    /// Those of the active traction, component by component: the tangential traction, then the pressure.
     slopes: [Vec<f64>; 4],
 }
 
@@ -562,7 +562,7 @@ impl<'a> Laws<'a> {
     }
 }
 
-/// The equations of the multiplier under friction: what is `missing`, over the scales along the normal and across it.
+/// The equations of the multiplier under friction: the residual `missing`, over the scales along the normal and across it.
 #[inline]
 fn add_complementarity(
     row: &Row,

@@ -1,7 +1,7 @@
 //! Contact: one condition for every kind of segment, discretization, law and dimension.
 //!
 //! ```text
-//!  points of the secondary side           Search ──▶ Candidates      what is near
+//!  points of the secondary side           Search ──▶ Candidates      nearby facets
 //!        │                                    │
 //!        ▼                                    ▼
 //!  Discretization.pair_up ─────────────▶ Pairing                    all discrete choices, once per iterate
@@ -65,7 +65,7 @@
 //! ```
 //!
 //! without E where the multiplier is the traction, and with `k = ε` unless a stiffness within the tangent plane is given. Tractions of a pair at a distance have a moment, `w (r − ρ) × t`: nothing
-//! for what is frictionless, `w g ν × t` with friction, which vanishes with the gap. With multipliers, `∂f/∂λ` and
+//! without friction, `w g ν × t` with friction, which vanishes with the gap. With multipliers, `∂f/∂λ` and
 //! `∂f_λ/∂d` of what sticks are each other's transposes where the anchor is the closest point; the rest of the
 //! tangent is unsymmetric, `(∂B/∂d)ᵀλ`.
 //!

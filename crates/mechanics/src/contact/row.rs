@@ -206,7 +206,7 @@ impl Rows {
         self.ncolumn
     }
 
-    /// A further row, zeroed, with room for what is wanted.
+    /// A further row, zeroed, with room for the wanted quantities.
     pub fn push(&mut self, number: usize, wanted: Wanted) -> &mut Row {
         let n = self.ncolumn;
         if self.nrow == self.rows.len() {

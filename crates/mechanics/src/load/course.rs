@@ -17,6 +17,18 @@ pub enum Course {
 ///
 /// A load that replaces another is a second one: the first fades to zero while the second grows from zero. For
 /// loads of the same kind in the same place the sum is the straight line from the old to the new (E1).
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::load::Schedule;
+/// use signorini_mechanics::system::StepContext;
+///
+/// // to full size in the first step, back to half of it in the second
+/// let schedule = Schedule::ramps(&[1.0, 0.5]);
+/// let first = StepContext::default();
+/// let second = StepContext { number: 1, start: 1.0, ..first };
+/// assert_eq!((schedule.at(&first, 0.5), schedule.at(&second, 1.5)), (0.5, 0.75));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schedule {
     /// One for each step.

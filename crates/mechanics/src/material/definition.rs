@@ -56,7 +56,7 @@ pub struct Response {
     pub tangent: [[f64; 6]; 6],
     /// The potential of the stress over the increment, per volume of the reference: its derivative with respect to
     /// the strain, at fixed old history, is the stress. For elastic laws the stored energy; with plasticity the stored
-    /// energy and what is dissipated.
+    /// and the dissipated energy.
     pub energy: f64,
     /// The strain zz that a law with stress-free directions found; the others leave it alone.
     pub across: f64,
@@ -134,6 +134,21 @@ impl Linearity {
 }
 
 /// A constitutive law with its constants.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::tensor::Sym3;
+/// use signorini_mechanics::material::{Kinematics, Material, Order, Response, SaintVenantKirchhoff, Strain};
+///
+/// // uniaxial strain: σ = (λ + 2μ) ε, which is the modulus
+/// let steel = SaintVenantKirchhoff::new(210e3, 0.3);
+/// let strain = Strain::new(Kinematics::Small, Sym3::diagonal(1e-3, 0.0, 0.0));
+/// let mut response = Response::default();
+/// steel.respond(&strain, &[], &mut [], Order::Tangent, &mut response)?;
+/// assert!((response.stress.xx() - steel.modulus() * 1e-3).abs() < 1e-9);
+/// assert!((response.tangent[0][0] - steel.modulus()).abs() < 1e-9);
+/// # Ok::<(), signorini_mechanics::material::MaterialError>(())
+/// ```
 pub trait Material: Send + Sync {
     /// Numbers of history at a point.
     fn nhistory(&self) -> usize {
@@ -203,6 +218,14 @@ pub(crate) fn undeformed_tangent<M: Material + ?Sized>(
 }
 
 /// Lamé's constants.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::material::Lame;
+///
+/// let lame = Lame::new(2.5, 0.25);
+/// assert_eq!((lame.lambda, lame.mu), (1.0, 1.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lame {
     /// First constant.

@@ -83,7 +83,7 @@ impl InStretches for Hyperfoam {
         for &Term { mu, alpha, beta } in &self.terms {
             let x = strain.map(|e| (alpha * e).exp_m1());
             let volume = (-alpha * beta * trace).exp_m1();
-            // what is linear cancels: x_i − α ε_i, and (J^(−αβ) − 1)/β + α e
+            // linear terms cancel: x_i − α ε_i, and (J^(−αβ) − 1)/β + α e
             let change = match beta {
                 0.0 => 0.0,
                 beta => exp_m1_less_linear(-alpha * beta * trace) / beta,

@@ -157,6 +157,18 @@ pub static TABLE: [Law; 10] = [
 ];
 
 /// The law of this name.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::material::{Constants, by_name};
+///
+/// let law = by_name("linear-elastic").ok_or("not in the table")?;
+/// let steel = (law.make)(&Constants::elastic(210e3, 0.3))?;
+/// // λ + 2μ = E (1 − ν)/((1 + ν)(1 − 2ν))
+/// let modulus = 210e3 * 0.7 / (1.3 * 0.4);
+/// assert!((steel.modulus() / modulus - 1.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn by_name(name: &str) -> Option<&'static Law> {
     TABLE.iter().find(|law| law.name == name)

@@ -6,6 +6,21 @@ use signorini_geometry::tensor::Sym3;
 /// `S = μ (I − C⁻¹) + λ ln J C⁻¹`, `C_ijkl = λ C⁻¹_ij C⁻¹_kl + (μ − λ ln J)(C⁻¹_ik C⁻¹_jl + C⁻¹_il C⁻¹_jk)`.
 /// At small strain it is linear elasticity. Source: Bonet and Wood, *Nonlinear Continuum Mechanics for Finite Element
 /// Analysis*, 2nd ed. 2008, section 6.4.3.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::tensor::Sym3;
+/// use signorini_mechanics::material::{Kinematics, Material, NeoHookean, Order, Response, Strain};
+///
+/// // volumetric stretch J = 8 (E = ³⁄₂ I): S = (μ (1 − 1/4) + λ ln 8/4) I
+/// let rubber = NeoHookean::new(2.5, 0.25);
+/// let strain = Strain::new(Kinematics::Finite, Sym3::diagonal(1.5, 1.5, 1.5));
+/// let mut response = Response::default();
+/// rubber.respond(&strain, &[], &mut [], Order::Stress, &mut response)?;
+/// let exact = 0.75 + 8_f64.ln() / 4.0;
+/// assert!((response.stress.xx() - exact).abs() < 1e-14);
+/// # Ok::<(), signorini_mechanics::material::MaterialError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct NeoHookean {
     lame: Lame,

@@ -36,7 +36,7 @@ use signorini_geometry::tensor::Sym3;
 /// does not oscillate in shear (Nagtegaal, de Jong 1982). Where the centre is not coaxial with the trial strain, elastic
 /// strain is what the subtraction of logarithms leaves, off by elastic strain times `Δε_p`.
 ///
-/// The energy is the potential of the increment: what is stored elastically plus the plastic work so far, `∫ (q + a:N) dp`;
+/// The energy is the potential of the increment: the elastic energy plus the plastic work so far, `∫ (q + a:N) dp`;
 /// its gradient at fixed old history is the stress (Ortiz, Stainier 1999).
 ///
 /// History, 14 numbers: plastic strain (six, tensor components in the order of [`Sym3::PAIRS`]; at finite strain the
@@ -106,6 +106,27 @@ impl Plasticity {
     ///
     /// # Errors
     /// The table falls as steeply as elastic unloading, `−3μ`: stress would not be a function of strain.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::tensor::Sym3;
+    /// use signorini_mechanics::material::{
+    ///     Hardening, HardeningKind, Kinematics, Material, Order, Plasticity, Response, Strain,
+    /// };
+    ///
+    /// // perfectly plastic: in pure shear the stress ends at σ_y/√3
+    /// let hardening = Hardening::new(HardeningKind::Isotropic, vec![[250.0, 0.0]])?;
+    /// let steel = Plasticity::new(210e3, 0.3, hardening)?;
+    /// let strain = Strain::new(Kinematics::Small, Sym3::new(0.0, 0.0, 0.0, 0.05, 0.0, 0.0));
+    /// let mut old = vec![0.0; steel.nhistory()];
+    /// steel.start(&mut old);
+    /// let mut new = old.clone();
+    /// let mut response = Response::default();
+    /// steel.respond(&strain, &old, &mut new, Order::Stress, &mut response)?;
+    /// assert!((response.stress.xy() - 250.0 / 3_f64.sqrt()).abs() < 1e-9);
+    /// assert!(steel.plastic_strain(&new) > Some(0.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(e: f64, nu: f64, hardening: Hardening) -> Result<Self, HardeningError> {
         let lame = Lame::new(e, nu);
         hardening.check_slope(3.0 * lame.mu)?;

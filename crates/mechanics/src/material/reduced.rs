@@ -68,6 +68,23 @@ impl Reduced {
     }
 
     /// Uniaxial stress along x: only xx is given.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_geometry::tensor::Sym3;
+    /// use signorini_mechanics::material::{
+    ///     Kinematics, Material, Order, Reduced, Response, SaintVenantKirchhoff, Strain,
+    /// };
+    ///
+    /// // uniaxial stress: σ = E ε
+    /// let bar = Reduced::uniaxial(Box::new(SaintVenantKirchhoff::new(210e3, 0.3)));
+    /// let strain = Strain::new(Kinematics::Small, Sym3::diagonal(1e-3, 0.0, 0.0));
+    /// let mut response = Response::default();
+    /// let mut new = vec![0.0; bar.nhistory()];
+    /// bar.respond(&strain, &new.clone(), &mut new, Order::Stress, &mut response)?;
+    /// assert!((response.stress.xx() - 210.0).abs() < 1e-9);
+    /// # Ok::<(), signorini_mechanics::material::MaterialError>(())
+    /// ```
     #[must_use]
     pub fn uniaxial(inner: Box<dyn Material>) -> Self {
         Self {
@@ -181,7 +198,7 @@ impl Reduced {
         }
     }
 
-    /// What a last step is small against: the strain, at finite strain no more than what is left of the free stretches.
+    /// The scale of a last step: the strain, at finite strain at most the free stretches themselves.
     fn size(&self, strain: &Strain) -> f64 {
         let largest = largest(&strain.value.to_pairs());
         match (strain.value * 2.0 + Sym3::IDENTITY).inverse() {

@@ -125,7 +125,7 @@ pub(super) fn between(mesh: &Mesh, bodies: &[BodyPart]) -> Vec<[u32; 2]> {
             between[nodes[mid] as usize] = [nodes[a], nodes[b]];
         }
     }
-    // what is a corner of another cell is one
+    // a corner of another cell is one
     for (element, nodes) in cells() {
         for &node in &nodes[..element.ncorner()] {
             between[node as usize] = CORNER;
@@ -175,7 +175,7 @@ impl Context<'_> {
         Damper::when_asked("stabilization", self.viscous(bodies, &|_| true, &|_| 1.0))
     }
 
-    /// The unknowns of bodies and carriers, and what is stiffness on each: a part of the modulus times the size of a body,
+    /// The unknowns of bodies and carriers, and the stiffness at each: a part of the modulus times the size of a body,
     /// the same on each of its nodes. The part follows from where these are.
     fn viscous(
         &self,

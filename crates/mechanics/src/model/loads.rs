@@ -53,7 +53,7 @@ fn schedules(
                 schedule.stay(&here);
                 continue;
             };
-            // a table speaks for what is there already
+            // a table accounts for the earlier load there
             if after.course != Course::Ramp && after.load.is_alike(&before.load) {
                 schedule.stop();
             } else {

@@ -168,6 +168,57 @@ pub struct LockingSummary {
 }
 
 /// A system with the steps it is to go through.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::by_name;
+/// use signorini_geometry::mesh::Mesh;
+/// use signorini_geometry::tensor::Vec3;
+/// use signorini_mechanics::material::SaintVenantKirchhoff;
+/// use signorini_mechanics::model::{BodyKind, BodyPart, Change, Model, Parts, StepPart, Target};
+/// use signorini_mechanics::solve::{Event, Flow, Increments, Motion, Stepper, StepperSettings};
+/// use signorini_mechanics::system::Idealisation;
+///
+/// // a cube of side 1 and E = 1000, ν = 0, pulled by 0.01
+/// let mut mesh = Mesh::default();
+/// for z in [0.0, 1.0] {
+///     for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+///         mesh.points.push(Vec3::new(x, y, z));
+///         mesh.node_labels.push(mesh.points.len() as u64);
+///     }
+/// }
+/// let hex8 = by_name("hex8").ok_or("not in the table")?;
+/// let cell = mesh.push_cell(hex8, &[0, 1, 2, 3, 4, 5, 6, 7], 1);
+/// let moved = |nodes: [u32; 4], motion| {
+///     let motions = vec![(0, Motion::Hold), (1, Motion::Hold), (2, motion)];
+///     Change::Prescribe(Target::Nodes(nodes.to_vec()), motions)
+/// };
+/// let mut pull = StepPart::new("pull", Increments::Fixed(1));
+/// pull.nonlinear = false;
+/// pull.changes = vec![moved([0, 1, 2, 3], Motion::Hold), moved([4, 5, 6, 7], Motion::Ramp(0.01))];
+/// let mut model = Model::assemble(Parts {
+///     bodies: vec![BodyPart {
+///         name: "cube".into(),
+///         cells: vec![cell],
+///         kind: BodyKind::solid(Box::new(SaintVenantKirchhoff::new(1000.0, 0.0))),
+///     }],
+///     steps: vec![pull],
+///     ..Parts::new(&mesh, Idealisation::Space)
+/// })?;
+///
+/// let mut stepper = Stepper::new(&model.system, StepperSettings::default());
+/// let mut forces = Vec::new();
+/// let mut watch = |event: &Event<'_>| {
+///     if let Event::Increment { frame, .. } = event {
+///         forces.push(frame.reaction_force[4..].iter().map(|f| f.z).sum::<f64>());
+///     }
+///     Flow::Continue
+/// };
+/// stepper.run(&mut model.system, &model.steps, &mut watch)?;
+/// // E A u/L
+/// assert!((forces[0] - 10.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Model {
     /// What is solved.
     pub system: System,

@@ -123,7 +123,7 @@ impl Context<'_> {
                 prescribed.insert(dof, Motion::Hold);
             }
         }
-        // what the user has prescribed, as against what is held because nobody says otherwise
+        // prescribed by the user, as opposed to held by default
         let mut named: BTreeSet<Dof> = BTreeSet::new();
         let mut loads: Vec<Vec<LoadPart>> = Vec::new();
         let mut steps = Vec::new();

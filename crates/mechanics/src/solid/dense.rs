@@ -92,7 +92,7 @@ fn commuting(a: Sym3, b: Sym3) -> Sym3 {
 fn half_logarithm_by_rotations(e: Sym3) -> Sym3 {
     let mut a = e.to_mat3().rows;
     let mut axes = [Vec3::unit(0), Vec3::unit(1), Vec3::unit(2)];
-    // what is nothing compared with all of it
+    // negligible compared with the whole
     let nothing = 1e-18
         * a.iter()
             .flat_map(|row| row.to_array())

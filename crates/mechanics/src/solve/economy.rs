@@ -25,7 +25,7 @@ const ROUGH: f64 = 0.1;
 /// What a solution leaves of what need not be smaller.
 const MARGIN: f64 = 0.3;
 
-/// The largest residuals, over what is allowed.
+/// The largest residuals, over the tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Excess {
     /// That of forces and moments.

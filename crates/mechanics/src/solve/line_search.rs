@@ -38,7 +38,7 @@ pub(super) fn root(
     let mut best: Option<(f64, f64)> = None;
     for _ in 0..MAX_EVALUATIONS {
         let Some(s) = slope(alpha) else {
-            // beyond what is admissible: half way back to what is
+            // not admissible: half way back to the last admissible step
             alpha = 0.5 * (low + alpha);
             continue;
         };

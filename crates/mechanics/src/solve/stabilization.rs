@@ -30,7 +30,7 @@ const FAINT: f64 = 1e-6;
 const STIFF: f64 = 1e6;
 /// What is left of it after a stage that was easy, and after another that succeeded.
 const FALL: [f64; 2] = [0.1, 0.3];
-/// Stages after one that failed in which it does not fall: what is unstable takes them to grow.
+/// Stages after one that failed in which it does not fall: an instability needs them to grow.
 const PATIENCE: usize = 2;
 /// By how much it grows after a stage that failed.
 const GROWTH: f64 = 3.0;

@@ -187,7 +187,7 @@ pub(super) struct Progress {
 const EASY: usize = 6;
 /// Easy increments in a row after which the next one grows.
 const EASY_ROW: usize = 2;
-/// By how much it grows; and one that follows easy ones takes what is left of a step where it is no longer than so much:
+/// By how much it grows; and one that follows easy ones takes the rest of a step where that is no longer than this:
 /// a short rest would cost as many iterations as any increment.
 const GROWTH: f64 = 1.5;
 /// What is left of an increment that failed.
@@ -215,7 +215,7 @@ impl Stepper {
         }
     }
 
-    /// A stepper that goes on with a stored run. Histories come first, for they determine what is coupled.
+    /// A stepper that goes on with a stored run. Histories come first, for they determine the coupling.
     ///
     /// # Errors
     /// The archive belongs to another model.

@@ -17,7 +17,7 @@ const YIELDING: f64 = 1e-6;
 /// How many times the largest stiffness of bodies another may be before rounding errors hide theirs.
 const HIDING: f64 = 1e13;
 
-/// Chunks of a wave for each thread, of which stiffness is wanted: the fewer, the more of what is added is in cache.
+/// Chunks of a wave for each thread, of which stiffness is wanted: the fewer, the more of the sums is in cache.
 const PER_THREAD: usize = 4;
 /// Chunks of a wave, at most: bounds the memory, and nothing else.
 const WAVE: usize = 64;
@@ -51,7 +51,7 @@ pub struct Assembly {
 }
 
 impl Assembly {
-    /// Sets forces, and what is known of their rounding, to zero.
+    /// Sets forces, and their uncertainty, to zero.
     fn reset_forces(&mut self, ndof: usize) {
         for values in [
             &mut self.residual,
@@ -452,7 +452,7 @@ impl Assembler {
         Some(dof as Dof)
     }
 
-    /// Whether the stiffness of bodies is lost in the rounding errors of that of what acts between them.
+    /// Whether the stiffness of bodies is lost in the rounding errors of the stiffness between them.
     pub fn hides_bodies(&self, out: &Assembly) -> bool {
         let [bulk, interface] = [&out.bulk, &out.interface].map(|values| largest(values));
         bulk.zip(interface).is_some_and(|(k, i)| i.1 > HIDING * k.1)
@@ -868,7 +868,7 @@ impl Setting<'_> {
         self.strips_to(&ends, out)
     }
 
-    /// The rows in strips that end before these nodes, and what is left.
+    /// The rows in strips that end before these nodes, and the rest.
     fn strips_to<'o>(self, ends: &[usize], out: &'o mut Assembly) -> Vec<Strip<'o>> {
         let ndim = self.bulk.block.max(1);
         let mut strips = Vec::with_capacity(ends.len() + 1);
@@ -1016,7 +1016,7 @@ impl Setting<'_> {
     }
 }
 
-/// The places of unknowns among the columns of a row; none for what is left out, nor for a dead force that turns with
+/// The places of unknowns among the columns of a row; none for unknowns left out, nor for a dead force that turns with
 /// nothing but itself, which needs none.
 fn find_places(dofs: &[Dof], columns: &[u32], places: &mut Vec<u32>) {
     let mut next = 0;
@@ -1035,7 +1035,7 @@ fn find_places(dofs: &[Dof], columns: &[u32], places: &mut Vec<u32>) {
     }));
 }
 
-/// Some rows of what is assembled.
+/// Some rows of the assembly.
 struct Strip<'a> {
     first: usize,
     first_bulk: usize,
@@ -1117,7 +1117,7 @@ impl<'a> Strip<'a> {
 
     fn add_force(&mut self, dofs: &[Dof], force: &[f64]) {
         for (&dof, f) in dofs.iter().zip(force) {
-            // what is no dof is beyond all
+            // no dof lies beyond all
             let at = (dof as usize).wrapping_sub(self.first);
             if let (Some(sum), Some(sizes)) =
                 (self.residual.get_mut(at), self.magnitude.get_mut(at))

@@ -23,7 +23,7 @@ use signorini_geometry::mesh::CellId;
 pub struct Capabilities<'a> {
     /// Makes discrete choices.
     pub choices: Option<&'a dyn Choices>,
-    /// Has a stiffness at the start of the run that is worth knowing later.
+    /// Has an initial stiffness that is worth knowing later.
     pub initial_stiffness: Option<&'a dyn InitialStiffness>,
     /// Knows the elements of its chunks.
     pub elementwise: Option<&'a dyn Elementwise>,
@@ -84,7 +84,7 @@ pub trait Choices {
     fn reject(&mut self);
 }
 
-/// A term of the bulk whose stiffness at the start of the run, undeformed and without history, is known for good: what a
+/// A term of the bulk whose initial stiffness, undeformed and without history, is known for good: what a
 /// hierarchy of levels may be made of, whatever has happened since.
 pub trait InitialStiffness {
     /// Identifies the initial stiffness of this step. Equal ids mean equal stiffness.

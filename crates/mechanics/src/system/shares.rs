@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!   rows     ├───────── 0 ─────────┼───────── 1 ─────────┤
-//!   chunks   a  b  c  d  e  f                               thread 0 evaluates a to f, and adds what is above the line
-//!                        e  f  g  h  i  j  k                thread 1 evaluates e to k, and adds what is below it
+//!   chunks   a  b  c  d  e  f                               thread 0 evaluates a to f, and adds the rows above the line
+//!                        e  f  g  h  i  j  k                thread 1 evaluates e to k, and adds the rows below it
 //! ```
 //!
 //! Each thread evaluates the chunks that touch its rows, and adds each while it is in cache; those across a line are

@@ -14,7 +14,7 @@ pub struct System {
     pub reference: Arc<[Vec3]>,
     /// Which unknowns follow others.
     pub elimination: Arc<Elimination>,
-    /// What exerts forces.
+    /// What exerts forces. A program may add terms of its own before it makes a stepper.
     pub terms: Vec<Box<dyn Term>>,
     /// The same positions, as solvers take them.
     pub coordinates: Vec<[f64; 3]>,

@@ -27,9 +27,9 @@ Exit codes: 0 the same within the tolerance, 1 different, 2 command line, or fil
 pub struct Diff {
     /// The results
     found: PathBuf,
-    /// The reference: differences are in parts of its largest values
+    /// The reference: differences are relative to its largest values
     reference: PathBuf,
-    /// Largest difference, in parts of the largest value of a block
+    /// Largest difference, relative to the largest value of a block
     #[arg(long, alias = "rtol", value_name = "PART", default_value_t = 1e-3, value_parser = not_negative)]
     rel: f64,
     /// Differences up to this are none, in the unit of the values

@@ -14,7 +14,7 @@ use signorini_io::writers::pvd::Pvd;
 use signorini_io::writers::vtu::{self, Vtu};
 use std::path::{Path, PathBuf};
 
-/// Tell what is in a mesh, a case, or a folder of results.
+/// List the content of a mesh, a case, or a folder of results.
 #[derive(Debug, Args)]
 pub struct Info {
     /// A mesh, a case (.toml), a .vtu or .frd file, or a folder of results
@@ -92,7 +92,7 @@ fn frd_file(path: &Path) -> Result<Vec<String>, Diagnostic> {
     Ok(lines)
 }
 
-/// Nodes, cells, groups and what is wrong with them.
+/// Nodes, cells, groups and their faults.
 fn mesh(mesh: &Mesh) -> Vec<String> {
     let mut lines = vec![plural(mesh.nnode(), "node")];
     for block in &mesh.blocks {

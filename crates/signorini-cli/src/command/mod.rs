@@ -55,13 +55,13 @@ enum Verb {
     Run(run::Run),
     /// Go on with a run that was stopped, from its last checkpoint.
     Resume(resume::Resume),
-    /// Read everything, solve nothing: what would be solved, and what is wrong with it.
+    /// Read everything, solve nothing: sizes, choices and faults.
     Check(check::Check),
     /// Write a case to start from.
     Init(init::Init),
     /// Run an example in a temporary folder and compare with its expected values.
     Demo(demo::Demo),
-    /// Tell what is in a mesh, a case, or a folder of results.
+    /// List the content of a mesh, a case, or a folder of results.
     Info(info::Info),
     /// Compare results with a reference, block by block.
     Diff(diff::Diff),

@@ -61,7 +61,7 @@ pub fn keep_memory() {
     }
 }
 
-/// Asks for large pages where some fit in whole; a kernel that has none says so, and nothing is lost. Not for what is
+/// Asks for large pages where some fit in whole; a kernel that has none says so, and nothing is lost. Not for memory
 /// aligned to more than numbers are: matrix products pack into such memory, 64 MiB for each thread, and touch little of it.
 #[cfg_attr(not(target_os = "linux"), expect(unused_variables))]
 fn advise(memory: *mut u8, size: usize, align: usize) {

@@ -1,4 +1,4 @@
-//! The cases to start from.
+//! The cases to start from: copies of examples, because a package holds no file from outside its folder.
 
 /// A case to start from.
 pub struct Template {
@@ -10,38 +10,27 @@ pub struct Template {
     pub text: &'static str,
 }
 
-macro_rules! example {
-    ($folder:literal) => {
-        include_str!(concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../../examples/",
-            $folder,
-            "/case.toml"
-        ))
-    };
-}
-
 /// All of them; the first one is the default.
 pub const TEMPLATES: [Template; 4] = [
     Template {
         name: "paper-brick",
         about: "a rigid tip is pressed into one brick, on a symmetry axis of its top",
-        text: example!("paper_brick_symmetric_3d"),
+        text: include_str!("templates/paper_brick_symmetric_3d.toml"),
     },
     Template {
         name: "paper-wedge",
         about: "a rigid tip is pressed into one wedge",
-        text: example!("paper_wedge_3d"),
+        text: include_str!("templates/paper_wedge_3d.toml"),
     },
     Template {
         name: "paper-brick-arbitrary",
         about: "the same brick, the tip anywhere on its top",
-        text: example!("paper_brick_arbitrary_3d"),
+        text: include_str!("templates/paper_brick_arbitrary_3d.toml"),
     },
     Template {
         name: "two-blocks",
         about: "one block is pressed on another, in the plane",
-        text: example!("two_blocks_2d"),
+        text: include_str!("templates/two_blocks_2d.toml"),
     },
 ];
 
@@ -77,6 +66,22 @@ mod tests {
             );
             let (_, warnings) = read.unwrap();
             assert!(warnings.is_empty(), "{}: {warnings}", template.name);
+        }
+    }
+
+    #[test]
+    fn every_template_is_the_case_of_an_example() {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let folders = std::fs::read_dir(root.join("examples")).unwrap();
+        let read =
+            |entry: std::fs::DirEntry| std::fs::read_to_string(entry.path().join("case.toml"));
+        let cases: Vec<String> = folders.map(|entry| read(entry.unwrap()).unwrap()).collect();
+        for template in &TEMPLATES {
+            assert!(
+                cases.iter().any(|case| case == template.text),
+                "{} is not the case of any example",
+                template.name
+            );
         }
     }
 

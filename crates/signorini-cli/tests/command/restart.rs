@@ -435,7 +435,7 @@ fn memory_that_is_not_to_be_had_ends_with_8_and_a_message() {
             .count()
     };
     assert!(of(0) == 1 && estimates > 0, "{codes:?}");
-    // what is too little to start at all is the system's to say
+    // a limit too small to start at all is reported by the system
     let started = codes.iter().skip_while(|(_, code, _)| *code != Some(8));
     let odd: Vec<_> = started
         .filter(|(_, code, _)| !matches!(code, Some(0 | 8)))

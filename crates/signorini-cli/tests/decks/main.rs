@@ -90,7 +90,7 @@ fn a_deck_of_two_blocks_is_pressed_by_either_law() {
     assert!(soft.frames.last().unwrap().contacts[0].gap_min < 0.0);
 }
 
-/// ν = 0, between walls: the force F overlaps the sides of the cut by F l/(E A); what is locked there and cools by 2 is
+/// ν = 0, between walls: the force F overlaps the sides of the cut by F l/(E A); a cut locked there that cools by 2 is
 /// under F/A + E α · 2.
 #[test]
 fn a_bolt_is_tightened_by_a_force_and_locked() {

@@ -6,7 +6,7 @@ use signorini::{Compat, Loaded, Model, Reading, build, load};
 use std::path::Path;
 use std::process::Command;
 
-/// The largest difference, in parts of the largest value of a field.
+/// The largest difference, relative to the largest value of a field.
 const SAME: f64 = 1e-12;
 
 /// Runs a deck and the case that it is converted to; nothing where it is refused. Both have to do the same in every

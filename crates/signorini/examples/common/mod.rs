@@ -89,22 +89,19 @@ pub fn moved(nodes: &[NodeId], by: Option<Vec3>) -> Change {
     Change::Prescribe(Target::Nodes(nodes.to_vec()), motions)
 }
 
-/// Solves a model, and returns the force on the secondary side of its first contact after each increment.
-pub fn forces(parts: Parts<'_>) -> Result<Vec<Vec3>, Box<dyn std::error::Error>> {
-    let mut model = Model::assemble(parts)?;
+/// Solves a model, and returns what `read` takes from the frame of each increment.
+pub fn frames<T>(
+    mut model: Model,
+    mut read: impl FnMut(&Frame) -> T,
+) -> Result<Vec<T>, Box<dyn std::error::Error>> {
     let mut stepper = Stepper::new(&model.system, StepperSettings::default());
-    let mut forces = Vec::new();
+    let mut values = Vec::new();
     let mut watch = |event: &Event<'_>| {
         if let Event::Increment { frame, .. } = event {
-            forces.extend(
-                frame
-                    .contacts
-                    .first()
-                    .map(|contact| contact.secondary.force),
-            );
+            values.push(read(frame));
         }
         Flow::Continue
     };
     stepper.run(&mut model.system, &model.steps, &mut watch)?;
-    Ok(forces)
+    Ok(values)
 }

@@ -142,7 +142,7 @@ mod tests {
     use super::*;
     use signorini_geometry::element;
 
-    /// A square in the plane z = 0 whose outward normal is −z, sliding over what is below it.
+    /// A square in the plane z = 0 whose outward normal is −z, sliding over the body below it.
     fn square() -> ContactFrame {
         let points = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
         let points = points.map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();

@@ -1,4 +1,4 @@
-//! The rows of `history.csv`: what is reported of every accepted increment.
+//! The rows of `history.csv`: the report of every accepted increment.
 
 use super::probe::{Probe, ProbeError, quantities};
 use crate::setup::Model;

@@ -63,6 +63,50 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What a run is given besides its model.
+///
+/// # Example
+/// ```
+/// use signorini::{Reading, RunOptions, build, load, solve};
+///
+/// let text = r#"
+/// [mesh]
+/// nodes = [
+///   [1, 0.0, 0.0], [2, 1.0, 0.0], [3, 1.0, 1.0], [4, 0.0, 1.0],
+/// ]
+/// elements = [{ id = 1, type = "quad4", group = "plate", nodes = [1, 2, 3, 4] }]
+/// [model]
+/// space = "plane-stress"
+/// [sets]
+/// base = { nodes = [1, 2] }
+/// head = { nodes = [3, 4] }
+/// [material.soft]
+/// model = "linear-elastic"
+/// E = 1000.0
+/// nu = 0.0
+/// [[body]]
+/// group = "plate"
+/// material = "soft"
+/// [[step]]
+/// name = "pull"
+/// geometry = "linear"
+/// fix = [{ on = "base", u = "all" }]
+/// move = [{ on = "head", ux = 0.0, uy = 0.01 }]
+/// [[expect]]
+/// what = "reaction_force.y @ set head"
+/// value = 10.0
+/// tol = { abs = 1e-6 }
+/// "#;
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("plate.toml");
+/// std::fs::write(&path, text)?;
+/// let loaded = load(&path, &Reading::default())?;
+/// let options = RunOptions::new(loaded.source);
+/// let finished = solve(build(loaded.case, loaded.mesh)?, &options, &mut ());
+/// // solved, and the reaction is E A u/L as expected
+/// assert_eq!(finished.exit_code, 0);
+/// assert!(folder.path().join("plate.out/results.pvd").exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone)]
 pub struct RunOptions {
     /// Where the model comes from.

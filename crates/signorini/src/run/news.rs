@@ -56,7 +56,7 @@ pub struct Facts {
     pub gap_min: Option<f64>,
     /// Number of unknowns.
     pub nunknown: usize,
-    /// Bodies with what is done against locking in them.
+    /// Bodies with their remedies against locking.
     pub remedies: Vec<String>,
     /// Number of threads.
     pub threads: usize,

@@ -102,7 +102,7 @@ const QUANTITIES: [(&str, Read); 36] = [
     ("temperature", |f, n| f.temperature.get(n).copied()),
 ];
 
-/// A number of what is known at an integration point.
+/// A number at an integration point.
 type ReadPoint = fn(&PointSample) -> f64;
 
 /// Every quantity at integration points with its name.

@@ -1,4 +1,4 @@
-//! The undeformed state: the first look at contact, and what is known before anything is solved.
+//! The undeformed state: the first look at contact, and the facts known before the solution.
 
 use super::news::Facts;
 use super::{RunOptions, failure};
@@ -57,8 +57,8 @@ fn look(model: &mut Model) -> Result<Frame, TermError> {
     Ok(frame)
 }
 
-/// Unknowns of the first step: of nodes of bodies, of carriers and of constraints, less what is prescribed and what
-/// follows others.
+/// Unknowns of the first step: of nodes of bodies, of carriers and of constraints, less those prescribed and those that
+/// follow others.
 fn nunknown(model: &Model) -> usize {
     let system = &model.system;
     let layout = &system.layout;

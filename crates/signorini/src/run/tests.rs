@@ -104,7 +104,7 @@ impl Listener for Ears {
     }
 }
 
-/// Runs the case into a folder through a disk, and records what is reported.
+/// Runs the case into a folder through a disk, and records the news.
 fn run_on(
     fs: Arc<dyn Fs>,
     folder: &Path,

@@ -96,7 +96,7 @@ pub enum Claim {
     Start,
     /// Start, whoever's the folder was.
     Fresh,
-    /// Go on with what is there.
+    /// Go on with the results that are there.
     Resume,
 }
 

@@ -89,7 +89,7 @@ impl Model {
         self.sets.get(set).cloned()
     }
 
-    /// Bodies with what is done against locking in them: `block: b-bar`; none where nothing is done.
+    /// Bodies with their remedies against locking: `block: b-bar`; none where nothing is done.
     #[must_use]
     pub fn remedies(&self) -> Vec<String> {
         let remedy = |body| {

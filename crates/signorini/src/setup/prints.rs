@@ -1,4 +1,4 @@
-//! Printed tables: what is asked for, in nodes and cells.
+//! Printed tables: the requests, in nodes and cells.
 
 use super::names::Names;
 use super::quoted;

@@ -1,13 +1,13 @@
 //! Random assemblies of blocks, plates and cylinders.
 //!
 //! SOURCE      Written for the purpose.
-//! GOAL        default settings solve what is well posed: loops of contacts, faces that are prescribed, gaps, overlaps, bodies
+//! GOAL        default settings solve well-posed models: loops of contacts, faces that are prescribed, gaps, overlaps, bodies
 //!             that only friction holds
 //! MESH        2 to 12 blocks, in some tests up to 60, of hex8, wedge6, tet4, hex20 or tet10 in a grid, with 1 to 3 cells along each edge, that do not match; layers may be
 //!             plates of a quarter of the height; in piles of one column, bodies may be cylinders
 //! CONDITIONS  small strain, E = 1000 to 200,000, nu = 0 to 0.4; friction 0 to 0.6 between all neighbours; gaps or overlaps of up to
 //!             1 % between them. *Caged*: sides and ends are pushed together by prescribed motions, or the top is loaded. *Piled*: nothing holds the sides; the
-//!             base stands, the top is pressed or loaded, and friction holds what is between
+//!             base stands, the top is pressed or loaded, and friction holds the blocks between
 //! EXPECTED    a solution whose forces are in balance
 //! TOLERANCE   95 of 100 solved, with at most two cut-backs; forces in balance to 1e-9 of the largest, as force_tol is
 use crate::common::{Run, run};
@@ -41,7 +41,7 @@ const LARGE: Size = Size {
     unknowns: 12_000,
 };
 
-/// An assembly, and what is known of it.
+/// An assembly with its known results.
 struct Assembly {
     case: Case,
     what: String,
@@ -80,7 +80,7 @@ impl Pattern {
             _ => random.within(0.1, 0.6),
         };
         let gaps: [f64; 3] = [0; 3].map(|_| random.of(&[0.0, 0.0, 0.001, 0.01, -0.001]));
-        // what is not pushed together leaves gaps at its sides as they are
+        // blocks that are not pushed together leave gaps at its sides as they are
         let gaps = if piled {
             [gaps[0].abs(), gaps[1].abs(), gaps[2]]
         } else {
@@ -475,7 +475,7 @@ fn grids_of_blocks_that_are_pushed_from_all_sides_carry_a_uniform_strain() {
 
 #[test]
 fn sides_that_touch_without_pressure_keep_no_increment_from_converging() {
-    // what is pressed from above spreads freely, so that sides have neither gap nor pressure
+    // blocks pressed from above spread freely, so that sides have neither gap nor pressure
     for sizes in [[2, 2, 1], [2, 2, 2]] {
         for mu in [0.0, 0.3] {
             let case = grid(sizes, mu, [None, None, Some(0.004)]);

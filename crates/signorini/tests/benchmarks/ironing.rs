@@ -14,7 +14,7 @@ use signorini::setup::Model;
 use signorini_geometry::tensor::Vec3;
 use signorini_mechanics::system::Frame;
 
-/// The case on a mesh with so many cells along the slab, and what is said of its contact.
+/// The case on a mesh with so many cells along the slab, and these keys of its contact.
 fn ironing(along: usize, keys: &str) -> Model {
     let mut scene = Scene::default();
     let slab = scene.grid(

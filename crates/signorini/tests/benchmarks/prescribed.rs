@@ -70,7 +70,7 @@ fn pressed(element: &'static str, swapped: bool, keys: &str) -> (f64, usize) {
     let mut model = case.model(&[]);
     let run = crate::scene::finished(&mut model);
     assert!(run.cutbacks.is_empty());
-    // friction along what is prescribed on both sides acts on nothing
+    // friction along directions prescribed on both sides acts on nothing
     let idle = run.frames[run.frames.len() - 1].contacts[0].idle;
     assert_eq!(idle.is_empty(), !keys.contains("friction"), "{idle:?}");
     let nodes: Vec<NodeId> = model.nodes_of("head").unwrap();

@@ -321,7 +321,7 @@ fn cells_of_box(element: Element) -> Vec<Vec<[usize; 3]>> {
             let map = |xi: Vec3| Vec3::new(0.5 * (xi.x + 1.0), 0.5 * (xi.y + 1.0), 0.0);
             return vec![places(&map)];
         }
-        // a triangle and what is opposite to it
+        // a triangle and the opposite one
         (2, 3) => {
             let other = |xi: Vec3| Vec3::new(1.0 - xi.x, 1.0 - xi.y, 0.0);
             return vec![places(&|xi| xi), places(&other)];

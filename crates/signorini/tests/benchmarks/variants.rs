@@ -141,7 +141,7 @@ fn wrong(run: &Run, variant: Variant, moved: bool, flat: bool) -> Option<String>
     ((normal - LOAD).abs() > 1e-4 * LOAD || off > within * LOAD).then(|| format!("force {force:?}"))
 }
 
-/// Variant number `seed`: what it is, and what is wrong with it.
+/// Variant number `seed`: its description, and its fault.
 fn tried(seed: u64) -> (String, Option<String>) {
     let mut random = Random(seed);
     let variant = variant(&mut random);

@@ -34,6 +34,15 @@ static TRIANGLES: LazyLock<Vec<Points>> = LazyLock::new(|| {
 
 /// A rule on the line `[-1, 1]` (`dim = 1`) or the reference triangle (`dim = 2`) that is exact for polynomials of this
 /// degree, at most [`MAX_DEGREE`].
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::quadrature::of_degree;
+///
+/// // ∫ ξ³ η dA over the reference triangle is 3! 1!/6!
+/// let integral: f64 = of_degree(2, 4).iter().map(|(x, weight)| weight * x.x.powi(3) * x.y).sum();
+/// assert!((integral - 1.0 / 120.0).abs() < 1e-15);
+/// ```
 #[must_use]
 pub fn of_degree(dim: usize, degree: usize) -> &'static [(Vec3, f64)] {
     let rules = if dim == 1 { &*LINES } else { &*TRIANGLES };

@@ -30,6 +30,15 @@ pub use points::{gauss, lobatto, on_facet};
 use crate::tensor::Vec3;
 
 /// A quadrature rule.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::quadrature::LINE_3;
+///
+/// // three points integrate x⁴ over [−1, 1] exactly
+/// let integral: f64 = LINE_3.iter().map(|(x, weight)| weight * x.x.powi(4)).sum();
+/// assert!((integral - 2.0 / 5.0).abs() < 1e-15);
+/// ```
 #[derive(Debug)]
 pub struct Rule {
     /// Reference coordinates of the points.

@@ -7,6 +7,14 @@ use crate::tensor::Vec3;
 ///
 /// # Source
 /// Roots of the Legendre polynomial by Newton's method from Chebyshev's points: Abramowitz and Stegun 25.4.29.
+///
+/// # Example
+/// ```
+/// use signorini_geometry::element::quadrature::gauss;
+///
+/// let integral: f64 = gauss(4).iter().map(|(x, weight)| weight * x.powi(6)).sum();
+/// assert!((integral - 2.0 / 7.0).abs() < 1e-15);
+/// ```
 #[must_use]
 pub fn gauss(n: usize) -> Vec<(f64, f64)> {
     let n = n.max(1);

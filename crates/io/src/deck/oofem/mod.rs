@@ -10,7 +10,7 @@
 //!                                    check       the check block: [[expect]]
 //! ```
 //!
-//! A step of the deck is a step here: what is prescribed is reached when it ends, in a straight line from the step
+//! A step of the deck is a step here: prescribed values are reached when it ends, in a straight line from the step
 //! before. Time begins at 0 with nothing prescribed and the steps have the lengths of those of the deck; where its
 //! first step has time 0 (`NonLinearStatic`), ours ends one step length later: see [`times`](self).
 //!
@@ -230,7 +230,7 @@ impl Translation {
         self.case.model.space.ndim()
     }
 
-    /// Refuses what is left unread of records that every stage has looked at.
+    /// Refuses the unread rest of records that every stage has looked at.
     fn judge(&mut self) {
         let parts = &mut self.parts;
         parts.domain.ignore_all();

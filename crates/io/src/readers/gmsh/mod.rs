@@ -36,7 +36,7 @@ enum Version {
     V4,
 }
 
-/// Reads a mesh and what is worth telling about it. `name` appears in messages.
+/// Reads a mesh, with notes. `name` appears in messages.
 ///
 /// # Errors
 /// Any fault in the file, with its line (text) or byte (binary).

@@ -179,7 +179,7 @@ impl Kind {
         self.name.starts_with("SPRING")
     }
 
-    /// The dimension of a cell, 0 for what is no cell.
+    /// The dimension of a cell, 0 where the type is no cell.
     pub fn dim(&self) -> usize {
         self.role.dim()
     }

@@ -44,7 +44,7 @@ use crate::fs::{Fs, RealFs};
 use lines::Files;
 use signorini_geometry::mesh::Mesh;
 
-/// Reads a mesh and what is worth telling about it. `name` is the path of the deck: files that it includes are looked
+/// Reads a mesh, with notes. `name` is the path of the deck: files that it includes are looked
 /// for in its folder, and in the working folder.
 ///
 /// # Errors

@@ -63,7 +63,7 @@ pub struct Statistics {
     pub center: Vec3,
     /// Mean normal out of the body.
     pub normal: Vec3,
-    /// Area: of a contact, what is closed.
+    /// Area: of a contact, the closed part.
     pub area: f64,
 }
 

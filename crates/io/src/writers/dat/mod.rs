@@ -203,7 +203,7 @@ fn put_time(text: &mut String, number: f64) {
     align(text, start, 14);
 }
 
-/// Adds seven digits and answers with the power of ten behind the first; nothing for what is no number.
+/// Adds seven digits and answers with the power of ten behind the first; nothing for NaN and infinities.
 fn put_digits(text: &mut String, number: f64) -> Option<i32> {
     if !number.is_finite() {
         return None;

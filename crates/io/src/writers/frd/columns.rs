@@ -28,7 +28,7 @@ pub(super) fn push_whole(out: &mut Vec<u8>, value: u64, width: usize) {
 /// Appends a number as `%12.5E` writes it: ` 1.23457E-03`, rounded correctly.
 ///
 /// # Limits
-/// Two digits of exponent: what is smaller is zero, what is larger the largest that fits.
+/// Two digits of exponent: smaller numbers become zero, larger ones the largest that fits.
 pub(super) fn push_real(out: &mut Vec<u8>, value: f64) {
     let size = value.abs();
     if !size.is_finite() {

@@ -107,7 +107,7 @@ impl Tree<'_> {
         next.is_none_or(|task| task.start > s as usize)
     }
 
-    /// Eliminates what is above the tasks in the subtrees with these roots, which side by side are the nodes from `begin`
+    /// Eliminates the nodes above the tasks in the subtrees with these roots, which side by side are the nodes from `begin`
     /// on: at the same time. Returns the smallest pivot.
     pub(super) fn climb_all<T: Number>(
         self,

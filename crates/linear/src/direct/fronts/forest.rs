@@ -70,7 +70,7 @@ pub(super) fn nodes_of_columns(nodes: &[Node], ncolumn: usize) -> Vec<u32> {
 
 /// Numbers nodes, and columns with them, so that each comes right after all that is below it.
 ///
-/// A node comes before its parent as it is, but where nodes were merged, what is below one need not lie side by side.
+/// A node comes before its parent as it is, but where nodes were merged, the nodes below one need not be contiguous.
 pub(super) fn sort_by_subtrees(nodes: &mut Vec<Node>, order: &mut Vec<u32>) {
     let node_of = nodes_of_columns(nodes, order.len());
     let parent = |node: &Node| node.rows.first().map(|&row| node_of[row as usize] as usize);
@@ -84,7 +84,7 @@ pub(super) fn sort_by_subtrees(nodes: &mut Vec<Node>, order: &mut Vec<u32>) {
         }
     }
     stack.reverse();
-    // each node before what is below it, the last first
+    // each node before those below it, the last first
     let mut from_above = Vec::with_capacity(nodes.len());
     while let Some(s) = stack.pop() {
         from_above.push(s);

@@ -1,7 +1,7 @@
 //! LU factors of a matrix whose pattern is symmetric though its values are not: the multifrontal method.
 //!
 //! Elimination goes up a tree of supernodes. Each assembles a small dense matrix, its front: what the matrix has in its
-//! rows and columns, and what is left over of its children.
+//! rows and columns, and the Schur complements of its children.
 //!
 //! ```text
 //!            w    r
@@ -17,12 +17,12 @@
 //! Where one is not, though the matrix is, pivots that vanish are replaced by ±√ε: the factor is that of a matrix nearby,
 //! whose solutions refinement corrects (static pivoting). [`Fronts::lacks_pivots`] reports it.
 //!
-//! Subtrees without much work are tasks of their own, and above them what is side by side is eliminated at the same time;
+//! Subtrees without much work are tasks of their own, and above them nodes that are independent are eliminated at the same time;
 //! sums are formed in an order that does not depend on threads.
 //!
 //! Factors may be in single precision: within a preconditioner they serve as well, and take half the time and memory.
 //! Couplings fade from front to front. Products of what fades leave the range of normal numbers, with others of which some
-//! processors compute a hundred times as slowly: what is as small as the root of that range, where rows and columns have 1
+//! processors compute a hundred times as slowly: an entry as small as the root of that range, where rows and columns have 1
 //! as their largest entry, counts as nothing.
 //!
 //! Source: I. S. Duff and J. K. Reid, The multifrontal solution of unsymmetric sets of linear equations, SIAM J. Sci.
@@ -93,7 +93,7 @@ struct Plan {
     /// The order that became of the one that was asked for, in which supernodes are whole: `order[new] = old`.
     order: Vec<u32>,
     nodes: Vec<Node>,
-    /// Ranges of nodes that are subtrees with little work, in their order; what is not in one is above them all.
+    /// Ranges of nodes that are subtrees with little work, in their order; nodes outside of them are above them all.
     tasks: Vec<Range<usize>>,
     /// The same for solutions.
     branches: Vec<Range<usize>>,

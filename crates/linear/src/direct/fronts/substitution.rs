@@ -6,7 +6,7 @@ use super::number::Number;
 
 /// What some nodes work with in a solution.
 pub(super) struct Work<T> {
-    /// Their unknowns, and what is left of the rows below them, node by node.
+    /// Their unknowns, and the updates of the rows below them, node by node.
     pub(super) front: Vec<T>,
     pub(super) own: Vec<T>,
 }

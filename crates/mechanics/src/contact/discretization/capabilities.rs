@@ -160,7 +160,7 @@ pub struct OnRow {
 }
 
 impl OnRow {
-    /// Adds so many times what acts elsewhere.
+    /// Adds a multiple of the force elsewhere.
     pub(super) fn add(&mut self, times: f64, other: Self) {
         self.pressure += times * other.pressure;
         self.shear += other.shear * times;

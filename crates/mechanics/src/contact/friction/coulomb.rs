@@ -21,6 +21,15 @@ pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
 };
 
 /// `μ p`, at most a cap.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::friction::{Coulomb, FrictionLaw, Sliding};
+///
+/// let law = Coulomb { mu: 0.3, cap: 5.0 };
+/// let limit = |pressure| law.limit(&Sliding { pressure, path: 0.0 }).value;
+/// assert_eq!((limit(10.0), limit(100.0)), (3.0, 5.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coulomb {
     /// μ.

@@ -37,6 +37,17 @@ pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
 ///
 /// # Limits
 /// Within an increment μ is constant: the fall lags by up to one increment.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::friction::{Falling, FrictionLaw, Sliding};
+///
+/// let law = Falling { stationary: 0.4, kinetic: 0.2, transition: 0.1 };
+/// let mu = |path| law.limit(&Sliding { pressure: 1.0, path }).value;
+/// assert_eq!(mu(0.0), 0.4);
+/// // after the length of transition, 1/e of the difference is left
+/// assert!((mu(0.1) - (0.2 + 0.2 / std::f64::consts::E)).abs() < 1e-15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Falling {
     /// μ before any slip.

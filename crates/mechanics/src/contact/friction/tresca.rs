@@ -17,6 +17,14 @@ pub(super) const ENTRY: Entry<Arc<dyn FrictionLaw>> = Entry {
 };
 
 /// A constant wherever it touches.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::friction::{FrictionLaw, Sliding, Tresca};
+///
+/// let limit = |pressure| Tresca(0.7).limit(&Sliding { pressure, path: 0.0 });
+/// assert_eq!((limit(1.0).value, limit(9.0).value, limit(9.0).dpressure), (0.7, 0.7, 0.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tresca(
     /// The limit.

@@ -1,7 +1,7 @@
 //! What of a row can move: multipliers act on unknowns alone.
 //!
-//! A multiplier whose forces act on nothing but what is prescribed, or follows what is, belongs to an equation that no unknown
-//! can satisfy: either it holds, or it contradicts what is prescribed. Its row is left out, as is friction along directions
+//! A multiplier whose forces act on nothing but prescribed unknowns, or their followers, belongs to an equation that no unknown
+//! can satisfy: either it holds, or it contradicts the prescribed values. Its row is left out, as is friction along directions
 //! in which both sides are prescribed. Forces at prescribed unknowns are then without what such rows would have carried.
 
 use super::{Interface, Participant, Rows, State, TermError};
@@ -90,7 +90,7 @@ impl Interface {
         let mut rows = Rows::default();
         for row in 0..discretization.nrow() {
             let nodes = discretization.point(row).nodes;
-            // what is free itself acts on itself
+            // a free unknown acts on itself
             if nodes
                 .iter()
                 .all(|&n| axes.clone().all(|axis| self.moves(n, axis)))

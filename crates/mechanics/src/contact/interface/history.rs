@@ -61,7 +61,7 @@ impl Interface {
         self.near.search.forget();
     }
 
-    /// Rows that are made again for each increment: they go on with what those before them remember, and meet what is
+    /// Rows that are made again for each increment: they go on with what those before them remember, and meet the facets that are
     /// near now. Says whether they are others.
     pub(super) fn renew_rows(&mut self, from: &State) -> Result<bool, TermError> {
         let renewable = self.parts.discretization.capabilities().renewable;
@@ -79,7 +79,7 @@ impl Interface {
         self.resize(origins.len());
         self.search(&at).map_err(|e| self.failed(&e))?;
         self.accepted.clone_from(&self.now);
-        // what is coupled is known from these rows alone, in a run that was resumed, too
+        // the coupling is known from these rows alone, in a run that was resumed, too
         self.sees_others = true;
         let of = |origin: &Option<u32>| origin.map(|row| row as usize);
         if !self.parts.shifts.is_empty() {
@@ -276,7 +276,7 @@ impl Interface {
             };
             let traction = self.traction(filled, &lambda);
             let elastic = self.laws().elastic(&traction);
-            // what is left of the way from the anchor has slipped
+            // the rest of the way from the anchor has slipped
             let slipped = filled.sliding.slip - elastic;
             memory.anchor = None;
             if self.laws().friction.is_some() {

@@ -9,9 +9,9 @@
 //! |---|---|---|
 //! | F_j | `free` | projector onto directions along which row j keeps its multiplier |
 //! | H_j = I − F_j | | directions along which it lends its function |
-//! | S_a = Σ_b F_b | | over the hosts b adjacent to row a |
+//! | S_a = Σ_b F_b | | over the borrowers b adjacent to row a |
 //! | R_a | | projector onto the range of S_a |
-//! | X_ab | `Lent::hosts` | the part of row a that host b takes over |
+//! | X_ab | `Lent::borrowers` | the part of row a that borrower b takes over |
 //! | μ_a | [`Lents::effective`] | the traction that acts with the function of row a |
 //! | r_a | | the weighted way of row a |
 //!
@@ -23,11 +23,11 @@
 //!
 //! (E3) is the transpose of (E2), so that the tangent stays symmetric; its last part sets to zero multipliers that act on
 //! nothing. With `Σ_b X_ab = H_a` a uniform traction has `μ_a = λ` at every row, and the patch test stays exact. Among all X with that
-//! property, (E1) has the smallest sum of squares; between free hosts it shares evenly.
+//! property, (E1) has the smallest sum of squares; between free borrowers it shares evenly.
 //!
-//! *Rows without hosts.* Where no adjacent node is free, a row stays, if the larger part of the nodes it meets on the primary
+//! *Rows without borrowers.* Where no adjacent node is free, a row stays, if the larger part of the nodes it meets on the primary
 //! side is free and has a node that follows no such row yet: then that node follows it. Otherwise it is lent if it finds a
-//! host among such rows, or has no effect: both sides are held.
+//! borrower among such rows, or has no effect: both sides are held.
 //!
 //! Source: Wohlmuth, SIAM J. Numer. Anal. 38, 2000, 989–1012 (multipliers at Dirichlet boundaries and cross points).
 
@@ -42,7 +42,7 @@ use std::collections::HashMap;
 /// What counts as zero of a projection, over the largest.
 const RANK: f64 = 1e-6;
 
-/// The part of the nodes a row meets that has to be free for the row to stay without hosts.
+/// The part of the nodes a row meets that has to be free for the row to stay without borrowers.
 const MAJORITY: f64 = 0.5;
 
 /// Columns of a matrix.
@@ -115,21 +115,21 @@ impl Interface {
         if lending.is_empty() {
             return Ok(Vec::new());
         }
-        self.keep_without_hosts(&lending, &mut free, from)?;
+        self.keep_without_borrowers(&lending, &mut free, from)?;
         let mut all = vec![None; nrow];
         for &row in &lending {
             let Some(own) = free[row] else { continue };
             let held = whole - own;
-            let mut hosts = self.adjacent(row);
-            hosts.retain(|&host| free[host].is_some());
-            let s = hosts.iter().filter_map(|&host| free[host]);
+            let mut borrowers = self.adjacent(row);
+            borrowers.retain(|&borrower| free[borrower].is_some());
+            let s = borrowers.iter().filter_map(|&borrower| free[borrower]);
             let (inverse, _) = pseudo_inverse(s.fold(Mat3::ZERO, |sum, f| sum + f));
-            let takes = |host: usize| Some((host, free[host]? * inverse * held));
-            let shares = hosts.into_iter().filter_map(takes);
+            let takes = |borrower: usize| Some((borrower, free[borrower]? * inverse * held));
+            let shares = borrowers.into_iter().filter_map(takes);
             all[row] = Some(Lent {
                 free: own,
                 held,
-                hosts: shares.filter(|(_, x)| squared(*x) > 0.0).collect(),
+                borrowers: shares.filter(|(_, x)| squared(*x) > 0.0).collect(),
             });
         }
         Ok(all)
@@ -137,12 +137,12 @@ impl Interface {
 
     /// The rows of the nodes around that of a row.
     fn adjacent(&self, row: usize) -> Vec<usize> {
-        let mut hosts = Vec::new();
+        let mut borrowers = Vec::new();
         let parts = &self.parts;
         if let Some(averaged) = parts.discretization.capabilities().averaged {
-            averaged.adjacent(row, &parts.pair, &mut hosts);
+            averaged.adjacent(row, &parts.pair, &mut borrowers);
         }
-        hosts
+        borrowers
     }
 
     /// I, in the plane without the direction across it.
@@ -179,8 +179,8 @@ impl Interface {
         range(Mat3::from_rows(moves))
     }
 
-    /// Rows that find no host keep the directions in which nodes of the primary side can follow, a node for each row.
-    fn keep_without_hosts(
+    /// Rows that find no borrower keep the directions in which nodes of the primary side can follow, a node for each row.
+    fn keep_without_borrowers(
         &self,
         lending: &[usize],
         free: &mut [Option<Mat3>],
@@ -190,8 +190,11 @@ impl Interface {
         let mut without = Vec::new();
         for &row in lending {
             let Some(own) = free[row] else { continue };
-            let hosts = self.adjacent(row).into_iter().filter_map(|host| free[host]);
-            let (_, onto) = pseudo_inverse(hosts.fold(Mat3::ZERO, |sum, f| sum + f));
+            let borrowers = self
+                .adjacent(row)
+                .into_iter()
+                .filter_map(|borrower| free[borrower]);
+            let (_, onto) = pseudo_inverse(borrowers.fold(Mat3::ZERO, |sum, f| sum + f));
             let left = range((whole - own) * (whole - onto * whole));
             if squared(left) > 0.0 {
                 without.push((row, left));
@@ -249,7 +252,7 @@ impl Interface {
         Some(follows)
     }
 
-    /// Spreads the columns of the multiplier of a row that the scratch holds over those of its hosts: (E3). `lambda` is
+    /// Spreads the columns of the multiplier of a row that the scratch holds over those of its borrowers: (E3). `lambda` is
     /// its own.
     pub(super) fn spread(
         &self,
@@ -260,8 +263,8 @@ impl Interface {
     ) {
         const N: usize = 3;
         let own = scratch.rows.ncolumn();
-        let (from, to) = (own + N, own + N * (1 + lent.hosts.len()));
-        let parts = || std::iter::once(lent.free).chain(lent.hosts.iter().map(|(_, x)| *x));
+        let (from, to) = (own + N, own + N * (1 + lent.borrowers.len()));
+        let parts = || std::iter::once(lent.free).chain(lent.borrowers.iter().map(|(_, x)| *x));
         let super::Scratch {
             force,
             stiffness,
@@ -330,13 +333,13 @@ mod tests {
     }
 
     #[test]
-    fn hosts_take_over_all_that_is_lent_wherever_together_they_are_free() {
+    fn borrowers_take_over_all_that_is_lent_wherever_together_they_are_free() {
         let skew = [
             Vec3::new(1.0, 0.2, 0.0),
             Vec3::new(0.3, -1.0, 0.1),
             Vec3::new(0.0, 0.4, 1.0),
         ];
-        let hosts = [
+        let borrowers = [
             Mat3::IDENTITY,
             projector(skew[0]),
             Mat3::IDENTITY - projector(skew[1]),
@@ -346,32 +349,32 @@ mod tests {
             Mat3::IDENTITY - projector(skew[0]),
             Mat3::IDENTITY,
         ] {
-            let s = hosts.iter().fold(Mat3::ZERO, |sum, f| sum + *f);
+            let s = borrowers.iter().fold(Mat3::ZERO, |sum, f| sum + *f);
             let (inverse, _) = pseudo_inverse(s);
-            let taken = hosts.iter().map(|f| *f * inverse * held * 1.0);
+            let taken = borrowers.iter().map(|f| *f * inverse * held * 1.0);
             let sum = taken
-                .zip(&hosts)
+                .zip(&borrowers)
                 .fold(Mat3::ZERO, |sum, (x, f)| sum + *f * x);
             assert!(squared(sum - held) < 1e-28);
         }
     }
 
     #[test]
-    fn two_hosts_on_planes_that_meet_at_an_angle_take_over_the_whole_plane() {
+    fn two_borrowers_on_planes_that_meet_at_an_angle_take_over_the_whole_plane() {
         // each is free along its own plane of symmetry only
-        let hosts = [
+        let borrowers = [
             projector(Vec3::unit(0)),
             projector(Vec3::new(0.5, 0.8, 0.0)),
         ];
         let held = projector(Vec3::unit(0)) + projector(Vec3::unit(1));
-        let (inverse, onto) = pseudo_inverse(hosts[0] + hosts[1]);
+        let (inverse, onto) = pseudo_inverse(borrowers[0] + borrowers[1]);
         assert!(squared(onto - held) < 1e-28);
-        let sum = hosts[0] * inverse * held + hosts[1] * inverse * held;
+        let sum = borrowers[0] * inverse * held + borrowers[1] * inverse * held;
         assert!(squared(sum - held) < 1e-28);
     }
 
     #[test]
-    fn what_no_host_is_free_along_is_left() {
+    fn what_no_borrower_is_free_along_is_left() {
         let (inverse, onto) = pseudo_inverse(Mat3::outer(Vec3::unit(0), Vec3::unit(0)) * 3.0);
         assert_eq!(squared(onto - projector(Vec3::unit(0))), 0.0);
         let third = projector(Vec3::unit(0)) * (1.0 / 3.0);

@@ -11,7 +11,7 @@ pub(super) struct Lent {
     /// H.
     pub held: Mat3,
     /// Rows that take over, each with X.
-    pub hosts: Vec<(usize, Mat3)>,
+    pub borrowers: Vec<(usize, Mat3)>,
 }
 
 /// Of all rows.
@@ -53,8 +53,8 @@ impl Lents {
         let Some(lent) = self.of(row) else {
             return own;
         };
-        let hosts = lent.hosts.iter();
-        let from_hosts = hosts.map(|(host, x)| x.transpose() * lambda(*host));
-        lent.free * own + from_hosts.sum::<Vec3>()
+        let borrowers = lent.borrowers.iter();
+        let from_borrowers = borrowers.map(|(borrower, x)| x.transpose() * lambda(*borrower));
+        lent.free * own + from_borrowers.sum::<Vec3>()
     }
 }

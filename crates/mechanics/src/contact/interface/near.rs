@@ -6,7 +6,7 @@ use signorini_geometry::proximity::{Aabb, Search};
 use signorini_geometry::surface::{Placement, SurfaceError};
 use signorini_geometry::tensor::Vec3;
 
-/// The search for what is near, with its buffers.
+/// The search for nearby facets, with its buffers.
 #[derive(Default)]
 pub(super) struct Near {
     pub search: Search,

@@ -1,4 +1,4 @@
-//! Search, pairing, where rows stick, and what is coupled with what.
+//! Pairing, sticking rows, and the coupling of unknowns.
 
 use super::{Carrier, Contact, Interface, InterfaceParts, Judged};
 use crate::contact::discretization::{Anchored, Averaged, NOWHERE, Pair};
@@ -22,7 +22,7 @@ impl Interface {
         self.search_for(at, RowOrder::Gap)
     }
 
-    /// Looks for what is near; `next` is what will probably be asked for there.
+    /// Looks for nearby facets; `next` is the probable next order.
     pub(super) fn search_for(
         &mut self,
         at: &Placement,
@@ -304,9 +304,9 @@ impl Interface {
             let coupled = self.coupled.row(row);
             of_row.clear();
             self.multiplier_dofs(row, &mut of_row);
-            let hosts = self.lents.of(row).map_or(&[][..], |lent| &lent.hosts);
-            for &(host, _) in hosts {
-                self.multiplier_dofs(host, &mut of_row);
+            let borrowers = self.lents.of(row).map_or(&[][..], |lent| &lent.borrowers);
+            for &(borrower, _) in borrowers {
+                self.multiplier_dofs(borrower, &mut of_row);
             }
             of_row.retain(|&d| d != NO_DOF);
             if coupled.is_empty() {

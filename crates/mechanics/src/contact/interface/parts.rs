@@ -35,14 +35,14 @@ pub struct Shift {
     pub fading: f64,
 }
 
-/// Which increments of the first step in which a contact acts allow for what overlaps at their start: that fades to
-/// nothing over what is left of the step.
+/// Which increments of the first step in which a contact acts allow for overlaps at their start, which fade to
+/// nothing over the rest of the step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Allowance {
-    /// None does: what is allowed for is in [`Shift`].
+    /// None does: overlaps allowed for are in [`Shift`].
     #[default]
     Never,
-    /// The first; what is left at its end is resolved at once.
+    /// The first; the rest at its end is resolved at once.
     First,
     /// Every one.
     Every,

@@ -20,7 +20,7 @@ struct RowReport {
     /// Whether its law acts.
     acts: bool,
     area: f64,
-    /// Pressures are those of an area so many times as large.
+    /// Pressures are those of an area larger by this factor.
     stretch: f64,
     energy: f64,
     /// None where it meets nothing.
@@ -42,8 +42,8 @@ struct Sums {
     means: Means,
     /// On the nodes of the first of two passes, in the second.
     across: Means,
-    /// Entries of nodes whose functions are parts of those of others.
-    hosted: Vec<usize>,
+    /// Entries of nodes whose functions are parts of those of other rows.
+    taken: Vec<usize>,
     guests: Vec<NodeId>,
 }
 
@@ -52,7 +52,7 @@ impl Sums {
         Self {
             means: Means::new(report.nodes.len()),
             across: Means::new(nacross),
-            hosted: Vec::new(),
+            taken: Vec::new(),
             guests: Vec::new(),
             report,
         }
@@ -64,7 +64,7 @@ impl Sums {
             mut report,
             means,
             across,
-            hosted,
+            taken,
             ..
         } = self;
         for k in 0..report.nodes.len() {
@@ -84,8 +84,8 @@ impl Sums {
         for (_, sum) in report.faces.iter_mut().flatten() {
             sum.divide();
         }
-        for k in hosted {
-            // their areas are parts of those of their hosts
+        for k in taken {
+            // their areas are parts of those of their borrowers
             report.area[k] = 0.0;
         }
         report.footprint.divide();
@@ -241,7 +241,7 @@ impl Interface {
                 report.status[k] = reported.status;
                 report.acts[k] = reported.status.is_closed();
                 report.pressure_peak[k] = report.pressure_peak[k].max(pressure);
-                sums.hosted.push(k);
+                sums.taken.push(k);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Rows, and what acts on them.
+//! Rows, and the forces on them.
 
 use super::{
     Contact, Interface, Judged, Lambda, Order, Participant, RowOrder, Rows, Scratch, Sink, State,
@@ -185,8 +185,8 @@ impl Interface {
         self.multiplier_dofs(row, &mut scratch.dofs);
         if let Some(lent) = self.lents.of(row) {
             self.spread(row, lent, self.own_multiplier(row, trial), scratch);
-            for &(host, _) in &lent.hosts {
-                self.multiplier_dofs(host, &mut scratch.dofs);
+            for &(borrower, _) in &lent.borrowers {
+                self.multiplier_dofs(borrower, &mut scratch.dofs);
             }
         }
         out.add(&scratch.dofs, &scratch.force, &scratch.stiffness);
@@ -256,7 +256,7 @@ impl Interface {
         self.allow(row, trial, &scratch.dofs, out);
     }
 
-    /// Gaps up to the tolerance count as closed, and what is left of a multiplier likewise.
+    /// Gaps up to the tolerance count as closed, and the residual of a multiplier likewise.
     fn allow(
         &self,
         row: usize,

@@ -39,6 +39,18 @@ pub(super) const ENTRY: Entry<Arc<dyn ContactLaw>> = Entry {
 ///
 /// # Source
 /// CalculiX CrunchiX User's Manual, node-to-face penalty contact, linear pressure-overclosure.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::law::{Arctangent, ContactLaw, Scale};
+///
+/// let law = Arctangent { stiffness: 1e6, tension: 0.5, within: f64::INFINITY };
+/// let scale = Scale { penalty: 1.0, shear: 1.0, length: 1.0 };
+/// let pressure = |gap| law.pressure(gap, 0.0, &scale).value;
+/// // far inside K d − t, far outside the tension
+/// assert!((pressure(-0.1) - (1e5 - 0.5)).abs() < 1e-5);
+/// assert!((pressure(0.1) + 0.5).abs() < 1e-5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arctangent {
     /// K: pressure per penetration, far inside.

@@ -46,6 +46,18 @@ pub struct Eval {
 }
 
 /// A contact law.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::law::{ContactLaw, Penalty, Scale};
+///
+/// let scale = Scale { penalty: 1e4, shear: 1e4, length: 1.0 };
+/// let at = Penalty.pressure(-0.01, 0.0, &scale);
+/// assert_eq!((at.value, at.dgap), (100.0, -1e4));
+/// assert_eq!(Penalty.pressure(0.01, 0.0, &scale).value, 0.0);
+/// // the energy of a spring, ½ ε g²
+/// assert_eq!(Penalty.energy(-0.01, 0.0, &scale), Some(0.5));
+/// ```
 pub trait ContactLaw: Debug + Send + Sync {
     /// Its name in messages, as in a case.
     fn name(&self) -> &str;

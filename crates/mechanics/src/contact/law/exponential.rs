@@ -31,6 +31,17 @@ pub(super) const ENTRY: Entry<Arc<dyn ContactLaw>> = Entry {
 ///
 /// `p = p0 exp(ln(0.01) g/c0)`; below `g = −2 c0` it goes on along its tangent, so that a bad start does not overflow.
 /// Beyond `within` there is nothing: the pressure jumps there.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::law::{ContactLaw, Exponential, Scale};
+///
+/// let law = Exponential { p0: 5.0, c0: 0.1, within: f64::INFINITY };
+/// let scale = Scale { penalty: 1.0, shear: 1.0, length: 1.0 };
+/// let pressure = |gap| law.pressure(gap, 0.0, &scale).value;
+/// assert!((pressure(0.0) - 5.0).abs() < 1e-14);
+/// assert!((pressure(0.1) - 0.05).abs() < 1e-14);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponential {
     /// Pressure at zero gap.

@@ -4,6 +4,17 @@ use super::{ContactLaw, Eval, Multiplier, Scale, TOUCH};
 ///
 /// Where nothing is known yet, `λ = 0`, a surface that touches to rounding counts as closed: bodies that touch at the
 /// start are then pressed together from the first solve on.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::law::{ContactLaw, Lagrange, Scale};
+///
+/// let scale = Scale { penalty: 10.0, shear: 10.0, length: 1.0 };
+/// // contact without penetration satisfies the condition, as does an open gap without pressure
+/// assert_eq!(Lagrange.complementarity(0.0, 3.0, &scale).value, 0.0);
+/// assert_eq!(Lagrange.complementarity(0.2, 0.0, &scale).value, 0.0);
+/// assert!(Lagrange.complementarity(-0.2, 3.0, &scale).value != 0.0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Lagrange;
 

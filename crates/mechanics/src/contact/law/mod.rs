@@ -46,6 +46,18 @@ use signorini_vocabulary::{Description, Entry};
 use std::sync::Arc;
 
 /// The laws that a case may choose by name, apart from a penalty and multipliers.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::law::{Scale, TABLE};
+/// use signorini_vocabulary::{Chosen, Entry};
+///
+/// // as a case makes it: `enforcement = { exponential = { p0 = 5.0, c0 = 0.1 } }`
+/// let law = Entry::make(&TABLE, &Chosen::new("exponential", [("p0", 5.0), ("c0", 0.1)]))?;
+/// let scale = Scale { penalty: 1.0, shear: 1.0, length: 1.0 };
+/// assert!((law.pressure(0.0, 0.0, &scale).value - 5.0).abs() < 1e-14);
+/// # Ok::<(), signorini_vocabulary::Fault>(())
+/// ```
 pub static TABLE: [Entry<Arc<dyn ContactLaw>>; 2] = [exponential::ENTRY, arctangent::ENTRY];
 
 /// The names and keys of all laws of [`TABLE`].

@@ -4,6 +4,19 @@ use thiserror::Error;
 
 /// A pressure that is linear between rows of gap and pressure; below the first row it goes on with the slope there,
 /// beyond the last it stays what it is there.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::law::{ContactLaw, Scale, Table};
+///
+/// let law = Table::new(vec![[-0.1, 40.0], [0.0, 0.0]])?;
+/// let scale = Scale { penalty: 1.0, shear: 1.0, length: 1.0 };
+/// // linear between the rows, and below the first
+/// assert!((law.pressure(-0.05, 0.0, &scale).value - 20.0).abs() < 1e-12);
+/// assert!((law.pressure(-0.2, 0.0, &scale).value - 80.0).abs() < 1e-12);
+/// assert!(Table::new(vec![[0.0, 0.0], [0.1, 40.0]]).is_err());
+/// # Ok::<(), signorini_mechanics::contact::law::TableError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     rows: Vec<[f64; 2]>,

@@ -104,7 +104,7 @@ impl Covered {
         self.basis = basis;
     }
 
-    /// Integrates over what a secondary facet shares with primary facets near it. `nodes` has the number of each node of
+    /// Integrates over the part that a secondary facet shares with primary facets near it. `nodes` has the number of each node of
     /// these, one facet after the other: what facets share has one place in the sums. Without numbers all nodes differ.
     ///
     /// # Errors
@@ -181,7 +181,7 @@ impl Covered {
         &self.met
     }
 
-    /// The integrals over what is shared with each of them.
+    /// The integrals over the part shared with each of them.
     #[must_use]
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs[..self.met.len()]

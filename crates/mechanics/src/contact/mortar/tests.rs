@@ -581,7 +581,7 @@ fn a_node_that_facets_share_has_what_it_has_on_each() {
         assert_eq!((apart.nprimary(), shared.nprimary()), (2 * n, 2 * n - 1));
         assert_eq!(shared.nodes(), (0..2 * n - 1).collect::<Vec<_>>());
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * (1.0 + a.abs()), "{a} {b}");
-        // sums over what is one: the last node of all goes to the first
+        // sums over coinciding nodes: the last node of all goes to the first
         let first = secondary.nnode();
         let columns = |line: &[f64], v: usize| {
             let twin = v.checked_sub(3 * first).filter(|c| *c < 3);

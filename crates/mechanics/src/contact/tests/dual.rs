@@ -489,7 +489,7 @@ fn scene(kind: &str, element: &'static str, bend: f64, random: &mut Random) -> (
         }
         *x += moved;
     }
-    // the middle of what is in question: the facet, the edge, the vertex
+    // the middle of the feature: the facet, the edge, the vertex
     let middle = match kind {
         "two triangles" => (x[0] + x[2]) * 0.5,
         "two quadrilaterals" => (x[1] + x[4]) * 0.5,

@@ -83,7 +83,7 @@ fn points(x: &[Vec3], nodes: &[Vec<NodeId>], random: &mut Random) -> Vec<Vec3> {
         if triangle {
             local = (local + Vec3::new(1.01, 1.01, 0.0)) * 0.25;
         }
-        // every third over or under an edge: a valley is closest to what is under it
+        // every third over or under an edge: a valley is closest to points under it
         let on_edge = k.is_multiple_of(3);
         if on_edge {
             local.y = if triangle { 0.0 } else { -1.0 };
@@ -242,7 +242,7 @@ fn an_interface_balances_forces_and_moments() {
         let is_edge = |f: &Feature| matches!(f, Feature::Edge { .. });
         on_edges += inside.iter().filter(|p| is_edge(&p.feature)).count();
 
-        // what is reported is what acts
+        // reported forces are those that act
         let mut frame = Frame::new(scene.layout.nnode, &[]);
         scene.interface.report(&scene.state, &mut frame).unwrap();
         let report = &frame.contacts[0];

@@ -152,7 +152,7 @@ impl Slider {
         self.interface.begin(&phase, &self.state).unwrap();
     }
 
-    /// An increment that leads the point to a place; the force on it, and what is reported of it.
+    /// An increment that leads the point to a place; the force on it, and its report.
     fn go(&mut self, place: Vec3) -> (Vec3, ContactFrame) {
         self.begin();
         let (state, forces) = self.force_at(place);
@@ -623,7 +623,7 @@ fn a_loaded_memory_goes_on_bit_by_bit() {
     }
 }
 
-/// What is reported and what is stored, in full.
+/// The report and the stored data, in full.
 fn bits(scene: &Scene) -> String {
     let mut archive = Archive::default();
     scene.interface.save(&mut archive);

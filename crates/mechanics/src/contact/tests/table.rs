@@ -114,7 +114,7 @@ fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
     assert!(scene.pattern().covers(&here), "the pattern misses entries");
     let mut worst = Worst::default();
     let first = n - scene.layout.nmultiplier;
-    // both, one after the other: what is wrong in one place does not hide behind the other
+    // both, one after the other: an error in one does not hide behind the other
     for part in [0..first, first..n] {
         if part.is_empty() {
             continue;
@@ -158,7 +158,7 @@ fn balance(scene: &mut Scene, method: Method, rubs: bool, bond: bool, name: &str
     assert!(size > 0.0, "{name}: nothing acts");
     assert!(force.norm() < 1e-12 * size, "{name}: {force:?} of {size}");
     let expected = if method.is_inside() || method.is_mortar() {
-        // points share nodes: what is left of the moments is not to be had from forces on nodes
+        // points share nodes: moments do not follow exactly from forces on nodes
         if rubs || bond || matches!(method, Method::NodalMortar | Method::HeldMortar) {
             return;
         }
@@ -281,7 +281,7 @@ fn walk(kind: Kind) {
             if law == 0 || laws()[law].multiplier() != Multiplier::None {
                 worst.add(&check(kind, method, law, &None, (true, None)));
             }
-            // points that hold a tangent plane know what is along it
+            // points that hold a tangent plane know the motion along it
             let on_points = !method.is_mortar() && !method.is_between_nodes();
             if law == 0 && on_points {
                 let tangential = Some(0.3 * PENALTY);

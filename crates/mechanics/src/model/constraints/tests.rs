@@ -505,7 +505,7 @@ fn a_face_that_stays_plane_tilts() {
     }
 }
 
-/// The angles of the nodes of a face, in the mean, are what is prescribed; what it takes is the moment at the base.
+/// The angles of the nodes of a face, in the mean, are the prescribed one; the moment that this takes is that at the base.
 #[test]
 fn a_twisted_face_turns_by_its_angle_in_the_mean() {
     let (mesh, cells) = cube(3);

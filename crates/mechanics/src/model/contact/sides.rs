@@ -24,7 +24,7 @@ use signorini_geometry::surface::{Anchor, ContactSurface, Facets, Placement, Sur
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
-/// How often the reach is doubled to find what is near at the start.
+/// How often the reach is doubled to find nearby facets at the start.
 const DOUBLINGS: usize = 6;
 
 /// One pass of a contact, before anything is chosen for it.

@@ -1,4 +1,4 @@
-//! Gaps and overlaps at the start, and what is done about them.
+//! Gaps and overlaps at the start, and their treatment.
 
 use super::joined::cells_behind;
 use super::probe::{Look, Probe};

@@ -214,7 +214,7 @@ pub enum Interference {
     /// The first increment resolves its part of the step of them, the second the rest. They are measured when the contact
     /// begins to act.
     Increment,
-    /// What overlaps at the start of an increment of that step is resolved over what is left of the step, and measured
+    /// What overlaps at the start of an increment of that step is resolved over the rest of the step, and measured
     /// again at the start of the next.
     Increments,
     /// They are resolved in the first increment.
@@ -277,6 +277,16 @@ pub struct ContactPart {
 
 impl FrictionPart {
     /// Coulomb's friction with a coefficient; what sticking yields is chosen.
+    ///
+    /// # Example
+    /// ```
+    /// use signorini_mechanics::contact::friction::Sliding;
+    /// use signorini_mechanics::model::FrictionPart;
+    ///
+    /// let friction = FrictionPart::coulomb(0.2);
+    /// let limit = friction.limit.limit(&Sliding { pressure: 10.0, path: 0.0 });
+    /// assert_eq!(limit.value, 2.0);
+    /// ```
     #[must_use]
     pub fn coulomb(mu: f64) -> Self {
         Self {

@@ -263,7 +263,7 @@ pub enum Target {
     Rigid(RigidId),
 }
 
-/// A change of what is prescribed.
+/// A change of prescribed motions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
     /// Components 0 to 2 (displacements) and 3 to 5 (rotations) get a motion.
@@ -284,6 +284,15 @@ pub struct LoadPart {
 }
 
 /// A step: what it changes.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::model::StepPart;
+/// use signorini_mechanics::solve::Increments;
+///
+/// let step = StepPart::new("press", Increments::Fixed(4));
+/// assert_eq!((step.duration, step.nonlinear), (1.0, true));
+/// ```
 #[derive(Clone, Debug)]
 pub struct StepPart {
     /// Its name.

@@ -1,6 +1,6 @@
 //! The element as it is, several cells at once: what [`super::plain`] does, in lanes.
 //!
-//! Only what is symmetric, in space. A law that is isotropic and linear in the strain is evaluated in lanes too, with
+//! Only symmetric stiffness, in space. A law that is isotropic and linear in the strain is evaluated in lanes too, with
 //!
 //! ```text
 //! A_iakb = λ F_ia F_kb + μ (F_ib F_ka + δ_ab F_ic F_kc) + δ_ik S_ab                              (E17)

@@ -78,7 +78,7 @@ pub(super) fn add_stiffness<const NN: usize, const ND: usize, const NG: usize>(
             }
         }
     }
-    // two nodes at a time share what is read of the columns
+    // two nodes at a time share the columns that are read
     let n = NN * ND;
     let pairs = out.stiffness.chunks_mut(2 * n * ND).enumerate();
     for (pair, rows) in pairs {

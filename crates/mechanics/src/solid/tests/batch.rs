@@ -174,7 +174,7 @@ fn every_lane_has_the_history_temperature_and_start_of_its_cell() {
         assert!(off < 1e-13 * right.scale(), "stiffness off by {off:e}");
         let off = largest_difference(&found.force, &right.force);
         assert!(off < 1e-12 * right.scale(), "force off by {off:e}");
-        // undeformed, at the first temperature and without history: what is at the start stays
+        // undeformed, at the first temperature and without history: the initial state stays
         let zero = vec![0.0; n];
         let [found, right] = [&together, &alone].map(|body| {
             let mut dense = Dense {

@@ -175,7 +175,7 @@ fn linear_temperatures_are_those_of_the_reduced_points_continued() {
             .sample(&body.state(&u), &cells, &mut samples)
             .unwrap();
         let (rule, values) = samples.of(cells[0]).unwrap();
-        // what is held has the stress −3 K α T, K = 500/(3 · 0.4), in all three directions
+        // a held body has the stress −3 K α T, K = 500/(3 · 0.4), in all three directions
         let heat: Vec<f64> = values
             .iter()
             .map(|at| -at.stress.xx() * 0.4 / (500.0 * 1e-3))

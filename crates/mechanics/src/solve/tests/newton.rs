@@ -71,7 +71,7 @@ fn condition_a_stops_at_round_off_where_the_tolerance_cannot_be_reached() {
 
 #[test]
 fn condition_a_remembers_the_largest_mean_force_of_the_run() {
-    // a load comes and goes; what is left is judged against what was
+    // a load comes and goes; the residual is judged against the largest load
     let steps = [1, 1].map(|n| step(Increments::Fixed(n), &[]));
     let springs = vec![Spring::between(None, 0, hardening), load(0, &[1e3, 0.0])];
     let told = run_with(system(1, springs), &steps, settings(1e-6, LineSearch::Auto));
@@ -162,7 +162,7 @@ fn an_iteration_that_gets_somewhere_takes_longer() {
         settings(1e-12, LineSearch::Off),
     );
     told.assert_finished();
-    // (8/27)^k is half of what is allowed of a mean force of 1 after 22 or 23 of them
+    // (8/27)^k is half of the tolerance at a mean force of 1 after 22 or 23 of them
     let taken = told.increments[0].iterations;
     assert!((22..=24).contains(&taken), "{taken}");
     assert!((told.state.u[0] - 1.0).abs() < 2e-4);

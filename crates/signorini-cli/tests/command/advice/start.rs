@@ -1,4 +1,4 @@
-//! Meshes that cannot be used, exit code 4, and what is worth knowing about sides at the start.
+//! Meshes that cannot be used, exit code 4, and notes on sides at the start.
 
 use super::blocks::{BLOCKS, Blocks, HEAD_MOVED, pressed};
 use super::trial::{Remedy, Trial};

@@ -40,7 +40,7 @@ material = "steel"
 const BASE: &str = "[sets]\nbase = { plane = 'z', at = 0, of = 'low' }\n";
 const STEP: &str = "[[step]]\nname = 'one'\n[[step.fix]]\non = 'base'\nu = 'all'\n";
 
-/// What can be compared of parts, and what is unusual.
+/// The comparable content of parts, with the warnings.
 struct Built {
     text: String,
     springs: Vec<signorini_mechanics::model::SpringPart>,

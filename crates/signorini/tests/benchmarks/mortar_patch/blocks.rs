@@ -35,7 +35,7 @@ pub struct Blocks {
     pub across: [Vec<Vec<f64>>; 2],
     /// The same along the last axis.
     pub heights: [Vec<f64>; 2],
-    /// How far corners are moved within the planes across the last axis, in parts of the cells.
+    /// How far corners are moved within the planes across the last axis, relative to the cells.
     pub distortion: f64,
     pub seed: u64,
     pub upper_is_secondary: bool,
@@ -53,7 +53,7 @@ pub struct Exact {
     pub pressure: f64,
 }
 
-/// How far off a solution is, relative to what is largest.
+/// How far off a solution is, relative to the largest value.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Errors {
     pub displacement: f64,
@@ -258,7 +258,7 @@ impl Blocks {
         }
     }
 
-    /// The case of that state: rollers below, at the beginnings, and on top; what is not covered is loaded.
+    /// The case of that state: rollers below, at the beginnings, and on top; the uncovered part is loaded.
     pub fn case(&self, scene: &mut Scene, exact: &Exact) -> Case {
         let up = self.up();
         let axes = ["x", "y", "z"];

@@ -307,7 +307,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Refuses solids that have no element here; notes what is left out and what types mean.
+    /// Refuses solids that have no element here; notes what it leaves out and what types mean.
     fn judge_kinds(&mut self, whole: bool) -> Result<()> {
         let dim = self.mesh.dim();
         let in_words = |count: u64, name: &str| {

@@ -66,7 +66,7 @@ impl Assembly<'_> {
         set.nodes.dedup();
         set.cells.sort_unstable();
         set.cells.dedup();
-        // in the order of their lines: what is made from them is numbered by it
+        // in the order of their lines: whatever is made from them is numbered by it
         let mut seen = HashSet::new();
         set.faces.retain(|face| seen.insert(*face));
         if set.is_empty() {

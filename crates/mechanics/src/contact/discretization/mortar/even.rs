@@ -30,7 +30,7 @@ use crate::contact::discretization::OnRow;
 use crate::contact::mortar::{OfFacet, Weights};
 use signorini_geometry::element::{Element, MAX_FACET_NODES};
 
-/// What nodes of a facet exchange, in parts of `E_e` and of `T_e`.
+/// What nodes of a facet exchange, as multiples of `E_e` and of `T_e`.
 struct Exchange {
     levels: f64,
     along_edges: f64,
@@ -57,7 +57,7 @@ const EXCHANGES: [Exchange; 3] = [
 ];
 
 impl Mortar {
-    /// (E1) and (E2); of what is joined, tractions may pull.
+    /// (E1) and (E2); tractions of joined sides may pull.
     pub(super) fn exchange(
         &self,
         weights: &Weights,
@@ -281,7 +281,7 @@ mod tests {
         }
         let mut random = Random::new(3);
         for share in [0.1, 0.5, 1.0] {
-            // few carry much: what is taken back may not pull
+            // few carry much: the part taken back may not pull
             let pressure = |row: usize| match touches(row) {
                 true if random.signed() < 2.0 * share - 1.0 => 1.0,
                 true => 1e-6,

@@ -303,7 +303,7 @@ impl Kept {
         self.slots.get(rank % room.max(1))
     }
 
-    /// How many facets are kept where they are like these; forgets what is kept beyond.
+    /// How many facets are kept where they are like these; forgets the others.
     pub fn make_room(&self, facets: &[OfFacet]) -> usize {
         let met = facets.iter().filter(|of| !of.met.is_empty());
         let (nmet, all) = met.fold((0, 0), |(n, all), of| (n + 1, all + of.nslope()));

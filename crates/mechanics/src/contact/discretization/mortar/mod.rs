@@ -49,7 +49,7 @@
 //! of one side of it, that which is covered and faces best what it meets, and keeps it until another one does so twice as
 //! well. The part of its function on facets of other sides goes to the nodes next to it there (`edges`).
 //!
-//! *Held weights.* For small sliding and for what is joined, c and n are those of the start: all is linear, the tangent
+//! *Held weights.* For small sliding and for joined sides, c and n are those of the start: all is linear, the tangent
 //! symmetric with `A_j = D_j`, and the slip is `e = P(w/D_j − o)` with the way `o` at the start of the increment.
 //!
 //! *Order of rows.* Along a curve that fills the box of the nodes, so that facets integrated for one row serve the next.
@@ -304,7 +304,7 @@ impl Mortar {
         &self.nodes
     }
 
-    /// Lets rows take over functions by what is covered at this configuration; says whether that changes anything.
+    /// Lets rows take over functions by the area covered at this configuration; says whether that changes anything.
     fn rest(
         &self,
         pair: &SurfacePair,
@@ -401,7 +401,7 @@ impl Mortar {
             .try_for_each(|(row, to)| self.add_up(row, facets, at, (of, guests), to))
     }
 
-    /// Who takes over whose function, by what is covered: on the facet around a node of which most is, which part of it.
+    /// Who takes over whose function, by covered areas: on the facet around a node of which most is, which part of it.
     /// A node of which little is covered leaves it to adjacent nodes that are covered well, or much better than itself.
     fn host(
         &self,

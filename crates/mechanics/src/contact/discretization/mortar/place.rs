@@ -398,7 +398,7 @@ fn differentiate_turned(
     out
 }
 
-/// Adds a multiple of what is there for nodes, three numbers each, where these are.
+/// Adds a multiple of nodal values, three numbers each, where these are.
 fn scatter(to: &mut [f64], places: &[usize], factor: f64, from: &[f64]) {
     let to = to.as_chunks_mut::<3>().0;
     for (&place, from) in places.iter().zip(from.as_chunks::<3>().0) {

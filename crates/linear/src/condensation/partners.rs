@@ -1,19 +1,19 @@
-//! Where multipliers can be eliminated: each with an equation of a node that is its host, among those it acts on.
+//! Where multipliers can be eliminated: each with an equation of a node that is its partner, among those it acts on.
 //!
-//! A good host is one that few other multipliers act on, with a large coefficient. Multipliers with a common host form a
+//! A good partner is one that few other multipliers act on, with a large coefficient. Multipliers with a common partner form a
 //! group and are eliminated together, by the block of their coefficients in it: a traction at its own node, or what two
 //! contacts exert on a node of both. A multiplier that is open has no coefficients yet; its pattern is all there is to
-//! go by. One that finds no host stays as it is.
+//! go by. One that finds no partner stays as it is.
 
 use crate::problem::{Kept, Values};
 use crate::sparsity::NONE;
 use std::collections::{BTreeMap, HashMap};
 
-/// The most dofs that a host has, and multipliers with it.
+/// The most dofs that a partner has, and multipliers with it.
 pub(crate) const WIDTH: usize = 3;
 /// A small square matrix.
 pub(crate) type Block = [[f64; WIDTH]; WIDTH];
-/// The smallest pivot of a group over its largest coefficient: at least this for a host that is kept,
+/// The smallest pivot of a group over its largest coefficient: at least this for a partner that is kept,
 const KEEP: f64 = 0.05;
 /// and this for a new one.
 const TAKE: f64 = 0.2;
@@ -32,13 +32,13 @@ pub(crate) struct Multipliers {
     at: Vec<usize>,
 }
 
-/// Multipliers with a common host.
+/// Multipliers with a common partner.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Group {
     /// Raw dofs.
     pub multiplier: Vec<u32>,
-    /// Raw dofs of the host that have an equation; one of them is the pivot of each multiplier.
-    pub host: Vec<u32>,
+    /// Raw dofs of the partner that have an equation; one of them is the pivot of each multiplier.
+    pub partner: Vec<u32>,
 }
 
 /// The pivots of the multipliers of a group that are closed: `S[a][c]` is the coefficient of multiplier c in the
@@ -164,7 +164,7 @@ impl Multipliers {
         &self,
         kept: &Kept,
         multipliers: &[u32],
-        host: &[u32],
+        partner: &[u32],
         interface: &[f64],
         least: f64,
     ) -> Option<Pivots> {
@@ -180,36 +180,36 @@ impl Multipliers {
         if n == 0 {
             return Some(pivots);
         }
-        if n > host.len() || host.len() > WIDTH {
+        if n > partner.len() || partner.len() > WIDTH {
             return None;
         }
         let mut block = Block::default();
-        for (line, &row) in block.iter_mut().zip(host) {
+        for (line, &row) in block.iter_mut().zip(partner) {
             for (b, &m) in line.iter_mut().zip(pivots.multipliers()) {
                 *b = self.coefficient(row, m, interface);
             }
         }
-        let (order, smallest) = pivot_order(&block, host.len(), n)?;
+        let (order, smallest) = pivot_order(&block, partner.len(), n)?;
         if smallest.is_nan() || smallest < least * largest {
             return None;
         }
         let mut square = Block::default();
         for (a, &from) in order[..n].iter().enumerate() {
             square[a] = block[from];
-            pivots.row[a] = host[from];
+            pivots.row[a] = partner[from];
         }
         pivots.inverse = inverse(&square, n)?;
         Some(pivots)
     }
 
-    /// The pivots of a group, where its host still serves.
+    /// The pivots of a group, where its partner still serves.
     pub fn pivots(&self, kept: &Kept, group: &Group, interface: &[f64]) -> Option<Pivots> {
-        self.pivots_of(kept, &group.multiplier, &group.host, interface, KEEP)
+        self.pivots_of(kept, &group.multiplier, &group.partner, interface, KEEP)
     }
 
-    /// The multipliers that have a host. Without values, patterns decide.
+    /// The multipliers that have a partner. Without values, patterns decide.
     ///
-    /// `stays` says of a raw dof that its multiplier is not to be eliminated, `before` which node was a multiplier's host.
+    /// `stays` says of a raw dof that its multiplier is not to be eliminated, `before` which node was a multiplier's partner.
     pub fn groups(
         &self,
         kept: &Kept,
@@ -257,28 +257,28 @@ impl Multipliers {
             .collect();
         offers.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
 
-        let mut hosted = vec![false; kept.equation.len()];
+        let mut paired = vec![false; kept.equation.len()];
         let mut groups: BTreeMap<u32, Group> = BTreeMap::new();
         for (_, m, node) in offers {
-            if hosted[m as usize] {
+            if paired[m as usize] {
                 continue;
             }
             let group = groups.entry(node).or_insert_with(|| Group {
                 multiplier: Vec::new(),
-                host: kept.equations_of(node),
+                partner: kept.equations_of(node),
             });
-            if group.multiplier.len() == group.host.len() {
+            if group.multiplier.len() == group.partner.len() {
                 continue;
             }
             group.multiplier.push(m);
             let least = if was(m, node) { KEEP } else { TAKE };
             let fits = values.is_none_or(|v| {
-                let (multipliers, host) = (&group.multiplier, &group.host);
-                let found = self.pivots_of(kept, multipliers, host, v.interface, least);
+                let (multipliers, partner) = (&group.multiplier, &group.partner);
+                let found = self.pivots_of(kept, multipliers, partner, v.interface, least);
                 found.is_some()
             });
             if fits {
-                hosted[m as usize] = true;
+                paired[m as usize] = true;
             } else {
                 group.multiplier.pop();
             }
