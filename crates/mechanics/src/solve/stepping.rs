@@ -679,7 +679,7 @@ impl Stepper {
         out.put("progress.origin", &p.origin);
         out.put("progress.rate", &p.rate);
         out.put("progress.curvature", p.curvature.as_slice());
-        out.put("progress.scale", &self.newton.scale.to_array());
+        out.put("progress.scale", self.newton.scale.values(&system.layout));
         let experience = self.newton.equations.experience();
         out.put("progress.solver", &[f64::from(experience)]);
         p.work.save(out);
@@ -703,7 +703,7 @@ impl Stepper {
         if !curvature.is_empty() {
             from.get("progress.curvature", &mut curvature)?;
         }
-        let mut scale = [0.0; 3];
+        let mut scale = vec![0.0; system.layout.nscale()];
         from.get("progress.scale", &mut scale)?;
         let mut experience = [0.0];
         if from.length("progress.solver").is_ok() {
@@ -718,7 +718,7 @@ impl Stepper {
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;
         system.load(from)?;
-        self.newton.scale = ForceScale::from_array(scale);
+        self.newton.scale = ForceScale::from_values(&scale);
         self.newton.analyzed = false;
         self.newton.coupled_more = true;
         self.progress = Progress {

@@ -64,7 +64,7 @@ pub use frame::{
     Status,
 };
 pub use idealisation::Idealisation;
-pub use layout::{Dof, DofName, Layout, NO_DOF};
+pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};
 pub use phase::{Increment, Phase, StepContext};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;

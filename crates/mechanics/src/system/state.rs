@@ -62,9 +62,9 @@ impl State {
         }
         elimination.follow(self, layout, reference);
         for (node, (x, at)) in self.x.iter_mut().zip(reference).enumerate() {
-            let first = node * layout.ndim;
+            let first = node * layout.ndim();
             let mut moved = *at;
-            for (axis, u) in self.u[first..first + layout.ndim].iter().enumerate() {
+            for (axis, u) in self.u[first..first + layout.ndim()].iter().enumerate() {
                 moved[axis] += u;
             }
             *x = moved;

@@ -1,7 +1,7 @@
 use super::samples::internal_forces;
 use super::{
     Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, DofName,
-    Elimination, Frame, Layout, Samples, State, Term, TermError, Wanted,
+    Elimination, FieldId, Frame, Layout, Samples, State, Term, TermError, Wanted,
 };
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -107,28 +107,38 @@ impl System {
         prescribed: &[bool],
         assembly: &Assembly,
     ) -> Result<Frame, TermError> {
-        let mut frame = Frame::new(self.layout.nnode, &self.ncell);
+        let mut frame = Frame::new(self.layout.nnode(), &self.ncell);
         frame.time = state.time;
         for (node, u) in frame.displacement.iter_mut().enumerate() {
             *u = self.displacement(state, node as u32);
         }
         let layout = &self.layout;
-        frame.rigid.resize_with(layout.nrigid, Default::default);
+        frame.rigid.resize_with(layout.nrigid(), Default::default);
         let at_dofs = prescribed.iter().zip(&assembly.residual).enumerate();
         for (dof, (_, r)) in at_dofs.filter(|(_, (prescribed, _))| **prescribed) {
             let to = match layout.name(dof as Dof) {
-                Some(DofName::Node(node, axis)) => {
-                    frame.reaction_force.get_mut(node as usize).zip(Some(axis))
-                }
-                Some(DofName::Translation(body, axis)) => {
+                Some(DofName {
+                    field: FieldId::DISPLACEMENT,
+                    entity: node,
+                    component: axis,
+                }) => frame.reaction_force.get_mut(node as usize).zip(Some(axis)),
+                Some(DofName {
+                    field: FieldId::TRANSLATION,
+                    entity: body,
+                    component: axis,
+                }) => {
                     let body = frame.rigid.get_mut(body as usize);
                     body.map(|body| (&mut body.reaction_force, axis))
                 }
-                Some(DofName::Rotation(body, axis)) => {
+                Some(DofName {
+                    field: FieldId::ROTATION,
+                    entity: body,
+                    component: axis,
+                }) => {
                     let body = frame.rigid.get_mut(body as usize);
                     body.map(|body| (&mut body.reaction_moment, axis))
                 }
-                Some(DofName::Multiplier(_)) | None => None,
+                _ => None,
             };
             if let Some((to, axis)) = to {
                 to[axis] = *r;
@@ -167,7 +177,7 @@ impl System {
     #[must_use]
     pub fn displacement(&self, state: &State, node: u32) -> Vec3 {
         let mut u = Vec3::ZERO;
-        for axis in 0..self.layout.ndim {
+        for axis in 0..self.layout.ndim() {
             let dof = self.layout.node(node, axis) as usize;
             u[axis] = state.u.get(dof).copied().unwrap_or_default();
         }

@@ -7,7 +7,7 @@ use signorini_geometry::mesh::NodeId;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_linear::LinearError;
 use signorini_mechanics::solve::{Failure, RunError};
-use signorini_mechanics::system::{Dof, DofName, PatternSink, Term, TermError};
+use signorini_mechanics::system::{Dof, DofName, FieldId, PatternSink, Term, TermError};
 
 /// What is on disk when a run fails.
 pub struct Saved {
@@ -119,16 +119,32 @@ fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
         format!("rigid body \"{}\"", name.map_or("?", |r| r.name.as_str()))
     };
     Some(match model.system.layout.name(dof)? {
-        DofName::Node(node, k) => {
+        DofName {
+            field: FieldId::DISPLACEMENT,
+            entity: node,
+            component: k,
+        } => {
             let place = node_in_words(node, model);
             (
                 body_of(node, model),
                 format!("along {} at {place}", axis(k)),
             )
         }
-        DofName::Translation(body, k) => (rigid(body), format!("translation along {}", axis(k))),
-        DofName::Rotation(body, k) => (rigid(body), format!("rotation about {}", axis(k))),
-        DofName::Multiplier(number) => {
+        DofName {
+            field: FieldId::TRANSLATION,
+            entity: body,
+            component: k,
+        } => (rigid(body), format!("translation along {}", axis(k))),
+        DofName {
+            field: FieldId::ROTATION,
+            entity: body,
+            component: k,
+        } => (rigid(body), format!("rotation about {}", axis(k))),
+        DofName {
+            field: FieldId::MULTIPLIER,
+            entity: number,
+            ..
+        } => {
             let term = term_of(dof, model);
             let owner = term.map_or_else(|| "a constraint".to_owned(), |one| in_words(one, model));
             let audited = term.and_then(|term| term.capabilities().audited);
@@ -141,7 +157,13 @@ fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
 
 fn is_multiplier(dof: Dof, model: &Model) -> bool {
     let name = model.system.layout.name(dof);
-    matches!(name, Some(DofName::Multiplier(_)))
+    matches!(
+        name,
+        Some(DofName {
+            field: FieldId::MULTIPLIER,
+            ..
+        })
+    )
 }
 
 /// The contact that a multiplier belongs to.
@@ -206,7 +228,7 @@ fn node_in_words(node: NodeId, model: &Model) -> String {
     let label = model.mesh.node_labels.get(node as usize);
     let label = label.map_or_else(|| "?".to_owned(), u64::to_string);
     let mut text = format!("node {label} (x = {}, y = {}", at.x, at.y);
-    if model.system.layout.ndim == 3 {
+    if model.system.layout.ndim() == 3 {
         text += &format!(", z = {}", at.z);
     }
     text + ")"
@@ -215,7 +237,11 @@ fn node_in_words(node: NodeId, model: &Model) -> String {
 /// `node 1042 (…) of body "block"`, or what else has this unknown.
 fn dof_in_words(dof: Dof, model: &Model) -> Option<String> {
     match model.system.layout.name(dof)? {
-        DofName::Node(node, _) => Some(format!(
+        DofName {
+            field: FieldId::DISPLACEMENT,
+            entity: node,
+            ..
+        } => Some(format!(
             "{} of {}",
             node_in_words(node, model),
             body_of(node, model)
@@ -328,7 +354,11 @@ fn nodes_in_words(nodes: &[NodeId], model: &Model) -> String {
 fn largest_error(dof: Option<Dof>, force: f64, residual: f64, model: &Model) -> Option<String> {
     let dof = dof?;
     let place = dof_in_words(dof, model)?;
-    if let Some(DofName::Multiplier(_)) = model.system.layout.name(dof) {
+    if let Some(DofName {
+        field: FieldId::MULTIPLIER,
+        ..
+    }) = model.system.layout.name(dof)
+    {
         return Some(format!("largest error in the equations of {place}"));
     }
     Some(format!(

@@ -6,7 +6,7 @@ use crate::setup::Model;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_mechanics::model::Treatment;
 use signorini_mechanics::system::{
-    Assembly, Dof, DofName, Frame, Increment, Order, Phase, StepContext, TermError,
+    Assembly, Dof, DofName, FieldId, Frame, Increment, Order, Phase, StepContext, TermError,
 };
 use std::collections::BTreeSet;
 
@@ -65,7 +65,11 @@ fn nunknown(model: &Model) -> usize {
     let first = model.steps.iter().take(1).flat_map(|s| &s.prescriptions);
     let prescribed: BTreeSet<Dof> = first.map(|p| p.dof).collect();
     let takes_part = |dof: Dof| match layout.name(dof) {
-        Some(DofName::Node(node, _)) => system
+        Some(DofName {
+            field: FieldId::DISPLACEMENT,
+            entity: node,
+            ..
+        }) => system
             .body
             .get(node as usize)
             .is_some_and(|b| *b != u32::MAX),

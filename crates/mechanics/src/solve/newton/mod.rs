@@ -20,14 +20,14 @@ mod step;
 use super::equations::Equations;
 use super::event::{Flow, IterationRecord};
 use crate::system::{
-    Aid, Assembler, Assembly, Choices, Dof, Increment, NodeId, Order, Phase, State, StepContext,
-    System, TermError, Verdict,
+    Aid, Assembler, Assembly, ByScale, Choices, Dof, Increment, Layout, NodeId, Order, Phase,
+    State, StepContext, System, TermError, Verdict,
 };
 use course::{Course, Released};
 pub use failure::Failure;
 use iterate::{Iterate, Next, Why, is_small};
 pub(super) use scale::ForceScale;
-use scale::{FORCES, Judgement, KINDS, ROUND_OFF, Tolerance};
+use scale::{Judgement, ROUND_OFF, Tolerance};
 
 /// Whether and how steps are shortened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,7 @@ const FEW: usize = 8;
 pub(super) struct Converged {
     pub iterations: usize,
     pub residual: f64,
-    pub q: [f64; KINDS],
+    pub q: ByScale,
     /// What the first step from an extrapolated start has shown, for the next increment.
     pub curvature: Option<f64>,
 }
@@ -270,7 +270,7 @@ impl Newton {
             self.assemble(system, first)?;
         }
         let judgement = self.judge(system);
-        self.set_negligible(system, judgement.q[FORCES]);
+        self.set_negligible(system, judgement.q[Layout::FORCES]);
         course.reached(&judgement);
         let verdicts = verdicts(system, &self.trial);
         Ok(Iterate {

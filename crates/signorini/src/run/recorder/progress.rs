@@ -8,7 +8,7 @@ use signorini_io::writers::json::{ContactState, ContactSummary, Event};
 use signorini_io::writers::sta::Attempt;
 use signorini_linear::Note;
 use signorini_mechanics::solve::{Cause, IncrementRecord, IterationRecord, RunError};
-use signorini_mechanics::system::{ContactFrame, Dof, DofName, Frame};
+use signorini_mechanics::system::{ContactFrame, Dof, DofName, FieldId, Frame};
 
 impl Recorder<'_> {
     pub(super) fn iteration(&mut self, record: &IterationRecord) {
@@ -134,7 +134,11 @@ impl Recorder<'_> {
     pub(super) fn held(&mut self, step: usize, dofs: &[Dof]) {
         let setting = &self.setting;
         let in_words = |&dof: &Dof| match setting.layout.name(dof) {
-            Some(DofName::Node(node, axis)) => {
+            Some(DofName {
+                field: FieldId::DISPLACEMENT,
+                entity: node,
+                component: axis,
+            }) => {
                 let label = setting.mesh.node_labels.get(node as usize);
                 let axis = ["x", "y", "z"].get(axis).copied().unwrap_or_default();
                 format!("{axis} of node {}", label.copied().unwrap_or_default())
@@ -274,7 +278,11 @@ impl Recorder<'_> {
 
     fn worst_node(&self, dof: Option<Dof>) -> Option<u64> {
         match self.setting.layout.name(dof?)? {
-            DofName::Node(node, _) => self.setting.mesh.node_labels.get(node as usize).copied(),
+            DofName {
+                field: FieldId::DISPLACEMENT,
+                entity: node,
+                ..
+            } => self.setting.mesh.node_labels.get(node as usize).copied(),
             _ => None,
         }
     }
