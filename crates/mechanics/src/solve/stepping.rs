@@ -662,7 +662,7 @@ impl Stepper {
     /// Stores the accepted state, the progress and the histories of all terms.
     pub fn save(&self, system: &System, out: &mut Archive) {
         let p = &self.progress;
-        self.state.save(out);
+        self.state.save(&system.layout, out);
         let dt = p.dt.unwrap_or(-1.0);
         out.put(
             "progress",
@@ -677,7 +677,9 @@ impl Stepper {
             ],
         );
         out.put("progress.origin", &p.origin);
-        out.put("progress.rate", &p.rate);
+        if !p.rate.is_empty() {
+            system.layout.save("progress.rate", &p.rate, out);
+        }
         out.put("progress.curvature", p.curvature.as_slice());
         out.put("progress.scale", self.newton.scale.values(&system.layout));
         let experience = self.newton.equations.experience();
@@ -696,8 +698,15 @@ impl Stepper {
         let [step, increment, step_start, time, dt, easy, jumped] = progress;
         let mut origin = vec![0.0; from.length("progress.origin")?];
         from.get("progress.origin", &mut origin)?;
-        let mut rate = vec![0.0; from.length("progress.rate")?];
-        from.get("progress.rate", &mut rate)?;
+        let mut rate = Vec::new();
+        if from
+            .arrays
+            .keys()
+            .any(|name| name.starts_with("progress.rate."))
+        {
+            rate.resize(system.layout.ndof(), 0.0);
+            system.layout.load("progress.rate", &mut rate, from)?;
+        }
         // an older run does not know of it
         let mut curvature = vec![0.0; from.length("progress.curvature").unwrap_or(0)];
         if !curvature.is_empty() {
@@ -713,7 +722,7 @@ impl Stepper {
         let mut work = ExternalWork::default();
         work.load(system.layout.ndof(), from)?;
         let mut state = system.initial_state();
-        state.load(from)?;
+        state.load(&system.layout, from)?;
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;

@@ -60,8 +60,8 @@ pub use capabilities::{
 pub use course::{NodalField, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
-    ContactFrame, ContactSample, Footprint, Frame, IdleRows, Resultant, RigidFrame, SpinFrame,
-    Status,
+    ContactFrame, ContactSample, Footprint, Frame, IdleRows, NodalValues, Resultant, RigidFrame,
+    SpinFrame, Status,
 };
 pub use idealisation::Idealisation;
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};

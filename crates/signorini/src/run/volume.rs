@@ -14,7 +14,7 @@ use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::writers::vtu::{
     self, Fact, FactValue, Field, Grid, Options, SymTensor, Values, VtuError,
 };
-use signorini_mechanics::system::Frame;
+use signorini_mechanics::system::{Frame, NodalValues};
 
 /// Tensors handled by one task.
 const TENSORS_PER_TASK: usize = 1024;
@@ -96,7 +96,17 @@ impl Volume {
             at_nodes.push(Field::new("plastic_strain", values));
             in_cells.push(Field::new("plastic_strain", Values::Scalar(&plastic)));
         }
-        if self.fields.temperature && !frame.temperature.is_empty() {
+        let others: Vec<Vec<[f64; 3]>> = frame.fields.iter().map(as_vectors).collect();
+        for (field, vectors) in frame.fields.iter().zip(&others) {
+            let values = match field.ncomponent {
+                1 => Values::Scalar(&field.values),
+                _ => Values::Vector(vectors),
+            };
+            at_nodes.push(Field::new(field.name, values));
+        }
+        // where temperatures are solved for, those are the ones
+        let is_solved = frame.fields.iter().any(|field| field.name == "temperature");
+        if self.fields.temperature && !frame.temperature.is_empty() && !is_solved {
             let values = Values::Scalar(&frame.temperature);
             at_nodes.push(Field::new("temperature", values));
         }
@@ -178,6 +188,16 @@ pub fn facts<'a>(time: &'a [f64], place: &'a [[i64; 1]; 2]) -> [Fact<'a>; 3] {
             value: FactValue::Whole(increment),
         },
     ]
+}
+
+/// The values of a field of several components, of which a file has three; nothing of a scalar.
+fn as_vectors(field: &NodalValues) -> Vec<[f64; 3]> {
+    let n = field.ncomponent;
+    if n < 2 {
+        return Vec::new();
+    }
+    let vector = |values: &[f64]| [0, 1, 2].map(|k| values.get(k).copied().unwrap_or_default());
+    field.values.chunks_exact(n).map(vector).collect()
 }
 
 /// Vectors as writers take them.

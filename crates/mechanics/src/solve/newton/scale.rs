@@ -1,5 +1,6 @@
 //! How large residuals may be: condition (a).
 
+use super::iterate::CORRECTION;
 use crate::solve::economy::Excess;
 use crate::system::{Assembly, ByScale, Dof, Layout, MAX_FIELDS, System};
 
@@ -60,6 +61,56 @@ impl Judgement {
             q,
             ..Self::EMPTY
         }
+    }
+}
+
+/// Sizes of changes: of motions, and of each field with a scale of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Sizes(ByScale);
+
+impl Sizes {
+    /// The largest of the values of each.
+    pub fn new(layout: &Layout, value: impl Fn(usize) -> f64) -> Self {
+        Self(layout.largest(value))
+    }
+
+    /// That of motions alone.
+    #[cfg(test)]
+    pub fn of_motions(size: f64) -> Self {
+        Self::default().with_motions(size)
+    }
+
+    /// The same with another size of motions.
+    pub const fn with_motions(mut self, size: f64) -> Self {
+        self.0[Layout::FORCES] = size;
+        self
+    }
+
+    /// The size of motions.
+    pub const fn motions(self) -> f64 {
+        self.0[Layout::FORCES]
+    }
+
+    /// The sizes times a factor.
+    pub fn times(self, factor: f64) -> Self {
+        Self(self.0.map(|size| factor * size))
+    }
+
+    /// The larger ones.
+    pub fn max(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k].max(other.0[k])))
+    }
+
+    /// The same with those of fields with a scale of their own raised to where a correction of this size is small: a
+    /// field that an increment leaves as it is has no change to compare with.
+    pub fn at_least_of_own(self, rounding: Self) -> Self {
+        let least = rounding.times(1.0 / CORRECTION).with_motions(0.0);
+        self.max(least)
+    }
+
+    /// Whether none exceeds that of `most`.
+    pub fn is_within(self, most: Self) -> bool {
+        self.0.iter().zip(most.0).all(|(size, most)| *size <= most)
     }
 }
 
