@@ -8,7 +8,7 @@ pub struct State {
     /// Total time.
     pub time: f64,
     /// Raw dofs: displacements of the nodes, translations and rotations of rigid bodies summed up as their increments
-    /// came (rotations only for the record: the poses hold the truth), multipliers.
+    /// came (rotations only for the record: the poses hold the truth), other fields, multipliers.
     pub u: Vec<f64>,
     /// Poses of the rigid bodies.
     pub poses: Vec<Pose>,
