@@ -265,3 +265,42 @@ fn tensor(s: Sym3) -> SymTensor {
         xz: s.xz(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_geometry::element::by_name;
+    use signorini_mechanics::system::NodalValues;
+
+    #[test]
+    fn fields_of_nodes_are_point_data_under_their_names() {
+        let mut mesh = Mesh::default();
+        for (k, at) in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
+            mesh.points.push(Vec3::new(at[0], at[1], 0.0));
+            mesh.node_labels.push(k as u64 + 1);
+        }
+        mesh.push_cell(by_name("tri3").unwrap(), &[0, 1, 2], 1);
+        let field = |name, ncomponent, values: &[f64]| NodalValues {
+            name,
+            ncomponent,
+            values: values.to_vec(),
+            reaction: Vec::new(),
+        };
+        let mut frame = Frame::new(3, &[1]);
+        frame.temperature = vec![9.0; 3];
+        frame.fields = vec![
+            field("temperature", 1, &[20.0, 30.0, 40.0]),
+            field("flow", 2, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
+        ];
+        let fields = Fields {
+            temperature: true,
+            ..Fields::default()
+        };
+        let bytes = Volume::new(&mesh, fields).encode(&frame).unwrap();
+        let file = vtu::read(&bytes).unwrap();
+        let values = |name| file.point_field(name).unwrap().numbers.to_f64();
+        assert_eq!(values("temperature"), [20.0, 30.0, 40.0]);
+        let flow = [1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 5.0, 6.0, 0.0];
+        assert_eq!(values("flow"), flow);
+    }
+}
