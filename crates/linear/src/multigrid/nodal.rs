@@ -28,7 +28,7 @@ pub(super) struct Component {
     x: Vec<[f32; 1]>,
 }
 
-/// The components of all fields with a stiffness of their own, except where constraints act on them.
+/// The components of all fields that have a stiffness of their own.
 pub(super) fn components(kept: &Kept) -> Vec<Component> {
     let nnode = kept.bulk.nrow() as u32;
     let mut all = Vec::new();
