@@ -476,7 +476,7 @@ impl Grid {
         }
         let symmetric = kept.is_definite();
         let mut size = kept.largest_at_displacements(rhs);
-        if symmetric {
+        if symmetric || self.block.whole.is_empty() {
             residual.value.copy_from_slice(rhs);
         } else {
             self.block.after(rhs, x)?;
