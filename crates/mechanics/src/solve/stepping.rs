@@ -698,12 +698,10 @@ impl Stepper {
         let [step, increment, step_start, time, dt, easy, jumped] = progress;
         let mut origin = vec![0.0; from.length("progress.origin")?];
         from.get("progress.origin", &mut origin)?;
+        let mut state = system.initial_state();
+        state.load(&system.layout, from)?;
         let mut rate = Vec::new();
-        if from
-            .arrays
-            .keys()
-            .any(|name| name.starts_with("progress.rate."))
-        {
+        if from.length("progress.rate.displacement").is_ok() {
             rate.resize(system.layout.ndof(), 0.0);
             system.layout.load("progress.rate", &mut rate, from)?;
         }
@@ -721,8 +719,6 @@ impl Stepper {
         self.newton.equations.recall(experience[0] as u8);
         let mut work = ExternalWork::default();
         work.load(system.layout.ndof(), from)?;
-        let mut state = system.initial_state();
-        state.load(&system.layout, from)?;
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;
