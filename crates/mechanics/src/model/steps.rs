@@ -3,7 +3,7 @@ use super::constraints::components;
 use super::{Change, Context, LoadPart, ModelError, StepPart, Target, label};
 use crate::load::Place;
 use crate::solve::{Motion, Prescription, Step};
-use crate::system::{Dof, DofName, Idealisation, NO_DOF};
+use crate::system::{Dof, DofName, FieldId, Idealisation, NO_DOF};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -118,7 +118,7 @@ impl Context<'_> {
         parts: Vec<StepPart>,
     ) -> Result<(Vec<Step>, Vec<Vec<LoadPart>>), ModelError> {
         let mut prescribed: BTreeMap<Dof, Motion> = BTreeMap::new();
-        for body in 0..self.layout.nrigid as RigidId {
+        for body in 0..self.layout.nrigid() as RigidId {
             for dof in components(&self.layout, body).filter(|d| !self.ties.free.contains(d)) {
                 prescribed.insert(dof, Motion::Hold);
             }
@@ -217,7 +217,11 @@ impl Context<'_> {
 
     fn clash(&self, step: &str, dof: Dof) -> ModelError {
         let (node, axis) = match self.layout.name(dof) {
-            Some(DofName::Node(node, axis)) => (label(self.mesh, node), axis),
+            Some(DofName {
+                field: FieldId::DISPLACEMENT,
+                entity: node,
+                component: axis,
+            }) => (label(self.mesh, node), axis),
             _ => (0, 0),
         };
         ModelError::Clash {

@@ -1,9 +1,9 @@
 //! Which raw dofs are solved for, and the linear system over them.
 
-use crate::system::{Assembler, Assembly, Dof, DofName, Symmetry, System};
+use crate::system::{Assembler, Assembly, Dof, DofName, FieldId, Symmetry, System};
 use signorini_linear::sparsity::NONE;
 use signorini_linear::{
-    EXACT, LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
+    EXACT, FieldBlock, LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
 };
 use std::time::Instant;
 
@@ -151,7 +151,11 @@ impl Equations {
         for dof in 0..layout.ndof() as Dof {
             let name = layout.name(dof);
             let in_bulk = match name {
-                Some(DofName::Node(node, _)) => assembler.bulk().position(node, node).is_some(),
+                Some(DofName {
+                    field: FieldId::DISPLACEMENT,
+                    entity: node,
+                    ..
+                }) => assembler.bulk().position(node, node).is_some(),
                 _ => false,
             };
             let used = in_bulk || assembler.interface().position(dof, dof).is_some();
@@ -159,7 +163,13 @@ impl Equations {
             if used && free {
                 self.equation.push(self.dofs.len() as u32);
                 self.dofs.push(dof);
-                let multiplier = matches!(name, Some(DofName::Multiplier(_)));
+                let multiplier = matches!(
+                    name,
+                    Some(DofName {
+                        field: FieldId::MULTIPLIER,
+                        ..
+                    })
+                );
                 self.sign.push(if multiplier { -1 } else { 1 });
             } else {
                 self.equation.push(NONE);
@@ -172,10 +182,16 @@ impl Equations {
             .max()
             .unwrap_or(Symmetry::Definite);
         let symmetry = symmetry.max(self.turning(system));
+        let fields = layout.other_nodal().map(|(id, field)| FieldBlock {
+            first: layout.dof(id, 0, 0),
+            width: field.ncomponent,
+        });
+        let fields: Vec<FieldBlock> = fields.collect();
         let problem = Problem {
             ndof: layout.ndof(),
             bulk: assembler.bulk(),
             interface: assembler.interface(),
+            fields: &fields,
             equation: &self.equation,
             nequation: self.dofs.len(),
             symmetry,
@@ -194,7 +210,7 @@ impl Equations {
     /// it may turn at all.
     fn turning(&self, system: &System) -> Symmetry {
         let layout = &system.layout;
-        let partly = (0..layout.nrigid as u32).any(|body| {
+        let partly = (0..layout.nrigid() as u32).any(|body| {
             let rotations = (0..3).map(|axis| layout.rotation(body, axis));
             let free =
                 rotations.filter(|&d| self.equation.get(d as usize).is_some_and(|e| *e != NONE));
@@ -202,7 +218,7 @@ impl Equations {
             let few = if felt { 4 } else { 3 };
             (1..few).contains(&free.count())
         });
-        if partly && layout.ndim == 3 {
+        if partly && layout.ndim() == 3 {
             Symmetry::Unsymmetric
         } else {
             Symmetry::Definite

@@ -1,4 +1,4 @@
-use super::{Dof, DofName, Layout, Order, Role, Sink, State, Term, TermError, Work};
+use super::{Dof, DofName, FieldId, Layout, Order, Role, Sink, State, Term, TermError, Work};
 use rayon::prelude::*;
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::CellId;
@@ -91,7 +91,7 @@ pub(super) fn internal_forces(
     layout: &Layout,
     state: &State,
 ) -> Result<Vec<Vec3>, TermError> {
-    let mut at_nodes = vec![Vec3::ZERO; layout.nnode];
+    let mut at_nodes = vec![Vec3::ZERO; layout.nnode()];
     let internal = terms
         .iter()
         .filter(|term| term.properties().role == Role::Internal);
@@ -108,7 +108,11 @@ pub(super) fn internal_forces(
             let evaluated: Vec<Result<Forces, TermError>> = evaluated.collect();
             for forces in evaluated {
                 for (dof, force) in forces?.0 {
-                    if let Some(DofName::Node(node, axis)) = layout.name(dof)
+                    if let Some(DofName {
+                        field: FieldId::DISPLACEMENT,
+                        entity: node,
+                        component: axis,
+                    }) = layout.name(dof)
                         && let Some(to) = at_nodes.get_mut(node as usize)
                     {
                         to[axis] += force;

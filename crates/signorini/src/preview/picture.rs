@@ -16,7 +16,7 @@ use crate::setup::Model;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::writers::vtu::{Field, Values, VtuError};
-use signorini_mechanics::system::{ContactFrame, DofName};
+use signorini_mechanics::system::{ContactFrame, DofName, FieldId};
 
 /// The bytes of `check.vtu`.
 ///
@@ -85,8 +85,16 @@ fn supports(model: &Model) -> [Vec<i8>; 3] {
     let rigid = model.system.elimination.bodies();
     for prescription in first {
         let (nodes, axis) = match model.system.layout.name(prescription.dof) {
-            Some(DofName::Node(node, axis)) => (vec![node], axis),
-            Some(DofName::Translation(body, axis)) => {
+            Some(DofName {
+                field: FieldId::DISPLACEMENT,
+                entity: node,
+                component: axis,
+            }) => (vec![node], axis),
+            Some(DofName {
+                field: FieldId::TRANSLATION,
+                entity: body,
+                component: axis,
+            }) => {
                 let body = rigid.get(body as usize);
                 (body.map_or_else(Vec::new, |b| b.nodes.clone()), axis)
             }

@@ -7,7 +7,7 @@ use crate::model::{
     SpringPart, Unknown,
 };
 use crate::solve::Prescription;
-use crate::system::{DofName, Layout};
+use crate::system::{DofName, FieldId, Layout};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, ContactSurface, Placement, Pose, RigidId, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -21,9 +21,21 @@ impl Held<'_> {
     pub fn supports(&mut self, layout: &Layout, prescriptions: &[Prescription]) {
         for p in prescriptions {
             let unknown = match layout.name(p.dof) {
-                Some(DofName::Node(node, axis)) => Unknown::Node(node, axis),
-                Some(DofName::Translation(body, axis)) => Unknown::Carrier(body, axis),
-                Some(DofName::Rotation(body, axis)) => Unknown::Carrier(body, 3 + axis),
+                Some(DofName {
+                    field: FieldId::DISPLACEMENT,
+                    entity: node,
+                    component: axis,
+                }) => Unknown::Node(node, axis),
+                Some(DofName {
+                    field: FieldId::TRANSLATION,
+                    entity: body,
+                    component: axis,
+                }) => Unknown::Carrier(body, axis),
+                Some(DofName {
+                    field: FieldId::ROTATION,
+                    entity: body,
+                    component: axis,
+                }) => Unknown::Carrier(body, 3 + axis),
                 _ => continue,
             };
             self.equation(&[(unknown, 1.0)]);
