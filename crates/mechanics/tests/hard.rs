@@ -130,8 +130,8 @@ enum Way {
     Mortar,
 }
 
-fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, String> {
-    let Blocks { mesh, low, high } = blocks(s, refine);
+/// Presses the blocks together, then slides the upper one.
+fn steps(s: &Situation, mesh: &Mesh, low: &Part, high: &Part) -> Vec<StepPart> {
     let base = low.nodes(|x| x.z < 1e-9);
     let head = high.nodes(|x| x.z > 1.0 - 1e-9);
     let hold = |nodes: &[NodeId], axes: &[usize]| {
@@ -145,7 +145,7 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
     }
     let mut loads = Vec::new();
     if s.force > 0.0 {
-        let top = signorini_geometry::mesh::boundary(&mesh, high.cells.iter().copied());
+        let top = signorini_geometry::mesh::boundary(mesh, high.cells.iter().copied());
         let is_head = |f: &Face| {
             let (_, nodes) = mesh.face(*f).unwrap();
             nodes.iter().all(|n| head.contains(n))
@@ -182,19 +182,17 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
         let slide = Change::Prescribe(Target::Nodes(head), along);
         steps.push(step("slide", vec![slide], Vec::new(), s.slid_in));
     }
-    let solid = |name: &str, cells: &[CellId], modulus| {
-        common::solid(name, cells, NeoHookean::new(modulus, 0.3))
-    };
-    let mut contact = ContactPart::new(
-        "touch",
-        SidePart::Faces(high.faces),
-        PrimaryPart::Faces(low.faces),
-    );
+    steps
+}
+
+fn touch(s: &Situation, way: Way, refine: usize, sides: [Vec<Face>; 2]) -> ContactPart {
+    let [low, high] = sides;
+    let mut contact = ContactPart::new("touch", SidePart::Faces(high), PrimaryPart::Faces(low));
     // 10 M/h of the softer side
     let cells = (s.lower as f64 / 2.0, s.upper as f64);
     let sides = [s.moduli[0] * cells.0, s.moduli[1] * cells.1];
     let modulus = sides[0].min(sides[1]) * refine as f64 * 0.7 / (1.3 * 0.4);
-    let automatic = 10.0 * modulus / unit;
+    let automatic = 10.0 * modulus / s.unit;
     if s.penalty != 1.0 {
         contact.enforcement = Enforcement::Penalty(Some(automatic * s.penalty));
     }
@@ -222,13 +220,21 @@ fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, St
             ..FrictionPart::coulomb(s.mu)
         });
     }
+    contact
+}
+
+fn run(s: &Situation, way: Way, refine: usize) -> std::result::Result<Result, String> {
+    let Blocks { mesh, low, high } = blocks(s, refine);
+    let solid = |name: &str, cells: &[CellId], modulus| {
+        common::solid(name, cells, NeoHookean::new(modulus, 0.3))
+    };
     let parts = Parts {
+        steps: steps(s, &mesh, &low, &high),
         bodies: vec![
             solid("low", &low.cells, s.moduli[0]),
             solid("high", &high.cells, s.moduli[1]),
         ],
-        contacts: vec![contact],
-        steps,
+        contacts: vec![touch(s, way, refine, [low.faces, high.faces])],
         traction_tol: 0.1 * s.force_tol,
         ..Parts::new(&mesh, Idealisation::Space)
     };

@@ -27,145 +27,12 @@ struct Scene {
 const NNODE: usize = 16;
 
 impl Scene {
-    /// Nodes 3 and 9 belong to the rigid body 0; node 10 follows it along y only; node 11 has a displacement in an
-    /// equation with node 9 and others; the first rotation of carrier 1 depends on a node.
+    /// Nodes of [`places`] that follow as [`followers`] says, joined by the term of this name.
     fn new(ndim: usize, nonlinear: bool, which: &str) -> Self {
-        let space = match ndim {
-            2 => Idealisation::PlaneStrain { thickness: 1.0 },
-            _ => Idealisation::Space,
-        };
         let layout = Layout::new(ndim, NNODE, 2).with_multipliers(8 + 6);
-        let reference: Arc<[Vec3]> = (0..NNODE)
-            .map(|k| {
-                if which == "line" && k < 8 && ndim == 3 {
-                    return Vec3::new(0.2, 0.1, 0.3) + Vec3::new(0.9, -0.4, 0.3) * noise(3 * k);
-                }
-                let mut x = Vec3::new(noise(3 * k), noise(3 * k + 1), noise(3 * k + 2));
-                if k < 8 {
-                    x.z = 0.2 + 0.3 * x.x - 0.1 * x.y;
-                }
-                if ndim == 2 {
-                    x.z = 0.0;
-                    if k < 8 {
-                        x.y = 0.1 + 0.3 * x.x;
-                    }
-                }
-                x
-            })
-            .collect();
-        let body = |at: usize, nodes: &[NodeId]| RigidBody {
-            reference: Vec3::new(
-                noise(at),
-                noise(at + 1),
-                if ndim == 3 { noise(at + 2) } else { 0.0 },
-            ),
-            nodes: nodes.to_vec(),
-        };
-        let mut elimination = Elimination::new(vec![body(500, &[3, 9]), body(600, &[])], NNODE);
-        elimination.couple(&layout, &reference, &[10], [false, true, false], 0);
-        let turn = elimination.leader(layout.node(9, 0), &layout).unwrap();
-        let single = elimination.leader(layout.node(10, 1), &layout).unwrap();
-        let relations = vec![
-            Relation {
-                dof: layout.node(11, 0),
-                terms: vec![
-                    (layout.translation(0, 0), 0.7),
-                    (layout.node(5, 1), -0.4),
-                    (layout.multiplier(13), 0.3),
-                ],
-                turns: vec![(turn, 0.7), (single, 0.2)],
-            },
-            Relation {
-                dof: layout.translation(0, 1),
-                terms: vec![(layout.node(6, 0), 0.5), (layout.node(12, 1), 0.25)],
-                turns: Vec::new(),
-            },
-            Relation {
-                dof: layout.rotation(0, 2),
-                terms: vec![(layout.node(7, 0), 0.6), (layout.rotation(1, 2), -0.3)],
-                turns: Vec::new(),
-            },
-        ];
-        elimination.relate(&layout, relations, None);
-        let all: Vec<(NodeId, f64)> = [0, 3, 8, 9, 10, 11, 12]
-            .iter()
-            .map(|&n| (n, 1.0 + 0.5 * noise(900 + n as usize)))
-            .collect();
-        let mut term: Box<dyn Term> = match which {
-            "plane" => {
-                let nodes: Vec<NodeId> = (0..8).collect();
-                Box::new(Plane::new("plane", &nodes, reference.clone(), layout, 0).unwrap())
-            }
-            "line" => {
-                let nodes: Vec<NodeId> = (0..8).collect();
-                Box::new(Line::new("line", &nodes, reference.clone(), layout, 0).unwrap())
-            }
-            "rod" | "rope" => Box::new(
-                Distance::new(&DistanceParts {
-                    name: which,
-                    nodes: [3, 11],
-                    most: (which == "rope").then_some(0.1),
-                    stiffness: 100.0,
-                    reference: &reference,
-                    layout,
-                    first: 2,
-                })
-                .unwrap(),
-            ),
-            "twist" => Box::new(
-                Twist::new(&TwistParts {
-                    name: "twist",
-                    nodes: &[0, 3, 8, 9, 10, 11, 12],
-                    axis: match ndim {
-                        2 => Vec3::unit(2),
-                        _ => Vec3::new(0.3, -0.5, 0.8),
-                    },
-                    angle: layout.translation(1, 0),
-                    reference: &reference,
-                    layout,
-                    first: 4,
-                })
-                .unwrap(),
-            ),
-            "distributing" => Box::new(
-                Distributing::new(DistributingParts {
-                    name: "mean",
-                    nodes: &all,
-                    carrier: 1,
-                    at: elimination.bodies()[1].reference,
-                    reference: &reference,
-                    layout,
-                    space,
-                    first: 7,
-                })
-                .unwrap(),
-            ),
-            _ => Box::new(
-                Springs::new(SpringsParts {
-                    name: "springs",
-                    ends: &[
-                        (3, Some(12)),
-                        (9, Some(11)),
-                        (10, Some(5)),
-                        (13, Some(14)),
-                        (3, Some(6)),
-                    ],
-                    law: &match which {
-                        "buffers" => SpringLaw::Table(vec![
-                            [-2.0, -0.3],
-                            [0.0, -0.1],
-                            [1.0, 0.2],
-                            [4.0, 0.5],
-                        ]),
-                        _ => SpringLaw::Linear(3.0),
-                    },
-                    direction: None,
-                    reference: &reference,
-                    layout,
-                })
-                .unwrap(),
-            ),
-        };
+        let reference = places(ndim, which);
+        let elimination = followers(&layout, &reference);
+        let mut term = joint(which, &layout, &reference, &elimination);
         let state = State::initial(&layout, &reference, &elimination);
         let step = StepContext {
             nonlinear,
@@ -204,6 +71,160 @@ impl Scene {
             .unwrap();
         (assembler, out)
     }
+}
+
+/// Places of the nodes: 0 to 7 on a line or in a plane, 8 to 15 anywhere.
+fn places(ndim: usize, which: &str) -> Arc<[Vec3]> {
+    (0..NNODE)
+        .map(|k| {
+            if which == "line" && k < 8 && ndim == 3 {
+                return Vec3::new(0.2, 0.1, 0.3) + Vec3::new(0.9, -0.4, 0.3) * noise(3 * k);
+            }
+            let mut x = Vec3::new(noise(3 * k), noise(3 * k + 1), noise(3 * k + 2));
+            if k < 8 {
+                x.z = 0.2 + 0.3 * x.x - 0.1 * x.y;
+            }
+            if ndim == 2 {
+                x.z = 0.0;
+                if k < 8 {
+                    x.y = 0.1 + 0.3 * x.x;
+                }
+            }
+            x
+        })
+        .collect()
+}
+
+/// Nodes 3 and 9 belong to the rigid body 0; node 10 follows it along y only; node 11 has a displacement in an equation with
+/// node 9 and others; the first rotation of carrier 1 depends on a node.
+fn followers(layout: &Layout, reference: &[Vec3]) -> Elimination {
+    let ndim = layout.ndim();
+    let body = |at: usize, nodes: &[NodeId]| RigidBody {
+        reference: Vec3::new(
+            noise(at),
+            noise(at + 1),
+            if ndim == 3 { noise(at + 2) } else { 0.0 },
+        ),
+        nodes: nodes.to_vec(),
+    };
+    let mut elimination = Elimination::new(vec![body(500, &[3, 9]), body(600, &[])], NNODE);
+    elimination.couple(layout, reference, &[10], [false, true, false], 0);
+    let turn = elimination.leader(layout.node(9, 0), layout).unwrap();
+    let single = elimination.leader(layout.node(10, 1), layout).unwrap();
+    let relations = vec![
+        Relation {
+            dof: layout.node(11, 0),
+            terms: vec![
+                (layout.translation(0, 0), 0.7),
+                (layout.node(5, 1), -0.4),
+                (layout.multiplier(13), 0.3),
+            ],
+            turns: vec![(turn, 0.7), (single, 0.2)],
+        },
+        Relation {
+            dof: layout.translation(0, 1),
+            terms: vec![(layout.node(6, 0), 0.5), (layout.node(12, 1), 0.25)],
+            turns: Vec::new(),
+        },
+        Relation {
+            dof: layout.rotation(0, 2),
+            terms: vec![(layout.node(7, 0), 0.6), (layout.rotation(1, 2), -0.3)],
+            turns: Vec::new(),
+        },
+    ];
+    elimination.relate(layout, relations, None);
+    elimination
+}
+
+/// The term of this name between nodes of the scene.
+fn joint(
+    which: &str,
+    layout: &Layout,
+    reference: &Arc<[Vec3]>,
+    elimination: &Elimination,
+) -> Box<dyn Term> {
+    let layout = *layout;
+    let nodes: Vec<NodeId> = (0..8).collect();
+    match which {
+        "plane" => Box::new(Plane::new(which, &nodes, reference.clone(), layout, 0).unwrap()),
+        "line" => Box::new(Line::new(which, &nodes, reference.clone(), layout, 0).unwrap()),
+        "rod" | "rope" => {
+            let parts = DistanceParts {
+                name: which,
+                nodes: [3, 11],
+                most: (which == "rope").then_some(0.1),
+                stiffness: 100.0,
+                reference,
+                layout,
+                first: 2,
+            };
+            Box::new(Distance::new(&parts).unwrap())
+        }
+        "twist" => {
+            let parts = TwistParts {
+                name: which,
+                nodes: &[0, 3, 8, 9, 10, 11, 12],
+                axis: match layout.ndim() {
+                    2 => Vec3::unit(2),
+                    _ => Vec3::new(0.3, -0.5, 0.8),
+                },
+                angle: layout.translation(1, 0),
+                reference,
+                layout,
+                first: 4,
+            };
+            Box::new(Twist::new(&parts).unwrap())
+        }
+        "distributing" => Box::new(distributing(layout, reference, elimination)),
+        _ => Box::new(springs(which, layout, reference)),
+    }
+}
+
+fn distributing(
+    layout: Layout,
+    reference: &Arc<[Vec3]>,
+    elimination: &Elimination,
+) -> Distributing {
+    let all: Vec<(NodeId, f64)> = [0, 3, 8, 9, 10, 11, 12]
+        .iter()
+        .map(|&n| (n, 1.0 + 0.5 * noise(900 + n as usize)))
+        .collect();
+    let parts = DistributingParts {
+        name: "mean",
+        nodes: &all,
+        carrier: 1,
+        at: elimination.bodies()[1].reference,
+        reference,
+        layout,
+        space: match layout.ndim() {
+            2 => Idealisation::PlaneStrain { thickness: 1.0 },
+            _ => Idealisation::Space,
+        },
+        first: 7,
+    };
+    Distributing::new(parts).unwrap()
+}
+
+fn springs(which: &str, layout: Layout, reference: &Arc<[Vec3]>) -> Springs {
+    let table = || SpringLaw::Table(vec![[-2.0, -0.3], [0.0, -0.1], [1.0, 0.2], [4.0, 0.5]]);
+    let parts = SpringsParts {
+        name: "springs",
+        ends: &[
+            (3, Some(12)),
+            (9, Some(11)),
+            (10, Some(5)),
+            (13, Some(14)),
+            (3, Some(6)),
+        ],
+        law: &match which {
+            "buffers" => table(),
+            _ => SpringLaw::Linear(3.0),
+        },
+        direction: None,
+        reference,
+        layout,
+    };
+    Springs::new(parts).unwrap()
 }
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
@@ -412,7 +433,7 @@ fn a_twist_is_the_angle_of_a_turn_and_a_rope_is_slack_below_its_length() {
 }
 
 #[test]
-fn what_cannot_be_made_is_refused() {
+fn springs_without_length_direction_or_curve_are_refused() {
     let scene = Scene::new(3, true, "springs");
     let springs = |ends: &[(NodeId, Option<NodeId>)], direction| {
         let parts = SpringsParts {
@@ -445,6 +466,11 @@ fn what_cannot_be_made_is_refused() {
         Some(ConnectorError::NoDirection { number: 1 })
     );
     assert_eq!(springs(&[(4, Some(4))], Some(Vec3::unit(0))), None);
+}
+
+#[test]
+fn couplings_of_nodes_that_do_not_define_them_are_refused() {
+    let scene = Scene::new(3, true, "springs");
     let line: Arc<[Vec3]> = (0..5)
         .map(|k| Vec3::new(0.3, 0.5, 0.1) * f64::from(k))
         .collect();
@@ -491,6 +517,16 @@ fn what_cannot_be_made_is_refused() {
     assert!(matches!(plane, ConnectorError::Uneven { .. }), "{plane}");
     let bend = Line::new("l", &nodes, scene.reference.clone(), scene.layout, 0);
     assert!(matches!(bend, Err(ConnectorError::Uneven { .. })));
+}
+
+#[test]
+fn twists_along_a_line_and_rods_without_length_are_refused() {
+    let scene = Scene::new(3, true, "springs");
+    let line: Arc<[Vec3]> = (0..5)
+        .map(|k| Vec3::new(0.3, 0.5, 0.1) * f64::from(k))
+        .collect();
+    let layout = Layout::new(scene.layout.ndim(), 5, scene.layout.nrigid())
+        .with_multipliers(scene.layout.nmultiplier());
     let twist = |nodes: &[NodeId], axis: Vec3| {
         let parts = TwistParts {
             name: "t",

@@ -36,7 +36,7 @@ impl Load for Moment {
     }
 
     fn effect(&self, site: Site<'_>) -> Result<Effect, LoadError> {
-        let moment = match site.layout.ndim {
+        let moment = match site.layout.ndim() {
             2 => Vec3::unit(2) * self.0.z,
             _ => self.0,
         };

@@ -280,9 +280,7 @@ impl Model {
         };
         let sides = all_sides(&source, &joint, &mut layout)?;
         let connectors = followers.connectors(&layout, &ties, &elimination, &reference)?;
-        let materials = || bodies.iter().map(|b| b.kind.material());
-        let modulus: Vec<Option<f64>> = materials().map(|m| Some(m?.modulus())).collect();
-        let shear_modulus: Vec<Option<f64>> = materials().map(|m| m?.shear_modulus()).collect();
+        let (modulus, shear_modulus) = moduli(bodies);
         if modulus.iter().all(Option::is_none) && parts.springs.is_empty() {
             return Err(ModelError::NothingDeforms);
         }
@@ -341,6 +339,15 @@ impl Model {
             held_by_contact,
         })
     }
+}
+
+/// Young's and shear moduli of bodies, as far as they have any.
+fn moduli(bodies: &[BodyPart]) -> (Vec<Option<f64>>, Vec<Option<f64>>) {
+    let materials = bodies.iter().map(|b| b.kind.material());
+    let of = |material: Option<&dyn Material>| {
+        material.map_or((None, None), |m| (Some(m.modulus()), m.shear_modulus()))
+    };
+    materials.map(of).unzip()
 }
 
 impl Followers<'_> {

@@ -195,6 +195,47 @@ const CUT: f64 = 0.5;
 /// The same where it failed badly: a force was not a finite number or an element turned inside out.
 const CUT_HARD: f64 = 0.25;
 
+/// Sizes and number of the increments of a step.
+struct Sizes {
+    count: usize,
+    first: f64,
+    /// None where an increment that fails is not made smaller.
+    min: Option<f64>,
+    max: f64,
+}
+
+impl Sizes {
+    fn of(step: &Step) -> Self {
+        match step.increments {
+            Increments::Fixed(n) => Self {
+                count: n,
+                first: step.duration / n as f64,
+                min: None,
+                max: step.duration / n as f64,
+            },
+            Increments::Adaptive {
+                initial,
+                min,
+                max,
+                count_max,
+            } => Self {
+                count: count_max,
+                first: initial,
+                min: Some(min).filter(|m| m.is_finite()),
+                max,
+            },
+        }
+    }
+}
+
+/// An increment that has been made.
+struct Made {
+    end: f64,
+    dt: f64,
+    attempt: usize,
+    accepted: Accepted,
+}
+
 impl Stepper {
     /// Prepares a run of a system from its undeformed state.
     #[must_use]
@@ -352,137 +393,161 @@ impl Stepper {
         step: &Step,
         observer: &mut dyn Observer,
     ) -> Result<Outcome, RunError> {
-        let (count, min, max) = match step.increments {
-            Increments::Fixed(n) => (n, None, step.duration / n as f64),
-            Increments::Adaptive {
-                min,
-                max,
-                count_max,
-                ..
-            } => (count_max, Some(min).filter(|m| m.is_finite()), max),
-        };
-        let mut targets: Vec<(Dof, f64)> = Vec::new();
+        let sizes = Sizes::of(step);
         while step.duration - self.progress.time > TIME * step.duration {
-            if self.progress.increment >= count {
+            if self.progress.increment >= sizes.count {
                 return Err(RunError::TooManyIncrements {
                     step: step.name.clone(),
-                    count,
+                    count: sizes.count,
                     time: self.progress.time,
                     duration: step.duration,
                 });
             }
-            let first = match step.increments {
-                Increments::Fixed(_) => max,
-                Increments::Adaptive { initial, .. } => initial,
-            };
-            let mut dt = self.progress.dt.unwrap_or(first).min(max);
-            let mut tried = Vec::new();
-            let mut attempt = 1;
-            let mut failed = 0;
-            let mut owed = false;
-            let easy = self.progress.easy;
-            self.safer = false;
             let works = [stabilization::work_of(system), self.progress.work.total];
-            let (end, accepted) = loop {
-                let end = self.end_of_increment(step, dt);
-                dt = end - self.progress.time;
-                tried.push(dt);
-                self.targets(step, end, &mut targets);
-                let failure = match self.attempt(system, end, &targets, attempt, observer) {
-                    Ok(accepted) => {
-                        self.adapt(accepted.iterations, attempt, dt, max);
-                        break (end, accepted);
-                    }
-                    Err(failure) => failure,
-                };
-                system.reject();
-                if self.newton.stopping {
-                    self.progress.easy = easy;
-                    return Ok(Outcome::Stopped);
-                }
-                // a failure from an extrapolated start says nothing about one from the last state
-                let extrapolated = self.newton.extrapolated;
-                let smaller = dt * severity(&failure);
-                let smallest = min.is_none_or(|m| smaller < m);
-                failed += usize::from(!extrapolated);
-                // terms may know a safer way, and a smaller increment is tried the usual way first
-                let safer = !extrapolated && !self.safer && system.aid(Aid::Safer);
-                let again = extrapolated || safer;
-                if !again {
-                    system.aid(Aid::Usual);
-                }
-                self.safer = safer || (self.safer && again);
-                let due = |n| failed == n + 1 || (smallest && failed <= n);
-                owed |= !extrapolated && self.stabilize_after.is_some_and(due);
-                if owed && !again {
-                    owed = false;
-                    attempt += 1;
-                    let helped = self.help(system, step, end, attempt, observer)?;
-                    if let Some(accepted) = helped {
-                        break (end, accepted);
-                    }
-                    if self.newton.stopping {
-                        self.progress.easy = easy;
-                        return Ok(Outcome::Stopped);
-                    }
-                }
-                let next = if again { dt } else { smaller };
-                if !again && smallest {
-                    return Err(RunError::NotConverged {
-                        step: step.name.clone(),
-                        increment: self.progress.increment + 1,
-                        time: self.progress.time,
-                        duration: step.duration,
-                        tried,
-                        min,
-                        cause: Box::new(failure),
-                    });
-                }
-                let cause = Cause { failure, dt };
-                let event = Event::Cutback {
-                    step: self.progress.step,
-                    increment: self.progress.increment + 1,
-                    attempt,
-                    cause: &cause,
-                    next,
-                };
-                if observer.notice(&event) == Flow::Stop {
-                    return Ok(Outcome::Stopped);
-                }
-                self.progress.easy = 0;
-                dt = next;
-                attempt += 1;
+            let Some(made) = self.increment(system, step, &sizes, observer)? else {
+                return Ok(Outcome::Stopped);
             };
-            let record = IncrementRecord {
-                step: self.progress.step,
-                increment: self.progress.increment + 1,
-                attempts: attempt,
-                iterations: accepted.iterations,
-                time: self.state.time,
-                step_time: (end, step.duration),
-                dt,
-                residual: accepted.residual,
-                work_stabilization: stabilization::work_of(system) - works[0],
-                work_external: self.progress.work.total - works[1],
-            };
-            let held: Vec<Dof> = self.newton.held().collect();
-            if self.progress.increment == 0 && !held.is_empty() {
-                let step = self.progress.step;
-                observer.notice(&Event::Held { step, dofs: &held });
-            }
-            self.progress.increment += 1;
-            self.progress.time = end;
-            let frame = self.frame(system, step)?;
-            let event = Event::Increment {
-                record: &record,
-                frame: &frame,
-            };
-            let after = observer.notice(&event);
+            let after = self.notice_increment(system, step, &made, works, observer)?;
             if self.newton.stopping || after == Flow::Stop {
                 return Ok(Outcome::Stopped);
             }
         }
         Ok(Outcome::Finished)
+    }
+
+    /// Goes to the end of the next increment, by smaller ones where sizes fail; none where it is to stop.
+    fn increment(
+        &mut self,
+        system: &mut System,
+        step: &Step,
+        sizes: &Sizes,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Made>, RunError> {
+        let mut targets: Vec<(Dof, f64)> = Vec::new();
+        let mut dt = self.progress.dt.unwrap_or(sizes.first).min(sizes.max);
+        let mut tried = Vec::new();
+        let mut attempt = 1;
+        let mut failed = 0;
+        let mut owed = false;
+        let easy = self.progress.easy;
+        self.safer = false;
+        loop {
+            let end = self.end_of_increment(step, dt);
+            dt = end - self.progress.time;
+            tried.push(dt);
+            self.targets(step, end, &mut targets);
+            let made = |attempt, accepted| Made {
+                end,
+                dt,
+                attempt,
+                accepted,
+            };
+            let failure = match self.attempt(system, end, &targets, attempt, observer) {
+                Ok(accepted) => {
+                    self.adapt(accepted.iterations, attempt, dt, sizes.max);
+                    return Ok(Some(made(attempt, accepted)));
+                }
+                Err(failure) => failure,
+            };
+            system.reject();
+            if self.newton.stopping {
+                self.progress.easy = easy;
+                return Ok(None);
+            }
+            // a failure from an extrapolated start says nothing about one from the last state
+            let extrapolated = self.newton.extrapolated;
+            let smaller = dt * severity(&failure);
+            let smallest = sizes.min.is_none_or(|m| smaller < m);
+            failed += usize::from(!extrapolated);
+            let again = self.tries_again(system, extrapolated);
+            let due = |n| failed == n + 1 || (smallest && failed <= n);
+            owed |= !extrapolated && self.stabilize_after.is_some_and(due);
+            if owed && !again {
+                owed = false;
+                attempt += 1;
+                let helped = self.help(system, step, end, attempt, observer)?;
+                if let Some(accepted) = helped {
+                    return Ok(Some(made(attempt, accepted)));
+                }
+                if self.newton.stopping {
+                    self.progress.easy = easy;
+                    return Ok(None);
+                }
+            }
+            if !again && smallest {
+                return Err(RunError::NotConverged {
+                    step: step.name.clone(),
+                    increment: self.progress.increment + 1,
+                    time: self.progress.time,
+                    duration: step.duration,
+                    tried,
+                    min: sizes.min,
+                    cause: Box::new(failure),
+                });
+            }
+            let next = if again { dt } else { smaller };
+            let event = Event::Cutback {
+                step: self.progress.step,
+                increment: self.progress.increment + 1,
+                attempt,
+                cause: &Cause { failure, dt },
+                next,
+            };
+            if observer.notice(&event) == Flow::Stop {
+                return Ok(None);
+            }
+            self.progress.easy = 0;
+            dt = next;
+            attempt += 1;
+        }
+    }
+
+    /// Whether the same size is tried again: from the last state after an extrapolated start, or in a safer way that terms
+    /// know. A smaller increment is tried the usual way first.
+    fn tries_again(&mut self, system: &mut System, extrapolated: bool) -> bool {
+        let safer = !extrapolated && !self.safer && system.aid(Aid::Safer);
+        let again = extrapolated || safer;
+        if !again {
+            system.aid(Aid::Usual);
+        }
+        self.safer = safer || (self.safer && again);
+        again
+    }
+
+    /// Goes on from an increment, and hands its record and frame to the observer.
+    fn notice_increment(
+        &mut self,
+        system: &mut System,
+        step: &Step,
+        made: &Made,
+        works: [f64; 2],
+        observer: &mut dyn Observer,
+    ) -> Result<Flow, RunError> {
+        let record = IncrementRecord {
+            step: self.progress.step,
+            increment: self.progress.increment + 1,
+            attempts: made.attempt,
+            iterations: made.accepted.iterations,
+            time: self.state.time,
+            step_time: (made.end, step.duration),
+            dt: made.dt,
+            residual: made.accepted.residual,
+            work_stabilization: stabilization::work_of(system) - works[0],
+            work_external: self.progress.work.total - works[1],
+        };
+        let held: Vec<Dof> = self.newton.held().collect();
+        if self.progress.increment == 0 && !held.is_empty() {
+            let step = self.progress.step;
+            observer.notice(&Event::Held { step, dofs: &held });
+        }
+        self.progress.increment += 1;
+        self.progress.time = made.end;
+        let frame = self.frame(system, step)?;
+        let event = Event::Increment {
+            record: &record,
+            frame: &frame,
+        };
+        Ok(observer.notice(&event))
     }
 
     /// Goes to the step time `end` where sizes of the increment have failed: in parts, and if that does not get there, in

@@ -165,91 +165,95 @@ fn tube(thickness: f64, gap: f64, n: usize) -> [Outline; 2] {
     ]
 }
 
+impl Skin {
+    /// Outlines that touch nothing.
+    fn apart(name: &'static str, outlines: Vec<Outline>) -> Self {
+        Self {
+            touches: false,
+            ..Self::touching(name, outlines, NEVER)
+        }
+    }
+
+    /// Outlines that touch where two labels may.
+    fn touching(
+        name: &'static str,
+        outlines: Vec<Outline>,
+        may_touch: fn(usize, usize) -> bool,
+    ) -> Self {
+        Self {
+            name,
+            outlines,
+            may_touch,
+            touches: true,
+            hollow: false,
+        }
+    }
+}
+
 fn skins(h: f64) -> Vec<Skin> {
     let n = |length: f64| (length / h).ceil() as usize;
     vec![
-        Skin {
-            name: "convex block",
-            outlines: vec![rectangle([0.0, 0.0], [4.0, 1.0], h, 0)],
-            may_touch: NEVER,
-            touches: false,
-            hollow: false,
-        },
-        Skin {
-            name: "plate thinner than its facets",
-            outlines: vec![rectangle([0.0, 0.0], [6.0, 0.1], h, 0)],
-            may_touch: NEVER,
-            touches: false,
-            hollow: false,
-        },
-        Skin {
-            name: "wedge",
-            outlines: vec![polygon(&[[0.0, 0.0], [5.0, 0.0], [5.0, 0.7]], h)],
-            may_touch: NEVER,
-            touches: false,
-            hollow: false,
-        },
-        Skin {
-            name: "bent beam",
-            outlines: vec![strip(
+        Skin::apart(
+            "convex block",
+            vec![rectangle([0.0, 0.0], [4.0, 1.0], h, 0)],
+        ),
+        Skin::apart(
+            "plate thinner than its facets",
+            vec![rectangle([0.0, 0.0], [6.0, 0.1], h, 0)],
+        ),
+        Skin::apart(
+            "wedge",
+            vec![polygon(&[[0.0, 0.0], [5.0, 0.0], [5.0, 0.7]], h)],
+        ),
+        Skin::apart(
+            "bent beam",
+            vec![strip(
                 n(12.0),
                 0.25,
                 |s| [4.0 * (-4.0 * s).cos(), 4.0 * (-4.0 * s).sin()],
                 |_, side| side,
             )],
-            may_touch: NEVER,
-            touches: false,
-            hollow: false,
-        },
-        Skin {
-            name: "two blocks",
-            outlines: vec![
+        ),
+        Skin::touching(
+            "two blocks",
+            vec![
                 rectangle([0.0, 0.0], [4.0, 1.0], h, 0),
                 rectangle([1.1, 1.05], [1.7, 0.6], 0.7 * h, 10),
             ],
-            may_touch: |a, b| a.min(b) == 2 && a.max(b) == 10,
-            touches: true,
-            hollow: false,
-        },
-        Skin {
-            name: "sheets that overlap or not",
-            outlines: [0.0, 0.21, 0.40, 0.55, 0.78]
+            |a, b| a.min(b) == 2 && a.max(b) == 10,
+        ),
+        Skin::touching(
+            "sheets that overlap or not",
+            [0.0, 0.21, 0.40, 0.55, 0.78]
                 .iter()
                 .enumerate()
                 .map(|(k, &y)| rectangle([0.1 * k as f64, y], [5.0, 0.2], h, 10 * k))
                 .collect(),
-            may_touch: |a, b| {
+            |a, b| {
                 let (a, b) = (a.min(b), a.max(b));
                 a / 10 + 1 == b / 10 && a % 10 == 2 && b % 10 == 0
             },
-            touches: true,
-            hollow: false,
-        },
+        ),
+        Skin::touching(
+            "folded sheet",
+            vec![hairpin(0.15, 0.18, 5 * n(13.0))],
+            |a, b| [10, 20, 30].contains(&a) && [10, 20, 30].contains(&b),
+        ),
+        Skin::touching("spiral", vec![spiral(0.15, 0.1, n(45.0))], |a, b| {
+            a / 100 + b / 100 == 3 && a / 100 != b / 100
+        }),
         Skin {
-            name: "folded sheet",
-            outlines: vec![hairpin(0.15, 0.18, 5 * n(13.0))],
-            may_touch: |a, b| [10, 20, 30].contains(&a) && [10, 20, 30].contains(&b),
-            touches: true,
-            hollow: false,
-        },
-        Skin {
-            name: "spiral",
-            outlines: vec![spiral(0.15, 0.1, n(45.0))],
-            may_touch: |a, b| a / 100 + b / 100 == 3 && a / 100 != b / 100,
-            touches: true,
-            hollow: false,
-        },
-        Skin {
-            name: "tube pressed flat",
-            outlines: tube(0.2, 0.25, n(14.0)).into(),
-            may_touch: |a, b| a == 2 && b == 2,
-            touches: true,
             hollow: true,
+            ..Skin::touching(
+                "tube pressed flat",
+                tube(0.2, 0.25, n(14.0)).into(),
+                |a, b| a == 2 && b == 2,
+            )
         },
-        Skin {
-            name: "box with lips",
-            // a thin C: its lips face each other across a slit
-            outlines: vec![labelled(
+        // a thin C: its lips face each other across a slit
+        Skin::touching(
+            "box with lips",
+            vec![labelled(
                 &[
                     [0.0, 0.0],
                     [3.0, 0.0],
@@ -267,12 +271,8 @@ fn skins(h: f64) -> Vec<Skin> {
                 &[0, 1, 2, 10, 4, 5, 6, 7, 8, 11, 9, 3],
                 h,
             )],
-            may_touch: |a, b| {
-                (a.min(b) == 10 && a.max(b) == 11) || (a.min(b) >= 4 && a.max(b) <= 8)
-            },
-            touches: true,
-            hollow: false,
-        },
+            |a, b| (a.min(b) == 10 && a.max(b) == 11) || (a.min(b) >= 4 && a.max(b) <= 8),
+        ),
     ]
 }
 

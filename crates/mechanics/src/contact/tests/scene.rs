@@ -158,91 +158,193 @@ fn turned_line3(nodes: &[NodeId]) -> Vec<NodeId> {
     vec![nodes[1], nodes[0], nodes[2]]
 }
 
+/// Two sides before there is an interface between them.
+struct Sides {
+    x: Vec<Vec3>,
+    points: Vec<NodeId>,
+    up: Vec<Vec3>,
+    secondary: Option<Facets>,
+    /// Facets of the primary side.
+    first: Option<Facets>,
+    bodies: Vec<RigidBody>,
+    primary: Arc<dyn ContactSurface>,
+}
+
+/// Facets over facets.
+fn elements(name: &'static str, ndim: usize, random: &mut Random) -> Sides {
+    let (mut points, mut up) = (Vec::new(), Vec::new());
+    let (mut x, nodes) = grid(name, random);
+    let centre = x.iter().copied().sum::<Vec3>() / x.len() as f64;
+    let count = x.len() as NodeId;
+    for k in 0..x.len() {
+        let shrunk = centre + (x[k] - centre) * 0.8;
+        let axis = Vec3::unit(ndim - 1);
+        let noise = flat(random.vector(), ndim) * 0.04;
+        points.push(x.len() as NodeId);
+        x.push(shrunk + axis * (0.1 * random.signed() - 0.05) + noise);
+        up.push(axis);
+    }
+    for x in &mut x[..count as usize] {
+        *x += flat(random.vector(), ndim) * 0.03;
+    }
+    let over = |n: &Vec<NodeId>| {
+        let over = if name == "line3" {
+            turned_line3(n)
+        } else {
+            turned_over(n)
+        };
+        (name, over.iter().map(|k| k + count).collect())
+    };
+    let over: Vec<(&str, Vec<NodeId>)> = nodes.iter().map(over).collect();
+    let named: Vec<_> = nodes.iter().map(|n| (name, n.clone())).collect();
+    let facets = facets_of(&mut x, &named);
+    Sides {
+        secondary: Some(facets_of(&mut x, &over)),
+        x,
+        points,
+        up,
+        first: Some(facets.clone()),
+        bodies: Vec::new(),
+        primary: Arc::new(facets),
+    }
+}
+
+/// Nodes over a surface of a rigid body.
+fn analytical(kind: Kind, random: &mut Random) -> Sides {
+    let ndim = kind.ndim();
+    let (mut x, mut points, mut up) = (Vec::new(), Vec::new(), Vec::new());
+    let origin = flat(random.vector(), ndim);
+    let centre = origin + flat(random.vector(), ndim) * 0.3;
+    for k in 0..24 {
+        let angle = f64::from(k) * 0.25 + 0.1 * random.signed();
+        let along = Vec3::new(angle.cos(), angle.sin(), 0.0);
+        let (out, at) = match kind {
+            Kind::Circle => (along, along * 1.5),
+            Kind::Sphere => {
+                let out = (along + Vec3::unit(2) * random.signed()).normalized();
+                (out.unwrap(), out.unwrap() * 1.5)
+            }
+            _ => {
+                let (s, c) = (3.0 * random.signed()).sin_cos();
+                let out = along * c + Vec3::unit(2) * s;
+                (out, along * 1.5 + out * 0.6)
+            }
+        };
+        points.push(x.len() as NodeId);
+        x.push(centre + at + out * (0.1 * random.signed() - 0.05));
+        up.push(out);
+    }
+    let z = Vec3::unit(2);
+    let shape: Box<dyn signorini_geometry::surface::Shape> = match kind {
+        Kind::Torus => Box::new(Torus::new(centre, z, 1.5, 0.6, Side::Outside).unwrap()),
+        _ => Box::new(Sphere::new(centre, 1.5, Side::Outside).unwrap()),
+    };
+    let mount = Mount::on(ndim - 1, 0, origin);
+    Sides {
+        x,
+        points,
+        up,
+        secondary: None,
+        first: None,
+        bodies: vec![RigidBody {
+            reference: origin,
+            nodes: Vec::new(),
+        }],
+        primary: Arc::new(Analytical::new(mount, shape).unwrap()),
+    }
+}
+
+/// The rows of a method and their areas.
+fn rows_of(
+    method: Method,
+    choice: &Choice,
+    pair: &SurfacePair,
+    (first, ndim): (Option<Facets>, usize),
+    at: &Placement,
+) -> (Box<dyn Discretization>, Vec<f64>) {
+    let (points, second) = (&pair.points, &pair.secondary);
+    let mut area: Vec<f64> = (0..points.len()).map(|k| 1.0 + 0.02 * k as f64).collect();
+    let closest = if choice.law.multiplier().is_unknown() {
+        Closest::Faces
+    } else {
+        Closest::Anywhere
+    };
+    let discretization: Box<dyn Discretization> = match method {
+        Method::Mortar | Method::NodalMortar | Method::HeldMortar => {
+            let normals = match method {
+                Method::NodalMortar => mortar::Normals::Nodal,
+                _ => mortar::Normals::Facet,
+            };
+            let form = mortar::Form {
+                normals,
+                ..Default::default()
+            };
+            let (second, primary) = (second.as_ref().unwrap(), pair.primary.as_ref());
+            let measure = Default::default();
+            let mut mortar = Mortar::new(second, primary, form, measure, at.x).unwrap();
+            if choice.bond || method == Method::HeldMortar {
+                mortar = mortar.held_at(pair, at, 0.5).unwrap();
+            }
+            area = mortar.areas().to_vec();
+            Box::new(mortar)
+        }
+        Method::NodeToSegment | Method::SmallSliding | Method::OfIncrement => {
+            let mut at_nodes = PointToSegment::at_nodes(points);
+            at_nodes.closest = closest;
+            at_nodes.sliding = match method {
+                Method::SmallSliding => SlidingRange::Small,
+                Method::OfIncrement => SlidingRange::Increment,
+                _ => SlidingRange::Finite,
+            };
+            Box::new(at_nodes)
+        }
+        Method::Gauss | Method::Lobatto => {
+            let rule = if method == Method::Gauss {
+                gauss(2)
+            } else {
+                lobatto(3)
+            };
+            let facets = second.as_ref().unwrap();
+            let rule = |e| on_facet(e, &rule);
+            let mut inside = PointToSegment::inside(facets, rule);
+            inside.closest = closest;
+            let points = inside.on_facets().unwrap();
+            area = areas_inside(facets, points, at.x, &|_, _| 1.0).unwrap();
+            Box::new(inside)
+        }
+        _ => {
+            let pairs = points.iter().enumerate();
+            let pairs = pairs.map(|(k, &p)| [p, k as NodeId]).collect();
+            let normals = match method {
+                Method::GivenNormals => {
+                    let tilted = Vec3::unit(ndim - 1) + Vec3::new(0.2, 0.1, 0.0);
+                    NodeNormals::Given(tilted.normalized().unwrap())
+                }
+                Method::PrimaryNormals => NodeNormals::Primary(first.unwrap()),
+                _ => NodeNormals::Secondary(second.clone().unwrap()),
+            };
+            Box::new(NodeToNode::new(pairs, normals))
+        }
+    };
+    (discretization, area)
+}
+
 impl Scene {
     /// At the start: the secondary side lies about the primary side, a part of it inside.
     pub(crate) fn new(kind: Kind, method: Method, choice: Choice, seed: u64) -> Self {
         let mut random = Random::new(seed);
         let ndim = kind.ndim();
-        let (mut x, mut points, mut up) = (Vec::new(), Vec::new(), Vec::new());
-        let mut secondary: Option<Vec<(&str, Vec<NodeId>)>> = None;
-        let mut first: Option<Facets> = None;
-        let mut bodies = Vec::new();
-        let mut body = |reference| {
-            bodies.push(RigidBody {
-                reference,
-                nodes: Vec::new(),
-            });
-        };
-        let primary: Arc<dyn ContactSurface> = match kind {
-            Kind::Elements(name) => {
-                let (corners, nodes) = grid(name, &mut random);
-                x = corners;
-                let centre = x.iter().copied().sum::<Vec3>() / x.len() as f64;
-                let count = x.len() as NodeId;
-                for k in 0..x.len() {
-                    let shrunk = centre + (x[k] - centre) * 0.8;
-                    let axis = Vec3::unit(ndim - 1);
-                    let noise = flat(random.vector(), ndim) * 0.04;
-                    points.push(x.len() as NodeId);
-                    x.push(shrunk + axis * (0.1 * random.signed() - 0.05) + noise);
-                    up.push(axis);
-                }
-                for x in &mut x[..count as usize] {
-                    *x += flat(random.vector(), ndim) * 0.03;
-                }
-                let over = |n: &Vec<NodeId>| {
-                    let over = if name == "line3" {
-                        turned_line3(n)
-                    } else {
-                        turned_over(n)
-                    };
-                    (name, over.iter().map(|k| k + count).collect())
-                };
-                secondary = Some(nodes.iter().map(over).collect());
-                let named: Vec<_> = nodes.iter().map(|n| (name, n.clone())).collect();
-                let facets = facets_of(&mut x, &named);
-                first = Some(facets.clone());
-                Arc::new(facets)
-            }
-            Kind::Circle | Kind::Sphere | Kind::Torus => {
-                let origin = flat(random.vector(), ndim);
-                body(origin);
-                let centre = origin + flat(random.vector(), ndim) * 0.3;
-                for k in 0..24 {
-                    let angle = f64::from(k) * 0.25 + 0.1 * random.signed();
-                    let along = Vec3::new(angle.cos(), angle.sin(), 0.0);
-                    let (out, at) = match kind {
-                        Kind::Circle => (along, along * 1.5),
-                        Kind::Sphere => {
-                            let out = (along + Vec3::unit(2) * random.signed()).normalized();
-                            (out.unwrap(), out.unwrap() * 1.5)
-                        }
-                        _ => {
-                            let (s, c) = (3.0 * random.signed()).sin_cos();
-                            let out = along * c + Vec3::unit(2) * s;
-                            (out, along * 1.5 + out * 0.6)
-                        }
-                    };
-                    points.push(x.len() as NodeId);
-                    x.push(centre + at + out * (0.1 * random.signed() - 0.05));
-                    up.push(out);
-                }
-                let z = Vec3::unit(2);
-                let shape: Box<dyn signorini_geometry::surface::Shape> = match kind {
-                    Kind::Torus => {
-                        Box::new(Torus::new(centre, z, 1.5, 0.6, Side::Outside).unwrap())
-                    }
-                    _ => Box::new(Sphere::new(centre, 1.5, Side::Outside).unwrap()),
-                };
-                Arc::new(Analytical::new(Mount::on(ndim - 1, 0, origin), shape).unwrap())
-            }
-        };
-        let second = secondary.map(|s| facets_of(&mut x, &s));
-        let mut area: Vec<f64> = (0..points.len()).map(|k| 1.0 + 0.02 * k as f64).collect();
-        let closest = if choice.law.multiplier().is_unknown() {
-            Closest::Faces
-        } else {
-            Closest::Anywhere
+        let Sides {
+            x,
+            points,
+            up,
+            secondary,
+            first,
+            bodies,
+            primary,
+        } = match kind {
+            Kind::Elements(name) => elements(name, ndim, &mut random),
+            _ => analytical(kind, &mut random),
         };
         let pose = |body: &RigidBody| signorini_geometry::surface::Pose {
             origin: body.reference,
@@ -250,66 +352,12 @@ impl Scene {
         };
         let poses: Vec<_> = bodies.iter().map(pose).collect();
         let mut pair = SurfacePair::new(points.clone(), primary, 1.0);
-        pair.secondary = second;
-        let second = &pair.secondary;
-        let discretization: Box<dyn Discretization> = match method {
-            Method::Mortar | Method::NodalMortar | Method::HeldMortar => {
-                let normals = match method {
-                    Method::NodalMortar => mortar::Normals::Nodal,
-                    _ => mortar::Normals::Facet,
-                };
-                let form = mortar::Form {
-                    normals,
-                    ..Default::default()
-                };
-                let (second, primary) = (second.as_ref().unwrap(), pair.primary.as_ref());
-                let measure = Default::default();
-                let mut mortar = Mortar::new(second, primary, form, measure, &x).unwrap();
-                if choice.bond || method == Method::HeldMortar {
-                    let (x, poses) = (&x[..], &poses[..]);
-                    mortar = mortar.held_at(&pair, &Placement { x, poses }, 0.5).unwrap();
-                }
-                area = mortar.areas().to_vec();
-                Box::new(mortar)
-            }
-            Method::NodeToSegment | Method::SmallSliding | Method::OfIncrement => {
-                let mut at_nodes = PointToSegment::at_nodes(&points);
-                at_nodes.closest = closest;
-                at_nodes.sliding = match method {
-                    Method::SmallSliding => SlidingRange::Small,
-                    Method::OfIncrement => SlidingRange::Increment,
-                    _ => SlidingRange::Finite,
-                };
-                Box::new(at_nodes)
-            }
-            Method::Gauss | Method::Lobatto => {
-                let rule = if method == Method::Gauss {
-                    gauss(2)
-                } else {
-                    lobatto(3)
-                };
-                let facets = second.as_ref().unwrap();
-                let rule = |e| on_facet(e, &rule);
-                let mut inside = PointToSegment::inside(facets, rule);
-                inside.closest = closest;
-                let points = inside.on_facets().unwrap();
-                area = areas_inside(facets, points, &x, &|_, _| 1.0).unwrap();
-                Box::new(inside)
-            }
-            _ => {
-                let pairs = points.iter().enumerate();
-                let pairs = pairs.map(|(k, &p)| [p, k as NodeId]).collect();
-                let normals = match method {
-                    Method::GivenNormals => {
-                        let tilted = Vec3::unit(ndim - 1) + Vec3::new(0.2, 0.1, 0.0);
-                        NodeNormals::Given(tilted.normalized().unwrap())
-                    }
-                    Method::PrimaryNormals => NodeNormals::Primary(first.unwrap()),
-                    _ => NodeNormals::Secondary(second.clone().unwrap()),
-                };
-                Box::new(NodeToNode::new(pairs, normals))
-            }
+        pair.secondary = secondary;
+        let at = Placement {
+            x: &x,
+            poses: &poses,
         };
+        let (discretization, area) = rows_of(method, &choice, &pair, (first, ndim), &at);
         let nrow = discretization.nrow();
         let vectors = choice.bond || choice.friction.is_some();
         let layout = Layout::new(ndim, x.len(), bodies.len())
