@@ -8,7 +8,7 @@ use super::signals::{Notice, Signals};
 use super::terminal::Terminal;
 use super::threads;
 use signorini::run::{Detail, Finished};
-use signorini::{Diagnostics, Limits, Loaded, Model, News, RunOptions, Source, build};
+use signorini::{Diagnostics, Limits, Listener, Loaded, Model, News, RunOptions, Source, build};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::Case;
 use signorini_io::writers::json::Event;

@@ -150,7 +150,7 @@ fn the_remedy_against_locking_is_reported_and_written_where_a_body_has_one() {
         assert_eq!(model.remedies().concat(), told);
         assert_eq!(
             model.case.bodies[0].locking.value,
-            bodies::locking_word(locking)
+            crate::setup::bodies::locking_word(locking)
         );
     }
 }

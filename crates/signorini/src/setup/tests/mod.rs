@@ -10,7 +10,7 @@ use super::carriers::Carriers;
 use super::names::Names;
 use super::*;
 use signorini_io::case::{read_case, resolved};
-use signorini_mechanics::model::{Change, ContactPart, StepPart, Target};
+use signorini_mechanics::model::{Change, StepPart, Target};
 use std::path::Path;
 
 /// Two unit cubes, one on the other and apart by nothing but their nodes; a bar next to them.

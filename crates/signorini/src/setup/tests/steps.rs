@@ -2,7 +2,6 @@
 
 use super::*;
 use signorini_geometry::tensor::Vec3;
-use signorini_mechanics::contact::law::Table;
 use signorini_mechanics::load::{
     BodyForce, Course, Force, Gravity, Load, Moment, PerNode, Place, Pressure, Spin, Traction,
 };
