@@ -1,4 +1,5 @@
-use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad, polar};
+use super::analytical::{Patch, Shape, Side, dyad, polar};
+use super::error::AnalyticalError;
 use super::mount::{direction, finite};
 use super::{Feature, SurfaceError};
 use crate::tensor::{Sym3, Vec3};

@@ -1,4 +1,5 @@
-use super::{AnalyticalError, Carrier, Placement, RigidId};
+use super::error::AnalyticalError;
+use super::{Carrier, Placement, RigidId};
 use crate::tensor::{Mat3, Vec3};
 
 /// What a rigid surface is fastened to. Its geometry is given in the initial configuration.

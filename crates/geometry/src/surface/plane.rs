@@ -1,5 +1,6 @@
 use super::SurfaceError;
-use super::analytical::{AnalyticalError, Patch, Shape};
+use super::analytical::{Patch, Shape};
+use super::error::AnalyticalError;
 use super::mount::{direction, finite};
 use crate::tensor::{Sym3, Vec3};
 use signorini_vocabulary::{Description, Entry, LINE, VECTOR, key};

@@ -17,7 +17,8 @@
 //! Source: for the oracle of a parabola, the cubic `2a²t³ + (1 − 2aY) t − X = 0` of its closest points.
 
 use super::SurfaceError;
-use super::analytical::{AnalyticalError, Patch, Shape, dyad};
+use super::analytical::{Patch, Shape, dyad};
+use super::error::AnalyticalError;
 use crate::tensor::Vec3;
 use signorini_vocabulary::{ANY, Default, Description, Entry, MANY, Shape as Form, key, word};
 

@@ -25,9 +25,8 @@
 //!
 //! Source: Konyukhov and Schweizerhof 2013, chapter 3 (existence and uniqueness of the projection).
 
-use super::{
-    Anchor, ContactSurface, Feature, Placement, Projection, SurfaceError, SurfaceJet, pair,
-};
+use super::error::SurfaceError;
+use super::point::{Anchor, Feature, Projection, SurfaceJet, pair};
 use crate::element::{Element, Family, MAX_FACET_NODES};
 use crate::tensor::Vec3;
 
@@ -42,29 +41,22 @@ const TIE: f64 = 1e-12;
 /// The longest step in parameters.
 const MAX_STEP: f64 = 0.5;
 /// A search that runs this far out of the domain is given up.
-const ABANDON: f64 = 0.5;
+pub(super) const ABANDON: f64 = 0.5;
 
-pub(super) fn closest<S: ContactSurface + ?Sized>(
-    surface: &S,
-    at: &Placement,
-    facet: u32,
-    point: Vec3,
+/// The closest point of a facet that is parametrised by the domain of this element.
+pub(super) fn closest<J: Jet>(
+    domain: Option<Element>,
+    mut search: Search<J>,
     hint: Option<Anchor>,
     out: &mut SurfaceJet,
 ) -> Result<Option<Projection>, SurfaceError> {
-    let Some(element) = surface.domain(facet) else {
+    let facet = search.facet;
+    let Some(element) = domain else {
         return Err(SurfaceError::NoSuchFacet { facet });
     };
-    if !point.is_finite() {
+    if !search.point.is_finite() {
         return Ok(None);
     }
-    let mut search = Search {
-        surface,
-        at,
-        facet,
-        point,
-        ntan: surface.ntan(),
-    };
 
     // A hint that leads to a well-curved minimum inside the face settles the matter.
     if let Some(hint) = hint.filter(|h| h.facet == facet) {
@@ -85,121 +77,31 @@ pub(super) fn closest<S: ContactSurface + ?Sized>(
     Ok(Some(search.found(xi, feature, out)))
 }
 
-/// The point of a facet's own continuation beyond its boundary that is closest to `point`, at most `reach` parameters
-/// outside: where a surface ends, a point just past the rim still rests on it.
-///
-/// # Errors
-/// As [`ContactSurface::jet`].
-pub fn extended_face(
-    surface: &dyn ContactSurface,
-    at: &Placement,
-    start: Anchor,
-    point: Vec3,
-    reach: f64,
-    out: &mut SurfaceJet,
-) -> Result<Option<Projection>, SurfaceError> {
-    let Some(element) = surface.domain(start.facet) else {
-        return Ok(None);
-    };
-    let mut search = Search {
-        surface,
-        at,
-        facet: start.facet,
-        point,
-        ntan: surface.ntan(),
-    };
-    let bounds = |xi: &Vec3| element.contains(xi, ABANDON.max(2.0 * reach));
-    let Some((xi, _)) = search.face(start.local, bounds, out)? else {
-        return Ok(None);
-    };
-    Ok(element
-        .contains(&xi, reach)
-        .then(|| search.found(xi, Feature::Face, out)))
-}
+/// A surface to second order at a point of it.
+pub(super) trait Jet: Fn(&Anchor, &mut SurfaceJet) -> Result<(), SurfaceError> {}
 
-/// The point of an inner edge's own continuation beyond the rim that is closest to `point`, at most `reach` parameters
-/// outside, where `start` is the rim's vertex in which the edge ends. Only where the point lies between the normals of
-/// the two facets that meet in the edge, as it does under a valley: otherwise one of the facets' own continuations,
-/// [`extended_face`], is closer.
-///
-/// # Errors
-/// As [`ContactSurface::jet`].
-pub fn extended_edge(
-    surface: &dyn ContactSurface,
-    at: &Placement,
-    start: Anchor,
-    point: Vec3,
-    reach: f64,
-    out: &mut SurfaceJet,
-) -> Result<Option<Projection>, SurfaceError> {
-    surface.jet(at, &start, out)?;
-    let vertex = out.position;
-    let around = surface.neighbours(start.facet).iter().copied();
-    for facet in [start.facet].into_iter().chain(around) {
-        let Some(element) = surface.domain(facet).filter(|e| e.dim() == 2) else {
-            continue;
-        };
-        let mut search = Search {
-            surface,
-            at,
-            facet,
-            point,
-            ntan: 2,
-        };
-        let nodes = element.nodes();
-        for &[a, b] in element.edges() {
-            let (from, along) = (nodes[a], nodes[b] - nodes[a]);
-            let Some((s, _)) = search.edge(from, along, 0.5, true, out)? else {
-                continue;
-            };
-            let past = (-s).max(s - 1.0) * along.norm();
-            if !(0.0..=reach).contains(&past) {
-                continue;
-            }
-            search.jet(if s < 0.0 { nodes[a] } else { nodes[b] }, out)?;
-            if (out.position - vertex).norm() > 1e-9 * out.metric[0].max(out.metric[1]).sqrt() {
-                continue;
-            }
-            search.jet(from + along * s, out)?;
-            let direction = [along.x, along.y];
-            let found = search.found(from + along * s, Feature::Edge { direction }, out);
-            let outward = surface.outward(at, &found)?;
-            let other = outward.direction - out.normal;
-            if !outward.rim && between(point - out.position, out.normal, other) {
-                return Ok(Some(found));
-            }
-        }
-    }
-    Ok(None)
-}
+impl<J: Fn(&Anchor, &mut SurfaceJet) -> Result<(), SurfaceError>> Jet for J {}
 
-/// Whether `w = α p + β q` with α and β of one sign, for unit vectors in one plane that are not parallel.
-fn between(w: Vec3, p: Vec3, q: Vec3) -> bool {
-    let c = p.dot(q);
-    let (wp, wq) = (w.dot(p), w.dot(q));
-    1.0 - c * c > 1e-12 && (wp - c * wq) * (wq - c * wp) >= 0.0
-}
-
-struct Search<'a, S: ?Sized> {
-    surface: &'a S,
-    at: &'a Placement<'a>,
-    facet: u32,
-    point: Vec3,
-    ntan: usize,
+/// The search for the point of a facet that is closest to another.
+pub(super) struct Search<J> {
+    pub jet: J,
+    pub facet: u32,
+    pub point: Vec3,
+    pub ntan: usize,
 }
 
 type Candidate = (Vec3, Feature, f64);
 
-impl<S: ContactSurface + ?Sized> Search<'_, S> {
-    fn jet(&self, local: Vec3, out: &mut SurfaceJet) -> Result<(), SurfaceError> {
+impl<J: Jet> Search<J> {
+    pub fn jet(&self, local: Vec3, out: &mut SurfaceJet) -> Result<(), SurfaceError> {
         let anchor = Anchor {
             facet: self.facet,
             local,
         };
-        self.surface.jet(self.at, &anchor, out)
+        (self.jet)(&anchor, out)
     }
 
-    fn found(&self, local: Vec3, feature: Feature, jet: &SurfaceJet) -> Projection {
+    pub fn found(&self, local: Vec3, feature: Feature, jet: &SurfaceJet) -> Projection {
         Projection {
             anchor: Anchor {
                 facet: self.facet,
@@ -296,7 +198,7 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
 
     /// Newton from one start; the parameters of the stationary point, and whether (E2) there exceeds half the metric,
     /// in which case no other point nearby competes. `None` where the search leaves its bounds or stalls.
-    fn face(
+    pub fn face(
         &mut self,
         start: Vec3,
         bounds: impl Fn(&Vec3) -> bool,
@@ -350,7 +252,7 @@ impl<S: ContactSurface + ?Sized> Search<'_, S> {
 
     /// The same along an edge, `ξ = from + s·along`; the second value says that there is no other stationary point, as on a
     /// straight edge, or where there `is_single` one at most if it is well curved.
-    fn edge(
+    pub fn edge(
         &mut self,
         from: Vec3,
         along: Vec3,

@@ -22,7 +22,8 @@
 //! Source: Absil, Mahony, Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 2008, chapters 4 to 6.
 
 use super::SurfaceError;
-use super::analytical::{AnalyticalError, Patch, Shape};
+use super::analytical::{Patch, Shape};
+use super::error::AnalyticalError;
 use super::mount::positive;
 use crate::tensor::{Mat3, Sym3, Vec3};
 use std::fmt;

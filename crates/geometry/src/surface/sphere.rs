@@ -1,7 +1,9 @@
-use super::analytical::{AnalyticalError, Patch, Shape, Side, dyad};
+use super::SurfaceError;
+use super::analytical::{Patch, Shape, Side, dyad};
+use super::error::AnalyticalError;
+use super::error::NO_NORMAL;
 use super::keys;
 use super::mount::{finite, positive};
-use super::{NO_NORMAL, SurfaceError};
 use crate::tensor::{Sym3, Vec3};
 use signorini_vocabulary::{Description, Entry, Key, Values};
 

@@ -2,12 +2,16 @@
 
 use super::*;
 use crate::element::testing::CUBIC;
-use crate::element::{Family, TABLE, by_name};
-use crate::mesh::{Face, Mesh};
+use crate::element::{Element, Family, TABLE, by_name};
+use crate::mesh::{Face, Mesh, NodeId};
+use crate::proximity::Aabb;
 use crate::random::Random;
+use crate::tensor::Vec3;
 
 mod analytical;
+mod polynomial;
 mod ray;
+mod signed_distance;
 mod triangulated;
 
 /// Every element that can be a facet, and made-up ones of degree 3.

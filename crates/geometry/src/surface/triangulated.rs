@@ -1,4 +1,4 @@
-use super::analytical::AnalyticalError;
+use super::error::AnalyticalError;
 use super::facets::Facets;
 use super::mount::{Mount, finite};
 use super::{

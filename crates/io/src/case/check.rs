@@ -506,34 +506,40 @@ impl Checker<'_> {
                     );
                 }
             }
-            Rule::NotAbove(key, other) | Rule::Below(key, other) => {
-                // a number out of the range of its own key has been reported
-                let entry = |key: &str| {
-                    let value = table.get(key)?;
-                    let number = number(value.get_ref())?;
-                    let shape = words.key(key).map(|key| key.shape);
-                    let fits = !matches!(shape, Some(Shape::Number(range)) if !range.hold(number));
-                    fits.then(|| (number, value.span()))
-                };
-                let wrong = |small: f64, large: f64| match rule {
-                    Rule::Below(..) if small >= large => Some("not less"),
-                    Rule::NotAbove(..) if small > large => Some("greater"),
-                    _ => None,
-                };
-                if let (Some((small, at)), Some((large, limit))) = (entry(key), entry(other))
-                    && let Some(wrong) = wrong(small, large)
-                {
-                    self.found.push(
-                        Diagnostic::error(
-                            &codes::OUT_OF_RANGE,
-                            format!("`{key}` = {small} is {wrong} than `{other}` = {large}"),
-                        )
-                        .at(&self.origins.place(at), "")
-                        .at(&self.origins.place(limit), ""),
-                    );
-                }
-            }
+            Rule::NotAbove(..) | Rule::Below(..) => self.order(rule, table, words),
             Rule::AtLeastOne(_) => {}
+        }
+    }
+
+    /// Reports a number that is greater than another, or not less.
+    fn order(&mut self, rule: &Rule, table: &DeTable<'_>, words: &'static Table) {
+        let (Rule::NotAbove(key, other) | Rule::Below(key, other)) = rule else {
+            return;
+        };
+        // a number out of the range of its own key has been reported
+        let entry = |key: &str| {
+            let value = table.get(key)?;
+            let number = number(value.get_ref())?;
+            let shape = words.key(key).map(|key| key.shape);
+            let fits = !matches!(shape, Some(Shape::Number(range)) if !range.hold(number));
+            fits.then(|| (number, value.span()))
+        };
+        let wrong = |small: f64, large: f64| match rule {
+            Rule::Below(..) if small >= large => Some("not less"),
+            Rule::NotAbove(..) if small > large => Some("greater"),
+            _ => None,
+        };
+        if let (Some((small, at)), Some((large, limit))) = (entry(key), entry(other))
+            && let Some(wrong) = wrong(small, large)
+        {
+            self.found.push(
+                Diagnostic::error(
+                    &codes::OUT_OF_RANGE,
+                    format!("`{key}` = {small} is {wrong} than `{other}` = {large}"),
+                )
+                .at(&self.origins.place(at), "")
+                .at(&self.origins.place(limit), ""),
+            );
         }
     }
 }

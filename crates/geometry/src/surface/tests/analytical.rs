@@ -1,12 +1,11 @@
 //! Conformance of rigid analytical surfaces: against parametrisations written down afresh, differences, brute force.
-
 use super::smallest;
 use crate::random::Random;
 use crate::surface::*;
 use crate::tensor::{Mat3, Sym3, Vec3};
 use std::f64::consts::{PI, TAU};
 
-const EMPTY: Placement = Placement { x: &[], poses: &[] };
+pub(super) const EMPTY: Placement = Placement { x: &[], poses: &[] };
 
 /// A shape, seen from either side, and a parametrisation of (the near part of) it over the unit square.
 struct Case {
@@ -69,7 +68,7 @@ fn frame(axis: Vec3) -> (Vec3, Vec3, Vec3) {
 }
 
 /// `½ x·Q x − ½` with its derivatives: an ellipsoid, far from a distance.
-fn ellipsoid(q: Sym3, s: f64) -> SignedDistance {
+pub(super) fn ellipsoid(q: Sym3, s: f64) -> SignedDistance {
     let m = q.to_mat3();
     distance(
         move |x| Ok(s * 0.5 * (x.dot(m * x) - 1.0)),
@@ -79,7 +78,7 @@ fn ellipsoid(q: Sym3, s: f64) -> SignedDistance {
 }
 
 /// A function of lengths about 1.
-fn distance(
+pub(super) fn distance(
     value: impl Fn(Vec3) -> Result<f64, String> + Send + Sync + 'static,
     gradient: impl Fn(Vec3) -> Result<Vec3, String> + Send + Sync + 'static,
     hessian: impl Fn(Vec3) -> Result<Sym3, String> + Send + Sync + 'static,
@@ -88,7 +87,7 @@ fn distance(
 }
 
 /// A torus around z as a true distance.
-fn ring(radius: f64, tube: f64, s: f64) -> SignedDistance {
+pub(super) fn ring(radius: f64, tube: f64, s: f64) -> SignedDistance {
     let split = move |x: Vec3| {
         let e = Vec3::new(x.x, x.y, 0.0).normalized().ok_or("on the axis")?;
         let w = x - e * radius;
@@ -602,191 +601,6 @@ fn where_a_whole_circle_is_closest_there_is_no_closest_point() {
         Box::new(ring(2.0, 0.5, 1.0)),
         Vec3::new(3.0, 0.0, 1.0)
     ));
-}
-
-/// The cubic `2 a² t³ + (1 − 2 a Y) t − X = 0` of the closest points of `y = a x²`, by Cardano's formula.
-#[test]
-fn parabola_agrees_with_the_roots_of_its_cubic() {
-    let mut random = Random(27);
-    let mut three = 0;
-    for _ in 0..2000 {
-        let a = 0.2 + random.unit();
-        let (x, y) = (2.0 * random.signed(), 4.0 * random.signed());
-        let (p, q) = ((1.0 - 2.0 * a * y) / (2.0 * a * a), -x / (2.0 * a * a));
-        let disc = (q / 2.0).powi(2) + (p / 3.0).powi(3);
-        let roots = if disc >= 0.0 {
-            let s = disc.sqrt();
-            vec![(-q / 2.0 + s).cbrt() + (-q / 2.0 - s).cbrt()]
-        } else {
-            three += 1;
-            let r = 2.0 * (-p / 3.0).sqrt();
-            let angle = (3.0 * q / (p * r)).clamp(-1.0, 1.0).acos() / 3.0;
-            (0..3)
-                .map(|k| r * (angle - TAU * f64::from(k) / 3.0).cos())
-                .collect()
-        };
-        let distance = |t: f64| (x - t).hypot(y - a * t * t);
-        let expected = roots
-            .into_iter()
-            .map(distance)
-            .fold(f64::INFINITY, f64::min);
-        let shape = Polynomial::new(&[a, 0.0, 0.0], Facing::Above).unwrap();
-        let foot = shape.closest(Vec3::new(x, y, 0.0)).unwrap().unwrap();
-        let found = distance(foot.x);
-        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
-    }
-    assert!(three > 200, "{three}");
-}
-
-/// Every degree, near and far, with branches that compete: against a fine grid whose best cells are bisected.
-#[test]
-fn polynomials_of_any_degree_find_the_closest_of_their_branches() {
-    let mut random = Random(28);
-    for degree in 0..=MAX_DEGREE {
-        for round in 0..300 {
-            let wild = 10f64.powf(2.0 * random.unit());
-            let coefficients: Vec<f64> = (0..=degree).map(|_| wild * random.signed()).collect();
-            let shape = Polynomial::new(&coefficients, Facing::Above).unwrap();
-            let f = |x: f64| coefficients.iter().fold(0.0, |f, c| f * x + c);
-            let spread = [0.01, 1.0, 30.0][round % 3];
-            let point = Vec3::new(1.5 * random.signed(), spread * random.signed(), 0.0);
-            let foot = shape.closest(point).unwrap().unwrap();
-            let distance = |x: f64| (x - point.x).hypot(f(x) - point.y);
-            let found = distance(foot.x);
-            let h = (f(point.x) - point.y).abs();
-            const N: usize = 4000;
-            let x = |k: f64| point.x - h + 2.0 * h * k / N as f64;
-            let mut best = f64::INFINITY;
-            for k in 0..=N {
-                let k = k as f64;
-                if distance(x(k)) <= distance(x(k - 1.0)).min(distance(x(k + 1.0))) {
-                    let (mut a, mut b) = (x(k - 1.0), x(k + 1.0));
-                    for _ in 0..200 {
-                        let (p, q) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
-                        if distance(p) < distance(q) {
-                            b = q;
-                        } else {
-                            a = p;
-                        }
-                    }
-                    best = best.min(distance(0.5 * (a + b)));
-                }
-            }
-            let tolerance = 1e-10 * (1.0 + h);
-            assert!(found < best + tolerance, "degree {degree}: {found} {best}");
-        }
-    }
-}
-
-#[test]
-fn feet_of_a_polynomial_stand_upright_to_round_off() {
-    let mut random = Random(29);
-    let mut worst = 0.0f64;
-    for _ in 0..2000 {
-        let coefficients: Vec<f64> = (0..9).map(|_| random.signed()).collect();
-        let shape = Polynomial::new(&coefficients, Facing::Above).unwrap();
-        let point = random.vector();
-        let foot = shape.closest(point).unwrap().unwrap();
-        let normal = shape.patch(foot).unwrap().normal;
-        let away = point - foot;
-        let off = (away - normal * away.dot(normal)).norm();
-        // rounding of f goes along a steep tangent
-        worst = worst.max(off * normal.y.abs());
-    }
-    assert!(worst < 2e-15, "{worst:e}");
-}
-
-#[test]
-fn a_polynomial_is_the_plane_or_parabola_that_it_is() {
-    let p = |c: &[f64]| Polynomial::new(c, Facing::Above).unwrap();
-    let foot = |c: &[f64], x, y| p(c).closest(Vec3::new(x, y, 0.0)).unwrap().unwrap();
-    assert!((foot(&[2.0], 3.0, 7.0) - Vec3::new(3.0, 2.0, 0.0)).norm() < 1e-15);
-    assert!((foot(&[0.0, 0.0, 0.0], 3.0, 7.0) - Vec3::new(3.0, 0.0, 0.0)).norm() < 1e-15);
-    assert!((foot(&[1.0, 0.0], 0.0, 2.0) - Vec3::new(1.0, 1.0, 0.0)).norm() < 1e-15);
-    assert_eq!(foot(&[1.0, 0.0, 0.0], 2.0, 4.0), Vec3::new(2.0, 4.0, 0.0));
-    // all but below the vertex: distances do not distinguish the foot from the point straight above
-    let x = foot(&[1.0, 0.0, 0.0], 1e-9, -1.0).x;
-    assert!((x - 1e-9 / 3.0).abs() < 1e-22, "{x:e}");
-    // two branches of equal distance: the left one
-    assert!((foot(&[1.0, 0.0, 0.0], 0.0, 2.5).x + 2f64.sqrt()).abs() < 1e-14);
-    let top = p(&[1.0, 0.0, 0.0]).patch(Vec3::ZERO).unwrap();
-    assert_eq!(top.normal, Vec3::unit(1));
-    assert_eq!(top.gradient.xx(), -2.0);
-    assert_eq!(p(&[0.0, 0.0, 1.0, 2.0]), p(&[1.0, 2.0]));
-}
-
-#[test]
-fn a_function_and_its_derivatives_are_checked_and_its_errors_arrive() {
-    let at = Vec3::new(0.9, 0.4, -0.3);
-    ellipsoid(Sym3::diagonal(1.0, 2.0, 3.0), 1.0)
-        .check(at, 1e-4)
-        .unwrap();
-    ring(2.0, 0.5, -1.0).check(at, 1e-4).unwrap();
-    let wrong = distance(
-        |x| Ok(x.norm() - 1.0),
-        |x| Ok(x * 0.5),
-        |_| Ok(Sym3::IDENTITY),
-    );
-    let message = wrong.check(at, 1e-4).unwrap_err().to_string();
-    assert!(
-        message.contains("the gradient at (0.9, 0.4, -0.3)"),
-        "{message}"
-    );
-    let wrong = distance(
-        |x| Ok(0.5 * x.norm_squared() - 0.5),
-        Ok,
-        |_| Ok(Sym3::IDENTITY * -1.0),
-    );
-    let message = wrong.check(at, 1e-4).unwrap_err().to_string();
-    assert!(message.contains("the Hessian"), "{message}");
-
-    let failing = |value: fn(Vec3) -> Result<f64, String>| {
-        let shape = distance(value, |_| Ok(Vec3::unit(2)), |_| Ok(Sym3::ZERO));
-        let surface = Analytical::new(Mount::fixed(2), Box::new(shape)).unwrap();
-        let mut jet = SurfaceJet::default();
-        surface
-            .project(&EMPTY, 0, at, None, &mut jet)
-            .unwrap_err()
-            .to_string()
-    };
-    let said = failing(|_| Err("no table for this point".into()));
-    assert_eq!(said, "the user's surface failed: no table for this point");
-    assert!(failing(|_| Ok(f64::NAN)).contains("is not finite"));
-    assert!(failing(|_| Ok(1.0)).contains("no zero of the function"));
-    // in the plane a function of z has no place
-    let tilted = distance(
-        |x| Ok(x.y + x.z),
-        |_| Ok(Vec3::new(0.0, 1.0, 1.0)),
-        |_| Ok(Sym3::ZERO),
-    );
-    let surface = Analytical::new(Mount::fixed(1), Box::new(tilted)).unwrap();
-    let mut jet = SurfaceJet::default();
-    let left = surface.project(&EMPTY, 0, Vec3::unit(1), None, &mut jet);
-    assert!(left.unwrap_err().to_string().contains("leaves the plane"));
-}
-
-/// Rounding in a function goes by its lengths, not by the coordinates near its zero.
-#[test]
-fn feet_near_the_origin_are_found_though_the_function_rounds_more_coarsely() {
-    let mut random = Random(30);
-    let c = Vec3::new(0.6, 0.0, -0.8);
-    let ball = distance(
-        move |x| Ok((x - c).norm() - 1.0),
-        move |x| Ok((x - c) / (x - c).norm()),
-        move |x| {
-            let n = (x - c) / (x - c).norm();
-            let across = Mat3::IDENTITY - Mat3::outer(n, n);
-            Ok(Sym3::symmetric_part(across) * (x - c).norm().recip())
-        },
-    );
-    let exact = Sphere::new(c, 1.0, Side::Outside).unwrap();
-    for _ in 0..2000 {
-        let point = random.vector() * 10f64.powf(-20.0 * random.unit());
-        let foot = ball.closest(point).unwrap().unwrap();
-        let expected = exact.closest(point).unwrap().unwrap();
-        assert!((foot - expected).norm() < 4e-15, "{point:?}");
-    }
-    assert!(ball.closest(Vec3::ZERO).unwrap().is_some());
 }
 
 #[test]

@@ -456,8 +456,10 @@ fn checks_become_expectations() {
     assert!(unasked.found.plain().contains("no module `errorcheck`"));
 }
 
-/// Changes of the deck, and what the message contains that follows.
-fn assert_refused(changes: &[(fn(&mut Deck), &str)]) {
+/// A change of the deck, and what the message contains that follows.
+type Fault = (fn(&mut Deck), &'static str);
+
+fn assert_refused(changes: &[Fault]) {
     for (change, expected) in changes {
         let mut deck = DECK;
         change(&mut deck);
