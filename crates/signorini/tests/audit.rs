@@ -63,7 +63,7 @@ fn judged(name: &str, change: impl FnOnce(&mut Frame)) -> Judged {
     let mut state = system.initial_state();
     let displacement = vectors(&stored["displacement"]);
     for (node, u) in displacement.iter().enumerate() {
-        for axis in 0..system.layout.ndim {
+        for axis in 0..system.layout.ndim() {
             state.u[system.layout.node(node as u32, axis) as usize] = u[axis];
         }
         state.x[node] = system.reference[node] + *u;
@@ -74,7 +74,7 @@ fn judged(name: &str, change: impl FnOnce(&mut Frame)) -> Judged {
         nonlinear: stored["nonlinear"].as_bool().unwrap(),
         ..StepContext::default()
     };
-    let mut frame = Frame::new(system.layout.nnode, &system.ncell);
+    let mut frame = Frame::new(system.layout.nnode(), &system.ncell);
     frame.displacement = displacement;
     frame.reaction_force = vectors(&stored["reaction"]);
     for term in &mut system.terms {

@@ -35,7 +35,7 @@ use crate::fs::bytes::crc32;
 use crate::fs::{Fs, FsError};
 
 /// The version of the files that this program writes; it reads no other.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 
 const MAGIC: &[u8; 8] = b"SGNCHKPT";
 /// Length of everything before the arrays, in bytes.

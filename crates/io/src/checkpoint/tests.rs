@@ -180,7 +180,7 @@ fn another_case_and_another_format_are_said() {
         other.latest_good(&RealFs),
         Err(CheckpointError::OtherCase { .. })
     ));
-    for version in [0, 2, u32::MAX] {
+    for version in [0, FORMAT_VERSION - 1, FORMAT_VERSION + 1, u32::MAX] {
         for slot in SLOTS {
             let path = dir.path().join(slot);
             let mut bytes = RealFs.read(&path).unwrap();

@@ -123,8 +123,8 @@ impl Distributing {
         let axial = parts.space == Idealisation::Axisymmetric;
         let multipliers = std::array::from_fn(|k| match (axial, k) {
             (true, _) => number(k == 1),
-            (false, 0..3) => number(k < layout.ndim),
-            (false, _) => number(layout.ndim == 3 || k == 5),
+            (false, 0..3) => number(k < layout.ndim()),
+            (false, _) => number(layout.ndim() == 3 || k == 5),
         });
         let coupling = Self {
             name: parts.name.to_string(),
@@ -151,7 +151,7 @@ impl Distributing {
         let point = size <= (NARROW * extent).powi(2);
         let inertia = Mat3::IDENTITY * size - self.spread(Mat3::IDENTITY, |a| a.arm);
         let line =
-            self.layout.ndim == 3 && inertia.determinant() <= NARROW * (size * 2.0 / 3.0).powi(3);
+            self.layout.ndim() == 3 && inertia.determinant() <= NARROW * (size * 2.0 / 3.0).powi(3);
         if point || line {
             return Err(ConnectorError::Narrow {
                 point,

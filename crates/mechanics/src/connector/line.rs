@@ -31,7 +31,7 @@ impl Line {
     /// The number of multipliers that so many nodes take.
     #[must_use]
     pub const fn nmultiplier(layout: &Layout, nnode: usize) -> usize {
-        nnode.saturating_sub(2) * (layout.ndim - 1)
+        nnode.saturating_sub(2) * (layout.ndim() - 1)
     }
 
     /// Nodes that stay on a line. Their multipliers are those from `first` on.
@@ -72,7 +72,7 @@ impl Line {
                 what: "they lie on no line of their own",
             });
         };
-        line.across = across(along, layout.ndim);
+        line.across = across(along, layout.ndim());
         for &node in &line.nodes {
             let distance = (line.start(node) - line.start(one)).cross(along).norm();
             if distance > UNEVEN * line.length {

@@ -63,7 +63,7 @@ impl Plane {
     /// The number of multipliers that so many nodes take.
     #[must_use]
     pub const fn nmultiplier(layout: &Layout, nnode: usize) -> usize {
-        nnode.saturating_sub(layout.ndim)
+        nnode.saturating_sub(layout.ndim())
     }
 
     /// Nodes that stay in a plane. Their multipliers are those from `first` on.
@@ -94,7 +94,7 @@ impl Plane {
         plane.span()?;
         for &node in &plane.nodes {
             let distance = plane.volume(node, |n| plane.start(n)).value / plane.scale;
-            if distance.abs() > UNEVEN * plane.scale.powf(1.0 / (layout.ndim - 1) as f64) {
+            if distance.abs() > UNEVEN * plane.scale.powf(1.0 / (layout.ndim() - 1) as f64) {
                 return Err(ConnectorError::Uneven {
                     node,
                     what: "in one plane",
@@ -126,7 +126,7 @@ impl Plane {
         }
         self.base = [a, b, b];
         self.scale = length;
-        if self.layout.ndim == 3 {
+        if self.layout.ndim() == 3 {
             let c = self.take(|x| (x - from).cross(edge).norm());
             self.scale = (self.start(c) - from).cross(edge).norm();
             self.base[2] = c;
@@ -149,7 +149,7 @@ impl Plane {
     fn volume(&self, node: NodeId, x: impl Fn(NodeId) -> Vec3) -> Volume {
         let [a, b, c] = self.base;
         let from = x(a);
-        let second = match self.layout.ndim {
+        let second = match self.layout.ndim() {
             3 => x(c) - from,
             _ => Vec3::unit(2),
         };
@@ -162,7 +162,7 @@ impl Plane {
         std::array::from_fn(|i| {
             if i == N - 1 {
                 self.layout.multiplier(self.first + k)
-            } else if i / 3 == 2 && self.layout.ndim == 2 {
+            } else if i / 3 == 2 && self.layout.ndim() == 2 {
                 NO_DOF
             } else {
                 self.layout.node(nodes[i / 3], i % 3)
@@ -172,7 +172,7 @@ impl Plane {
 
     /// What the nodes move: in the plane the second edge stays.
     fn moves(&self, node: usize, edge: usize) -> f64 {
-        if edge == 1 && self.layout.ndim == 2 {
+        if edge == 1 && self.layout.ndim() == 2 {
             0.0
         } else {
             MOVES[node][edge]

@@ -34,13 +34,7 @@ impl Scene {
             2 => Idealisation::PlaneStrain { thickness: 1.0 },
             _ => Idealisation::Space,
         };
-        let mut layout = Layout {
-            ndim,
-            nnode: NNODE,
-            nrigid: 2,
-            nmultiplier: 0,
-        };
-        layout.nmultiplier = 8 + 6;
+        let layout = Layout::new(ndim, NNODE, 2).with_multipliers(8 + 6);
         let reference: Arc<[Vec3]> = (0..NNODE)
             .map(|k| {
                 if which == "line" && k < 8 && ndim == 3 {
@@ -357,12 +351,7 @@ fn a_distributing_coupling_is_in_balance_and_follows_a_rigid_motion() {
 /// Nodes that turn as a whole about an axis turn by that angle, also beyond half a turn.
 #[test]
 fn a_twist_is_the_angle_of_a_turn_and_a_rope_is_slack_below_its_length() {
-    let layout = Layout {
-        ndim: 3,
-        nnode: NNODE,
-        nrigid: 1,
-        nmultiplier: 2,
-    };
+    let layout = Layout::new(3, NNODE, 1).with_multipliers(2);
     let reference: Arc<[Vec3]> = (0..NNODE)
         .map(|k| Vec3::new(noise(3 * k), noise(3 * k + 1), noise(3 * k + 2)))
         .collect();
@@ -459,10 +448,8 @@ fn what_cannot_be_made_is_refused() {
     let line: Arc<[Vec3]> = (0..5)
         .map(|k| Vec3::new(0.3, 0.5, 0.1) * f64::from(k))
         .collect();
-    let layout = Layout {
-        nnode: 5,
-        ..scene.layout
-    };
+    let layout = Layout::new(scene.layout.ndim(), 5, scene.layout.nrigid())
+        .with_multipliers(scene.layout.nmultiplier());
     let nodes = [0, 1, 2, 3, 4];
     let plane = Plane::new("p", &nodes, line.clone(), layout, 0)
         .err()

@@ -15,10 +15,10 @@ pub(super) struct Local {
 impl Local {
     /// Begins a piece with these nodes, which are where `places` says.
     pub fn begin(&mut self, layout: &Layout, nodes: &[NodeId], places: &[Vec3], order: Order) {
-        self.ndim = layout.ndim;
+        self.ndim = layout.ndim();
         gather(places, nodes, &mut self.x);
         self.dofs.clear();
-        let of_node = |&n: &NodeId| (0..layout.ndim).map(move |axis| layout.node(n, axis));
+        let of_node = |&n: &NodeId| (0..layout.ndim()).map(move |axis| layout.node(n, axis));
         self.dofs.extend(nodes.iter().flat_map(of_node));
         let n = self.dofs.len();
         let nstiffness = match order {

@@ -163,7 +163,7 @@ impl Context<'_> {
     /// What holds the bodies that nothing but contact stops.
     pub(super) fn holds(&self, bodies: &[BodyPart], free: &[Unheld]) -> Option<Damper> {
         let free = |name: &str| free.iter().any(|f| f.bodies.iter().any(|b| b == name));
-        let ndim = self.layout.ndim;
+        let ndim = self.layout.ndim();
         let dofs = self.viscous(bodies, &free, &|points| {
             DAMPING.min(OF_BENDING * bending(points, ndim))
         });
@@ -199,7 +199,7 @@ impl Context<'_> {
             let points: Vec<Vec3> = nodes.iter().map(at).collect();
             let extent = self.extent(self.spaces.of_body(number), points.iter().copied());
             let stiffness = part(&points) * modulus * extent / nodes.len() as f64;
-            let of_node = |&n: &NodeId| (0..self.layout.ndim).map(move |axis| (n, axis));
+            let of_node = |&n: &NodeId| (0..self.layout.ndim()).map(move |axis| (n, axis));
             let of_nodes = nodes.iter().flat_map(of_node);
             let own = of_nodes.map(|(n, axis)| self.layout.node(n, axis));
             let own = own.filter(|&d| !self.elimination.depends(d, &self.layout));
@@ -222,7 +222,7 @@ impl Context<'_> {
 
     /// The size of a body: the diagonal of its box in space, the extent across it in the plane.
     fn extent(&self, space: Idealisation, points: impl Iterator<Item = Vec3> + Clone) -> f64 {
-        if self.layout.ndim == 3 {
+        if self.layout.ndim() == 3 {
             let low = points.clone().fold(Vec3::from([f64::MAX; 3]), Vec3::min);
             let high = points.fold(Vec3::from([f64::MIN; 3]), Vec3::max);
             return (high - low).norm();

@@ -14,7 +14,8 @@ use crate::connector::{
 };
 use crate::solve::{Motion, Step};
 use crate::system::{
-    Dof, DofName, Elimination, Idealisation, Layout, NO_DOF, Relation, RigidBody, Term, interpolate,
+    Dof, DofName, Elimination, FieldId, Idealisation, Layout, NO_DOF, Relation, RigidBody, Term,
+    interpolate,
 };
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::surface::{Carrier, RigidId};
@@ -159,18 +160,13 @@ pub(super) struct Followers<'a> {
 impl Followers<'_> {
     /// The unknowns of the model.
     pub fn layout(&self) -> Layout {
-        let mut layout = Layout {
-            ndim: self.space.ndim(),
-            nnode: self.mesh.nnode(),
-            nrigid: self.carriers.len(),
-            nmultiplier: 0,
-        };
+        let layout = Layout::new(self.space.ndim(), self.mesh.nnode(), self.carriers.len());
         let numbers = self
             .constraints
             .iter()
             .map(|c| self.nmultiplier(&layout, c));
-        layout.nmultiplier = numbers.sum::<usize>() + usize::from(self.largest_rhs() > 0.0);
-        layout
+        let course = usize::from(self.largest_rhs() > 0.0);
+        layout.with_multipliers(numbers.sum::<usize>() + course)
     }
 
     fn nmultiplier(&self, layout: &Layout, constraint: &ConstraintPart) -> usize {
@@ -205,7 +201,7 @@ impl Followers<'_> {
             }
         }
         let references = self.references(&nodes);
-        let whole = |axes: &[bool; 3]| axes[..layout.ndim].iter().all(|a| *a);
+        let whole = |axes: &[bool; 3]| axes[..layout.ndim()].iter().all(|a| *a);
         // whole nodes first, single directions afterwards
         for constraint in self.constraints {
             if let ConstraintKind::Kinematic {
@@ -226,7 +222,7 @@ impl Followers<'_> {
                 reference,
                 nodes: nodes.into_iter().collect(),
             });
-        let mut elimination = Elimination::new(bodies.collect(), layout.nnode);
+        let mut elimination = Elimination::new(bodies.collect(), layout.nnode());
         let mut ties = self.ties(layout, &rigid);
         ties.rigid = on_rigid;
         for constraint in self.constraints {
@@ -261,9 +257,9 @@ impl Followers<'_> {
         if self.space == Idealisation::Axisymmetric {
             let placed = |carrier: RigidId| ties.placed.get(carrier as usize) == Some(&true);
             let mut free = std::mem::take(&mut ties.free);
-            free.retain(|dof| match layout.name(*dof) {
-                Some(DofName::Translation(carrier, axis)) => axis == 1 || !placed(carrier),
-                _ => false,
+            free.retain(|dof| {
+                let name = layout.name(*dof).and_then(DofName::translation);
+                name.is_some_and(|(carrier, axis)| axis == 1 || !placed(carrier))
             });
             ties.free = free;
         }
@@ -394,7 +390,7 @@ impl Followers<'_> {
         let turns = |about: usize| {
             let moves = |a: Vec3| {
                 let row = Mat3::skew(a).rows.map(|row| row[about].abs());
-                (0..layout.ndim).any(|c| axes[c] && row[c] > STILL * extent)
+                (0..layout.ndim()).any(|c| axes[c] && row[c] > STILL * extent)
             };
             arms().any(moves)
         };
@@ -416,7 +412,7 @@ impl Followers<'_> {
                 continue;
             };
             for &node in nodes {
-                for axis in (0..layout.ndim).filter(|&c| axes[c]) {
+                for axis in (0..layout.ndim()).filter(|&c| axes[c]) {
                     let leader = elimination.leader(layout.node(node, axis), layout);
                     if let Some(turn) = leader.filter(|t| t.carrier != *carrier) {
                         return Err(ConstraintError::TwoLeaders {
@@ -462,11 +458,11 @@ impl Followers<'_> {
             .collect();
         let rows = self.rows(layout, ties, elimination, &motions);
         let prescribed: BTreeSet<Dof> = motions.iter().flat_map(|m| m.keys().copied()).collect();
-        let rank = |dof: Dof| match layout.name(dof) {
+        let rank = |dof: Dof| match layout.name(dof).map(|name| name.field) {
             _ if prescribed.contains(&dof) => None,
-            Some(DofName::Node(..)) => Some(0),
-            Some(DofName::Translation(..)) => Some(1),
-            Some(DofName::Rotation(..)) => Some(2),
+            Some(FieldId::DISPLACEMENT) => Some(0),
+            Some(FieldId::TRANSLATION) => Some(1),
+            Some(FieldId::ROTATION) => Some(2),
             _ => None,
         };
         let Reduced { solved, left } = reduce(rows, rank);
@@ -494,9 +490,8 @@ impl Followers<'_> {
         let mut relations: Vec<Relation> = Vec::new();
         for (dof, row) in &solved {
             let relation = row.relation(*dof);
-            if let (Some(DofName::Rotation(carrier, _)), false) =
-                (layout.name(*dof), relation.turns.is_empty())
-            {
+            let turned = layout.name(*dof).and_then(DofName::rotation);
+            if let (Some((carrier, _)), false) = (turned, relation.turns.is_empty()) {
                 return Err(ConstraintError::Turning {
                     constraint: name(row.owner),
                     carrier: self.carrier_name(carrier),
@@ -558,7 +553,7 @@ impl Followers<'_> {
                 }
                 ConstraintKind::Equal { nodes, axes } => {
                     let nodes = distinct(nodes);
-                    for axis in (0..layout.ndim).filter(|&c| axes[c]) {
+                    for axis in (0..layout.ndim()).filter(|&c| axes[c]) {
                         for pair in nodes.iter().skip(1).zip(nodes.iter().take(1).cycle()) {
                             let mut row = new();
                             add(&mut row, layout.node(*pair.0, axis), 1.0);
@@ -581,18 +576,18 @@ impl Followers<'_> {
             }
             Column::Dof(dof) => dof,
         };
-        match layout.name(dof) {
-            Some(DofName::Node(node, k)) => {
+        match layout.name(dof).map(DofName::parts) {
+            Some((FieldId::DISPLACEMENT, node, k)) => {
                 format!(
                     "displacement {} of node {}",
                     axis(k),
                     label(self.mesh, node)
                 )
             }
-            Some(DofName::Translation(c, k)) => {
+            Some((FieldId::TRANSLATION, c, k)) => {
                 format!("displacement {} of \"{}\"", axis(k), self.carrier_name(c))
             }
-            Some(DofName::Rotation(c, k)) => {
+            Some((FieldId::ROTATION, c, k)) => {
                 format!("rotation {} of \"{}\"", axis(k), self.carrier_name(c))
             }
             _ => "a right-hand side".to_owned(),

@@ -309,7 +309,7 @@ impl Context<'_> {
         for &face in &set(faces) {
             let space = self.body(face.cell)?.space;
             let side = self.mesh.face(face);
-            let side = side.filter(|(e, _)| e.dim() + 1 == self.layout.ndim);
+            let side = side.filter(|(e, _)| e.dim() + 1 == self.layout.ndim());
             let (element, nodes) = side.ok_or_else(|| LoadError::NoFace {
                 element: self.number(face.cell),
                 side: usize::from(face.side) + 1,
@@ -324,7 +324,7 @@ impl Context<'_> {
         let mut region = Region::default();
         for &cell in &set(cells) {
             let body = self.body(cell)?;
-            let has_volume = |dim| dim == self.layout.ndim || body.section.is_some();
+            let has_volume = |dim| dim == self.layout.ndim() || body.section.is_some();
             let element = self.mesh.element(cell).filter(|e| has_volume(e.dim()));
             let element = element.ok_or_else(|| LoadError::NoVolume {
                 element: self.number(cell),

@@ -339,8 +339,9 @@ fn all_sides(
     let mut sides = Vec::new();
     for (number, part) in contacts.parts.iter().enumerate() {
         for pass in source.sides(number, part)? {
-            let first = layout.nmultiplier;
-            layout.nmultiplier += pass.nmultiplier(part, contacts.rubs(number), layout.ndim);
+            let first = layout.nmultiplier();
+            let own = pass.nmultiplier(part, contacts.rubs(number), layout.ndim());
+            *layout = layout.with_multipliers(first + own);
             sides.push((pass, first));
         }
     }

@@ -117,7 +117,7 @@ impl Context<'_> {
         parts: Vec<StepPart>,
     ) -> Result<(Vec<Step>, Vec<Vec<LoadPart>>), ModelError> {
         let mut prescribed: BTreeMap<Dof, Motion> = BTreeMap::new();
-        for body in 0..self.layout.nrigid as RigidId {
+        for body in 0..self.layout.nrigid() as RigidId {
             for dof in components(&self.layout, body).filter(|d| !self.ties.free.contains(d)) {
                 prescribed.insert(dof, Motion::Hold);
             }
@@ -219,10 +219,9 @@ impl Context<'_> {
     }
 
     fn clash(&self, step: &str, dof: Dof) -> ModelError {
-        let (node, axis) = match self.layout.name(dof) {
-            Some(DofName::Node(node, axis)) => (label(self.mesh, node), axis),
-            _ => (0, 0),
-        };
+        let name = self.layout.name(dof).and_then(DofName::displacement);
+        let of_node = |(node, axis)| (label(self.mesh, node), axis);
+        let (node, axis) = name.map_or((0, 0), of_node);
         ModelError::Clash {
             step: step.to_string(),
             node,

@@ -303,12 +303,12 @@ impl Solid {
                         keeps_volume: keeps_volume[kinematics as usize],
                     };
                     let cells = Cells::new(situation, locking, material.nhistory(), at_nodes);
-                    let cells = cells.filter(|_| element.dim() == layout.ndim);
+                    let cells = cells.filter(|_| element.dim() == layout.ndim());
                     let mut cells = cells.ok_or_else(|| SolidError::NotSolid {
                         body: name.to_string(),
                         label,
                         element: element.name(),
-                        ndim: layout.ndim,
+                        ndim: layout.ndim(),
                     })?;
                     if let (Err(reason), Err(_)) = (cells.finite.locking, cells.small.locking) {
                         return Err(cells.refusal(name, locking, reason));
@@ -429,7 +429,7 @@ impl Solid {
             return Ok(());
         };
         let block = &self.blocks[number];
-        scratch.size(block, self.layout.ndim, wanted);
+        scratch.size(block, self.layout.ndim(), wanted);
         let is_symmetric = self.material().is_symmetric();
         let batch = block.treatment(self.kinematics).batch;
         let batch = batch.filter(|_| wanted != Wanted::Samples && is_symmetric);
@@ -444,7 +444,7 @@ impl Solid {
                 } else {
                     let energy = self.cell(block, cell, at, wanted, scratch)?;
                     if is_symmetric {
-                        scratch.pack(block.nnode, self.layout.ndim);
+                        scratch.pack(block.nnode, self.layout.ndim());
                     }
                     energy
                 };
@@ -457,7 +457,7 @@ impl Solid {
     /// Hands over the forces and the stiffness of a cell.
     fn hand(&self, of: &Scratch, out: &mut dyn Sink) {
         if self.material().is_symmetric() {
-            out.add_symmetric(&of.dofs, &of.force, &of.blocks, self.layout.ndim);
+            out.add_symmetric(&of.dofs, &of.force, &of.blocks, self.layout.ndim());
         } else {
             out.add(&of.dofs, &of.force, &of.stiffness);
         }
@@ -474,7 +474,7 @@ impl Solid {
         scratch: &mut Scratch,
     ) -> bool {
         let width = width();
-        let n = block.nnode * self.layout.ndim;
+        let n = block.nnode * self.layout.ndim();
         let nblocks = scratch.blocks.len();
         let Scratch {
             lanes,
@@ -496,8 +496,8 @@ impl Solid {
             let nodes = block.nodes_of(cell_of(lane));
             for (k, &node) in nodes.iter().enumerate() {
                 let x = self.reference[node as usize].to_array();
-                for (axis, x) in x.into_iter().enumerate().take(self.layout.ndim) {
-                    let place = (k * self.layout.ndim + axis) * width + lane;
+                for (axis, x) in x.into_iter().enumerate().take(self.layout.ndim()) {
+                    let place = (k * self.layout.ndim() + axis) * width + lane;
                     lanes.x[place] = x;
                     lanes.u[place] = at.displacement(self.layout.node(node, axis));
                 }
@@ -559,7 +559,7 @@ impl Solid {
         scratch.u.clear();
         scratch.dofs.clear();
         for &node in block.nodes_of(cell) {
-            for axis in 0..self.layout.ndim {
+            for axis in 0..self.layout.ndim() {
                 let dof = self.layout.node(node, axis);
                 scratch.dofs.push(dof);
                 scratch.u.push(at.displacement(dof));
@@ -1000,7 +1000,7 @@ impl InitialStiffness for Solid {
     }
 
     fn is_initial(&self, trial: &State) -> bool {
-        let at = |&node: &NodeId| (0..self.layout.ndim).map(move |i| self.layout.node(node, i));
+        let at = |&node: &NodeId| (0..self.layout.ndim()).map(move |i| self.layout.node(node, i));
         let is_undeformed = |block: &Cells| {
             let mut displacements = block
                 .nodes
@@ -1033,7 +1033,7 @@ impl Stored for Solid {
             }
             let chunks = next.par_chunks_mut(CHUNK * n).enumerate();
             chunks.try_for_each_init(Scratch::default, |scratch, (chunk, next)| {
-                scratch.size(block, self.layout.ndim, Wanted::Forces);
+                scratch.size(block, self.layout.ndim(), Wanted::Forces);
                 for (k, to) in next.chunks_exact_mut(n).enumerate() {
                     let cell = chunk * CHUNK + k;
                     // what a kernel does not write stays as it was
@@ -1078,7 +1078,7 @@ impl Sampled for Solid {
     fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
         let mut scratch = Scratch::default();
         for block in &self.blocks {
-            scratch.size(block, self.layout.ndim, Wanted::Samples);
+            scratch.size(block, self.layout.ndim(), Wanted::Samples);
             for (cell, id) in block.ids.iter().enumerate() {
                 if cells.binary_search(id).is_err() {
                     continue;

@@ -199,7 +199,7 @@ impl Truss {
         let slope = dn.map(|d| d / length);
         let mut h = Vec3::ZERO;
         for (&node, slope) in bar.nodes.iter().zip(slope) {
-            for axis in 0..self.layout.ndim {
+            for axis in 0..self.layout.ndim() {
                 h[axis] += slope * at.displacement(self.layout.node(node, axis));
             }
         }
@@ -281,7 +281,7 @@ impl Truss {
         order: MaterialOrder,
         new: &mut Vec<f64>,
     ) -> Result<Local, TermError> {
-        let ndim = self.layout.ndim;
+        let ndim = self.layout.ndim();
         let n = bar.nodes.len() * ndim;
         let finite = self.kinematics == Kinematics::Finite;
         let mut out = Local {
@@ -335,7 +335,7 @@ impl Truss {
         for bar in self.chunk(chunk) {
             let local = self.local(bar, at, order, &mut scratch.new)?;
             let layout = &self.layout;
-            let of_node = |&node: &NodeId| (0..layout.ndim).map(move |c| layout.node(node, c));
+            let of_node = |&node: &NodeId| (0..layout.ndim()).map(move |c| layout.node(node, c));
             scratch.dofs.clear();
             scratch.dofs.extend(bar.nodes.iter().flat_map(of_node));
             let n = scratch.dofs.len();

@@ -1,6 +1,6 @@
 //! Which raw dofs are solved for, and the linear system over them.
 
-use crate::system::{Assembler, Assembly, Dof, DofName, Symmetry, System};
+use crate::system::{Assembler, Assembly, Dof, DofName, FieldId, Symmetry, System};
 use signorini_linear::sparsity::NONE;
 use signorini_linear::{
     EXACT, LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
@@ -150,16 +150,14 @@ impl Equations {
         self.sign.clear();
         for dof in 0..layout.ndof() as Dof {
             let name = layout.name(dof);
-            let in_bulk = match name {
-                Some(DofName::Node(node, _)) => assembler.bulk().position(node, node).is_some(),
-                _ => false,
-            };
+            let node = name.and_then(DofName::displacement).map(|(node, _)| node);
+            let in_bulk = node.is_some_and(|n| assembler.bulk().position(n, n).is_some());
             let used = in_bulk || assembler.interface().position(dof, dof).is_some();
             let free = !prescribed.get(dof as usize).copied().unwrap_or(false);
             if used && free {
                 self.equation.push(self.dofs.len() as u32);
                 self.dofs.push(dof);
-                let multiplier = matches!(name, Some(DofName::Multiplier(_)));
+                let multiplier = name.is_some_and(|name| name.field == FieldId::MULTIPLIER);
                 self.sign.push(if multiplier { -1 } else { 1 });
             } else {
                 self.equation.push(NONE);
@@ -194,7 +192,7 @@ impl Equations {
     /// it may turn at all.
     fn turning(&self, system: &System) -> Symmetry {
         let layout = &system.layout;
-        let partly = (0..layout.nrigid as u32).any(|body| {
+        let partly = (0..layout.nrigid() as u32).any(|body| {
             let rotations = (0..3).map(|axis| layout.rotation(body, axis));
             let free =
                 rotations.filter(|&d| self.equation.get(d as usize).is_some_and(|e| *e != NONE));
@@ -202,7 +200,7 @@ impl Equations {
             let few = if felt { 4 } else { 3 };
             (1..few).contains(&free.count())
         });
-        if partly && layout.ndim == 3 {
+        if partly && layout.ndim() == 3 {
             Symmetry::Unsymmetric
         } else {
             Symmetry::Definite

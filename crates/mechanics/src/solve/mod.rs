@@ -19,8 +19,9 @@
 //! (d') what changed is open, closed, stick or slip alone, and |du| ≤ 1e-6 of the increment's displacement
 //! ```
 //!
-//! with `q` the mean of `Σ_e |f_e|_i` over the loaded components, its maximum over the run so far; rotations and
-//! multipliers have means of their own. Forces are continuous functions of the state where a row opens, closes, sticks or
+//! with `q` the mean of `Σ_e |f_e|_i` over the loaded components, its maximum over the run so far; rotations,
+//! multipliers and each field with a scale of its own have means of their own, and such fields corrections of their own in
+//! (d) and (d'). Forces are continuous functions of the state where a row opens, closes, sticks or
 //! slips: the residual is all that is wrong with a state, whatever its rows are called, and rows at their limit may go to
 //! and fro by rounding for ever (d'). They are not where a row goes to another facet. Condition (c), on penetrations, belongs to laws with multipliers and comes
 //! through the verdict of their terms. *Iterations* are linear solves.

@@ -662,7 +662,7 @@ impl Stepper {
     /// Stores the accepted state, the progress and the histories of all terms.
     pub fn save(&self, system: &System, out: &mut Archive) {
         let p = &self.progress;
-        self.state.save(out);
+        self.state.save(&system.layout, out);
         let dt = p.dt.unwrap_or(-1.0);
         out.put(
             "progress",
@@ -677,9 +677,11 @@ impl Stepper {
             ],
         );
         out.put("progress.origin", &p.origin);
-        out.put("progress.rate", &p.rate);
+        if !p.rate.is_empty() {
+            system.layout.save("progress.rate", &p.rate, out);
+        }
         out.put("progress.curvature", p.curvature.as_slice());
-        out.put("progress.scale", &self.newton.scale.to_array());
+        out.put("progress.scale", self.newton.scale.values(&system.layout));
         let experience = self.newton.equations.experience();
         out.put("progress.solver", &[f64::from(experience)]);
         p.work.save(out);
@@ -696,14 +698,19 @@ impl Stepper {
         let [step, increment, step_start, time, dt, easy, jumped] = progress;
         let mut origin = vec![0.0; from.length("progress.origin")?];
         from.get("progress.origin", &mut origin)?;
-        let mut rate = vec![0.0; from.length("progress.rate")?];
-        from.get("progress.rate", &mut rate)?;
+        let mut state = system.initial_state();
+        state.load(&system.layout, from)?;
+        let mut rate = Vec::new();
+        if from.length("progress.rate.displacement").is_ok() {
+            rate.resize(system.layout.ndof(), 0.0);
+            system.layout.load("progress.rate", &mut rate, from)?;
+        }
         // an older run does not know of it
         let mut curvature = vec![0.0; from.length("progress.curvature").unwrap_or(0)];
         if !curvature.is_empty() {
             from.get("progress.curvature", &mut curvature)?;
         }
-        let mut scale = [0.0; 3];
+        let mut scale = vec![0.0; system.layout.nscale()];
         from.get("progress.scale", &mut scale)?;
         let mut experience = [0.0];
         if from.length("progress.solver").is_ok() {
@@ -712,13 +719,11 @@ impl Stepper {
         self.newton.equations.recall(experience[0] as u8);
         let mut work = ExternalWork::default();
         work.load(system.layout.ndof(), from)?;
-        let mut state = system.initial_state();
-        state.load(from)?;
         let still = vec![0.0; state.u.len()];
         system.advance(&mut self.state, &state, &still, 0.0);
         self.state.time = state.time;
         system.load(from)?;
-        self.newton.scale = ForceScale::from_array(scale);
+        self.newton.scale = ForceScale::from_values(&scale);
         self.newton.analyzed = false;
         self.newton.coupled_more = true;
         self.progress = Progress {

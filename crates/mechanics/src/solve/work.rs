@@ -49,7 +49,8 @@ impl ExternalWork {
         self.supports.resize(supports.len(), 0.0);
         self.loads.resize(ndof, 0.0);
         let mut work = 0.0;
-        for (dof, (now, before)) in to.u.iter().zip(&from.u).enumerate() {
+        let motions = to.u.iter().zip(&from.u).take(system.layout.nmotion());
+        for (dof, (now, before)) in motions.enumerate() {
             let at = |forces: &[f64]| forces.get(dof).copied().unwrap_or_default();
             let mut force = at(&loads.0) + at(&self.loads);
             if prescribed.get(dof).copied().unwrap_or_default() {

@@ -232,10 +232,10 @@ impl Cliques<'_> {
 
 impl PatternSink for Cliques<'_> {
     fn bulk(&mut self, nodes: &[NodeId]) {
-        let layout = *self.layout;
-        let of_node = |&n: &NodeId| (0..layout.ndim).map(move |c| layout.node(n, c));
+        let layout = self.layout;
+        let of_node = |&n: &NodeId| (0..layout.ndim()).map(move |c| layout.node(n, c));
         let mut dofs = nodes.iter().flat_map(of_node);
-        if dofs.any(|d| self.elimination.depends(d, &layout)) {
+        if dofs.any(|d| self.elimination.depends(d, layout)) {
             let dofs: Vec<Dof> = nodes.iter().flat_map(of_node).collect();
             self.interface(&dofs);
             return;
@@ -259,8 +259,8 @@ impl Assembler {
     pub fn new(layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) -> Self {
         let cliques = collect(layout, elimination, terms);
         let bulk = BlockPattern::from_cliques(
-            layout.nnode,
-            layout.ndim,
+            layout.nnode(),
+            layout.ndim(),
             &cliques.bulk,
             &cliques.bulk_offsets,
         );
@@ -369,7 +369,7 @@ impl Assembler {
             let mut depends = false;
             elementwise.elements(task.chunk, &mut |nodes| {
                 let mut dofs = nodes.iter().flat_map(|&node| {
-                    let axes = 0..layout.ndim;
+                    let axes = 0..layout.ndim();
                     axes.map(move |axis| layout.node(node, axis))
                 });
                 depends |= dofs.any(|dof| elimination.depends(dof, layout));
@@ -394,7 +394,7 @@ impl Assembler {
         self.shared = Some(Shared {
             ntask,
             nthread,
-            shares: share_out(nthread, layout.nnode, ntask, elements),
+            shares: share_out(nthread, layout.nnode(), ntask, elements),
         });
         if self.slots.len() < nthread {
             self.slots.resize_with(nthread, Slot::default);
@@ -494,7 +494,7 @@ impl Assembler {
     pub fn relax(&self, layout: &Layout, out: &mut Assembly) -> usize {
         let pattern = &self.interface;
         let multipliers =
-            layout.multiplier(0) as usize..layout.multiplier(layout.nmultiplier) as usize;
+            layout.multiplier(0) as usize..layout.multiplier(layout.nmultiplier()) as usize;
         let mut added: Vec<(usize, f64)> = Vec::new();
         for row in multipliers.clone() {
             let Some(&[begin, end]) = pattern.row_start.get(row..row + 2) else {
@@ -918,7 +918,7 @@ impl Setting<'_> {
             for &dof in dofs {
                 add_error(whole, dof, own.error);
             }
-            let at_blocks = own.positions(self.layout.ndim, &mut positions);
+            let at_blocks = own.positions(self.layout.ndim(), &mut positions);
             if !dofs.iter().any(|&dof| depends(dof)) {
                 whole.add_force(dofs, force);
                 self.add_stiffness(whole, own, dofs, stiffness, at_blocks, task.part);
@@ -926,7 +926,7 @@ impl Setting<'_> {
             }
             let mut stiffness = stiffness;
             if own.is_symmetric {
-                fill_up(stiffness, dofs.len(), self.layout.ndim, &mut full);
+                fill_up(stiffness, dofs.len(), self.layout.ndim(), &mut full);
                 stiffness = &full;
             }
             self.elimination.expand(
@@ -956,7 +956,7 @@ impl Setting<'_> {
                 dofs.iter().for_each(|&dof| strip.add_error(dof, own.error));
             }
             strip.add_force(dofs, force);
-            let at_blocks = own.positions(self.layout.ndim, &mut positions);
+            let at_blocks = own.positions(self.layout.ndim(), &mut positions);
             self.add_stiffness(strip, own, dofs, stiffness, at_blocks, task.part);
         }
     }
@@ -973,7 +973,7 @@ impl Setting<'_> {
         if stiffness.is_empty() {
             return;
         }
-        match (part, self.layout.ndim) {
+        match (part, self.layout.ndim()) {
             (Part::Interface, _) => self.add_entries(strip, dofs, stiffness),
             (Part::Bulk, 2) => strip.add_blocks::<2, 4>(stiffness, positions, own.is_symmetric),
             (Part::Bulk, _) => strip.add_blocks::<3, 9>(stiffness, positions, own.is_symmetric),
@@ -982,7 +982,7 @@ impl Setting<'_> {
 
     /// Where the blocks of each contribution of a chunk are in the bulk.
     fn find(self, buffer: &Buffer, positions: &mut Vec<u32>) {
-        let ndim = self.layout.ndim;
+        let ndim = self.layout.ndim();
         let mut nodes: Vec<NodeId> = Vec::new();
         for (_, dofs, ..) in buffer.iter().filter(|(own, ..)| own.nstiffness > 0) {
             nodes.clear();

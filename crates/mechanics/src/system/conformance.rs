@@ -31,12 +31,7 @@ fn phase() -> Phase {
 
 impl Specimen {
     fn of_mesh(name: &str, mesh: &Mesh, make: impl FnOnce(Layout) -> Box<dyn Term>) -> Self {
-        let layout = Layout {
-            ndim: 3,
-            nnode: mesh.points.len(),
-            nrigid: 0,
-            nmultiplier: 0,
-        };
+        let layout = Layout::new(3, mesh.points.len(), 0);
         let elimination = Elimination::default();
         let start = State::initial(&layout, &mesh.points, &elimination);
         let mut moved = start.clone();
@@ -60,7 +55,7 @@ impl Specimen {
         Self {
             name: format!("{name}, {method:?}"),
             ndof: scene.layout.ndof(),
-            nmultiplier: scene.layout.nmultiplier,
+            nmultiplier: scene.layout.nmultiplier(),
             cells: Vec::new(),
             start: scene.state,
             moved,

@@ -158,7 +158,7 @@ impl Elimination {
         axes: [bool; 3],
         carrier: RigidId,
     ) {
-        self.leader.resize(layout.nnode, [NONE; 3]);
+        self.leader.resize(layout.nnode(), [NONE; 3]);
         let Some(body) = self.bodies.get(carrier as usize) else {
             return;
         };
@@ -167,7 +167,7 @@ impl Elimination {
             let (Some(leader), Some(&start)) = (leader, reference.get(node as usize)) else {
                 continue;
             };
-            for axis in (0..layout.ndim).filter(|&axis| axes[axis]) {
+            for axis in (0..layout.ndim()).filter(|&axis| axes[axis]) {
                 if leader[axis] == NONE {
                     leader[axis] = carrier;
                     let turn = Turn {
@@ -250,7 +250,7 @@ impl Elimination {
         if self.leader.is_empty() || dof == NO_DOF {
             return None;
         }
-        let (node, axis) = (dof / layout.ndim as u32, dof as usize % layout.ndim);
+        let (node, axis) = (dof / layout.ndim() as u32, dof as usize % layout.ndim());
         let carrier = self.leader.get(node as usize)?[axis];
         (carrier != NONE).then_some(Turn {
             node,
@@ -311,7 +311,7 @@ impl Elimination {
             put(&mut state.u, relation.dof, value);
         }
         for (id, (body, pose)) in self.bodies.iter().zip(&mut state.poses).enumerate() {
-            for axis in 0..layout.ndim {
+            for axis in 0..layout.ndim() {
                 let moved = at(&state.u, layout.translation(id as RigidId, axis));
                 pose.origin[axis] = body.reference[axis] + moved;
             }
@@ -320,7 +320,7 @@ impl Elimination {
             let id = id as RigidId;
             for &node in &body.nodes {
                 let turned = self.turned(state, reference, id, node);
-                for axis in 0..layout.ndim {
+                for axis in 0..layout.ndim() {
                     let moved = at(&state.u, layout.translation(id, axis));
                     put(&mut state.u, layout.node(node, axis), moved + turned[axis]);
                 }

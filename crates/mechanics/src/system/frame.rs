@@ -213,6 +213,19 @@ impl ContactFrame {
     }
 }
 
+/// A field of the nodes at an accepted state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NodalValues {
+    /// Its name.
+    pub name: &'static str,
+    /// The number of its components.
+    pub ncomponent: usize,
+    /// The values: node by node, component by component.
+    pub values: Vec<f64>,
+    /// The residuals where it is prescribed, in the same order; 0 elsewhere.
+    pub reaction: Vec<f64>,
+}
+
 /// The results at one accepted state. Plain data: writers take it from here.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
@@ -228,6 +241,8 @@ pub struct Frame {
     pub displacement: Vec<Vec3>,
     /// Force that supports exert on each node.
     pub reaction_force: Vec<Vec3>,
+    /// The fields of the nodes besides the displacement.
+    pub fields: Vec<NodalValues>,
     /// Force of bodies, springs and contacts at each node, which is what loads, supports and couplings exert on it;
     /// empty where not wanted.
     pub internal_force: Vec<Vec3>,

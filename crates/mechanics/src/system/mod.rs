@@ -1,7 +1,7 @@
 //! Unknowns, state, and how terms become one system of equations.
 //!
 //! ```text
-//!  Layout: which unknown is which          raw dof:  nodes | rigid bodies | multipliers
+//!  Layout: named fields of unknowns        raw dof:  nodes | rigid bodies | other fields | multipliers
 //!  State:  their values, and positions       │
 //!  Term:   adds forces and stiffness to ──▶ Sink ──▶ Elimination ──▶ Operator: bulk (blocks) + interface (scalar)
 //!                                                                     │
@@ -29,6 +29,11 @@
 //!
 //! What combines goes into the interface part: an element with a dependent dof has its entries there, so that the bulk
 //! keeps its blocks and plain models pay nothing.
+//!
+//! Unknowns are named fields ([`Layout`]). The bulk is that of the displacement; the coefficients of other fields, and
+//! those that couple fields, are in the interface.
+//!
+//! One more field: [`Layout::with_field`], and a term that adds to its dofs through [`PatternSink::interface`].
 //!
 //! Results do not depend on the number of threads: chunks are evaluated in parallel and added in a fixed order.
 
@@ -60,11 +65,11 @@ pub use capabilities::{
 pub use course::{NodalField, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
-    ContactFrame, ContactSample, Footprint, Frame, IdleRows, Resultant, RigidFrame, SpinFrame,
-    Status,
+    ContactFrame, ContactSample, Footprint, Frame, IdleRows, NodalValues, Resultant, RigidFrame,
+    SpinFrame, Status,
 };
 pub use idealisation::Idealisation;
-pub use layout::{Dof, DofName, Layout, NO_DOF};
+pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};
 pub use phase::{Increment, Phase, StepContext};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;

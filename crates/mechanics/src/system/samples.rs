@@ -91,7 +91,7 @@ pub(super) fn internal_forces(
     layout: &Layout,
     state: &State,
 ) -> Result<Vec<Vec3>, TermError> {
-    let mut at_nodes = vec![Vec3::ZERO; layout.nnode];
+    let mut at_nodes = vec![Vec3::ZERO; layout.nnode()];
     let internal = terms
         .iter()
         .filter(|term| term.properties().role == Role::Internal);
@@ -108,7 +108,8 @@ pub(super) fn internal_forces(
             let evaluated: Vec<Result<Forces, TermError>> = evaluated.collect();
             for forces in evaluated {
                 for (dof, force) in forces?.0 {
-                    if let Some(DofName::Node(node, axis)) = layout.name(dof)
+                    let name = layout.name(dof).and_then(DofName::displacement);
+                    if let Some((node, axis)) = name
                         && let Some(to) = at_nodes.get_mut(node as usize)
                     {
                         to[axis] += force;

@@ -8,7 +8,7 @@ pub struct State {
     /// Total time.
     pub time: f64,
     /// Raw dofs: displacements of the nodes, translations and rotations of rigid bodies summed up as their increments
-    /// came (rotations only for the record: the poses hold the truth), multipliers.
+    /// came (rotations only for the record: the poses hold the truth), other fields, multipliers.
     pub u: Vec<f64>,
     /// Poses of the rigid bodies.
     pub poses: Vec<Pose>,
@@ -62,9 +62,9 @@ impl State {
         }
         elimination.follow(self, layout, reference);
         for (node, (x, at)) in self.x.iter_mut().zip(reference).enumerate() {
-            let first = node * layout.ndim;
+            let first = node * layout.ndim();
             let mut moved = *at;
-            for (axis, u) in self.u[first..first + layout.ndim].iter().enumerate() {
+            for (axis, u) in self.u[first..first + layout.ndim()].iter().enumerate() {
                 moved[axis] += u;
             }
             *x = moved;
@@ -72,9 +72,9 @@ impl State {
     }
 
     /// Stores the state.
-    pub fn save(&self, out: &mut Archive) {
+    pub fn save(&self, layout: &Layout, out: &mut Archive) {
         out.put("state.time", &[self.time]);
-        out.put("state.u", &self.u);
+        layout.save("state.u", &self.u, out);
         let numbers = |pose: &Pose| {
             let [a, b, c] = pose.rotation.rows;
             [pose.origin, a, b, c].map(Vec3::to_array)
@@ -87,9 +87,9 @@ impl State {
     ///
     /// # Errors
     /// The archive belongs to another model.
-    pub fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
+    pub fn load(&mut self, layout: &Layout, from: &Archive) -> Result<(), ArchiveError> {
         from.get("state.time", std::slice::from_mut(&mut self.time))?;
-        from.get("state.u", &mut self.u)?;
+        layout.load("state.u", &mut self.u, from)?;
         let mut numbers = vec![[0.0; 3]; self.poses.len() * 4];
         from.get("state.poses", numbers.as_flattened_mut())?;
         for (pose, n) in self.poses.iter_mut().zip(numbers.chunks_exact(4)) {

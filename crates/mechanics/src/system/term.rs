@@ -19,7 +19,7 @@ pub enum Order {
 pub enum Part {
     /// Solids: dofs come in blocks of a node, the pattern never changes.
     Bulk,
-    /// Contact rows, couplings, springs.
+    /// Contact rows, couplings, springs; fields besides the displacement.
     Interface,
 }
 

@@ -1,7 +1,7 @@
 use super::samples::internal_forces;
 use super::{
-    Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, DofName,
-    Elimination, Frame, Layout, Samples, State, Term, TermError, Wanted,
+    Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, Elimination,
+    FieldId, Frame, Layout, NodalValues, Samples, State, Term, TermError, Wanted,
 };
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
@@ -107,33 +107,30 @@ impl System {
         prescribed: &[bool],
         assembly: &Assembly,
     ) -> Result<Frame, TermError> {
-        let mut frame = Frame::new(self.layout.nnode, &self.ncell);
+        let mut frame = Frame::new(self.layout.nnode(), &self.ncell);
         frame.time = state.time;
         for (node, u) in frame.displacement.iter_mut().enumerate() {
             *u = self.displacement(state, node as u32);
         }
         let layout = &self.layout;
-        frame.rigid.resize_with(layout.nrigid, Default::default);
+        frame.rigid.resize_with(layout.nrigid(), Default::default);
         let at_dofs = prescribed.iter().zip(&assembly.residual).enumerate();
         for (dof, (_, r)) in at_dofs.filter(|(_, (prescribed, _))| **prescribed) {
-            let to = match layout.name(dof as Dof) {
-                Some(DofName::Node(node, axis)) => {
-                    frame.reaction_force.get_mut(node as usize).zip(Some(axis))
-                }
-                Some(DofName::Translation(body, axis)) => {
-                    let body = frame.rigid.get_mut(body as usize);
-                    body.map(|body| (&mut body.reaction_force, axis))
-                }
-                Some(DofName::Rotation(body, axis)) => {
-                    let body = frame.rigid.get_mut(body as usize);
-                    body.map(|body| (&mut body.reaction_moment, axis))
-                }
-                Some(DofName::Multiplier(_)) | None => None,
+            let Some(name) = layout.name(dof as Dof) else {
+                continue;
             };
-            if let Some((to, axis)) = to {
-                to[axis] = *r;
+            let body = frame.rigid.get_mut(name.entity as usize);
+            let to = match name.field {
+                FieldId::DISPLACEMENT => frame.reaction_force.get_mut(name.entity as usize),
+                FieldId::TRANSLATION => body.map(|body| &mut body.reaction_force),
+                FieldId::ROTATION => body.map(|body| &mut body.reaction_moment),
+                _ => None,
+            };
+            if let Some(to) = to {
+                to[name.component] = *r;
             }
         }
+        frame.fields = self.nodal_values(state, prescribed, &assembly.residual);
         let value = |dof: Dof| state.u.get(dof as usize).copied().unwrap_or(0.0);
         for (body, rigid) in frame.rigid.iter_mut().enumerate() {
             let body = body as u32;
@@ -153,6 +150,31 @@ impl System {
         Ok(frame)
     }
 
+    /// The fields of the nodes besides the displacement.
+    fn nodal_values(
+        &self,
+        state: &State,
+        prescribed: &[bool],
+        residual: &[f64],
+    ) -> Vec<NodalValues> {
+        let layout = &self.layout;
+        let values = |id, value: &dyn Fn(usize) -> Option<f64>| {
+            let dofs = layout.dofs(id);
+            dofs.map(|dof| value(dof as usize).unwrap_or_default())
+                .collect()
+        };
+        let is_prescribed = |dof: usize| prescribed.get(dof) == Some(&true);
+        let others = layout.other_nodal().map(|(id, field)| NodalValues {
+            name: field.name,
+            ncomponent: field.ncomponent,
+            values: values(id, &|dof| state.u.get(dof).copied()),
+            reaction: values(id, &|dof| {
+                residual.get(dof).copied().filter(|_| is_prescribed(dof))
+            }),
+        });
+        others.collect()
+    }
+
     /// What the audits of all contacts find at an accepted state with these results.
     #[must_use]
     pub fn audit(&self, state: &State, frame: &Frame) -> Vec<ContactAudit> {
@@ -167,7 +189,7 @@ impl System {
     #[must_use]
     pub fn displacement(&self, state: &State, node: u32) -> Vec3 {
         let mut u = Vec3::ZERO;
-        for axis in 0..self.layout.ndim {
+        for axis in 0..self.layout.ndim() {
             let dof = self.layout.node(node, axis) as usize;
             u[axis] = state.u.get(dof).copied().unwrap_or_default();
         }

@@ -16,7 +16,7 @@ use crate::setup::Model;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::Vec3;
 use signorini_io::writers::vtu::{Field, Values, VtuError};
-use signorini_mechanics::system::{ContactFrame, DofName};
+use signorini_mechanics::system::{ContactFrame, DofName, FieldId};
 
 /// The bytes of `check.vtu`.
 ///
@@ -84,9 +84,14 @@ fn supports(model: &Model) -> [Vec<i8>; 3] {
     let first = model.steps.iter().take(1).flat_map(|s| &s.prescriptions);
     let rigid = model.system.elimination.bodies();
     for prescription in first {
-        let (nodes, axis) = match model.system.layout.name(prescription.dof) {
-            Some(DofName::Node(node, axis)) => (vec![node], axis),
-            Some(DofName::Translation(body, axis)) => {
+        let (nodes, axis) = match model
+            .system
+            .layout
+            .name(prescription.dof)
+            .map(DofName::parts)
+        {
+            Some((FieldId::DISPLACEMENT, node, axis)) => (vec![node], axis),
+            Some((FieldId::TRANSLATION, body, axis)) => {
                 let body = rigid.get(body as usize);
                 (body.map_or_else(Vec::new, |b| b.nodes.clone()), axis)
             }

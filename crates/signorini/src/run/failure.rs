@@ -7,7 +7,9 @@ use signorini_geometry::mesh::NodeId;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_linear::LinearError;
 use signorini_mechanics::solve::{Failure, RunError};
-use signorini_mechanics::system::{Dof, DofName, PatternSink, Term, TermError};
+use signorini_mechanics::system::{
+    Dof, DofName, FieldId, Layout, PatternSink, Site, Term, TermError,
+};
 
 /// What is on disk when a run fails.
 pub struct Saved {
@@ -118,17 +120,27 @@ fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
         let name = model.references.iter().find(|r| r.rigid == body);
         format!("rigid body \"{}\"", name.map_or("?", |r| r.name.as_str()))
     };
-    Some(match model.system.layout.name(dof)? {
-        DofName::Node(node, k) => {
-            let place = node_in_words(node, model);
-            (
-                body_of(node, model),
-                format!("along {} at {place}", axis(k)),
-            )
+    let DofName {
+        field,
+        entity,
+        component,
+    } = model.system.layout.name(dof)?;
+    Some(match field {
+        FieldId::DISPLACEMENT => {
+            let place = node_in_words(entity, model);
+            let along = axis(component);
+            (body_of(entity, model), format!("along {along} at {place}"))
         }
-        DofName::Translation(body, k) => (rigid(body), format!("translation along {}", axis(k))),
-        DofName::Rotation(body, k) => (rigid(body), format!("rotation about {}", axis(k))),
-        DofName::Multiplier(number) => {
+        FieldId::TRANSLATION => {
+            let along = axis(component);
+            (rigid(entity), format!("translation along {along}"))
+        }
+        FieldId::ROTATION => {
+            let about = axis(component);
+            (rigid(entity), format!("rotation about {about}"))
+        }
+        FieldId::MULTIPLIER => {
+            let number = entity as usize;
             let term = term_of(dof, model);
             let owner = term.map_or_else(|| "a constraint".to_owned(), |one| in_words(one, model));
             let audited = term.and_then(|term| term.capabilities().audited);
@@ -136,12 +148,22 @@ fn motion(dof: Dof, model: &Model) -> Option<(String, String)> {
             let at = node.map(|node| format!("at {}", node_in_words(node, model)));
             (owner, at.unwrap_or_else(|| format!("multiplier {number}")))
         }
+        other => {
+            let field = model.system.layout.field(other)?;
+            match field.on {
+                Site::Nodes => {
+                    let place = node_in_words(entity, model);
+                    (body_of(entity, model), format!("{} at {place}", field.name))
+                }
+                _ => (rigid(entity), field.name.to_owned()),
+            }
+        }
     })
 }
 
 fn is_multiplier(dof: Dof, model: &Model) -> bool {
     let name = model.system.layout.name(dof);
-    matches!(name, Some(DofName::Multiplier(_)))
+    name.is_some_and(|name| name.field == FieldId::MULTIPLIER)
 }
 
 /// The contact that a multiplier belongs to.
@@ -206,7 +228,7 @@ fn node_in_words(node: NodeId, model: &Model) -> String {
     let label = model.mesh.node_labels.get(node as usize);
     let label = label.map_or_else(|| "?".to_owned(), u64::to_string);
     let mut text = format!("node {label} (x = {}, y = {}", at.x, at.y);
-    if model.system.layout.ndim == 3 {
+    if model.system.layout.ndim() == 3 {
         text += &format!(", z = {}", at.z);
     }
     text + ")"
@@ -214,13 +236,13 @@ fn node_in_words(node: NodeId, model: &Model) -> String {
 
 /// `node 1042 (…) of body "block"`, or what else has this unknown.
 fn dof_in_words(dof: Dof, model: &Model) -> Option<String> {
-    match model.system.layout.name(dof)? {
-        DofName::Node(node, _) => Some(format!(
+    match model.system.layout.name(dof)?.displacement() {
+        Some((node, _)) => Some(format!(
             "{} of {}",
             node_in_words(node, model),
             body_of(node, model)
         )),
-        _ => motion(dof, model).map(|(owner, motion)| format!("{owner}, {motion}")),
+        None => motion(dof, model).map(|(owner, motion)| format!("{owner}, {motion}")),
     }
 }
 
@@ -328,12 +350,17 @@ fn nodes_in_words(nodes: &[NodeId], model: &Model) -> String {
 fn largest_error(dof: Option<Dof>, force: f64, residual: f64, model: &Model) -> Option<String> {
     let dof = dof?;
     let place = dof_in_words(dof, model)?;
-    if let Some(DofName::Multiplier(_)) = model.system.layout.name(dof) {
+    let layout = &model.system.layout;
+    let part = short(100.0 * residual);
+    if is_multiplier(dof, model) {
         return Some(format!("largest error in the equations of {place}"));
     }
+    if layout.scale(dof) >= Layout::OWN {
+        let all = format!("that is {part} % of the mean of its equations");
+        return Some(format!("largest error {force:.3e} of {place}, {all}"));
+    }
     Some(format!(
-        "largest force error {force:.3e} at {place}, that is {} % of the mean force",
-        short(100.0 * residual)
+        "largest force error {force:.3e} at {place}, that is {part} % of the mean force"
     ))
 }
 

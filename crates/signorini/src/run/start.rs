@@ -64,12 +64,10 @@ fn nunknown(model: &Model) -> usize {
     let layout = &system.layout;
     let first = model.steps.iter().take(1).flat_map(|s| &s.prescriptions);
     let prescribed: BTreeSet<Dof> = first.map(|p| p.dof).collect();
-    let takes_part = |dof: Dof| match layout.name(dof) {
-        Some(DofName::Node(node, _)) => system
-            .body
-            .get(node as usize)
-            .is_some_and(|b| *b != u32::MAX),
-        _ => true,
+    let body_of = |node: u32| system.body.get(node as usize);
+    let takes_part = |dof: Dof| match layout.name(dof).and_then(DofName::displacement) {
+        Some((node, _)) => body_of(node).is_some_and(|b| *b != u32::MAX),
+        None => true,
     };
     let follows = |dof: Dof| system.elimination.depends(dof, layout);
     (0..layout.ndof() as Dof)

@@ -86,7 +86,7 @@ impl Interface {
             return Ok(idle);
         }
         let discretization = self.parts.discretization.as_ref();
-        let axes = 0..self.layout.ndim;
+        let axes = 0..self.layout.ndim();
         let mut rows = Rows::default();
         for row in 0..discretization.nrow() {
             let nodes = discretization.point(row).nodes;

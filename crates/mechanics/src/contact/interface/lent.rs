@@ -202,7 +202,7 @@ impl Interface {
 
     /// I, in the plane without the direction across it.
     fn directions(&self) -> Mat3 {
-        let axes = (0..self.layout.ndim).map(Vec3::unit);
+        let axes = (0..self.layout.ndim()).map(Vec3::unit);
         axes.fold(Mat3::ZERO, |sum, e| sum + Mat3::outer(e, e))
     }
 

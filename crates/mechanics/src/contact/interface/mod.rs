@@ -380,7 +380,7 @@ impl Interface {
     }
 
     fn nmultiplier(&self) -> usize {
-        self.parts.nmultiplier(self.layout.ndim)
+        self.parts.nmultiplier(self.layout.ndim())
     }
 
     /// The multiplier of a row: solved for, frozen, or none.

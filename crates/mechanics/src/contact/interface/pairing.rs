@@ -207,7 +207,7 @@ impl Interface {
         let mut jet = SurfaceJet::default();
         let moves = |node: u32| {
             let mut u = Vec3::ZERO;
-            for axis in 0..self.layout.ndim {
+            for axis in 0..self.layout.ndim() {
                 let dof = self.layout.node(node, axis);
                 u[axis] = du.get(dof as usize).copied().unwrap_or_default();
             }

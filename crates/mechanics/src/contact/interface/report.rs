@@ -538,7 +538,7 @@ impl Interface {
 
     pub(super) fn displacement(&self, node: NodeId, state: &State) -> Vec3 {
         let mut u = Vec3::ZERO;
-        for axis in 0..self.layout.ndim {
+        for axis in 0..self.layout.ndim() {
             let dof = self.layout.node(node, axis) as usize;
             u[axis] = state.u.get(dof).copied().unwrap_or_default();
         }

@@ -101,12 +101,7 @@ impl Scene {
         let primary = Arc::new(facets(&mut x, nodes));
         let first = x.len() as NodeId;
         x.extend_from_slice(points);
-        let layout = Layout {
-            ndim,
-            nnode: x.len(),
-            nrigid: 0,
-            nmultiplier: 0,
-        };
+        let layout = Layout::new(ndim, x.len(), 0);
         let points: Vec<NodeId> = (first..x.len() as NodeId).collect();
         let method = Box::new(PointToSegment::at_nodes(&points));
         let area = (0..points.len()).map(|k| 1.0 + 0.01 * k as f64).collect();
@@ -243,7 +238,7 @@ fn an_interface_balances_forces_and_moments() {
         on_edges += inside.iter().filter(|p| is_edge(&p.feature)).count();
 
         // what is reported is what acts
-        let mut frame = Frame::new(scene.layout.nnode, &[]);
+        let mut frame = Frame::new(scene.layout.nnode(), &[]);
         scene.interface.report(&scene.state, &mut frame).unwrap();
         let report = &frame.contacts[0];
         let sum = report.secondary.force + report.primary.force;
@@ -346,7 +341,7 @@ fn touches(nnode: usize, point: Vec3) -> bool {
     let mut scene = Scene::new(x, &nodes, &[point], ndim);
     let force = scene.force();
     let normal = ndim - 1;
-    let node = scene.layout.node(scene.layout.nnode as NodeId - 1, 0) as usize;
+    let node = scene.layout.node(scene.layout.nnode() as NodeId - 1, 0) as usize;
     let sideways: f64 = (0..normal).map(|c| force[node + c].abs()).sum();
     assert!(sideways < 1e-12, "a flat surface pushes along its normal");
     let pushed = force[node + normal];
@@ -387,7 +382,7 @@ fn under_a_valley(point: Vec3) -> Vec3 {
     let nodes = [vec![0, 1, 4, 3], vec![1, 2, 5, 4]];
     let mut scene = Scene::new((0..6).map(node).collect(), &nodes, &[point], 3);
     let force = scene.force();
-    let node = scene.layout.node(scene.layout.nnode as NodeId - 1, 0) as usize;
+    let node = scene.layout.node(scene.layout.nnode() as NodeId - 1, 0) as usize;
     Vec3::new(force[node], force[node + 1], force[node + 2])
 }
 

@@ -61,12 +61,8 @@ impl Falls {
             sizes,
             ..SurfacePair::new(of_block, Arc::new(primary), REACH * largest)
         };
-        let layout = Layout {
-            ndim: if kind.starts_with("line") { 2 } else { 3 },
-            nnode: x.len(),
-            nrigid: 0,
-            nmultiplier: 0,
-        };
+        let ndim = if kind.starts_with("line") { 2 } else { 3 };
+        let layout = Layout::new(ndim, x.len(), 0);
         let elimination = Arc::new(Elimination::default());
         let state = State::initial(&layout, &x, &elimination);
         let parts = InterfaceParts::new("falls", pair, Box::new(method), 7.0);
@@ -86,10 +82,10 @@ impl Falls {
     /// The state with the block moved, and all of it carried along.
     fn moved(&self, block: Vec3, carried: Vec3) -> State {
         let mut du = vec![0.0; self.layout.ndof()];
-        for node in 0..self.layout.nnode as u32 {
+        for node in 0..self.layout.nnode() as u32 {
             let of_block = self.interface.parts().pair.points.contains(&node);
             let by = if of_block { carried + block } else { carried };
-            for axis in 0..self.layout.ndim {
+            for axis in 0..self.layout.ndim() {
                 du[self.layout.node(node, axis) as usize] = by[axis];
             }
         }

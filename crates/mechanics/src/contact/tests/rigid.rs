@@ -40,12 +40,7 @@ impl Scene {
         random: &mut Random,
     ) -> Self {
         let ndim = ntan + 1;
-        let layout = Layout {
-            ndim,
-            nnode: 1,
-            nrigid: 1,
-            nmultiplier: 0,
-        };
+        let layout = Layout::new(ndim, 1, 1);
         let flat = |v: Vec3| {
             if ndim == 2 {
                 Vec3::new(v.x, v.y, 0.0)

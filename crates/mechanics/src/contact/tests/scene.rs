@@ -312,12 +312,8 @@ impl Scene {
         };
         let nrow = discretization.nrow();
         let vectors = choice.bond || choice.friction.is_some();
-        let layout = Layout {
-            ndim,
-            nnode: x.len(),
-            nrigid: bodies.len(),
-            nmultiplier: nrow * nmultiplier(choice.law.as_ref(), vectors, ndim),
-        };
+        let layout = Layout::new(ndim, x.len(), bodies.len())
+            .with_multipliers(nrow * nmultiplier(choice.law.as_ref(), vectors, ndim));
         let elimination = Arc::new(Elimination::new(bodies, x.len()));
         let state = State::initial(&layout, &x, &elimination);
         let bond = choice.bond.then(|| {
@@ -395,7 +391,7 @@ impl Scene {
 
     /// A state a bit further: some points hardly move, others go far.
     pub(crate) fn further(&self, random: &mut Random) -> State {
-        let ndim = self.layout.ndim;
+        let ndim = self.layout.ndim();
         let mut du = vec![0.0; self.layout.ndof()];
         let together = flat(random.vector(), ndim);
         let still_at = self.points.iter().zip(&self.still).filter(|(_, s)| **s);
@@ -414,7 +410,7 @@ impl Scene {
                 du[self.layout.node(node, c) as usize] = way[c];
             }
         }
-        for body in 0..self.layout.nrigid as u32 {
+        for body in 0..self.layout.nrigid() as u32 {
             for c in 0..3 {
                 let dofs = [
                     self.layout.translation(body, c),
@@ -426,8 +422,8 @@ impl Scene {
             }
         }
         let discretization = self.interface.parts().discretization.as_ref();
-        let of_row = self.layout.nmultiplier / discretization.nrow();
-        for k in 0..self.layout.nmultiplier {
+        let of_row = self.layout.nmultiplier() / discretization.nrow();
+        for k in 0..self.layout.nmultiplier() {
             // pressures, and a little along the surface; every fourth row has none
             let (row, along) = (k / of_row, k % of_row);
             let node = discretization.point(row).nodes[0];
@@ -469,7 +465,7 @@ impl Scene {
     }
 
     pub(crate) fn report(&self) -> ContactFrame {
-        let mut frame = Frame::new(self.layout.nnode, &[]);
+        let mut frame = Frame::new(self.layout.nnode(), &[]);
         self.interface.report(&self.state, &mut frame).unwrap();
         frame.contacts.remove(0)
     }
@@ -477,7 +473,7 @@ impl Scene {
     /// Force on a node.
     pub(crate) fn on_node(&self, force: &[f64], node: NodeId) -> Vec3 {
         let mut f = Vec3::ZERO;
-        for c in 0..self.layout.ndim {
+        for c in 0..self.layout.ndim() {
             f[c] = force[self.layout.node(node, c) as usize];
         }
         f

@@ -88,12 +88,7 @@ impl Slider {
         let node = x.len() as NodeId;
         x.push(at);
         let vectors = usize::from(law.multiplier().is_unknown());
-        let layout = Layout {
-            ndim,
-            nnode: x.len(),
-            nrigid: 0,
-            nmultiplier: vectors * ndim,
-        };
+        let layout = Layout::new(ndim, x.len(), 0).with_multipliers(vectors * ndim);
         let pair = SurfacePair::new(vec![node], primary, 1.0);
         let mut method = Box::new(PointToSegment::at_nodes(&[node]));
         method.sliding = sliding;
@@ -122,7 +117,7 @@ impl Slider {
     fn force_at(&mut self, place: Vec3) -> (State, Vec<f64>) {
         let mut du = vec![0.0; self.layout.ndof()];
         let way = place - self.state.x[self.node as usize];
-        for c in 0..self.layout.ndim {
+        for c in 0..self.layout.ndim() {
             du[self.layout.node(self.node, c) as usize] = way[c];
         }
         let (base, nothing) = (self.state.clone(), Elimination::default());
@@ -159,11 +154,11 @@ impl Slider {
         self.interface.verdict(&state);
         self.interface.accept(&state).unwrap();
         self.state = state;
-        let mut frame = Frame::new(self.layout.nnode, &[]);
+        let mut frame = Frame::new(self.layout.nnode(), &[]);
         self.interface.report(&self.state, &mut frame).unwrap();
         let first = self.layout.node(self.node, 0) as usize;
         let mut force = Vec3::ZERO;
-        for c in 0..self.layout.ndim {
+        for c in 0..self.layout.ndim() {
             force[c] = forces[first + c];
         }
         (force, frame.contacts.remove(0))
@@ -507,7 +502,7 @@ fn turned(scene: &Scene, turn: Mat3) -> State {
     let mut du = vec![0.0; scene.layout.ndof()];
     for (node, &x) in scene.state.x.iter().enumerate() {
         let way = turn * x - x;
-        for c in 0..scene.layout.ndim {
+        for c in 0..scene.layout.ndim() {
             du[scene.layout.node(node as NodeId, c) as usize] = way[c];
         }
     }
@@ -521,7 +516,7 @@ fn turned_error(scene: &Scene, before: &[f64], after: &[f64], turn: Mat3) -> f64
         let expected = turn * scene.on_node(before, node);
         (scene.on_node(after, node) - expected).max_abs()
     };
-    let errors: Vec<f64> = (0..scene.layout.nnode).map(error).collect();
+    let errors: Vec<f64> = (0..scene.layout.nnode()).map(error).collect();
     largest(&errors) / largest(before)
 }
 

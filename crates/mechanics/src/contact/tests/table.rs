@@ -113,7 +113,7 @@ fn tangent_error(scene: &mut Scene, seed: u64) -> Worst {
     scene.interface.verdict(&base);
     assert!(scene.pattern().covers(&here), "the pattern misses entries");
     let mut worst = Worst::default();
-    let first = n - scene.layout.nmultiplier;
+    let first = n - scene.layout.nmultiplier();
     // both, one after the other: what is wrong in one place does not hide behind the other
     for part in [0..first, first..n] {
         if part.is_empty() {
@@ -186,7 +186,7 @@ fn on_one_facet(scene: &Scene) -> usize {
         _ => 2,
     };
     let of_point = parts.discretization.point(0).nodes.len();
-    let of_multiplier = match parts.nmultiplier(scene.layout.ndim) {
+    let of_multiplier = match parts.nmultiplier(scene.layout.ndim()) {
         2 => 3,
         n => n,
     };
@@ -351,7 +351,7 @@ fn multipliers_that_stick_act_as_they_hold() {
                 };
                 let mut scene = Scene::new(Kind::Elements(kind), method, choice, 3);
                 let pressed = scene.further(&mut Random::new(4));
-                let nodal = scene.layout.nnode * scene.layout.ndim;
+                let nodal = scene.layout.nnode() * scene.layout.ndim();
                 scene.state.u[nodal..].copy_from_slice(&pressed.u[nodal..]);
                 let state = scene.state.clone();
                 scene.interface.begin(&next_increment(), &state).unwrap();

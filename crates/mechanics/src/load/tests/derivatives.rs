@@ -138,12 +138,7 @@ fn a_pressure_that_does_not_act_in_a_step_leaves_the_system_symmetric_and_with_a
 fn a_moment_in_space_has_an_energy_only_in_steps_in_which_it_swivels_about_one_axis() {
     let mut load = NodalForces::new("m", &[(0, 1.0)], Schedule::ramps(&[1.0, 1.0, 0.0, 0.0]))
         .swivelling(vec![false, true, true, true]);
-    let layout = Layout {
-        ndim: 3,
-        nnode: 1,
-        nrigid: 0,
-        nmultiplier: 0,
-    };
+    let layout = Layout::new(3, 1, 0);
     let state = State::initial(&layout, &[Vec3::ZERO], &Elimination::default());
     for (number, swivels) in [(0, false), (1, true), (2, true), (3, false)] {
         let here = StepContext {

@@ -65,12 +65,7 @@ impl Single {
         }
         let nodes: Vec<NodeId> = (0..element.nnode() as NodeId).collect();
         let cell = mesh.push_cell(element, &nodes, 7);
-        let layout = Layout {
-            ndim: space.ndim(),
-            nnode: mesh.nnode(),
-            nrigid: 0,
-            nmultiplier: 0,
-        };
+        let layout = Layout::new(space.ndim(), mesh.nnode(), 0);
         Self {
             element,
             space,
@@ -133,7 +128,7 @@ impl Single {
 
     fn dead(&self, forces: spread::NodalVectors) -> NodalForces {
         let components = |(node, f): (NodeId, Vec3)| {
-            (0..self.layout.ndim).map(move |axis| (self.layout.node(node, axis), f[axis]))
+            (0..self.layout.ndim()).map(move |axis| (self.layout.node(node, axis), f[axis]))
         };
         let forces: Vec<_> = forces.into_iter().flat_map(components).collect();
         NodalForces::new("dead", &forces, full())
@@ -145,8 +140,8 @@ impl Single {
         let mut sum = [Vec3::ZERO; 2];
         for (node, x) in state.x.iter().enumerate() {
             let mut f = Vec3::ZERO;
-            for axis in 0..self.layout.ndim {
-                f[axis] = -r[node * self.layout.ndim + axis];
+            for axis in 0..self.layout.ndim() {
+                f[axis] = -r[node * self.layout.ndim() + axis];
             }
             sum[0] += f;
             sum[1] += x.cross(f);

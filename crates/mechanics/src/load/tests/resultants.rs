@@ -200,7 +200,7 @@ fn centrifugal_forces_of_a_bar_and_of_a_disc_are_those_of_the_closed_forms() {
         for (nonlinear, stretch) in [(false, 1.0), (true, 1.2)] {
             term.begin(&Phase::of_step(step(nonlinear)), &single.state(&[]))
                 .unwrap();
-            let n = single.layout.ndim;
+            let n = single.layout.ndim();
             let mut u = vec![0.0; single.layout.ndof()];
             for (node, x) in single.reference.iter().enumerate() {
                 u[n * node] = 0.2 * x.x;

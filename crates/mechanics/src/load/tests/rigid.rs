@@ -17,14 +17,11 @@ impl RigidBox {
         let single = Single::new(element::by_name(name).unwrap(), space, 0.1);
         let body = RigidBody {
             reference,
-            nodes: (0..single.layout.nnode as NodeId).collect(),
+            nodes: (0..single.layout.nnode() as NodeId).collect(),
         };
         Self {
-            layout: Layout {
-                nrigid: 1,
-                ..single.layout
-            },
-            elimination: Elimination::new(vec![body], single.layout.nnode),
+            layout: Layout::new(single.layout.ndim(), single.layout.nnode(), 1),
+            elimination: Elimination::new(vec![body], single.layout.nnode()),
             single,
         }
     }
@@ -44,7 +41,7 @@ impl RigidBox {
 
     /// The unknowns of the body: translations, then rotations.
     fn dofs(&self) -> Vec<Dof> {
-        let first = (self.layout.nnode * self.layout.ndim) as Dof;
+        let first = (self.layout.nnode() * self.layout.ndim()) as Dof;
         (first..self.layout.ndof() as Dof).collect()
     }
 
@@ -85,7 +82,7 @@ fn three_turns(model: &RigidBox, terms: &[Box<dyn Term>], axis: Vec3) -> (f64, f
     let mut state = model.start();
     let (mut work, mut largest) = (0.0, 0.0f64);
     let angle = 3.0 * TAU / N as f64;
-    let turn = match model.layout.ndim {
+    let turn = match model.layout.ndim() {
         2 => vec![0.0, 0.0, angle],
         _ => vec![
             0.0,

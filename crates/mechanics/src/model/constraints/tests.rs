@@ -707,12 +707,7 @@ fn three_prescribed_turns_bring_a_rigid_body_back() {
 
 #[test]
 fn rotations_stay_rotations_over_thousands_of_increments() {
-    let layout = Layout {
-        ndim: 3,
-        nnode: 1,
-        nrigid: 1,
-        nmultiplier: 0,
-    };
+    let layout = Layout::new(3, 1, 1);
     let body = RigidBody {
         reference: Vec3::ZERO,
         nodes: vec![0],

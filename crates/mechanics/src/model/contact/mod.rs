@@ -267,7 +267,7 @@ impl Context<'_> {
 
     /// The area that each of these bare nodes stands for, on the average.
     fn patch(&self, points: &[NodeId], length: f64) -> f64 {
-        if self.layout.ndim == 3 {
+        if self.layout.ndim() == 3 {
             return length * length;
         }
         let at = |n: &NodeId| self.reference.get(*n as usize).copied();

@@ -7,7 +7,7 @@ use crate::model::{
     SpringPart, Unknown,
 };
 use crate::solve::Prescription;
-use crate::system::{DofName, Layout};
+use crate::system::{DofName, FieldId, Layout};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, ContactSurface, Placement, Pose, RigidId, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
@@ -20,10 +20,10 @@ impl Held<'_> {
     /// What is prescribed.
     pub fn supports(&mut self, layout: &Layout, prescriptions: &[Prescription]) {
         for p in prescriptions {
-            let unknown = match layout.name(p.dof) {
-                Some(DofName::Node(node, axis)) => Unknown::Node(node, axis),
-                Some(DofName::Translation(body, axis)) => Unknown::Carrier(body, axis),
-                Some(DofName::Rotation(body, axis)) => Unknown::Carrier(body, 3 + axis),
+            let unknown = match layout.name(p.dof).map(DofName::parts) {
+                Some((FieldId::DISPLACEMENT, node, axis)) => Unknown::Node(node, axis),
+                Some((FieldId::TRANSLATION, body, axis)) => Unknown::Carrier(body, axis),
+                Some((FieldId::ROTATION, body, axis)) => Unknown::Carrier(body, 3 + axis),
                 _ => continue,
             };
             self.equation(&[(unknown, 1.0)]);

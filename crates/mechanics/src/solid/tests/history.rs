@@ -45,7 +45,7 @@ fn history_moves_on_when_accepted_and_comes_back_from_an_archive() {
         let frame = body.report(&u);
         assert!(
             frame.cell_plastic_strain[0][0] > 0.0
-                && frame.plastic_strain.len() == body.layout.nnode
+                && frame.plastic_strain.len() == body.layout.nnode()
         );
     }
 }

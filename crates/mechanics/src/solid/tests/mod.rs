@@ -109,12 +109,7 @@ impl Wish {
 
 fn body(mesh: &Mesh, material: Box<dyn Material>, wish: &Wish) -> Result<Body, SolidError> {
     let ndim = wish.space.ndim();
-    let layout = Layout {
-        ndim,
-        nnode: mesh.nnode(),
-        nrigid: 0,
-        nmultiplier: 0,
-    };
+    let layout = Layout::new(ndim, mesh.nnode(), 0);
     let cells: Vec<_> = mesh.cells(ndim).collect();
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
     let mut solid = Solid::new(SolidParts {
@@ -148,7 +143,7 @@ impl Body {
 
     /// Displacements of all nodes as a function of their place.
     fn field(&self, of: impl Fn(Vec3) -> Vec3) -> Vec<f64> {
-        let ndim = self.layout.ndim;
+        let ndim = self.layout.ndim();
         let moved = self.reference.iter().map(|x| of(*x).to_array());
         moved.flat_map(|u| u.into_iter().take(ndim)).collect()
     }
@@ -176,7 +171,7 @@ impl Body {
     }
 
     fn report(&self, u: &[f64]) -> Frame {
-        let mut frame = Frame::new(self.layout.nnode, &[1]);
+        let mut frame = Frame::new(self.layout.nnode(), &[1]);
         self.solid.report(&self.state(u), &mut frame).unwrap();
         frame
     }

@@ -36,12 +36,7 @@ fn block(n: usize) -> Mesh {
 fn hexahedra_assembled_per_second() {
     let mesh = block(24);
     let cells: Vec<_> = mesh.cells(3).collect();
-    let layout = Layout {
-        ndim: 3,
-        nnode: mesh.nnode(),
-        nrigid: 0,
-        nmultiplier: 0,
-    };
+    let layout = Layout::new(3, mesh.nnode(), 0);
     let reference: Arc<[Vec3]> = mesh.points.clone().into();
     let measured = [
         (false, Locking::None),

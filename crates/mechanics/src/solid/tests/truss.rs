@@ -11,12 +11,7 @@ fn bars(points: &[Vec3], element: &str, ndim: usize) -> (Truss, Layout, Arc<[Vec
     }
     let nodes: Vec<u32> = (0..points.len() as u32).collect();
     let cell = mesh.push_cell(element::by_name(element).unwrap(), &nodes, 4);
-    let layout = Layout {
-        ndim,
-        nnode: points.len(),
-        nrigid: 0,
-        nmultiplier: 0,
-    };
+    let layout = Layout::new(ndim, points.len(), 0);
     let reference: Arc<[Vec3]> = points.into();
     let truss = Truss::new(TrussParts {
         name: "bars",

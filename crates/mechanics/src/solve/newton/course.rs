@@ -3,7 +3,7 @@
 use super::Converged;
 use super::failure::Failure;
 use super::iterate::{Iterate, LastStep, Why};
-use super::scale::Judgement;
+use super::scale::{Judgement, Sizes};
 use super::start::Start;
 use crate::solve::economy::Economy;
 use crate::system::NodeId;
@@ -220,7 +220,7 @@ impl Course {
 
     fn begin_again(&mut self) {
         self.allowance.begin_again(self.iterations);
-        (self.step.correction, self.step.is_measure) = (0.0, false);
+        (self.step.correction, self.step.is_measure) = (Sizes::default(), false);
     }
 
     /// This step was taken.
@@ -334,7 +334,7 @@ mod tests {
         };
         let mut course = Course::new(20, &start, false, None);
         let step = LastStep {
-            correction: 0.1,
+            correction: Sizes::of_motions(0.1),
             is_measure: true,
             alpha: 1.0,
             ..LastStep::default()

@@ -1,23 +1,23 @@
 //! An iterate, and what comes next.
 
-use super::scale::Judgement;
+use super::scale::{Judgement, Sizes};
 use crate::system::NodeId;
 
 /// Condition (d): the last correction over the increment's displacement.
-const CORRECTION: f64 = 1e-2;
+pub(super) const CORRECTION: f64 = 1e-2;
 /// Condition (d'): the same where rows change between states across which forces are continuous, and do not cease to.
 const STILL_MOVED: f64 = 1e-6;
 
-/// Whether a correction is small in comparison with the displacement of the increment, condition (d).
-pub(super) fn is_small(correction: f64, moved: f64) -> bool {
-    correction <= CORRECTION * moved
+/// Whether a correction is small in comparison with what the increment changes, field by field, condition (d).
+pub(super) fn is_small(correction: Sizes, moved: Sizes) -> bool {
+    correction.is_within(moved.times(CORRECTION))
 }
 
 /// The step that has led to an iterate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LastStep {
-    /// The largest change of a displacement.
-    pub correction: f64,
+    /// The largest changes.
+    pub correction: Sizes,
     /// Whether the correction is a measure of the error of the state: nothing else has changed since.
     pub is_measure: bool,
     /// The part of the Newton step that was taken.
@@ -37,10 +37,10 @@ pub(super) struct Iterate {
     pub step: LastStep,
     /// Whether prescribed nodes have yet to be moved, by the next solve.
     pub moves_nodes: bool,
-    /// The largest displacement in the increment so far.
-    pub moved: f64,
-    /// The rounding error of positions.
-    pub rounding: f64,
+    /// The largest changes in the increment so far.
+    pub moved: Sizes,
+    /// The rounding errors of positions, and of the values of other fields.
+    pub rounding: Sizes,
     /// Its residuals.
     pub judgement: Judgement,
     /// Closed contacts.
@@ -129,8 +129,8 @@ impl Iterate {
 
     /// Condition (d'): where forces are continuous, the residual alone is the error of the state, whatever its status.
     fn is_indifferent(&self) -> bool {
-        let least = (STILL_MOVED * self.moved).max(self.rounding);
-        let is_still = self.step.correction <= self.step.alpha * least;
+        let least = self.moved.times(STILL_MOVED).max(self.rounding);
+        let is_still = self.step.correction.is_within(least.times(self.step.alpha));
         let changes = self.is_unsettled && self.is_continuous;
         changes && self.judgement.small && self.step.is_measure && is_still
     }
@@ -145,15 +145,15 @@ mod tests {
         Iterate {
             iterations: 3,
             step: LastStep {
-                correction: 1e-4,
+                correction: Sizes::of_motions(1e-4),
                 is_measure: true,
                 alpha: 1.0,
                 decrement: 0.0,
                 linear_iterations: 0,
             },
             moves_nodes: false,
-            moved: 1.0,
-            rounding: 1e-14,
+            moved: Sizes::of_motions(1.0),
+            rounding: Sizes::of_motions(1e-14),
             judgement: Judgement {
                 residual: 1e-8,
                 ..Judgement::EMPTY
@@ -184,7 +184,7 @@ mod tests {
             &|i| i.judgement.small = false,
             &|i| i.moves_nodes = true,
             &|i| i.step.is_measure = false,
-            &|i| i.step.correction = 0.011,
+            &|i| i.step.correction = Sizes::of_motions(0.011),
             &|i| i.is_unsettled = true,
         ];
         for lack in lacking {
@@ -196,7 +196,7 @@ mod tests {
     fn residuals_of_rounding_need_no_small_correction() {
         let coarse = |i: &mut Iterate| {
             i.judgement.round_off = true;
-            i.step.correction = 0.5;
+            i.step.correction = Sizes::of_motions(0.5);
         };
         assert_eq!(next(coarse), Next::Release);
         let unsettled = |i: &mut Iterate| {
@@ -212,7 +212,7 @@ mod tests {
             next(|i| {
                 i.is_unsettled = true;
                 i.is_continuous = is_continuous;
-                i.step.correction = correction;
+                i.step.correction = Sizes::of_motions(correction);
             })
         };
         assert_eq!(wavers(1e-6, true), Next::Release);
@@ -223,7 +223,7 @@ mod tests {
             next(|i| {
                 i.is_unsettled = true;
                 i.step.alpha = 0.01;
-                i.step.correction = correction;
+                i.step.correction = Sizes::of_motions(correction);
             })
         };
         assert_eq!(shortened(0.9e-8), Next::Release);

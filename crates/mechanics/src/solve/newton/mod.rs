@@ -20,14 +20,14 @@ mod step;
 use super::equations::Equations;
 use super::event::{Flow, IterationRecord};
 use crate::system::{
-    Aid, Assembler, Assembly, Choices, Dof, Increment, NodeId, Order, Phase, State, StepContext,
-    System, TermError, Verdict,
+    Aid, Assembler, Assembly, ByScale, Choices, Dof, Increment, Layout, NodeId, Order, Phase,
+    State, StepContext, System, TermError, Verdict,
 };
 use course::{Course, Released};
 pub use failure::Failure;
 use iterate::{Iterate, Next, Why, is_small};
 pub(super) use scale::ForceScale;
-use scale::{FORCES, Judgement, KINDS, ROUND_OFF, Tolerance};
+use scale::{Judgement, ROUND_OFF, Sizes, Tolerance};
 
 /// Whether and how steps are shortened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,7 @@ const FEW: usize = 8;
 pub(super) struct Converged {
     pub iterations: usize,
     pub residual: f64,
-    pub q: [f64; KINDS],
+    pub q: ByScale,
     /// What the first step from an extrapolated start has shown, for the next increment.
     pub curvature: Option<f64>,
 }
@@ -256,8 +256,10 @@ impl Newton {
         base: &State,
         course: &mut Course,
     ) -> Result<Iterate, Failure> {
-        let nmotion = system.layout.nmotion();
-        let moved = largest_difference(&self.trial.u[..nmotion], &base.u[..nmotion]);
+        let (layout, now) = (&system.layout, &self.trial.u);
+        let rounding = self.rounding(layout);
+        let moved = Sizes::new(layout, |dof| at(now, dof) - at(&base.u, dof));
+        let moved = moved.at_least_of_own(rounding);
         // after a small correction there is probably no need for a tangent
         let little = course.step.is_measure && is_small(course.step.correction, moved);
         let first = if little {
@@ -270,7 +272,7 @@ impl Newton {
             self.assemble(system, first)?;
         }
         let judgement = self.judge(system);
-        self.set_negligible(system, judgement.q[FORCES]);
+        self.set_negligible(system, judgement.q[Layout::FORCES]);
         course.reached(&judgement);
         let verdicts = verdicts(system, &self.trial);
         Ok(Iterate {
@@ -278,7 +280,7 @@ impl Newton {
             step: course.step,
             moves_nodes: course.moves_nodes,
             moved,
-            rounding: self.rounding(),
+            rounding,
             judgement,
             closed: system.choices().map(Choices::nactive).sum(),
             flips: verdicts.flips + course.changes_of_start(),
@@ -409,10 +411,12 @@ impl Newton {
         f64::EPSILON * self.stiffest * motions.fold(0.0, |most: f64, u| most.max(u.abs()))
     }
 
-    /// The rounding error of positions.
-    fn rounding(&self) -> f64 {
+    /// The rounding errors of positions, and of the values of other fields.
+    fn rounding(&self, layout: &Layout) -> Sizes {
         let places = self.trial.x.iter();
-        ROUND_OFF * places.fold(0.0, |most: f64, x| most.max(x.max_abs()))
+        let far = places.fold(0.0, |most: f64, x| most.max(x.max_abs()));
+        let values = Sizes::new(layout, |dof| at(&self.trial.u, dof));
+        values.with_motions(far).times(ROUND_OFF)
     }
 }
 
@@ -425,7 +429,7 @@ const fn record(course: &Course, iterate: &Iterate, place: Place) -> IterationRe
         iteration: course.iterations + 1,
         residual: iterate.judgement.residual,
         worst: iterate.judgement.worst,
-        correction: iterate.step.correction,
+        correction: iterate.step.correction.motions(),
         decrement: iterate.step.decrement,
         linear_iterations: iterate.step.linear_iterations,
         line_search: iterate.step.alpha,
@@ -475,11 +479,6 @@ fn verdicts(system: &mut System, trial: &State) -> Verdicts {
     all
 }
 
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |m, v| v.abs().max(m))
-}
-
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
-    differences.fold(0.0, f64::max)
+fn at(values: &[f64], dof: usize) -> f64 {
+    values.get(dof).copied().unwrap_or_default()
 }

@@ -1,31 +1,18 @@
 //! How large residuals may be: condition (a).
 
+use super::iterate::CORRECTION;
 use crate::solve::economy::Excess;
-use crate::system::{Assembly, Dof, DofName, Layout, System};
+use crate::system::{Assembly, ByScale, Dof, Layout, MAX_FIELDS, System};
 
 /// A component carries load where its forces exceed this part of the largest.
 const LOADED: f64 = 1e-12;
 /// Rounding error of a residual over the sum of the absolute values in it.
 pub(super) const ROUND_OFF: f64 = 100.0 * f64::EPSILON;
 
-/// Kinds of equations, each with a mean force of its own.
-pub(super) const KINDS: usize = 3;
-pub(super) const FORCES: usize = 0;
-const ROTATIONS: usize = 1;
-const MULTIPLIERS: usize = 2;
-
-const fn kind(name: Option<DofName>) -> usize {
-    match name {
-        Some(DofName::Rotation(..)) => ROTATIONS,
-        Some(DofName::Multiplier(_)) => MULTIPLIERS,
-        _ => FORCES,
-    }
-}
-
 /// A state, judged by its residuals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Judgement {
-    /// max |r| / q over the kinds.
+    /// max |r| / q over the scales.
     pub residual: f64,
     /// Residuals over what is allowed.
     pub excess: Excess,
@@ -39,8 +26,8 @@ pub(super) struct Judgement {
     pub small: bool,
     /// Whether residuals are rounding errors.
     pub round_off: bool,
-    /// The mean force of each kind.
-    pub q: [f64; KINDS],
+    /// The mean of each scale.
+    pub q: ByScale,
 }
 
 impl Judgement {
@@ -56,11 +43,11 @@ impl Judgement {
         force: 0.0,
         small: true,
         round_off: true,
-        q: [0.0; KINDS],
+        q: [0.0; MAX_FIELDS],
     };
 
     /// Of a state with a force that is no number.
-    const fn broken(dof: usize, q: [f64; KINDS]) -> Self {
+    const fn broken(dof: usize, q: ByScale) -> Self {
         Self {
             residual: f64::NAN,
             excess: Excess {
@@ -77,6 +64,56 @@ impl Judgement {
     }
 }
 
+/// Sizes of changes: of motions, and of each field with a scale of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Sizes(ByScale);
+
+impl Sizes {
+    /// The largest of the values of each.
+    pub fn new(layout: &Layout, value: impl Fn(usize) -> f64) -> Self {
+        Self(layout.largest(value))
+    }
+
+    /// That of motions alone.
+    #[cfg(test)]
+    pub fn of_motions(size: f64) -> Self {
+        Self::default().with_motions(size)
+    }
+
+    /// The same with another size of motions.
+    pub const fn with_motions(mut self, size: f64) -> Self {
+        self.0[Layout::FORCES] = size;
+        self
+    }
+
+    /// The size of motions.
+    pub const fn motions(self) -> f64 {
+        self.0[Layout::FORCES]
+    }
+
+    /// The sizes times a factor.
+    pub fn times(self, factor: f64) -> Self {
+        Self(self.0.map(|size| factor * size))
+    }
+
+    /// The larger ones.
+    pub fn max(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k].max(other.0[k])))
+    }
+
+    /// The same with those of fields with a scale of their own raised to where a correction of this size is small: a
+    /// field that an increment leaves as it is has no change to compare with.
+    pub fn at_least_of_own(self, rounding: Self) -> Self {
+        let least = rounding.times(1.0 / CORRECTION).with_motions(0.0);
+        self.max(least)
+    }
+
+    /// Whether none exceeds that of `most`.
+    pub fn is_within(self, most: Self) -> bool {
+        self.0.iter().zip(most.0).all(|(size, most)| *size <= most)
+    }
+}
+
 /// What residuals are compared with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tolerance {
@@ -88,15 +125,16 @@ pub(super) struct Tolerance {
     pub rounding: f64,
 }
 
-/// What counts as small: residuals are judged against the mean force, separately for forces, moments, multipliers.
+/// What counts as small: residuals are judged against their mean, separately for forces, moments, multipliers, and each
+/// field with a scale of its own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::solve) struct ForceScale {
-    /// q of each kind over the accepted states so far.
-    accepted: [f64; KINDS],
+    /// q of each scale over the accepted states so far.
+    accepted: ByScale,
 }
 
 impl ForceScale {
-    pub fn accept(&mut self, q: [f64; KINDS]) {
+    pub fn accept(&mut self, q: ByScale) {
         for (a, q) in self.accepted.iter_mut().zip(q) {
             *a = a.max(q);
         }
@@ -104,15 +142,19 @@ impl ForceScale {
 
     /// The mean force over the accepted states so far.
     pub(super) const fn mean_force(&self) -> f64 {
-        self.accepted[FORCES]
+        self.accepted[Layout::FORCES]
     }
 
-    /// The values, for a checkpoint.
-    pub const fn to_array(&self) -> [f64; KINDS] {
-        self.accepted
+    /// The values of the scales of a layout, for a checkpoint.
+    pub fn values(&self, layout: &Layout) -> &[f64] {
+        self.accepted.get(..layout.nscale()).unwrap_or_default()
     }
 
-    pub const fn from_array(accepted: [f64; KINDS]) -> Self {
+    /// Values that were stored.
+    pub fn from_values(values: &[f64]) -> Self {
+        let mut accepted = ByScale::default();
+        let pairs = accepted.iter_mut().zip(values);
+        pairs.for_each(|(to, value)| *to = *value);
         Self { accepted }
     }
 
@@ -126,27 +168,27 @@ impl ForceScale {
     ) -> Judgement {
         let layout = &system.layout;
         let (mean, mut largest) = forces(layout, assembly);
-        let mut q: [f64; KINDS] = std::array::from_fn(|k| mean[k].max(self.accepted[k]));
-        q[FORCES] = q[FORCES].max(tolerance.rounding / tolerance.force_tol);
+        let mut q: ByScale = std::array::from_fn(|k| mean[k].max(self.accepted[k]));
+        q[Layout::FORCES] = q[Layout::FORCES].max(tolerance.rounding / tolerance.force_tol);
         // a reaction must be a number, too
         if let Some(dof) = assembly.residual.iter().position(|r| !r.is_finite()) {
             return Judgement::broken(dof, q);
         }
         // moments are sums of forces times distances, whose rounding stays where they cancel
-        largest[ROTATIONS] += largest[FORCES] * tolerance.extent;
+        largest[Layout::MOMENTS] += largest[Layout::FORCES] * tolerance.extent;
         let mut judgement = Judgement {
             q,
             ..Judgement::EMPTY
         };
         let mut least = f64::INFINITY;
         for &dof in dofs {
-            let k = kind(layout.name(dof));
+            let k = layout.scale(dof);
             let r = assembly.residual[dof as usize].abs();
             let floor = ROUND_OFF * largest[k] + assembly.uncertainty[dof as usize];
             judgement.round_off &= r <= floor;
             let limit = (tolerance.force_tol * q[k]).max(floor);
             judgement.small &= r <= limit;
-            let excess = if k == MULTIPLIERS {
+            let excess = if k == Layout::MULTIPLIERS {
                 &mut judgement.excess.multipliers
             } else {
                 least = least.min(limit);
@@ -155,8 +197,8 @@ impl ForceScale {
             if r > *excess * limit {
                 *excess = r / limit;
             }
-            // equations of multipliers and moments may hold nothing but their residual: its mean says nothing
-            let done = r == 0.0 || (k != FORCES && r <= floor);
+            // all equations but forces may hold nothing but their residual: its mean says nothing
+            let done = r == 0.0 || (k != Layout::FORCES && r <= floor);
             let relative = if done { 0.0 } else { r / q[k] };
             if relative > judgement.residual {
                 judgement.residual = relative;
@@ -169,17 +211,17 @@ impl ForceScale {
     }
 }
 
-/// Of each kind, the mean over the loaded components of Σ_e |f_e|_i, and its maximum.
-fn forces(layout: &Layout, assembly: &Assembly) -> ([f64; KINDS], [f64; KINDS]) {
-    let mut largest = [0.0f64; KINDS];
+/// Of each scale, the mean over the loaded components of Σ_e |f_e|_i, and its maximum.
+fn forces(layout: &Layout, assembly: &Assembly) -> (ByScale, ByScale) {
+    let mut largest = ByScale::default();
     for (dof, m) in assembly.magnitude.iter().enumerate() {
-        let k = kind(layout.name(dof as Dof));
+        let k = layout.scale(dof as Dof);
         largest[k] = largest[k].max(*m);
     }
-    let mut sum = [0.0; KINDS];
-    let mut count = [0usize; KINDS];
+    let mut sum = ByScale::default();
+    let mut count = [0usize; MAX_FIELDS];
     for (dof, m) in assembly.magnitude.iter().enumerate() {
-        let k = kind(layout.name(dof as Dof));
+        let k = layout.scale(dof as Dof);
         if *m > LOADED * largest[k] {
             sum[k] += m;
             count[k] += 1;

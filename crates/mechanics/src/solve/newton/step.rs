@@ -2,7 +2,8 @@
 
 use super::course::Course;
 use super::iterate::{Iterate, LastStep, is_small};
-use super::{Failure, LineSearch, Newton, largest};
+use super::scale::Sizes;
+use super::{Failure, LineSearch, Newton, at};
 use crate::solve::equations::{Accuracy, Factor};
 use crate::solve::line_search;
 use crate::system::{Aid, Dof, Layout, Order, System, TermError};
@@ -48,9 +49,9 @@ impl Newton {
             }
             solved => solved?,
         };
-        let nmotion = system.layout.nmotion();
-        let size = largest(&self.du[..nmotion]);
-        let flees = course.watch.sees_correction(size, iterate.moved);
+        let size = Sizes::new(&system.layout, |dof| at(&self.du, dof));
+        let moved = iterate.moved.motions();
+        let flees = course.watch.sees_correction(size.motions(), moved);
         if flees && self.aid(system, Aid::Restore) {
             return Ok(());
         }
@@ -65,7 +66,7 @@ impl Newton {
         };
         let alpha = self.advance(system, motion, next, course.iterations + 1)?;
         course.stepped(LastStep {
-            correction: alpha * size,
+            correction: size.times(alpha),
             is_measure: true,
             alpha,
             decrement,

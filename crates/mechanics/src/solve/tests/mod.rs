@@ -335,12 +335,7 @@ fn load(node: NodeId, ends: &[f64]) -> Box<dyn Term> {
 
 /// Nodes in the plane, of which only the displacement along x is in use.
 fn system(nnode: usize, terms: Vec<Box<dyn Term>>) -> System {
-    let layout = Layout {
-        ndim: 2,
-        nnode,
-        nrigid: 0,
-        nmultiplier: 0,
-    };
+    let layout = Layout::new(2, nnode, 0);
     let reference: Arc<[Vec3]> = (0..nnode).map(|n| Vec3::unit(0) * n as f64).collect();
     System {
         layout,

@@ -241,7 +241,7 @@ fn redundant_multipliers_share_a_force_as_stiff_joints_would() {
     // three nodes on springs of stiffness 10; node 2 is pulled by 6, and linked all round, with one link twice
     let all = [vec![0, 1], vec![1, 2], vec![2, 0], vec![1, 2]];
     let mut system = system(3, vec![load(2, &[6.0])]);
-    system.layout.nmultiplier = all.len();
+    system.layout = system.layout.with_multipliers(all.len());
     for node in 0..3 {
         system.terms.push(Spring::between(None, node, linear));
     }

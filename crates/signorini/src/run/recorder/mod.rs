@@ -282,7 +282,7 @@ impl Recorder<'_> {
             return;
         }
         let trial = stepper.trial();
-        let nodes = 0..system.layout.nnode as u32;
+        let nodes = 0..system.layout.nnode() as u32;
         let frame = Frame {
             time: trial.time,
             displacement: nodes.map(|node| system.displacement(trial, node)).collect(),

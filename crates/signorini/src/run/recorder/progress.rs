@@ -8,7 +8,7 @@ use signorini_io::writers::json::{ContactState, ContactSummary, Event};
 use signorini_io::writers::sta::Attempt;
 use signorini_linear::Note;
 use signorini_mechanics::solve::{Cause, IncrementRecord, IterationRecord, RunError};
-use signorini_mechanics::system::{ContactFrame, Dof, DofName, Frame};
+use signorini_mechanics::system::{ContactFrame, Dof, DofName, Frame, Site};
 
 impl Recorder<'_> {
     pub(super) fn iteration(&mut self, record: &IterationRecord) {
@@ -133,13 +133,14 @@ impl Recorder<'_> {
 
     pub(super) fn held(&mut self, step: usize, dofs: &[Dof]) {
         let setting = &self.setting;
-        let in_words = |&dof: &Dof| match setting.layout.name(dof) {
-            Some(DofName::Node(node, axis)) => {
+        let name = |dof: Dof| setting.layout.name(dof);
+        let in_words = |&dof: &Dof| match name(dof).and_then(DofName::displacement) {
+            Some((node, axis)) => {
                 let label = setting.mesh.node_labels.get(node as usize);
                 let axis = ["x", "y", "z"].get(axis).copied().unwrap_or_default();
                 format!("{axis} of node {}", label.copied().unwrap_or_default())
             }
-            _ => "a reference".to_owned(),
+            None => self.other_in_words(name(dof)),
         };
         let event = Event::Held {
             step: self.step_name(step),
@@ -273,10 +274,18 @@ impl Recorder<'_> {
     }
 
     fn worst_node(&self, dof: Option<Dof>) -> Option<u64> {
-        match self.setting.layout.name(dof?)? {
-            DofName::Node(node, _) => self.setting.mesh.node_labels.get(node as usize).copied(),
-            _ => None,
-        }
+        let (node, _) = self.setting.layout.name(dof?)?.displacement()?;
+        self.setting.mesh.node_labels.get(node as usize).copied()
+    }
+
+    /// What is no displacement of a node.
+    fn other_in_words(&self, name: Option<DofName>) -> String {
+        let of_node = name.and_then(|name| {
+            let field = self.setting.layout.field(name.field)?;
+            let label = self.setting.mesh.node_labels.get(name.entity as usize)?;
+            (field.on == Site::Nodes).then(|| format!("{} of node {label}", field.name))
+        });
+        of_node.unwrap_or_else(|| "a reference".to_owned())
     }
 }
 
