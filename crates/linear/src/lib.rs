@@ -44,6 +44,6 @@ pub use multigrid::Multigrid;
 #[cfg(feature = "mumps")]
 pub use mumps::Mumps;
 pub use operator::{apply, apply_absolute};
-pub use problem::{Problem, Symmetry, Values};
+pub use problem::{FieldBlock, Problem, Symmetry, Values};
 pub use solver::{EXACT, Iterative, LinearSolver, Note, SolveReport, StartStiffness, Why};
 pub use table::{LinearKind, SOLVERS, SolverEntry, choose};

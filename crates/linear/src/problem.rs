@@ -14,6 +14,25 @@ pub enum Symmetry {
     Unsymmetric,
 }
 
+/// Where the unknowns of a field of the nodes are that is not in the bulk: `first + node · width + component`.
+///
+/// Its coefficients, and those that couple it with other fields, are in the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FieldBlock {
+    /// The first raw degree of freedom.
+    pub first: u32,
+    /// The number of components of a node.
+    pub width: usize,
+}
+
+impl FieldBlock {
+    /// Its raw degrees of freedom, where there are this many nodes.
+    fn dofs(&self, nnode: usize) -> std::ops::Range<usize> {
+        let first = self.first as usize;
+        first..first.saturating_add(nnode.saturating_mul(self.width))
+    }
+}
+
 /// What a solver knows before it sees values.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
@@ -23,6 +42,8 @@ pub struct Problem<'a> {
     pub bulk: &'a BlockPattern,
     /// The pattern of the interface.
     pub interface: &'a Pattern,
+    /// The fields of the nodes besides that of the bulk.
+    pub fields: &'a [FieldBlock],
     /// The equation of each raw degree of freedom, [`NONE`] where it has none (prescribed, dependent, unused).
     pub equation: &'a [u32],
     /// The number of equations.
@@ -90,6 +111,15 @@ impl Problem<'_> {
                 end: self.ndof + 1,
             });
         }
+        let fields = self.fields.iter();
+        let mut outside = fields.map(|field| field.dofs(self.bulk.nrow()));
+        if let Some(dofs) = outside.find(|dofs| dofs.start < nbulk || dofs.end > self.ndof) {
+            return Err(LinearError::Range {
+                what: "degrees of freedom of a field",
+                number: dofs.start,
+                end: self.ndof,
+            });
+        }
         if self.interface.nrow > self.ndof {
             return Err(LinearError::Range {
                 what: "interface rows",
@@ -134,6 +164,7 @@ pub struct Values<'a> {
 pub(crate) struct Kept {
     pub bulk: BlockPattern,
     pub interface: Pattern,
+    pub fields: Vec<FieldBlock>,
     pub equation: Vec<u32>,
     pub symmetry: Symmetry,
     pub sign: Vec<i8>,
@@ -146,6 +177,7 @@ impl Kept {
         Self {
             bulk: problem.bulk.clone(),
             interface: problem.interface.clone(),
+            fields: problem.fields.to_vec(),
             equation: problem.equation.to_vec(),
             symmetry: problem.symmetry,
             sign: problem.sign.to_vec(),
@@ -158,6 +190,7 @@ impl Kept {
         self.symmetry == problem.symmetry
             && self.equation == problem.equation
             && self.sign == problem.sign
+            && self.fields == problem.fields
             && self.interface == *problem.interface
             && self.bulk == *problem.bulk
     }
@@ -226,6 +259,7 @@ impl Kept {
             ndof: self.equation.len(),
             bulk: &self.bulk,
             interface: &self.interface,
+            fields: &self.fields,
             equation: &self.equation,
             nequation: self.sign.len(),
             symmetry: self.symmetry,
@@ -272,6 +306,12 @@ impl Kept {
     /// Whether operator and block are symmetric and positive definite in a stable state.
     pub fn is_definite(&self) -> bool {
         self.symmetry == Symmetry::Definite && self.sign.iter().all(|&sign| sign > 0)
+    }
+
+    /// Whether a raw dof is that of a field of the nodes besides the bulk.
+    pub fn is_of_field(&self, dof: u32) -> bool {
+        let mut fields = self.fields.iter();
+        fields.any(|field| field.dofs(self.bulk.nrow()).contains(&(dof as usize)))
     }
 
     /// Whether a raw dof is solved for.

@@ -47,12 +47,23 @@ impl Residual {
 
     /// How large a residual round-off alone may leave.
     pub fn round_off(&mut self, kept: &Kept, values: &Values, x: &[f64]) -> f64 {
+        self.round_off_in(kept, values, x, |_| 1.0)
+    }
+
+    /// The same in units that each equation has.
+    pub fn round_off_in(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        x: &[f64],
+        unit: impl Fn(usize) -> f64,
+    ) -> f64 {
         let Self { raw_x, raw_y, .. } = self;
         spread(&kept.equation, x, raw_x);
         apply_absolute(&kept.bulk, &kept.interface, values, raw_x, raw_y);
         let equations = kept.equation.iter().zip(raw_y);
         let used = equations.filter(|&(&e, _)| e != NONE);
-        ROUND_OFF * used.fold(0.0, |max: f64, (_, y)| max.max(*y))
+        ROUND_OFF * used.fold(0.0, |max: f64, (&e, y)| max.max(*y / unit(e as usize)))
     }
 }
 

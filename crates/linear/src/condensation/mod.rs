@@ -254,6 +254,7 @@ impl Condensation {
             ndof: self.equation.len(),
             bulk: &kept.bulk,
             interface: &self.pattern,
+            fields: &kept.fields,
             equation: &self.equation,
             nequation: self.sign.len(),
             symmetry,

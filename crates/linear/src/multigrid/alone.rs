@@ -31,7 +31,9 @@ fn row<'a>(kept: &'a Kept, values: &'a Values<'_>, dof: usize) -> impl Iterator<
 pub(super) fn touched(kept: &Kept, values: &Values) -> Vec<bool> {
     let counts = |dof: usize, (column, v): (u32, f64)| {
         let is_alone = column as usize == dof;
-        v != 0.0 && !(is_alone && v.abs() <= little(kept, values, dof / 3))
+        v != 0.0
+            && !kept.is_of_field(column)
+            && !(is_alone && v.abs() <= little(kept, values, dof / 3))
     };
     let is_touched = |node: usize| {
         let mut dofs = 3 * node..3 * node + 3;
@@ -46,7 +48,8 @@ pub(super) fn coupled(kept: &Kept) -> Vec<bool> {
         (3 * node..3 * node + 3).any(|dof| {
             let ends = kept.interface.row_start.get(dof..dof + 2);
             let columns = ends.and_then(|ends| kept.interface.column.get(ends[0]..ends[1]));
-            columns.is_some_and(|all| all.iter().any(|&column| column as usize != dof))
+            let others = |&column: &u32| column as usize != dof && !kept.is_of_field(column);
+            columns.is_some_and(|all| all.iter().any(others))
         })
     };
     (0..kept.bulk.nrow()).map(is_coupled).collect()

@@ -106,6 +106,7 @@ impl InterfaceBlock {
             ndof: self.equation.len(),
             bulk: &self.bulk,
             interface: &self.interface,
+            fields: &[],
             equation: &self.equation,
             nequation: self.whole.len(),
             symmetry: kept.symmetry,
@@ -363,11 +364,17 @@ impl InterfaceBlock {
     }
 }
 
-/// The raw dofs beyond the nodes that are solved for.
+/// The raw dofs beyond the nodes that are solved for; of other fields of the nodes, those that constraints or carriers act
+/// on.
 fn beyond(kept: &Kept) -> Vec<u32> {
-    let all = 3 * kept.bulk.nrow()..kept.equation.len();
-    all.filter(|&dof| kept.equation[dof] != NONE)
-        .map(|dof| dof as u32)
+    let nbulk = 3 * kept.bulk.nrow() as u32;
+    let is_nodal = |column: u32| column < nbulk || kept.is_of_field(column);
+    let is_apart = |dof: u32| {
+        let mut columns = kept.interface_row(dof).map(|(column, _)| column);
+        kept.is_of_field(dof) && columns.all(is_nodal)
+    };
+    let all = nbulk..kept.equation.len() as u32;
+    all.filter(|&dof| kept.is_free(dof as usize) && !is_apart(dof))
         .collect()
 }
 

@@ -122,6 +122,7 @@ impl BodyFactor {
             ndof: 3 * nrow,
             bulk: &bulk,
             interface: &Pattern::empty(3 * nrow),
+            fields: &[],
             equation: &equation,
             nequation: 3 * nrow,
             symmetry: Symmetry::Definite,

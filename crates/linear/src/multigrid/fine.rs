@@ -30,7 +30,7 @@ pub(super) struct Fine {
     /// Rows of bodies that nothing holds but contact, in their order.
     pub floating: Vec<u32>,
     /// Where elements are quadratic.
-    pub corners: Option<Corners>,
+    pub corners: Option<Corners<3>>,
     /// What it was made of: bodies, and which of their dofs can move.
     bulk: BlockPattern,
     is_free: Vec<bool>,
@@ -39,13 +39,13 @@ pub(super) struct Fine {
 /// The corners of quadratic elements: there are the linear ones on the same places, which a hierarchy aggregates better.
 ///
 /// Source: Rønquist, Patera, *J. Sci. Comput.* 2 (1987) 389–406.
-pub(super) struct Corners {
+pub(super) struct Corners<const N: usize> {
     /// The row of each, in the order of the rows.
     pub row: Vec<u32>,
     /// Ranges of corners in the parts.
     pub parts: Vec<Range<usize>>,
     /// From corners to rows: what is between two moves by their mean.
-    pub prolong: Blocks<3, 3>,
+    pub prolong: Blocks<N, N>,
 }
 
 impl Fine {
@@ -177,7 +177,7 @@ impl Fine {
     }
 }
 
-impl Corners {
+impl Corners<3> {
     /// Those among the nodes of rows; none where few nodes are between others.
     fn new(
         node: &[u32],

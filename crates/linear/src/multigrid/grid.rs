@@ -7,6 +7,7 @@ use super::factor::BodyFactor;
 use super::fine::{Fine, hold};
 use super::hierarchy::Hierarchy;
 use super::krylov::{self, End, Operators, Stop};
+use super::nodal::{Component, Units, components};
 use super::springs;
 use super::values::{fill, fingerprint};
 use crate::error::LinearError;
@@ -51,7 +52,7 @@ pub(super) const MOST: f64 = 8.0;
 /// What serves one problem.
 pub(crate) struct Grid {
     pub(super) fine: Fine,
-    pub(super) hierarchy: Option<Hierarchy>,
+    pub(super) hierarchy: Option<Hierarchy<3>>,
     /// What stands for the hierarchy once that has not served.
     pub(super) factor: BodyFactor,
     pub(super) has_factor: bool,
@@ -66,6 +67,9 @@ pub(crate) struct Grid {
     /// Whether iterations did not come to an end in this increment: the next ones would not, either.
     pub(super) has_failed: bool,
     pub(super) block: InterfaceBlock,
+    /// The components of other fields of the nodes.
+    pub(super) components: Vec<Component>,
+    pub(super) units: Units,
     pub(super) numbers: Numbers,
     pub(super) work: Work,
     /// Iterations to a power of ten of the first solution with the hierarchy, and how often it took too many since.
@@ -162,6 +166,8 @@ impl Grid {
             start: Start::default(),
             has_failed: false,
             block: InterfaceBlock::new(),
+            components: Vec::new(),
+            units: Units::default(),
             numbers: Numbers::default(),
             work: Work {
                 b: vec![[0.0; 3]; nrow],
@@ -179,6 +185,7 @@ impl Grid {
     /// Takes note of another interface, with other equations.
     pub(super) fn follow(&mut self, kept: &Kept) {
         self.block = InterfaceBlock::new();
+        self.components = components(kept);
         self.numbers = Numbers::new(kept, &self.fine);
         self.work.raw_x = vec![0.0; kept.equation.len()];
         self.work.raw_y = vec![0.0; kept.equation.len()];
@@ -274,7 +281,7 @@ impl Grid {
         &self,
         matrix: &Blocks<3, 3>,
         worn: Option<[f64; 2]>,
-    ) -> Option<(Hierarchy, Note)> {
+    ) -> Option<(Hierarchy<3>, Note)> {
         let Fine {
             modes,
             parts,
@@ -400,6 +407,16 @@ impl Grid {
         values: &Values,
         notes: &mut Vec<Note>,
     ) -> Result<bool, LinearError> {
+        if !self.components.is_empty() {
+            self.units.update(kept, values);
+            let mut components = self.components.iter_mut();
+            if !components.all(|component| component.update(kept, values)) {
+                let why = Why::NotPositive;
+                self.has_failed = true;
+                notes.push(Note::Direct { why });
+                return Ok(false);
+            }
+        }
         if !self.has_factor {
             notes.extend(self.renew(kept, values));
         }
@@ -459,12 +476,23 @@ impl Grid {
         }
         let symmetric = kept.is_definite();
         let mut size = kept.largest_at_displacements(rhs);
-        if symmetric {
+        if symmetric || self.block.whole.is_empty() {
             residual.value.copy_from_slice(rhs);
         } else {
             self.block.after(rhs, x)?;
             residual.measure(kept, values, rhs, x);
             size = size.max(kept.largest_at_displacements(&residual.value));
+        }
+        self.units
+            .measure(&self.components, kept, [rhs, &residual.value]);
+        let has_units = !self.units.is_empty();
+        // errors of several fields have no norm in common
+        let wanted = match wanted {
+            Wanted::Part { part, .. } if has_units => Wanted::Residual(STRICTER * part),
+            other => other,
+        };
+        if has_units {
+            size = 1.0;
         }
         let part = match wanted {
             Wanted::Residual(rtol) => rtol,
@@ -491,7 +519,10 @@ impl Grid {
             } else {
                 krylov::minimal_residuals
             };
+            operators.grid.units.reduce(&mut residual.value);
+            operators.grid.units.restore(x);
             let (end, count) = iterate(&mut operators, &mut residual.value, x, stop, most)?;
+            operators.grid.units.reduce(x);
             report.iterations += count;
             let iterations = report.iterations;
             match end {
@@ -500,12 +531,18 @@ impl Grid {
                 End::Indefinite => return Ok(Err(Why::Indefinite)),
             }
             residual.measure(kept, values, rhs, x);
+            operators.grid.units.reduce(&mut residual.value);
             let left = largest(&residual.value);
+            operators.grid.units.restore(&mut residual.value);
             report.residual = if left > 0.0 { left / size } else { 0.0 };
             report.refinements = attempt;
             let done = match wanted {
                 Wanted::Residual(_) => {
-                    report.residual <= part || left <= residual.round_off(kept, values, x)
+                    report.residual <= part
+                        || left <= {
+                            let units = &operators.grid.units;
+                            residual.round_off_in(kept, values, x, |e| units.of(e))
+                        }
                 }
                 Wanted::Part { .. } if symmetric || count == 0 => true,
                 Wanted::Part { part, .. } => {
@@ -555,8 +592,8 @@ pub(super) struct OneGrid<'a> {
     pub(super) symmetric: bool,
 }
 
-impl Operators for OneGrid<'_> {
-    fn apply(&mut self, x: &[f64], y: &mut [f64]) {
+impl OneGrid<'_> {
+    fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
         let Grid { work, numbers, .. } = &mut *self.grid;
         let Work { raw_x, raw_y, .. } = work;
         fill(raw_x, &self.kept.equation, |&e| {
@@ -572,11 +609,12 @@ impl Operators for OneGrid<'_> {
         fill(y, &numbers.raw, |&dof| raw_y[dof as usize]);
     }
 
-    fn precondition(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError> {
+    fn cycle(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError> {
         let Grid {
             hierarchy,
             factor,
             block,
+            components,
             numbers,
             work,
             ..
@@ -604,9 +642,35 @@ impl Operators for OneGrid<'_> {
             }
             None => factor.apply(right, &numbers.of_row, &numbers.fine, z)?,
         }
+        for component in components {
+            component.apply(right, z);
+        }
         if has_block {
             block.after(r, z)?;
         }
         Ok(())
+    }
+}
+
+impl Operators for OneGrid<'_> {
+    fn apply(&mut self, x: &[f64], y: &mut [f64]) {
+        if self.grid.units.is_empty() {
+            return self.multiply(x, y);
+        }
+        let restored = self.grid.units.divided(x);
+        self.multiply(&restored, y);
+        self.grid.units.keep(restored);
+        self.grid.units.reduce(y);
+    }
+
+    fn precondition(&mut self, r: &[f64], z: &mut [f64]) -> Result<(), LinearError> {
+        if self.grid.units.is_empty() {
+            return self.cycle(r, z);
+        }
+        let restored = self.grid.units.multiplied(r);
+        let outcome = self.cycle(&restored, z);
+        self.grid.units.keep(restored);
+        self.grid.units.restore(z);
+        outcome
     }
 }

@@ -16,10 +16,10 @@ const TOO_MANY: usize = 3000;
 /// A level has at most this part of the rows of the finer one, or there is none.
 const COARSER: f64 = 0.7;
 
-/// Levels with the solution on the coarsest one.
-pub(super) struct Hierarchy {
-    quadratic: Option<Quadratic>,
-    fine: Level<3>,
+/// Levels with the solution on the coarsest one, of `N` unknowns at each node.
+pub(super) struct Hierarchy<const N: usize> {
+    quadratic: Option<Quadratic<N>>,
+    fine: Level<N>,
     coarse: Vec<Level<MODES>>,
     last: Dense,
     /// The matrix of the coarsest level without springs.
@@ -29,23 +29,23 @@ pub(super) struct Hierarchy {
 }
 
 /// The level of all nodes of quadratic elements, above that of their corners, with the right side and the solution of that.
-struct Quadratic {
-    level: Level<3, 3>,
-    b: Vec<[f32; 3]>,
-    x: Vec<[f32; 3]>,
+struct Quadratic<const N: usize> {
+    level: Level<N, N>,
+    b: Vec<[f32; N]>,
+    x: Vec<[f32; N]>,
 }
 
-impl Hierarchy {
+impl<const N: usize> Hierarchy<N> {
     /// The hierarchy of a matrix; `None` where it is not positive definite.
     ///
     /// # Shapes
     /// `modes`: motions of a rigid body at each row. `parts`: see [`super::incomplete::Incomplete`]. `corners`: where rows are
     /// those of quadratic elements.
     pub fn new(
-        matrix: &Blocks<3, 3>,
-        modes: &[[[f64; MODES]; 3]],
+        matrix: &Blocks<N, N>,
+        modes: &[[[f64; MODES]; N]],
         parts: &[Range<usize>],
-        corners: Option<&Corners>,
+        corners: Option<&Corners<N>>,
     ) -> Option<Self> {
         let (quadratic, (fine, (mut matrix, mut modes))) = match corners {
             None => (None, Level::new(matrix, modes, parts)?),
@@ -54,8 +54,8 @@ impl Hierarchy {
                 let modes: Vec<_> = corners.row.iter().map(|&r| modes[r as usize]).collect();
                 let quadratic = Quadratic {
                     level,
-                    b: vec![[0.0; 3]; modes.len()],
-                    x: vec![[0.0; 3]; modes.len()],
+                    b: vec![[0.0; N]; modes.len()],
+                    x: vec![[0.0; N]; modes.len()],
                 };
                 let next = Level::new(&linear, &modes, &corners.parts)?;
                 (Some(quadratic), next)
@@ -96,7 +96,7 @@ impl Hierarchy {
     }
 
     /// Takes springs with these rows in place of those it has.
-    pub fn hold(&mut self, rows: Option<Rows<3>>) {
+    pub fn hold(&mut self, rows: Option<Rows<N>>) {
         if rows.is_none() && !self.fine.is_held() {
             return;
         }
@@ -118,7 +118,7 @@ impl Hierarchy {
     }
 
     /// One V-cycle from zero.
-    pub fn cycle(&mut self, b: &[[f32; 3]], x: &mut [[f32; 3]]) {
+    pub fn cycle(&mut self, b: &[[f32; N]], x: &mut [[f32; N]]) {
         let Self {
             quadratic,
             fine,
@@ -127,7 +127,7 @@ impl Hierarchy {
             vectors,
             ..
         } = self;
-        let mut linear = |b: &[[f32; 3]], x: &mut [[f32; 3]]| {
+        let mut linear = |b: &[[f32; N]], x: &mut [[f32; N]]| {
             if let [[coarse_b, coarse_x], rest @ ..] = vectors.as_mut_slice() {
                 fine.cycle(b, x, coarse_b, coarse_x, |b, x| {
                     descend(coarse, last, rest, b, x);

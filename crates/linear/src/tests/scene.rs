@@ -200,6 +200,7 @@ impl Assembled {
             ndof: self.ndof,
             bulk: &self.bulk,
             interface: &self.interface,
+            fields: &[],
             equation: &self.equation,
             nequation: self.nequation,
             symmetry: self.symmetry,

@@ -3,7 +3,7 @@
 use crate::system::{Assembler, Assembly, Dof, DofName, FieldId, Symmetry, System};
 use signorini_linear::sparsity::NONE;
 use signorini_linear::{
-    EXACT, LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
+    EXACT, FieldBlock, LinearError, LinearSolver, Note, Problem, SolveReport, StartStiffness,
 };
 use std::time::Instant;
 
@@ -170,10 +170,16 @@ impl Equations {
             .max()
             .unwrap_or(Symmetry::Definite);
         let symmetry = symmetry.max(self.turning(system));
+        let fields = layout.other_nodal().map(|(id, field)| FieldBlock {
+            first: layout.dof(id, 0, 0),
+            width: field.ncomponent,
+        });
+        let fields: Vec<FieldBlock> = fields.collect();
         let problem = Problem {
             ndof: layout.ndof(),
             bulk: assembler.bulk(),
             interface: assembler.interface(),
+            fields: &fields,
             equation: &self.equation,
             nequation: self.dofs.len(),
             symmetry,
