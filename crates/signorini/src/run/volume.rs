@@ -14,7 +14,7 @@ use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::writers::vtu::{
     self, Fact, FactValue, Field, Grid, Options, SymTensor, Values, VtuError,
 };
-use signorini_mechanics::system::Frame;
+use signorini_mechanics::system::{Frame, NodalValues};
 
 /// Tensors handled by one task.
 const TENSORS_PER_TASK: usize = 1024;
@@ -96,7 +96,17 @@ impl Volume {
             at_nodes.push(Field::new("plastic_strain", values));
             in_cells.push(Field::new("plastic_strain", Values::Scalar(&plastic)));
         }
-        if self.fields.temperature && !frame.temperature.is_empty() {
+        let others: Vec<Vec<[f64; 3]>> = frame.fields.iter().map(as_vectors).collect();
+        for (field, vectors) in frame.fields.iter().zip(&others) {
+            let values = match field.ncomponent {
+                1 => Values::Scalar(&field.values),
+                _ => Values::Vector(vectors),
+            };
+            at_nodes.push(Field::new(field.name, values));
+        }
+        // where temperatures are solved for, those are the ones
+        let is_solved = frame.fields.iter().any(|field| field.name == "temperature");
+        if self.fields.temperature && !frame.temperature.is_empty() && !is_solved {
             let values = Values::Scalar(&frame.temperature);
             at_nodes.push(Field::new("temperature", values));
         }
@@ -180,6 +190,16 @@ pub fn facts<'a>(time: &'a [f64], place: &'a [[i64; 1]; 2]) -> [Fact<'a>; 3] {
     ]
 }
 
+/// The values of a field of several components, of which a file has three; nothing of a scalar.
+fn as_vectors(field: &NodalValues) -> Vec<[f64; 3]> {
+    let n = field.ncomponent;
+    if n < 2 {
+        return Vec::new();
+    }
+    let vector = |values: &[f64]| [0, 1, 2].map(|k| values.get(k).copied().unwrap_or_default());
+    field.values.chunks_exact(n).map(vector).collect()
+}
+
 /// Vectors as writers take them.
 pub fn vectors(values: &[Vec3]) -> Vec<[f64; 3]> {
     values.iter().map(|v| v.to_array()).collect()
@@ -243,5 +263,44 @@ fn tensor(s: Sym3) -> SymTensor {
         xy: s.xy(),
         yz: s.yz(),
         xz: s.xz(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use signorini_geometry::element::by_name;
+    use signorini_mechanics::system::NodalValues;
+
+    #[test]
+    fn fields_of_nodes_are_point_data_under_their_names() {
+        let mut mesh = Mesh::default();
+        for (k, at) in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
+            mesh.points.push(Vec3::new(at[0], at[1], 0.0));
+            mesh.node_labels.push(k as u64 + 1);
+        }
+        mesh.push_cell(by_name("tri3").unwrap(), &[0, 1, 2], 1);
+        let field = |name, ncomponent, values: &[f64]| NodalValues {
+            name,
+            ncomponent,
+            values: values.to_vec(),
+            reaction: Vec::new(),
+        };
+        let mut frame = Frame::new(3, &[1]);
+        frame.temperature = vec![9.0; 3];
+        frame.fields = vec![
+            field("temperature", 1, &[20.0, 30.0, 40.0]),
+            field("flow", 2, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
+        ];
+        let fields = Fields {
+            temperature: true,
+            ..Fields::default()
+        };
+        let bytes = Volume::new(&mesh, fields).encode(&frame).unwrap();
+        let file = vtu::read(&bytes).unwrap();
+        let values = |name| file.point_field(name).unwrap().numbers.to_f64();
+        assert_eq!(values("temperature"), [20.0, 30.0, 40.0]);
+        let flow = [1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 5.0, 6.0, 0.0];
+        assert_eq!(values("flow"), flow);
     }
 }
