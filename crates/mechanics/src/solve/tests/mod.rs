@@ -1,5 +1,6 @@
 //! Solving small systems: springs whose answers are known, and solids and contact where springs do not do.
 
+mod fields;
 mod newton;
 mod restart;
 mod stabilization;
