@@ -257,13 +257,9 @@ impl Followers<'_> {
         if self.space == Idealisation::Axisymmetric {
             let placed = |carrier: RigidId| ties.placed.get(carrier as usize) == Some(&true);
             let mut free = std::mem::take(&mut ties.free);
-            free.retain(|dof| match layout.name(*dof) {
-                Some(DofName {
-                    field: FieldId::TRANSLATION,
-                    entity: carrier,
-                    component: axis,
-                }) => axis == 1 || !placed(carrier),
-                _ => false,
+            free.retain(|dof| {
+                let name = layout.name(*dof).and_then(DofName::translation);
+                name.is_some_and(|(carrier, axis)| axis == 1 || !placed(carrier))
             });
             ties.free = free;
         }
@@ -462,20 +458,11 @@ impl Followers<'_> {
             .collect();
         let rows = self.rows(layout, ties, elimination, &motions);
         let prescribed: BTreeSet<Dof> = motions.iter().flat_map(|m| m.keys().copied()).collect();
-        let rank = |dof: Dof| match layout.name(dof) {
+        let rank = |dof: Dof| match layout.name(dof).map(|name| name.field) {
             _ if prescribed.contains(&dof) => None,
-            Some(DofName {
-                field: FieldId::DISPLACEMENT,
-                ..
-            }) => Some(0),
-            Some(DofName {
-                field: FieldId::TRANSLATION,
-                ..
-            }) => Some(1),
-            Some(DofName {
-                field: FieldId::ROTATION,
-                ..
-            }) => Some(2),
+            Some(FieldId::DISPLACEMENT) => Some(0),
+            Some(FieldId::TRANSLATION) => Some(1),
+            Some(FieldId::ROTATION) => Some(2),
             _ => None,
         };
         let Reduced { solved, left } = reduce(rows, rank);
@@ -503,15 +490,8 @@ impl Followers<'_> {
         let mut relations: Vec<Relation> = Vec::new();
         for (dof, row) in &solved {
             let relation = row.relation(*dof);
-            if let (
-                Some(DofName {
-                    field: FieldId::ROTATION,
-                    entity: carrier,
-                    ..
-                }),
-                false,
-            ) = (layout.name(*dof), relation.turns.is_empty())
-            {
+            let turned = layout.name(*dof).and_then(DofName::rotation);
+            if let (Some((carrier, _)), false) = (turned, relation.turns.is_empty()) {
                 return Err(ConstraintError::Turning {
                     constraint: name(row.owner),
                     carrier: self.carrier_name(carrier),
@@ -596,30 +576,18 @@ impl Followers<'_> {
             }
             Column::Dof(dof) => dof,
         };
-        match layout.name(dof) {
-            Some(DofName {
-                field: FieldId::DISPLACEMENT,
-                entity: node,
-                component: k,
-            }) => {
+        match layout.name(dof).map(DofName::parts) {
+            Some((FieldId::DISPLACEMENT, node, k)) => {
                 format!(
                     "displacement {} of node {}",
                     axis(k),
                     label(self.mesh, node)
                 )
             }
-            Some(DofName {
-                field: FieldId::TRANSLATION,
-                entity: c,
-                component: k,
-            }) => {
+            Some((FieldId::TRANSLATION, c, k)) => {
                 format!("displacement {} of \"{}\"", axis(k), self.carrier_name(c))
             }
-            Some(DofName {
-                field: FieldId::ROTATION,
-                entity: c,
-                component: k,
-            }) => {
+            Some((FieldId::ROTATION, c, k)) => {
                 format!("rotation {} of \"{}\"", axis(k), self.carrier_name(c))
             }
             _ => "a right-hand side".to_owned(),

@@ -3,7 +3,7 @@ use super::constraints::components;
 use super::{Change, Context, LoadPart, ModelError, StepPart, Target, label};
 use crate::load::Place;
 use crate::solve::{Motion, Prescription, Step};
-use crate::system::{Dof, DofName, FieldId, Idealisation, NO_DOF};
+use crate::system::{Dof, DofName, Idealisation, NO_DOF};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::RigidId;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -216,14 +216,9 @@ impl Context<'_> {
     }
 
     fn clash(&self, step: &str, dof: Dof) -> ModelError {
-        let (node, axis) = match self.layout.name(dof) {
-            Some(DofName {
-                field: FieldId::DISPLACEMENT,
-                entity: node,
-                component: axis,
-            }) => (label(self.mesh, node), axis),
-            _ => (0, 0),
-        };
+        let name = self.layout.name(dof).and_then(DofName::displacement);
+        let of_node = |(node, axis)| (label(self.mesh, node), axis);
+        let (node, axis) = name.map_or((0, 0), of_node);
         ModelError::Clash {
             step: step.to_string(),
             node,

@@ -150,26 +150,14 @@ impl Equations {
         self.sign.clear();
         for dof in 0..layout.ndof() as Dof {
             let name = layout.name(dof);
-            let in_bulk = match name {
-                Some(DofName {
-                    field: FieldId::DISPLACEMENT,
-                    entity: node,
-                    ..
-                }) => assembler.bulk().position(node, node).is_some(),
-                _ => false,
-            };
+            let node = name.and_then(DofName::displacement).map(|(node, _)| node);
+            let in_bulk = node.is_some_and(|n| assembler.bulk().position(n, n).is_some());
             let used = in_bulk || assembler.interface().position(dof, dof).is_some();
             let free = !prescribed.get(dof as usize).copied().unwrap_or(false);
             if used && free {
                 self.equation.push(self.dofs.len() as u32);
                 self.dofs.push(dof);
-                let multiplier = matches!(
-                    name,
-                    Some(DofName {
-                        field: FieldId::MULTIPLIER,
-                        ..
-                    })
-                );
+                let multiplier = name.is_some_and(|name| name.field == FieldId::MULTIPLIER);
                 self.sign.push(if multiplier { -1 } else { 1 });
             } else {
                 self.equation.push(NONE);

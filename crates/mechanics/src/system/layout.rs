@@ -84,6 +84,12 @@ pub struct DofName {
 }
 
 impl DofName {
+    /// Field, entity and component.
+    #[must_use]
+    pub const fn parts(self) -> (FieldId, u32, usize) {
+        (self.field, self.entity, self.component)
+    }
+
     /// Node and axis of a displacement.
     #[must_use]
     pub fn displacement(self) -> Option<(NodeId, usize)> {

@@ -1,4 +1,4 @@
-use super::{Dof, DofName, FieldId, Layout, Order, Role, Sink, State, Term, TermError, Work};
+use super::{Dof, DofName, Layout, Order, Role, Sink, State, Term, TermError, Work};
 use rayon::prelude::*;
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::CellId;
@@ -108,11 +108,8 @@ pub(super) fn internal_forces(
             let evaluated: Vec<Result<Forces, TermError>> = evaluated.collect();
             for forces in evaluated {
                 for (dof, force) in forces?.0 {
-                    if let Some(DofName {
-                        field: FieldId::DISPLACEMENT,
-                        entity: node,
-                        component: axis,
-                    }) = layout.name(dof)
+                    let name = layout.name(dof).and_then(DofName::displacement);
+                    if let Some((node, axis)) = name
                         && let Some(to) = at_nodes.get_mut(node as usize)
                     {
                         to[axis] += force;

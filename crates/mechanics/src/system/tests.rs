@@ -181,11 +181,8 @@ impl Scene {
         // far from the start, by turns that do not commute
         for round in 0..2 {
             let du: Vec<f64> = (0..layout.ndof())
-                .map(|k| match layout.name(k as Dof) {
-                    Some(DofName {
-                        field: FieldId::ROTATION,
-                        ..
-                    }) => noise(7000 + 97 * round + k),
+                .map(|k| match layout.name(k as Dof).map(DofName::parts) {
+                    Some((FieldId::ROTATION, _, _)) => noise(7000 + 97 * round + k),
                     _ => 0.2 * noise(5000 + 89 * round + k),
                 })
                 .collect();
@@ -266,13 +263,7 @@ fn forces_and_tangents_on_rigid_bodies_match_differences() {
                 let second = largest(column.iter().zip(&change).map(|(k, c)| k - c));
                 assert!(second < 1e-7 * stiffness, "{ndim} {dof}: {second:e}");
                 let name = scene.layout.name(dof);
-                turned += usize::from(matches!(
-                    name,
-                    Some(DofName {
-                        field: FieldId::ROTATION,
-                        ..
-                    })
-                ));
+                turned += usize::from(name.and_then(DofName::rotation).is_some());
             }
             assert_eq!(turned, if ndim == 3 { 6 } else { 2 });
         }

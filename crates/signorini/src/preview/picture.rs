@@ -84,17 +84,14 @@ fn supports(model: &Model) -> [Vec<i8>; 3] {
     let first = model.steps.iter().take(1).flat_map(|s| &s.prescriptions);
     let rigid = model.system.elimination.bodies();
     for prescription in first {
-        let (nodes, axis) = match model.system.layout.name(prescription.dof) {
-            Some(DofName {
-                field: FieldId::DISPLACEMENT,
-                entity: node,
-                component: axis,
-            }) => (vec![node], axis),
-            Some(DofName {
-                field: FieldId::TRANSLATION,
-                entity: body,
-                component: axis,
-            }) => {
+        let (nodes, axis) = match model
+            .system
+            .layout
+            .name(prescription.dof)
+            .map(DofName::parts)
+        {
+            Some((FieldId::DISPLACEMENT, node, axis)) => (vec![node], axis),
+            Some((FieldId::TRANSLATION, body, axis)) => {
                 let body = rigid.get(body as usize);
                 (body.map_or_else(Vec::new, |b| b.nodes.clone()), axis)
             }

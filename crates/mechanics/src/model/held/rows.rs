@@ -20,22 +20,10 @@ impl Held<'_> {
     /// What is prescribed.
     pub fn supports(&mut self, layout: &Layout, prescriptions: &[Prescription]) {
         for p in prescriptions {
-            let unknown = match layout.name(p.dof) {
-                Some(DofName {
-                    field: FieldId::DISPLACEMENT,
-                    entity: node,
-                    component: axis,
-                }) => Unknown::Node(node, axis),
-                Some(DofName {
-                    field: FieldId::TRANSLATION,
-                    entity: body,
-                    component: axis,
-                }) => Unknown::Carrier(body, axis),
-                Some(DofName {
-                    field: FieldId::ROTATION,
-                    entity: body,
-                    component: axis,
-                }) => Unknown::Carrier(body, 3 + axis),
+            let unknown = match layout.name(p.dof).map(DofName::parts) {
+                Some((FieldId::DISPLACEMENT, node, axis)) => Unknown::Node(node, axis),
+                Some((FieldId::TRANSLATION, body, axis)) => Unknown::Carrier(body, axis),
+                Some((FieldId::ROTATION, body, axis)) => Unknown::Carrier(body, 3 + axis),
                 _ => continue,
             };
             self.equation(&[(unknown, 1.0)]);

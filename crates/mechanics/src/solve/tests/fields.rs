@@ -47,8 +47,11 @@ impl Heat {
     }
 }
 
-/// Shape functions and gradients at the points of Gauss of a brick, and the weight of each point.
-fn points() -> (Vec<([f64; 8], [Vec3; 8])>, f64) {
+/// Shape functions and their gradients at a point of a brick.
+type At = ([f64; 8], [Vec3; 8]);
+
+/// The points of Gauss of a brick, and the weight of each.
+fn points() -> (Vec<At>, f64) {
     let edge: [f64; 3] = std::array::from_fn(|k| SIZE[k] / CELLS[k] as f64);
     let corners = [0, 1, 3, 2, 4, 5, 7, 6].map(|k| [k & 1, k >> 1 & 1, k >> 2 & 1]);
     let at = |point: usize| {
@@ -127,11 +130,12 @@ impl Term for Heat {
                         stiffness[a * n + b] += k * gradient[a].dot(gradient[b])
                             + dk * shape[b] * gradient[a].dot(slope);
                     }
-                    for axis in 0..(n - 8) / 8 {
+                    let axes = gradient[a].to_array().into_iter().take((n - 8) / 8);
+                    for (axis, along) in axes.enumerate() {
                         let row = 8 + 3 * a + axis;
-                        force[row] -= swelling * now * gradient[a][axis];
+                        force[row] -= swelling * now * along;
                         for b in 0..8 {
-                            stiffness[row * n + b] -= swelling * shape[b] * gradient[a][axis];
+                            stiffness[row * n + b] -= swelling * shape[b] * along;
                         }
                     }
                 }
