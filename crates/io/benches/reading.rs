@@ -1,9 +1,9 @@
 //! Times of reading and writing large files: `cargo bench -p signorini-io`.
 //!
-//! Prints the best of a few runs of each. Tests assert memory and scanning instead, which do not depend on what else a
-//! machine does.
-#![allow(clippy::unwrap_used)]
+//! Tests assert memory and scanning instead, which do not depend on what else a machine does.
+#![allow(missing_docs, clippy::unwrap_used)]
 
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use signorini_geometry::element::by_name;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::{Sym3, Vec3};
@@ -13,20 +13,15 @@ use signorini_io::fs::{Fs, RealFs};
 use signorini_io::readers::{frd, read_mesh, validate};
 use signorini_io::writers::frd::{Dataset, FrdFile, Moment};
 use std::fmt::Write as _;
-use std::time::Instant;
 
-/// Runs of each.
-const RUNS: usize = 3;
-
-fn timed(what: &str, size: usize, mut run: impl FnMut()) {
-    let once = |_| {
-        let start = Instant::now();
-        run();
-        start.elapsed().as_secs_f64()
-    };
-    let best = (0..RUNS).map(once).fold(f64::INFINITY, f64::min);
-    let megabytes = size as f64 / 1e6;
-    println!("{what:<44} {best:8.3} s {:8.1} MB/s", megabytes / best);
+/// Measures one thing that reads or writes a file of `size` bytes.
+fn timed(c: &mut Criterion, what: &str, size: usize, mut run: impl FnMut()) {
+    let mut group = c.benchmark_group("files");
+    group
+        .sample_size(10)
+        .throughput(Throughput::Bytes(size as u64))
+        .bench_function(what, |b| b.iter(&mut run));
+    group.finish();
 }
 
 /// The nodes of a brick of `n³` bricks, and the eight nodes of each of them, from 1.
@@ -85,23 +80,22 @@ fn case(nnode: usize) -> String {
             [[body]]\ngroup = \"a\"\nrigid = true\n[[step]]\nname = \"s\"\n"
 }
 
-fn meshes() {
-    for (name, text) in [("bricks.msh", gmsh(58)), ("bricks.inp", deck(100))] {
-        let mut mesh = Mesh::default();
-        timed(&format!("read {name}"), text.len(), || {
-            mesh = read_mesh(name, text.as_bytes()).unwrap().0;
-        });
-        let what = format!("validate its {} nodes", mesh.nnode());
-        timed(&what, text.len(), || assert_eq!(validate(&mesh), []));
+fn meshes(c: &mut Criterion) {
+    for (name, text) in [("bricks.msh", gmsh(40)), ("bricks.inp", deck(40))] {
+        let read = || read_mesh(name, text.as_bytes()).unwrap().0;
+        timed(c, &format!("read {name}"), text.len(), || drop(read()));
+        let mesh = read();
+        let what = format!("validate {name}, {} nodes", mesh.nnode());
+        timed(c, &what, text.len(), || assert_eq!(validate(&mesh), []));
     }
 }
 
-/// Three fields at a million nodes.
-fn frames() {
+/// Three fields at a hundred thousand nodes.
+fn frames(c: &mut Criterion) {
     let scratch = tempfile::tempdir().unwrap();
     let path = scratch.path().join("frame.frd");
     let point = |k: u32| Vec3::new(f64::from(k).sin(), f64::from(k).sqrt(), 0.1);
-    let n = 1_000_000;
+    let n = 100_000;
     let mut mesh = Mesh {
         points: (0..n).map(point).collect(),
         node_labels: (1..=u64::from(n)).collect(),
@@ -130,22 +124,23 @@ fn frames() {
     };
     write();
     let bytes = RealFs.read(&path).unwrap();
-    timed("write frame.frd of a million nodes", bytes.len(), write);
-    timed("read it", bytes.len(), || {
+    timed(c, "write frame.frd of 100,000 nodes", bytes.len(), write);
+    timed(c, "read it", bytes.len(), || {
         let read = frd::parse(&bytes).unwrap();
         assert_eq!(read.datasets[1].values.len(), 6 * n as usize);
     });
 }
 
-fn main() {
-    meshes();
-    let text = case(100_000);
+fn cases(c: &mut Criterion) {
+    let text = case(20_000);
     let vocabulary = Vocabulary::new(Kinds {
         materials: signorini_mechanics::material::descriptions(),
         ..Kinds::default()
     });
-    timed("read case.toml with 100,000 nodes", text.len(), || {
+    timed(c, "read case.toml with 20,000 nodes", text.len(), || {
         read_case("case.toml", text.as_bytes(), &[], &vocabulary).unwrap();
     });
-    frames();
 }
+
+criterion_group!(benches, meshes, cases, frames);
+criterion_main!(benches);
