@@ -43,6 +43,7 @@ pub use parts::{
 use crate::contact::discretization::SlidingRange;
 use crate::contact::{Interface, Measure};
 use crate::material::Kinematics;
+use crate::material::Material;
 use crate::solid::Locking;
 use crate::solve::Step;
 use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
