@@ -444,7 +444,7 @@ fn a_box_that_only_shrinks_does_not_count_as_moving() {
 }
 
 #[test]
-fn candidates_are_collected_anew_when_what_is_asked_changes() {
+fn candidates_are_collected_again_when_the_question_changes() {
     let mut motion = Motion::new(8);
     let mut search = Search::default();
     let all = |_: u32, _: u32| true;

@@ -363,7 +363,7 @@ fn lumped_areas_are_positive_and_sum_to_the_area() {
 /// A solid of every element, its nodes moved: where the map from its reference domain is one to one, a point is inside
 /// if and only if its parameters are.
 #[test]
-fn inside_and_outside_are_told_apart_across_faces_edges_and_vertices() {
+fn inside_and_outside_are_distinguished_across_faces_edges_and_vertices() {
     let mut random = Random(13);
     for element in TABLE.into_iter().filter(|e| e.dim() > 1) {
         let dim = element.dim();

@@ -91,7 +91,7 @@ fn a_full_disk_is_reported_with_its_size_and_what_to_do() {
 }
 
 #[test]
-fn faults_of_the_real_disk_are_told_apart() {
+fn faults_of_the_real_disk_are_distinguished() {
     let dir = folder();
     let file = dir.path().join("file");
     RealFs.write_atomic(&file, b"x").unwrap();
@@ -188,7 +188,7 @@ fn whether_a_lock_is_held_is_seen_without_taking_it() {
 }
 
 #[test]
-fn the_failing_disk_fails_exactly_where_told() {
+fn the_failing_disk_fails_at_exactly_the_given_operation() {
     let dir = folder();
     let write = |fs: &dyn Fs, n: usize| {
         (0..n)
@@ -251,7 +251,7 @@ fn files_written_behind_are_those_that_were_asked_for_in_their_order() {
 }
 
 #[test]
-fn nothing_that_was_asked_for_after_a_fault_reaches_the_disk_before_the_fault_is_told() {
+fn nothing_that_was_asked_for_after_a_fault_reaches_the_disk_before_the_fault_is_reported() {
     // three operations make a file
     for n in 1..=12 {
         let dir = folder();
@@ -280,7 +280,7 @@ fn nothing_that_was_asked_for_after_a_fault_reaches_the_disk_before_the_fault_is
 }
 
 #[test]
-fn what_does_not_exist_because_of_a_fault_tells_the_fault() {
+fn what_does_not_exist_because_of_a_fault_reports_the_fault() {
     let dir = folder();
     let path = dir.path().join("frame.vtu");
     let fs = BehindFs::new(Arc::new(FailingFs::nth(RealFs, 1, ErrorKind::StorageFull)));

@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn every_fault_is_told_at_once_with_its_entry() {
+    fn every_fault_is_reported_at_once_with_its_entry() {
         let nodes = [
             (1, [0.0; 3]),
             (2, [1.0, f64::NAN, 0.0]),

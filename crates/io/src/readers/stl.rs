@@ -527,7 +527,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_odd_is_told() {
+    fn oddities_are_noted() {
         let mut facets = tetrahedron();
         facets[0][0] = [0.0, 0.0, 1.0];
         facets[1][2] = facets[1][1];

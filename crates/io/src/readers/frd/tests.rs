@@ -81,7 +81,7 @@ fn node_numbers_may_be_short() {
 }
 
 #[test]
-fn faults_are_told_with_their_line() {
+fn faults_are_reported_with_their_line() {
     let change = |from: &str, to: &str| {
         assert!(SMALL.contains(from), "{from}");
         parse(SMALL.replacen(from, to, 1).as_bytes())

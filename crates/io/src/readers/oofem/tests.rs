@@ -69,7 +69,7 @@ fn lines_may_end_in_any_way_and_letters_may_be_large() {
 }
 
 #[test]
-fn faults_are_told_with_their_lines() {
+fn faults_are_reported_with_their_lines() {
     let good = deck("set 1 nodes 1 1\n", 1);
     for (from, to, wanted) in [
         (

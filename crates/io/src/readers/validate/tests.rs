@@ -78,7 +78,7 @@ fn every_element_of_the_table_has_a_good_reference_cell() {
 }
 
 #[test]
-fn a_mirrored_mesh_is_told_apart_from_inverted_elements() {
+fn a_mirrored_mesh_is_distinguished_from_inverted_elements() {
     let mut mesh = cubes(3, true);
     mirror(&mut mesh);
     assert_eq!(validate(&mesh), [MeshIssue::Mirrored { ncell: 3 }]);
