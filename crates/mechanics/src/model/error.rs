@@ -1,5 +1,6 @@
-use super::{ConstraintError, Unheld};
+use super::Unheld;
 use crate::load::LoadError;
+use crate::model::constraint_error::ConstraintError;
 use crate::solid::SolidError;
 use signorini_geometry::surface::{FacetsError, SurfaceError};
 use signorini_geometry::tensor::Vec3;

@@ -20,6 +20,7 @@
 //! ramped together turn about a fixed axis, by as many turns as one likes.
 
 mod bodies;
+mod constraint_error;
 mod constraints;
 mod contact;
 mod error;
@@ -30,7 +31,6 @@ mod reduction;
 mod steps;
 
 pub use crate::load::LoadError;
-pub use constraints::ConstraintError;
 pub use error::ModelError;
 pub use held::Unheld;
 pub use parts::{

@@ -75,8 +75,11 @@
 //! Limits: quad4 and hex8 have no remedy in bending at finite strain; a material's history goes on unchanged where a step of small strain is followed by one of finite strain.
 
 mod at;
+mod capabilities;
+mod cells;
 mod choice;
 mod dense;
+mod error;
 mod kernel;
 mod report;
 mod term;
@@ -84,7 +87,9 @@ mod term;
 mod tests;
 mod truss;
 
+pub use cells::AtStart;
 pub use choice::{Integration, Locking};
+pub use error::SolidError;
 pub use report::AtNodes;
-pub use term::{AtStart, Solid, SolidError, SolidParts};
+pub use term::{Solid, SolidParts};
 pub use truss::{Truss, TrussParts};

@@ -1,45 +1,39 @@
 use super::at::At;
+use super::capabilities::SAMPLED;
+use super::cells::{AtStart, Cells};
 use super::choice::{Situation, keeps_volume};
-use super::kernel::{
-    Batch, BatchKernel, Element, Failure, Initial, Kernel, Output, Points, Remedy, Results, Sample,
-    batch_kernel, kernel, width,
-};
-use super::report;
-use super::{AtNodes, Integration, Locking};
-use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Strain};
+use super::error::SolidError;
+use super::kernel::{Batch, BatchKernel, Element, Failure, Output, Results, Sample, width};
+use super::{AtNodes, Integration, Locking, report};
+use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced};
 use crate::system::{
-    Archive, ArchiveError, Capabilities, Dof, Elementwise, Frame, Idealisation, InitialStiffness,
-    Layout, Lifetime, NodalField, Order, Part, PatternSink, Phase, PointSample, Properties,
-    Sampled, Samples, Sink, State, StepContext, Stored, Symmetry, Term, TermError, Work,
+    Capabilities, Dof, Frame, Idealisation, Layout, Lifetime, NodalField, Order, Part, PatternSink,
+    Phase, Properties, Sink, State, StepContext, Stored, Symmetry, Term, TermError, Work,
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
-use signorini_geometry::tensor::{Sym3, Vec3};
-use std::collections::HashMap;
+use signorini_geometry::tensor::Vec3;
 use std::ops::Range;
 use std::sync::Arc;
-use thiserror::Error;
 
 /// Cells evaluated together: enough to be worth a task, few enough to stay in cache.
-const CHUNK: usize = 16;
-/// Chunks whose points are sampled before their nodes take them: bounds the memory.
-const SAMPLED: usize = 256;
+pub(super) const CHUNK: usize = 16;
 
 /// The cells of one material.
 pub struct Solid {
-    name: String,
-    layout: Layout,
-    reference: Arc<[Vec3]>,
-    material: Box<dyn Material>,
+    pub(super) name: String,
+    pub(super) layout: Layout,
+    pub(super) reference: Arc<[Vec3]>,
+    pub(super) material: Box<dyn Material>,
     // materials that take its place, each with the step from which on it does, in their order
-    later: Vec<(usize, Box<dyn Material>)>,
-    kinematics: Kinematics,
-    space: Idealisation,
-    temperature: Option<Arc<NodalField>>,
-    step: StepContext,
-    blocks: Vec<Cells>,
+    pub(super) later: Vec<(usize, Box<dyn Material>)>,
+    pub(super) kinematics: Kinematics,
+    pub(super) space: Idealisation,
+    pub(super) temperature: Option<Arc<NodalField>>,
+    pub(super) step: StepContext,
+    pub(super) blocks: Vec<Cells>,
     // (block, first cell, last cell)
-    chunks: Vec<(usize, usize, usize)>,
+    pub(super) chunks: Vec<(usize, usize, usize)>,
 }
 
 /// What a body is made from.
@@ -73,163 +67,22 @@ pub struct SolidParts<'a> {
     pub initial: &'a [AtStart],
 }
 
-/// Stress and strain that a quadrature point has at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AtStart {
-    /// The cell.
-    pub cell: CellId,
-    /// The point, from 0, in the order of the rule of its element.
-    pub point: usize,
-    /// Stress without strain: Cauchy, or second Piola–Kirchhoff at finite strain.
-    pub stress: Sym3,
-    /// Strain without stress: linearized, or of Green and Lagrange.
-    pub strain: Sym3,
-}
-
-/// What is done against locking at one size of strains.
-struct Treatment {
-    /// What became of the wish; why it cannot be had.
-    locking: Result<Locking, &'static str>,
-    kernel: Kernel,
-    /// For several cells at once.
-    batch: Option<BatchKernel>,
-}
-
-/// Cells of one element.
-struct Cells {
-    element: &'static str,
-    points: Points,
-    small: Treatment,
-    finite: Treatment,
-    ndilatation: usize,
-    nnode: usize,
-    nodes: Vec<NodeId>,
-    labels: Vec<u64>,
-    // where they are in the mesh
-    ids: Vec<CellId>,
-    // from quadrature points to nodes: `nnode` rows of `npoint`
-    extrapolation: Vec<f64>,
-    // numbers of history of a cell: those of its points, then its incompatible modes
-    nhistory: usize,
-    // history of a cell of the undeformed material
-    undeformed: Vec<f64>,
-    // accepted history of all cells
-    history: Vec<f64>,
-    // at the points of all cells; empty where there is nothing at the start
-    initial: Vec<Initial>,
-    // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
-    rigidity: Vec<f64>,
-}
-
-/// Why a body cannot be made.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum SolidError {
-    /// An element that is no solid in this space.
-    #[error("element {label} of body \"{body}\" is a {element}: no solid in {ndim} dimensions")]
-    NotSolid {
-        /// Name of the body.
-        body: String,
-        /// Number of the element in the input.
-        label: u64,
-        /// Its type.
-        element: &'static str,
-        /// Dimension of the problem.
-        ndim: usize,
-    },
-    /// An element that is no bar.
-    #[error("element {label} of truss \"{body}\" is a {element}: bars are line2 or line3")]
-    NotBar {
-        /// Name of the body.
-        body: String,
-        /// Number of the element in the input.
-        label: u64,
-        /// Its type.
-        element: &'static str,
-    },
-    /// A bar without length or a body without cross-section.
-    #[error("element {label} of truss \"{body}\" has no {what}")]
-    NoSize {
-        /// Name of the body.
-        body: String,
-        /// Number of the element in the input.
-        label: u64,
-        /// Length, or cross-section.
-        what: &'static str,
-    },
-    /// A bar in an axisymmetric model.
-    #[error("truss \"{body}\" is in an axisymmetric model: bars exist in space and in the plane")]
-    BarOfRevolution {
-        /// Name of the body.
-        body: String,
-    },
-    /// A stress at the start at a point that is not there.
-    #[error(
-        "element {label} of body \"{body}\", a {element}, has {npoint} points: there is no point {point}"
-    )]
-    NoPoint {
-        /// Name of the body.
-        body: String,
-        /// Number of the element in the input.
-        label: u64,
-        /// Its type.
-        element: &'static str,
-        /// How many there are.
-        npoint: usize,
-        /// The one that was named, from 1.
-        point: usize,
-    },
-    /// A material that takes the place of one with another history.
-    #[error(
-        "body \"{body}\" changes to a material that remembers other things than the one before"
-    )]
-    OtherHistory {
-        /// Name of the body.
-        body: String,
-    },
-    /// A remedy that an element does not have.
-    #[error(
-        "locking = \"{locking}\" is not possible for the {element} of body \"{body}\": {reason}"
-    )]
-    Locking {
-        /// Name of the body.
-        body: String,
-        /// Type of the elements.
-        element: &'static str,
-        /// What was asked for.
-        locking: Locking,
-        /// Why it cannot be had.
-        reason: &'static str,
-    },
-    /// An axisymmetric element that reaches beyond the axis.
-    #[error(
-        "element {label} of body \"{body}\" reaches to the radius {radius:.6e}: in an axisymmetric model x is the radius, 0 or more"
-    )]
-    Radius {
-        /// Name of the body.
-        body: String,
-        /// Number of the element in the input.
-        label: u64,
-        /// The radius.
-        radius: f64,
-    },
-}
-
 /// Scratch of one thread.
 #[derive(Default)]
-struct Scratch {
-    x: Vec<Vec3>,
-    u: Vec<f64>,
-    temperature: Vec<f64>,
-    temperature_at_start: Vec<f64>,
-    dofs: Vec<Dof>,
-    force: Vec<f64>,
-    stiffness: Vec<f64>,
-    samples: Vec<Sample>,
-    new: Vec<f64>,
-    inner: Vec<f64>,
+pub(super) struct Scratch {
+    pub(super) x: Vec<Vec3>,
+    pub(super) u: Vec<f64>,
+    pub(super) temperature: Vec<f64>,
+    pub(super) temperature_at_start: Vec<f64>,
+    pub(super) dofs: Vec<Dof>,
+    pub(super) force: Vec<f64>,
+    pub(super) stiffness: Vec<f64>,
+    pub(super) samples: Vec<Sample>,
+    pub(super) new: Vec<f64>,
+    pub(super) inner: Vec<f64>,
     /// Where the stiffness is symmetric: see [`Sink::add_symmetric`].
-    blocks: Vec<f64>,
-    lanes: InLanes,
+    pub(super) blocks: Vec<f64>,
+    pub(super) lanes: InLanes,
 }
 
 /// The same of several cells, lane by lane.
@@ -244,7 +97,7 @@ struct InLanes {
 
 /// What is wanted of the cells.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Wanted {
+pub(super) enum Wanted {
     Forces,
     Stiffness,
     Samples,
@@ -375,13 +228,13 @@ impl Solid {
     }
 
     /// How many materials have taken the place of one before.
-    fn nchanged(&self) -> usize {
+    pub(super) fn nchanged(&self) -> usize {
         let is_begun = |(step, _): &&(usize, _)| *step <= self.step.number;
         self.later.iter().take_while(is_begun).count()
     }
 
     /// The material of the present step.
-    fn material(&self) -> &dyn Material {
+    pub(super) fn material(&self) -> &dyn Material {
         let last = self.nchanged().checked_sub(1);
         let later = last.and_then(|last| self.later.get(last));
         later.map_or(self.material.as_ref(), |(_, material)| material.as_ref())
@@ -417,7 +270,7 @@ impl Solid {
     }
 
     /// Runs the kernel over the cells of a chunk and hands each result to `take`.
-    fn each(
+    pub(super) fn each(
         &self,
         chunk: usize,
         at: At<'_>,
@@ -455,7 +308,7 @@ impl Solid {
     }
 
     /// Hands over the forces and the stiffness of a cell.
-    fn hand(&self, of: &Scratch, out: &mut dyn Sink) {
+    pub(super) fn hand(&self, of: &Scratch, out: &mut dyn Sink) {
         if self.material().is_symmetric() {
             out.add_symmetric(&of.dofs, &of.force, &of.blocks, self.layout.ndim());
         } else {
@@ -555,7 +408,7 @@ impl Solid {
     }
 
     /// Where a cell is, and where its nodes go.
-    fn locate(&self, block: &Cells, cell: usize, at: At<'_>, scratch: &mut Scratch) {
+    pub(super) fn locate(&self, block: &Cells, cell: usize, at: At<'_>, scratch: &mut Scratch) {
         scratch.u.clear();
         scratch.dofs.clear();
         for &node in block.nodes_of(cell) {
@@ -577,7 +430,7 @@ impl Solid {
     }
 
     /// A cell without places and temperatures.
-    fn element<'a>(&'a self, block: &'a Cells, cell: usize, at: At<'_>) -> Element<'a> {
+    pub(super) fn element<'a>(&'a self, block: &'a Cells, cell: usize, at: At<'_>) -> Element<'a> {
         Element {
             reference: &block.points,
             x: &[],
@@ -597,7 +450,7 @@ impl Solid {
     }
 
     /// Runs the kernel over one cell: results are in the scratch, the energy comes back.
-    fn cell(
+    pub(super) fn cell(
         &self,
         block: &Cells,
         cell: usize,
@@ -642,7 +495,7 @@ impl Solid {
         Ok(energy)
     }
 
-    fn failure(&self, element: u64, failure: Failure) -> TermError {
+    pub(super) fn failure(&self, element: u64, failure: Failure) -> TermError {
         let body = self.name.clone();
         match failure {
             Failure::Inverted { ratio } => TermError::Inverted {
@@ -658,165 +511,13 @@ impl Solid {
         }
     }
 
-    fn archived(&self, block: usize) -> String {
+    pub(super) fn archived(&self, block: usize) -> String {
         format!("solid.{}.{block}.history", self.name)
     }
 }
 
-impl Cells {
-    /// No cells yet; `None` where there is no kernel for the element.
-    fn new(
-        situation: impl Fn(Kinematics) -> Situation,
-        wish: Locking,
-        nhistory: usize,
-        at_nodes: AtNodes,
-    ) -> Option<Self> {
-        let treatment = |kinematics| {
-            let situation = situation(kinematics);
-            let locking = situation.choose(wish);
-            let remedy = locking.map_or(Remedy::None, Locking::remedy);
-            let (element, space) = (situation.element, situation.space);
-            Some(Treatment {
-                locking,
-                kernel: kernel(element, space, remedy)?,
-                batch: batch_kernel(element, space, remedy),
-            })
-        };
-        let (small, finite) = (
-            treatment(Kinematics::Small)?,
-            treatment(Kinematics::Finite)?,
-        );
-        let element = situation(Kinematics::Small).element;
-        let projected = [&small, &finite].map(|t| t.locking.map(Locking::remedy));
-        let rule = situation(Kinematics::Small).rule(projected.contains(&Ok(Remedy::Dilatation)));
-        let modes = match small.locking {
-            Ok(Locking::Incompatible) => element.dim() * element.dim(),
-            _ => 0,
-        };
-        Some(Self {
-            element: element.name(),
-            extrapolation: report::extrapolation(element, rule, at_nodes),
-            points: Points::new(element, rule),
-            small,
-            finite,
-            ndilatation: situation(Kinematics::Small).ndilatation(),
-            nnode: element.nnode(),
-            nodes: Vec::new(),
-            labels: Vec::new(),
-            ids: Vec::new(),
-            rigidity: Vec::new(),
-            nhistory: rule.npoint() * nhistory + modes,
-            undeformed: Vec::new(),
-            history: Vec::new(),
-            initial: Vec::new(),
-        })
-    }
-
-    const fn treatment(&self, kinematics: Kinematics) -> &Treatment {
-        match kinematics {
-            Kinematics::Small => &self.small,
-            Kinematics::Finite => &self.finite,
-        }
-    }
-
-    fn refusal(&self, body: &str, locking: Locking, reason: &'static str) -> SolidError {
-        SolidError::Locking {
-            body: body.to_string(),
-            element: self.element,
-            locking,
-            reason,
-        }
-    }
-
-    fn nodes_of(&self, cell: usize) -> &[NodeId] {
-        &self.nodes[cell * self.nnode..(cell + 1) * self.nnode]
-    }
-
-    /// Gives every cell the history of the undeformed material.
-    fn start(&mut self, material: &dyn Material) {
-        let n = material.nhistory();
-        self.undeformed = vec![0.0; self.nhistory];
-        if n > 0 {
-            let of_points = self.points.rule.npoint() * n;
-            let points = self.undeformed[..of_points].chunks_exact_mut(n);
-            points.for_each(|point| material.start(point));
-        }
-        self.history = self.undeformed.repeat(self.labels.len());
-    }
-
-    /// Gives its points what they have at the start.
-    fn begin(&mut self, body: &str, given: &[AtStart]) -> Result<(), SolidError> {
-        if given.is_empty() {
-            return Ok(());
-        }
-        let npoint = self.points.rule.npoint();
-        let places: HashMap<CellId, usize> = self.ids.iter().copied().zip(0..).collect();
-        for at in given {
-            let Some(&cell) = places.get(&at.cell) else {
-                continue;
-            };
-            if at.point >= npoint {
-                return Err(SolidError::NoPoint {
-                    body: body.to_string(),
-                    label: self.labels[cell],
-                    element: self.element,
-                    npoint,
-                    point: at.point + 1,
-                });
-            }
-            self.initial
-                .resize(self.ids.len() * npoint, Initial::default());
-            let to = &mut self.initial[cell * npoint + at.point];
-            to.stress = to.stress + at.stress;
-            to.strain = to.strain + at.strain;
-        }
-        Ok(())
-    }
-
-    fn initial_of(&self, cell: usize) -> &[Initial] {
-        let npoint = self.points.rule.npoint();
-        let of_cell = self.initial.get(cell * npoint..(cell + 1) * npoint);
-        of_cell.unwrap_or_default()
-    }
-
-    /// `M ∫ max_i |N_i,X|² dV` of every cell, with the modulus `M`: the largest entry of its stiffness, about.
-    fn rigidities(&self, reference: &[Vec3], space: Idealisation, modulus: f64) -> Vec<f64> {
-        let at = |node: &NodeId| reference.get(*node as usize).copied().unwrap_or_default();
-        let mut x: Vec<Vec3> = Vec::new();
-        let of_cell = |nodes: &[NodeId]| {
-            x.clear();
-            x.extend(nodes.iter().map(at));
-            modulus * self.points.stretch(&x, space)
-        };
-        self.nodes.chunks_exact(self.nnode).map(of_cell).collect()
-    }
-
-    /// Checks that no node lies beyond the axis, and no quadrature point on it.
-    fn radii(&self, body: &str, reference: &[Vec3]) -> Result<(), SolidError> {
-        for (nodes, &label) in self.nodes.chunks_exact(self.nnode).zip(&self.labels) {
-            let radius = |node: NodeId| reference.get(node as usize).map_or(0.0, |x| x.x);
-            let at_point = |point| {
-                let shape = self.points.shape(point).iter();
-                let radius: f64 = shape.zip(nodes).map(|(n, &node)| n * radius(node)).sum();
-                radius
-            };
-            let nearest = nodes.iter().map(|&n| radius(n)).fold(f64::MAX, f64::min);
-            let inside = (0..self.points.rule.npoint()).map(at_point);
-            let inside = inside.fold(f64::MAX, f64::min);
-            if nearest < 0.0 || inside <= 0.0 {
-                return Err(SolidError::Radius {
-                    body: body.to_string(),
-                    label,
-                    radius: nearest.min(inside),
-                });
-            }
-        }
-        Ok(())
-    }
-}
-
 impl Scratch {
-    fn size(&mut self, block: &Cells, ndim: usize, wanted: Wanted) {
+    pub(super) fn size(&mut self, block: &Cells, ndim: usize, wanted: Wanted) {
         let n = block.nnode * ndim;
         let stiff = wanted == Wanted::Stiffness;
         let npoint = block.points.rule.npoint();
@@ -832,7 +533,7 @@ impl Scratch {
     }
 
     /// Takes the blocks of a stiffness that is symmetric.
-    fn pack(&mut self, nnode: usize, ndim: usize) {
+    pub(super) fn pack(&mut self, nnode: usize, ndim: usize) {
         let n = nnode * ndim;
         let pairs = (0..nnode).flat_map(|j| (0..=j).map(move |i| (i, j)));
         for ((i, j), block) in pairs.zip(self.blocks.chunks_exact_mut(ndim * ndim)) {
@@ -978,128 +679,5 @@ impl Term for Solid {
 
     fn stored(&mut self) -> Option<&mut dyn Stored> {
         Some(self)
-    }
-}
-
-impl InitialStiffness for Solid {
-    fn id(&self) -> u64 {
-        2 * self.nchanged() as u64 + self.kinematics as u64
-    }
-
-    fn add_initial(
-        &self,
-        chunk: usize,
-        work: &mut Work,
-        out: &mut dyn Sink,
-    ) -> Result<(), TermError> {
-        let scratch = work.of::<Scratch>();
-        let wanted = Wanted::Stiffness;
-        self.each(chunk, At::Start, wanted, scratch, |_, _, _, s| {
-            self.hand(s, out);
-        })
-    }
-
-    fn is_initial(&self, trial: &State) -> bool {
-        let at = |&node: &NodeId| (0..self.layout.ndim()).map(move |i| self.layout.node(node, i));
-        let is_undeformed = |block: &Cells| {
-            let mut displacements = block
-                .nodes
-                .iter()
-                .flat_map(at)
-                .map(|dof| trial.u[dof as usize]);
-            block.nhistory == 0 && displacements.all(|u| u == 0.0)
-        };
-        self.temperature.is_none() && self.blocks.iter().all(is_undeformed)
-    }
-}
-
-impl Elementwise for Solid {
-    fn elements(&self, chunk: usize, take: &mut dyn FnMut(&[NodeId])) {
-        if let Some(&(number, first, last)) = self.chunks.get(chunk) {
-            let block = &self.blocks[number];
-            (first..last).for_each(|cell| take(block.nodes_of(cell)));
-        }
-    }
-}
-
-impl Stored for Solid {
-    /// Evaluates once more, from the last accepted history: trial history is kept nowhere, so that evaluation is pure.
-    fn accept(&mut self, state: &State) -> Result<(), TermError> {
-        let next = |block: &Cells| -> Result<Vec<f64>, TermError> {
-            let n = block.nhistory;
-            let mut next = vec![0.0; block.history.len()];
-            if n == 0 {
-                return Ok(next);
-            }
-            let chunks = next.par_chunks_mut(CHUNK * n).enumerate();
-            chunks.try_for_each_init(Scratch::default, |scratch, (chunk, next)| {
-                scratch.size(block, self.layout.ndim(), Wanted::Forces);
-                for (k, to) in next.chunks_exact_mut(n).enumerate() {
-                    let cell = chunk * CHUNK + k;
-                    // what a kernel does not write stays as it was
-                    scratch
-                        .new
-                        .copy_from_slice(&block.history[cell * n..(cell + 1) * n]);
-                    self.cell(block, cell, At::Trial(state), Wanted::Forces, scratch)?;
-                    to.copy_from_slice(&scratch.new);
-                }
-                Ok(())
-            })?;
-            Ok(next)
-        };
-        let histories: Result<Vec<_>, _> = self.blocks.iter().map(next).collect();
-        for (block, history) in self.blocks.iter_mut().zip(histories?) {
-            block.history = history;
-        }
-        Ok(())
-    }
-
-    fn save(&self, out: &mut Archive) {
-        for (number, block) in self.blocks.iter().enumerate() {
-            if block.nhistory > 0 {
-                out.put(self.archived(number), &block.history);
-            }
-        }
-    }
-
-    fn load(&mut self, from: &Archive) -> Result<(), ArchiveError> {
-        for number in 0..self.blocks.len() {
-            let name = self.archived(number);
-            let block = &mut self.blocks[number];
-            if block.nhistory > 0 {
-                from.get(&name, &mut block.history)?;
-            }
-        }
-        Ok(())
-    }
-}
-
-impl Sampled for Solid {
-    fn sample(&self, state: &State, cells: &[CellId], out: &mut Samples) -> Result<(), TermError> {
-        let mut scratch = Scratch::default();
-        for block in &self.blocks {
-            scratch.size(block, self.layout.ndim(), Wanted::Samples);
-            for (cell, id) in block.ids.iter().enumerate() {
-                if cells.binary_search(id).is_err() {
-                    continue;
-                }
-                self.cell(block, cell, At::Trial(state), Wanted::Samples, &mut scratch)?;
-                let of_point = |s: &Sample| PointSample {
-                    stress: s.stress,
-                    strain: s.seen,
-                    mechanical_strain: self.material().mechanical_strain(&Strain {
-                        kinematics: self.kinematics,
-                        value: s.seen,
-                        temperature: s.temperature,
-                        temperature_at_start: s.temperature_at_start,
-                    }),
-                    plastic_strain: s.plastic_strain.unwrap_or(0.0),
-                    energy: s.energy,
-                    volume: s.volume_at_start,
-                };
-                out.push(*id, block.points.rule, scratch.samples.iter().map(of_point));
-            }
-        }
-        Ok(())
     }
 }

@@ -10,9 +10,8 @@
 //!
 //! The law answers uniaxial stress. Source: Crisfield 1991, section 3.3.
 
-use super::SolidError;
 use super::at::At;
-use super::report;
+use super::{SolidError, report};
 use crate::material::{Kinematics, Material, Order as MaterialOrder, Reduced, Response, Strain};
 use crate::system::{
     Archive, ArchiveError, Capabilities, Dof, Frame, Idealisation, InitialStiffness, Layout,

@@ -40,6 +40,7 @@ mod forecast;
 mod line_search;
 mod nearby;
 mod newton;
+mod sizes;
 mod stabilization;
 mod stepping;
 #[cfg(test)]

@@ -9,8 +9,8 @@
 
 use super::Step;
 use super::event::{Event, IterationRecord, Observer};
-use super::newton::Goal;
 use super::stepping::{Accepted, Stepper, TIME};
+use crate::solve::newton::Goal;
 use crate::system::{Aid, Archive, Dof, System, TermError};
 
 /// The first part of an increment, and by how much smaller parts are after one that failed.

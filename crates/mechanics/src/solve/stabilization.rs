@@ -20,8 +20,8 @@
 //! Limits: inertia plays no part. A jump that never comes to rest (a body that falls, a limit load) fails as before.
 
 use super::event::{Event, Observer};
-use super::newton::Goal;
 use super::stepping::{Accepted, Stepper};
+use crate::solve::newton::Goal;
 use crate::system::{Archive, Dof, System, TermError, Viscous};
 
 /// Viscosity below which the equilibrium is looked for without it.

@@ -3,6 +3,7 @@
 use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
+use super::sizes::Sizes;
 use super::stabilization;
 use super::work::ExternalWork;
 use crate::system::{
@@ -194,39 +195,6 @@ const GROWTH: f64 = 1.5;
 const CUT: f64 = 0.5;
 /// The same where it failed badly: a force was not a finite number or an element turned inside out.
 const CUT_HARD: f64 = 0.25;
-
-/// Sizes and number of the increments of a step.
-struct Sizes {
-    count: usize,
-    first: f64,
-    /// None where an increment that fails is not made smaller.
-    min: Option<f64>,
-    max: f64,
-}
-
-impl Sizes {
-    fn of(step: &Step) -> Self {
-        match step.increments {
-            Increments::Fixed(n) => Self {
-                count: n,
-                first: step.duration / n as f64,
-                min: None,
-                max: step.duration / n as f64,
-            },
-            Increments::Adaptive {
-                initial,
-                min,
-                max,
-                count_max,
-            } => Self {
-                count: count_max,
-                first: initial,
-                min: Some(min).filter(|m| m.is_finite()),
-                max,
-            },
-        }
-    }
-}
 
 /// An increment that has been made.
 struct Made {

@@ -39,6 +39,7 @@
 
 mod assembly;
 mod audited;
+mod buffer;
 mod capabilities;
 #[cfg(test)]
 mod conformance;
@@ -49,8 +50,10 @@ mod idealisation;
 mod layout;
 mod phase;
 mod samples;
+mod setting;
 mod shares;
 mod state;
+mod strip;
 mod term;
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,4 @@
-use super::assembly::fill_up;
+use super::strip::fill_up;
 use super::{Adaptive, Capabilities, Dof, Frame, Phase, State, Stored, Symmetry};
 use signorini_geometry::mesh::NodeId;
 use std::any::Any;

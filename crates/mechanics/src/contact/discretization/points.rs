@@ -1,14 +1,14 @@
 //! Points of the secondary side, its nodes or points inside its facets, against segments of the primary side. They
 //! differ in nothing but the points.
 
+use super::capabilities::SlidingRange;
 use super::cut::{Cutter, FacetPoints};
+use super::on_facet::OnFacet;
 use super::projected::{Closest, Place, Point, Sight, closest};
 use super::{
     Anchored, Averaged, BentSides, Capabilities, Curved, Discretization, Links, OwnNow, Pair,
     Pairing, Renewable, SurfacePair,
 };
-use crate::contact::discretization::capabilities::SlidingRange;
-use crate::contact::discretization::on_facet::OnFacet;
 use crate::contact::row::{RowOrder, Rows, Wanted};
 use rayon::prelude::*;
 use signorini_geometry::element::{Element, MAX_FACET_NODES};

@@ -1,9 +1,7 @@
 //! What a point of a surface that may touch itself may meet.
 
+use super::own::{ENTERED, OwnNow, OwnPoint};
 use super::{OnFacet, SurfacePair};
-use crate::contact::discretization::own::ENTERED;
-use crate::contact::discretization::own::OwnNow;
-use crate::contact::discretization::own::OwnPoint;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement};
 use signorini_geometry::tensor::Vec3;

@@ -1,12 +1,12 @@
 //! What a contact remembers.
 
+use super::coupled::Coupled;
+use super::memory::Memory;
 use super::{
     Archive, ArchiveError, Contact, Interface, Judged, Lambda, Multiplier, Rows, Shift, State,
     TermError, Verdict,
 };
 use crate::contact::discretization::{Anchored, NOWHERE, Pair, Pairing, Renewable};
-use crate::contact::interface::coupled::Coupled;
-use crate::contact::interface::memory::Memory;
 use crate::contact::row::{Row, RowOrder};
 use signorini_geometry::surface::{Anchor, Feature, Placement, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;

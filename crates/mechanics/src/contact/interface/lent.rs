@@ -32,7 +32,7 @@
 //! Source: Wohlmuth, SIAM J. Numer. Anal. 38, 2000, 989–1012 (multipliers at Dirichlet boundaries and cross points).
 
 use super::Interface;
-use crate::contact::interface::lents::Lent;
+use super::lents::Lent;
 use crate::contact::row::{Participant, RowOrder, Rows};
 use crate::system::{NO_DOF, State, TermError};
 use signorini_geometry::mesh::NodeId;

@@ -1,7 +1,6 @@
 //! What an interface is made from.
 
-use crate::contact::discretization::Anchored;
-use crate::contact::discretization::{BentSides, Discretization, SurfacePair};
+use crate::contact::discretization::{Anchored, BentSides, Discretization, SurfacePair};
 use crate::contact::friction::{FrictionLaw, Stick};
 use crate::contact::law::{ContactLaw, Penalty, Scale};
 use signorini_geometry::surface::SurfaceError;

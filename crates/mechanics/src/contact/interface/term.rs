@@ -1,11 +1,8 @@
 //! An interface as a term of the equations.
 
-use super::rows;
-use crate::contact::interface::Interface;
-use crate::contact::interface::Scratch;
-use crate::contact::interface::judged::Changes;
-use crate::contact::interface::judged::NAMED;
-use crate::contact::interface::restless::RESTLESS;
+use super::judged::{Changes, NAMED};
+use super::restless::RESTLESS;
+use super::{Interface, Scratch, rows};
 use crate::contact::kernel::Contact;
 use crate::contact::law::Multiplier;
 use crate::system::{

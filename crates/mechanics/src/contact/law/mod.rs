@@ -40,10 +40,9 @@ pub use definition::{ContactLaw, Eval, Multiplier, Scale};
 pub use exponential::Exponential;
 pub use lagrange::Lagrange;
 pub use penalty::Penalty;
-pub use table::{Table, TableError};
-
 use signorini_vocabulary::{Description, Entry};
 use std::sync::Arc;
+pub use table::{Table, TableError};
 
 /// The laws that a case may choose by name, apart from a penalty and multipliers.
 ///

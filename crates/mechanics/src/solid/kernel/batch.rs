@@ -8,9 +8,9 @@
 //!
 //! which is (E2) with `C_rasb = λ δ_ra δ_sb + μ (δ_rs δ_ab + δ_rb δ_as)`; any other law cell by cell.
 
+use super::element::{Element, Points};
 use super::lanes::{Lanes, MOST};
 use super::stiffness::PAIR;
-use super::{Element, Points};
 use crate::material::{Lame, Order, Response};
 use pulp::{Arch, Simd, WithSimd};
 use signorini_geometry::tensor::Sym3;

@@ -22,9 +22,10 @@
 //! and `p Δδm` are absent. The mean of `ln J` takes the place of the usual mean of `J`: it is linear in nothing but
 //! `δϑ`, keeps `J̄` positive, and agrees with it to first order.
 
+use super::dense;
+use super::element::{Element, Failure, Output};
 use super::gradient::{Place, deformation, displacement_gradient, place, position, row, strain};
 use super::stiffness::{add_force, add_stiffness, contract};
-use super::{Element, Failure, Output, dense};
 use crate::material::{Order, Response};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 

@@ -1,6 +1,6 @@
 //! From the reference element to gradients, and from gradients to strains.
 
-use super::{Element, Failure};
+use super::element::{Element, Failure};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 
 /// A quadrature point of an element at the start.

@@ -19,11 +19,12 @@
 //! step. In the arrays the modes come before the nodes: the rows that condensed forces need are then the first. Sources: Taylor, Beresford, Wilson 1976; for (E11) in the sense
 //! of an assumed strain Simo and Rifai 1990.
 
+use super::dense;
+use super::element::{Element, Failure, Output};
 use super::gradient::{
     deformation, displacement_gradient, inverse, jacobian, place, position, strain,
 };
 use super::stiffness::{add_force, add_stiffness, contract, mirror};
-use super::{Element, Failure, Output, dense};
 use crate::material::{MaterialError, Order, Response};
 
 /// Newton steps before it is given up.

@@ -1,8 +1,8 @@
 //! The element as it is.
 
+use super::element::{Element, Failure, Output};
 use super::gradient::{deformation, displacement_gradient, place, strain};
 use super::stiffness::{add_force, add_stiffness, contract};
-use super::{Element, Failure, Output};
 use crate::material::{Order, Response};
 
 pub(super) fn respond<const NN: usize, const ND: usize, const NG: usize>(

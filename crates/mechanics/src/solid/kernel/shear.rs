@@ -10,8 +10,8 @@
 //! without the parasitic shear; its hourglass motions are left to the normal strains. Source: Hughes, The Finite Element
 //! Method, 2000, section 4.4.
 
+use super::element::{Element, Failure, Output};
 use super::gradient::{displacement_gradient, inverse, jacobian, place};
-use super::{Element, Failure, Output};
 use crate::material::{Order, Response};
 use signorini_geometry::tensor::Sym3;
 

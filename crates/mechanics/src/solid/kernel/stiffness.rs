@@ -1,6 +1,6 @@
 //! What a point adds to forces and stiffness.
 
-use super::Output;
+use super::element::Output;
 use super::gradient::row;
 use signorini_geometry::tensor::{Mat3, Sym3};
 

@@ -1,7 +1,7 @@
 //! What an attempt at an increment remembers from one iterate to the next.
 
-use super::Converged;
 use super::failure::Failure;
+use super::goal::Converged;
 use super::iterate::{Iterate, LastStep, Why};
 use super::scale::{Judgement, Sizes};
 use super::start::Start;

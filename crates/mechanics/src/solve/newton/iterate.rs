@@ -1,10 +1,8 @@
 //! An iterate, and what comes next.
 
-use super::scale::{Judgement, Sizes};
+use super::scale::{CORRECTION, Judgement, Sizes};
 use crate::system::NodeId;
 
-/// Condition (d): the last correction over the increment's displacement.
-pub(super) const CORRECTION: f64 = 1e-2;
 /// Condition (d'): the same where rows change between states across which forces are continuous, and do not cease to.
 const STILL_MOVED: f64 = 1e-6;
 

@@ -12,6 +12,7 @@
 
 mod course;
 mod failure;
+mod goal;
 mod iterate;
 mod scale;
 mod start;
@@ -20,11 +21,12 @@ mod step;
 use super::equations::Equations;
 use super::event::{Flow, IterationRecord};
 use crate::system::{
-    Aid, Assembler, Assembly, ByScale, Choices, Dof, Increment, Layout, NodeId, Order, Phase,
-    State, StepContext, System, TermError, Verdict,
+    Aid, Assembler, Assembly, Choices, Dof, Increment, Layout, NodeId, Order, Phase, State,
+    StepContext, System, TermError, Verdict,
 };
 use course::{Course, Released};
 pub use failure::Failure;
+pub(super) use goal::{Converged, Goal, Place};
 use iterate::{Iterate, Next, Why, is_small};
 pub(super) use scale::ForceScale;
 use scale::{Judgement, ROUND_OFF, Sizes, Tolerance};
@@ -66,35 +68,6 @@ impl Default for NewtonSettings {
 /// An extrapolated start changes few choices of a term where the term has this many times as many closed contacts.
 /// Iterations of an ironing by mortar and one by Gauss points where none and where few may change: 690, 579 and 748, 744.
 const FEW: usize = 8;
-
-/// An increment that converged.
-pub(super) struct Converged {
-    pub iterations: usize,
-    pub residual: f64,
-    pub q: ByScale,
-    /// What the first step from an extrapolated start has shown, for the next increment.
-    pub curvature: Option<f64>,
-}
-
-/// Where an increment stands: for the records.
-#[derive(Clone, Copy)]
-pub(super) struct Place {
-    pub step: usize,
-    pub increment: usize,
-    pub attempt: usize,
-}
-
-/// What an increment is to reach.
-pub(super) struct Goal<'a> {
-    /// Total time at its end.
-    pub time: f64,
-    /// Values of the prescribed dofs.
-    pub targets: &'a [(Dof, f64)],
-    /// Expected change of all dofs, from the increments before.
-    pub guess: Option<&'a [f64]>,
-    /// What the first step from such a start has shown there.
-    pub curvature: Option<f64>,
-}
 
 /// Newton's method with its memory: kept for a whole run.
 pub(super) struct Newton {

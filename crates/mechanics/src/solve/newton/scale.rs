@@ -1,8 +1,10 @@
 //! How large residuals may be: condition (a).
 
-use super::iterate::CORRECTION;
 use crate::solve::economy::Excess;
 use crate::system::{Assembly, ByScale, Dof, Layout, MAX_FIELDS, System};
+
+/// Condition (d): the last correction over the increment's displacement.
+pub(super) const CORRECTION: f64 = 1e-2;
 
 /// A component carries load where its forces exceed this part of the largest.
 const LOADED: f64 = 1e-12;

@@ -1,6 +1,7 @@
 //! Where an increment starts.
 
-use super::{Goal, Newton, verdicts};
+use super::goal::Goal;
+use super::{Newton, verdicts};
 use crate::system::{Dof, Order, State, System};
 
 /// How an increment starts.

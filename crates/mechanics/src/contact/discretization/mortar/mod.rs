@@ -71,15 +71,13 @@ mod structural;
 mod supports;
 
 use super::projected::Closest;
-use super::{HeldAxes, NOWHERE, Pair, Pairing, SurfacePair};
-use super::{PointToSegment, SlidingRange};
-use crate::contact::discretization::mortar::facets::corner_normal;
+use super::{HeldAxes, NOWHERE, Pair, Pairing, PointToSegment, SlidingRange, SurfacePair};
 use crate::contact::mortar::{
     Basis, Facet, Guests, Measure, OfFacet, OfRow, Transformation, Weights,
 };
 use crate::contact::row::RowOrder;
 use edges::{Part, parts};
-use facets::{along_a_curve, search};
+use facets::{along_a_curve, corner_normal, search};
 use integrals::{Integrator, Kept};
 use rayon::prelude::*;
 use sight::{NO_PART, STAYS, SmoothParts};

@@ -1,17 +1,13 @@
 //! Mortar rows as contact sees them.
 
-use super::Mortar;
-use super::integrals;
+use super::facets::search;
 use super::integrals::Integrator;
 use super::place::{Place, Workspace};
-use crate::contact::discretization::SlidingRange;
-use crate::contact::discretization::mortar::ONE;
-use crate::contact::discretization::mortar::TASK;
-use crate::contact::discretization::mortar::facets::search;
+use super::{Mortar, ONE, TASK, integrals};
 use crate::contact::discretization::projected::Point;
 use crate::contact::discretization::{
     Anchored, Averaged, BentSides, Capabilities, Curved, Discretization, HeldAxes, Links, NOWHERE,
-    OnRow, Pair, Pairing, Renewable, SurfacePair,
+    OnRow, Pair, Pairing, Renewable, SlidingRange, SurfacePair,
 };
 use crate::contact::mortar::{Guests, Weights};
 use crate::contact::row::{Participant, RowOrder, Rows, Wanted};

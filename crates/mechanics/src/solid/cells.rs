@@ -1,0 +1,216 @@
+//! Cells of one element: nodes, treatment and initial state.
+
+use super::choice::Situation;
+use super::error::SolidError;
+use super::kernel::{BatchKernel, Initial, Kernel, Points, Remedy, batch_kernel, kernel};
+use super::{AtNodes, Locking, report};
+use crate::material::{Kinematics, Material};
+use crate::system::Idealisation;
+use signorini_geometry::mesh::{CellId, NodeId};
+use signorini_geometry::tensor::{Sym3, Vec3};
+use std::collections::HashMap;
+
+/// Stress and strain that a quadrature point has at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtStart {
+    /// The cell.
+    pub cell: CellId,
+    /// The point, from 0, in the order of the rule of its element.
+    pub point: usize,
+    /// Stress without strain: Cauchy, or second Piola–Kirchhoff at finite strain.
+    pub stress: Sym3,
+    /// Strain without stress: linearized, or of Green and Lagrange.
+    pub strain: Sym3,
+}
+
+/// What is done against locking at one size of strains.
+pub(super) struct Treatment {
+    /// What became of the wish; why it cannot be had.
+    pub(super) locking: Result<Locking, &'static str>,
+    pub(super) kernel: Kernel,
+    /// For several cells at once.
+    pub(super) batch: Option<BatchKernel>,
+}
+
+/// Cells of one element.
+pub(super) struct Cells {
+    pub(super) element: &'static str,
+    pub(super) points: Points,
+    pub(super) small: Treatment,
+    pub(super) finite: Treatment,
+    pub(super) ndilatation: usize,
+    pub(super) nnode: usize,
+    pub(super) nodes: Vec<NodeId>,
+    pub(super) labels: Vec<u64>,
+    // where they are in the mesh
+    pub(super) ids: Vec<CellId>,
+    // from quadrature points to nodes: `nnode` rows of `npoint`
+    pub(super) extrapolation: Vec<f64>,
+    // numbers of history of a cell: those of its points, then its incompatible modes
+    pub(super) nhistory: usize,
+    // history of a cell of the undeformed material
+    pub(super) undeformed: Vec<f64>,
+    // accepted history of all cells
+    pub(super) history: Vec<f64>,
+    // at the points of all cells; empty where there is nothing at the start
+    pub(super) initial: Vec<Initial>,
+    // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
+    pub(super) rigidity: Vec<f64>,
+}
+
+impl Cells {
+    /// No cells yet; `None` where there is no kernel for the element.
+    pub(super) fn new(
+        situation: impl Fn(Kinematics) -> Situation,
+        wish: Locking,
+        nhistory: usize,
+        at_nodes: AtNodes,
+    ) -> Option<Self> {
+        let treatment = |kinematics| {
+            let situation = situation(kinematics);
+            let locking = situation.choose(wish);
+            let remedy = locking.map_or(Remedy::None, Locking::remedy);
+            let (element, space) = (situation.element, situation.space);
+            Some(Treatment {
+                locking,
+                kernel: kernel(element, space, remedy)?,
+                batch: batch_kernel(element, space, remedy),
+            })
+        };
+        let (small, finite) = (
+            treatment(Kinematics::Small)?,
+            treatment(Kinematics::Finite)?,
+        );
+        let element = situation(Kinematics::Small).element;
+        let projected = [&small, &finite].map(|t| t.locking.map(Locking::remedy));
+        let rule = situation(Kinematics::Small).rule(projected.contains(&Ok(Remedy::Dilatation)));
+        let modes = match small.locking {
+            Ok(Locking::Incompatible) => element.dim() * element.dim(),
+            _ => 0,
+        };
+        Some(Self {
+            element: element.name(),
+            extrapolation: report::extrapolation(element, rule, at_nodes),
+            points: Points::new(element, rule),
+            small,
+            finite,
+            ndilatation: situation(Kinematics::Small).ndilatation(),
+            nnode: element.nnode(),
+            nodes: Vec::new(),
+            labels: Vec::new(),
+            ids: Vec::new(),
+            rigidity: Vec::new(),
+            nhistory: rule.npoint() * nhistory + modes,
+            undeformed: Vec::new(),
+            history: Vec::new(),
+            initial: Vec::new(),
+        })
+    }
+
+    pub(super) const fn treatment(&self, kinematics: Kinematics) -> &Treatment {
+        match kinematics {
+            Kinematics::Small => &self.small,
+            Kinematics::Finite => &self.finite,
+        }
+    }
+
+    pub(super) fn refusal(&self, body: &str, locking: Locking, reason: &'static str) -> SolidError {
+        SolidError::Locking {
+            body: body.to_string(),
+            element: self.element,
+            locking,
+            reason,
+        }
+    }
+
+    pub(super) fn nodes_of(&self, cell: usize) -> &[NodeId] {
+        &self.nodes[cell * self.nnode..(cell + 1) * self.nnode]
+    }
+
+    /// Gives every cell the history of the undeformed material.
+    pub(super) fn start(&mut self, material: &dyn Material) {
+        let n = material.nhistory();
+        self.undeformed = vec![0.0; self.nhistory];
+        if n > 0 {
+            let of_points = self.points.rule.npoint() * n;
+            let points = self.undeformed[..of_points].chunks_exact_mut(n);
+            points.for_each(|point| material.start(point));
+        }
+        self.history = self.undeformed.repeat(self.labels.len());
+    }
+
+    /// Gives its points what they have at the start.
+    pub(super) fn begin(&mut self, body: &str, given: &[AtStart]) -> Result<(), SolidError> {
+        if given.is_empty() {
+            return Ok(());
+        }
+        let npoint = self.points.rule.npoint();
+        let places: HashMap<CellId, usize> = self.ids.iter().copied().zip(0..).collect();
+        for at in given {
+            let Some(&cell) = places.get(&at.cell) else {
+                continue;
+            };
+            if at.point >= npoint {
+                return Err(SolidError::NoPoint {
+                    body: body.to_string(),
+                    label: self.labels[cell],
+                    element: self.element,
+                    npoint,
+                    point: at.point + 1,
+                });
+            }
+            self.initial
+                .resize(self.ids.len() * npoint, Initial::default());
+            let to = &mut self.initial[cell * npoint + at.point];
+            to.stress = to.stress + at.stress;
+            to.strain = to.strain + at.strain;
+        }
+        Ok(())
+    }
+
+    pub(super) fn initial_of(&self, cell: usize) -> &[Initial] {
+        let npoint = self.points.rule.npoint();
+        let of_cell = self.initial.get(cell * npoint..(cell + 1) * npoint);
+        of_cell.unwrap_or_default()
+    }
+
+    /// `M ∫ max_i |N_i,X|² dV` of every cell, with the modulus `M`: the largest entry of its stiffness, about.
+    pub(super) fn rigidities(
+        &self,
+        reference: &[Vec3],
+        space: Idealisation,
+        modulus: f64,
+    ) -> Vec<f64> {
+        let at = |node: &NodeId| reference.get(*node as usize).copied().unwrap_or_default();
+        let mut x: Vec<Vec3> = Vec::new();
+        let of_cell = |nodes: &[NodeId]| {
+            x.clear();
+            x.extend(nodes.iter().map(at));
+            modulus * self.points.stretch(&x, space)
+        };
+        self.nodes.chunks_exact(self.nnode).map(of_cell).collect()
+    }
+
+    /// Checks that no node lies beyond the axis, and no quadrature point on it.
+    pub(super) fn radii(&self, body: &str, reference: &[Vec3]) -> Result<(), SolidError> {
+        for (nodes, &label) in self.nodes.chunks_exact(self.nnode).zip(&self.labels) {
+            let radius = |node: NodeId| reference.get(node as usize).map_or(0.0, |x| x.x);
+            let at_point = |point| {
+                let shape = self.points.shape(point).iter();
+                let radius: f64 = shape.zip(nodes).map(|(n, &node)| n * radius(node)).sum();
+                radius
+            };
+            let nearest = nodes.iter().map(|&n| radius(n)).fold(f64::MAX, f64::min);
+            let inside = (0..self.points.rule.npoint()).map(at_point);
+            let inside = inside.fold(f64::MAX, f64::min);
+            if nearest < 0.0 || inside <= 0.0 {
+                return Err(SolidError::Radius {
+                    body: body.to_string(),
+                    label,
+                    radius: nearest.min(inside),
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,113 @@
+//! What a chunk of a term contributes before it is added.
+
+use super::{Dof, Sink, TermError, Work};
+
+#[derive(Default)]
+pub(super) struct Slot {
+    pub(super) work: Work,
+    pub(super) buffer: Buffer,
+    pub(super) failure: Option<TermError>,
+    pub(super) energy: Option<f64>,
+}
+
+/// What a chunk added, one contribution after the other.
+#[derive(Default)]
+pub(super) struct Buffer {
+    pub(super) contributions: Vec<Contribution>,
+    pub(super) dofs: Vec<Dof>,
+    pub(super) force: Vec<f64>,
+    pub(super) stiffness: Vec<f64>,
+    /// Errors at other dofs than those of a contribution.
+    pub(super) errors: Vec<(Dof, f64)>,
+    /// Whether unknowns in it follow others.
+    pub(super) has_dependent: bool,
+}
+
+/// One contribution: how much of the lists is its own.
+pub(super) struct Contribution {
+    pub(super) ndof: usize,
+    pub(super) nstiffness: usize,
+    /// Whether the stiffness is in blocks as [`Sink::add_symmetric`] has them.
+    pub(super) is_symmetric: bool,
+    /// The uncertainty of its forces.
+    pub(super) error: f64,
+}
+
+impl Contribution {
+    /// Takes the places of its blocks in the bulk off a list.
+    pub(super) fn positions<'p>(&self, ndim: usize, all: &mut &'p [u32]) -> &'p [u32] {
+        let nblock = if self.nstiffness > 0 {
+            self.ndof / ndim.max(1)
+        } else {
+            0
+        };
+        all.split_off(..nblock * nblock).unwrap_or_default()
+    }
+}
+
+impl Buffer {
+    pub(super) fn push(
+        &mut self,
+        dofs: &[Dof],
+        force: &[f64],
+        stiffness: &[f64],
+        is_symmetric: bool,
+    ) {
+        debug_assert_eq!(dofs.len(), force.len());
+        self.contributions.push(Contribution {
+            ndof: dofs.len(),
+            nstiffness: stiffness.len(),
+            is_symmetric,
+            error: 0.0,
+        });
+        self.dofs.extend_from_slice(dofs);
+        self.force.extend_from_slice(force);
+        self.stiffness.extend_from_slice(stiffness);
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.contributions.clear();
+        self.dofs.clear();
+        self.force.clear();
+        self.stiffness.clear();
+        self.errors.clear();
+    }
+
+    /// Each contribution with its dofs, forces and stiffness.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&Contribution, &[Dof], &[f64], &[f64])> {
+        let (mut at, mut at_stiffness) = (0, 0);
+        self.contributions.iter().map(move |own| {
+            let (of_dofs, of_stiffness) = (
+                at..at + own.ndof,
+                at_stiffness..at_stiffness + own.nstiffness,
+            );
+            (at, at_stiffness) = (of_dofs.end, of_stiffness.end);
+            (
+                own,
+                &self.dofs[of_dofs.clone()],
+                &self.force[of_dofs],
+                &self.stiffness[of_stiffness],
+            )
+        })
+    }
+}
+
+impl Sink for Buffer {
+    fn add(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64]) {
+        debug_assert!(stiffness.is_empty() || stiffness.len() == dofs.len() * dofs.len());
+        self.push(dofs, force, stiffness, false);
+    }
+
+    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], blocks: &[f64], _: usize) {
+        self.push(dofs, force, blocks, true);
+    }
+
+    fn uncertain(&mut self, dofs: &[Dof], error: f64) {
+        match self.contributions.last_mut() {
+            Some(last) if self.dofs.ends_with(dofs) && last.ndof == dofs.len() => {
+                last.error += error;
+            }
+            _ => self.errors.extend(dofs.iter().map(|&d| (d, error))),
+        }
+    }
+}
