@@ -59,6 +59,7 @@ impl Cube {
             ndof: self.equation.len(),
             bulk: &self.bulk,
             interface: &self.interface,
+            fields: &[],
             equation: &self.equation,
             nequation: self.sign.len(),
             symmetry: Symmetry::Definite,

@@ -1,6 +1,6 @@
 use super::course::Clock;
 use super::local::{Local, gather};
-use super::{Domain, Effect, Load, LoadError, Region, Schedule, Site};
+use super::{Domain, Effect, Load, LoadError, LoadProperties, Region, Schedule, Site};
 use crate::system::{
     Frame, Layout, Lifetime, Order, Part, PatternSink, Phase, Properties, Role, Sink, SpinFrame,
     State, Symmetry, Term, TermError, Work,
@@ -62,12 +62,12 @@ impl Spin {
 }
 
 impl Load for Spin {
-    fn domain(&self) -> Domain {
-        Domain::Mass
+    fn properties(&self) -> LoadProperties {
+        LoadProperties::new(Domain::Mass, "centrifugal")
     }
 
-    fn quantity(&self) -> &'static str {
-        "centrifugal"
+    fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
+        None
     }
 
     fn effect(&self, site: Site<'_>) -> Result<Effect, LoadError> {

@@ -1,4 +1,4 @@
-use super::{Domain, Effect, Load, LoadError, Site, spread};
+use super::{Domain, Effect, Load, LoadError, LoadProperties, Site, spread};
 use signorini_geometry::tensor::Vec3;
 use signorini_vocabulary::{Description, Entry, VECTOR, key};
 use std::sync::Arc;
@@ -22,12 +22,12 @@ pub struct Force(
 );
 
 impl Load for Force {
-    fn domain(&self) -> Domain {
-        Domain::FacesOrNodes
+    fn properties(&self) -> LoadProperties {
+        LoadProperties::new(Domain::FacesOrNodes, "force")
     }
 
-    fn quantity(&self) -> &'static str {
-        "force"
+    fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
+        None
     }
 
     fn resultant(&self) -> Option<[Vec3; 2]> {
@@ -59,12 +59,12 @@ pub struct Wrench {
 }
 
 impl Load for Wrench {
-    fn domain(&self) -> Domain {
-        Domain::Nodes
+    fn properties(&self) -> LoadProperties {
+        LoadProperties::new(Domain::Nodes, "wrench")
     }
 
-    fn quantity(&self) -> &'static str {
-        "wrench"
+    fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
+        None
     }
 
     fn resultant(&self) -> Option<[Vec3; 2]> {

@@ -1,4 +1,4 @@
-use super::{Domain, Effect, Load, LoadError, Site, spread};
+use super::{Domain, Effect, Load, LoadError, LoadProperties, Site, spread};
 use signorini_geometry::tensor::Vec3;
 use signorini_vocabulary::{Description, Entry, VECTOR, key};
 use std::sync::Arc;
@@ -21,16 +21,15 @@ pub struct Gravity(
 );
 
 impl Load for Gravity {
-    fn domain(&self) -> Domain {
-        Domain::Mass
+    fn properties(&self) -> LoadProperties {
+        LoadProperties {
+            off_axis: (self.0.x != 0.0).then_some("only its part along y can act"),
+            ..LoadProperties::new(Domain::Mass, "gravity")
+        }
     }
 
-    fn quantity(&self) -> &'static str {
-        "gravity"
-    }
-
-    fn off_axis(&self) -> Option<&'static str> {
-        (self.0.x != 0.0).then_some("only its part along y can act")
+    fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
+        None
     }
 
     fn effect(&self, site: Site<'_>) -> Result<Effect, LoadError> {

@@ -12,11 +12,8 @@ use thiserror::Error;
 
 /// What acts, at full size. Where it acts is a matter of its [`Place`].
 pub trait Load: Debug + Send + Sync {
-    /// What it acts on.
-    fn domain(&self) -> Domain;
-
-    /// What it is an amount of. Two loads of one quantity in one place can take each other's place at once.
-    fn quantity(&self) -> &'static str;
+    /// What it is, and what it acts on.
+    fn properties(&self) -> LoadProperties;
 
     /// Its force and moment on a carrier; `None` where it does not act on what moves as a whole.
     fn resultant(&self) -> Option<[Vec3; 2]> {
@@ -24,15 +21,7 @@ pub trait Load: Debug + Send + Sync {
     }
 
     /// The same load, turning with the surface that it acts on or not; `None` where it always keeps its direction.
-    fn following(&self, follows: bool) -> Option<Arc<dyn Load>> {
-        let _ = follows;
-        None
-    }
-
-    /// The part of it that can act on a body of revolution, in words, where that is not all of it.
-    fn off_axis(&self) -> Option<&'static str> {
-        None
-    }
+    fn following(&self, follows: bool) -> Option<Arc<dyn Load>>;
 
     /// What it does at a site, at full size.
     ///
@@ -48,6 +37,29 @@ pub trait Load: Debug + Send + Sync {
         Acting {
             load: Arc::new(self),
             place,
+        }
+    }
+}
+
+/// What a load is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LoadProperties {
+    /// What it acts on.
+    pub domain: Domain,
+    /// What it is an amount of. Two loads of one quantity in one place can take each other's place at once.
+    pub quantity: &'static str,
+    /// The part of it that can act on a body of revolution, in words, where that is not all of it.
+    pub off_axis: Option<&'static str>,
+}
+
+impl LoadProperties {
+    /// Those of a load that acts whole on bodies of revolution, too.
+    #[must_use]
+    pub const fn new(domain: Domain, quantity: &'static str) -> Self {
+        Self {
+            domain,
+            quantity,
+            off_axis: None,
         }
     }
 }
@@ -107,7 +119,7 @@ impl Acting {
             (Place::Cells(a), Place::Cells(b)) => set(a) == set(b),
             _ => false,
         };
-        alike && self.load.quantity() == other.load.quantity()
+        alike && self.load.properties().quantity == other.load.properties().quantity
     }
 }
 
@@ -155,12 +167,12 @@ impl Effect {
 struct Forces(Vec<(NodeId, Vec3)>);
 
 impl Load for Forces {
-    fn domain(&self) -> Domain {
-        Domain::Nodes
+    fn properties(&self) -> LoadProperties {
+        LoadProperties::new(Domain::Nodes, "force")
     }
 
-    fn quantity(&self) -> &'static str {
-        "force"
+    fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
+        None
     }
 
     fn effect(&self, _: Site<'_>) -> Result<Effect, LoadError> {

@@ -72,7 +72,7 @@ pub use course::{Course, Schedule};
 pub use following_pressure::FollowingPressure;
 pub use force::{Force, Wrench};
 pub use gravity::Gravity;
-pub use kind::{Acting, Domain, Effect, Load, LoadError, Place, Site};
+pub use kind::{Acting, Domain, Effect, Load, LoadError, LoadProperties, Place, Site};
 pub use moment::Moment;
 pub use nodal_forces::NodalForces;
 pub use per_node::PerNode;

@@ -1,4 +1,4 @@
-use super::{Domain, Effect, Load, LoadError, Site, spread};
+use super::{Domain, Effect, Load, LoadError, LoadProperties, Site, spread};
 use signorini_geometry::tensor::Vec3;
 use signorini_vocabulary::{Description, Entry, VECTOR, key};
 use std::sync::Arc;
@@ -23,12 +23,12 @@ pub struct Moment(
 );
 
 impl Load for Moment {
-    fn domain(&self) -> Domain {
-        Domain::Nodes
+    fn properties(&self) -> LoadProperties {
+        LoadProperties::new(Domain::Nodes, "moment")
     }
 
-    fn quantity(&self) -> &'static str {
-        "moment"
+    fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
+        None
     }
 
     fn resultant(&self) -> Option<[Vec3; 2]> {

@@ -1,4 +1,4 @@
-use super::{Domain, Effect, Load, LoadError, Site};
+use super::{Domain, Effect, Load, LoadError, LoadProperties, Site};
 use signorini_geometry::tensor::Vec3;
 use signorini_vocabulary::{Description, Entry, VECTOR, key};
 use std::sync::Arc;
@@ -22,12 +22,12 @@ pub struct PerNode(
 );
 
 impl Load for PerNode {
-    fn domain(&self) -> Domain {
-        Domain::Nodes
+    fn properties(&self) -> LoadProperties {
+        LoadProperties::new(Domain::Nodes, "force")
     }
 
-    fn quantity(&self) -> &'static str {
-        "force"
+    fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
+        None
     }
 
     fn resultant(&self) -> Option<[Vec3; 2]> {

@@ -1,4 +1,4 @@
-use super::{Domain, Effect, FollowingPressure, Load, LoadError, Site, spread};
+use super::{Domain, Effect, FollowingPressure, Load, LoadError, LoadProperties, Site, spread};
 use signorini_vocabulary::{ANY, Description, Entry, key};
 use std::sync::Arc;
 
@@ -27,16 +27,15 @@ pub struct Pressure {
 }
 
 impl Load for Pressure {
-    fn domain(&self) -> Domain {
-        Domain::Faces
-    }
-
-    fn quantity(&self) -> &'static str {
-        if self.follows {
-            "following pressure"
-        } else {
-            "pressure"
-        }
+    fn properties(&self) -> LoadProperties {
+        LoadProperties::new(
+            Domain::Faces,
+            if self.follows {
+                "following pressure"
+            } else {
+                "pressure"
+            },
+        )
     }
 
     fn following(&self, follows: bool) -> Option<Arc<dyn Load>> {

@@ -1,4 +1,4 @@
-use super::{Domain, Effect, Load, LoadError, Site, spread};
+use super::{Domain, Effect, Load, LoadError, LoadProperties, Site, spread};
 use signorini_geometry::tensor::Vec3;
 use signorini_vocabulary::{Description, Entry, VECTOR, key};
 use std::sync::Arc;
@@ -19,12 +19,12 @@ pub struct Traction(
 );
 
 impl Load for Traction {
-    fn domain(&self) -> Domain {
-        Domain::Faces
+    fn properties(&self) -> LoadProperties {
+        LoadProperties::new(Domain::Faces, "traction")
     }
 
-    fn quantity(&self) -> &'static str {
-        "traction"
+    fn following(&self, _: bool) -> Option<Arc<dyn Load>> {
+        None
     }
 
     fn effect(&self, site: Site<'_>) -> Result<Effect, LoadError> {

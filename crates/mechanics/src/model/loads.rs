@@ -161,7 +161,7 @@ impl Context<'_> {
             layout: self.layout,
             reference: self.reference,
         };
-        match (part.load.load.domain(), &part.load.place) {
+        match (part.load.load.properties().domain, &part.load.place) {
             (Domain::Nodes | Domain::FacesOrNodes, Place::Nodes(nodes)) => site.nodes = nodes,
             (Domain::Faces | Domain::FacesOrNodes, Place::Faces(faces)) => {
                 site.region = self.faces(faces)?;

@@ -31,6 +31,7 @@ mod reduction;
 mod steps;
 
 pub use crate::load::LoadError;
+pub use constraint_error::ConstraintError;
 pub use error::ModelError;
 pub use held::Unheld;
 pub use parts::{

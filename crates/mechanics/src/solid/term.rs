@@ -87,12 +87,12 @@ pub(super) struct Scratch {
 
 /// The same of several cells, lane by lane.
 #[derive(Default)]
-struct InLanes {
-    x: Vec<f64>,
-    u: Vec<f64>,
-    force: Vec<f64>,
-    blocks: Vec<f64>,
-    energy: Vec<f64>,
+pub(super) struct InLanes {
+    pub(super) x: Vec<f64>,
+    pub(super) u: Vec<f64>,
+    pub(super) force: Vec<f64>,
+    pub(super) blocks: Vec<f64>,
+    pub(super) energy: Vec<f64>,
 }
 
 /// What is wanted of the cells.

@@ -78,7 +78,7 @@ impl Context<'_> {
     /// Where a load acts that does not act on a carrier.
     fn place(&self, load: &case::Load, acts: &dyn Load, found: &mut Diagnostics) -> Option<Place> {
         let (on, names) = (&load.on, self.names);
-        Some(match acts.domain() {
+        Some(match acts.properties().domain {
             Domain::Nodes => Place::Nodes(names.nodes(on, found)?),
             Domain::FacesOrNodes => {
                 let nodes = names.nodes(on, found)?;
@@ -131,7 +131,7 @@ impl Context<'_> {
 
     /// Refuses loads that are not the same all around the axis of a body of revolution.
     fn check_axial(&self, load: &case::Load, acts: &dyn Load, found: &mut Diagnostics) {
-        let Some(what_can) = acts.off_axis() else {
+        let Some(what_can) = acts.properties().off_axis else {
             return;
         };
         let of_model = super::idealisation(&self.case.model);
@@ -146,7 +146,10 @@ impl Context<'_> {
             found.push(
                 Diagnostic::error(
                     &codes::CONTRADICTION,
-                    format!("{} across the axis is not axisymmetric", acts.quantity()),
+                    format!(
+                        "{} across the axis is not axisymmetric",
+                        acts.properties().quantity
+                    ),
                 )
                 .at(&load.what, what_can),
             );

@@ -1,14 +1,13 @@
 //! Normals between those of both sides, for points that keep the tangent plane that they meet first ((E9) of
 //! [`crate::contact::mortar`]).
 
-use super::projected::Point;
+use super::on_facet::OnFacet;
+use super::point::Point;
 use crate::contact::mortar::{SMOOTH, between};
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Anchor, ContactSurface, Facets, Placement, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
-
-use super::{Discretization, OnFacet};
 
 /// Where each point is on the facets around it.
 pub struct Lean {
@@ -20,17 +19,9 @@ pub struct Lean {
 }
 
 impl Lean {
-    /// That of the rows of a discretization; `share` is the part of the normals of the secondary side.
+    /// That of points inside facets; `share` is the part of the normals of the secondary side.
     #[must_use]
-    pub fn new(facets: &Facets, of: &dyn Discretization, share: f64) -> Self {
-        match of.capabilities().inside {
-            Some(points) => Self::inside(points, share),
-            None => Self::at_nodes(facets, (0..of.nrow()).map(|row| of.point(row)), share),
-        }
-    }
-
-    /// That of points inside facets.
-    fn inside(points: &[OnFacet], share: f64) -> Self {
+    pub fn inside(points: &[OnFacet], share: f64) -> Self {
         let at = |point: &OnFacet| Anchor {
             facet: point.facet,
             local: point.xi,
@@ -42,8 +33,13 @@ impl Lean {
         }
     }
 
-    /// That of nodes.
-    fn at_nodes<'a>(facets: &Facets, points: impl Iterator<Item = Point<'a>>, share: f64) -> Self {
+    /// That of nodes; `share` is the part of the normals of the secondary side.
+    #[must_use]
+    pub fn at_nodes<'a>(
+        facets: &Facets,
+        points: impl Iterator<Item = Point<'a>>,
+        share: f64,
+    ) -> Self {
         let mut around: HashMap<NodeId, Vec<Anchor>> = HashMap::new();
         for facet in 0..facets.nfacet() as u32 {
             let places = facets.element(facet).map_or(&[][..], |e| e.nodes());

@@ -17,6 +17,7 @@ pub mod nodes;
 mod on_facet;
 mod own;
 mod pair;
+mod point;
 pub mod points;
 pub mod projected;
 mod reach;

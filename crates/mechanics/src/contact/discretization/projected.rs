@@ -48,6 +48,7 @@
 //! half its thickness is pushed out at the wrong side, unless a surface touches itself, where it meets nothing there. Sources: Wriggers 2006, section 6.3; Konyukhov and
 //! Schweizerhof 2013, chapter 5; Wriggers and Krstulović-Opara 2000 (E7).
 
+pub use super::point::Point;
 use super::{Anchored, OwnPoint, Pair};
 use crate::contact::row::{Participant, Row, RowOrder, Rows, Wanted};
 use signorini_geometry::element::MAX_FACET_NODES;
@@ -96,28 +97,6 @@ pub struct Sight<'a> {
     pub reach: &'a dyn Fn(u32) -> f64,
     /// The point among its own body, where the surface may touch itself.
     pub own: Option<OwnPoint<'a>>,
-}
-
-/// A point of the secondary side: its nodes, with their weights.
-#[derive(Clone, Copy)]
-pub struct Point<'a> {
-    /// The nodes.
-    pub nodes: &'a [NodeId],
-    /// Their shape functions.
-    pub weights: &'a [f64],
-    /// Of a row between nodes: all nodes that it depends on, its own and the one opposite first. Empty where rows meet facets.
-    pub all: &'a [NodeId],
-}
-
-impl Point<'_> {
-    /// Where it is.
-    #[must_use]
-    pub fn position(&self, at: &Placement) -> Vec3 {
-        let nodes = self.nodes.iter().zip(self.weights);
-        nodes
-            .map(|(&n, &w)| at.x.get(n as usize).copied().unwrap_or_default() * w)
-            .sum()
-    }
 }
 
 /// Who moves a facet.

@@ -129,7 +129,8 @@ pub use transformation::{Basis, Transformation};
 pub use weights::{Guests, OfFacet, OfRow, Weights};
 
 #[cfg(doc)]
-use signorini_geometry::element::{DualBasis, Element, Family};
+use signorini_geometry::element::DualBasis;
+use signorini_geometry::element::{Element, Family};
 use signorini_geometry::tensor::Vec3;
 use thiserror::Error;
 

@@ -283,7 +283,13 @@ impl Sides {
         let (&Method::Mortar(form), Some(facets)) = (&self.method, &self.pair.secondary) else {
             let facets = self.pair.secondary.as_ref();
             let rows = self.discretization.as_ref();
-            self.pair.lean = facets.map(|facets| Lean::new(facets, rows, share));
+            self.pair.lean = facets.map(|facets| match rows.capabilities().inside {
+                Some(points) => Lean::inside(points, share),
+                None => {
+                    let points = (0..rows.nrow()).map(|row| rows.point(row));
+                    Lean::at_nodes(facets, points, share)
+                }
+            });
             return Ok(());
         };
         let primary = self.pair.primary.as_ref();

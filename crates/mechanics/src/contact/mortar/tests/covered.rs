@@ -1,14 +1,10 @@
 //! Facets that are covered in part, seen edge on, or folded.
 
 use super::scenes::*;
-use crate::contact::mortar::pair::facing;
 use crate::contact::mortar::*;
 use crate::contact::tests::Random;
-use crate::cubic::CUBIC;
-use serde_json::Value;
-use signorini_geometry::element::{MAX_FACET_NODES, TABLE, by_name};
+use signorini_geometry::element::by_name;
 use signorini_geometry::tensor::Mat3;
-use std::path::Path;
 
 #[test]
 fn surfaces_that_are_apart_touch_nowhere_but_with_weights_of_either_sign() {

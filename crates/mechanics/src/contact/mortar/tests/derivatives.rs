@@ -4,11 +4,7 @@ use super::scenes::*;
 use crate::contact::mortar::pair::facing;
 use crate::contact::mortar::*;
 use crate::contact::tests::Random;
-use crate::cubic::CUBIC;
-use serde_json::Value;
-use signorini_geometry::element::{MAX_FACET_NODES, TABLE, by_name};
 use signorini_geometry::tensor::Mat3;
-use std::path::Path;
 
 #[test]
 fn derivatives_match_differences() {

@@ -5,14 +5,10 @@ mod derivatives;
 mod scenes;
 
 use super::*;
-use crate::contact::mortar::pair::facing;
 use crate::contact::tests::Random;
-use crate::cubic::CUBIC;
 use scenes::*;
 use serde_json::Value;
-use signorini_geometry::element::{MAX_FACET_NODES, TABLE, by_name};
-use signorini_geometry::tensor::Mat3;
-use std::path::Path;
+use signorini_geometry::element::{MAX_FACET_NODES, by_name};
 
 #[test]
 fn weights_transformations_and_bases_of_whole_quadratic_facets_are_those_of_the_reference() {

@@ -1,6 +1,5 @@
 //! Sides for the tests of mortar integrals.
 
-use crate::contact::mortar::pair::facing;
 use crate::contact::mortar::*;
 use crate::contact::tests::Random;
 use crate::cubic::CUBIC;

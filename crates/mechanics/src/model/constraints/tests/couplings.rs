@@ -1,23 +1,12 @@
 //! Couplings, faces that stay plane, twists, rods and ropes.
 
 use super::*;
-use crate::connector::SpringLaw;
 use crate::load::{Acting, Load, Place, Wrench};
-use crate::material::{NeoHookean, SaintVenantKirchhoff};
 use crate::model::Parts;
-use crate::model::{Change, ContactPart, LoadPart, Model, PrimaryPart, SidePart, StepPart, Target};
-use crate::solve::{Event, Flow, Increments, NewtonSettings, Outcome, Stepper, StepperSettings};
-use crate::system::{Archive, Assembler, Assembly, Frame, Order, State};
-use signorini_geometry::element::by_name;
-use signorini_geometry::mesh::{CellId, Face};
+use crate::model::{LoadPart, StepPart, Target};
+use crate::solve::Increments;
+use crate::system::{Frame, State};
 use std::f64::consts::{PI, TAU};
-
-fn carrier(name: &str, at: [f64; 3]) -> CarrierPart {
-    CarrierPart {
-        name: name.into(),
-        at: Some(Vec3::from(at)),
-    }
-}
 
 #[test]
 fn a_kinematic_coupling_twists_a_cube_by_a_right_angle_and_hands_on_force_and_moment() {

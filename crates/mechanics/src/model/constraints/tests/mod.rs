@@ -4,15 +4,13 @@ mod couplings;
 
 use super::*;
 use crate::connector::SpringLaw;
-use crate::load::{Acting, Load, Place, Wrench};
 use crate::material::{NeoHookean, SaintVenantKirchhoff};
 use crate::model::Parts;
-use crate::model::{Change, ContactPart, LoadPart, Model, PrimaryPart, SidePart, StepPart, Target};
+use crate::model::{Change, ContactPart, Model, PrimaryPart, SidePart, StepPart, Target};
 use crate::solve::{Event, Flow, Increments, NewtonSettings, Outcome, Stepper, StepperSettings};
 use crate::system::{Archive, Assembler, Assembly, Frame, Order, State};
 use signorini_geometry::element::by_name;
 use signorini_geometry::mesh::{CellId, Face};
-use std::f64::consts::{PI, TAU};
 
 /// A box of hexahedra from `from` on: its cells.
 fn block(mesh: &mut Mesh, [nx, ny, nz]: [u32; 3], from: Vec3, size: Vec3) -> Vec<CellId> {
@@ -517,4 +515,11 @@ fn contact_acts_on_unknowns_that_follow_and_restarts_and_threads_change_no_bit()
         .map(|&n| state.x[n as usize].z)
         .collect();
     assert!(level.iter().all(|z| (z - level[0]).abs() < 1e-12));
+}
+
+fn carrier(name: &str, at: [f64; 3]) -> CarrierPart {
+    CarrierPart {
+        name: name.into(),
+        at: Some(Vec3::from(at)),
+    }
 }
