@@ -475,25 +475,14 @@ impl Grid {
             return Ok(Ok(report));
         }
         let symmetric = kept.is_definite();
-        let mut size = kept.largest_at_displacements(rhs);
-        if symmetric || self.block.whole.is_empty() {
-            residual.value.copy_from_slice(rhs);
-        } else {
-            self.block.after(rhs, x)?;
-            residual.measure(kept, values, rhs, x);
-            size = size.max(kept.largest_at_displacements(&residual.value));
-        }
-        self.units
-            .measure(&self.components, kept, [rhs, &residual.value]);
-        let has_units = !self.units.is_empty();
+        let size = self.start(kept, values, rhs, x, residual)?;
         // errors of several fields have no norm in common
         let wanted = match wanted {
-            Wanted::Part { part, .. } if has_units => Wanted::Residual(STRICTER * part),
+            Wanted::Part { part, .. } if !self.units.is_empty() => {
+                Wanted::Residual(STRICTER * part)
+            }
             other => other,
         };
-        if has_units {
-            size = 1.0;
-        }
         let part = match wanted {
             Wanted::Residual(rtol) => rtol,
             Wanted::Part { part, .. } if symmetric => part,
@@ -563,6 +552,29 @@ impl Grid {
         }
         let iterations = report.iterations;
         Ok(Err(Why::Slow { iterations }))
+    }
+
+    /// Begins with the solution of the block of the interface, and measures units and residual; returns the size to which
+    /// residuals are compared.
+    fn start(
+        &mut self,
+        kept: &Kept,
+        values: &Values,
+        rhs: &[f64],
+        x: &mut [f64],
+        residual: &mut Residual,
+    ) -> Result<f64, LinearError> {
+        let mut size = kept.largest_at_displacements(rhs);
+        if kept.is_definite() || self.block.whole.is_empty() {
+            residual.value.copy_from_slice(rhs);
+        } else {
+            self.block.after(rhs, x)?;
+            residual.measure(kept, values, rhs, x);
+            size = size.max(kept.largest_at_displacements(&residual.value));
+        }
+        self.units
+            .measure(&self.components, kept, [rhs, &residual.value]);
+        Ok(if self.units.is_empty() { size } else { 1.0 })
     }
 
     /// Keeps count of how well the hierarchy serves, by its iterations to this part of a residual or an error.

@@ -4,10 +4,11 @@
 //! make anything depend that a step prescribes. Then the equations are solved for what may depend.
 
 use super::constraint_error::ConstraintError;
+use super::label::label;
 use super::reduction::{Column, Reduced, Row, reduce};
 use super::{
     BodyKind, BodyPart, CarrierPart, ConstraintKind, ConstraintPart, ContactPart, ModelError,
-    PrimaryPart, SpringPart, Unknown, label,
+    PrimaryPart, SpringPart, Unknown,
 };
 use crate::connector::{
     ConnectorError, Distance, DistanceParts, Distributing, DistributingParts, Line, Plane, Springs,

@@ -1,6 +1,7 @@
 //! Loads of all steps, as terms.
 
-use super::{BodyKind, BodyPart, Context, LoadPart, ModelError};
+use super::substance::Substance;
+use super::{Context, LoadPart, ModelError};
 use crate::load::{
     Acting, Course, Domain, Effect, LoadError, NodalForces, Place, Region, Schedule, Site,
 };
@@ -71,44 +72,6 @@ fn schedules(
 
 fn set<T: Copy + Ord>(members: &[T]) -> BTreeSet<T> {
     members.iter().copied().collect()
-}
-
-/// What loads want to know of a body.
-pub(super) struct Substance {
-    name: String,
-    density: Option<f64>,
-    /// Cross-section of bars.
-    section: Option<f64>,
-    integration: Integration,
-    space: Idealisation,
-}
-
-impl Substance {
-    pub fn new(body: &BodyPart, of_model: Idealisation) -> Self {
-        let mut of = Self {
-            name: body.name.clone(),
-            density: None,
-            section: None,
-            integration: Integration::Full,
-            space: body.kind.space(of_model),
-        };
-        match body.kind {
-            BodyKind::Solid {
-                density,
-                integration,
-                ..
-            } => {
-                of.density = density;
-                of.integration = integration;
-            }
-            BodyKind::Truss { density, area, .. } => {
-                of.density = density;
-                of.section = Some(area);
-            }
-            BodyKind::Rigid(_) => {}
-        }
-        of
-    }
 }
 
 impl Context<'_> {

@@ -23,16 +23,30 @@ mod bodies;
 mod constraint_error;
 mod constraints;
 mod contact;
+mod context;
 mod error;
 mod held;
+mod label;
 mod loads;
 mod parts;
 mod reduction;
+mod spaces;
 mod steps;
+mod substance;
+mod summary;
 
+use crate::contact::Interface;
 pub use crate::load::LoadError;
+use crate::material::{Kinematics, Material};
+use crate::solve::Step;
+use crate::system::{Layout, NodalField, System, Term};
+use bodies::{between, nodes_by_body, owners};
 pub use constraint_error::ConstraintError;
+use constraints::Followers;
+use contact::{Sides, Source};
+use context::Context;
 pub use error::ModelError;
+use held::Held;
 pub use held::Unheld;
 pub use parts::{
     AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart,
@@ -40,134 +54,14 @@ pub use parts::{
     Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart,
     StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
-
-use crate::contact::discretization::SlidingRange;
-use crate::contact::{Interface, Measure};
-use crate::material::Kinematics;
-use crate::material::Material;
-use crate::solid::Locking;
-use crate::solve::Step;
-use crate::system::{Elimination, Idealisation, Layout, NodalField, System, Term};
-use bodies::{Spaces, between, nodes_by_body, owners};
-use constraints::{Followers, Ties};
-use contact::{Sides, Source};
-use held::Held;
-use loads::Substance;
-use signorini_geometry::mesh::{CellId, Face, Mesh, NodeId};
-use signorini_geometry::surface::Pose;
+use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
-use std::collections::HashMap;
+use spaces::Spaces;
 use std::sync::Arc;
-
-/// What a contact became.
-#[derive(Clone, Debug)]
-pub struct ContactSummary {
-    /// Its name.
-    pub name: String,
-    /// The method in use.
-    pub method: Method,
-    /// How penetration is prevented, without what was left open.
-    pub enforcement: Enforcement,
-    /// The penalty in use; of multipliers, what their conditions are scaled by.
-    pub penalty: f64,
-    /// What it refers to.
-    pub measure: Measure,
-    /// How far its points slide.
-    pub sliding: SlidingRange,
-    /// The reach in use.
-    pub reach: f64,
-    /// Points of the secondary side.
-    pub npoint: usize,
-    /// Facets of the primary side.
-    pub nfacet: usize,
-    /// Size of the facets.
-    pub facet_size: f64,
-    /// What is near at the start.
-    pub start: StartSummary,
-}
-
-/// Gaps and overlaps at the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StartSummary {
-    /// How many rows have something within reach.
-    pub near: usize,
-    /// How many nodes of the secondary side touch or overlap.
-    pub touching: usize,
-    /// The smallest gap at a node of either side that faces the other, negative where the sides overlap (length); of a
-    /// surface with itself and of pairs of nodes, at a row. `None` where nothing is within reach.
-    pub gap: Option<f64>,
-    /// Where that is; `None` where it is known by rows alone.
-    pub place: Option<StartPlace>,
-    /// At how many nodes the sides overlap by more than the mesh explains.
-    pub overlapping: usize,
-    /// What becomes of overlaps.
-    pub treatment: Treatment,
-    /// What comes from straight facets, where gaps are measured between the surfaces that these were cut from.
-    pub bent: Option<BentSummary>,
-    /// Edges of the body at which the secondary side ends over the other side, of contacts with friction.
-    pub open_edges: Option<OpenEdges>,
-}
-
-/// Edges of a body at which the secondary side of a contact ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OpenEdges {
-    /// How many there are.
-    pub count: usize,
-    /// A node of one of them.
-    pub node: NodeId,
-    /// The face next to it that the contact does not have.
-    pub face: Face,
-}
-
-/// A place at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StartPlace {
-    /// The node; `None` inside a facet.
-    pub node: Option<NodeId>,
-    /// The position.
-    pub position: Vec3,
-}
-
-/// What becomes of gaps and overlaps at the start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Treatment {
-    /// Gaps are as measured; overlaps are treated like this.
-    Interference(Interference),
-    /// Gaps are taken to be something else.
-    Given,
-    /// The sides are joined.
-    Joined,
-}
-
-impl Default for Treatment {
-    fn default() -> Self {
-        Self::Interference(Interference::default())
-    }
-}
-
-/// What comes from straight facets of surfaces that conform (lengths).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BentSummary {
-    /// How far gaps between straight facets are from the distance, at most.
-    pub straight: f64,
-    /// How far those between bent facets are.
-    pub bent: f64,
-    /// The distance of the surfaces: the median of the gaps between bent facets.
-    pub distance: f64,
-}
-
-/// What is done against locking in the elements of a body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LockingSummary {
-    /// Name of the body.
-    pub body: String,
-    /// Type of the elements.
-    pub element: &'static str,
-    /// In steps of which size of strains.
-    pub kinematics: Kinematics,
-    /// What is done.
-    pub locking: Locking,
-}
+use substance::Substance;
+pub use summary::{
+    BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,
+};
 
 /// A system with the steps it is to go through.
 ///
@@ -473,27 +367,4 @@ fn temperatures(start: Vec<f64>, steps: &[StepPart]) -> Option<Arc<NodalField>> 
         ends.push(end);
     }
     Some(Arc::new(NodalField { ends }))
-}
-
-fn label(mesh: &Mesh, node: NodeId) -> u64 {
-    mesh.node_labels.get(node as usize).copied().unwrap_or(0)
-}
-
-/// What the parts of a model are made from.
-struct Context<'a> {
-    mesh: &'a Mesh,
-    reference: &'a Arc<[Vec3]>,
-    owner: &'a HashMap<CellId, usize>,
-    modulus: &'a [Option<f64>],
-    shear_modulus: &'a [Option<f64>],
-    substances: &'a [Substance],
-    elimination: Arc<Elimination>,
-    carriers: &'a [CarrierPart],
-    /// That of bodies that say nothing else, and of all that is no body.
-    space: Idealisation,
-    spaces: &'a Spaces<'a>,
-    layout: Layout,
-    ties: &'a Ties,
-    /// Poses of the carriers at the start.
-    poses: Vec<Pose>,
 }

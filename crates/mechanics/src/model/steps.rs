@@ -1,7 +1,8 @@
+use super::constraint_error::ConstraintError;
 use super::constraints::components;
-use super::{Change, Context, LoadPart, ModelError, StepPart, Target, label};
+use super::label::label;
+use super::{Change, Context, LoadPart, ModelError, StepPart, Target};
 use crate::load::Place;
-use crate::model::constraint_error::ConstraintError;
 use crate::solve::{Motion, Prescription, Step};
 use crate::system::{Dof, DofName, Idealisation, NO_DOF};
 use signorini_geometry::mesh::NodeId;

@@ -1,9 +1,9 @@
 //! What a solid can do beyond forces: initial stiffness, elements, storage, samples.
 
 use super::at::At;
-use super::cells::Cells;
+use super::cells::{CHUNK, Cells};
 use super::kernel::Sample;
-use super::term::{CHUNK, Scratch, Solid, Wanted};
+use super::term::{Scratch, Solid, Wanted};
 use crate::material::Strain;
 use crate::system::{
     Archive, ArchiveError, Elementwise, InitialStiffness, PointSample, Sampled, Samples, Sink,
@@ -11,9 +11,6 @@ use crate::system::{
 };
 use rayon::prelude::*;
 use signorini_geometry::mesh::{CellId, NodeId};
-
-/// Chunks whose points are sampled before their nodes take them: bounds the memory.
-pub(super) const SAMPLED: usize = 256;
 
 impl InitialStiffness for Solid {
     fn id(&self) -> u64 {

@@ -214,3 +214,9 @@ impl Cells {
         Ok(())
     }
 }
+
+/// Chunks whose points are sampled before their nodes take them: bounds the memory.
+pub(super) const SAMPLED: usize = 256;
+
+/// Cells evaluated together: enough to be worth a task, few enough to stay in cache.
+pub(super) const CHUNK: usize = 16;

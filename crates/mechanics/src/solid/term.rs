@@ -1,6 +1,5 @@
 use super::at::At;
-use super::capabilities::SAMPLED;
-use super::cells::{AtStart, Cells};
+use super::cells::{AtStart, CHUNK, Cells, SAMPLED};
 use super::choice::{Situation, keeps_volume};
 use super::error::SolidError;
 use super::kernel::{Batch, BatchKernel, Element, Failure, Output, Results, Sample, width};
@@ -15,9 +14,6 @@ use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Cells evaluated together: enough to be worth a task, few enough to stay in cache.
-pub(super) const CHUNK: usize = 16;
 
 /// The cells of one material.
 pub struct Solid {

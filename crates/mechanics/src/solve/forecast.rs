@@ -1,7 +1,7 @@
 //! What an iteration costs, before anything is solved.
 
 use super::equations::Equations;
-use super::stepping::Step;
+use super::step::Step;
 use crate::system::{Assembler, Assembly, Order, State, System, TermError};
 use signorini_linear::{
     Forecast, Iterative, LinearError, LinearKind, LinearSolver, Problem, SolveReport, Values,

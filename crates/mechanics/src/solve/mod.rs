@@ -40,8 +40,8 @@ mod forecast;
 mod line_search;
 mod nearby;
 mod newton;
-mod sizes;
 mod stabilization;
+mod step;
 mod stepping;
 #[cfg(test)]
 mod tests;
@@ -51,6 +51,5 @@ pub use equations::LinearSeconds;
 pub use event::{Cause, Event, Flow, IncrementRecord, IterationRecord, Observer};
 pub use forecast::{Cost, forecast};
 pub use newton::{Failure, LineSearch, NewtonSettings};
-pub use stepping::{
-    Increments, Motion, Outcome, Prescription, RunError, Step, Stepper, StepperSettings,
-};
+pub use step::{Increments, Motion, Prescription, Step};
+pub use stepping::{Outcome, RunError, Stepper, StepperSettings};

@@ -3,8 +3,8 @@
 use super::equations::{Equations, LinearSeconds};
 use super::event::{Cause, Event, Flow, IncrementRecord, Observer};
 use super::newton::{Failure, ForceScale, Goal, Newton, NewtonSettings, Place};
-use super::sizes::Sizes;
 use super::stabilization;
+use super::step::{Increments, Motion, Prescription, Sizes, Step};
 use super::work::ExternalWork;
 use crate::system::{
     Aid, Archive, ArchiveError, Dof, Frame, Phase, State, StepContext, System, TermError,
@@ -12,61 +12,6 @@ use crate::system::{
 };
 use signorini_linear::{LinearKind, choose};
 use thiserror::Error;
-
-/// How a step is cut into increments.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Increments {
-    /// Exactly this many of equal size; a failure ends the run.
-    Fixed(usize),
-    /// Sizes that adapt to the difficulty.
-    Adaptive {
-        /// The first.
-        initial: f64,
-        /// The smallest that is tried; infinite: none is cut.
-        min: f64,
-        /// The largest.
-        max: f64,
-        /// How many there may be.
-        count_max: usize,
-    },
-}
-
-/// The course of a prescribed dof over a step.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Motion {
-    /// Stays where it is when the step begins.
-    Hold,
-    /// Goes evenly from there to this value at the end of the step.
-    Ramp(f64),
-    /// Follows a table of (step time, value), linear between its rows, constant outside.
-    Table(Vec<[f64; 2]>),
-    /// The same over total time.
-    TotalTable(Vec<[f64; 2]>),
-}
-
-/// A prescribed dof.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Prescription {
-    /// Which.
-    pub dof: Dof,
-    /// Its course.
-    pub motion: Motion,
-}
-
-/// A step.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Step {
-    /// Its name.
-    pub name: String,
-    /// Its duration.
-    pub duration: f64,
-    /// How it is cut.
-    pub increments: Increments,
-    /// Whether displacements may be large.
-    pub nonlinear: bool,
-    /// What is prescribed during it; everything else is free.
-    pub prescriptions: Vec<Prescription>,
-}
 
 /// The numbers of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,8 +12,8 @@
 //! | [`Audited`] | contact |
 
 use super::{
-    Aid, Archive, ArchiveError, ContactAudit, Frame, NodeId, Order, Samples, Sink, State,
-    TermError, Verdict, Work,
+    Archive, ArchiveError, ContactAudit, Frame, NodeId, Order, Samples, Sink, State, TermError,
+    Work,
 };
 use signorini_geometry::mesh::CellId;
 
@@ -157,4 +157,45 @@ pub trait Audited {
 
     /// Audits an accepted state, whose results so far are in the frame; nothing where the contact does not act.
     fn audit(&self, state: &State, frame: &Frame) -> Option<ContactAudit>;
+}
+
+/// What a term says after an iteration.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Nothing changed.
+    Settled,
+    /// An active set moved, or an augmentation is not done.
+    Repeat {
+        /// How many rows changed.
+        changes: usize,
+        /// Whether all they did was to close, and the way there leaves no trace: there is no friction.
+        closing: bool,
+        /// Whether forces are continuous functions of the state across everything that changed, as they are where rows
+        /// open, close, stick and slip, and are not where a row goes to another facet.
+        continuous: bool,
+        /// In the user's words: who, and how.
+        why: String,
+        /// The nodes concerned, at most a handful.
+        nodes: Vec<NodeId>,
+    },
+    /// Something that was kept frozen has changed, and the state has to be solved for again, however small the residual is.
+    Renewed {
+        /// In the user's words: who, and how.
+        why: String,
+    },
+}
+
+/// How terms help an iteration on: what they add for its sake has no part in the solution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aid {
+    /// Active sets have settled with something closed, or all has converged: what holds bodies provisionally is removed, and
+    /// the state is looked for without it.
+    Remove,
+    /// Something moves freely without it: it holds again, until the increment is accepted.
+    Restore,
+    /// The iteration failed: a slower and safer way to the same solution, until the increment is accepted or
+    /// [`Aid::Usual`].
+    Safer,
+    /// The safer way failed, too: the usual way again.
+    Usual,
 }

@@ -37,6 +37,9 @@
 //!
 //! Results do not depend on the number of threads: chunks are evaluated in parallel and added in a fixed order.
 
+mod advance;
+mod archive;
+mod assembler;
 mod assembly;
 mod audited;
 mod buffer;
@@ -47,11 +50,13 @@ mod course;
 mod elimination;
 mod frame;
 mod idealisation;
+mod internal_forces;
 mod layout;
 mod phase;
 mod samples;
 mod setting;
 mod shares;
+mod sink;
 mod state;
 mod strip;
 mod term;
@@ -59,11 +64,13 @@ mod term;
 mod tests;
 mod whole;
 
-pub use assembly::{Assembler, Assembly};
+pub use archive::{Archive, ArchiveError};
+pub use assembler::Assembler;
+pub use assembly::Assembly;
 pub use audited::{Check, ContactAudit, Measured};
 pub use capabilities::{
-    Adaptive, Audited, Capabilities, Choices, Elementwise, InitialStiffness, Sampled, Stored,
-    Viscous,
+    Adaptive, Aid, Audited, Capabilities, Choices, Elementwise, InitialStiffness, Sampled, Stored,
+    Verdict, Viscous,
 };
 pub use course::{NodalField, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
@@ -77,9 +84,7 @@ pub use phase::{Increment, Phase, StepContext};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;
 pub use signorini_linear::Symmetry;
+pub use sink::{Lifetime, Order, Part, PatternSink, Role, Sink, TermError, Work};
 pub use state::State;
-pub use term::{
-    Aid, Archive, ArchiveError, Lifetime, Order, Part, PatternSink, Properties, Role, Sink, Term,
-    TermError, Verdict, Work,
-};
+pub use term::{Properties, Term};
 pub use whole::System;

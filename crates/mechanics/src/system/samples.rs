@@ -1,8 +1,6 @@
-use super::{Dof, DofName, Layout, Order, Role, Sink, State, Term, TermError, Work};
-use rayon::prelude::*;
 use signorini_geometry::element::quadrature::Rule;
 use signorini_geometry::mesh::CellId;
-use signorini_geometry::tensor::{Sym3, Vec3};
+use signorini_geometry::tensor::Sym3;
 
 /// What is wanted of every accepted state besides what all frames have: nothing, unless someone asks.
 #[derive(Clone, Debug, Default)]
@@ -61,79 +59,8 @@ impl Samples {
         Some((rule, self.points.get(*first..first + rule.npoint())?))
     }
 
-    /// The samples of these cells, which are sorted, at an accepted state.
-    ///
-    /// # Errors
-    /// A term that cannot evaluate the state.
-    pub(super) fn take(
-        terms: &[Box<dyn Term>],
-        state: &State,
-        cells: &[CellId],
-    ) -> Result<Self, TermError> {
-        let mut samples = Self::default();
-        if !cells.is_empty() {
-            let sampled = terms.iter().filter_map(|term| term.capabilities().sampled);
-            for term in sampled {
-                term.sample(state, cells, &mut samples)?;
-            }
-            samples.cells.sort_unstable_by_key(|(cell, ..)| *cell);
-        }
-        Ok(samples)
+    /// Sorts the samples by cell, as [`Samples::of`] needs them.
+    pub(super) fn sort(&mut self) {
+        self.cells.sort_unstable_by_key(|(cell, ..)| *cell);
     }
-}
-
-/// Chunks whose forces are found before their nodes take them: bounds the memory.
-const CHUNKS: usize = 256;
-
-/// The forces of all terms within at the nodes, whatever follows whatever.
-pub(super) fn internal_forces(
-    terms: &[Box<dyn Term>],
-    layout: &Layout,
-    state: &State,
-) -> Result<Vec<Vec3>, TermError> {
-    let mut at_nodes = vec![Vec3::ZERO; layout.nnode()];
-    let internal = terms
-        .iter()
-        .filter(|term| term.properties().role == Role::Internal);
-    for term in internal {
-        let chunks: Vec<usize> = (0..term.nchunk()).collect();
-        for wave in chunks.chunks(CHUNKS) {
-            // chunks in parallel, nodes in their order
-            let evaluate = |work: &mut Work, &chunk: &usize| {
-                let mut forces = Forces::default();
-                term.evaluate(chunk, state, Order::Residual, work, &mut forces)?;
-                Ok(forces)
-            };
-            let evaluated = wave.par_iter().map_init(Work::default, evaluate);
-            let evaluated: Vec<Result<Forces, TermError>> = evaluated.collect();
-            for forces in evaluated {
-                for (dof, force) in forces?.0 {
-                    let name = layout.name(dof).and_then(DofName::displacement);
-                    if let Some((node, axis)) = name
-                        && let Some(to) = at_nodes.get_mut(node as usize)
-                    {
-                        to[axis] += force;
-                    }
-                }
-            }
-        }
-    }
-    Ok(at_nodes)
-}
-
-/// Forces as they come.
-#[derive(Default)]
-struct Forces(Vec<(Dof, f64)>);
-
-impl Sink for Forces {
-    fn add(&mut self, dofs: &[Dof], force: &[f64], _: &[f64]) {
-        self.0
-            .extend(dofs.iter().copied().zip(force.iter().copied()));
-    }
-
-    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], _: &[f64], _: usize) {
-        self.add(dofs, force, &[]);
-    }
-
-    fn uncertain(&mut self, _: &[Dof], _: f64) {}
 }

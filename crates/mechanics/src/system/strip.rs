@@ -1,8 +1,7 @@
 //! Strips of the matrices, which threads add up apart.
 
-use super::assembly::{Assembly, ENTRIES};
+use super::assembly::Assembly;
 use super::{Dof, Part, Term};
-use rayon::prelude::*;
 use signorini_geometry::mesh::NodeId;
 use signorini_linear::sparsity::{BlockPattern, NONE};
 
@@ -177,38 +176,9 @@ pub(super) fn find_blocks(bulk: &BlockPattern, nodes: &[NodeId], positions: &mut
     }
 }
 
-/// The whole of a stiffness of which [`Sink::add_symmetric`] has blocks, row-major.
-pub(super) fn fill_up(blocks: &[f64], n: usize, ndim: usize, full: &mut Vec<f64>) {
-    full.clear();
-    if blocks.is_empty() {
-        return;
-    }
-    full.resize(n * n, 0.0);
-    let pairs = (0..n / ndim.max(1)).flat_map(|j| (0..=j).map(move |i| (i, j)));
-    for ((i, j), block) in pairs.zip(blocks.chunks_exact((ndim * ndim).max(1))) {
-        for (k, value) in block.iter().enumerate() {
-            let (row, column) = (i * ndim + k / ndim, j * ndim + k % ndim);
-            full[row * n + column] = *value;
-            full[column * n + row] = *value;
-        }
-    }
-}
-
 /// Sets `n` values to zero.
 /// The place and the size of the largest value; one that is not finite is the largest.
 pub(super) fn largest(values: &[f64]) -> Option<(usize, f64)> {
     let sizes = values.iter().map(|value| value.abs()).enumerate();
     sizes.max_by(|a, b| a.1.total_cmp(&b.1))
-}
-
-pub(super) fn reset(values: &mut Vec<f64>, n: usize) {
-    if values.capacity() < n {
-        // not touched: threads find the pages of what they add to
-        *values = vec![0.0; n];
-        return;
-    }
-    values.resize(n, 0.0);
-    values
-        .par_chunks_mut(ENTRIES)
-        .for_each(|some| some.fill(0.0));
 }

@@ -1,8 +1,9 @@
-use super::samples::internal_forces;
+use super::internal_forces::internal_forces;
 use super::{
     Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, Elimination,
     FieldId, Frame, Layout, NodalValues, Samples, State, Term, TermError, Wanted,
 };
+use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::Vec3;
 use std::sync::Arc;
 
@@ -143,7 +144,7 @@ impl System {
             term.report(state, &mut frame)?;
         }
         frame.audits = self.audit(state, &frame);
-        frame.samples = Samples::take(&self.terms, state, &self.wanted.cells)?;
+        frame.samples = samples_of(&self.terms, state, &self.wanted.cells)?;
         if self.wanted.forces {
             frame.internal_force = internal_forces(&self.terms, &self.layout, state)?;
         }
@@ -195,4 +196,24 @@ impl System {
         }
         u
     }
+}
+
+/// The samples of these cells, which are sorted, at an accepted state.
+///
+/// # Errors
+/// A term that cannot evaluate the state.
+fn samples_of(
+    terms: &[Box<dyn Term>],
+    state: &State,
+    cells: &[CellId],
+) -> Result<Samples, TermError> {
+    let mut samples = Samples::default();
+    if !cells.is_empty() {
+        let sampled = terms.iter().filter_map(|term| term.capabilities().sampled);
+        for term in sampled {
+            term.sample(state, cells, &mut samples)?;
+        }
+        samples.sort();
+    }
+    Ok(samples)
 }

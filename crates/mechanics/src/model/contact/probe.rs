@@ -31,6 +31,9 @@ use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// The largest cosine between the outward normals of two sides that face one another.
+pub(super) const OPPOSING: f64 = -0.2;
+
 /// The part of a sagitta that may be left of a gap at a point where bending removes it.
 const LEFT: f64 = 0.1;
 
@@ -232,7 +235,7 @@ impl Look {
     /// Whether the two sides face one another there.
     fn faces(&self, probe: &Probe) -> bool {
         let normal = self.normal(probe);
-        normal.is_none_or(|n| n.dot(probe.towards) < super::start::OPPOSING)
+        normal.is_none_or(|n| n.dot(probe.towards) < OPPOSING)
     }
 
     /// The gap at a node: between bent facets where the sides conform.

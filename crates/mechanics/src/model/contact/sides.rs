@@ -12,7 +12,7 @@ use crate::contact::discretization::{
 };
 use crate::contact::law::{AugmentedNewton, ContactLaw, Lagrange, Multiplier, Penalty, Uzawa};
 use crate::contact::{Areas, Measure, closest_points};
-use crate::model::bodies::Spaces;
+use crate::model::spaces::Spaces;
 use crate::model::{
     AreaPart, ContactPart, Enforcement, Method, ModelError, Normals, PairOrder, PointKind,
     PointRule, PrimaryPart, SidePart,

@@ -5,14 +5,12 @@ use super::probe::{Look, Probe};
 use super::{ContactPart, ModelError, Sides, Source};
 use crate::contact::discretization::{Anchored, Pair, Pairing, REACH};
 use crate::contact::{Allowance, Bend, Shift};
-use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart, Treatment, label};
+use crate::model::label::label;
+use crate::model::{Interference, Method, StartSummary, TieOffset, TiePart, Treatment};
 use signorini_geometry::mesh::{Mesh, NodeId, boundary};
 use signorini_geometry::surface::{Facets, Outline, Placement, Pose, SurfaceError, SurfaceJet};
 use signorini_geometry::tensor::Vec3;
 use std::collections::HashMap;
-
-/// The largest cosine between the outward normals of two sides that face one another.
-pub(super) const OPPOSING: f64 = -0.2;
 
 /// Gaps below this, relative to the largest facet, are nothing.
 const NOTHING: f64 = 1e-9;

@@ -27,23 +27,21 @@ mod null_space;
 mod rows;
 #[cfg(test)]
 mod tests;
+mod unheld;
 mod words;
 
-use super::{BodyPart, CarrierPart, ModelError, label};
+use super::{BodyPart, CarrierPart, ModelError};
+use crate::model::label::label;
 use crate::system::{Elimination, Idealisation};
 use null_space::null_space;
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::fmt;
+pub use unheld::Unheld;
+use unheld::{Motion, NCOMPONENT};
 
-/// Components of a motion: translations along x, y, z, rotations about them.
-const NCOMPONENT: usize = 6;
 /// Units that are judged together; more are judged one by one, as if all others were held.
 const NTOGETHER: usize = 100;
-
-/// Coefficients of one unit's motion.
-type Motion = [f64; NCOMPONENT];
 
 /// What moves as a whole.
 struct Unit {
@@ -64,30 +62,6 @@ struct Rows {
     own: Vec<[Motion; NCOMPONENT]>,
     /// The rows that speak of several.
     shared: Vec<Vec<(usize, Motion)>>,
-}
-
-/// A motion that supports leave to a body.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unheld {
-    /// The body, or several that hang together.
-    pub bodies: Vec<String>,
-    /// A node of the part that moves, as numbered in the input, where it is not the whole body.
-    pub node: Option<u64>,
-    /// The motion in words, as in `slide along x and to turn about z`.
-    pub motion: String,
-}
-
-impl fmt::Display for Unheld {
-    /// Who moves, as in `body "pin"`.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names: Vec<String> = self.bodies.iter().map(|b| format!("\"{b}\"")).collect();
-        let word = if names.len() == 1 { "body" } else { "bodies" };
-        write!(f, "{word} {}", names.join(" and "))?;
-        match self.node {
-            Some(node) => write!(f, " (the part with node {node})"),
-            None => Ok(()),
-        }
-    }
 }
 
 /// The units of a model, and what holds them.

@@ -194,6 +194,12 @@ fn remedies_free_cooks_membrane_of_a_nearly_incompressible_material() {
     );
 }
 
+/// u = (∂ψ/∂y, −∂ψ/∂x, 0), ψ = sin x sin y · cos z: div u = 0, and −μ Δu balances the body force.
+fn flow(x: Vec3, ndim: usize) -> Vec3 {
+    let depth = if ndim == 3 { x.z.cos() } else { 1.0 };
+    Vec3::new(x.x.sin() * x.y.cos(), -x.x.cos() * x.y.sin(), 0.0) * depth
+}
+
 /// Errors against a smooth flow without divergence, `u = rot ψ`, with pressure `p` of its own:
 /// displacement in the mean, pressure in the mean.
 fn errors(name: &str, locking: Locking, integration: Integration, n: usize) -> [f64; 2] {
@@ -215,11 +221,7 @@ fn errors(name: &str, locking: Locking, integration: Integration, n: usize) -> [
     };
     let body = body(&mesh, law, &wish).unwrap();
     let ndim = element.dim();
-    // u = (∂ψ/∂y, −∂ψ/∂x, 0), ψ = sin x sin y · cos z: div u = 0, and −μ Δu balances the body force
-    let exact = |x: Vec3| {
-        let depth = if ndim == 3 { x.z.cos() } else { 1.0 };
-        Vec3::new(x.x.sin() * x.y.cos(), -x.x.cos() * x.y.sin(), 0.0) * depth
-    };
+    let exact = |x: Vec3| flow(x, ndim);
     let pressure = |x: Vec3| x.x * x.x - x.y;
     let mu = 3.0 / (2.0 * (1.0 + nu));
     let force = |x: Vec3| {

@@ -1,10 +1,9 @@
 //! What an attempt at an increment remembers from one iterate to the next.
 
 use super::failure::Failure;
-use super::goal::Converged;
+use super::goal::{Converged, Start};
 use super::iterate::{Iterate, LastStep, Why};
 use super::scale::{Judgement, Sizes};
-use super::start::Start;
 use crate::solve::economy::Economy;
 use crate::system::NodeId;
 

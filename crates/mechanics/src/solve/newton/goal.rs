@@ -30,3 +30,13 @@ pub(in crate::solve) struct Goal<'a> {
     /// What the first step from such a start has shown there.
     pub curvature: Option<f64>,
 }
+
+/// How an increment starts.
+pub(in crate::solve) struct Start {
+    /// Whether nodes have to be moved in the first solve.
+    pub motion: bool,
+    /// How many discrete choices have changed, as terms have said already.
+    pub changes: usize,
+    /// Whether it is the extrapolation.
+    pub extrapolated: bool,
+}

@@ -1,18 +1,8 @@
 //! Where an increment starts.
 
-use super::goal::Goal;
+use super::goal::{Goal, Start};
 use super::{Newton, verdicts};
 use crate::system::{Dof, Order, State, System};
-
-/// How an increment starts.
-pub(super) struct Start {
-    /// Whether nodes have to be moved in the first solve.
-    pub motion: bool,
-    /// How many discrete choices have changed, as terms have said already.
-    pub changes: usize,
-    /// Whether it is the extrapolation.
-    pub extrapolated: bool,
-}
 
 impl Newton {
     /// Sets up the trial state, extrapolated where that is of use.

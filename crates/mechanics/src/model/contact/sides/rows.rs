@@ -11,9 +11,10 @@ use crate::contact::discretization::{
 };
 use crate::contact::law::Multiplier;
 use crate::model::contact::joined;
+use crate::model::label::label;
 use crate::model::{
     AreaPart, ContactPart, FeaturesPart, Method, ModelError, Normals, PairOrder, PointKind,
-    PointRule, PrimaryPart, SidePart, label,
+    PointRule, PrimaryPart, SidePart,
 };
 use crate::system::Idealisation;
 use signorini_geometry::element::{Element, quadrature};

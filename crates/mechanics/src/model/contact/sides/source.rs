@@ -1,6 +1,6 @@
 //! What sides are made from.
 
-use crate::model::bodies::Spaces;
+use crate::model::spaces::Spaces;
 use crate::model::steps::Prescribed;
 use crate::system::{Elimination, Idealisation};
 use signorini_geometry::mesh::Mesh;

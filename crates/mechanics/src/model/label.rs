@@ -1,0 +1,8 @@
+//! Numbers of nodes as the mesh labels them.
+
+use signorini_geometry::mesh::{Mesh, NodeId};
+
+/// The label of a node; 0 of one that is not there.
+pub(super) fn label(mesh: &Mesh, node: NodeId) -> u64 {
+    mesh.node_labels.get(node as usize).copied().unwrap_or(0)
+}

@@ -1,0 +1,43 @@
+//! Mass behind loads.
+
+use super::{BodyKind, BodyPart};
+use crate::solid::Integration;
+use crate::system::Idealisation;
+
+/// What loads want to know of a body.
+pub(super) struct Substance {
+    pub(super) name: String,
+    pub(super) density: Option<f64>,
+    /// Cross-section of bars.
+    pub(super) section: Option<f64>,
+    pub(super) integration: Integration,
+    pub(super) space: Idealisation,
+}
+
+impl Substance {
+    pub fn new(body: &BodyPart, of_model: Idealisation) -> Self {
+        let mut of = Self {
+            name: body.name.clone(),
+            density: None,
+            section: None,
+            integration: Integration::Full,
+            space: body.kind.space(of_model),
+        };
+        match body.kind {
+            BodyKind::Solid {
+                density,
+                integration,
+                ..
+            } => {
+                of.density = density;
+                of.integration = integration;
+            }
+            BodyKind::Truss { density, area, .. } => {
+                of.density = density;
+                of.section = Some(area);
+            }
+            BodyKind::Rigid(_) => {}
+        }
+        of
+    }
+}

@@ -1,0 +1,91 @@
+//! Sizes and number of increments.
+
+use crate::system::Dof;
+
+/// Sizes and number of the increments of a step.
+pub(super) struct Sizes {
+    pub(super) count: usize,
+    pub(super) first: f64,
+    /// None where an increment that fails is not made smaller.
+    pub(super) min: Option<f64>,
+    pub(super) max: f64,
+}
+
+impl Sizes {
+    pub(super) fn of(step: &Step) -> Self {
+        match step.increments {
+            Increments::Fixed(n) => Self {
+                count: n,
+                first: step.duration / n as f64,
+                min: None,
+                max: step.duration / n as f64,
+            },
+            Increments::Adaptive {
+                initial,
+                min,
+                max,
+                count_max,
+            } => Self {
+                count: count_max,
+                first: initial,
+                min: Some(min).filter(|m| m.is_finite()),
+                max,
+            },
+        }
+    }
+}
+
+/// How a step is cut into increments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Increments {
+    /// Exactly this many of equal size; a failure ends the run.
+    Fixed(usize),
+    /// Sizes that adapt to the difficulty.
+    Adaptive {
+        /// The first.
+        initial: f64,
+        /// The smallest that is tried; infinite: none is cut.
+        min: f64,
+        /// The largest.
+        max: f64,
+        /// How many there may be.
+        count_max: usize,
+    },
+}
+
+/// The course of a prescribed dof over a step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Stays where it is when the step begins.
+    Hold,
+    /// Goes evenly from there to this value at the end of the step.
+    Ramp(f64),
+    /// Follows a table of (step time, value), linear between its rows, constant outside.
+    Table(Vec<[f64; 2]>),
+    /// The same over total time.
+    TotalTable(Vec<[f64; 2]>),
+}
+
+/// A prescribed dof.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prescription {
+    /// Which.
+    pub dof: Dof,
+    /// Its course.
+    pub motion: Motion,
+}
+
+/// A step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Its name.
+    pub name: String,
+    /// Its duration.
+    pub duration: f64,
+    /// How it is cut.
+    pub increments: Increments,
+    /// Whether displacements may be large.
+    pub nonlinear: bool,
+    /// What is prescribed during it; everything else is free.
+    pub prescriptions: Vec<Prescription>,
+}

@@ -1,0 +1,589 @@
+//! From terms to one residual and one operator.
+
+use super::assembly::{Assembly, Shared, Task, reset};
+use super::buffer::{Buffer, Slot};
+use super::elimination::Expanded;
+use super::setting::Setting;
+use super::shares::share_out;
+use super::strip::{bulk, find_blocks, largest};
+use super::{
+    Dof, Elimination, InitialStiffness, Layout, Lifetime, Order, Part, PatternSink, State, Term,
+    TermError, Work,
+};
+use rayon::prelude::*;
+use signorini_geometry::mesh::NodeId;
+use signorini_linear::sparsity::{BlockPattern, Pattern};
+
+/// Compliance of redundant multipliers over that of what they act on: far below all that is of interest, far above rounding.
+const YIELDING: f64 = 1e-6;
+
+/// How many times the largest stiffness of bodies another may be before rounding errors hide theirs.
+const HIDING: f64 = 1e13;
+
+/// Chunks of a wave for each thread, of which stiffness is wanted: the fewer, the more of the sums is in cache.
+const PER_THREAD: usize = 4;
+/// Chunks of a wave, at most: bounds the memory, and nothing else.
+const WAVE: usize = 64;
+/// Mixes numbers of terms into one.
+const MIX: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// Chunks that are evaluated before they are added. A single thread adds every chunk while it is in cache.
+pub(super) fn wave(order: Order) -> usize {
+    match (rayon::current_num_threads(), order) {
+        (1, _) => 1,
+        (threads, Order::Tangent) => (PER_THREAD * threads).min(WAVE),
+        (_, Order::Residual) => WAVE,
+    }
+}
+
+/// Evaluates terms by chunks, in parallel, and adds the results in a fixed order.
+pub struct Assembler {
+    /// Those of the bulk first, and of these first the ones whose elements are known, as far as that has been found out.
+    pub(super) tasks: Vec<Task>,
+    /// The tasks whose elements are known, and who adds them up; `None` where that is to be found out.
+    pub(super) shared: Option<Shared>,
+    pub(super) bulk: BlockPattern,
+    pub(super) interface: Pattern,
+    pub(super) slots: Vec<Slot>,
+    pub(super) expanded: Expanded,
+    /// How long the stiffness of the bulk is the same.
+    pub(super) lasts: Lifetime,
+    /// Counts what it is the same in at most: steps, or increments.
+    pub(super) period: u64,
+}
+
+/// Cliques of a pattern, as they come.
+pub(super) struct Cliques<'a> {
+    pub(super) layout: &'a Layout,
+    pub(super) elimination: &'a Elimination,
+    pub(super) bulk: Vec<u32>,
+    pub(super) bulk_offsets: Vec<usize>,
+    pub(super) interface: Vec<u32>,
+    pub(super) interface_offsets: Vec<usize>,
+    pub(super) dofs: Vec<Dof>,
+}
+
+impl Cliques<'_> {
+    /// The pattern of the interface.
+    fn of_interface(&self) -> Pattern {
+        let (dofs, offsets) = (&self.interface, &self.interface_offsets);
+        Pattern::from_cliques(self.layout.ndof(), dofs, offsets)
+    }
+}
+
+impl PatternSink for Cliques<'_> {
+    fn bulk(&mut self, nodes: &[NodeId]) {
+        let layout = self.layout;
+        let of_node = |&n: &NodeId| (0..layout.ndim()).map(move |c| layout.node(n, c));
+        let mut dofs = nodes.iter().flat_map(of_node);
+        if dofs.any(|d| self.elimination.depends(d, layout)) {
+            let dofs: Vec<Dof> = nodes.iter().flat_map(of_node).collect();
+            self.interface(&dofs);
+            return;
+        }
+        self.bulk.extend_from_slice(nodes);
+        self.bulk_offsets.push(self.bulk.len());
+    }
+
+    fn interface(&mut self, dofs: &[Dof]) {
+        self.dofs.clear();
+        self.elimination
+            .independent(dofs, self.layout, &mut self.dofs);
+        self.interface.extend_from_slice(&self.dofs);
+        self.interface_offsets.push(self.interface.len());
+    }
+}
+
+impl Assembler {
+    /// Prepares the assembly of these terms.
+    #[must_use]
+    pub fn new(layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) -> Self {
+        let cliques = collect(layout, elimination, terms);
+        let bulk = BlockPattern::from_cliques(
+            layout.nnode(),
+            layout.ndim(),
+            &cliques.bulk,
+            &cliques.bulk_offsets,
+        );
+        Self::with(bulk, &cliques, terms)
+    }
+
+    /// Prepares the assembly of the same terms as if for the first time: their bulk never changes.
+    #[must_use]
+    pub fn renewed(
+        self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+    ) -> Self {
+        Self::with(self.bulk, &collect(layout, elimination, terms), terms)
+    }
+
+    fn with(bulk: BlockPattern, cliques: &Cliques<'_>, terms: &[Box<dyn Term>]) -> Self {
+        let mut assembler = Self {
+            tasks: Vec::new(),
+            shared: None,
+            bulk,
+            interface: cliques.of_interface(),
+            slots: Vec::new(),
+            expanded: Expanded::default(),
+            lasts: Lifetime::State,
+            period: 0,
+        };
+        assembler.begin_increment(terms);
+        assembler
+    }
+
+    /// A step begins: what terms are may change.
+    pub fn begin_step(&mut self) {
+        self.period += 1;
+    }
+
+    /// Takes up the chunks of the terms, whose numbers may be others in each increment.
+    pub fn begin_increment(&mut self, terms: &[Box<dyn Term>]) {
+        self.take_up(terms);
+        let all = terms.iter().map(|term| term.properties());
+        let bulk = all.filter(|of| of.part == Part::Bulk);
+        let lasts = bulk.map(|of| of.lifetime).min();
+        let before = std::mem::replace(&mut self.lasts, lasts.unwrap_or(Lifetime::Step));
+        if self.lasts.min(before) < Lifetime::Step {
+            self.period += 1;
+        }
+        let most = wave(Order::Residual).min(self.tasks.len());
+        if self.slots.len() < most {
+            self.slots.resize_with(most, Slot::default);
+        }
+    }
+
+    fn take_up(&mut self, terms: &[Box<dyn Term>]) {
+        let mut count = vec![0; terms.len()];
+        self.tasks.iter().for_each(|task| count[task.term] += 1);
+        for (number, (term, count)) in terms.iter().zip(count).enumerate() {
+            let (nchunk, part) = (term.nchunk(), term.properties().part);
+            if nchunk == count {
+                continue;
+            }
+            self.tasks
+                .retain(|task| task.term != number || task.chunk < nchunk);
+            self.tasks.extend((count..nchunk).map(|chunk| Task {
+                term: number,
+                chunk,
+                part,
+                is_known: false,
+                positions: Vec::new(),
+            }));
+            if part == Part::Bulk {
+                self.shared = None;
+            }
+        }
+        self.sort();
+    }
+
+    /// Puts tasks into their order, which depends on nothing but what the terms are.
+    fn sort(&mut self) {
+        let order = |task: &Task| {
+            (
+                task.part != Part::Bulk,
+                !task.is_known,
+                task.term,
+                task.chunk,
+            )
+        };
+        self.tasks.sort_by_key(order);
+    }
+
+    /// Finds out which tasks have known elements, where these go, and who adds them up.
+    fn share_out(&mut self, layout: &Layout, elimination: &Elimination, terms: &[Box<dyn Term>]) {
+        let nthread = rayon::current_num_threads();
+        let known = self.shared.as_ref().map(|shared| shared.nthread);
+        if known == Some(nthread) {
+            return;
+        }
+        let bulk = &self.bulk;
+        let find = |task: &mut Task| {
+            if task.part != Part::Bulk || !task.positions.is_empty() {
+                return;
+            }
+            let Some(elementwise) = terms[task.term].capabilities().elementwise else {
+                return;
+            };
+            let mut depends = false;
+            elementwise.elements(task.chunk, &mut |nodes| {
+                let mut dofs = nodes.iter().flat_map(|&node| {
+                    let axes = 0..layout.ndim();
+                    axes.map(move |axis| layout.node(node, axis))
+                });
+                depends |= dofs.any(|dof| elimination.depends(dof, layout));
+                find_blocks(bulk, nodes, &mut task.positions);
+            });
+            task.is_known = !depends && !task.positions.is_empty();
+            if depends {
+                task.positions.clear();
+            }
+        };
+        if known.is_none() {
+            self.tasks.par_iter_mut().for_each(find);
+            self.sort();
+        }
+        let ntask = self.tasks.partition_point(|task| task.is_known);
+        let tasks = &self.tasks[..ntask];
+        let elements = |at: usize, take: &mut dyn FnMut(&[NodeId])| {
+            if let Some(term) = terms[tasks[at].term].capabilities().elementwise {
+                term.elements(tasks[at].chunk, take);
+            }
+        };
+        self.shared = Some(Shared {
+            ntask,
+            nthread,
+            shares: share_out(nthread, layout.nnode(), ntask, elements),
+        });
+        if self.slots.len() < nthread {
+            self.slots.resize_with(nthread, Slot::default);
+        }
+    }
+
+    /// The pattern of the bulk.
+    #[must_use]
+    pub const fn bulk(&self) -> &BlockPattern {
+        &self.bulk
+    }
+
+    /// The pattern of the interface.
+    #[must_use]
+    pub const fn interface(&self) -> &Pattern {
+        &self.interface
+    }
+
+    /// Makes room for what the terms of the interface couple now, and for nothing else: the pattern, and with it the
+    /// order of elimination and every bit of the solution, must not depend on what was coupled long ago. Says whether it
+    /// changed.
+    pub fn update_interface(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+    ) -> bool {
+        // solids with unknowns that follow others have entries here, too
+        let now = collect(layout, elimination, terms).of_interface();
+        let changed = now != self.interface;
+        if changed {
+            self.interface = now;
+        }
+        changed
+    }
+
+    /// The dof in whose row of the operator the largest number is; one that is not finite is the largest.
+    pub fn largest_entry(&self, out: &Assembly) -> Option<Dof> {
+        let row = |starts: &[usize], at: usize| {
+            let begun = starts.partition_point(|&start| start <= at);
+            begun.checked_sub(1)
+        };
+        let (bulk, interface) = (largest(&out.bulk), largest(&out.interface));
+        let of_interface = match (bulk, interface) {
+            (Some((_, k)), Some((_, i))) => i.total_cmp(&k).is_gt(),
+            (_, other) => other.is_some(),
+        };
+        let ndim = self.bulk.block;
+        let dof = if of_interface {
+            row(&self.interface.row_start, interface?.0)?
+        } else {
+            let (node, within) = (bulk?.0 / (ndim * ndim), bulk?.0 % (ndim * ndim));
+            row(&self.bulk.row_start, node)? * ndim + within / ndim
+        };
+        Some(dof as Dof)
+    }
+
+    /// Whether the stiffness of bodies is lost in the rounding errors of the stiffness between them.
+    pub fn hides_bodies(&self, out: &Assembly) -> bool {
+        let [bulk, interface] = [&out.bulk, &out.interface].map(|values| largest(values));
+        bulk.zip(interface).is_some_and(|(k, i)| i.1 > HIDING * k.1)
+    }
+
+    /// Adds the largest stiffness there is to the diagonal at a dof, and returns it; `None` where it has no place.
+    pub fn stiffen(&self, dof: Dof, out: &mut Assembly) -> Option<f64> {
+        let all = out.bulk.iter().chain(&out.interface);
+        let stiffness = all.fold(0.0, |most: f64, k| most.max(k.abs()));
+        let (ndim, node) = (self.bulk.block, dof / self.bulk.block.max(1) as u32);
+        let of_block = (node as usize) < self.bulk.nrow();
+        let block = of_block.then(|| self.bulk.position(node, node)).flatten();
+        let to = match block {
+            Some(block) => {
+                let axis = dof as usize % ndim;
+                out.bulk.get_mut(block * ndim * ndim + axis * (ndim + 1))
+            }
+            None => {
+                let position = self.interface.position(dof, dof)?;
+                out.interface.get_mut(position)
+            }
+        };
+        *to? += stiffness;
+        out.bulk_of = None;
+        Some(stiffness)
+    }
+
+    /// Adds a compliance to multipliers that act on unknowns with a stiffness, in the tangent `out` alone: `YIELDING` times
+    ///
+    /// ```text
+    /// Σ_j B_j² / K_jj                                                                          (E4)
+    /// ```
+    ///
+    /// with the coefficients `B_j` of the multiplier and the stiffness `K_jj` of what they act on, which is about the compliance
+    /// of its equation once displacements are eliminated. Returns the number of these multipliers.
+    ///
+    /// Where several are redundant, the tangent is singular though the problem is not: with this each takes the share that a
+    /// very stiff joint would give it. Residuals stay as they are, so that the state that is found is not changed.
+    pub fn relax(&self, layout: &Layout, out: &mut Assembly) -> usize {
+        let pattern = &self.interface;
+        let multipliers =
+            layout.multiplier(0) as usize..layout.multiplier(layout.nmultiplier()) as usize;
+        let mut added: Vec<(usize, f64)> = Vec::new();
+        for row in multipliers.clone() {
+            let Some(&[begin, end]) = pattern.row_start.get(row..row + 2) else {
+                continue;
+            };
+            let columns = pattern.column.get(begin..end).unwrap_or_default();
+            let coefficients = out.interface.get(begin..end).unwrap_or_default();
+            let mut compliance = 0.0;
+            for (&column, b) in columns.iter().zip(coefficients) {
+                if *b != 0.0 && !multipliers.contains(&(column as usize)) {
+                    let stiffness = self.stiffness_of(column, out);
+                    compliance += if stiffness > 0.0 {
+                        b * b / stiffness
+                    } else {
+                        0.0
+                    };
+                }
+            }
+            let diagonal = pattern.position(row as Dof, row as Dof);
+            if let Some(at) = diagonal.filter(|_| compliance > 0.0) {
+                added.push((at, YIELDING * compliance));
+            }
+        }
+        for &(at, compliance) in &added {
+            if let Some(entry) = out.interface.get_mut(at) {
+                *entry -= compliance;
+            }
+        }
+        added.len()
+    }
+
+    /// The largest entry of the stiffness of the bodies.
+    pub fn stiffest(of: &Assembly) -> f64 {
+        of.bulk.iter().fold(0.0, |most: f64, k| most.max(k.abs()))
+    }
+
+    /// The entry of an unknown on the diagonal of a tangent.
+    fn stiffness_of(&self, dof: Dof, of: &Assembly) -> f64 {
+        let (ndim, node) = (self.bulk.block, dof / self.bulk.block.max(1) as u32);
+        let in_bulk = (node as usize) < self.bulk.nrow();
+        let block = in_bulk.then(|| self.bulk.position(node, node)).flatten();
+        let place = block.map(|block| block * ndim * ndim + dof as usize % ndim * (ndim + 1));
+        let of_bulk = place.and_then(|at| of.bulk.get(at));
+        let position = self.interface.position(dof, dof);
+        let of_interface = position.and_then(|at| of.interface.get(at));
+        of_bulk.copied().unwrap_or_default() + of_interface.copied().unwrap_or_default()
+    }
+
+    /// Evaluates all terms at a trial state into `out`.
+    ///
+    /// # Errors
+    /// The first failure in the order of terms and chunks.
+    pub fn assemble(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        trial: &State,
+        order: Order,
+        out: &mut Assembly,
+    ) -> Result<(), TermError> {
+        self.share_out(layout, elimination, terms);
+        out.reset_forces(layout.ndof());
+        let is_kept = out.bulk_of == Some(self.period);
+        if order == Order::Tangent {
+            if !is_kept {
+                out.bulk_of = None;
+                reset(&mut out.bulk, self.bulk.nvalue());
+            }
+            reset(&mut out.interface, self.interface.nentry());
+        }
+        // unknowns that follow others put stiffness of the bulk into the interface
+        let mut stays = self.is_constant() && order == Order::Tangent;
+        let order_of = |task: &Task| {
+            if is_kept && task.part == Part::Bulk {
+                Order::Residual
+            } else {
+                order
+            }
+        };
+        let Self {
+            tasks,
+            shared,
+            bulk,
+            interface,
+            slots,
+            expanded,
+            period,
+            ..
+        } = self;
+        let setting = Setting {
+            layout,
+            elimination,
+            trial,
+            bulk,
+            interface,
+            order,
+            shared: shared.as_ref(),
+        };
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
+            let term = &terms[task.term];
+            term.evaluate(task.chunk, trial, order_of(task), work, buffer)
+        };
+        let of_bulk = if is_kept { Order::Residual } else { order };
+        let (of_bulk, of_interface) = (wave(of_bulk), wave(order));
+        let size = |part: Part| match part {
+            Part::Bulk => of_bulk,
+            Part::Interface => of_interface,
+        };
+        stays &= setting.run(evaluate, size, tasks, slots, expanded, out)?;
+        if stays {
+            out.bulk_of = Some(*period);
+        }
+        if let Some(magnitude) = elimination
+            .course()
+            .and_then(|c| out.magnitude.get_mut(c as usize))
+        {
+            *magnitude = 0.0;
+        }
+        Ok(())
+    }
+
+    /// Whether the stiffness of the bulk is the same at all states of the increment.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.lasts > Lifetime::State
+    }
+
+    /// Identifies the initial stiffness of the bulk in the present step. Equal ids mean equal stiffness.
+    #[must_use]
+    pub fn start(&self, terms: &[Box<dyn Term>]) -> u64 {
+        bulk(terms).fold(0, |all, term| {
+            let initial = term.capabilities().initial_stiffness;
+            let id = initial.map_or(0, InitialStiffness::id);
+            all.wrapping_mul(MIX).wrapping_add(id)
+        })
+    }
+
+    /// Whether the stiffness of the bulk at a state is that at the start of a run.
+    #[must_use]
+    pub fn is_at_start(&self, terms: &[Box<dyn Term>], trial: &State) -> bool {
+        bulk(terms).all(|term| {
+            let initial = term.capabilities().initial_stiffness;
+            initial.is_some_and(|of| of.is_initial(trial))
+        })
+    }
+
+    /// The values of the bulk at the start of a run: undeformed, without history.
+    ///
+    /// # Errors
+    /// The first failure in the order of terms and chunks.
+    pub fn bulk_at_start(
+        &mut self,
+        layout: &Layout,
+        elimination: &Elimination,
+        terms: &[Box<dyn Term>],
+        state: &State,
+    ) -> Result<Vec<f64>, TermError> {
+        let mut out = Assembly::default();
+        out.reset_forces(layout.ndof());
+        reset(&mut out.bulk, self.bulk.nvalue());
+        reset(&mut out.interface, self.interface.nentry());
+        let Self {
+            tasks,
+            shared,
+            bulk,
+            interface,
+            slots,
+            expanded,
+            ..
+        } = self;
+        let setting = Setting {
+            layout,
+            elimination,
+            trial: state,
+            bulk,
+            interface,
+            order: Order::Tangent,
+            shared: shared.as_ref(),
+        };
+        let evaluate = |task: &Task, work: &mut Work, buffer: &mut Buffer| {
+            let of_bulk = task.part == Part::Bulk;
+            let initial = terms[task.term].capabilities().initial_stiffness;
+            match initial.filter(|_| of_bulk) {
+                Some(initial) => initial.add_initial(task.chunk, work, buffer),
+                None => Ok(()),
+            }
+        };
+        let size = wave(Order::Tangent);
+        setting.run(evaluate, |_| size, tasks, slots, expanded, &mut out)?;
+        Ok(out.bulk)
+    }
+
+    /// The potential energy at a trial state, where every term has one.
+    ///
+    /// # Errors
+    /// The first failure in the order of terms and chunks.
+    pub fn energy(
+        &mut self,
+        terms: &[Box<dyn Term>],
+        trial: &State,
+    ) -> Result<Option<f64>, TermError> {
+        let mut total = 0.0;
+        let size = wave(Order::Residual).min(self.slots.len()).max(1);
+        for wave in self.tasks.chunks(size) {
+            let evaluate = |(slot, task): (&mut Slot, &Task)| {
+                let energy = terms[task.term].energy(task.chunk, trial, &mut slot.work);
+                // nothing stays of a wave before it
+                (slot.energy, slot.failure) = match energy {
+                    Ok(energy) => (energy, None),
+                    Err(failure) => (None, Some(failure)),
+                };
+            };
+            if wave.len() == 1 {
+                self.slots.iter_mut().zip(wave).for_each(evaluate);
+            } else {
+                self.slots.par_iter_mut().zip(wave).for_each(evaluate);
+            }
+            for (slot, _) in self.slots.iter_mut().zip(wave) {
+                if let Some(failure) = slot.failure.take() {
+                    return Err(failure);
+                }
+                match slot.energy {
+                    Some(energy) => total += energy,
+                    None => return Ok(None),
+                }
+            }
+        }
+        Ok(Some(total))
+    }
+}
+
+pub(super) fn collect<'a>(
+    layout: &'a Layout,
+    elimination: &'a Elimination,
+    terms: &[Box<dyn Term>],
+) -> Cliques<'a> {
+    let mut cliques = Cliques {
+        layout,
+        elimination,
+        bulk: Vec::new(),
+        bulk_offsets: vec![0],
+        interface: Vec::new(),
+        interface_offsets: vec![0],
+        dofs: Vec::new(),
+    };
+    for term in terms {
+        term.pattern(&mut cliques);
+    }
+    cliques
+}

@@ -1,0 +1,61 @@
+//! Forces of solids on nodes, without loads and contacts.
+
+use super::{Dof, DofName, Layout, Order, Role, Sink, State, Term, TermError, Work};
+use rayon::prelude::*;
+use signorini_geometry::tensor::Vec3;
+
+/// Chunks whose forces are found before their nodes take them: bounds the memory.
+const CHUNKS: usize = 256;
+
+/// The forces of all terms within at the nodes, whatever follows whatever.
+pub(super) fn internal_forces(
+    terms: &[Box<dyn Term>],
+    layout: &Layout,
+    state: &State,
+) -> Result<Vec<Vec3>, TermError> {
+    let mut at_nodes = vec![Vec3::ZERO; layout.nnode()];
+    let internal = terms
+        .iter()
+        .filter(|term| term.properties().role == Role::Internal);
+    for term in internal {
+        let chunks: Vec<usize> = (0..term.nchunk()).collect();
+        for wave in chunks.chunks(CHUNKS) {
+            // chunks in parallel, nodes in their order
+            let evaluate = |work: &mut Work, &chunk: &usize| {
+                let mut forces = Forces::default();
+                term.evaluate(chunk, state, Order::Residual, work, &mut forces)?;
+                Ok(forces)
+            };
+            let evaluated = wave.par_iter().map_init(Work::default, evaluate);
+            let evaluated: Vec<Result<Forces, TermError>> = evaluated.collect();
+            for forces in evaluated {
+                for (dof, force) in forces?.0 {
+                    let name = layout.name(dof).and_then(DofName::displacement);
+                    if let Some((node, axis)) = name
+                        && let Some(to) = at_nodes.get_mut(node as usize)
+                    {
+                        to[axis] += force;
+                    }
+                }
+            }
+        }
+    }
+    Ok(at_nodes)
+}
+
+/// Forces as they come.
+#[derive(Default)]
+struct Forces(Vec<(Dof, f64)>);
+
+impl Sink for Forces {
+    fn add(&mut self, dofs: &[Dof], force: &[f64], _: &[f64]) {
+        self.0
+            .extend(dofs.iter().copied().zip(force.iter().copied()));
+    }
+
+    fn add_symmetric(&mut self, dofs: &[Dof], force: &[f64], _: &[f64], _: usize) {
+        self.add(dofs, force, &[]);
+    }
+
+    fn uncertain(&mut self, _: &[Dof], _: f64) {}
+}
