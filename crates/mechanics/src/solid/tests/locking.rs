@@ -275,7 +275,7 @@ fn errors(name: &str, locking: Locking, integration: Integration, n: usize) -> [
         .iter()
         .map(|s| s.trace() / 3.0)
         .collect();
-    let (mut off, mut volumes, mut level, mut area) = (0.0, 0.0, 0.0, 0.0);
+    let (mut off, mut volumes, mut level) = (0.0, 0.0, 0.0);
     let mut exact_means = Vec::new();
     for (cell, p) in cells.iter().zip(&mean) {
         let (mut volume, mut sum) = (0.0, 0.0);
@@ -292,10 +292,9 @@ fn errors(name: &str, locking: Locking, integration: Integration, n: usize) -> [
         });
         exact_means.push((sum / volume, volume));
         level += volume * p - sum;
-        area += volume;
         volumes += volume;
     }
-    let level = level / area;
+    let level = level / volumes;
     let wrong: f64 = exact_means
         .iter()
         .zip(&mean)
