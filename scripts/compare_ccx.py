@@ -317,7 +317,7 @@ def in_columns(row):
     return " ".join(f"{text:<{width}}" for text, width in zip(row, widths)) + " " + row[-1]
 
 
-PAGE = """# Decks beside CalculiX
+PAGE = """# Decks next to CalculiX
 
 Written by `python scripts/compare_ccx.py --markdown`: decks whose steps are all static, through CalculiX and through
 signorini with `--compat ccx`. See [decks.md](decks.md) for what the words mean.

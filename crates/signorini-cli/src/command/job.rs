@@ -1,4 +1,4 @@
-//! A job: what is solved, where its results go, and how it is reported.
+//! A job: the model, the place of its results, and its report.
 
 use super::console::Console;
 use super::findings::joined;

@@ -1,4 +1,4 @@
-//! Loads: what acts, where, and what they keep together.
+//! Loads: their kinds and places, and the couplings that carry them.
 
 use super::carriers::Carriers;
 use super::constraints::axes;
@@ -62,7 +62,7 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// What acts and where; nothing where it cannot act on what is named.
+    /// The load in its place; nothing where it cannot act on the named set.
     pub fn load(&self, load: &case::Load, found: &mut Diagnostics) -> Option<Acting> {
         let acts = acting(load, found)?;
         let place = match self.carriers.get(&load.on) {

@@ -9,7 +9,7 @@ const HEAD: &str = "# What goes with what
 Every way to compare two sides, every law, every kind of facet and every surface, with friction and without: `+` is
 solved, a number is the reason why the program refuses it. The tests of `crates/signorini/tests/methods` press and slide
 a block by every way with a `+`, but for contact of a surface with itself.
-[contact.md](contact.md) tells what the keys mean. Written by
+[contact.md](contact.md) explains the keys. Written by
 
 ```sh
 SIGNORINI_BLESS=1 cargo test --release -p signorini --test methods page

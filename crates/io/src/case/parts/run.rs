@@ -25,9 +25,9 @@ pub struct Solver {
 pub struct Newton {
     /// Iterations of an increment at most.
     pub max_iterations: u64,
-    /// Largest residual force in parts of the mean force.
+    /// Largest residual force relative to the mean force.
     pub force_tol: f64,
-    /// Largest penetration in parts of the size of a facet.
+    /// Largest penetration relative to the size of a facet.
     pub gap_tol: f64,
     /// Whether corrections are shortened.
     pub line_search: LineSearch,

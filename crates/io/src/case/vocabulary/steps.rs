@@ -192,7 +192,7 @@ pub(super) static MOTION_TABLE: Table = Table {
     ],
 };
 
-/// Without what acts, which another room describes.
+/// Without the kinds of loads, which another room describes.
 pub(super) static LOAD: Table = Table {
     heading: "[[step.load]]",
     doc: "loads, reached linearly over the step unless `table` or `amplitude` says otherwise",

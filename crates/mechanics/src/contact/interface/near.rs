@@ -1,4 +1,4 @@
-//! The search for what is near.
+//! The search for facets near points.
 
 use crate::contact::discretization::{Discretization, Pairing, SurfacePair};
 use crate::contact::row::RowOrder;
