@@ -6,6 +6,7 @@
 //! cargo xtask rooms --graph    prints that table
 //! cargo xtask rooms --circles  lists files that use each other in a circle
 //! cargo xtask docs             fails where a Markdown file names what does not exist
+//! cargo xtask keys             writes docs/keys.md, the page of all keys of cases
 //! cargo xtask shape            fails where a function or file is too long, or a default serves one implementor
 //! ```
 //!
@@ -32,7 +33,7 @@ struct Chore {
     run: fn(&Path) -> Outcome,
 }
 
-const CHORES: [Chore; 5] = [
+const CHORES: [Chore; 6] = [
     Chore {
         arguments: &["rooms"],
         about: "fail where a room imports one that its line in the table does not list",
@@ -54,6 +55,11 @@ const CHORES: [Chore; 5] = [
         run: docs::check,
     },
     Chore {
+        arguments: &["keys"],
+        about: "write docs/keys.md, the page of all keys of cases, from the schema",
+        run: docs::write_keys,
+    },
+    Chore {
         arguments: &["shape"],
         about: "fail where a function or file is too long, or a default serves one implementor",
         run: shape::check,
@@ -68,6 +74,11 @@ enum ChoreError {
         path: PathBuf,
         source: std::io::Error,
     },
+    /// A file that cannot be written.
+    Write {
+        path: PathBuf,
+        source: std::io::Error,
+    },
     /// Something that a chore needs did not do its work.
     Failed { what: String, reason: String },
     /// The folder of this program has no parent.
@@ -78,6 +89,7 @@ impl fmt::Display for ChoreError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Read { path, source } => write!(f, "cannot read {}: {source}", path.display()),
+            Self::Write { path, source } => write!(f, "cannot write {}: {source}", path.display()),
             Self::Failed { what, reason } => write!(f, "{what} failed: {reason}"),
             Self::NoRoot => f.write_str("xtask does not lie inside the repository"),
         }

@@ -21,6 +21,11 @@ impl Keys {
         Self { schema }
     }
 
+    /// The schema itself.
+    pub const fn schema(&self) -> &Json {
+        &self.schema
+    }
+
     /// Faults of a text that is a case or a part of one; with the key `format` it has to be whole.
     pub fn faults(&self, text: &str) -> Vec<Fault> {
         match parse(text) {
@@ -102,20 +107,20 @@ fn visit<'a>(schema: &'a Json, f: &mut impl FnMut(&'a Json)) {
     }
 }
 
-fn alternatives(schema: &Json) -> impl Iterator<Item = &Json> {
+pub(super) fn alternatives(schema: &Json) -> impl Iterator<Item = &Json> {
     let lists = ["anyOf", "oneOf"]
         .iter()
         .filter_map(|name| schema.get(name)?.as_array());
     lists.flatten()
 }
 
-fn elements(schema: &Json) -> impl Iterator<Item = &Json> {
+pub(super) fn elements(schema: &Json) -> impl Iterator<Item = &Json> {
     let each = schema.get("items").filter(|items| items.is_object());
     let first = schema.get("prefixItems").and_then(Json::as_array);
     each.into_iter().chain(first.into_iter().flatten())
 }
 
-fn others(schema: &Json) -> Option<&Json> {
+pub(super) fn others(schema: &Json) -> Option<&Json> {
     schema
         .get("additionalProperties")
         .filter(|other| other.is_object())

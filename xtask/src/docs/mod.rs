@@ -19,6 +19,7 @@
 mod commands;
 mod keys;
 mod markdown;
+mod reference;
 mod spans;
 mod symbols;
 mod tables;
@@ -74,6 +75,7 @@ pub(crate) fn check(root: &Path) -> Outcome {
         pages.push(markdown::page(path.to_path_buf(), &source));
     }
     faults.append(&mut judge(&pages, &facts));
+    faults.extend(stale_keys(root, &facts.keys));
     faults.sort();
     for fault in &faults {
         println!("{fault}");
@@ -85,6 +87,28 @@ pub(crate) fn check(root: &Path) -> Outcome {
         faults.len()
     );
     Ok(faults.is_empty())
+}
+
+/// Writes the page of all keys.
+pub(crate) fn write_keys(root: &Path) -> Outcome {
+    let schema = json("signorini schema", &signorini(root, &["schema"])?)?;
+    let path = root.join(reference::PATH);
+    match std::fs::write(&path, reference::page(&schema)) {
+        Ok(()) => Ok(true),
+        Err(source) => Err(ChoreError::Write { path, source }),
+    }
+}
+
+/// The page of all keys, where it is not what the schema says.
+fn stale_keys(root: &Path, keys: &Keys) -> Option<Fault> {
+    let wanted = reference::page(keys.schema());
+    let found = std::fs::read_to_string(root.join(reference::PATH)).unwrap_or_default();
+    let differ = wanted.lines().zip(found.lines()).position(|(a, b)| a != b);
+    (wanted != found).then(|| Fault {
+        path: PathBuf::from(reference::PATH),
+        line: differ.unwrap_or_else(|| found.lines().count().min(wanted.lines().count())) + 1,
+        what: "this is not what the schema of cases says: run `cargo xtask keys`".to_string(),
+    })
 }
 
 /// Whether a file is a page to check: all Markdown but the fragments of the list of changes.
