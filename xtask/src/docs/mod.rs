@@ -127,6 +127,8 @@ fn judge(pages: &[Page], facts: &Facts) -> Vec<Fault> {
     for page in pages {
         for (line, piece) in &page.pieces {
             let found = match piece {
+                // written from the schema, and compared with it
+                Piece::Code(_) if page.path == Path::new(reference::PATH) => Vec::new(),
                 Piece::Code(text) => at_start(spans::faults(text, &page.path, facts)),
                 Piece::Link(to) => at_start(link_faults(to, page, &by_path, facts)),
                 Piece::Block { language, text } => block_faults(language, text, &page.path, facts),
