@@ -63,7 +63,6 @@ mod projection;
 mod ray;
 mod signed_distance;
 mod sphere;
-mod table;
 #[cfg(test)]
 mod tests;
 mod thickness;
@@ -85,7 +84,25 @@ pub use point::{Anchor, Feature, Outward, Projection, SurfaceJet, pair};
 pub use polynomial::{Facing, MAX_DEGREE, Polynomial};
 pub use signed_distance::{SignedDistance, UserFunction};
 pub use sphere::Sphere;
-pub use table::{TABLE, descriptions};
 pub use thickness::Outline;
 pub use torus::Torus;
 pub use triangulated::Triangulated;
+
+use signorini_vocabulary::{Description, Entry};
+
+/// The shapes that a case may choose by name.
+pub static TABLE: [Entry<Box<dyn Shape>, AnalyticalError>; 7] = [
+    plane::ENTRY,
+    sphere::CIRCLE,
+    sphere::ENTRY,
+    cylinder::ENTRY,
+    cone::ENTRY,
+    torus::ENTRY,
+    polynomial::ENTRY,
+];
+
+/// The names and keys of all shapes of [`TABLE`].
+#[must_use]
+pub fn descriptions() -> Vec<Description> {
+    TABLE.iter().map(|entry| entry.description).collect()
+}
