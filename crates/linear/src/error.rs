@@ -16,6 +16,7 @@
 ///     ndof: 2,
 ///     bulk: &bulk,
 ///     interface: &interface,
+///     fields: &[],
 ///     equation: &[0, 1],
 ///     nequation: 2,
 ///     symmetry: Symmetry::Definite,

@@ -35,6 +35,7 @@ const ROWS_PER_TASK: usize = 1024;
 ///     ndof: 5,
 ///     bulk: &bulk,
 ///     interface: &interface,
+///     fields: &[],
 ///     equation: &[NONE, 0, 1, 2, 3],
 ///     nequation: 4,
 ///     symmetry: Symmetry::Definite,

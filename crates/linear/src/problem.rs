@@ -55,6 +55,7 @@ impl FieldBlock {
 ///     ndof: 5,
 ///     bulk: &bulk,
 ///     interface: &interface,
+///     fields: &[],
 ///     equation: &[NONE, 0, 1, 2, 3],
 ///     nequation: 4,
 ///     symmetry: Symmetry::Definite,

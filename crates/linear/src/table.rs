@@ -58,6 +58,7 @@ pub struct SolverEntry {
 ///     ndof: 5,
 ///     bulk: &bulk,
 ///     interface: &interface,
+///     fields: &[],
 ///     equation: &[NONE, 0, 1, 2, 3],
 ///     nequation: 4,
 ///     symmetry: Symmetry::Definite,

@@ -164,7 +164,7 @@ impl Opened {
 /// };
 /// let loaded = load(&path, &reading)?;
 /// assert_eq!(loaded.case.materials[0].number("E"), Some(2000.0));
-/// assert_eq!(build(loaded.case, loaded.mesh)?.system.layout.nnode, 4);
+/// assert_eq!(build(loaded.case, loaded.mesh)?.system.layout.nnode(), 4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn load(path: &Path, reading: &Reading) -> Result<Loaded, Diagnostics> {

@@ -47,6 +47,7 @@ const CORRECTION: f64 = 1e-6;
 ///     ndof: 2,
 ///     bulk: &bulk,
 ///     interface: &interface,
+///     fields: &[],
 ///     equation: &[0, 1],
 ///     nequation: 2,
 ///     symmetry: Symmetry::Symmetric,
