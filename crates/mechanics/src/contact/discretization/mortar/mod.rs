@@ -42,7 +42,7 @@
 //!
 //! *Guests.* Where little of ψ_a is covered, what it would carry scatters. It leaves its function to others, ψ'_b = ψ_b +
 //! Σ_a s_ab ψ_a with shares s_ab of each facet that add up to 1: pressures are even there, nothing is dropped, and node a
-//! has no row. Who is whose guest is settled at convergence ([`Averaged::settle`]).
+//! has no row. Who is whose guest is settled at convergence ([`Averaged::settle`](super::Averaged::settle)).
 //!
 //! *Edges.* A mean over both sides of an edge says little about either: where the lower face of a block is pressed and
 //! what it rests on rises away from its flank, one row would press on half of the flank, too. A node of an edge is the node
