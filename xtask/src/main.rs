@@ -15,6 +15,7 @@
 //! To add a chore: a module with a function that takes the repository's root, and one line in [`CHORES`].
 
 mod docs;
+mod fault;
 mod rooms;
 mod shape;
 mod tree;

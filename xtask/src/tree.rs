@@ -97,6 +97,14 @@ impl Tree {
     }
 }
 
+/// The text of a file.
+pub fn read(path: &Path) -> Result<String, ChoreError> {
+    std::fs::read_to_string(path).map_err(|source| ChoreError::Read {
+        path: path.to_path_buf(),
+        source,
+    })
+}
+
 /// Whether a component is what the text asks for; `NAME.rs` asks for any file with the ending `rs`.
 fn matches(part: &str, text: &str) -> bool {
     let (stem, ending) = text.split_once('.').unwrap_or((text, ""));

@@ -25,13 +25,14 @@ mod symbols;
 mod tables;
 mod toml;
 
+use crate::fault::Fault;
 use crate::tree::Tree;
+use crate::tree::read;
 use crate::{ChoreError, Outcome};
 use commands::{Packages, Program, Script};
 use keys::Keys;
 use markdown::{Page, Piece};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use symbols::Symbols;
@@ -44,20 +45,6 @@ struct Facts {
     scripts: Vec<Script>,
     keys: Keys,
     symbols: Symbols,
-}
-
-/// A name that leads nowhere.
-#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Fault {
-    path: PathBuf,
-    line: usize,
-    what: String,
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: {}", self.path.display(), self.line, self.what)
-    }
 }
 
 /// Checks all pages and prints their faults.
@@ -255,13 +242,6 @@ impl Facts {
             symbols,
         })
     }
-}
-
-fn read(path: &Path) -> Result<String, ChoreError> {
-    std::fs::read_to_string(path).map_err(|source| ChoreError::Read {
-        path: path.to_path_buf(),
-        source,
-    })
 }
 
 fn json(what: &str, text: &str) -> Result<serde_json::Value, ChoreError> {

@@ -15,11 +15,12 @@ mod names;
 mod overrides;
 mod sizes;
 
-use crate::tree::Tree;
+use crate::fault::Fault;
+use crate::tree::{self, Tree};
 use crate::{ChoreError, Outcome};
-use std::fmt;
 use std::path::{Path, PathBuf};
 use syn::spanned::Spanned;
+use syn::visit::{self, Visit};
 
 /// A source of Rust, parsed.
 struct Source {
@@ -28,18 +29,11 @@ struct Source {
     file: syn::File,
 }
 
-/// A place that breaks a rule.
-#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Fault {
-    path: PathBuf,
-    line: usize,
-    what: String,
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: {}", self.path.display(), self.line, self.what)
-    }
+/// A function with its body: free, of a type, or a default of a trait.
+struct Function<'a> {
+    attributes: &'a [syn::Attribute],
+    signature: &'a syn::Signature,
+    block: &'a syn::Block,
 }
 
 impl Source {
@@ -55,12 +49,56 @@ impl Source {
         })
     }
 
+    /// All functions, those inside of functions too.
+    fn functions(&self) -> Vec<Function<'_>> {
+        let mut found = Functions(Vec::new());
+        found.visit_file(&self.file);
+        found.0
+    }
+
     fn fault(&self, at: &impl Spanned, what: String) -> Fault {
         Fault {
             path: self.path.clone(),
             line: at.span().start().line,
             what,
         }
+    }
+}
+
+/// Functions as they are met.
+struct Functions<'a>(Vec<Function<'a>>);
+
+impl<'a> Functions<'a> {
+    fn add(
+        &mut self,
+        attributes: &'a [syn::Attribute],
+        signature: &'a syn::Signature,
+        block: &'a syn::Block,
+    ) {
+        self.0.push(Function {
+            attributes,
+            signature,
+            block,
+        });
+    }
+}
+
+impl<'a> Visit<'a> for Functions<'a> {
+    fn visit_item_fn(&mut self, function: &'a syn::ItemFn) {
+        self.add(&function.attrs, &function.sig, &function.block);
+        visit::visit_item_fn(self, function);
+    }
+
+    fn visit_impl_item_fn(&mut self, function: &'a syn::ImplItemFn) {
+        self.add(&function.attrs, &function.sig, &function.block);
+        visit::visit_impl_item_fn(self, function);
+    }
+
+    fn visit_trait_item_fn(&mut self, function: &'a syn::TraitItemFn) {
+        if let Some(block) = &function.default {
+            self.add(&function.attrs, &function.sig, block);
+        }
+        visit::visit_trait_item_fn(self, function);
     }
 }
 
@@ -79,7 +117,7 @@ fn is_for_tests(attributes: &[syn::Attribute]) -> bool {
 
 /// Prints each place that breaks a rule, and counts them by rule.
 pub fn check(root: &Path) -> Outcome {
-    let sources = read(root)?;
+    let sources = sources(root)?;
     let rules: [(&str, Rule); 4] = [
         ("functions over 100 lines", sizes::functions),
         ("files over 800 lines", sizes::files),
@@ -102,15 +140,12 @@ pub fn check(root: &Path) -> Outcome {
     Ok(holds)
 }
 
-fn read(root: &Path) -> Result<Vec<Source>, ChoreError> {
+fn sources(root: &Path) -> Result<Vec<Source>, ChoreError> {
     let tree = Tree::read(root)?;
     let is_rust = |path: &&Path| path.extension().is_some_and(|ending| ending == "rs");
     let mut sources = Vec::new();
     for path in tree.files().filter(is_rust) {
-        let full = root.join(path);
-        let text = std::fs::read_to_string(&full)
-            .map_err(|source| ChoreError::Read { path: full, source })?;
-        sources.push(Source::new(path, &text)?);
+        sources.push(Source::new(path, &tree::read(&root.join(path))?)?);
     }
     Ok(sources)
 }

@@ -1,7 +1,6 @@
 //! Names of tests: a claim, not a number of a list.
 
 use super::{Fault, Source};
-use syn::visit::{self, Visit};
 
 /// Words that say nothing of what a test claims.
 const EMPTY: [&str; 5] = ["case", "example", "issue", "no", "test"];
@@ -10,30 +9,19 @@ const EMPTY: [&str; 5] = ["case", "example", "issue", "no", "test"];
 pub(super) fn numbered(sources: &[Source]) -> Vec<Fault> {
     let mut found = Vec::new();
     for source in sources {
-        let mut visitor = Tests {
-            source,
-            found: &mut found,
-        };
-        visitor.visit_file(&source.file);
+        for function in source.functions() {
+            let is_test = function
+                .attributes
+                .iter()
+                .any(|a| a.path().is_ident("test"));
+            let name = function.signature.ident.to_string();
+            if is_test && is_numbered(&name) {
+                let what = format!("the test `{name}` has a number for a name");
+                found.push(source.fault(function.signature, what));
+            }
+        }
     }
     found
-}
-
-struct Tests<'a> {
-    source: &'a Source,
-    found: &'a mut Vec<Fault>,
-}
-
-impl<'ast> Visit<'ast> for Tests<'_> {
-    fn visit_item_fn(&mut self, function: &'ast syn::ItemFn) {
-        let is_test = function.attrs.iter().any(|a| a.path().is_ident("test"));
-        let name = function.sig.ident.to_string();
-        if is_test && is_numbered(&name) {
-            let what = format!("the test `{name}` has a number for a name");
-            self.found.push(self.source.fault(&function.sig, what));
-        }
-        visit::visit_item_fn(self, function);
-    }
 }
 
 /// Whether a name begins with a number, alone or behind one letter, or is an empty word and a number.

@@ -2,7 +2,6 @@
 
 use super::{Fault, Source};
 use syn::spanned::Spanned;
-use syn::visit::{self, Visit};
 
 const LONGEST_FUNCTION: usize = 100;
 const LONGEST_FILE: usize = 800;
@@ -18,52 +17,20 @@ pub(super) fn files(sources: &[Source]) -> Vec<Fault> {
     long.map(fault).collect()
 }
 
-/// Functions over the limit, those in traits and in functions too.
+/// Functions over the limit.
 pub(super) fn functions(sources: &[Source]) -> Vec<Fault> {
     let mut found = Vec::new();
     for source in sources {
-        let mut visitor = Functions {
-            source,
-            found: &mut found,
-        };
-        visitor.visit_file(&source.file);
+        for function in source.functions() {
+            let first = function.signature.span().start().line;
+            let nline = function.block.span().end().line + 1 - first;
+            if nline > LONGEST_FUNCTION {
+                let what = format!("`{}` has {nline} lines", function.signature.ident);
+                found.push(source.fault(function.signature, what));
+            }
+        }
     }
     found
-}
-
-struct Functions<'a> {
-    source: &'a Source,
-    found: &'a mut Vec<Fault>,
-}
-
-impl Functions<'_> {
-    fn look(&mut self, signature: &syn::Signature, block: &syn::Block) {
-        let (first, last) = (signature.span().start().line, block.span().end().line);
-        let nline = last + 1 - first;
-        if nline > LONGEST_FUNCTION {
-            let what = format!("`{}` has {nline} lines", signature.ident);
-            self.found.push(self.source.fault(signature, what));
-        }
-    }
-}
-
-impl<'ast> Visit<'ast> for Functions<'_> {
-    fn visit_item_fn(&mut self, function: &'ast syn::ItemFn) {
-        self.look(&function.sig, &function.block);
-        visit::visit_item_fn(self, function);
-    }
-
-    fn visit_impl_item_fn(&mut self, function: &'ast syn::ImplItemFn) {
-        self.look(&function.sig, &function.block);
-        visit::visit_impl_item_fn(self, function);
-    }
-
-    fn visit_trait_item_fn(&mut self, function: &'ast syn::TraitItemFn) {
-        if let Some(block) = &function.default {
-            self.look(&function.sig, block);
-        }
-        visit::visit_trait_item_fn(self, function);
-    }
 }
 
 #[cfg(test)]
