@@ -4,7 +4,7 @@ use super::contact_surface::ContactSurface;
 use super::error::SurfaceError;
 use super::placement::Placement;
 use super::point::{Anchor, Feature, Projection, SurfaceJet};
-use super::projection::{ABANDON, Search};
+use super::projection::{ABANDON, Jet, Search};
 use crate::tensor::Vec3;
 
 /// The point of a facet's own continuation beyond its boundary that is closest to `point`, at most `reach` parameters
@@ -23,12 +23,7 @@ pub fn extended_face(
     let Some(element) = surface.domain(start.facet) else {
         return Ok(None);
     };
-    let mut search = Search {
-        jet: |anchor: &Anchor, out: &mut SurfaceJet| surface.jet(at, anchor, out),
-        facet: start.facet,
-        point,
-        ntan: surface.ntan(),
-    };
+    let mut search = search_on(surface, at, start.facet, point);
     let bounds = |xi: &Vec3| element.contains(xi, ABANDON.max(2.0 * reach));
     let Some((xi, _)) = search.face(start.local, bounds, out)? else {
         return Ok(None);
@@ -60,12 +55,7 @@ pub fn extended_edge(
         let Some(element) = surface.domain(facet).filter(|e| e.dim() == 2) else {
             continue;
         };
-        let mut search = Search {
-            jet: |anchor: &Anchor, out: &mut SurfaceJet| surface.jet(at, anchor, out),
-            facet,
-            point,
-            ntan: 2,
-        };
+        let mut search = search_on(surface, at, facet, point);
         let nodes = element.nodes();
         for &[a, b] in element.edges() {
             let (from, along) = (nodes[a], nodes[b] - nodes[a]);
@@ -98,4 +88,19 @@ fn between(w: Vec3, p: Vec3, q: Vec3) -> bool {
     let c = p.dot(q);
     let (wp, wq) = (w.dot(p), w.dot(q));
     1.0 - c * c > 1e-12 && (wp - c * wq) * (wq - c * wp) >= 0.0
+}
+
+/// The search for the point of a facet that is closest to `point`.
+fn search_on<'a>(
+    surface: &'a dyn ContactSurface,
+    at: &'a Placement<'a>,
+    facet: u32,
+    point: Vec3,
+) -> Search<impl Jet + 'a> {
+    Search {
+        jet: move |anchor: &Anchor, out: &mut SurfaceJet| surface.jet(at, anchor, out),
+        facet,
+        point,
+        ntan: surface.ntan(),
+    }
 }

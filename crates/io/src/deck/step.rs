@@ -90,24 +90,14 @@ impl Translation<'_> {
             let text = "*STEP, PERTURBATION is not supported";
             self.error(&codes::NOT_BUILT, text, &place, "");
         }
+        let name = Spanned::new(name, place.clone());
         let mut step = Step {
-            name: Spanned::new(name, place.clone()),
             geometry: if standing.nonlinear || self.bends {
                 Geometry::Nonlinear
             } else {
                 Geometry::Linear
             },
-            duration: 1.0,
-            increments: Increments::Count(1),
-            fixes: Vec::new(),
-            moves: Vec::new(),
-            frees: Vec::new(),
-            loads: Vec::new(),
-            contacts: Vec::new(),
-            materials: Vec::new(),
-            temperatures: Vec::new(),
-            prints: None,
-            place,
+            ..Step::of_nothing(name, place)
         };
         self.time(cards, &mut step);
         let mut lines = Vec::new();

@@ -56,6 +56,28 @@ pub struct Step {
     pub place: Place,
 }
 
+impl Step {
+    /// A step in which nothing changes: one increment of the duration 1.
+    #[must_use]
+    pub fn of_nothing(name: Name, place: Place) -> Self {
+        Self {
+            name,
+            geometry: Geometry::Auto,
+            duration: 1.0,
+            increments: Increments::Count(1),
+            fixes: Vec::new(),
+            moves: Vec::new(),
+            frees: Vec::new(),
+            loads: Vec::new(),
+            contacts: Vec::new(),
+            materials: Vec::new(),
+            temperatures: Vec::new(),
+            prints: None,
+            place,
+        }
+    }
+}
+
 /// A body that is made of another material from a step on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialChange {

@@ -1,6 +1,6 @@
 //! What the deck says over time: when its steps end, and the values of functions there.
 
-use crate::case::{Geometry, Increments, Step};
+use crate::case::Step;
 use crate::diagnostic::{Place, Spanned};
 use std::collections::BTreeMap;
 
@@ -19,21 +19,7 @@ pub(super) struct Functions {
     pub named: BTreeMap<u64, String>,
 }
 
-/// A step of nothing.
+/// A step in which nothing changes; its name and place are given when it is read.
 pub(super) fn empty_step() -> Step {
-    Step {
-        name: Spanned::from("step-1"),
-        geometry: Geometry::Auto,
-        duration: 1.0,
-        increments: Increments::Count(1),
-        fixes: Vec::new(),
-        moves: Vec::new(),
-        frees: Vec::new(),
-        loads: Vec::new(),
-        contacts: Vec::new(),
-        temperatures: Vec::new(),
-        materials: Vec::new(),
-        prints: None,
-        place: Place::nowhere(),
-    }
+    Step::of_nothing(Spanned::from("step-1"), Place::nowhere())
 }
