@@ -468,14 +468,17 @@ fn springs_without_length_direction_or_curve_are_refused() {
     assert_eq!(springs(&[(4, Some(4))], Some(Vec3::unit(0))), None);
 }
 
+/// Five nodes on a line, and numbers for what may join them.
+fn nodes_on_a_line() -> (Arc<[Vec3]>, Layout) {
+    let along = Vec3::new(0.3, 0.5, 0.1);
+    let line = (0..5).map(|k| along * f64::from(k)).collect();
+    (line, Layout::new(3, 5, 2).with_multipliers(8 + 6))
+}
+
 #[test]
 fn couplings_of_nodes_that_do_not_define_them_are_refused() {
     let scene = Scene::new(3, true, "springs");
-    let line: Arc<[Vec3]> = (0..5)
-        .map(|k| Vec3::new(0.3, 0.5, 0.1) * f64::from(k))
-        .collect();
-    let layout = Layout::new(scene.layout.ndim(), 5, scene.layout.nrigid())
-        .with_multipliers(scene.layout.nmultiplier());
+    let (line, layout) = nodes_on_a_line();
     let nodes = [0, 1, 2, 3, 4];
     let plane = Plane::new("p", &nodes, line.clone(), layout, 0)
         .err()
@@ -521,12 +524,7 @@ fn couplings_of_nodes_that_do_not_define_them_are_refused() {
 
 #[test]
 fn twists_along_a_line_and_rods_without_length_are_refused() {
-    let scene = Scene::new(3, true, "springs");
-    let line: Arc<[Vec3]> = (0..5)
-        .map(|k| Vec3::new(0.3, 0.5, 0.1) * f64::from(k))
-        .collect();
-    let layout = Layout::new(scene.layout.ndim(), 5, scene.layout.nrigid())
-        .with_multipliers(scene.layout.nmultiplier());
+    let (line, layout) = nodes_on_a_line();
     let twist = |nodes: &[NodeId], axis: Vec3| {
         let parts = TwistParts {
             name: "t",

@@ -109,7 +109,7 @@ pub fn reference(name: &str) -> Option<Value> {
         path.is_file().then_some(path)
     });
     let Some(path) = path else {
-        eprintln!("SKIPPED: no {name} in shared/reference beside the repository");
+        eprintln!("SKIPPED: no {name} in shared/reference next to the repository");
         return None;
     };
     Some(serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap())

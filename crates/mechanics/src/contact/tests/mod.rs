@@ -9,7 +9,7 @@ mod own;
 mod paper;
 mod passing;
 pub(crate) mod printed;
-mod reference;
+pub(crate) mod reference;
 mod rigid;
 pub(crate) mod scene;
 mod sliding;

@@ -14,14 +14,14 @@ use signorini_geometry::tensor::Vec3;
 use std::path::Path;
 
 /// A file of reference values in a folder next to the repository, or further up.
-fn reference(name: &str) -> Option<Value> {
+pub(crate) fn reference(name: &str) -> Option<Value> {
     let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
     let path = folders.find_map(|f| {
         let path = f.join("shared/reference").join(name);
         path.is_file().then_some(path)
     });
     let Some(path) = path else {
-        eprintln!("SKIPPED: no {name} in shared/reference beside the repository");
+        eprintln!("SKIPPED: no {name} in shared/reference next to the repository");
         return None;
     };
     Some(serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap())

@@ -79,11 +79,16 @@ fn a_facet_folded_in_front_of_another_is_refused_and_one_next_to_it_is_not() {
     folded[1] = Vec3::new(-0.6, -0.6, 0.1);
     let found = attempt([quad; 2], [&x, &folded]);
     assert_eq!(found.err(), Some(MortarError::Folded { number: 0 }));
-    let beside: Vec<Vec3> = folded
+    let next_to_it: Vec<Vec3> = folded
         .iter()
         .map(|&x| x + Vec3::new(2.5, 0.0, 0.0))
         .collect();
-    assert!(attempt([quad; 2], [&x, &beside]).unwrap().met().is_empty());
+    assert!(
+        attempt([quad; 2], [&x, &next_to_it])
+            .unwrap()
+            .met()
+            .is_empty()
+    );
 }
 
 #[test]

@@ -2,11 +2,11 @@
 
 use crate::contact::mortar::*;
 use crate::contact::tests::Random;
+pub(super) use crate::contact::tests::reference::reference;
 use crate::cubic::CUBIC;
 use serde_json::Value;
 use signorini_geometry::element::{MAX_FACET_NODES, TABLE, by_name};
 use signorini_geometry::tensor::Mat3;
-use std::path::Path;
 
 /// Every facet that mortar contact takes as a secondary one: lines first, and linear ones.
 pub(super) fn secondaries() -> impl Iterator<Item = Element> {
@@ -32,20 +32,6 @@ pub(super) fn pairings_of_lines() -> impl Iterator<Item = [Element; 2]> {
 /// Uniform on [0, 1].
 pub(super) fn unit(random: &mut Random) -> f64 {
     0.5 + 0.5 * random.signed()
-}
-
-/// A file of reference values in a folder next to the repository, or further up.
-pub(super) fn reference(name: &str) -> Option<Value> {
-    let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
-    let path = folders.find_map(|f| {
-        let path = f.join("shared/reference").join(name);
-        path.is_file().then_some(path)
-    });
-    let Some(path) = path else {
-        eprintln!("SKIPPED: no {name} in shared/reference beside the repository");
-        return None;
-    };
-    Some(serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap())
 }
 
 pub(super) fn numbers(value: &Value) -> Vec<f64> {
