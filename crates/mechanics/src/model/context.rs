@@ -13,19 +13,19 @@ use std::sync::Arc;
 
 /// What the parts of a model are made from.
 pub(super) struct Context<'a> {
-    pub(super) mesh: &'a Mesh,
-    pub(super) reference: &'a Arc<[Vec3]>,
-    pub(super) owner: &'a HashMap<CellId, usize>,
-    pub(super) modulus: &'a [Option<f64>],
-    pub(super) shear_modulus: &'a [Option<f64>],
-    pub(super) substances: &'a [Substance],
-    pub(super) elimination: Arc<Elimination>,
-    pub(super) carriers: &'a [CarrierPart],
+    pub mesh: &'a Mesh,
+    pub reference: &'a Arc<[Vec3]>,
+    pub owner: &'a HashMap<CellId, usize>,
+    pub modulus: &'a [Option<f64>],
+    pub shear_modulus: &'a [Option<f64>],
+    pub substances: &'a [Substance],
+    pub elimination: Arc<Elimination>,
+    pub carriers: &'a [CarrierPart],
     /// That of bodies that say nothing else, and of all that is no body.
-    pub(super) space: Idealisation,
-    pub(super) spaces: &'a Spaces<'a>,
-    pub(super) layout: Layout,
-    pub(super) ties: &'a Ties,
+    pub space: Idealisation,
+    pub spaces: &'a Spaces<'a>,
+    pub layout: Layout,
+    pub ties: &'a Ties,
     /// Poses of the carriers at the start.
-    pub(super) poses: Vec<Pose>,
+    pub poses: Vec<Pose>,
 }

@@ -35,18 +35,9 @@ mod steps;
 mod substance;
 mod summary;
 
-use crate::contact::Interface;
 pub use crate::load::LoadError;
-use crate::material::{Kinematics, Material};
-use crate::solve::Step;
-use crate::system::{Layout, NodalField, System, Term};
-use bodies::{between, nodes_by_body, owners};
 pub use constraint_error::ConstraintError;
-use constraints::Followers;
-use contact::{Sides, Source};
-use context::Context;
 pub use error::ModelError;
-use held::Held;
 pub use held::Unheld;
 pub use parts::{
     AreaPart, BodyKind, BodyPart, CarrierPart, Change, ConstraintKind, ConstraintPart,
@@ -54,14 +45,24 @@ pub use parts::{
     Method, Normals, PairOrder, Parts, PointKind, PointRule, PrimaryPart, SidePart, SpringPart,
     StartPart, StepPart, StickPart, Target, TieOffset, TiePart, Unknown,
 };
+pub use summary::{
+    BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,
+};
+
+use crate::contact::Interface;
+use crate::material::{Kinematics, Material};
+use crate::solve::Step;
+use crate::system::{Layout, NodalField, System, Term};
+use bodies::{between, nodes_by_body, owners};
+use constraints::Followers;
+use contact::{Sides, Source};
+use context::Context;
+use held::Held;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
 use spaces::Spaces;
 use std::sync::Arc;
 use substance::Substance;
-pub use summary::{
-    BentSummary, ContactSummary, LockingSummary, OpenEdges, StartPlace, StartSummary, Treatment,
-};
 
 /// A system with the steps it is to go through.
 ///

@@ -1,4 +1,4 @@
-//! What the plane stands for, body by body.
+//! The idealisation of each body.
 
 use super::BodyPart;
 use crate::system::Idealisation;

@@ -1,4 +1,4 @@
-//! Mass behind loads.
+//! The density and section of a body, as loads see them.
 
 use super::{BodyKind, BodyPart};
 use crate::solid::Integration;
@@ -6,12 +6,12 @@ use crate::system::Idealisation;
 
 /// What loads want to know of a body.
 pub(super) struct Substance {
-    pub(super) name: String,
-    pub(super) density: Option<f64>,
+    pub name: String,
+    pub density: Option<f64>,
     /// Cross-section of bars.
-    pub(super) section: Option<f64>,
-    pub(super) integration: Integration,
-    pub(super) space: Idealisation,
+    pub section: Option<f64>,
+    pub integration: Integration,
+    pub space: Idealisation,
 }
 
 impl Substance {

@@ -26,41 +26,41 @@ pub struct AtStart {
 /// What is done against locking at one size of strains.
 pub(super) struct Treatment {
     /// What became of the wish; why it cannot be had.
-    pub(super) locking: Result<Locking, &'static str>,
-    pub(super) kernel: Kernel,
+    pub locking: Result<Locking, &'static str>,
+    pub kernel: Kernel,
     /// For several cells at once.
-    pub(super) batch: Option<BatchKernel>,
+    pub batch: Option<BatchKernel>,
 }
 
 /// Cells of one element.
 pub(super) struct Cells {
-    pub(super) element: &'static str,
-    pub(super) points: Points,
-    pub(super) small: Treatment,
-    pub(super) finite: Treatment,
-    pub(super) ndilatation: usize,
-    pub(super) nnode: usize,
-    pub(super) nodes: Vec<NodeId>,
-    pub(super) labels: Vec<u64>,
+    pub element: &'static str,
+    pub points: Points,
+    pub small: Treatment,
+    pub finite: Treatment,
+    pub ndilatation: usize,
+    pub nnode: usize,
+    pub nodes: Vec<NodeId>,
+    pub labels: Vec<u64>,
     // where they are in the mesh
-    pub(super) ids: Vec<CellId>,
+    pub ids: Vec<CellId>,
     // from quadrature points to nodes: `nnode` rows of `npoint`
-    pub(super) extrapolation: Vec<f64>,
+    pub extrapolation: Vec<f64>,
     // numbers of history of a cell: those of its points, then its incompatible modes
-    pub(super) nhistory: usize,
+    pub nhistory: usize,
     // history of a cell of the undeformed material
-    pub(super) undeformed: Vec<f64>,
+    pub undeformed: Vec<f64>,
     // accepted history of all cells
-    pub(super) history: Vec<f64>,
+    pub history: Vec<f64>,
     // at the points of all cells; empty where there is nothing at the start
-    pub(super) initial: Vec<Initial>,
+    pub initial: Vec<Initial>,
     // a force that a displacement of one would need at a node of each cell: what rounding is amplified by
-    pub(super) rigidity: Vec<f64>,
+    pub rigidity: Vec<f64>,
 }
 
 impl Cells {
     /// No cells yet; `None` where there is no kernel for the element.
-    pub(super) fn new(
+    pub fn new(
         situation: impl Fn(Kinematics) -> Situation,
         wish: Locking,
         nhistory: usize,
@@ -107,14 +107,14 @@ impl Cells {
         })
     }
 
-    pub(super) const fn treatment(&self, kinematics: Kinematics) -> &Treatment {
+    pub const fn treatment(&self, kinematics: Kinematics) -> &Treatment {
         match kinematics {
             Kinematics::Small => &self.small,
             Kinematics::Finite => &self.finite,
         }
     }
 
-    pub(super) fn refusal(&self, body: &str, locking: Locking, reason: &'static str) -> SolidError {
+    pub fn refusal(&self, body: &str, locking: Locking, reason: &'static str) -> SolidError {
         SolidError::Locking {
             body: body.to_string(),
             element: self.element,
@@ -123,12 +123,12 @@ impl Cells {
         }
     }
 
-    pub(super) fn nodes_of(&self, cell: usize) -> &[NodeId] {
+    pub fn nodes_of(&self, cell: usize) -> &[NodeId] {
         &self.nodes[cell * self.nnode..(cell + 1) * self.nnode]
     }
 
     /// Gives every cell the history of the undeformed material.
-    pub(super) fn start(&mut self, material: &dyn Material) {
+    pub fn start(&mut self, material: &dyn Material) {
         let n = material.nhistory();
         self.undeformed = vec![0.0; self.nhistory];
         if n > 0 {
@@ -140,7 +140,7 @@ impl Cells {
     }
 
     /// Gives its points what they have at the start.
-    pub(super) fn begin(&mut self, body: &str, given: &[AtStart]) -> Result<(), SolidError> {
+    pub fn begin(&mut self, body: &str, given: &[AtStart]) -> Result<(), SolidError> {
         if given.is_empty() {
             return Ok(());
         }
@@ -168,19 +168,14 @@ impl Cells {
         Ok(())
     }
 
-    pub(super) fn initial_of(&self, cell: usize) -> &[Initial] {
+    pub fn initial_of(&self, cell: usize) -> &[Initial] {
         let npoint = self.points.rule.npoint();
         let of_cell = self.initial.get(cell * npoint..(cell + 1) * npoint);
         of_cell.unwrap_or_default()
     }
 
     /// `M ∫ max_i |N_i,X|² dV` of every cell, with the modulus `M`: the largest entry of its stiffness, about.
-    pub(super) fn rigidities(
-        &self,
-        reference: &[Vec3],
-        space: Idealisation,
-        modulus: f64,
-    ) -> Vec<f64> {
+    pub fn rigidities(&self, reference: &[Vec3], space: Idealisation, modulus: f64) -> Vec<f64> {
         let at = |node: &NodeId| reference.get(*node as usize).copied().unwrap_or_default();
         let mut x: Vec<Vec3> = Vec::new();
         let of_cell = |nodes: &[NodeId]| {
@@ -192,7 +187,7 @@ impl Cells {
     }
 
     /// Checks that no node lies beyond the axis, and no quadrature point on it.
-    pub(super) fn radii(&self, body: &str, reference: &[Vec3]) -> Result<(), SolidError> {
+    pub fn radii(&self, body: &str, reference: &[Vec3]) -> Result<(), SolidError> {
         for (nodes, &label) in self.nodes.chunks_exact(self.nnode).zip(&self.labels) {
             let radius = |node: NodeId| reference.get(node as usize).map_or(0.0, |x| x.x);
             let at_point = |point| {

@@ -66,29 +66,29 @@ pub struct SolidParts<'a> {
 /// Scratch of one thread.
 #[derive(Default)]
 pub(super) struct Scratch {
-    pub(super) x: Vec<Vec3>,
-    pub(super) u: Vec<f64>,
-    pub(super) temperature: Vec<f64>,
-    pub(super) temperature_at_start: Vec<f64>,
-    pub(super) dofs: Vec<Dof>,
-    pub(super) force: Vec<f64>,
-    pub(super) stiffness: Vec<f64>,
-    pub(super) samples: Vec<Sample>,
-    pub(super) new: Vec<f64>,
-    pub(super) inner: Vec<f64>,
+    pub x: Vec<Vec3>,
+    pub u: Vec<f64>,
+    pub temperature: Vec<f64>,
+    pub temperature_at_start: Vec<f64>,
+    pub dofs: Vec<Dof>,
+    pub force: Vec<f64>,
+    pub stiffness: Vec<f64>,
+    pub samples: Vec<Sample>,
+    pub new: Vec<f64>,
+    pub inner: Vec<f64>,
     /// Where the stiffness is symmetric: see [`Sink::add_symmetric`].
-    pub(super) blocks: Vec<f64>,
-    pub(super) lanes: InLanes,
+    pub blocks: Vec<f64>,
+    pub lanes: InLanes,
 }
 
 /// The same of several cells, lane by lane.
 #[derive(Default)]
 pub(super) struct InLanes {
-    pub(super) x: Vec<f64>,
-    pub(super) u: Vec<f64>,
-    pub(super) force: Vec<f64>,
-    pub(super) blocks: Vec<f64>,
-    pub(super) energy: Vec<f64>,
+    pub x: Vec<f64>,
+    pub u: Vec<f64>,
+    pub force: Vec<f64>,
+    pub blocks: Vec<f64>,
+    pub energy: Vec<f64>,
 }
 
 /// What is wanted of the cells.
@@ -513,7 +513,7 @@ impl Solid {
 }
 
 impl Scratch {
-    pub(super) fn size(&mut self, block: &Cells, ndim: usize, wanted: Wanted) {
+    pub fn size(&mut self, block: &Cells, ndim: usize, wanted: Wanted) {
         let n = block.nnode * ndim;
         let stiff = wanted == Wanted::Stiffness;
         let npoint = block.points.rule.npoint();
@@ -529,7 +529,7 @@ impl Scratch {
     }
 
     /// Takes the blocks of a stiffness that is symmetric.
-    pub(super) fn pack(&mut self, nnode: usize, ndim: usize) {
+    pub fn pack(&mut self, nnode: usize, ndim: usize) {
         let n = nnode * ndim;
         let pairs = (0..nnode).flat_map(|j| (0..=j).map(move |i| (i, j)));
         for ((i, j), block) in pairs.zip(self.blocks.chunks_exact_mut(ndim * ndim)) {

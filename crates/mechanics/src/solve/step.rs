@@ -1,18 +1,18 @@
-//! Sizes and number of increments.
+//! Steps: their increments, and the values that they prescribe.
 
 use crate::system::Dof;
 
 /// Sizes and number of the increments of a step.
 pub(super) struct Sizes {
-    pub(super) count: usize,
-    pub(super) first: f64,
+    pub count: usize,
+    pub first: f64,
     /// None where an increment that fails is not made smaller.
-    pub(super) min: Option<f64>,
-    pub(super) max: f64,
+    pub min: Option<f64>,
+    pub max: f64,
 }
 
 impl Sizes {
-    pub(super) fn of(step: &Step) -> Self {
+    pub fn of(step: &Step) -> Self {
         match step.increments {
             Increments::Fixed(n) => Self {
                 count: n,

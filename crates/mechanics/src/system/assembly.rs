@@ -48,20 +48,20 @@ impl Assembly {
 /// What is known of the first tasks.
 pub(super) struct Shared {
     /// How many they are.
-    pub(super) ntask: usize,
+    pub ntask: usize,
     /// The number of threads that they are shared out for.
-    pub(super) nthread: usize,
+    pub nthread: usize,
     pub shares: Vec<Share>,
 }
 
 pub(super) struct Task {
-    pub(super) term: usize,
-    pub(super) chunk: usize,
-    pub(super) part: Part,
+    pub term: usize,
+    pub chunk: usize,
+    pub part: Part,
     /// Whether its elements are known, and none has unknowns that follow others.
-    pub(super) is_known: bool,
+    pub is_known: bool,
     // where the blocks of each element of the chunk go, in order; found once
-    pub(super) positions: Vec<u32>,
+    pub positions: Vec<u32>,
 }
 
 pub(super) fn reset(values: &mut Vec<f64>, n: usize) {

@@ -4,38 +4,38 @@ use super::{Dof, Sink, TermError, Work};
 
 #[derive(Default)]
 pub(super) struct Slot {
-    pub(super) work: Work,
-    pub(super) buffer: Buffer,
-    pub(super) failure: Option<TermError>,
-    pub(super) energy: Option<f64>,
+    pub work: Work,
+    pub buffer: Buffer,
+    pub failure: Option<TermError>,
+    pub energy: Option<f64>,
 }
 
 /// What a chunk added, one contribution after the other.
 #[derive(Default)]
 pub(super) struct Buffer {
-    pub(super) contributions: Vec<Contribution>,
-    pub(super) dofs: Vec<Dof>,
-    pub(super) force: Vec<f64>,
-    pub(super) stiffness: Vec<f64>,
+    pub contributions: Vec<Contribution>,
+    pub dofs: Vec<Dof>,
+    pub force: Vec<f64>,
+    pub stiffness: Vec<f64>,
     /// Errors at other dofs than those of a contribution.
-    pub(super) errors: Vec<(Dof, f64)>,
+    pub errors: Vec<(Dof, f64)>,
     /// Whether unknowns in it follow others.
-    pub(super) has_dependent: bool,
+    pub has_dependent: bool,
 }
 
 /// One contribution: how much of the lists is its own.
 pub(super) struct Contribution {
-    pub(super) ndof: usize,
-    pub(super) nstiffness: usize,
+    pub ndof: usize,
+    pub nstiffness: usize,
     /// Whether the stiffness is in blocks as [`Sink::add_symmetric`] has them.
-    pub(super) is_symmetric: bool,
+    pub is_symmetric: bool,
     /// The uncertainty of its forces.
-    pub(super) error: f64,
+    pub error: f64,
 }
 
 impl Contribution {
     /// Takes the places of its blocks in the bulk off a list.
-    pub(super) fn positions<'p>(&self, ndim: usize, all: &mut &'p [u32]) -> &'p [u32] {
+    pub fn positions<'p>(&self, ndim: usize, all: &mut &'p [u32]) -> &'p [u32] {
         let nblock = if self.nstiffness > 0 {
             self.ndof / ndim.max(1)
         } else {
@@ -46,13 +46,7 @@ impl Contribution {
 }
 
 impl Buffer {
-    pub(super) fn push(
-        &mut self,
-        dofs: &[Dof],
-        force: &[f64],
-        stiffness: &[f64],
-        is_symmetric: bool,
-    ) {
+    pub fn push(&mut self, dofs: &[Dof], force: &[f64], stiffness: &[f64], is_symmetric: bool) {
         debug_assert_eq!(dofs.len(), force.len());
         self.contributions.push(Contribution {
             ndof: dofs.len(),
@@ -65,7 +59,7 @@ impl Buffer {
         self.stiffness.extend_from_slice(stiffness);
     }
 
-    pub(super) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.contributions.clear();
         self.dofs.clear();
         self.force.clear();
@@ -74,7 +68,7 @@ impl Buffer {
     }
 
     /// Each contribution with its dofs, forces and stiffness.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&Contribution, &[Dof], &[f64], &[f64])> {
+    pub fn iter(&self) -> impl Iterator<Item = (&Contribution, &[Dof], &[f64], &[f64])> {
         let (mut at, mut at_stiffness) = (0, 0);
         self.contributions.iter().map(move |own| {
             let (of_dofs, of_stiffness) = (

@@ -14,19 +14,19 @@ use signorini_linear::sparsity::{BlockPattern, Pattern};
 /// What contributions are added to.
 #[derive(Clone, Copy)]
 pub(super) struct Setting<'a> {
-    pub(super) layout: &'a Layout,
-    pub(super) elimination: &'a Elimination,
-    pub(super) trial: &'a State,
-    pub(super) bulk: &'a BlockPattern,
-    pub(super) interface: &'a Pattern,
-    pub(super) order: Order,
-    pub(super) shared: Option<&'a Shared>,
+    pub layout: &'a Layout,
+    pub elimination: &'a Elimination,
+    pub trial: &'a State,
+    pub bulk: &'a BlockPattern,
+    pub interface: &'a Pattern,
+    pub order: Order,
+    pub shared: Option<&'a Shared>,
 }
 
 impl Setting<'_> {
     /// Evaluates chunks and adds them; false where stiffness of the bulk went into the interface. What is shared out is
     /// left to the threads that have it; all else is evaluated wave by wave, each of chunks of the same part.
-    pub(super) fn run(
+    pub fn run(
         self,
         evaluate: impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync,
         size: impl Fn(Part) -> usize,
@@ -77,7 +77,7 @@ impl Setting<'_> {
     }
 
     /// Evaluates and adds the chunks that are shared out.
-    pub(super) fn run_shared(
+    pub fn run_shared(
         self,
         evaluate: &(impl Fn(&Task, &mut Work, &mut Buffer) -> Result<(), TermError> + Sync),
         shares: &[Share],
@@ -110,7 +110,7 @@ impl Setting<'_> {
     ///
     /// Where no unknown follows others, threads share the rows among themselves, each with about as many nodes of what
     /// is added: an entry is the same sum whoever adds it up.
-    pub(super) fn add(
+    pub fn add(
         self,
         slots: &[Slot],
         tasks: &[Task],
@@ -138,7 +138,7 @@ impl Setting<'_> {
     }
 
     /// The rows in strips.
-    pub(super) fn strips<'o>(
+    pub fn strips<'o>(
         self,
         nstrip: usize,
         buffers: &[&Buffer],
@@ -153,7 +153,7 @@ impl Setting<'_> {
     }
 
     /// The rows in strips that end before these nodes, and the rest.
-    pub(super) fn strips_to<'o>(self, ends: &[usize], out: &'o mut Assembly) -> Vec<Strip<'o>> {
+    pub fn strips_to<'o>(self, ends: &[usize], out: &'o mut Assembly) -> Vec<Strip<'o>> {
         let ndim = self.bulk.block.max(1);
         let mut strips = Vec::with_capacity(ends.len() + 1);
         let mut rest = Strip::whole(out);
@@ -172,7 +172,7 @@ impl Setting<'_> {
     }
 
     /// Adds a chunk in which unknowns may follow others; false where stiffness of the bulk went into the interface.
-    pub(super) fn add_expanded(
+    pub fn add_expanded(
         self,
         whole: &mut Strip<'_>,
         buffer: &Buffer,
@@ -230,7 +230,7 @@ impl Setting<'_> {
     }
 
     /// Adds what of a chunk belongs to a strip.
-    pub(super) fn add_chunk(self, strip: &mut Strip<'_>, buffer: &Buffer, task: &Task) {
+    pub fn add_chunk(self, strip: &mut Strip<'_>, buffer: &Buffer, task: &Task) {
         for &(dof, error) in &buffer.errors {
             strip.add_error(dof, error);
         }
@@ -245,7 +245,7 @@ impl Setting<'_> {
         }
     }
 
-    pub(super) fn add_stiffness(
+    pub fn add_stiffness(
         self,
         strip: &mut Strip<'_>,
         own: &Contribution,
@@ -265,7 +265,7 @@ impl Setting<'_> {
     }
 
     /// Where the blocks of each contribution of a chunk are in the bulk.
-    pub(super) fn find(self, buffer: &Buffer, positions: &mut Vec<u32>) {
+    pub fn find(self, buffer: &Buffer, positions: &mut Vec<u32>) {
         let ndim = self.layout.ndim();
         let mut nodes: Vec<NodeId> = Vec::new();
         for (_, dofs, ..) in buffer.iter().filter(|(own, ..)| own.nstiffness > 0) {
@@ -275,7 +275,7 @@ impl Setting<'_> {
         }
     }
 
-    pub(super) fn add_entries(self, strip: &mut Strip<'_>, dofs: &[Dof], stiffness: &[f64]) {
+    pub fn add_entries(self, strip: &mut Strip<'_>, dofs: &[Dof], stiffness: &[f64]) {
         let mut places = std::mem::take(&mut strip.places);
         places.clear();
         let mut known: &[u32] = &[];

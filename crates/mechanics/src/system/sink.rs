@@ -1,4 +1,4 @@
-//! What terms are asked for, and what takes it.
+//! What terms are asked for, the sinks that take it, and the errors that stop it.
 
 use super::Dof;
 use signorini_geometry::mesh::NodeId;

@@ -26,20 +26,20 @@ pub(super) fn find_places(dofs: &[Dof], columns: &[u32], places: &mut Vec<u32>) 
 
 /// Some rows of the assembly.
 pub(super) struct Strip<'a> {
-    pub(super) first: usize,
-    pub(super) first_bulk: usize,
-    pub(super) first_interface: usize,
-    pub(super) residual: &'a mut [f64],
-    pub(super) magnitude: &'a mut [f64],
-    pub(super) uncertainty: &'a mut [f64],
-    pub(super) bulk: &'a mut [f64],
-    pub(super) interface: &'a mut [f64],
+    pub first: usize,
+    pub first_bulk: usize,
+    pub first_interface: usize,
+    pub residual: &'a mut [f64],
+    pub magnitude: &'a mut [f64],
+    pub uncertainty: &'a mut [f64],
+    pub bulk: &'a mut [f64],
+    pub interface: &'a mut [f64],
     /// Scratch: the places of unknowns in a row of the interface.
-    pub(super) places: Vec<u32>,
+    pub places: Vec<u32>,
 }
 
 impl<'a> Strip<'a> {
-    pub(super) fn whole(out: &'a mut Assembly) -> Self {
+    pub fn whole(out: &'a mut Assembly) -> Self {
         Self {
             first: 0,
             first_bulk: 0,
@@ -54,7 +54,7 @@ impl<'a> Strip<'a> {
     }
 
     /// The rows before `dof`, and those from it on, whose values in bulk and interface begin at `entries`.
-    pub(super) fn split_at(self, dof: usize, entries: [usize; 2]) -> (Self, Self) {
+    pub fn split_at(self, dof: usize, entries: [usize; 2]) -> (Self, Self) {
         let split = |values: &'a mut [f64], first: usize, at: usize| {
             let at = at.saturating_sub(first).min(values.len());
             values.split_at_mut(at)
@@ -86,25 +86,25 @@ impl<'a> Strip<'a> {
         (strip, others)
     }
 
-    pub(super) fn has(&self, dof: Dof) -> bool {
+    pub fn has(&self, dof: Dof) -> bool {
         (dof as usize).wrapping_sub(self.first) < self.residual.len()
     }
 
     /// The values of a row of the interface: so many from this one on.
-    pub(super) fn entries(&mut self, first: usize, count: usize) -> &mut [f64] {
+    pub fn entries(&mut self, first: usize, count: usize) -> &mut [f64] {
         let first = first.wrapping_sub(self.first_interface);
         let own = first..first.saturating_add(count);
         self.interface.get_mut(own).unwrap_or_default()
     }
 
-    pub(super) fn add_error(&mut self, dof: Dof, error: f64) {
+    pub fn add_error(&mut self, dof: Dof, error: f64) {
         let at = (dof as usize).wrapping_sub(self.first);
         if let Some(to) = self.uncertainty.get_mut(at) {
             *to += error;
         }
     }
 
-    pub(super) fn add_force(&mut self, dofs: &[Dof], force: &[f64]) {
+    pub fn add_force(&mut self, dofs: &[Dof], force: &[f64]) {
         for (&dof, f) in dofs.iter().zip(force) {
             // no dof lies beyond all
             let at = (dof as usize).wrapping_sub(self.first);
@@ -118,7 +118,7 @@ impl<'a> Strip<'a> {
     }
 
     /// Adds the blocks of an element, of `NN = ND ND` values, where they belong in the bulk.
-    pub(super) fn add_blocks<const ND: usize, const NN: usize>(
+    pub fn add_blocks<const ND: usize, const NN: usize>(
         &mut self,
         stiffness: &[f64],
         positions: &[u32],

@@ -1,4 +1,4 @@
-//! What a point of a surface that may touch itself may meet.
+//! The facets that a point of a surface may meet on the same surface: see the equations of [`OwnBody`](super::OwnBody).
 
 use super::own::{ENTERED, OwnNow, OwnPoint};
 use super::{OnFacet, SurfacePair};

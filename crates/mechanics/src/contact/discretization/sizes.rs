@@ -1,4 +1,4 @@
-//! Sizes of facets near each other.
+//! The sizes of the facets of both sides, on which the local reach depends.
 
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{ContactSurface, Facets, Placement};

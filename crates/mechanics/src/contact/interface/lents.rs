@@ -1,4 +1,4 @@
-//! Rows that lend their functions to others.
+//! Rows that lend their functions to others: the matrices F, H and X of `lent.rs`, which has the equations.
 
 use crate::system::Dof;
 use signorini_geometry::tensor::{Mat3, Vec3};

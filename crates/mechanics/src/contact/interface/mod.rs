@@ -20,6 +20,11 @@ mod reversals;
 mod rows;
 mod term;
 
+pub use near::closest_points;
+pub use parts::{
+    Allowance, Areas, Bend, ContactPhase, InterfaceParts, Measure, Shift, nmultiplier,
+};
+
 use super::discretization::{Pair, Pairing};
 use super::friction::Stick;
 use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
@@ -34,10 +39,6 @@ use judged::Judged;
 use lents::Lents;
 use memory::History;
 use near::Near;
-pub use near::closest_points;
-pub use parts::{
-    Allowance, Areas, Bend, ContactPhase, InterfaceParts, Measure, Shift, nmultiplier,
-};
 use reversals::Reversals;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::surface::{Carrier, Placement, SurfaceError};

@@ -322,7 +322,7 @@ impl Interface {
             let stretched = averaged.filter(|_| acts && !self.step.nonlinear);
             let stretch = stretched.map_or(1.0, |of| of.stretch(row, &self.now));
             let area = present / stretch;
-            let mut told = RowReport {
+            let mut reported = RowReport {
                 acts,
                 area,
                 stretch,
@@ -331,12 +331,12 @@ impl Interface {
             let mut on_row = OnRow::default();
             if let Some(filled) = scratch.rows.rows().first() {
                 gap_min = Some(gap_min.map_or(filled.gap, |g| g.min(filled.gap)));
-                told.status = Status::Open;
+                reported.status = Status::Open;
                 let (mut elastic_slip, mut direction) = (Vec3::ZERO, Vec3::ZERO);
                 if acts {
                     let lambda = self.lambda(row, state);
                     let traction = self.traction(filled, &lambda);
-                    told.energy = self.measure(row) * self.stored(filled, &lambda, &traction);
+                    reported.energy = self.measure(row) * self.stored(filled, &lambda, &traction);
                     elastic_slip = match self.parts.bond {
                         Some(_) => filled.within(filled.sliding.slip),
                         None => self.laws().elastic(&traction),
@@ -351,7 +351,7 @@ impl Interface {
                     report.force_normal += pushed.force * push;
                     report.moment_normal += pushed.moment * push;
                     report.force_shear -= traction.tangential * measure;
-                    told.status = match traction.state {
+                    reported.status = match traction.state {
                         _ if on_row.pressure <= 0.0 && self.parts.bond.is_none() => Status::Open,
                         Contact::Open => Status::Open,
                         Contact::Stick if self.parts.bond.is_some() => Status::Tied,
@@ -359,7 +359,7 @@ impl Interface {
                         Contact::Slip => Status::Slip,
                     };
                 }
-                told.found = Some(Found {
+                reported.found = Some(Found {
                     normal: filled.normal,
                     gap: filled.gap,
                     direction,
@@ -370,7 +370,7 @@ impl Interface {
             let point = self.parts.discretization.point(row);
             centre.0 += point.position(&state.placement()) * weight;
             centre.1 += weight;
-            match told.status {
+            match reported.status {
                 Status::Absent | Status::Open => report.area_open += area,
                 Status::Stick | Status::Tied => report.area_stick += area,
                 Status::Slip => report.area_slip += area,
@@ -380,7 +380,7 @@ impl Interface {
                 let forces = (&scratch.rows, &scratch.force[..]);
                 self.distribute(forces, state, (report, first), frame);
             }
-            all.push(told);
+            all.push(reported);
             on_rows.push(on_row);
         }
         report.gap_min = gap_min.unwrap_or(0.0);

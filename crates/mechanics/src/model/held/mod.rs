@@ -30,6 +30,8 @@ mod tests;
 mod unheld;
 mod words;
 
+pub use unheld::Unheld;
+
 use super::{BodyPart, CarrierPart, ModelError};
 use crate::model::label::label;
 use crate::system::{Elimination, Idealisation};
@@ -37,7 +39,6 @@ use null_space::null_space;
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_geometry::tensor::Vec3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-pub use unheld::Unheld;
 use unheld::{Motion, NCOMPONENT};
 
 /// Units that are judged together; more are judged one by one, as if all others were held.

@@ -1,4 +1,4 @@
-//! What a kernel takes and gives.
+//! An element as kernels see it: what they take, and what they return.
 
 use crate::material::{Kinematics, Material, MaterialError};
 use crate::system::Idealisation;
@@ -89,13 +89,13 @@ impl From<MaterialError> for Failure {
 /// Shape functions at the quadrature points of a reference element: the same for all its cells.
 pub(in crate::solid) struct Points {
     pub rule: &'static Rule,
-    pub(in crate::solid) shape: Vec<f64>,
-    pub(in crate::solid) dshape: Vec<Vec3>,
+    pub shape: Vec<f64>,
+    pub dshape: Vec<Vec3>,
     /// What temperatures of nodes are multiplied with; empty where it is the shape functions.
-    pub(in crate::solid) thermal: Vec<f64>,
-    pub(in crate::solid) shape_at_centre: Vec<f64>,
-    pub(in crate::solid) dshape_at_centre: Vec<Vec3>,
-    pub(in crate::solid) nnode: usize,
+    pub thermal: Vec<f64>,
+    pub shape_at_centre: Vec<f64>,
+    pub dshape_at_centre: Vec<Vec3>,
+    pub nnode: usize,
 }
 
 impl Points {
@@ -148,7 +148,7 @@ impl Points {
     }
 
     /// What temperatures of nodes are multiplied with at a point.
-    pub(in crate::solid) fn thermal(&self, point: usize) -> &[f64] {
+    pub fn thermal(&self, point: usize) -> &[f64] {
         let own = self
             .thermal
             .get(point * self.nnode..(point + 1) * self.nnode);
@@ -160,7 +160,7 @@ impl Points {
         &self.shape[point * self.nnode..(point + 1) * self.nnode]
     }
 
-    pub(in crate::solid) fn dshape(&self, point: usize) -> &[Vec3] {
+    pub fn dshape(&self, point: usize) -> &[Vec3] {
         &self.dshape[point * self.nnode..(point + 1) * self.nnode]
     }
 

@@ -19,12 +19,12 @@ mod shear;
 mod stiffness;
 
 pub(super) use batch::{Batch, BatchKernel, Results};
+pub(super) use element::{Element, Failure, Initial, Output, Points, Sample};
 pub(super) use lanes::width;
 
 use super::dense;
 use crate::material::{Kinematics, MaterialError, Order, Response, Strain};
 use crate::system::Idealisation;
-pub(super) use element::{Element, Failure, Initial, Output, Points, Sample};
 use signorini_geometry::element::ReferenceElement;
 use signorini_geometry::tensor::{Mat3, Sym3};
 

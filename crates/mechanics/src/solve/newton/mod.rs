@@ -18,6 +18,10 @@ mod scale;
 mod start;
 mod step;
 
+pub use failure::Failure;
+pub(super) use goal::{Converged, Goal, Place};
+pub(super) use scale::ForceScale;
+
 use super::equations::Equations;
 use super::event::{Flow, IterationRecord};
 use crate::system::{
@@ -25,10 +29,7 @@ use crate::system::{
     StepContext, System, TermError, Verdict,
 };
 use course::{Course, Released};
-pub use failure::Failure;
-pub(super) use goal::{Converged, Goal, Place};
 use iterate::{Iterate, Next, Why, is_small};
-pub(super) use scale::ForceScale;
 use scale::{Judgement, ROUND_OFF, Sizes, Tolerance};
 
 /// Whether and how steps are shortened.

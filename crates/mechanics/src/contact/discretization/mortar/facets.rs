@@ -1,4 +1,4 @@
-//! Facets around nodes.
+//! Nodes and normals of facets, nodes in their order along a curve, and the search for facets.
 
 use crate::contact::discretization::SurfacePair;
 use signorini_geometry::mesh::NodeId;

@@ -1,4 +1,4 @@
-//! Which rows lie between others.
+//! Rows at edges of the secondary side, and where it ends.
 
 use super::edges::Part;
 use signorini_geometry::mesh::NodeId;

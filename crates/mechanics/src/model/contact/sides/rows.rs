@@ -24,6 +24,9 @@ use signorini_geometry::tensor::Vec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+/// The enforcement that holds any number of points.
+const BY_PENALTY: &str = "enforcement = { penalty = \"auto\" }";
+
 /// Two sides of a contact whose rows are to be made.
 pub(super) struct Pass<'a> {
     source: &'a Source<'a>,
@@ -93,7 +96,7 @@ impl<'a> Pass<'a> {
         if self.same && multiplier != Multiplier::None {
             return Err(self.unsuited(
                 "a surface that touches itself has multipliers on both sides, which hold each point twice",
-                PENALTY,
+                BY_PENALTY,
             ));
         }
         if self.same && self.secondary.is_none() {
@@ -119,9 +122,10 @@ impl<'a> Pass<'a> {
         let exact = multiplier != Multiplier::None;
         match *method {
             Method::NodeToNode { normals, pairs } => self.node_to_node(normals, pairs),
-            Method::GaussPoint(_) if exact => {
-                Err(self.unsuited("points inside facets are too many for multipliers", PENALTY))
-            }
+            Method::GaussPoint(_) if exact => Err(self.unsuited(
+                "points inside facets are too many for multipliers",
+                BY_PENALTY,
+            )),
             Method::GaussPoint(rule) => self.inside_facets(rule, closest),
             Method::Mortar(form) => self.mortar(form),
             Method::NodeToSegment | Method::Auto => self.at_nodes(closest, exact),
@@ -422,9 +426,6 @@ impl<'a> Pass<'a> {
         }
     }
 }
-
-/// The enforcement that holds any number of points.
-const PENALTY: &str = "enforcement = { penalty = \"auto\" }";
 
 fn facets(mesh: &Mesh, part: &ContactPart, faces: &[Face]) -> Result<Facets, ModelError> {
     Facets::new(mesh, faces).map_err(|source| ModelError::Facets {
