@@ -10,6 +10,12 @@ use signorini_geometry::mesh::{CellId, NodeId};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use std::collections::HashMap;
 
+/// Cells evaluated together: enough to be worth a task, few enough to stay in cache.
+pub(super) const CHUNK: usize = 16;
+
+/// Chunks whose points are sampled before their nodes take them: bounds the memory.
+pub(super) const SAMPLED: usize = 256;
+
 /// Stress and strain that a quadrature point has at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtStart {
@@ -209,9 +215,3 @@ impl Cells {
         Ok(())
     }
 }
-
-/// Chunks whose points are sampled before their nodes take them: bounds the memory.
-pub(super) const SAMPLED: usize = 256;
-
-/// Cells evaluated together: enough to be worth a task, few enough to stay in cache.
-pub(super) const CHUNK: usize = 16;

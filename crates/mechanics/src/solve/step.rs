@@ -2,39 +2,6 @@
 
 use crate::system::Dof;
 
-/// Sizes and number of the increments of a step.
-pub(super) struct Sizes {
-    pub count: usize,
-    pub first: f64,
-    /// None where an increment that fails is not made smaller.
-    pub min: Option<f64>,
-    pub max: f64,
-}
-
-impl Sizes {
-    pub fn of(step: &Step) -> Self {
-        match step.increments {
-            Increments::Fixed(n) => Self {
-                count: n,
-                first: step.duration / n as f64,
-                min: None,
-                max: step.duration / n as f64,
-            },
-            Increments::Adaptive {
-                initial,
-                min,
-                max,
-                count_max,
-            } => Self {
-                count: count_max,
-                first: initial,
-                min: Some(min).filter(|m| m.is_finite()),
-                max,
-            },
-        }
-    }
-}
-
 /// How a step is cut into increments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Increments {
@@ -88,4 +55,37 @@ pub struct Step {
     pub nonlinear: bool,
     /// What is prescribed during it; everything else is free.
     pub prescriptions: Vec<Prescription>,
+}
+
+/// Sizes and number of the increments of a step.
+pub(super) struct Sizes {
+    pub count: usize,
+    pub first: f64,
+    /// None where an increment that fails is not made smaller.
+    pub min: Option<f64>,
+    pub max: f64,
+}
+
+impl Sizes {
+    pub fn of(step: &Step) -> Self {
+        match step.increments {
+            Increments::Fixed(n) => Self {
+                count: n,
+                first: step.duration / n as f64,
+                min: None,
+                max: step.duration / n as f64,
+            },
+            Increments::Adaptive {
+                initial,
+                min,
+                max,
+                count_max,
+            } => Self {
+                count: count_max,
+                first: initial,
+                min: Some(min).filter(|m| m.is_finite()),
+                max,
+            },
+        }
+    }
 }
