@@ -1,12 +1,14 @@
 //! Loads by name in whole models: what is refused, and tubes under pressure.
 
 use super::*;
+use crate::load::TABLE;
 use crate::material::NeoHookean;
 use crate::model::{
     BodyKind, BodyPart, CarrierPart, Change, LoadError, LoadPart, Model, ModelError, Parts,
     StepPart, Target,
 };
 use crate::solve::{Event, Flow, Increments, Motion, Outcome, Stepper, StepperSettings};
+use signorini_vocabulary::{Chosen, Entry, Value, Values};
 use std::f64::consts::PI;
 
 fn solid(name: &str, cells: Vec<CellId>, density: Option<f64>) -> BodyPart {
@@ -458,4 +460,18 @@ fn lid(mesh: &Mesh, soft: CellId, hard: CellId, step: StepPart) -> Model {
         ..Parts::new(mesh, Idealisation::Space)
     };
     Model::assemble(parts).unwrap()
+}
+
+#[test]
+fn a_centrifugal_load_without_the_direction_of_its_axis_is_refused() {
+    let spin = |axis: [f64; 3]| {
+        let values = Values::numbers([("speed", 3.0)])
+            .with("point", Value::Numbers(vec![0.0; 3]))
+            .with("axis", Value::Numbers(axis.to_vec()));
+        let name = "centrifugal";
+        Entry::make(&TABLE, &Chosen { name, values })
+    };
+    assert!(spin([0.0, 0.0, 2.0]).is_ok());
+    let fault = spin([0.0; 3]).err().unwrap();
+    assert_eq!(fault.to_string(), "its axis has no direction");
 }
