@@ -10,6 +10,7 @@
 //!                                cut
 //! ```
 //!
+//! [`MemoryFs`] keeps files in memory, for runs that leave none behind.
 //! [`BehindFs`] lets any of them work on a thread of its own.
 //!
 //! At any instant a file written by [`Fs::write_atomic`] is either the old one or the new one, whole. Files that grow
@@ -24,6 +25,7 @@ mod behind;
 pub(crate) mod bytes;
 mod error;
 mod faulty;
+mod memory;
 mod real;
 
 use std::ffi::OsString;
@@ -32,6 +34,7 @@ use std::path::{Path, PathBuf};
 pub use behind::BehindFs;
 pub use error::{Action, FsError};
 pub use faulty::{Failing, FailingFs, Faulty, Torn, TornFs};
+pub use memory::MemoryFs;
 pub use real::RealFs;
 
 /// A file system, as the program needs one.
@@ -108,11 +111,33 @@ pub trait Log: Send {
     fn sync(&mut self) -> Result<(), FsError>;
 }
 
-/// A held lock file; dropping it lets go.
-#[derive(Debug)]
+/// A held lock file; dropping it releases the lock.
 pub struct Lock {
-    /// Keeps the lock: the system releases it with the last handle.
-    _file: std::fs::File,
+    release: Option<Box<dyn FnOnce() + Send>>,
+}
+
+impl Lock {
+    /// A lock that `release` releases.
+    fn until_dropped(release: impl FnOnce() + Send + 'static) -> Self {
+        let release: Box<dyn FnOnce() + Send> = Box::new(release);
+        Self {
+            release: Some(release),
+        }
+    }
+}
+
+impl std::fmt::Debug for Lock {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Lock").finish_non_exhaustive()
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        if let Some(release) = self.release.take() {
+            release();
+        }
+    }
 }
 
 /// [`Fs::write_atomic`] by the single steps of a file system.

@@ -109,7 +109,8 @@ impl Fs for RealFs {
         file.set_len(0)
             .and_then(|()| writeln!(file, "{}", std::process::id()))
             .map_err(failed)?;
-        Ok(Lock { _file: file })
+        // the system releases the lock with the last handle
+        Ok(Lock::until_dropped(move || drop(file)))
     }
 
     fn is_locked(&self, path: &Path) -> Result<bool, FsError> {

@@ -371,3 +371,55 @@ fn a_panic_behind_comes_to_who_asked_and_nobody_waits_for_ever() {
     let have = RealFs.read(&dir.path().join("rows.csv")).unwrap();
     assert_eq!(have, b"last\n");
 }
+
+#[test]
+fn files_in_memory_behave_as_those_on_the_disk() {
+    let dir = folder();
+    let memory = MemoryFs::default();
+    let disks: [&dyn Fs; 2] = [&RealFs, &memory];
+    for fs in disks {
+        let at = |name: &str| dir.path().join(name);
+        fs.create_dir_all(&at("frames")).unwrap();
+        fs.write_atomic(&at("frames/a.vtu"), b"old").unwrap();
+        fs.write_atomic(&at("frames/a.vtu"), b"new").unwrap();
+        fs.write(&at("list"), b"1").unwrap();
+        assert_eq!(fs.read(&at("frames/a.vtu")).unwrap(), b"new");
+        assert_eq!(fs.list(dir.path()).unwrap(), [at("frames"), at("list")]);
+        let mut log = fs.open_log(&at("rows"), 0).unwrap();
+        log.append(b"one\n").unwrap();
+        log.append_owned(b"two\n".to_vec()).unwrap();
+        log.cut(4).unwrap();
+        let short = log.cut(5).unwrap_err();
+        assert!(matches!(
+            short,
+            FsError::TooShort {
+                have: 4,
+                keep: 5,
+                ..
+            }
+        ));
+        drop(log);
+        drop(fs.open_log(&at("rows"), 4).unwrap());
+        assert_eq!(fs.read(&at("rows")).unwrap(), b"one\n");
+        let lock = fs.lock(&at("lock")).unwrap();
+        assert!(fs.is_locked(&at("lock")).unwrap());
+        let locked = fs.lock(&at("lock")).unwrap_err();
+        assert!(matches!(locked, FsError::Locked { .. }));
+        drop(lock);
+        assert!(!fs.is_locked(&at("lock")).unwrap());
+        fs.rename(&at("rows"), &at("moved")).unwrap();
+        assert!(!fs.exists(&at("rows")).unwrap());
+        fs.remove(&at("moved")).unwrap();
+        for fault in [
+            fs.remove(&at("moved")),
+            fs.rename(&at("moved"), &at("rows")),
+        ] {
+            assert!(matches!(fault, Err(FsError::NotFound { .. })));
+        }
+        assert!(matches!(
+            fs.read(&at("moved")),
+            Err(FsError::NotFound { .. })
+        ));
+        fs.settle().unwrap();
+    }
+}
