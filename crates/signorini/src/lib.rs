@@ -18,6 +18,7 @@
 //! # Ok::<(), signorini::Diagnostics>(())
 //! ```
 
+mod driver;
 mod load;
 pub mod prelude;
 pub mod preview;
@@ -27,7 +28,8 @@ pub mod setup;
 pub mod text;
 mod vocabulary;
 
-pub use load::{Loaded, Opened, Reading, Source, load, load_case, load_mesh};
+pub use driver::Driver;
+pub use load::{Loaded, Opened, Reading, Source, load, load_case, load_mesh, open_text};
 pub use run::{Finished, Limits, Listener, News, RunOptions, run, solve};
 pub use setup::{Model, build};
 pub use signorini_io::deck::Compat;

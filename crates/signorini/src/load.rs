@@ -83,15 +83,15 @@ pub struct Opened {
     /// Where it comes from.
     pub source: Source,
     /// The mesh of a deck, which is read with it.
-    mesh: Option<DeckMesh>,
+    mesh: Option<KnownMesh>,
 }
 
-/// A mesh that was read with its deck.
+/// A mesh that need not be read.
 #[derive(Clone, Debug)]
-struct DeckMesh {
+struct KnownMesh {
     mesh: Mesh,
-    /// Hash of the deck.
-    sha256: String,
+    /// The hash of the deck that it was read with; none of a mesh of the program's own.
+    sha256: Option<String>,
 }
 
 impl Opened {
@@ -99,7 +99,25 @@ impl Opened {
     ///
     /// # Errors
     /// All faults of the mesh and of those files, behind what was unusual before.
-    pub fn with_mesh(mut self) -> Result<Loaded, Diagnostics> {
+    pub fn with_mesh(self) -> Result<Loaded, Diagnostics> {
+        self.finish()
+    }
+
+    /// As [`Opened::with_mesh`], with a mesh of the program's own in place of the one that the case names. `record` is the text
+    /// that stands for both, with the mesh in it: a run keeps it to go on from, and knows itself by it.
+    ///
+    /// # Errors
+    /// All faults of the mesh and of the files of surfaces, behind what was unusual before.
+    pub fn over(mut self, mesh: Mesh, record: Vec<u8>) -> Result<Loaded, Diagnostics> {
+        if let Some(input) = self.source.inputs.first_mut() {
+            input.sha256 = sha256(&record);
+        }
+        self.source.text = record;
+        self.mesh = Some(KnownMesh { mesh, sha256: None });
+        self.finish()
+    }
+
+    fn finish(mut self) -> Result<Loaded, Diagnostics> {
         match mesh_of(&mut self.case, &mut self.source, self.mesh) {
             Ok((mesh, more)) => {
                 self.warnings.append(more);
@@ -187,6 +205,31 @@ pub fn load_case(path: &Path, reading: &Reading) -> Result<Opened, Diagnostics> 
             mesh: None,
         });
     };
+    open_text(path, text, reading)
+}
+
+/// As [`load_case`], from the text of a case or deck that need not be on the disk; `path` is what it is called, and the
+/// folder in it is the one that paths in the case are relative to.
+///
+/// # Errors
+/// All faults of the case at once.
+///
+/// # Example
+/// ```
+/// use signorini::{Reading, open_text};
+///
+/// let text = r#"
+/// mesh     = { file = "block.msh" }
+/// material = { steel = { model = "linear-elastic", E = 210e3, nu = 0.3 } }
+/// body     = [{ group = "block", material = "steel" }]
+/// step     = [{ name = "press", fix = [{ on = "base", u = "all" }] }]
+/// "#;
+/// let opened = open_text("models/block.toml".as_ref(), text.into(), &Reading::default())?;
+/// assert_eq!(opened.source.folder, std::path::Path::new("models"));
+/// # Ok::<(), signorini::Diagnostics>(())
+/// ```
+pub fn open_text(path: &Path, text: Vec<u8>, reading: &Reading) -> Result<Opened, Diagnostics> {
+    let overrides = &reading.set;
     let name = path.display().to_string();
     let (case, warnings, text, mesh) = if is_deck(path) {
         read_deck(&name, &text, reading)?
@@ -246,13 +289,14 @@ pub fn load_mesh(case: &mut Case, source: &mut Source) -> Result<(Mesh, Diagnost
 fn mesh_of(
     case: &mut Case,
     source: &mut Source,
-    known: Option<DeckMesh>,
+    known: Option<KnownMesh>,
 ) -> Result<(Mesh, Diagnostics), Diagnostics> {
     let mut warnings = read_surfaces_of(case, &source.folder)?;
+    let is_own = known.as_ref().is_some_and(|known| known.sha256.is_none());
     let (mesh, hash) = match known {
-        Some(of_deck) => {
-            warnings.append(judge_mesh_of(case, &of_deck.mesh)?);
-            (of_deck.mesh, Some(of_deck.sha256))
+        Some(known) => {
+            warnings.append(judge_mesh_of(case, &known.mesh)?);
+            (known.mesh, known.sha256)
         }
         None => {
             let (mesh, more) = read_mesh_of(case, &source.folder)?;
@@ -270,7 +314,9 @@ fn mesh_of(
             });
         }
     }
-    if let MeshSource::File { path } = &case.mesh {
+    if let MeshSource::File { path } = &case.mesh
+        && !is_own
+    {
         let path = source.folder.join(&path.value);
         source.inputs.push(Input {
             path: path.display().to_string(),
@@ -301,7 +347,7 @@ fn read_deck(
     name: &str,
     bytes: &[u8],
     reading: &Reading,
-) -> Result<(Case, Diagnostics, Vec<u8>, Option<DeckMesh>), Diagnostics> {
+) -> Result<(Case, Diagnostics, Vec<u8>, Option<KnownMesh>), Diagnostics> {
     let read = if is_of_oofem(name.as_ref()) {
         // its checks hold for its own elements, unless somebody wants better ones
         let compat = reading.compat.unwrap_or(Compat::Oofem);
@@ -310,9 +356,9 @@ fn read_deck(
         deck::read(&RealFs, name, bytes, reading.compat.unwrap_or_default())?
     };
     let text = case::resolved(&read.case, vocabulary()).into_bytes();
-    let mesh = DeckMesh {
+    let mesh = KnownMesh {
         mesh: read.mesh,
-        sha256: sha256(bytes),
+        sha256: Some(sha256(bytes)),
     };
     if reading.set.is_empty() {
         return Ok((read.case, read.found, text, Some(mesh)));

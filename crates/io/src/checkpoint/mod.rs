@@ -236,6 +236,20 @@ fn graver(one: Option<CheckpointError>, other: CheckpointError) -> CheckpointErr
     }
 }
 
+/// A checkpoint as bytes, for who keeps it elsewhere than in the folder of a run.
+#[must_use]
+pub fn to_bytes(case_hash: &[u8; 32], stamp: Stamp, archive: &Archive) -> Vec<u8> {
+    encode(1, case_hash, stamp, archive)
+}
+
+/// A checkpoint from the bytes of [`to_bytes`].
+///
+/// # Errors
+/// [`CheckpointError`]: bytes that are none, or of another case.
+pub fn from_bytes(bytes: &[u8], case_hash: &[u8; 32]) -> Result<Checkpoint, CheckpointError> {
+    decode(bytes, case_hash, PathBuf::from("the state"))
+}
+
 /// The bytes of a checkpoint file.
 fn encode(sequence: u64, case_hash: &[u8; 32], stamp: Stamp, archive: &Archive) -> Vec<u8> {
     let length = HEAD + archive.encoded_length() + 4;

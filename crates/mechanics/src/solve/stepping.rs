@@ -94,6 +94,8 @@ pub struct Stepper {
     stabilize_after: Option<usize>,
     /// Whether terms go a safer way in the present increment.
     pub(super) safer: bool,
+    /// The total time at which to pause, where there is one.
+    pause: Option<f64>,
 }
 
 /// An increment that was accepted.
@@ -166,6 +168,7 @@ impl Stepper {
             guess: Vec::new(),
             stabilize_after: settings.stabilize_after,
             safer: false,
+            pause: None,
         }
     }
 
@@ -267,6 +270,30 @@ impl Stepper {
         Ok(Outcome::Finished)
     }
 
+    /// Runs as [`Stepper::run`] does, up to a total time, at which an increment ends; [`Outcome::Stopped`] there. Steps of a
+    /// fixed number of increments take increments of that size, and a shorter one before the pause.
+    ///
+    /// # Errors
+    /// As [`Stepper::run`].
+    pub fn run_until(
+        &mut self,
+        system: &mut System,
+        steps: &[Step],
+        time: f64,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, RunError> {
+        self.pause = Some(time);
+        let outcome = self.run(system, steps, observer);
+        self.pause = None;
+        outcome
+    }
+
+    /// The time of the present step at which to pause; never before where it is.
+    fn pause_in(&self, step: &Step) -> Option<f64> {
+        let time = self.pause? - self.progress.step_start;
+        (time < step.duration - TIME * step.duration).then_some(time)
+    }
+
     fn begin_step(&mut self, system: &mut System, step: &Step) -> Result<(), TermError> {
         let progress = &mut self.progress;
         let value = |p: &Prescription| self.state.u.get(p.dof as usize).copied().unwrap_or(0.0);
@@ -308,7 +335,11 @@ impl Stepper {
     ) -> Result<Outcome, RunError> {
         let sizes = Sizes::of(step);
         while step.duration - self.progress.time > TIME * step.duration {
-            if self.progress.increment >= sizes.count {
+            let pause = self.pause_in(step);
+            if pause.is_some_and(|at| at - self.progress.time <= TIME * step.duration) {
+                return Ok(Outcome::Stopped);
+            }
+            if self.pause.is_none() && self.progress.increment >= sizes.count {
                 return Err(RunError::TooManyIncrements {
                     step: step.name.clone(),
                     count: sizes.count,
@@ -556,13 +587,25 @@ impl Stepper {
         system.accept(&self.state)
     }
 
-    /// The step time at which an increment of about `dt` ends: on the grid where increments are fixed, and at the end of
+    /// The step time at which an increment of about `dt` ends, no later than a pause: on the grid where increments are fixed, and at the end of
     /// the step rather than shortly before it.
     fn end_of_increment(&self, step: &Step, dt: f64) -> f64 {
+        match self.pause_in(step) {
+            Some(pause) => pause.min(self.usual_end(step, dt)),
+            None => self.usual_end(step, dt),
+        }
+    }
+
+    fn usual_end(&self, step: &Step, dt: f64) -> f64 {
         let max = match step.increments {
+            // off the grid after a pause, and no shorter than a size of it
+            Increments::Fixed(n) if self.pause.is_some() => {
+                let size = step.duration / n as f64;
+                return (self.progress.time + size).min(step.duration);
+            }
             Increments::Fixed(n) => {
                 let done = self.progress.increment + 1;
-                return step.duration * (done as f64 / n as f64);
+                return (step.duration * (done as f64 / n as f64)).min(step.duration);
             }
             Increments::Adaptive { max, .. } => max,
         };

@@ -46,6 +46,7 @@ mod volume;
 pub use by_points::solve;
 pub use drive::run;
 pub use error::{OutputError, bad_checkpoint, cannot_resume};
+pub(crate) use failure::{Saved, message as failure_message};
 pub use fields::Fields;
 pub use limits::{Limits, Stop};
 pub use news::{Detail, Effort, Facts, Listener, News, Totals, event_of, tell};

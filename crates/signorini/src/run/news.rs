@@ -29,6 +29,8 @@ pub enum Detail<'a> {
     Iteration(&'a IterationRecord),
     /// An accepted increment.
     Increment(&'a IncrementRecord, &'a Frame, &'a Effort),
+    /// A frame: what was written, or would be where no format of frames is asked for.
+    Frame(&'a Frame),
     /// An increment is tried again in smaller pieces.
     Cutback(&'a Cause),
     /// A finding.

@@ -233,7 +233,7 @@ impl Recorder<'_> {
                 };
                 self.counts.frames.push(frame.time);
                 self.write_seconds += clock.elapsed().as_secs_f64();
-                self.tell(&event, Detail::None);
+                self.tell(&event, Detail::Frame(frame));
             }
             Err(error) => self.error = Some(error),
         }
