@@ -1,7 +1,8 @@
 //! The `signorini` command.
 
-mod command;
+#[global_allocator]
+static MEMORY: signorini_cli::LargePages = signorini_cli::LargePages;
 
 fn main() -> std::process::ExitCode {
-    command::main()
+    signorini_cli::main(std::env::args_os()).into()
 }

@@ -3,7 +3,6 @@
 use super::console::Console;
 use super::{exhausted, stack};
 use std::panic::{self, AssertUnwindSafe};
-use std::process::ExitCode;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What the standard library says where a thread has no room for its stack.
@@ -20,7 +19,7 @@ const ENOUGH: u64 = 8 << 20;
 
 /// Runs the program, in a thread of its own where the shell leaves the first one too little stack, and turns a panic into a
 /// message.
-pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> ExitCode {
+pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> u8 {
     let seen: Arc<Mutex<Option<String>>> = Arc::default();
     let keep = Arc::clone(&seen);
     panic::set_hook(Box::new(move |info| {
@@ -35,7 +34,7 @@ pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> ExitCode {
             .stack_size(STACK);
         thread.spawn(program).map(std::thread::JoinHandle::join)
     };
-    let code = match outcome {
+    match outcome {
         Ok(Ok(code)) => code,
         Ok(Err(_)) => {
             let what = seen.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -52,8 +51,7 @@ pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> ExitCode {
             exhausted::say(&format!("a thread could not be started: {error}"));
             exhausted::CODE
         }
-    };
-    ExitCode::from(code)
+    }
 }
 
 fn report(what: &str) {

@@ -32,10 +32,8 @@ mod threads;
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
 use exit::WRONG_COMMAND;
-use std::process::ExitCode;
-
-#[global_allocator]
-static MEMORY: pages::LargePages = pages::LargePages;
+pub use pages::LargePages;
+use std::ffi::OsString;
 
 /// Contact mechanics by finite elements.
 #[derive(Debug, Parser)]
@@ -81,12 +79,21 @@ enum Verb {
     Completions(completions::Completions),
 }
 
-/// Runs the command that the command line names.
-pub fn main() -> ExitCode {
+/// Runs the command that a command line names, its first word being the program; returns the exit code.
+///
+/// It takes the signals of the process, and its pool of threads.
+///
+/// # Example
+/// ```
+/// assert_eq!(signorini_cli::main(["signorini", "explain", "S0102"]), 0);
+/// assert_eq!(signorini_cli::main(["signorini", "rum", "case.toml"]), 2);
+/// ```
+pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
     pages::keep_memory();
     exhausted::watch();
     guard::guarded(|| {
-        let cli = match Cli::try_parse() {
+        let cli = match Cli::try_parse_from(arguments) {
             Ok(cli) => cli,
             Err(error) => return refused(&error),
         };
