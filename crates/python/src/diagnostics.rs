@@ -1,0 +1,59 @@
+//! Findings and faults of the program as Python objects.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use signorini::{Diagnostic, Diagnostics};
+use signorini_io::diagnostic::Severity;
+
+/// A finding as a dictionary.
+fn dictionary<'py>(py: Python<'py>, one: &Diagnostic) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    let severity = match one.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    };
+    let place = one.labels.first().map(|label| {
+        let line = label.file.line_index(label.span.start);
+        let start = label.file.line_range(line).start;
+        let before = label.file.text().get(start..label.span.start);
+        let column = before.map_or(0, |text| text.chars().count());
+        (label.file.name().to_owned(), line + 1, column + 1)
+    });
+    dict.set_item("severity", severity)?;
+    dict.set_item("code", one.code.id)?;
+    dict.set_item("message", &one.message)?;
+    dict.set_item("file", place.as_ref().map(|place| &place.0))?;
+    dict.set_item("line", place.as_ref().map(|place| place.1))?;
+    dict.set_item("column", place.as_ref().map(|place| place.2))?;
+    dict.set_item("notes", &one.notes)?;
+    dict.set_item("help", &one.help)?;
+    dict.set_item("text", Diagnostics::from(one.clone()).plain().trim_end())?;
+    Ok(dict)
+}
+
+/// Findings as a list of dictionaries.
+pub fn list<'py>(py: Python<'py>, found: &Diagnostics) -> PyResult<Bound<'py, PyList>> {
+    let all = found.iter().map(|one| dictionary(py, one));
+    PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// The exception for faults that keep a case from being solved, of the class that their exit code asks for.
+pub fn exception(py: Python<'_>, found: &Diagnostics) -> PyErr {
+    let class = match found.exit_code() {
+        Some(4) => "ModelError",
+        Some(5) => "NotConverged",
+        Some(6) => "OutputError",
+        Some(7) => "RestartError",
+        _ => "InputError",
+    };
+    let made = py.import("signorini.errors").and_then(|errors| {
+        errors
+            .getattr(class)?
+            .call_method1("of", (list(py, found)?,))
+    });
+    match made {
+        Ok(exception) => PyErr::from_value(exception),
+        Err(error) => error,
+    }
+}
