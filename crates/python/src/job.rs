@@ -2,11 +2,11 @@
 
 use crate::diagnostics::{exception, list};
 use crate::mesh::Mesh;
-use crate::own::Failures;
+use crate::own::{self, Failures};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use signorini::{
-    Compat, Diagnostics, Loaded as Read, Model, Reading, Source, build, open_text, preview,
+    Compat, Diagnostics, Loaded as Read, Model, Own, Reading, Source, build_with, open_text, preview,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,6 +20,7 @@ pub struct Job {
     path: PathBuf,
     mesh: Option<Arc<signorini_geometry::mesh::Mesh>>,
     set: Vec<(String, String)>,
+    own: Own,
     /// What functions of the user raised.
     pub failures: Failures,
 }
@@ -48,27 +49,34 @@ impl Job {
         record: Option<String>,
         own: Option<&Bound<'_, PyDict>>,
         set: Vec<(String, String)>,
-    ) -> Self {
-        let _ = own;
-        Self {
+    ) -> PyResult<Self> {
+        let failures = Failures::default();
+        let own = own.map(|objects| own::own(objects, &failures)).transpose()?;
+        Ok(Self {
             text,
             record,
             path: folder.join(format!("{name}.toml")),
             mesh: mesh.map(|mesh| Arc::clone(&mesh.inner)),
             set,
-            failures: Failures::default(),
-        }
+            own: own.unwrap_or_default(),
+            failures,
+        })
     }
 }
 
 impl Job {
+    /// The physics that it brings.
+    pub fn own(&self) -> Own {
+        self.own.clone()
+    }
+
     /// Reads and builds.
     pub fn build(&self) -> Result<Built, Diagnostics> {
         let clock = Instant::now();
         let loaded = self.read()?;
         let read = clock.elapsed().as_secs_f64();
         let name = loaded.source.name.clone();
-        let built = build(loaded.case, loaded.mesh);
+        let built = build_with(loaded.case, loaded.mesh, &self.own);
         let mut model = match built {
             Ok(model) => model,
             Err(found) => {

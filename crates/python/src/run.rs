@@ -12,6 +12,7 @@
 use crate::diagnostics::{exception, list};
 use crate::frame::{Frame, Kept};
 use crate::job::{Built, Job};
+use crate::own::Failures;
 use crate::pool;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -92,6 +93,7 @@ struct Wanted {
 /// Hears the news on the worker.
 struct Hearing {
     wanted: Wanted,
+    failures: Failures,
     mesh: Arc<Mesh>,
     layout: Layout,
     heard: Heard,
@@ -164,8 +166,8 @@ impl Listener for Hearing {
         let line = line.filter(|_| self.wanted.events);
         let flow = line.map_or(Flow::Continue, |line| self.ask(Message::Event(line)));
         match self.detail(news.detail) {
-            Flow::Stop => Flow::Stop,
-            Flow::Continue => flow,
+            Flow::Continue if !self.failures.any() => flow,
+            _ => Flow::Stop,
         }
     }
 
@@ -380,6 +382,7 @@ fn solve_job(
             Arc::new(MemoryFs::default())
         }
     };
+    options.own = job.own();
     options.fs = Arc::clone(&fs);
     options.fresh = place.fresh;
     options.resume = place.resume;
@@ -391,6 +394,7 @@ fn solve_job(
     };
     let mut hearing = Hearing {
         wanted,
+        failures: job.failures.clone(),
         mesh: Arc::clone(&model.mesh),
         layout: model.system.layout,
         heard: Heard::default(),
