@@ -19,6 +19,7 @@
 //! ```
 
 mod load;
+mod own;
 pub mod prelude;
 pub mod preview;
 pub mod resume;
@@ -28,8 +29,9 @@ pub mod text;
 mod vocabulary;
 
 pub use load::{Loaded, Opened, Reading, Source, load, load_case, load_mesh};
+pub use own::Own;
 pub use run::{Finished, Limits, Listener, News, RunOptions, run, solve};
-pub use setup::{Model, build};
+pub use setup::{Model, build, build_with};
 pub use signorini_io::deck::Compat;
 pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};
 pub use vocabulary::vocabulary;
