@@ -20,6 +20,7 @@
 
 mod driver;
 mod load;
+mod own;
 pub mod prelude;
 pub mod preview;
 pub mod resume;
@@ -30,8 +31,9 @@ mod vocabulary;
 
 pub use driver::Driver;
 pub use load::{Loaded, Opened, Reading, Source, load, load_case, load_mesh, open_text};
+pub use own::Own;
 pub use run::{Finished, Limits, Listener, News, RunOptions, run, solve};
-pub use setup::{Model, build};
+pub use setup::{Model, build, build_with};
 pub use signorini_io::deck::Compat;
 pub use signorini_io::diagnostic::{Diagnostic, Diagnostics};
 pub use vocabulary::vocabulary;

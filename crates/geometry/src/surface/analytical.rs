@@ -22,6 +22,7 @@ use crate::element::Element;
 use crate::proximity::Aabb;
 use crate::tensor::{Sym3, Vec3};
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// The component along z that a normal of a model of the plane may have.
 const IN_PLANE: f64 = 1e-9;
@@ -102,6 +103,25 @@ pub trait Shape: Debug + Send + Sync {
     /// in z = 0, and stands for its section.
     fn out_of_plane(&self) -> Option<&'static str> {
         None
+    }
+}
+
+/// A shape that others share.
+impl Shape for Arc<dyn Shape> {
+    fn closest(&self, point: Vec3) -> Result<Option<Vec3>, SurfaceError> {
+        (**self).closest(point)
+    }
+
+    fn patch(&self, on: Vec3) -> Result<Patch, SurfaceError> {
+        (**self).patch(on)
+    }
+
+    fn ball(&self) -> Option<(Vec3, f64)> {
+        (**self).ball()
+    }
+
+    fn out_of_plane(&self) -> Option<&'static str> {
+        (**self).out_of_plane()
     }
 }
 

@@ -309,6 +309,7 @@ fn case_of(of: Properties) -> Option<Material> {
                 values: values.into(),
             })
             .collect(),
+        own: None,
         density: of.density.map(Spanned::from),
         expansion: of.expansion,
         plasticity: of.plasticity,

@@ -3,8 +3,9 @@
 use super::Compat;
 use super::translation::{Target, Translation, is_truss};
 use crate::case::{
-    Amplitude, AtNodes, AtPoint, AxesSystem, Body, Integration, Locking, MaterialChange, Model,
-    Name, Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase, Unstrained,
+    Amplitude, AtNodes, AtPoint, AxesSystem, Body, Factor, Integration, Locking, MaterialChange,
+    Model, Name, Orientation, SetContent, Space, Step, TemperatureAt, Temperatures, TimeBase,
+    Unstrained,
 };
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use crate::readers::inp::{Field, Kind, Statement, compared};
@@ -232,7 +233,7 @@ impl Translation<'_> {
                 .is_some_and(|t| t.starts_with("TOTAL"));
             let amplitude = Amplitude {
                 name: Spanned::new(name.to_owned(), card.place.clone()),
-                table,
+                factor: Factor::Table(table),
                 time: if total {
                     TimeBase::Total
                 } else {
@@ -252,7 +253,7 @@ impl Translation<'_> {
         let Some(first) = known.find(same_name) else {
             return false;
         };
-        if first.table != again.table || first.time != again.time {
+        if first.factor != again.factor || first.time != again.time {
             let text = format!("amplitude `{}` is defined twice", again.name.value);
             let twice = Diagnostic::error(&codes::NAME_TWICE, text)
                 .at(&again.name.place, "differently here")
@@ -295,16 +296,20 @@ impl Translation<'_> {
         let Some(known) = all.find(|one| *one.name == name).cloned() else {
             return name;
         };
-        let table: Vec<[f64; 2]> = known.table.iter().map(|[t, a]| [t + delay, *a]).collect();
+        let Factor::Table(rows) = &known.factor else {
+            return name;
+        };
+        let rows = rows.iter().map(|[t, a]| [t + delay, *a]);
+        let factor = Factor::Table(rows.collect());
         let mut all = self.case.amplitudes.iter();
-        let same = |one: &&Amplitude| one.table == table && one.time == known.time;
+        let same = |one: &&Amplitude| one.factor == factor && one.time == known.time;
         if let Some(same) = all.find(same) {
             return same.name.value.clone();
         }
         let name = self.fresh(&format!("{name}-delayed"));
         self.case.amplitudes.push(Amplitude {
             name: Spanned::new(name.clone(), card.place.clone()),
-            table,
+            factor,
             ..known
         });
         name

@@ -230,6 +230,12 @@ codes! {
     ["the name was mistyped or is relative to another directory", "permissions"]
     ["check the name and the directory that the message shows"]
 
+    NOT_BROUGHT "S0122" Input "own physics that the program does not have"
+    "The case names a surface, law, material or function of time by `own`. Such things are code of the program that made \
+     the case; no file holds them."
+    ["the case is run by another program, such as the command `signorini`", "the program calls it by another name"]
+    ["run the case from the program that made it", "take a surface, law, material or table of the case in its place"]
+
     NOT_IN_MESH "S0201" Input "the mesh has nothing of that name"
     "A case refers to groups of its mesh and to its own sets by name. This name is neither."
     ["a typing error", "the group was not exported (Gmsh writes only physical groups)", "case matters in .msh files"]

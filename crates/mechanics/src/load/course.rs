@@ -1,4 +1,4 @@
-use crate::system::{StepContext, interpolate};
+use crate::system::{StepContext, TimeFunction, interpolate};
 
 /// How a load goes over its step, as a factor of its full size.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -10,6 +10,18 @@ pub enum Course {
     Table(Vec<[f64; 2]>),
     /// Rows of total time and factor; it goes on through later steps.
     TotalTable(Vec<[f64; 2]>),
+    /// A function of time of the step.
+    Function(TimeFunction),
+    /// A function of total time; it goes on through later steps.
+    TotalFunction(TimeFunction),
+}
+
+impl Course {
+    /// Whether it goes on through later steps.
+    #[must_use]
+    pub const fn goes_on(&self) -> bool {
+        matches!(self, Self::TotalTable(_) | Self::TotalFunction(_))
+    }
 }
 
 /// The factor of a load through all steps. It is known beforehand: a function of step and time alone, so that a resumed
@@ -43,6 +55,8 @@ enum Stretch {
     Line([f64; 2]),
     Table(Vec<[f64; 2]>),
     TotalTable(Vec<[f64; 2]>),
+    Function(TimeFunction),
+    TotalFunction(TimeFunction),
 }
 
 impl Stretch {
@@ -54,6 +68,8 @@ impl Stretch {
             }
             Self::Table(table) => interpolate(table, time - step.start),
             Self::TotalTable(table) => interpolate(table, time),
+            Self::Function(function) => function.at(time - step.start),
+            Self::TotalFunction(function) => function.at(time),
         }
     }
 
@@ -63,6 +79,8 @@ impl Stretch {
             Self::Line([_, to]) => *to,
             Self::Table(table) => interpolate(table, step.duration),
             Self::TotalTable(table) => interpolate(table, step.start + step.duration),
+            Self::Function(function) => function.at(step.duration),
+            Self::TotalFunction(function) => function.at(step.start + step.duration),
         }
     }
 
@@ -70,6 +88,7 @@ impl Stretch {
         match self {
             Self::Line(ends) => *ends == [0.0; 2],
             Self::Table(table) | Self::TotalTable(table) => table.iter().all(|row| row[1] == 0.0),
+            Self::Function(_) | Self::TotalFunction(_) => false,
         }
     }
 }
@@ -97,16 +116,18 @@ impl Schedule {
             Course::Ramp => Stretch::Line([self.end, 1.0]),
             Course::Table(table) => Stretch::Table(table.clone()),
             Course::TotalTable(table) => Stretch::TotalTable(table.clone()),
+            Course::Function(function) => Stretch::Function(function.clone()),
+            Course::TotalFunction(function) => Stretch::TotalFunction(function.clone()),
         };
         self.push(stretch, step);
     }
 
-    /// In the next step the load stays as it is; a table of total time goes on.
+    /// In the next step the load stays as it is; a table or function of total time goes on.
     pub fn stay(&mut self, step: &StepContext) {
         match self.stretches.last() {
-            Some(Stretch::TotalTable(table)) => {
-                let table = table.clone();
-                self.push(Stretch::TotalTable(table), step);
+            Some(stretch @ (Stretch::TotalTable(_) | Stretch::TotalFunction(_))) => {
+                let stretch = stretch.clone();
+                self.push(stretch, step);
             }
             _ => self.line(self.end, self.end),
         }

@@ -1,6 +1,7 @@
 //! What a constitutive law is: strain in; stress, tangent and energy out.
 
 use signorini_geometry::tensor::Sym3;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// How far a response is wanted.
@@ -200,6 +201,52 @@ pub trait Material: Send + Sync {
     /// The equivalent plastic strain in a history, where the law has one.
     fn plastic_strain(&self, _history: &[f64]) -> Option<f64> {
         None
+    }
+}
+
+/// A law that others share.
+impl Material for Arc<dyn Material> {
+    fn nhistory(&self) -> usize {
+        (**self).nhistory()
+    }
+
+    fn start(&self, history: &mut [f64]) {
+        (**self).start(history);
+    }
+
+    fn respond(
+        &self,
+        strain: &Strain,
+        old: &[f64],
+        new: &mut [f64],
+        order: Order,
+        out: &mut Response,
+    ) -> Result<(), MaterialError> {
+        (**self).respond(strain, old, new, order, out)
+    }
+
+    fn modulus(&self) -> f64 {
+        (**self).modulus()
+    }
+
+    fn shear_modulus(&self) -> Option<f64> {
+        (**self).shear_modulus()
+    }
+
+    fn is_symmetric(&self) -> bool {
+        (**self).is_symmetric()
+    }
+
+    fn linearity(&self) -> Linearity {
+        (**self).linearity()
+    }
+
+    fn mechanical_strain(&self, strain: &Strain) -> Sym3 {
+        (**self).mechanical_strain(strain)
+    }
+
+    fn plastic_strain(&self, history: &[f64]) -> Option<f64> {
+        (**self).plastic_strain(history)
     }
 }
 

@@ -610,6 +610,8 @@ impl Followers<'_> {
 const STILL: f64 = 1e-9;
 /// Relative error with which prescribed motions may satisfy an equation.
 const SATISFIED: f64 = 1e-9;
+/// Parts of a step between which motions by functions are compared: a table has its rows for that, a function nothing.
+const SAMPLES: usize = 64;
 
 /// The nodes without repetitions, in their order.
 fn distinct(nodes: &[NodeId]) -> Vec<NodeId> {
@@ -667,6 +669,8 @@ fn holds(
                 Motion::Ramp(to) => from.map(|from| from + (to - from) * time / duration),
                 Motion::Table(table) => Some(interpolate(table, time)),
                 Motion::TotalTable(table) => Some(interpolate(table, total + time)),
+                Motion::Function(function) => Some(function.at(time)),
+                Motion::TotalFunction(function) => Some(function.at(total + time)),
             }
         };
         let mut times = vec![0.0, duration];
@@ -674,6 +678,9 @@ fn holds(
             match motions.get(dof) {
                 Some(Motion::Table(table)) => times.extend(table.iter().map(|r| r[0])),
                 Some(Motion::TotalTable(table)) => times.extend(table.iter().map(|r| r[0] - total)),
+                Some(Motion::Function(_) | Motion::TotalFunction(_)) => {
+                    times.extend((1..SAMPLES).map(|k| duration * k as f64 / SAMPLES as f64));
+                }
                 _ => {}
             }
         }

@@ -130,7 +130,7 @@ impl Context<'_> {
         let mut steps = Vec::new();
         for part in parts {
             for motion in prescribed.values_mut() {
-                if !matches!(motion, Motion::TotalTable(_)) {
+                if !motion.goes_on() {
                     *motion = Motion::Hold;
                 }
             }

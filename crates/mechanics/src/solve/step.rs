@@ -1,6 +1,6 @@
 //! Steps: their increments, and the values that they prescribe.
 
-use crate::system::Dof;
+use crate::system::{Dof, TimeFunction};
 
 /// How a step is cut into increments.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +31,18 @@ pub enum Motion {
     Table(Vec<[f64; 2]>),
     /// The same over total time.
     TotalTable(Vec<[f64; 2]>),
+    /// Follows a function of step time.
+    Function(TimeFunction),
+    /// The same over total time.
+    TotalFunction(TimeFunction),
+}
+
+impl Motion {
+    /// Whether it goes on through later steps.
+    #[must_use]
+    pub const fn goes_on(&self) -> bool {
+        matches!(self, Self::TotalTable(_) | Self::TotalFunction(_))
+    }
 }
 
 /// A prescribed dof.

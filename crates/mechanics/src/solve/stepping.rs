@@ -633,6 +633,8 @@ impl Stepper {
                 Motion::Ramp(to) => from + (to - from) * fraction,
                 Motion::Table(table) => interpolate(table, time),
                 Motion::TotalTable(table) => interpolate(table, total),
+                Motion::Function(function) => function.at(time),
+                Motion::TotalFunction(function) => function.at(total),
             };
             out.push((p.dof, value));
         }

@@ -72,7 +72,7 @@ pub use capabilities::{
     Adaptive, Aid, Audited, Capabilities, Choices, Elementwise, InitialStiffness, Sampled, Stored,
     Verdict, Viscous,
 };
-pub use course::{NodalField, interpolate};
+pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
     ContactFrame, ContactSample, Footprint, Frame, IdleRows, NodalValues, Resultant, RigidFrame,

@@ -8,7 +8,7 @@
 use super::drive::run;
 use super::{Finished, Listener, RunOptions};
 use crate::load::load_again;
-use crate::setup::{Model, build};
+use crate::setup::{Model, build_with};
 use signorini_io::case::Remedy;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 
@@ -31,7 +31,7 @@ pub fn solve(mut model: Model, options: &RunOptions, listener: &mut dyn Listener
     // two models at a time are not needed
     drop(model);
     let loaded = load_again(again.source.clone());
-    let built = loaded.and_then(|loaded| build(loaded.case, loaded.mesh));
+    let built = loaded.and_then(|loaded| build_with(loaded.case, loaded.mesh, &again.own));
     let Ok(mut model) = built else {
         return finished;
     };

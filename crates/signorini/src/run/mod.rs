@@ -56,6 +56,7 @@ pub use tree::{Owner, Tree, case_copy, process_in};
 pub use volume::Volume;
 
 use crate::load::Source;
+use crate::own::Own;
 use crate::setup::Model;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_io::fs::{Fs, RealFs};
@@ -112,6 +113,8 @@ use std::sync::Arc;
 pub struct RunOptions {
     /// Where the model comes from.
     pub source: Source,
+    /// What the case names by `own`: where the model is built again, it is with this.
+    pub own: Own,
     /// The folder for the results.
     pub folder: PathBuf,
     /// Start even in a folder of another case.
@@ -139,6 +142,7 @@ impl RunOptions {
         Self {
             folder: source.output_folder(),
             source,
+            own: Own::default(),
             fresh: false,
             resume: false,
             strict: false,

@@ -3,6 +3,7 @@
 use super::carriers::Carriers;
 use super::names::{Cells, Names};
 use super::quoted;
+use crate::own::Own;
 use signorini_geometry::element::LockingClass;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Sym3, Vec3};
@@ -15,15 +16,17 @@ use signorini_mechanics::material::{
 use signorini_mechanics::model::{BodyKind, BodyPart, LockingSummary};
 use signorini_mechanics::solid::{AtNodes, AtStart, Integration, Locking};
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::sync::Arc;
 
 /// The bodies of a case, in its order.
 pub(super) fn bodies(
     case: &Case,
     names: &Names<'_>,
     carriers: &Carriers,
+    own: &Own,
     found: &mut Diagnostics,
 ) -> Vec<BodyPart> {
-    let one = |body| body_part(case, body, names, carriers, found);
+    let one = |body| body_part(case, body, (names, carriers), own, found);
     let bodies: Vec<BodyPart> = case.bodies.iter().filter_map(one).collect();
     at_start(case, names, &bodies, found);
     unchangeable(case, found);
@@ -39,8 +42,8 @@ pub(super) fn name(body: &Body) -> String {
 fn body_part(
     case: &Case,
     body: &Body,
-    names: &Names<'_>,
-    carriers: &Carriers,
+    (names, carriers): (&Names<'_>, &Carriers),
+    own: &Own,
     found: &mut Diagnostics,
 ) -> Option<BodyPart> {
     let mut cells = Cells::default();
@@ -58,8 +61,8 @@ fn body_part(
     let part =
         material.and_then(|m| case.materials.iter().find(|one| one.name.value == m.value))?;
     let density = part.density.as_ref().map(|density| density.value);
-    let material = law(part, found).and_then(|inner| oriented(inner, body, found))?;
-    let later = later(case, body, found);
+    let material = law(part, own, found).and_then(|inner| oriented(inner, body, found))?;
+    let later = later(case, body, own, found);
     if cells.solids.is_empty() && !cells.bars.is_empty() {
         let area = bars(body, found)?;
         if let Some((step, _)) = later.first() {
@@ -114,7 +117,12 @@ fn body_part(
 }
 
 /// The materials that steps give a body, each with the number of the step.
-fn later(case: &Case, body: &Body, found: &mut Diagnostics) -> Vec<(usize, Box<dyn Material>)> {
+fn later(
+    case: &Case,
+    body: &Body,
+    own: &Own,
+    found: &mut Diagnostics,
+) -> Vec<(usize, Box<dyn Material>)> {
     let mut later = Vec::new();
     for (number, step) in case.steps.iter().enumerate() {
         for change in &step.materials {
@@ -138,7 +146,7 @@ fn later(case: &Case, body: &Body, found: &mut Diagnostics) -> Vec<(usize, Box<d
             }
             let mut materials = case.materials.iter();
             let part = materials.find(|one| one.name.value == change.material.value);
-            let material = part.and_then(|part| law(part, found));
+            let material = part.and_then(|part| law(part, own, found));
             let material = material.and_then(|inner| oriented(inner, body, found));
             later.extend(material.map(|material| (number, material)));
         }
@@ -294,11 +302,15 @@ fn bars(body: &Body, found: &mut Diagnostics) -> Option<f64> {
     body.area.as_ref().map(|area| area.value)
 }
 
-/// The law of a material, with plasticity and thermal expansion.
-fn law(part: &case::Material, found: &mut Diagnostics) -> Option<Box<dyn Material>> {
-    let inner = match &part.plasticity {
-        Some(plasticity) => plastic(part, plasticity, found),
-        None => elastic(part, found),
+/// The law of a material, of the case or the program, with plasticity and thermal expansion.
+fn law(part: &case::Material, own: &Own, found: &mut Diagnostics) -> Option<Box<dyn Material>> {
+    let inner: Option<Box<dyn Material>> = match (&part.own, &part.plasticity) {
+        (Some(name), _) => {
+            let shared = own.materials.get(&name.value);
+            shared.map(|one| Box::new(Arc::clone(one)) as _)
+        }
+        (None, Some(plasticity)) => plastic(part, plasticity, found),
+        (None, None) => elastic(part, found),
     };
     let inner = inner?;
     Some(match &part.expansion {

@@ -3,8 +3,9 @@
 use super::constraints::unpaired;
 use super::names::Names;
 use super::nonlinear::nonlinear;
-use super::quoted;
 use super::surfaces::Surfaces;
+use super::{own, quoted};
+use crate::own::Own;
 use crate::text::short;
 use signorini_geometry::mesh::NodeId;
 use signorini_geometry::tensor::Vec3;
@@ -15,6 +16,7 @@ use signorini_io::case::{
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::contact::Measure;
 use signorini_mechanics::contact::discretization::{SlidingRange, mortar};
+use signorini_mechanics::contact::friction;
 use signorini_mechanics::contact::law::{self, ContactLaw};
 use signorini_mechanics::contact::mortar::Basis;
 use signorini_mechanics::model::{
@@ -39,6 +41,7 @@ pub(super) fn contact(
     steps: &[case::Step],
     names: &Names<'_>,
     surfaces: &Surfaces,
+    own: &Own,
     found: &mut Diagnostics,
 ) -> Option<ContactPart> {
     let listed = *part.method == case::Method::NodeToNode && part.pairs == Pairs::Order;
@@ -60,7 +63,7 @@ pub(super) fn contact(
             Area::Adjacent => AreaPart::Adjacent,
             Area::Opposite => AreaPart::Opposite,
         },
-        enforcement: enforcement(part, found),
+        enforcement: enforcement(part, own, found),
         measure: part.per.map(|per| match per {
             Per::Node => Measure::Node,
             Per::Area => Measure::Area,
@@ -68,7 +71,7 @@ pub(super) fn contact(
         friction: part
             .friction
             .as_ref()
-            .and_then(|one| friction(one, &part.name, &part.place, found)),
+            .and_then(|one| friction(one, (&part.name, &part.place), own, found)),
         sliding: sliding(part, steps),
         remembers_traction: part.remembers_traction,
         features: match part.features {
@@ -331,7 +334,7 @@ pub(super) fn choose(part: &mut Contact, method: &Method) {
     };
 }
 
-fn enforcement(part: &Contact, found: &mut Diagnostics) -> model::Enforcement {
+fn enforcement(part: &Contact, own: &Own, found: &mut Diagnostics) -> model::Enforcement {
     let by_law = |law: Result<Arc<dyn ContactLaw>, String>, found: &mut Diagnostics| match law {
         Ok(law) => model::Enforcement::Law(law),
         Err(fault) => {
@@ -349,6 +352,10 @@ fn enforcement(part: &Contact, found: &mut Diagnostics) -> model::Enforcement {
             by_law(law.map_err(|fault| fault.to_string()), found)
         }
         Enforcement::Law(chosen) => {
+            if let Some(name) = own::name(chosen) {
+                let law = own.laws.get(name).map(Arc::clone);
+                return law.map_or(model::Enforcement::Auto, model::Enforcement::Law);
+            }
             let law = Entry::make(&law::TABLE, chosen);
             by_law(law.map_err(|fault| fault.to_string()), found)
         }
@@ -366,16 +373,19 @@ fn enforcement(part: &Contact, found: &mut Diagnostics) -> model::Enforcement {
 /// Friction; none where its values make no law, which is reported.
 fn friction(
     part: &Friction,
-    contact: &case::Name,
-    place: &Place,
+    (contact, place): (&case::Name, &Place),
+    own: &Own,
     found: &mut Diagnostics,
 ) -> Option<FrictionPart> {
-    let limit = match Entry::make(&signorini_mechanics::contact::friction::TABLE, &part.limit) {
-        Ok(limit) => limit,
-        Err(fault) => {
-            found.push(unfit(contact, place, &fault.to_string()));
-            return None;
-        }
+    let limit = match own::name(&part.limit) {
+        Some(name) => Arc::clone(own.frictions.get(name)?),
+        None => match Entry::make(&friction::TABLE, &part.limit) {
+            Ok(limit) => limit,
+            Err(fault) => {
+                found.push(unfit(contact, place, &fault.to_string()));
+                return None;
+            }
+        },
     };
     Some(FrictionPart {
         limit,
@@ -415,13 +425,16 @@ fn start(part: &case::Start, names: &Names<'_>, found: &mut Diagnostics) -> Star
 pub(super) struct Changes<'a> {
     /// The contacts that act at some time, as they are now.
     contacts: Vec<(&'a Contact, bool, Option<&'a Friction>)>,
+    /// What the program brings.
+    own: &'a Own,
 }
 
 impl<'a> Changes<'a> {
-    pub fn new(case: &'a Case) -> Self {
+    pub fn new(case: &'a Case, own: &'a Own) -> Self {
         let now = |contact: &'a Contact| (contact, contact.active, contact.friction.as_ref());
         Self {
             contacts: acting(case).map(now).collect(),
+            own,
         }
     }
 
@@ -449,7 +462,8 @@ impl<'a> Changes<'a> {
                 active: change.active,
                 friction: change.friction.as_ref().map(|changed| {
                     let changed = changed.as_ref();
-                    changed.and_then(|one| friction(one, &change.name, &change.place, found))
+                    let contact = (&change.name, &change.place);
+                    changed.and_then(|one| friction(one, contact, self.own, found))
                 }),
             });
         }

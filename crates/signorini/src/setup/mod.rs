@@ -18,6 +18,7 @@ mod loads;
 mod mesh;
 mod names;
 mod nonlinear;
+mod own;
 mod prints;
 mod refused;
 mod settings;
@@ -36,6 +37,7 @@ pub use prints::{
     ContactQuantity, ElementQuantity, NodeQuantity, Printed, PrintedContact, PrintedOf,
 };
 
+use crate::own::Own;
 use carriers::Carriers;
 use cuts::Cuts;
 use names::Names;
@@ -117,16 +119,30 @@ impl Model {
 /// Builds the model of a case with its mesh.
 ///
 /// # Errors
-/// Names that the mesh does not have, sets of the wrong kind, and what makes no well-posed model: all messages at once
+/// As [`build_with`], and a case that names physics of the program.
+pub fn build(case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
+    build_with(case, mesh, &Own::default())
+}
+
+/// Builds the model of a case with its mesh, and with what the program brings for it.
+///
+/// # Errors
+/// Names that the program does not have; names that the mesh does not have, sets of the wrong kind, and what makes no well-posed model: all messages at once
 /// as far as they do not follow from each other.
-pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
+pub fn build_with(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnostics> {
     let mut found = Diagnostics::new();
+    own::check(&case, own, &mut found);
+    // what is lacking draws other messages after it
+    if found.has_errors() {
+        return Err(found);
+    }
     let cuts = Cuts::new(&case, &mut mesh, &mut found);
     let names = Names::new(&case, &mesh, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
     let settings = settings::settings(&case.solver, &mut found);
     let prints = prints::prints(&case, &names, &mut found);
-    let (parts, start) = match parts(&case, &mesh, &names, &carriers, &cuts, &mut found) {
+    let places = (&names, &carriers, &cuts);
+    let (parts, start) = match parts(&case, &mesh, own, places, &mut found) {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
     };
@@ -195,9 +211,8 @@ pub fn build(mut case: Case, mut mesh: Mesh) -> Result<Model, Diagnostics> {
 fn parts<'a>(
     case: &Case,
     mesh: &'a Mesh,
-    names: &Names<'_>,
-    carriers: &Carriers,
-    cuts: &Cuts,
+    own: &Own,
+    (names, carriers, cuts): (&Names<'_>, &Carriers, &Cuts),
     found: &mut Diagnostics,
 ) -> Option<(Parts<'a>, Option<f64>)> {
     if let Some(message) = mesh::unfit(case, mesh) {
@@ -205,7 +220,7 @@ fn parts<'a>(
         return None;
     }
     let mut parts = Parts::new(mesh, idealisation(&case.model));
-    parts.bodies = bodies::bodies(case, names, carriers, found);
+    parts.bodies = bodies::bodies(case, names, carriers, own, found);
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, cuts, found);
@@ -214,9 +229,9 @@ fn parts<'a>(
     parts.traction_tol = parts.traction_tol.max(0.1 * newton.force_tol);
     parts.stabilize = case.solver.stabilize == Stabilize::Auto;
     parts.hold_free = case.solver.free_motions == FreeMotions::Hold;
-    let surfaces = Surfaces::new(case, mesh, carriers, found);
+    let surfaces = Surfaces::new(case, mesh, carriers, own, found);
     parts.contacts = contact::acting(case)
-        .filter_map(|c| contact::contact(c, &case.steps, names, &surfaces, found))
+        .filter_map(|c| contact::contact(c, &case.steps, names, &surfaces, own, found))
         .collect();
     for contact in &mut parts.contacts {
         contact.smooths = case.output.smooth_pressures;
@@ -227,6 +242,7 @@ fn parts<'a>(
         case,
         names,
         carriers,
+        own,
         bodies: &parts.bodies,
     };
     let (steps, couplings) = steps.steps(found);

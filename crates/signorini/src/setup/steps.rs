@@ -8,18 +8,22 @@ use super::loads::{self, Coupling};
 use super::names::Names;
 use super::nonlinear::nonlinear;
 use super::quoted;
+use crate::own::Own;
 use signorini_geometry::mesh::NodeId;
-use signorini_io::case::{self, Amplitude, Case, Directions, Name, Remedy, Step, TimeBase};
+use signorini_io::case::{self, Amplitude, Case, Directions, Factor, Name, Remedy, Step, TimeBase};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::load::Course;
 use signorini_mechanics::model::{BodyPart, Change, ConstraintPart, LoadPart, StepPart, Target};
 use signorini_mechanics::solve::{Increments, Motion};
+use signorini_mechanics::system::TimeFunction;
+use std::sync::Arc;
 
 /// Steps, with what earlier ones leave behind.
 pub(super) struct Builder<'a> {
     pub case: &'a Case,
     pub names: &'a Names<'a>,
     pub carriers: &'a Carriers,
+    pub own: &'a Own,
     pub bodies: &'a [BodyPart],
 }
 
@@ -28,7 +32,7 @@ impl Builder<'_> {
     pub fn steps(&self, found: &mut Diagnostics) -> (Vec<StepPart>, Vec<ConstraintPart>) {
         let mut goes_on = false;
         let mut couplings = Vec::new();
-        let mut contacts = Changes::new(self.case);
+        let mut contacts = Changes::new(self.case, self.own);
         let mut steps = Vec::new();
         let cases = &self.case.steps;
         for (number, (step, nonlinear)) in cases.iter().zip(nonlinear(cases)).enumerate() {
@@ -49,7 +53,8 @@ impl Builder<'_> {
             if changes == 0 && !begins && !goes_on && !found.has_errors() {
                 found.push(changes_nothing(step));
             }
-            goes_on |= part.changes.iter().any(runs_on) || part.loads.iter().any(load_runs_on);
+            goes_on |= part.changes.iter().any(runs_on)
+                || part.loads.iter().any(|load| load.course.goes_on());
             steps.push(part);
         }
         (steps, couplings.into_iter().map(Coupling::part).collect())
@@ -168,7 +173,7 @@ impl Builder<'_> {
             case::Motion::Table(table) => Motion::Table(table.clone()),
             case::Motion::Amplitude { name, value } => {
                 let amplitude = self.amplitude(name);
-                amplitude.map_or(Motion::Hold, |a| scaled(a, *value))
+                amplitude.map_or(Motion::Hold, |a| self.scaled(a, *value))
             }
         }
     }
@@ -178,12 +183,50 @@ impl Builder<'_> {
             case::Course::Ramp => Course::Ramp,
             case::Course::Table(table) => Course::Table(table.clone()),
             case::Course::Amplitude(name) => {
-                self.amplitude(name).map_or(Course::Ramp, |a| match a.time {
-                    TimeBase::Step => Course::Table(a.table.clone()),
-                    TimeBase::Total => Course::TotalTable(a.table.clone()),
-                })
+                let amplitude = self.amplitude(name);
+                amplitude.map_or(Course::Ramp, |a| self.factor(a))
             }
         }
+    }
+
+    /// What an amplitude makes of a load.
+    fn factor(&self, amplitude: &Amplitude) -> Course {
+        match (&amplitude.factor, amplitude.time) {
+            (Factor::Table(table), TimeBase::Step) => Course::Table(table.clone()),
+            (Factor::Table(table), TimeBase::Total) => Course::TotalTable(table.clone()),
+            (Factor::Own(name), time) => match (self.function(name), time) {
+                (None, _) => Course::Ramp,
+                (Some(function), TimeBase::Step) => Course::Function(function),
+                (Some(function), TimeBase::Total) => Course::TotalFunction(function),
+            },
+        }
+    }
+
+    /// The motion that is an amplitude times a factor.
+    fn scaled(&self, amplitude: &Amplitude, factor: f64) -> Motion {
+        match &amplitude.factor {
+            Factor::Table(table) => {
+                let rows = table.iter().map(|[t, v]| [*t, v * factor]).collect();
+                match amplitude.time {
+                    TimeBase::Step => Motion::Table(rows),
+                    TimeBase::Total => Motion::TotalTable(rows),
+                }
+            }
+            Factor::Own(name) => {
+                let function = self.function(name).map(|one| one.times(factor));
+                match (function, amplitude.time) {
+                    (None, _) => Motion::Hold,
+                    (Some(function), TimeBase::Step) => Motion::Function(function),
+                    (Some(function), TimeBase::Total) => Motion::TotalFunction(function),
+                }
+            }
+        }
+    }
+
+    /// The function of time that the program has under this name; where it has none, that was reported.
+    fn function(&self, name: &Name) -> Option<TimeFunction> {
+        let function = self.own.courses.get(&name.value);
+        function.map(|one| TimeFunction::from(Arc::clone(one)))
     }
 }
 
@@ -202,28 +245,14 @@ fn changes_nothing(step: &Step) -> Diagnostic {
 /// Whether a motion goes on through later steps.
 fn runs_on(change: &Change) -> bool {
     match change {
-        Change::Prescribe(_, motions) => motions
-            .iter()
-            .any(|(_, motion)| matches!(motion, Motion::TotalTable(_))),
+        Change::Prescribe(_, motions) => motions.iter().any(|(_, motion)| motion.goes_on()),
         Change::Release(..) => false,
     }
-}
-
-fn load_runs_on(load: &LoadPart) -> bool {
-    matches!(load.course, Course::TotalTable(_))
 }
 
 fn picked(u: &Directions, rot: &Directions) -> Vec<usize> {
     let all = u.xyz.iter().chain(&rot.xyz).enumerate();
     all.filter_map(|(c, &on)| on.then_some(c)).collect()
-}
-
-fn scaled(amplitude: &Amplitude, factor: f64) -> Motion {
-    let rows = amplitude.table.iter().map(|[t, v]| [*t, v * factor]);
-    match amplitude.time {
-        TimeBase::Step => Motion::Table(rows.collect()),
-        TimeBase::Total => Motion::TotalTable(rows.collect()),
-    }
 }
 
 fn increments(part: &case::Increments, duration: f64, may_cut: bool) -> Increments {

@@ -1,7 +1,8 @@
 //! Rigid surfaces that are given by a formula or by triangles.
 
 use super::carriers::Carriers;
-use super::quoted;
+use super::{own, quoted};
+use crate::own::Own;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::surface::{
     self, Analytical, AnalyticalError, ContactSurface, Mount, Triangulated,
@@ -16,7 +17,13 @@ use std::sync::Arc;
 pub(super) struct Surfaces(BTreeMap<String, Option<Arc<dyn ContactSurface>>>);
 
 impl Surfaces {
-    pub fn new(case: &Case, mesh: &Mesh, carriers: &Carriers, found: &mut Diagnostics) -> Self {
+    pub fn new(
+        case: &Case,
+        mesh: &Mesh,
+        carriers: &Carriers,
+        own: &Own,
+        found: &mut Diagnostics,
+    ) -> Self {
         let mut surfaces = BTreeMap::new();
         for one in &case.surfaces {
             if mesh.sets.contains_key(&one.name.value) {
@@ -28,8 +35,8 @@ impl Surfaces {
             let mount = moved.map_or(Mount::fixed(ntan), |body| {
                 Mount::on(ntan, body, at.unwrap_or_default())
             });
-            let made = match made(one, mount) {
-                Ok(made) => Some(made),
+            let made = match made(one, mount, own) {
+                Ok(made) => made,
                 Err(error) => {
                     let message = format!("surface {}: {error}", quoted(&one.name));
                     let message = Diagnostic::error(&codes::BAD_SURFACE, message);
@@ -72,19 +79,29 @@ const fn remedy(error: &AnalyticalError) -> &'static str {
     }
 }
 
-/// The surface of a shape on its mount.
-fn made(one: &Surface, mount: Mount) -> Result<Arc<dyn ContactSurface>, AnalyticalError> {
-    match &one.shape {
+/// The surface of a shape on its mount; nothing where it is one of the program that the program does not have.
+fn made(
+    one: &Surface,
+    mount: Mount,
+    own: &Own,
+) -> Result<Option<Arc<dyn ContactSurface>>, AnalyticalError> {
+    let surface: Arc<dyn ContactSurface> = match &one.shape {
         Shape::Analytical(chosen) => {
-            let shape = Entry::make(&surface::TABLE, chosen)?;
-            Ok(Arc::new(Analytical::new(mount, shape)?))
+            let shape = match own::name(chosen) {
+                None => Entry::make(&surface::TABLE, chosen)?,
+                Some(name) => match own.surfaces.get(name) {
+                    Some(shape) => Box::new(Arc::clone(shape)),
+                    None => return Ok(None),
+                },
+            };
+            Arc::new(Analytical::new(mount, shape)?)
         }
         Shape::Stl { .. } => {
             let (points, triangles) = one.triangles.clone().unwrap_or_default();
-            let surface = Triangulated::new(mount, points, &triangles)?;
-            Ok(Arc::new(surface))
+            Arc::new(Triangulated::new(mount, points, &triangles)?)
         }
-    }
+    };
+    Ok(Some(surface))
 }
 
 fn of_mesh(name: &Name) -> Diagnostic {

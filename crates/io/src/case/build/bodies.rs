@@ -7,6 +7,7 @@ use signorini_vocabulary::Description;
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
 use super::super::scalar::number;
+use super::super::vocabulary::OWN;
 use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes, listed};
 
@@ -33,6 +34,7 @@ impl Builder<'_> {
         Material {
             name,
             constants: constants.unwrap_or_default(),
+            own: fields.text_if(OWN),
             density: fields.number_if("density"),
             expansion: fields.has("expansion").then(|| self.expansion(expansion)),
             plasticity,

@@ -2,6 +2,7 @@
 
 use super::super::fields::{Fields, numbers};
 use super::super::parts::*;
+use super::super::vocabulary::OWN;
 use super::builder::Builder;
 use crate::diagnostic::{Diagnostic, Place, Spanned, codes};
 use signorini_vocabulary::Chosen;
@@ -10,7 +11,10 @@ impl Builder<'_> {
     pub(super) fn amplitude(&mut self, name: Name, fields: Fields<'_>) -> Amplitude {
         Amplitude {
             name,
-            table: self.time_table(fields),
+            factor: match fields.text_if(OWN) {
+                Some(own) => Factor::Own(own),
+                None => Factor::Table(self.time_table(fields)),
+            },
             time: if fields.text("time").value == "total" {
                 TimeBase::Total
             } else {

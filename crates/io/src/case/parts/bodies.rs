@@ -57,6 +57,8 @@ pub struct Material {
     pub model: Spanned<String>,
     /// The constants of its law, those and no others, in the order of the law.
     pub constants: Vec<Constant>,
+    /// The law of the program that runs the case, by its name there; of the model [`OWN`](crate::case::vocabulary::OWN).
+    pub own: Option<Name>,
     /// Density (mass per volume).
     pub density: Option<Spanned<f64>>,
     /// Thermal expansion.

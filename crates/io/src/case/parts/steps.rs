@@ -4,15 +4,24 @@ use super::{Axis, ContactChange, Name};
 use crate::diagnostic::{Place, Spanned};
 use signorini_vocabulary::Chosen;
 
-/// A function of time: linear between its rows, constant outside.
+/// A function of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Amplitude {
     /// Its name.
     pub name: Name,
-    /// Rows of time and value; times increase.
-    pub table: Vec<[f64; 2]>,
+    /// Its value at a time.
+    pub factor: Factor,
     /// Which time it depends on.
     pub time: TimeBase,
+}
+
+/// The value of a function of time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Factor {
+    /// Rows of time and value, whose times increase: linear between them, constant outside.
+    Table(Vec<[f64; 2]>),
+    /// A function of the program that runs the case, by its name there.
+    Own(Name),
 }
 
 /// Which time a function depends on.

@@ -2,6 +2,7 @@
 
 use super::super::build::COMPONENTS;
 use super::super::parts::*;
+use super::super::vocabulary::OWN;
 use super::steps::axes;
 use super::write::{Entries, Value, list, names};
 
@@ -155,6 +156,8 @@ pub(super) fn material(one: &Material) -> Entries {
         };
         (constant.name, values)
     }));
+    let own = one.own.as_ref();
+    entries.extend(own.map(|name| (OWN, (&name.value).into())));
     entries.extend(
         one.density
             .as_ref()

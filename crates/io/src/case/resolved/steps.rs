@@ -1,6 +1,7 @@
 //! Amplitudes and steps.
 
 use super::super::parts::*;
+use super::super::vocabulary::OWN;
 use super::contact::contact_change;
 use super::write::{Entries, Value, chosen, list, names, tables};
 
@@ -9,7 +10,11 @@ pub(super) fn amplitude(one: &Amplitude) -> Entries {
         TimeBase::Step => "step",
         TimeBase::Total => "total",
     };
-    vec![("table", list(&one.table)), ("time", time.into())]
+    let factor = match &one.factor {
+        Factor::Table(table) => ("table", list(table)),
+        Factor::Own(name) => (OWN, (&name.value).into()),
+    };
+    vec![factor, ("time", time.into())]
 }
 
 pub(super) fn step(step: &Step) -> Entries {

@@ -3,6 +3,7 @@
 
 use super::bodies::MATERIAL;
 use super::contact::{ENFORCEMENT, FRICTION};
+use super::own;
 use super::placeholders::{LAWS, LOADS, SHAPES};
 use super::steps::LOAD;
 use super::surface::SHAPE;
@@ -34,12 +35,16 @@ pub struct Vocabulary {
 }
 
 impl Vocabulary {
-    /// The vocabulary with these kinds of things.
+    /// The vocabulary with these kinds of things, and those that the program brings which runs a case.
     ///
     /// # Limits
     /// Tables live as long as the program: make one vocabulary, not one for each case.
     #[must_use]
-    pub fn new(kinds: Kinds) -> Self {
+    pub fn new(mut kinds: Kinds) -> Self {
+        kinds.materials.push(own::MATERIAL);
+        kinds.surfaces.push(own::SHAPE);
+        kinds.laws.push(own::LAW);
+        kinds.frictions.push(own::FRICTION);
         let changes = [
             (&MATERIAL, with_materials(&MATERIAL, &kinds.materials)),
             (&SHAPE, with_tables(&SHAPE, &kinds.surfaces, 0, SHAPES)),

@@ -10,6 +10,7 @@ mod bodies;
 mod contact;
 mod geometry;
 mod kinds;
+mod own;
 mod placeholders;
 mod run;
 mod steps;
@@ -17,6 +18,7 @@ mod surface;
 mod whole;
 
 pub use kinds::{Kinds, Vocabulary};
+pub use own::OWN;
 pub use run::FIELDS;
 
 use signorini_vocabulary::ANY;

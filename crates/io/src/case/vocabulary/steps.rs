@@ -6,9 +6,10 @@ use super::*;
 
 pub(super) static AMPLITUDE: Table = Table {
     heading: "[amplitude.NAME]",
-    doc: "functions of time: linear between rows, constant outside",
+    doc: "functions of time: linear between rows and constant outside, or of the program",
     keys: &[
-        key("table", TIME_TABLE, "rows [time, value]; times increase").required(),
+        key("table", TIME_TABLE, "rows [time, value]; times increase"),
+        own::AMPLITUDE,
         key(
             "time",
             Shape::Choice(&[word("step"), word("total")]),
@@ -16,7 +17,7 @@ pub(super) static AMPLITUDE: Table = Table {
         )
         .or(Default::Text("step")),
     ],
-    rules: &[],
+    rules: &[Rule::ExactlyOne(&["table", OWN])],
 };
 
 pub(super) static STEP: Table = Table {

@@ -2,7 +2,7 @@
 
 use super::Translation;
 use super::expression;
-use crate::case::{Amplitude, TimeBase};
+use crate::case::{Amplitude, Factor, TimeBase};
 use crate::diagnostic::{Place, Spanned, codes};
 use crate::readers::oofem::{Fault, Record};
 
@@ -156,7 +156,7 @@ impl Translation {
         table.extend(ends.zip(values.unwrap_or_default()).map(|(t, f)| [t, f]));
         self.case.amplitudes.push(Amplitude {
             name: Spanned::from(name.as_str()),
-            table: without_flats(table),
+            factor: Factor::Table(without_flats(table)),
             time: TimeBase::Total,
         });
         self.functions.named.insert(number, name.clone());

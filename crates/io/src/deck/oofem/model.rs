@@ -302,6 +302,7 @@ impl Translation {
             name: Spanned::new(material_name(number), place.clone()),
             model: Spanned::new(model.to_owned(), place.clone()),
             constants,
+            own: None,
             density: density.map(|d| Spanned::new(d, record.place_of_field("d"))),
             expansion: None,
             plasticity,

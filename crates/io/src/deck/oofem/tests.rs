@@ -131,7 +131,9 @@ fn functions_are_sampled_at_the_times_of_the_deck() {
             ..DECK
         };
         let case = deck.case();
-        let table = &case.amplitudes[0].table;
+        let Factor::Table(table) = &case.amplitudes[0].factor else {
+            panic!("a table");
+        };
         let at = |time: f64| {
             let after = table.partition_point(|row| row[0] < time);
             let [t, f] = table[after];

@@ -175,9 +175,10 @@ fn a_time_delay_is_an_amplitude_of_its_own() {
     let tables: Vec<_> = case
         .amplitudes
         .iter()
-        .map(|one| one.table.clone())
+        .map(|one| one.factor.clone())
         .collect();
-    assert_eq!(tables, [[[0.0, 0.0], [1.0, 1.0]], [[0.5, 0.0], [1.5, 1.0]]]);
+    let rows = [[[0.0, 0.0], [1.0, 1.0]], [[0.5, 0.0], [1.5, 1.0]]];
+    assert_eq!(tables, rows.map(|rows| Factor::Table(rows.to_vec())));
 }
 
 #[test]

@@ -60,7 +60,13 @@ fn try_parts(text: &str) -> Result<Built, Diagnostics> {
     let cuts = Cuts::new(&case, &mut mesh, &mut found);
     let names = Names::new(&case, &mesh, &mut found);
     let carriers = Carriers::new(&case, &names, &mut found);
-    let (parts, start) = match parts(&case, &mesh, &names, &carriers, &cuts, &mut found) {
+    let (parts, start) = match parts(
+        &case,
+        &mesh,
+        &Own::default(),
+        (&names, &carriers, &cuts),
+        &mut found,
+    ) {
         Some(parts) if !found.has_errors() => parts,
         _ => return Err(found),
     };
