@@ -6,7 +6,8 @@ use crate::own::{self, Failures};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use signorini::{
-    Compat, Diagnostics, Loaded as Read, Model, Own, Reading, Source, build_with, open_text, preview,
+    Compat, Diagnostics, Loaded as Read, Model, Own, Reading, Source, build_with, open_text,
+    preview,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -51,7 +52,9 @@ impl Job {
         set: Vec<(String, String)>,
     ) -> PyResult<Self> {
         let failures = Failures::default();
-        let own = own.map(|objects| own::own(objects, &failures)).transpose()?;
+        let own = own
+            .map(|objects| own::own(objects, &failures))
+            .transpose()?;
         Ok(Self {
             text,
             record,

@@ -4,7 +4,9 @@
 //! what it spoils is not a number, which no increment converges with, and the run stops at its next news. Functions get
 //! arrays of points and are called from the threads of the run, one at a time, as the interpreter has it.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{
+    PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3,
+};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -81,7 +83,8 @@ impl Called {
 fn point<'py>(py: Python<'py>, x: Vec3) -> Bound<'py, PyArray2<f64>> {
     let row = PyArray1::from_slice(py, &x.to_array());
     // of three numbers: it can always be a row
-    row.reshape([1, 3]).unwrap_or_else(|_| PyArray2::zeros(py, [1, 3], false))
+    row.reshape([1, 3])
+        .unwrap_or_else(|_| PyArray2::zeros(py, [1, 3], false))
 }
 
 /// The first number of an array.
@@ -106,7 +109,9 @@ fn matrix<const N: usize>(array: &Bound<'_, PyAny>) -> PyResult<[[f64; N]; N]> {
     let mut matrix = [[0.0; N]; N];
     let values = array.as_array();
     if values.shape() != [1, N, N] {
-        return Err(PyValueError::new_err(format!("matrices of {N} by {N} numbers are wanted")));
+        return Err(PyValueError::new_err(format!(
+            "matrices of {N} by {N} numbers are wanted"
+        )));
     }
     for (at, value) in values.iter().enumerate() {
         if let Some(entry) = matrix.get_mut(at / N).and_then(|row| row.get_mut(at % N)) {
@@ -118,7 +123,14 @@ fn matrix<const N: usize>(array: &Bound<'_, PyAny>) -> PyResult<[[f64; N]; N]> {
 
 fn symmetric(m: [[f64; 3]; 3]) -> Sym3 {
     let mean = |i: usize, j: usize| 0.5 * (m[i][j] + m[j][i]);
-    Sym3::new(m[0][0], m[1][1], m[2][2], mean(0, 1), mean(1, 2), mean(0, 2))
+    Sym3::new(
+        m[0][0],
+        m[1][1],
+        m[2][2],
+        mean(0, 1),
+        mean(1, 2),
+        mean(0, 2),
+    )
 }
 
 /// What the library says where Python raised an exception, which is what the user sees.
@@ -311,8 +323,14 @@ pub fn own(objects: &Bound<'_, PyDict>, failures: &Failures) -> PyResult<Own> {
                     own.surfaces.insert(name, shape);
                 }
                 "law" => {
-                    let has_energy = object.getattr("has_energy").is_ok_and(|has| has.is_truthy().unwrap_or(false));
-                    let law = Law { name: name.clone(), called, has_energy };
+                    let has_energy = object
+                        .getattr("has_energy")
+                        .is_ok_and(|has| has.is_truthy().unwrap_or(false));
+                    let law = Law {
+                        name: name.clone(),
+                        called,
+                        has_energy,
+                    };
                     own.laws.insert(name, Arc::new(law));
                 }
                 "friction" => {
@@ -335,7 +353,9 @@ pub fn own(objects: &Bound<'_, PyDict>, failures: &Failures) -> PyResult<Own> {
                     own.courses.insert(name, Arc::new(course));
                 }
                 other => {
-                    return Err(PyTypeError::new_err(format!("there is no physics of the kind {other:?}")));
+                    return Err(PyTypeError::new_err(format!(
+                        "there is no physics of the kind {other:?}"
+                    )));
                 }
             }
         }

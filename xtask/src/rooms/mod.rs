@@ -142,7 +142,7 @@ const ROOMS: [Room; 39] = [
     ),
     room(
         "python",
-        &["signorini", "io", "mechanics", "linear", "geometry"],
+        &["signorini", "signorini-cli", "io", "mechanics", "geometry"],
     ),
 ];
 

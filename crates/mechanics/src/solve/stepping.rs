@@ -270,8 +270,8 @@ impl Stepper {
         Ok(Outcome::Finished)
     }
 
-    /// Runs as [`Stepper::run`] does, up to a total time, at which an increment ends; [`Outcome::Stopped`] there. Steps of a
-    /// fixed number of increments take increments of that size, and a shorter one before the pause.
+    /// Runs as [`Stepper::run`] does, up to a total time, at which an increment ends; [`Outcome::Stopped`] there. Where
+    /// increments are fixed, the one before a pause and the one after it are parts of one.
     ///
     /// # Errors
     /// As [`Stepper::run`].
@@ -598,14 +598,11 @@ impl Stepper {
 
     fn usual_end(&self, step: &Step, dt: f64) -> f64 {
         let max = match step.increments {
-            // off the grid after a pause, and no shorter than a size of it
-            Increments::Fixed(n) if self.pause.is_some() => {
-                let size = step.duration / n as f64;
-                return (self.progress.time + size).min(step.duration);
-            }
             Increments::Fixed(n) => {
-                let done = self.progress.increment + 1;
-                return (step.duration * (done as f64 / n as f64)).min(step.duration);
+                let n = n as f64;
+                // from the grid, where no pause has led off it, that is the number of increments so far
+                let passed = (self.progress.time / step.duration * n * (1.0 + TIME)).floor();
+                return step.duration * ((passed + 1.0) / n);
             }
             Increments::Adaptive { max, .. } => max,
         };

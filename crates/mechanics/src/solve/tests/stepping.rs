@@ -365,3 +365,45 @@ fn a_body_in_free_flight_is_in_equilibrium() {
         }
     }
 }
+
+/// Times at the ends of the increments of a run that pauses at some times.
+fn with_pauses(increments: Increments, pauses: &[f64]) -> (Vec<f64>, State) {
+    let mut system = pulled(None);
+    let steps = [step(increments, &[])];
+    let mut stepper = Stepper::new(&system, settings(1e-10, LineSearch::Auto));
+    let mut times = Vec::new();
+    for (at, &pause) in pauses.iter().enumerate() {
+        let mut observer = |event: &Event<'_>| {
+            if let Event::Increment { record, .. } = event {
+                times.push(record.time);
+            }
+            Flow::Continue
+        };
+        let outcome = stepper.run_until(&mut system, &steps, pause, &mut observer);
+        let last = at + 1 == pauses.len();
+        let expected = if last {
+            Outcome::Finished
+        } else {
+            Outcome::Stopped
+        };
+        assert_eq!(outcome.unwrap(), expected, "{pause}");
+        assert!((stepper.state().time - pause).abs() < 1e-12, "{pause}");
+    }
+    (times, stepper.state().clone())
+}
+
+#[test]
+fn a_run_pauses_at_a_time_with_the_increments_it_would_have_had_around_it() {
+    let fixed = Increments::Fixed(4);
+    let (times, whole) = with_pauses(fixed, &[1.0]);
+    assert_eq!(times, [0.25, 0.5, 0.75, 1.0]);
+    // on the grid a pause changes nothing
+    let (times, paused) = with_pauses(fixed, &[0.5, 0.75, 1.0]);
+    assert_eq!(times, [0.25, 0.5, 0.75, 1.0]);
+    assert!(paused == whole);
+    let (times, _) = with_pauses(fixed, &[0.1, 0.3, 1.0]);
+    assert_close(&times, &[0.1, 0.25, 0.3, 0.5, 0.75, 1.0], 1e-14);
+    let (times, _) = with_pauses(adaptive(0.4, 0.01, 0.4), &[0.1, 0.2, 1.0]);
+    assert_eq!(times[..2], [0.1, 0.2]);
+    assert!(times.windows(2).all(|pair| pair[1] > pair[0]), "{times:?}");
+}
