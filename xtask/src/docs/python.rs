@@ -75,6 +75,16 @@ const OBJECTS: [(&str, &str); 7] = [
     ("surface.shape", "Shape | SignedDistance | Projection"),
 ];
 
+/// Tables whose keys methods take by name, and keys that these methods take otherwise.
+const DICTS: [(&str, &[&str]); 6] = [
+    ("body", &["group", "material"]),
+    ("constraint", &["kind", "on"]),
+    ("contact", &["name", "primary", "secondary"]),
+    ("sets", &[]),
+    ("spring", &["name"]),
+    ("step.print", &["on"]),
+];
+
 /// Keys that shapes have at the origin unless said otherwise.
 const PLACES: [&str; 3] = ["point", "center", "apex"];
 
@@ -123,11 +133,16 @@ impl<'a> Module<'a> {
         };
         let mut rows = String::new();
         let mut fields = String::new();
+        let left_out = DICTS.iter().find(|(known, _)| *known == path);
+        let left_out = left_out.map(|(_, keys)| *keys);
         for (key, below) in properties(schema).filter(|(_, below)| below.get("not").is_none()) {
             let path = join(path, key);
             rows.push_str(&self.attribute(below, key, &path));
-            let field = format!("        \"{key}\": {},\n", self.given(below, &path));
-            fields.push_str(&field);
+            if left_out.is_some_and(|keys| !keys.contains(&key)) {
+                let given = self.given(below, &path);
+                let field = format!("        \"{}\": {given},\n", attribute_name(key, &path));
+                fields.push_str(&field);
+            }
         }
         let class = header(&name, base, &sentence(schema), path);
         let init = if is_shape(path) {
@@ -136,11 +151,13 @@ impl<'a> Module<'a> {
             String::new()
         };
         self.text += &format!("{class}{rows}{init}");
-        // writing to a string cannot fail
-        let _ = writeln!(
-            self.dicts,
-            "    {name}Keys = TypedDict(\"{name}Keys\", {{\n{fields}    }}, total=False)"
-        );
+        if left_out.is_some() {
+            // writing to a string cannot fail
+            let _ = writeln!(
+                self.dicts,
+                "    {name}Keys = TypedDict(\"{name}Keys\", {{\n{fields}    }}, total=False)"
+            );
+        }
         if path == "material" {
             self.materials(schema);
         }
@@ -259,27 +276,33 @@ impl<'a> Module<'a> {
 
     /// The type of what may be assigned.
     fn given(&mut self, schema: &'a Json, path: &str) -> String {
-        let mut options: Vec<String> = match schema.get("anyOf").and_then(Json::as_array) {
-            Some(options) => options.iter().map(|one| self.given(one, path)).collect(),
-            None => vec![match table(schema) {
-                Some(Inside::One(inner)) => {
-                    let class = self.class(inner, path);
-                    format!("{class} | Mapping[str, Any]")
-                }
-                Some(Inside::List(inner)) => {
-                    let class = self.class(inner, path);
-                    format!("Sequence[{class} | Mapping[str, Any]]")
-                }
-                Some(Inside::Named(_)) => "Mapping[str, Any]".to_string(),
-                _ => given_plain(schema),
-            }],
-        };
+        let mut options = vec![self.given_as_data(schema, path)];
         let object = OBJECTS.iter().find(|(known, _)| *known == path);
         options.extend(object.map(|(_, name)| (*name).to_string()));
-        if path.starts_with("step.move.") && options.iter().any(|one| one == "float") {
+        if path.starts_with("step.move.") && schema.get("anyOf").is_some() {
             options.extend(["Sequence[Sequence[float]]", "Course"].map(str::to_string));
         }
         union(options)
+    }
+
+    /// The type of what may be assigned and has a form in TOML.
+    fn given_as_data(&mut self, schema: &'a Json, path: &str) -> String {
+        if let Some(options) = schema.get("anyOf").and_then(Json::as_array) {
+            let options = options.iter().map(|one| self.given_as_data(one, path));
+            return union(options.collect());
+        }
+        match table(schema) {
+            Some(Inside::One(inner)) => {
+                let class = self.class(inner, path);
+                format!("{class} | Mapping[str, Any]")
+            }
+            Some(Inside::List(inner)) => {
+                let class = self.class(inner, path);
+                format!("Sequence[{class} | Mapping[str, Any]]")
+            }
+            Some(Inside::Named(_)) => "Mapping[str, Any]".to_string(),
+            _ => given_plain(schema),
+        }
     }
 }
 

@@ -20,6 +20,10 @@ S = TypeVar("S")
 T = TypeVar("T", bound="Table")
 
 
+REFERRED = ("material", "primary")
+"""Keys with the name of a thing, for which the thing itself may stand."""
+
+
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """A remark with the closest known word, or the list of them where it is short."""
     known = list(known)
@@ -112,7 +116,7 @@ class _Inner(Key[G, S]):
 
     def create(self) -> Any:
         """An empty one."""
-        return self.table()
+        return self.table.made_from({})
 
 
 class One(_Inner["T", "T | Mapping[str, Any]"], Generic[T]):
@@ -124,10 +128,10 @@ class One(_Inner["T", "T | Mapping[str, Any]"], Generic[T]):
 
     def convert(self, value: Any) -> Any:
         """Mappings become tables, and a shape the table that names it; other objects stay."""
-        if isinstance(value, Shape):
-            return self.table({type(value)._toml.rpartition(".")[2]: value})  # pyright: ignore[reportPrivateUsage]
+        if isinstance(value, Shape) and not isinstance(value, self.table):
+            return self.table.made_from({type(value)._toml.rpartition(".")[2]: value})  # pyright: ignore[reportPrivateUsage]
         if isinstance(value, Mapping):
-            return self.table(cast("Mapping[str, Any]", value))
+            return self.table.made_from(cast("Mapping[str, Any]", value))
         return plain(value)
 
 
@@ -138,11 +142,12 @@ class Mixed(_Inner[Any, Any], Generic[T]):
 
         def __init__(self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = "") -> None: ...
 
-    convert = One.convert  # pyright: ignore[reportAssignmentType]
-
-    def create(self) -> Any:
-        """An empty table."""
-        return self.table()
+    def convert(self, value: Any) -> Any:
+        """Mappings become tables; rows of a motion over time its table; other objects stay."""
+        value = One.convert(cast("One[Any]", self), value)
+        if isinstance(value, list) and "table" in self.table._keys:  # pyright: ignore[reportPrivateUsage]
+            return self.table.made_from({"table": value})
+        return value
 
 
 class Items(_Inner["TableList[T]", "Iterable[T | Mapping[str, Any]]"], Generic[T]):
@@ -209,6 +214,13 @@ class Table:
         object.__setattr__(self, "_children", {})
         object.__setattr__(self, "_parent", None)
         self.update(values, **keys)
+
+    @classmethod
+    def made_from(cls, values: Mapping[str, Any]) -> Table:
+        """A table of this class with these keys."""
+        made = cls.__new__(cls)
+        Table.__init__(made, values)
+        return made
 
     def update(self, values: Mapping[str, Any] | None = None, /, **keys: Any) -> None:
         """Sets several keys, by their TOML key or attribute name."""
@@ -288,10 +300,16 @@ class Table:
         """The keys that were given, with their values, as TOML has them."""
         return dump(self)
 
+    def to_dict_raw(self) -> dict[str, Any]:
+        """The keys that were given; objects of Python stay."""
+        return dump(self, lambda value, key, table: value)
+
     def copy(self) -> Self:
         """A copy; meshes and own physics are shared."""
         twin = type(self).__new__(type(self))
-        Table.__init__(twin)
+        object.__setattr__(twin, "_values", {})
+        object.__setattr__(twin, "_children", {})
+        object.__setattr__(twin, "_parent", None)
         for key, value in self._values.items():
             twin._values[key] = _copied(value)
         return twin
@@ -301,7 +319,7 @@ class Table:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Table) or self._keys.keys() != other._keys.keys():
             return NotImplemented
-        return self.to_dict() == other.to_dict()
+        return self.to_dict_raw() == other.to_dict_raw()
 
     __hash__ = None  # pyright: ignore[reportAssignmentType]
 
@@ -360,7 +378,7 @@ class TableList(MutableSequence[T]):
 
     def _convert(self, value: T | Mapping[str, Any]) -> T:
         if isinstance(value, Mapping):
-            return self._table(cast("Mapping[str, Any]", value))
+            return cast("T", self._table.made_from(cast("Mapping[str, Any]", value)))
         if isinstance(value, self._table):
             return value
         raise TypeError(f"a {self._table.__name__} is needed, found {type(value).__name__}")
@@ -446,10 +464,7 @@ class TableDict(MutableMapping[str, T]):
 
     def _convert(self, value: T | Mapping[str, Any]) -> T:
         if isinstance(value, Mapping):
-            values = cast("Mapping[str, Any]", value)
-            if issubclass(self._table, MaterialTable):
-                return cast("T", self._table.made_from(values))
-            return self._table(values)
+            return cast("T", self._table.made_from(cast("Mapping[str, Any]", value)))
         if isinstance(value, self._table):
             return value
         own = getattr(value, "as_table", None)
@@ -504,6 +519,8 @@ def dump(value: Any, leaf: Callable[[Any, str, Table | None], Any] | None = None
     """
 
     def walk(value: Any, key: str, table: Table | None) -> Any:
+        if leaf is not None and key in REFERRED and isinstance(value, (MaterialTable, Shape)):
+            return leaf(value, key, table)
         if isinstance(value, Table):
             out: dict[str, Any] = {}
             for name, below in value._values.items():  # pyright: ignore[reportPrivateUsage]
@@ -513,7 +530,7 @@ def dump(value: Any, leaf: Callable[[Any, str, Table | None], Any] | None = None
         if isinstance(value, TableList):
             return [walk(one, key, table) for one in cast("TableList[Any]", value)]
         if isinstance(value, TableDict):
-            return {name: walk(one, key, table) for name, one in cast("TableDict[Any]", value).items()}
+            return {name: walk(one, "", table) for name, one in cast("TableDict[Any]", value).items()}
         if isinstance(value, list):
             return [walk(one, key, table) for one in cast("list[Any]", value)]
         if leaf is not None and not isinstance(value, (str, bool, int, float)):

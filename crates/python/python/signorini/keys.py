@@ -20,12 +20,16 @@ if TYPE_CHECKING:
 
 
 class Amplitude(Table):
-    """Functions of time: linear between rows, constant outside.
+    """Functions of time: linear between rows and constant outside, or of the program.
 
     TOML: `amplitude`.
     """
 
     _toml = "amplitude"
+    own: Key[str | None, str | Course] = Key(
+        "A function of time of the program that runs the case, by its name there",
+        "text",
+    )
     table: Key[list[list[float]] | None, Sequence[Sequence[float] | NDArray[Any]] | NDArray[Any]] = Key(
         "Rows [time, value]; times increase",
         "list of list of number, 2 of them",
@@ -274,6 +278,7 @@ class ContactEnforcement(Table):
         "No penetration at all, by multipliers: {}",
         "a table",
     )
+    own: Key[str | None, str] = Key("A contact law of the program that runs the case, by its name there", "text")
     penalty: Key[Literal["auto"] | float | list[list[Any]], Literal["auto"] | float | Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any]] = Key(
         "Force or pressure per penetration, or rows [gap, pressure]",
         "`\"auto\"` or number > 0.0 or list of list of number; number ≥ 0.0, 2 of them",
@@ -296,6 +301,7 @@ class ContactFriction(Table):
     elastic_slip: Key[float | None, float] = Key("How far points move before they slip (length)", "number > 0.0")
     kinetic: Key[float | None, float] = Key("Coefficient after much slip", "number ≥ 0.0")
     mu: Key[float | None, float] = Key("Coefficient of friction", "number ≥ 0.0")
+    own: Key[str | None, str] = Key("A friction law of the program that runs the case, by its name there", "text")
     static: Key[float | None, float] = Key("Coefficient before any slip", "number > 0.0")
     stiffness: Key[float | None, float] = Key("Shear traction per elastic slip", "number > 0.0")
     transition: Key[float | None, float] = Key("Length of slip over which the one becomes the other", "number > 0.0")
@@ -607,9 +613,9 @@ class Material(MaterialTable):
         "Thermal expansion: strain alpha (T - reference), counted from the temperature `free` on",
         "a table",
     )
-    model: Key[Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature"] | None, Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature"]] = Key(
+    model: Key[Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature", "own"] | None, Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature", "own"]] = Key(
         "The law",
-        "`\"linear-elastic\"`, `\"saint-venant-kirchhoff\"`, `\"neo-hookean\"`, `\"mooney-rivlin\"`, `\"mooney-rivlin-logarithmic\"`, `\"ogden\"`, `\"orthotropic\"`, `\"hyperfoam\"`, `\"anisotropic\"`, `\"linear-elastic-by-temperature\"`",
+        "`\"linear-elastic\"`, `\"saint-venant-kirchhoff\"`, `\"neo-hookean\"`, `\"mooney-rivlin\"`, `\"mooney-rivlin-logarithmic\"`, `\"ogden\"`, `\"orthotropic\"`, `\"hyperfoam\"`, `\"anisotropic\"`, `\"linear-elastic-by-temperature\"`, `\"own\"`",
     )
     mu: Key[float | list[float] | None, float | Sequence[float] | NDArray[Any]] = Key(
         "Shear moduli of the terms of ogden and hyperfoam (stress)",
@@ -622,6 +628,7 @@ class Material(MaterialTable):
     nu12: Key[float | None, float] = Key("Contraction along 2 over stretch along 1, under stress along 1", "number")
     nu13: Key[float | None, float] = Key("Contraction along 3 over stretch along 1, under stress along 1", "number")
     nu23: Key[float | None, float] = Key("Contraction along 3 over stretch along 2, under stress along 2", "number")
+    own: Key[str | None, str] = Key("A material of the program that runs the case, by its name there", "text")
     plasticity: One[MaterialPlasticity] = One(
         MaterialPlasticity,
         "Yielding after von Mises, of linear-elastic",
@@ -1267,11 +1274,7 @@ class Motion(Table):
         "Rows [time of the step, value]; times increase",
         "list of list of number, 2 of them",
     )
-    value: Key[float, float | Sequence[Sequence[float]] | Course] = Key(
-        "What the amplitude is multiplied with",
-        "number",
-        default=1.0,
-    )
+    value: Key[float, float] = Key("What the amplitude is multiplied with", "number", default=1.0)
 
 
 class Move(Table):
@@ -1431,55 +1434,6 @@ class Circle(Shape):
         super().__init__(center=center, radius=radius, side=side)
 
 
-class Circle(Shape):
-    """Of a model in the plane.
-
-    TOML: `surface.shape.circle`.
-    """
-
-    _toml = "surface.shape.circle"
-    center: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key("Its centre", "list of number")
-    radius: Key[float | None, float] = Key("Its radius", "number > 0.0")
-    side: Key[Literal["outside", "inside"], Literal["outside", "inside"]] = Key(
-        "Where bodies are",
-        "`\"outside\"`, `\"inside\"`",
-        default="outside",
-    )
-
-    def __init__(
-        self,
-        *,
-        radius: float,
-        center: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),
-        side: Literal["outside", "inside"] | None = None,
-    ) -> None:
-        super().__init__(center=center, radius=radius, side=side)
-
-
-class Cone(Shape):
-    """A cone without end; bodies are outside.
-
-    TOML: `surface.shape.cone`.
-    """
-
-    _toml = "surface.shape.cone"
-    apex: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key("Its tip", "list of number")
-    axis: Key[Literal["x", "y", "z"] | list[float] | None, Literal["x", "y", "z"] | Sequence[float] | NDArray[Any]] = Key(
-        "\"x\", \"y\", \"z\" or a vector, from the tip into the cone",
-        "`\"x\"`, `\"y\"`, `\"z\"` or list of number",
-    )
-    half_angle: Key[float | None, float] = Key("Between the axis and the surface (degrees)", "number > 0.0, < 90.0")
-
-    def __init__(
-        self,
-        *,
-        axis: Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        half_angle: float,
-        apex: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),
-    ) -> None:
-        super().__init__(apex=apex, axis=axis, half_angle=half_angle)
-
-
 class Cone(Shape):
     """A cone without end; bodies are outside.
 
@@ -1534,36 +1488,6 @@ class Cylinder(Shape):
         super().__init__(axis=axis, point=point, radius=radius, side=side)
 
 
-class Cylinder(Shape):
-    """A cylinder without ends.
-
-    TOML: `surface.shape.cylinder`.
-    """
-
-    _toml = "surface.shape.cylinder"
-    axis: Key[Literal["x", "y", "z"] | list[float] | None, Literal["x", "y", "z"] | Sequence[float] | NDArray[Any]] = Key(
-        "\"x\", \"y\", \"z\" or a vector along its axis",
-        "`\"x\"`, `\"y\"`, `\"z\"` or list of number",
-    )
-    point: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key("A point of its axis", "list of number")
-    radius: Key[float | None, float] = Key("Its radius", "number > 0.0")
-    side: Key[Literal["outside", "inside"], Literal["outside", "inside"]] = Key(
-        "Where bodies are",
-        "`\"outside\"`, `\"inside\"`",
-        default="outside",
-    )
-
-    def __init__(
-        self,
-        *,
-        axis: Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        radius: float,
-        point: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),
-        side: Literal["outside", "inside"] | None = None,
-    ) -> None:
-        super().__init__(axis=axis, point=point, radius=radius, side=side)
-
-
 class Plane(Shape):
     """A plane without end; in the plane, a line.
 
@@ -1584,54 +1508,6 @@ class Plane(Shape):
         point: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),
     ) -> None:
         super().__init__(normal=normal, point=point)
-
-
-class Plane(Shape):
-    """A plane without end; in the plane, a line.
-
-    TOML: `surface.shape.plane`.
-    """
-
-    _toml = "surface.shape.plane"
-    normal: Key[Literal["x", "y", "z"] | list[float] | None, Literal["x", "y", "z"] | Sequence[float] | NDArray[Any]] = Key(
-        "\"x\", \"y\", \"z\" or a vector, towards the bodies",
-        "`\"x\"`, `\"y\"`, `\"z\"` or list of number",
-    )
-    point: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key("A point of it", "list of number")
-
-    def __init__(
-        self,
-        *,
-        normal: Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        point: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),
-    ) -> None:
-        super().__init__(normal=normal, point=point)
-
-
-class Polynomial(Shape):
-    """The curve y = c_n x^n + … + c_0, the same for all z.
-
-    TOML: `surface.shape.polynomial`.
-    """
-
-    _toml = "surface.shape.polynomial"
-    coefficients: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key(
-        "[c_n, …, c_0], the highest power first",
-        "list of number",
-    )
-    side: Key[Literal["above", "below"], Literal["above", "below"]] = Key(
-        "Where bodies are",
-        "`\"above\"`, `\"below\"`",
-        default="above",
-    )
-
-    def __init__(
-        self,
-        *,
-        coefficients: Sequence[float] | NDArray[Any],
-        side: Literal["above", "below"] | None = None,
-    ) -> None:
-        super().__init__(coefficients=coefficients, side=side)
 
 
 class Polynomial(Shape):
@@ -1683,63 +1559,6 @@ class Sphere(Shape):
         side: Literal["outside", "inside"] | None = None,
     ) -> None:
         super().__init__(center=center, radius=radius, side=side)
-
-
-class Sphere(Shape):
-    """A sphere; in the plane, write `circle`.
-
-    TOML: `surface.shape.sphere`.
-    """
-
-    _toml = "surface.shape.sphere"
-    center: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key("Its centre", "list of number")
-    radius: Key[float | None, float] = Key("Its radius", "number > 0.0")
-    side: Key[Literal["outside", "inside"], Literal["outside", "inside"]] = Key(
-        "Where bodies are",
-        "`\"outside\"`, `\"inside\"`",
-        default="outside",
-    )
-
-    def __init__(
-        self,
-        *,
-        radius: float,
-        center: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),
-        side: Literal["outside", "inside"] | None = None,
-    ) -> None:
-        super().__init__(center=center, radius=radius, side=side)
-
-
-class Torus(Shape):
-    """A ring with a round section.
-
-    TOML: `surface.shape.torus`.
-    """
-
-    _toml = "surface.shape.torus"
-    axis: Key[Literal["x", "y", "z"] | list[float] | None, Literal["x", "y", "z"] | Sequence[float] | NDArray[Any]] = Key(
-        "\"x\", \"y\", \"z\" or a vector along its axis",
-        "`\"x\"`, `\"y\"`, `\"z\"` or list of number",
-    )
-    center: Key[list[float] | None, Sequence[float] | NDArray[Any]] = Key("Its centre", "list of number")
-    radius: Key[float | None, float] = Key("From the axis to the middle of the tube", "number > 0.0")
-    side: Key[Literal["outside", "inside"], Literal["outside", "inside"]] = Key(
-        "Where bodies are",
-        "`\"outside\"`, `\"inside\"`",
-        default="outside",
-    )
-    tube: Key[float | None, float] = Key("Radius of the tube", "number > 0.0")
-
-    def __init__(
-        self,
-        *,
-        axis: Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        radius: float,
-        tube: float,
-        center: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),
-        side: Literal["outside", "inside"] | None = None,
-    ) -> None:
-        super().__init__(axis=axis, center=center, radius=radius, side=side, tube=tube)
 
 
 class Torus(Shape):
@@ -1784,6 +1603,7 @@ class SurfaceShape(Table):
     circle: One[Circle] = One(Circle, "Of a model in the plane", "a table")
     cone: One[Cone] = One(Cone, "A cone without end; bodies are outside", "a table")
     cylinder: One[Cylinder] = One(Cylinder, "A cylinder without ends", "a table")
+    own: Key[str | None, str] = Key("A shape of the program that runs the case, by its name there", "text")
     plane: One[Plane] = One(Plane, "A plane without end; in the plane, a line", "a table")
     polynomial: One[Polynomial] = One(Polynomial, "The curve y = c_n x^n + … + c_0, the same for all z", "a table")
     sphere: One[Sphere] = One(Sphere, "A sphere; in the plane, write `circle`", "a table")
@@ -1813,7 +1633,7 @@ class CaseTable(Table):
     allow: Key[list[str], Sequence[str]] = Key("Codes of warnings to silence", "list of text", default=[])
     amplitudes: Named[Amplitude] = Named(
         Amplitude,
-        "Functions of time: linear between rows, constant outside",
+        "Functions of time: linear between rows and constant outside, or of the program",
         "tables by name",
         key="amplitude",
     )
@@ -1873,28 +1693,11 @@ class CaseTable(Table):
 
 
 if TYPE_CHECKING:
-    AmplitudeKeys = TypedDict("AmplitudeKeys", {
-        "table": Sequence[Sequence[float] | NDArray[Any]] | NDArray[Any],
-        "time": Literal["step", "total"],
-    }, total=False)
-    AxesKeys = TypedDict("AxesKeys", {
-        "from": Sequence[float] | NDArray[Any],
-        "set": str,
-        "to": Sequence[float] | NDArray[Any],
-        "x": Sequence[float] | NDArray[Any],
-        "xy": Sequence[float] | NDArray[Any],
-    }, total=False)
-    BodyOrientationKeys = TypedDict("BodyOrientationKeys", {
-        "x": Sequence[float] | NDArray[Any],
-        "y": Sequence[float] | NDArray[Any],
-    }, total=False)
     BodyKeys = TypedDict("BodyKeys", {
         "area": float,
         "at_nodes": Literal["linear", "element"],
-        "group": str | Sequence[str],
         "integration": Literal["full", "reduced", "raised"],
         "locking": Literal["auto", "none", "b-bar", "f-bar", "incompatible", "selective-shear"],
-        "material": str,
         "orientation": BodyOrientation | Mapping[str, Any],
         "reference": str,
         "rigid": bool,
@@ -1903,190 +1706,35 @@ if TYPE_CHECKING:
         "temperatures": Literal["full", "linear"],
         "thickness": float,
     }, total=False)
-    CheckpointEveryKeys = TypedDict("CheckpointEveryKeys", {
-        "increments": int,
-        "wall": str,
-    }, total=False)
-    CheckpointKeys = TypedDict("CheckpointKeys", {
-        "every": CheckpointEvery | Mapping[str, Any],
-        "keep": int,
-    }, total=False)
     ConstraintKeys = TypedDict("ConstraintKeys", {
         "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
         "dofs": Literal["all"] | Sequence[Literal["x", "y", "z", "rx", "ry", "rz"]],
         "equation": Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
-        "kind": Literal["kinematic", "distributing", "plane", "line", "equal", "distance", "twist", "pretension", "cyclic"],
         "most": float,
         "normal": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "on": str,
         "point": Sequence[float] | NDArray[Any],
         "reference": str,
         "rhs": float,
         "sectors": int,
-        "with": str,
-    }, total=False)
-    ContactEnforcementArctangentKeys = TypedDict("ContactEnforcementArctangentKeys", {
-        "stiffness": float,
-        "tension": float,
-        "within": float,
-    }, total=False)
-    ContactEnforcementExponentialKeys = TypedDict("ContactEnforcementExponentialKeys", {
-        "c0": float,
-        "p0": float,
-        "within": float,
-    }, total=False)
-    ContactEnforcementLagrangeKeys = TypedDict("ContactEnforcementLagrangeKeys", {
-    }, total=False)
-    ContactEnforcementKeys = TypedDict("ContactEnforcementKeys", {
-        "arctangent": ContactEnforcementArctangent | Mapping[str, Any],
-        "augmented": Literal["uzawa", "newton"],
-        "exponential": ContactEnforcementExponential | Mapping[str, Any],
-        "gap_tol": Literal["auto"],
-        "lagrange": ContactEnforcementLagrange | Mapping[str, Any],
-        "penalty": Literal["auto"] | float | Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
-        "per": Literal["node", "area"],
-    }, total=False)
-    ContactFrictionKeys = TypedDict("ContactFrictionKeys", {
-        "cap": float,
-        "elastic_slip": float,
-        "kinetic": float,
-        "mu": float,
-        "static": float,
-        "stiffness": float,
-        "transition": float,
-        "tresca": float,
-    }, total=False)
-    ContactRuleKeys = TypedDict("ContactRuleKeys", {
-        "cut": bool,
-        "kind": Literal["gauss", "lobatto"],
-        "points": Literal["auto"] | int,
-    }, total=False)
-    ContactStartKeys = TypedDict("ContactStartKeys", {
-        "clearance": Literal["measured"] | float,
-        "close_gaps_below": float,
-        "close_gaps_of": str,
-        "facets": Literal["bent", "straight"],
-        "interference": Literal["step", "increment", "increments", "now", "strain-free"],
-    }, total=False)
-    ContactTiedKeys = TypedDict("ContactTiedKeys", {
-        "offset": Literal["keep", "close", "pull"],
-        "penalty_tangential": float,
-        "within": float,
+        "with_": str,
     }, total=False)
     ContactKeys = TypedDict("ContactKeys", {
         "active": bool,
         "area": Literal["reference", "current", "adjacent", "opposite"],
         "basis": Literal["part", "whole"],
-        "enforcement": Literal["auto"] | ContactLaw | ContactEnforcement | Mapping[str, Any] | ContactLaw | ContactLaw,
+        "enforcement": Literal["auto"] | ContactEnforcement | Mapping[str, Any] | ContactLaw,
         "features": Literal["auto", "faces", "edges"],
-        "friction": float | FrictionLimit | ContactFriction | Mapping[str, Any] | FrictionLimit | FrictionLimit,
+        "friction": float | ContactFriction | Mapping[str, Any] | FrictionLimit,
         "friction_history": Literal["place", "traction"],
         "method": Literal["auto", "node-to-node", "node-to-segment", "gauss-point", "mortar"],
-        "name": str,
         "normals": Literal["primary", "secondary", "nodal"] | Sequence[float] | NDArray[Any],
         "pairs": Literal["nearest", "order"],
         "passes": int,
-        "primary": str | Shape | SignedDistance | Projection,
         "reach": Literal["auto"] | float,
         "rule": ContactRule | Mapping[str, Any],
-        "secondary": str,
         "sliding": Literal["auto", "finite", "increment", "small"],
         "start": ContactStart | Mapping[str, Any],
         "tied": bool | ContactTied | Mapping[str, Any],
-    }, total=False)
-    ExpectTolKeys = TypedDict("ExpectTolKeys", {
-        "abs": float,
-        "rel": float,
-    }, total=False)
-    ExpectKeys = TypedDict("ExpectKeys", {
-        "at": int,
-        "time": float,
-        "tol": ExpectTol | Mapping[str, Any],
-        "value": float,
-        "what": str,
-    }, total=False)
-    InitialAtKeys = TypedDict("InitialAtKeys", {
-        "on": str,
-        "temperature": float,
-    }, total=False)
-    InitialKeys = TypedDict("InitialKeys", {
-        "at": Sequence[InitialAt | Mapping[str, Any]],
-        "strain": Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
-        "stress": Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
-        "temperature": float,
-    }, total=False)
-    MaterialExpansionKeys = TypedDict("MaterialExpansionKeys", {
-        "alpha": float | Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
-        "free": float | Literal["start"],
-        "reference": float,
-    }, total=False)
-    MaterialPlasticityKeys = TypedDict("MaterialPlasticityKeys", {
-        "hardening": Literal["isotropic", "kinematic", "combined"],
-        "modulus": float,
-        "table": Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
-    }, total=False)
-    MaterialKeys = TypedDict("MaterialKeys", {
-        "D": Sequence[float] | NDArray[Any],
-        "E": float | Sequence[float] | NDArray[Any],
-        "E1": float,
-        "E2": float,
-        "E3": float,
-        "G12": float,
-        "G13": float,
-        "G23": float,
-        "T": float | Sequence[float] | NDArray[Any],
-        "alpha": float | Sequence[float] | NDArray[Any],
-        "bulk": float,
-        "c01": float,
-        "c10": float,
-        "density": float,
-        "expansion": MaterialExpansion | Mapping[str, Any],
-        "model": Literal["linear-elastic", "saint-venant-kirchhoff", "neo-hookean", "mooney-rivlin", "mooney-rivlin-logarithmic", "ogden", "orthotropic", "hyperfoam", "anisotropic", "linear-elastic-by-temperature"],
-        "mu": float | Sequence[float] | NDArray[Any],
-        "nu": float | Sequence[float] | NDArray[Any],
-        "nu12": float,
-        "nu13": float,
-        "nu23": float,
-        "plasticity": MaterialPlasticity | Mapping[str, Any],
-    }, total=False)
-    MeshElementsKeys = TypedDict("MeshElementsKeys", {
-        "group": str,
-        "id": int,
-        "nodes": Sequence[int] | NDArray[Any],
-        "type": str,
-    }, total=False)
-    MeshKeys = TypedDict("MeshKeys", {
-        "elements": Sequence[MeshElements | Mapping[str, Any]],
-        "file": str,
-        "nodes": Sequence[Sequence[float] | NDArray[Any]] | NDArray[Any],
-    }, total=False)
-    ModelKeys = TypedDict("ModelKeys", {
-        "space": Literal["3d", "plane-strain", "plane-stress", "axisymmetric"],
-        "thickness": float,
-    }, total=False)
-    OutputEveryKeys = TypedDict("OutputEveryKeys", {
-        "time": float,
-    }, total=False)
-    OutputHistoryKeys = TypedDict("OutputHistoryKeys", {
-        "contact": str,
-        "name": str,
-        "node": int,
-        "quantity": str | Sequence[str],
-        "reference": str,
-        "set": str,
-    }, total=False)
-    OutputKeys = TypedDict("OutputKeys", {
-        "contact_pressure": Literal["multiplier", "smoothed"],
-        "every": int | OutputEvery | Mapping[str, Any],
-        "fields": Sequence[Literal["displacement", "reaction_force", "stress", "cauchy_stress", "von_mises", "principal", "principal_stress", "strain", "plastic_strain", "temperature", "contact", "contact_pressure"]],
-        "format": Sequence[Literal["vtu", "frd"]],
-        "history": Sequence[OutputHistory | Mapping[str, Any]],
-        "names": Literal["signorini"],
-    }, total=False)
-    ReferenceKeys = TypedDict("ReferenceKeys", {
-        "at": Sequence[float] | NDArray[Any],
-        "node": int,
-        "rotations": int,
     }, total=False)
     SetKeys = TypedDict("SetKeys", {
         "at": float,
@@ -2101,88 +1749,12 @@ if TYPE_CHECKING:
         "tol": float,
         "union": Sequence[str],
     }, total=False)
-    SolverNewtonKeys = TypedDict("SolverNewtonKeys", {
-        "force_tol": float,
-        "gap_tol": float,
-        "line_search": Literal["auto"] | bool,
-        "max_iterations": int,
-    }, total=False)
-    SolverKeys = TypedDict("SolverKeys", {
-        "free_motions": Literal["refuse", "hold"],
-        "linear": Literal["auto", "direct", "multigrid", "mumps"],
-        "newton": SolverNewton | Mapping[str, Any],
-        "on_trouble": Sequence[Literal["cut", "stabilize", "points"]],
-        "stabilize": Literal["auto"] | bool,
-        "threads": Literal["auto"] | int,
-    }, total=False)
     SpringKeys = TypedDict("SpringKeys", {
         "between": Sequence[str],
         "direction": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "name": str,
         "on": str,
         "stiffness": float,
         "table": Sequence[Sequence[Any] | NDArray[Any]] | NDArray[Any],
-    }, total=False)
-    ContactChangeKeys = TypedDict("ContactChangeKeys", {
-        "active": bool,
-        "friction": float | FrictionLimit | ContactFriction | Mapping[str, Any] | FrictionLimit | FrictionLimit,
-        "name": str,
-    }, total=False)
-    FixKeys = TypedDict("FixKeys", {
-        "on": str,
-        "rot": Literal["all"] | Sequence[Literal["x", "y", "z"]],
-        "u": Literal["all"] | Sequence[Literal["x", "y", "z"]],
-    }, total=False)
-    FreeKeys = TypedDict("FreeKeys", {
-        "on": str,
-        "rot": Literal["all"] | Sequence[Literal["x", "y", "z"]],
-        "u": Literal["all"] | Sequence[Literal["x", "y", "z"]],
-    }, total=False)
-    IncrementsKeys = TypedDict("IncrementsKeys", {
-        "count_max": int,
-        "fixed": int,
-        "initial": float,
-        "max": float,
-        "min": float,
-    }, total=False)
-    LoadCentrifugalKeys = TypedDict("LoadCentrifugalKeys", {
-        "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "point": Sequence[float] | NDArray[Any],
-        "speed": float,
-    }, total=False)
-    LoadKeys = TypedDict("LoadKeys", {
-        "amplitude": str | Course,
-        "body_force": Sequence[float] | NDArray[Any],
-        "centrifugal": LoadCentrifugal | Mapping[str, Any],
-        "coupling": Literal["none", "rigid-x", "rigid-y", "rigid-z"],
-        "follows": bool,
-        "force": Sequence[float] | NDArray[Any],
-        "gravity": Sequence[float] | NDArray[Any],
-        "moment": Sequence[float] | NDArray[Any],
-        "name": str,
-        "on": str,
-        "per_node": Sequence[float] | NDArray[Any],
-        "pressure": float,
-        "table": Sequence[Sequence[float] | NDArray[Any]] | NDArray[Any],
-        "traction": Sequence[float] | NDArray[Any],
-    }, total=False)
-    MaterialChangeKeys = TypedDict("MaterialChangeKeys", {
-        "group": str,
-        "material": str,
-    }, total=False)
-    MotionKeys = TypedDict("MotionKeys", {
-        "amplitude": str,
-        "table": Sequence[Sequence[float] | NDArray[Any]] | NDArray[Any],
-        "value": float | Sequence[Sequence[float]] | Course,
-    }, total=False)
-    MoveKeys = TypedDict("MoveKeys", {
-        "on": str,
-        "rx": float | Sequence[Sequence[float]] | Course | Motion | Mapping[str, Any],
-        "ry": float | Sequence[Sequence[float]] | Course | Motion | Mapping[str, Any],
-        "rz": float | Sequence[Sequence[float]] | Course | Motion | Mapping[str, Any],
-        "ux": float | Sequence[Sequence[float]] | Course | Motion | Mapping[str, Any],
-        "uy": float | Sequence[Sequence[float]] | Course | Motion | Mapping[str, Any],
-        "uz": float | Sequence[Sequence[float]] | Course | Motion | Mapping[str, Any],
     }, total=False)
     PrintKeys = TypedDict("PrintKeys", {
         "contact": Sequence[Literal["gap", "traction", "energy", "count", "force", "normal-force", "shear-force"]],
@@ -2191,136 +1763,5 @@ if TYPE_CHECKING:
         "faces": Sequence[Literal["force"]],
         "local": bool,
         "nodes": Sequence[Literal["displacement", "reaction", "temperature"]],
-        "on": str,
         "totals": Literal["no", "yes", "only"],
-    }, total=False)
-    TemperatureKeys = TypedDict("TemperatureKeys", {
-        "on": str,
-        "value": float,
-    }, total=False)
-    StepKeys = TypedDict("StepKeys", {
-        "contact": Sequence[ContactChange | Mapping[str, Any]],
-        "duration": float,
-        "fix": Sequence[Fix | Mapping[str, Any]],
-        "free": Sequence[Free | Mapping[str, Any]],
-        "geometry": Literal["auto", "linear", "nonlinear"],
-        "increments": int | Increments | Mapping[str, Any],
-        "kind": Literal["static"],
-        "load": Sequence[Load | Mapping[str, Any]],
-        "material": Sequence[MaterialChange | Mapping[str, Any]],
-        "move": Sequence[Move | Mapping[str, Any]],
-        "name": str,
-        "print": Sequence[Print | Mapping[str, Any]],
-        "temperature": Sequence[Temperature | Mapping[str, Any]],
-    }, total=False)
-    CircleKeys = TypedDict("CircleKeys", {
-        "center": Sequence[float] | NDArray[Any],
-        "radius": float,
-        "side": Literal["outside", "inside"],
-    }, total=False)
-    CircleKeys = TypedDict("CircleKeys", {
-        "center": Sequence[float] | NDArray[Any],
-        "radius": float,
-        "side": Literal["outside", "inside"],
-    }, total=False)
-    ConeKeys = TypedDict("ConeKeys", {
-        "apex": Sequence[float] | NDArray[Any],
-        "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "half_angle": float,
-    }, total=False)
-    ConeKeys = TypedDict("ConeKeys", {
-        "apex": Sequence[float] | NDArray[Any],
-        "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "half_angle": float,
-    }, total=False)
-    CylinderKeys = TypedDict("CylinderKeys", {
-        "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "point": Sequence[float] | NDArray[Any],
-        "radius": float,
-        "side": Literal["outside", "inside"],
-    }, total=False)
-    CylinderKeys = TypedDict("CylinderKeys", {
-        "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "point": Sequence[float] | NDArray[Any],
-        "radius": float,
-        "side": Literal["outside", "inside"],
-    }, total=False)
-    PlaneKeys = TypedDict("PlaneKeys", {
-        "normal": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "point": Sequence[float] | NDArray[Any],
-    }, total=False)
-    PlaneKeys = TypedDict("PlaneKeys", {
-        "normal": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "point": Sequence[float] | NDArray[Any],
-    }, total=False)
-    PolynomialKeys = TypedDict("PolynomialKeys", {
-        "coefficients": Sequence[float] | NDArray[Any],
-        "side": Literal["above", "below"],
-    }, total=False)
-    PolynomialKeys = TypedDict("PolynomialKeys", {
-        "coefficients": Sequence[float] | NDArray[Any],
-        "side": Literal["above", "below"],
-    }, total=False)
-    SphereKeys = TypedDict("SphereKeys", {
-        "center": Sequence[float] | NDArray[Any],
-        "radius": float,
-        "side": Literal["outside", "inside"],
-    }, total=False)
-    SphereKeys = TypedDict("SphereKeys", {
-        "center": Sequence[float] | NDArray[Any],
-        "radius": float,
-        "side": Literal["outside", "inside"],
-    }, total=False)
-    TorusKeys = TypedDict("TorusKeys", {
-        "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "center": Sequence[float] | NDArray[Any],
-        "radius": float,
-        "side": Literal["outside", "inside"],
-        "tube": float,
-    }, total=False)
-    TorusKeys = TypedDict("TorusKeys", {
-        "axis": Literal["x", "y", "z"] | Sequence[float] | NDArray[Any],
-        "center": Sequence[float] | NDArray[Any],
-        "radius": float,
-        "side": Literal["outside", "inside"],
-        "tube": float,
-    }, total=False)
-    SurfaceShapeKeys = TypedDict("SurfaceShapeKeys", {
-        "circle": Circle | Mapping[str, Any],
-        "cone": Cone | Mapping[str, Any],
-        "cylinder": Cylinder | Mapping[str, Any],
-        "plane": Plane | Mapping[str, Any],
-        "polynomial": Polynomial | Mapping[str, Any],
-        "sphere": Sphere | Mapping[str, Any],
-        "stl": str,
-        "torus": Torus | Mapping[str, Any],
-    }, total=False)
-    SurfaceKeys = TypedDict("SurfaceKeys", {
-        "name": str,
-        "reference": str,
-        "shape": SurfaceShape | Mapping[str, Any] | Shape | SignedDistance | Projection,
-    }, total=False)
-    CaseTableKeys = TypedDict("CaseTableKeys", {
-        "allow": Sequence[str],
-        "amplitude": Mapping[str, Any],
-        "axes": Sequence[Axes | Mapping[str, Any]],
-        "body": Sequence[Body | Mapping[str, Any]],
-        "checkpoint": Checkpoint | Mapping[str, Any],
-        "constraint": Sequence[Constraint | Mapping[str, Any]],
-        "contact": Sequence[Contact | Mapping[str, Any]],
-        "expect": Sequence[Expect | Mapping[str, Any]],
-        "format": int,
-        "initial": Initial | Mapping[str, Any],
-        "material": Mapping[str, Any],
-        "mesh": Mesh | Mapping[str, Any],
-        "model": Model | Mapping[str, Any],
-        "output": Output | Mapping[str, Any],
-        "reference": Mapping[str, Any],
-        "sets": Mapping[str, Any],
-        "solver": Solver | Mapping[str, Any],
-        "spring": Sequence[Spring | Mapping[str, Any]],
-        "step": Sequence[Step | Mapping[str, Any]],
-        "surface": Sequence[Surface | Mapping[str, Any]],
-        "title": str,
-        "units": str,
     }, total=False)
