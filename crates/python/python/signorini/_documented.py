@@ -16,7 +16,7 @@ def documented(table: type[Table], *skipped: str) -> Callable[[F], F]:
 
     def add(function: F) -> F:
         lines: list[str] = []
-        for name, key in table._attributes.items():  # pyright: ignore[reportPrivateUsage]
+        for name, key in table._attributes.items():
             if name in skipped:
                 continue
             default = "" if key.default is None else f", default {key.default!r}"

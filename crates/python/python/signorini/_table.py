@@ -84,18 +84,18 @@ class Key(Generic[G, S]):
         self.write(table, value)
 
     def __delete__(self, table: Table) -> None:
-        table._drop(self.key)  # pyright: ignore[reportPrivateUsage]
+        table._drop(self.key)
 
     def read(self, table: Table) -> Any:
         """The value of a table, or the default."""
-        return table._values.get(self.key, self.default)  # pyright: ignore[reportPrivateUsage]
+        return table._values.get(self.key, self.default)
 
     def write(self, table: Table, value: Any) -> None:
         """Sets the value; `None` removes the key."""
         if value is None:
-            table._drop(self.key)  # pyright: ignore[reportPrivateUsage]
+            table._drop(self.key)
         else:
-            table._put(self.key, self.convert(value))  # pyright: ignore[reportPrivateUsage]
+            table._put(self.key, self.convert(value))
 
     def convert(self, value: Any) -> Any:
         """The value as it is stored."""
@@ -111,12 +111,20 @@ class _Inner(Key[G, S]):
 
     def read(self, table: Table) -> Any:
         """The value of a table; an inner table or list is created where there is none."""
-        value = table._values.get(self.key)  # pyright: ignore[reportPrivateUsage]
-        return table._child(self.key, self.create) if value is None else value  # pyright: ignore[reportPrivateUsage]
+        value = table._values.get(self.key)
+        return table._child(self.key, self.create) if value is None else value
 
     def create(self) -> Any:
         """An empty one."""
         return self.table.made_from({})
+
+
+def _converted(table: type[Table], value: Any) -> Any:
+    if isinstance(value, Shape) and not isinstance(value, table):
+        return table.made_from({type(value)._toml.rpartition(".")[2]: value})
+    if isinstance(value, Mapping):
+        return table.made_from(cast("Mapping[str, Any]", value))
+    return plain(value)
 
 
 class One(_Inner["T", "T | Mapping[str, Any]"], Generic[T]):
@@ -128,11 +136,7 @@ class One(_Inner["T", "T | Mapping[str, Any]"], Generic[T]):
 
     def convert(self, value: Any) -> Any:
         """Mappings become tables, and a shape the table that names it; other objects stay."""
-        if isinstance(value, Shape) and not isinstance(value, self.table):
-            return self.table.made_from({type(value)._toml.rpartition(".")[2]: value})  # pyright: ignore[reportPrivateUsage]
-        if isinstance(value, Mapping):
-            return self.table.made_from(cast("Mapping[str, Any]", value))
-        return plain(value)
+        return _converted(self.table, value)
 
 
 class Mixed(_Inner[Any, Any], Generic[T]):
@@ -144,10 +148,10 @@ class Mixed(_Inner[Any, Any], Generic[T]):
 
     def convert(self, value: Any) -> Any:
         """Mappings become tables; rows of a motion over time its table; other objects stay."""
-        value = One.convert(cast("One[Any]", self), value)
-        if isinstance(value, list) and "table" in self.table._keys:  # pyright: ignore[reportPrivateUsage]
-            return self.table.made_from({"table": value})
-        return value
+        value = _converted(self.table, value)
+        if isinstance(value, list) and "table" in self.table._keys:
+            return self.table.made_from({"table": cast("list[Any]", value)})
+        return cast("Any", value)
 
 
 class Items(_Inner["TableList[T]", "Iterable[T | Mapping[str, Any]]"], Generic[T]):
@@ -205,7 +209,7 @@ class Table:
     _parent: tuple[Table, str] | None
 
     def __init_subclass__(cls) -> None:
-        own = [one for one in cls.__dict__.values() if isinstance(one, Key)]
+        own = [cast("Key[Any, Any]", one) for one in cls.__dict__.values() if isinstance(one, Key)]
         cls._keys = {**cls._keys, **{one.key: one for one in own}}
         cls._attributes = {**cls._attributes, **{one.name: one for one in own}}
 
@@ -263,8 +267,11 @@ class Table:
         return child
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name.startswith("_") or hasattr(type(self), name):
+        found = getattr(type(self), name, None)
+        if name.startswith("_") or isinstance(found, Key):
             object.__setattr__(self, name, value)
+        elif callable(found):
+            raise AttributeError(f"{name} of {type(self).__name__} is a method: call it, or assign to its list")
         else:
             raise AttributeError(self._unknown(name))
 
@@ -321,7 +328,7 @@ class Table:
             return NotImplemented
         return self.to_dict_raw() == other.to_dict_raw()
 
-    __hash__ = None  # pyright: ignore[reportAssignmentType]
+    __hash__ = None  # type: ignore[assignment]  # pyright: ignore[reportAssignmentType]
 
     def __repr__(self) -> str:
         given = [f"{self._keys[key].name}={value!r}" for key, value in self._values.items() if key not in self._implied]
@@ -378,16 +385,13 @@ class TableList(MutableSequence[T]):
 
     def _convert(self, value: T | Mapping[str, Any]) -> T:
         if isinstance(value, Mapping):
-            return cast("T", self._table.made_from(cast("Mapping[str, Any]", value)))
+            return cast("T", self._table.made_from(value))
         if isinstance(value, self._table):
             return value
         raise TypeError(f"a {self._table.__name__} is needed, found {type(value).__name__}")
 
     def _join(self) -> None:
-        if self._parent is not None:
-            (parent, key), self._parent = self._parent, None
-            if parent._children.get(key) is self:  # pyright: ignore[reportPrivateUsage]
-                parent._put(key, self)  # pyright: ignore[reportPrivateUsage]
+        _join_list(self)
 
     def names(self) -> list[str]:
         """The names of the tables: what `name` says, or the group, set or column they are about."""
@@ -464,7 +468,7 @@ class TableDict(MutableMapping[str, T]):
 
     def _convert(self, value: T | Mapping[str, Any]) -> T:
         if isinstance(value, Mapping):
-            return cast("T", self._table.made_from(cast("Mapping[str, Any]", value)))
+            return cast("T", self._table.made_from(value))
         if isinstance(value, self._table):
             return value
         own = getattr(value, "as_table", None)
@@ -472,7 +476,8 @@ class TableDict(MutableMapping[str, T]):
             return self._convert(own())
         raise TypeError(f"a {self._table.__name__} is needed, found {type(value).__name__}")
 
-    _join = TableList._join
+    def _join(self) -> None:
+        _join_list(self)
 
     def _key(self, which: int | str) -> str:
         if isinstance(which, int):
@@ -523,7 +528,7 @@ def dump(value: Any, leaf: Callable[[Any, str, Table | None], Any] | None = None
             return leaf(value, key, table)
         if isinstance(value, Table):
             out: dict[str, Any] = {}
-            for name, below in value._values.items():  # pyright: ignore[reportPrivateUsage]
+            for name, below in value._values.items():
                 if is_given(below):
                     out[name] = walk(below, name, value)
             return out
@@ -543,8 +548,16 @@ def dump(value: Any, leaf: Callable[[Any, str, Table | None], Any] | None = None
 def is_given(value: Any) -> bool:
     """Whether a value is written: empty lists are where they were assigned."""
     if isinstance(value, (TableList, TableDict)):
-        return len(cast("Any", value)) > 0 or value._is_kept  # pyright: ignore[reportPrivateUsage, reportUnknownMemberType]
+        return len(cast("Any", value)) > 0 or value._is_kept  # pyright: ignore[reportUnknownMemberType]
     return True
+
+
+def _join_list(tables: Any) -> None:
+    """Stores a list of tables in the table it was created by."""
+    if tables._parent is not None:
+        (parent, key), tables._parent = tables._parent, None
+        if parent._children.get(key) is tables:
+            parent._put(key, tables)
 
 
 def _copied(value: Any) -> Any:
@@ -552,10 +565,10 @@ def _copied(value: Any) -> Any:
         return value.copy()
     if isinstance(value, TableList):
         values = cast("TableList[Any]", value)
-        return TableList(values._table, [one.copy() for one in values], keep=values._is_kept)  # pyright: ignore[reportPrivateUsage]
+        return TableList(values._table, [one.copy() for one in values], keep=values._is_kept)
     if isinstance(value, TableDict):
         tables = cast("TableDict[Any]", value)
-        return TableDict(tables._table, {name: one.copy() for name, one in tables.items()})  # pyright: ignore[reportPrivateUsage]
+        return TableDict(tables._table, {name: one.copy() for name, one in tables.items()})
     if isinstance(value, list):
         return [_copied(one) for one in cast("list[Any]", value)]
     return value
@@ -563,15 +576,15 @@ def _copied(value: Any) -> Any:
 
 def _name(table: Table) -> str:
     for key in ("name", "group", "set", "on", "what", "kind"):
-        value = table._values.get(key)  # pyright: ignore[reportPrivateUsage]
+        value = table._values.get(key)
         if value is not None:
-            return ", ".join(value) if isinstance(value, list) else str(value)
+            return ", ".join(cast("list[str]", value)) if isinstance(value, list) else str(value)
     return ""
 
 
 def _is_called(table: Table, name: str) -> bool:
     for key in ("name", "group", "set", "on", "what"):
-        value = table._values.get(key)  # pyright: ignore[reportPrivateUsage]
+        value = table._values.get(key)
         if value is not None:
             return name in value if isinstance(value, list) else value == name
     return False

@@ -96,7 +96,7 @@ class SignoriniError(Exception):
 
     def __init__(self, message: str | Sequence[Mapping[str, Any]] = "", diagnostics: Sequence[Mapping[str, Any]] = ()) -> None:
         if not isinstance(message, str):
-            message, diagnostics = "", message
+            diagnostics, message = message, ""
         self.message = message
         self.diagnostics = [one if isinstance(one, Diagnostic) else Diagnostic(one) for one in diagnostics]
         super().__init__(message)

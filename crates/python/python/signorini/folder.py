@@ -49,7 +49,7 @@ def open(folder: str | os.PathLike[str]) -> Result:
     if files:
         reader = _Reader(folder, result.history, _space(folder))
         paths = [(time, path, contacts.get(time)) for time, path in files]
-        result._frames = _Frames(reader, paths)  # pyright: ignore[reportPrivateUsage]
+        result._frames = _Frames(reader, paths)
         result.mesh = _mesh(reader.vtu(files[0][1]))
         reader.mesh = result.mesh
     return result
@@ -99,7 +99,7 @@ def _mesh(vtu: dict[str, Any]) -> Mesh:
             continue
         kind = int(types[start])
         found = BY_VTK[kind]
-        cells = connectivity[offsets[start] : offsets[end]].reshape(-1, found.nnode)
+        cells = np.reshape(connectivity[offsets[start] : offsets[end]], (-1, found.nnode))
         order = VTK_ORDERS.get(kind)
         blocks.append((found.name, cells if order is None else np.ascontiguousarray(cells[:, order])))
         labels.append(numbers[start:end])

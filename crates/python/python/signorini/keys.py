@@ -963,7 +963,7 @@ class Output(Table):
         "list of `\"vtu\"`, `\"frd\"`",
         default=["vtu"],
     )
-    histories: Items[OutputHistory] = Items(OutputHistory, "Columns of history.csv", "list of a table", key="history")
+    history: Items[OutputHistory] = Items(OutputHistory, "Columns of history.csv", "list of a table")
     names: Key[Literal["signorini"], Literal["signorini"]] = Key(
         "How fields are named",
         "`\"signorini\"`",

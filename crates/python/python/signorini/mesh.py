@@ -55,7 +55,7 @@ class Mesh:
         cell_labels: Sequence[ArrayLike] | None = None,
     ) -> None:
         self._points = _points(points)
-        pairs = cells.items() if isinstance(cells, Mapping) else cells
+        pairs = cast("Any", cells).items() if isinstance(cells, Mapping) else cells
         pairs = cast("Iterable[tuple[str, ArrayLike]]", pairs)
         self._blocks = [(element(name).name, _cells(name, block, len(self._points))) for name, block in pairs]
         self._node_labels = _labels(node_labels, len(self._points), "node_labels")
@@ -236,7 +236,7 @@ class Mesh:
         tags, coordinates, _ = model.mesh.getNodes()
         order = np.argsort(tags, kind="stable")
         tags = np.asarray(tags)[order]
-        points = np.asarray(coordinates, dtype=float).reshape(-1, 3)[order]
+        points = np.reshape(np.asarray(coordinates, dtype=float), (-1, 3))[order]
         if len(tags) == 0:
             raise ValueError("gmsh's current model has no mesh: call gmsh.model.mesh.generate(3)")
         groups = [(int(dim), int(tag)) for dim, tag in model.getPhysicalGroups()]
@@ -258,7 +258,7 @@ class Mesh:
                 if found is None:
                     name = model.mesh.getElementProperties(kind)[0]
                     raise ValueError(f"there is no element for gmsh's {name} (type {kind})")
-                cells = np.searchsorted(tags, np.asarray(node)).reshape(-1, found.nnode)
+                cells = np.reshape(np.searchsorted(tags, np.asarray(node)), (-1, found.nnode))
                 if found.name in GMSH_ORDERS:
                     cells = cells[:, GMSH_ORDERS[found.name]]
                 start = sizes.get(found.name, 0)
@@ -439,7 +439,7 @@ def to_vtk(name: str, cells: Integers) -> Integers:
     return cells if order is None else cells[:, np.argsort(order)]
 
 
-def _read_only(array: NDArray[Any]) -> Any:
+def _read_only(array: Any) -> Any:
     view = array.view()
     view.flags.writeable = False
     return view
@@ -459,7 +459,7 @@ def _points(points: ArrayLike) -> Floats:
 
 def _cells(name: str, cells: ArrayLike, npoint: int) -> Integers:
     found = element(name)
-    array = np.asarray(cells)
+    array: Integers = np.asarray(cells)
     if array.size == 0:
         array = np.empty((0, found.nnode), np.int64)
     if array.ndim != 2 or array.shape[1] != found.nnode or array.dtype.kind not in "iu":
@@ -469,7 +469,7 @@ def _cells(name: str, cells: ArrayLike, npoint: int) -> Integers:
     if array.size and (array.min() < 0 or array.max() >= npoint):
         bad = int(np.flatnonzero((array < 0).any(axis=1) | (array >= npoint).any(axis=1))[0])
         raise IndexError(f"cell {bad} of {name} has nodes {array[bad].tolist()}, but there are {npoint} points")
-    if array.dtype not in (np.int32, np.int64, np.uint32) or not array.flags.c_contiguous:
+    if str(array.dtype) not in ("int32", "int64", "uint32") or not array.flags.c_contiguous:
         array = np.ascontiguousarray(array, dtype=np.int64)
     return _read_only(array)
 

@@ -6,7 +6,7 @@ import base64
 import sys
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from ._optional import has
 
@@ -153,7 +153,7 @@ class LivePlot:
         if self._forces:
             right.legend()
         out = io.BytesIO()
-        FigureCanvasAgg(figure).print_png(out)
+        cast("Any", FigureCanvasAgg(figure)).print_png(out)
         self._image.value = out.getvalue()
 
     def close(self) -> None:
@@ -230,11 +230,11 @@ def svg(mesh: Mesh, points: NDArray[np.float64], size: int = 260) -> str:
     height = float((high - low)[1]) * scale + 8
     seen[:, 1] = height - seen[:, 1]
     polygons: list[tuple[float, str]] = []
-    for found in outer:
-        far = (points @ depth)[found].mean(axis=1)
-        for at, nodes in zip(far, found, strict=True):
-            corners = " ".join(f"{x:.1f},{y:.1f}" for x, y in seen[nodes])
-            polygons.append((float(at), f'<polygon points="{corners}"/>'))
+    for stacked in outer:
+        far = (points @ depth)[stacked].mean(axis=1)
+        for at, nodes in zip(far, stacked, strict=True):
+            path = " ".join(f"{x:.1f},{y:.1f}" for x, y in seen[nodes])
+            polygons.append((float(at), f'<polygon points="{path}"/>'))
     drawn = "".join(polygon for _, polygon in sorted(polygons, key=lambda one: one[0]))
     return (
         f'<svg width="{size}" height="{height:.0f}" fill="#dfe7f2" stroke="#4a6285" stroke-width="0.5" '

@@ -58,7 +58,7 @@ def _pair(value: Any, what: str) -> tuple[Any, Any]:
         pair = cast("tuple[Any, ...]", value)
         if len(pair) == 2:
             return pair[0], pair[1]
-    raise TypeError(f"{what} has to return two arrays, found {type(value).__name__}")
+    raise TypeError(f"{what} has to return two arrays, found {type(cast('Any', value)).__name__}")
 
 
 def _name(function: Callable[..., Any]) -> str:
@@ -138,7 +138,7 @@ class SignedDistance(Physics):
             shift = np.zeros(3)
             shift[j] = step
             out[:, :, j] = (self.gradient(x + shift) - self.gradient(x - shift)) / (2.0 * step)
-        return 0.5 * (out + out.transpose(0, 2, 1))
+        return 0.5 * (out + np.swapaxes(out, 1, 2))
 
     def __repr__(self) -> str:
         return f"SignedDistance({_name(self._value)}, size={self.size:g})"
@@ -322,7 +322,7 @@ class Material(Physics):
         found = self._respond(*given)
         count = 2 if self.history == 0 else 3
         if not isinstance(found, tuple) or len(found) != count:  # pyright: ignore[reportUnnecessaryIsInstance]
-            raise TypeError(f"the material {name} has to return {count} arrays, found {type(found).__name__}")
+            raise TypeError(f"the material {name} has to return {count} arrays, found {type(cast('Any', found)).__name__}")
         n = len(strain)
         out = (
             checked(found[0], (n, 6), f"the stress of the material {name}"),

@@ -16,10 +16,10 @@ class Stepper:
 
     Changes of the case take effect at the next `advance`. `save` and `restore` go back to a state.
 
-    >>> stepper = case.stepper()                                # doctest: +SKIP
-    >>> while not stepper.done:
-    ...     frame = stepper.advance(0.1)
-    ...     case.steps["press"].loads[0].pressure = control(frame)
+        stepper = case.stepper()
+        while not stepper.done:
+            frame = stepper.advance(0.1)
+            case.steps["press"].loads[0].pressure = control(frame)
     """
 
     def __init__(self, case: Case, threads: int | None = None) -> None:
