@@ -38,6 +38,10 @@ def test_points_without_a_projection_are_nan() -> None:
     assert np.isnan(half.closest(X)).any(axis=1).tolist() == [True, False]
 
 
+def two_arrays(strain: Any, old: Any) -> Any:
+    return strain, strain
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -47,7 +51,7 @@ def test_points_without_a_projection_are_nan() -> None:
         (lambda: sg.ContactLaw(lambda g: (g, g[:1])).pressure(X[:, 0]), "derivative of the contact law"),
         (lambda: sg.FrictionLimit(lambda p, s: (p, "a")).limit(X[:, 0], X[:, 0]), "array of numbers"),
         (lambda: sg.Material(lambda e: (e, e), 1.0).respond(np.zeros((2, 6))), "tangent of the material"),
-        (lambda: sg.Material(lambda e, h: (e, e), 1.0, history=1).respond(np.zeros((2, 6)), X), "3 arrays"),
+        (lambda: sg.Material(two_arrays, 1.0, history=1).respond(np.zeros((2, 6)), X), "3 arrays"),
         (lambda: sg.Material(lambda e: (e, e), -1.0), "modulus has to be positive"),
         (lambda: sg.SignedDistance(3, lambda x: x), "has to be a function"),  # type: ignore[arg-type]
         (lambda: sphere(size=0.0), "size has to be positive"),

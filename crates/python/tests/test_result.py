@@ -96,11 +96,20 @@ def test_a_failed_run_is_a_result() -> None:
 
 
 def test_errors_print_their_diagnostics() -> None:
-    found = {"severity": "error", "code": "S0102", "message": "unknown key `x`", "file": "a.toml", "line": 3, "column": 1}
+    found = {
+        "severity": "error",
+        "code": "S0102",
+        "message": "unknown key `x`",
+        "file": "a.toml",
+        "line": 3,
+        "column": 1,
+    }
     error = sg.InputError.of([found])
     assert "error[S0102]: unknown key `x`" in str(error) and "a.toml:3:1" in str(error)
     assert error.diagnostics[0].line == 3 and error.diagnostics[0]["code"] == "S0102"
     assert issubclass(sg.NotConverged, sg.SignoriniError)
-    model = sg.ModelError.of([{"code": "S0301", "message": "m", "notes": ["free motions: translation along z", "element 7"]}])
+    model = sg.ModelError.of(
+        [{"code": "S0301", "message": "m", "notes": ["free motions: translation along z", "element 7"]}]
+    )
     assert isinstance(model, sg.ModelError)
     assert model.free_modes == ["translation along z"] and model.bad_elements == [7]

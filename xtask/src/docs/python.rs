@@ -41,7 +41,7 @@ const NAMES: [(&str, &str); 4] = [
 ];
 
 /// Lists of tables whose singular is the method that adds to them: key, and attribute of the list.
-const LISTS: [(&str, &str); 20] = [
+const LISTS: [(&str, &str); 19] = [
     ("amplitude", "amplitudes"),
     ("axes", "axes"),
     ("body", "bodies"),
@@ -61,7 +61,6 @@ const LISTS: [(&str, &str); 20] = [
     ("step.print", "prints"),
     ("step.temperature", "temperatures"),
     ("surface", "surfaces"),
-    ("output.history", "histories"),
 ];
 
 /// What else of Python's a key takes.
@@ -190,8 +189,9 @@ impl<'a> Module<'a> {
             all => all.to_vec(),
         };
         let is_place = |key: &str| constants.is_empty() && PLACES.contains(&key);
-        let is_constant =
-            |key: &str| constants.is_empty() || ["density", "expansion", "plasticity"].contains(&key);
+        let is_constant = |key: &str| {
+            constants.is_empty() || ["density", "expansion", "plasticity"].contains(&key)
+        };
         let mut first = Vec::new();
         let mut last = Vec::new();
         let mut names = Vec::new();
@@ -209,7 +209,10 @@ impl<'a> Module<'a> {
             names.push(key);
         }
         first.append(&mut last);
-        let given: Vec<String> = first.iter().map(|one| format!("        {one},\n")).collect();
+        let given: Vec<String> = first
+            .iter()
+            .map(|one| format!("        {one},\n"))
+            .collect();
         let passed: Vec<String> = names.iter().map(|key| format!("{key}={key}")).collect();
         format!(
             "\n    def __init__(\n        self,\n        *,\n{}    ) -> None:\n        super().__init__({})\n",
@@ -264,14 +267,20 @@ impl<'a> Module<'a> {
         if line.chars().count() <= WIDTH {
             return line;
         }
-        let details: Vec<String> = details.iter().map(|one| format!("        {one},\n")).collect();
+        let details: Vec<String> = details
+            .iter()
+            .map(|one| format!("        {one},\n"))
+            .collect();
         let before = before.trim_end();
         let before = if before.is_empty() {
             String::new()
         } else {
             format!("        {before}\n")
         };
-        format!("    {name}: {kind} = {made}(\n{before}{}    )\n", details.concat())
+        format!(
+            "    {name}: {kind} = {made}(\n{before}{}    )\n",
+            details.concat()
+        )
     }
 
     /// The type of what may be assigned.
@@ -355,9 +364,7 @@ fn header(name: &str, base: &str, doc: &str, path: &str) -> String {
         format!("\n\n    TOML: `{path}`.\n    ")
     };
     let doc = doc.replace('\\', "\\\\");
-    format!(
-        "\n\nclass {name}({base}):\n    \"\"\"{doc}.{place}\"\"\"\n\n    _toml = \"{path}\"\n"
-    )
+    format!("\n\nclass {name}({base}):\n    \"\"\"{doc}.{place}\"\"\"\n\n    _toml = \"{path}\"\n")
 }
 
 fn is_shape(path: &str) -> bool {
@@ -485,4 +492,91 @@ fn python(value: &Json) -> String {
 
 fn literal(text: &str) -> String {
     python(&Json::from(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn schema() -> Json {
+        json!({ "description": "a case", "properties": {
+            "contact": { "description": "pairs", "type": "array", "items": {
+                "description": "pairs", "type": "object", "properties": {
+                    "friction": { "description": "how rough", "default": 0.0, "anyOf": [
+                        { "type": "number" },
+                        { "type": "object", "description": "limits", "properties": { "mu": { "type": "number" } } },
+                    ] },
+                    "method": { "description": "how", "enum": ["auto", "mortar"], "default": "auto" },
+                    "later": { "description": "not yet", "not": {} },
+                } } },
+            "material": { "description": "materials", "type": "object", "additionalProperties": {
+                "description": "materials", "type": "object",
+                "properties": { "E": { "type": "number" }, "model": { "enum": ["linear-elastic", "own"] } },
+                "allOf": [
+                    { "if": { "properties": { "model": { "const": "linear-elastic" } } },
+                        "then": { "description": "linear", "required": ["E"] } },
+                    { "if": { "properties": { "model": { "const": "own" } } },
+                        "then": { "description": "own", "required": [] } },
+                ] } },
+            "surface": { "description": "surfaces", "type": "array", "items": { "properties": {
+                "shape": { "description": "a shape", "properties": {
+                    "plane": { "description": "flat", "required": ["normal", "point"], "properties": {
+                        "normal": { "type": "array", "items": { "type": "number" } },
+                        "point": { "type": "array", "items": { "type": "number" } },
+                    } },
+                } },
+            } } },
+            "title": { "description": "a title", "type": "string" },
+        } })
+    }
+
+    #[test]
+    fn every_key_is_an_attribute_with_its_type() {
+        let module = module(&schema());
+        for line in [
+            "class ContactFriction(Table):",
+            "    friction: Mixed[ContactFriction] = Mixed(ContactFriction, \"How rough\", \"number or a table\", default=0.0)",
+            "    title: Key[str | None, str] = Key(\"A title\", \"text\")",
+            "    contacts: Items[Contact] = Items(Contact, \"Pairs\", \"list of a table\", key=\"contact\")",
+            "    materials: Named[Material] = Named(Material, \"Materials\", \"tables by name\", key=\"material\")",
+            "        \"friction\": float | ContactFriction | Mapping[str, Any] | FrictionLimit,",
+        ] {
+            assert!(module.lines().any(|one| one == line), "{line}\n{module}");
+        }
+        assert!(!module.contains("later"));
+    }
+
+    #[test]
+    fn a_model_takes_its_constants() {
+        let module = module(&schema());
+        let class = module
+            .split("class LinearElastic(Material):")
+            .nth(1)
+            .unwrap();
+        let class = class.split("\n\n\nclass").next().unwrap();
+        assert!(class.contains("_model = \"linear-elastic\""), "{class}");
+        assert!(class.contains("        E: float,\n"), "{class}");
+        assert!(!module.contains("class Own("));
+    }
+
+    #[test]
+    fn places_of_shapes_are_at_the_origin() {
+        let module = module(&schema());
+        let class = module.split("class Plane(Shape):").nth(1).unwrap();
+        assert!(
+            class.contains("        normal: Sequence[float] | NDArray[Any],\n"),
+            "{class}"
+        );
+        let point = "        point: Sequence[float] | NDArray[Any] = (0.0, 0.0, 0.0),\n";
+        assert!(class.contains(point), "{class}");
+    }
+
+    #[test]
+    fn inner_tables_come_first() {
+        let module = module(&schema());
+        let place = |class: &str| module.find(&format!("class {class}(")).unwrap();
+        assert!(place("ContactFriction") < place("Contact"));
+        assert!(place("Contact") < place("CaseTable"));
+    }
 }

@@ -76,7 +76,9 @@ def indices(value: Any, count: int, what: str) -> Ids:
     if array.ndim != 1 or array.dtype.kind not in "iu":
         raise TypeError(f"{what} has to be indices or a mask, found shape {array.shape} of {array.dtype}")
     if array.min() < 0 or array.max() >= count:
-        raise IndexError(f"{what}: index {int(array.max() if array.max() >= count else array.min())} is not below {count}")
+        raise IndexError(
+            f"{what}: index {int(array.max() if array.max() >= count else array.min())} is not below {count}"
+        )
     return np.array(array, dtype=np.int64)
 
 

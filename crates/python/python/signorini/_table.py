@@ -132,7 +132,9 @@ class One(_Inner["T", "T | Mapping[str, Any]"], Generic[T]):
 
     if TYPE_CHECKING:
 
-        def __init__(self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = "") -> None: ...
+        def __init__(
+            self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = ""
+        ) -> None: ...
 
     def convert(self, value: Any) -> Any:
         """Mappings become tables, and a shape the table that names it; other objects stay."""
@@ -144,7 +146,9 @@ class Mixed(_Inner[Any, Any], Generic[T]):
 
     if TYPE_CHECKING:
 
-        def __init__(self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = "") -> None: ...
+        def __init__(
+            self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = ""
+        ) -> None: ...
 
     def convert(self, value: Any) -> Any:
         """Mappings become tables; rows of a motion over time its table; other objects stay."""
@@ -159,7 +163,9 @@ class Items(_Inner["TableList[T]", "Iterable[T | Mapping[str, Any]]"], Generic[T
 
     if TYPE_CHECKING:
 
-        def __init__(self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = "") -> None: ...
+        def __init__(
+            self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = ""
+        ) -> None: ...
 
     def create(self) -> Any:
         """An empty list."""
@@ -177,7 +183,9 @@ class Named(_Inner["TableDict[T]", "Mapping[str, T | Mapping[str, Any]]"], Gener
 
     if TYPE_CHECKING:
 
-        def __init__(self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = "") -> None: ...
+        def __init__(
+            self, table: type[T], doc: str, values: str = "", *, default: Any = None, key: str = ""
+        ) -> None: ...
 
     def create(self) -> Any:
         """No tables."""

@@ -56,7 +56,9 @@ def _mesh(value: Any) -> Mesh | None:
         return Mesh.from_meshio(value)
     if hasattr(value, "cast_to_unstructured_grid"):
         return Mesh.from_pyvista(value)
-    raise TypeError(f"a mesh has to be a signorini.Mesh, the path of a file, or one of pyvista or meshio, found {type(value).__name__}")
+    raise TypeError(
+        f"a mesh has to be a signorini.Mesh, the path of a file, or one of pyvista or meshio, found {type(value).__name__}"
+    )
 
 
 def _directions(u: Directions) -> str | list[str]:
@@ -180,7 +182,9 @@ class Step(k.Step):
         )
         if len(given) != 1:
             found = ", ".join(given) or "none"
-            raise TypeError(f"a load is one of force, traction, pressure, moment, per_node, body_force, gravity, centrifugal; found {found}")
+            raise TypeError(
+                f"a load is one of force, traction, pressure, moment, per_node, body_force, gravity, centrifugal; found {found}"
+            )
         course = plain(pressure)
         if callable(course) or isinstance(course, list):
             if amplitude is not None:
@@ -682,7 +686,9 @@ class Case(k.CaseTable):
         rows: list[tuple[str, object]] = [("units", self.units)] if self.units else []
         rows += [("body", f"{', '.join(_list(one.group))}: {one.material or 'rigid'}") for one in self.bodies]
         rows += [(f"material {name}", _described(one)) for name, one in self.materials.items()]
-        rows += [("contact", f"{one.name}: {one.secondary} on {one.primary}, {_described(one)}") for one in self.contacts]
+        rows += [
+            ("contact", f"{one.name}: {one.secondary} on {one.primary}, {_described(one)}") for one in self.contacts
+        ]
         for step in self.steps:
             rows.append(("step", step.name))
             rows += [("fix", f"{one.on}: {one.u or ''} {one.rot or ''}") for one in step.fixes]
@@ -851,5 +857,7 @@ def _list(value: Any) -> list[str]:
 
 def _described(table: Table) -> str:
     skipped = ("name", "on", "secondary", "primary", "model")
-    given: Iterator[tuple[str, Any]] = ((key, value) for key, value in table.to_dict_raw().items() if key not in skipped)
+    given: Iterator[tuple[str, Any]] = (
+        (key, value) for key, value in table.to_dict_raw().items() if key not in skipped
+    )
     return ", ".join(f"{key} {value}" for key, value in given)

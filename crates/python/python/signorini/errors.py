@@ -94,7 +94,9 @@ class SignoriniError(Exception):
 
     exit_code = 70
 
-    def __init__(self, message: str | Sequence[Mapping[str, Any]] = "", diagnostics: Sequence[Mapping[str, Any]] = ()) -> None:
+    def __init__(
+        self, message: str | Sequence[Mapping[str, Any]] = "", diagnostics: Sequence[Mapping[str, Any]] = ()
+    ) -> None:
         if not isinstance(message, str):
             diagnostics, message = message, ""
         self.message = message

@@ -266,4 +266,3 @@ class _FileContact:
             if int(kind) in BY_VTK and self._mask[nodes].all():
                 out.setdefault(BY_VTK[int(kind)].name, []).append(place[nodes])
         return [(name, np.array(rows)) for name, rows in out.items()]
-

@@ -145,7 +145,9 @@ class LivePlot:
         figure: Any = Figure(figsize=(8, 2.6), layout="constrained")
         left, right = figure.subplots(1, 2)
         shown = self._residuals[-100:]
-        left.semilogy(range(len(self._residuals) - len(shown), len(self._residuals)), [max(r, 1e-16) for r in shown], ".-")
+        left.semilogy(
+            range(len(self._residuals) - len(shown), len(self._residuals)), [max(r, 1e-16) for r in shown], ".-"
+        )
         left.set(xlabel="iteration", ylabel="residual")
         for name, forces in self._forces.items():
             right.plot(self._times[: len(forces)], forces, ".-", label=name)

@@ -36,9 +36,11 @@ def checked(value: Any, shape: tuple[int, ...], what: str) -> Array:
     import numpy as np
 
     try:
-        out = np.ascontiguousarray(value, dtype=np.float64)
+        out = np.asarray(value, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
-        raise TypeError(f"{what} has to be an array of numbers of shape {shape}, found {type(value).__name__}") from error
+        raise TypeError(
+            f"{what} has to be an array of numbers of shape {shape}, found {type(value).__name__}"
+        ) from error
     if out.shape != shape:
         if out.ndim < len(shape) and _fits(out.shape, shape):
             return np.ascontiguousarray(np.broadcast_to(out, shape))
@@ -295,7 +297,8 @@ class Material(Physics):
 
     def __init__(
         self,
-        respond: Callable[..., tuple[ArrayLike, ...]],
+        respond: Callable[[Array], tuple[ArrayLike, ArrayLike]]
+        | Callable[[Array, Array], tuple[ArrayLike, ArrayLike, ArrayLike]],
         modulus: float,
         history: int = 0,
         symmetric: bool = True,
@@ -308,7 +311,7 @@ class Material(Physics):
             raise ValueError(f"modulus has to be positive, found {modulus}")
         if history < 0:
             raise ValueError(f"history has to be a count, found {history}")
-        self._respond = respond
+        self._respond = cast("Callable[..., Any]", respond)
         self.modulus = float(modulus)
         self.history = int(history)
         self.symmetric = bool(symmetric)
@@ -321,8 +324,11 @@ class Material(Physics):
         given = (strain,) if self.history == 0 else (strain, old)
         found = self._respond(*given)
         count = 2 if self.history == 0 else 3
-        if not isinstance(found, tuple) or len(found) != count:  # pyright: ignore[reportUnnecessaryIsInstance]
-            raise TypeError(f"the material {name} has to return {count} arrays, found {type(cast('Any', found)).__name__}")
+        if not isinstance(found, tuple) or len(cast("tuple[Any, ...]", found)) != count:
+            raise TypeError(
+                f"the material {name} has to return {count} arrays, found {type(cast('Any', found)).__name__}"
+            )
+        found = cast("tuple[Any, ...]", found)
         n = len(strain)
         out = (
             checked(found[0], (n, 6), f"the stress of the material {name}"),

@@ -278,7 +278,7 @@ class Frame:
         """The fields of cells."""
         return list(self._source.cell_names())
 
-    def __getitem__(self, name: str) -> Array:
+    def __getitem__(self, name: str) -> Floats:
         """A field at the nodes."""
         if name not in self.names:
             raise KeyError(f"no field is called {name!r}{did_you_mean(name, self.names)}")
@@ -290,7 +290,7 @@ class Frame:
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
 
-    def cell(self, name: str) -> Array:
+    def cell(self, name: str) -> Floats:
         """A field of the cells of the highest dimension, block by block: means over their volumes."""
         if name not in self.cell_names:
             raise KeyError(f"no field of cells is called {name!r}{did_you_mean(name, self.cell_names)}")
@@ -327,10 +327,18 @@ class Frame:
             name: [np.array(self.cell(name)[a:b]) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
             for name in self.cell_names
         }
-        return meshio.Mesh(points, cells, point_data={name: np.array(self[name]) for name in self.names}, cell_data=parts)
+        return meshio.Mesh(
+            points, cells, point_data={name: np.array(self[name]) for name in self.names}, cell_data=parts
+        )
 
     def plotter(
-        self, name: str = "von_mises", warp: float = 0.0, *, component: int | None = None, off_screen: bool = False, **options: Any
+        self,
+        name: str = "von_mises",
+        warp: float = 0.0,
+        *,
+        component: int | None = None,
+        off_screen: bool = False,
+        **options: Any,
     ) -> Any:
         """A plotter of PyVista with a field on the deformed mesh."""
         pv = need("pyvista", "Frame.plot")
@@ -455,7 +463,9 @@ class ContactHistory:
     def __getattr__(self, name: str) -> Floats:
         column = f"{self.name}.{name}"
         if name.startswith("_") or column not in self._history:
-            raise AttributeError(f"{self.name} has no {name!r}{did_you_mean(name, [] if name.startswith('_') else self.quantities)}")
+            raise AttributeError(
+                f"{self.name} has no {name!r}{did_you_mean(name, [] if name.startswith('_') else self.quantities)}"
+            )
         return self._history[column]
 
     def __repr__(self) -> str:
@@ -591,7 +601,9 @@ class Result(Sequence[Frame]):
 
     show = plot
 
-    def screenshot(self, path: str | os.PathLike[str], name: str = "von_mises", warp: float = 0.0, **options: Any) -> str:
+    def screenshot(
+        self, path: str | os.PathLike[str], name: str = "von_mises", warp: float = 0.0, **options: Any
+    ) -> str:
         """Writes a picture of the last frame; see `Frame.screenshot`."""
         return self[-1].screenshot(path, name, warp, **options)
 
@@ -606,13 +618,24 @@ class Result(Sequence[Frame]):
         steps = self.summary.get("steps", [])
         rows: list[tuple[str, object]] = [("status", f"{self.status} (exit code {self.exit_code})")]
         rows += [
-            (f"step {step['name']}", f"{step['increments']} increments, {step['iterations']} iterations, {step['cutbacks']} cut-backs")
+            (
+                f"step {step['name']}",
+                f"{step['increments']} increments, {step['iterations']} iterations, {step['cutbacks']} cut-backs",
+            )
             for step in steps
         ]
         for name, one in self.summary.get("contacts", {}).items():
             force = ", ".join(f"{x:.5g}" for x in one["force"])
-            rows.append((name, f"force ({force}), largest pressure {one['pressure_max']:.5g}, smallest gap {one['gap_min']:.3g}"))
-        rows += [(f"expect {one['what']}", f"{one['got']} ({one['value']}) {'✓' if one['ok'] else '✗'}") for one in self.expectations]
+            rows.append(
+                (
+                    name,
+                    f"force ({force}), largest pressure {one['pressure_max']:.5g}, smallest gap {one['gap_min']:.3g}",
+                )
+            )
+        rows += [
+            (f"expect {one['what']}", f"{one['got']} ({one['value']}) {'✓' if one['ok'] else '✗'}")
+            for one in self.expectations
+        ]
         rows += [("folder", self.folder)] if self.folder else []
         moved = self[-1]["displacement"] if len(self) else None
         return _html.document("Result", rows, picture=thumbnail(self.mesh, moved))
