@@ -533,14 +533,11 @@ class Case(k.CaseTable):
 
         A mesh from a file is named, as long as its sets are those of the file; any other mesh is written in place.
         """
-        from . import _native
-
         values, _ = self._resolved()
-        folder = os.path.dirname(os.path.abspath(path)) if path is not None else self._folder
-        values = self._with_mesh(values, folder)
+        folder = self._folder if path is None else os.path.dirname(os.path.abspath(path))
         if path is not None and self._folder is not None:
             _move_paths(values, self._folder, cast("str", folder))
-        text = _native.write(values)
+        text = self._text(values, folder)
         if path is not None:
             with open(path, "w", encoding="utf-8") as out:
                 out.write(text)
@@ -561,7 +558,7 @@ class Case(k.CaseTable):
             raise InputError('the case has no mesh: give one, as in Case(mesh) or case.mesh = Mesh.read("part.msh")')
         values, own = self._resolved()
         folder = self._folder or os.getcwd()
-        record = _native.write(self._with_mesh(values, folder)) if saved else None
+        record = self._text(values, folder) if saved else None
         return _native.Job(_native.write(_in_order(values)), self.name, folder, self._mesh.native(), record, own)
 
     def fingerprint(self) -> tuple[str, tuple[int, ...], int]:
@@ -570,19 +567,26 @@ class Case(k.CaseTable):
         objects = tuple(id(one) for kind in own.values() for one in kind.values())
         return repr(values), objects, id(self._mesh)
 
-    def _with_mesh(self, values: dict[str, Any], folder: str | None) -> dict[str, Any]:
-        """The case with the file of its mesh, or with the mesh in place."""
-        values = dict(values)
-        if self._mesh is not None and self._mesh.file is not None:
+    def _text(self, values: dict[str, Any], folder: str | None) -> str:
+        """The case in TOML with the file of its mesh, or with the mesh in place behind it."""
+        from . import _native
+
+        if self._mesh is None:
+            return _native.write(_in_order(values))
+        if self._mesh.file is not None:
             file = self._mesh.file if folder is None else _relative(self._mesh.file, folder)
-            values["mesh"] = {"file": file.replace(os.sep, "/")}
-        elif self._mesh is not None:
-            inline = _parse(self._mesh.native().to_toml())
-            values["mesh"] = inline["mesh"]
-            values["sets"] = {**inline.get("sets", {}), **values.get("sets", {})}
-            if not values["sets"]:
-                del values["sets"]
-        return _in_order(values)
+            return _native.write(_in_order({**values, "mesh": {"file": file.replace(os.sep, "/")}}))
+        inline = self._mesh.native().to_toml()
+        sets = values.get("sets", {})
+        if set(sets).isdisjoint(self._mesh.set_names):
+            # the text of the mesh ends with its sets, to which those of the case are added
+            rest = {key: value for key, value in values.items() if key != "sets"}
+            more = _native.write({"sets": sets}) if sets else ""
+            more = more.removeprefix("[sets]").lstrip()
+            return f"{_native.write(_in_order(rest))}\n{inline}{more}"
+        found = _parse(inline)
+        both = {**values, "mesh": found["mesh"], "sets": {**found.get("sets", {}), **sets}}
+        return _native.write(_in_order(both))
 
     @property
     def name(self) -> str:

@@ -216,7 +216,8 @@ class ContactLaw(Physics):
     """A pressure as a function of the gap.
 
     `pressure(gap (n,)) -> (p (n,), dp_dgap (n,))`: the gap (length) is negative in penetration; `p` is a pressure (or a
-    force per node with `per = "node"`), positive in compression, and must not grow with the gap.
+    force per node with `per = "node"`), positive in compression, and must not grow with the gap. `energy(gap (n,)) -> (n,)`,
+    where it is given, serves line searches and energy balances.
 
     TOML: `enforcement = { own = "NAME" }` of `[[contact]]`.
 
@@ -228,9 +229,25 @@ class ContactLaw(Physics):
 
     kind = "law"
 
-    def __init__(self, pressure: Callable[[Array], tuple[ArrayLike, ArrayLike]]) -> None:
+    def __init__(
+        self,
+        pressure: Callable[[Array], tuple[ArrayLike, ArrayLike]],
+        energy: Callable[[Array], ArrayLike] | None = None,
+    ) -> None:
         _needs_callable(pressure, "pressure")
         self._pressure = pressure
+        self._energy = energy
+
+    @property
+    def has_energy(self) -> bool:
+        """Whether the law gives an energy."""
+        return self._energy is not None
+
+    def energy(self, gap: Array) -> Array:
+        """Energies per area: the derivative by the gap is minus the pressure."""
+        if self._energy is None:
+            raise TypeError("this contact law gives no energy")
+        return checked(self._energy(gap), gap.shape, f"the energy of the contact law {_name(self._energy)}")
 
     def pressure(self, gap: Array) -> tuple[Array, Array]:
         """Pressures and their derivatives by the gap."""
