@@ -19,6 +19,7 @@
 mod commands;
 mod keys;
 mod markdown;
+mod python;
 mod reference;
 mod spans;
 mod symbols;
@@ -76,23 +77,38 @@ pub(crate) fn check(root: &Path) -> Outcome {
     Ok(faults.is_empty())
 }
 
-/// Writes the page of all keys.
+/// Writes the page of all keys, and their classes for Python.
 pub(crate) fn write_keys(root: &Path) -> Outcome {
     let schema = json("signorini schema", &signorini(root, &["schema"])?)?;
-    let path = root.join(reference::PATH);
-    match std::fs::write(&path, reference::page(&schema)) {
-        Ok(()) => Ok(true),
-        Err(source) => Err(ChoreError::Write { path, source }),
+    for (path, text) in written_from(&schema) {
+        let path = root.join(path);
+        if let Err(source) = std::fs::write(&path, text) {
+            return Err(ChoreError::Write { path, source });
+        }
     }
+    Ok(true)
 }
 
-/// The page of all keys, where it is not what the schema says.
-fn stale_keys(root: &Path, keys: &Keys) -> Option<Fault> {
-    let wanted = reference::page(keys.schema());
-    let found = std::fs::read_to_string(root.join(reference::PATH)).unwrap_or_default();
+/// What is written from the schema: files and their text.
+fn written_from(schema: &serde_json::Value) -> [(&'static str, String); 2] {
+    [
+        (reference::PATH, reference::page(schema)),
+        (python::PATH, python::module(schema)),
+    ]
+}
+
+/// Files of keys that are not what the schema says.
+fn stale_keys(root: &Path, keys: &Keys) -> Vec<Fault> {
+    let all = written_from(keys.schema()).into_iter();
+    all.filter_map(|(path, wanted)| stale(root, path, &wanted))
+        .collect()
+}
+
+fn stale(root: &Path, path: &str, wanted: &str) -> Option<Fault> {
+    let found = std::fs::read_to_string(root.join(path)).unwrap_or_default();
     let differ = wanted.lines().zip(found.lines()).position(|(a, b)| a != b);
     (wanted != found).then(|| Fault {
-        path: PathBuf::from(reference::PATH),
+        path: PathBuf::from(path),
         line: differ.unwrap_or_else(|| found.lines().count().min(wanted.lines().count())) + 1,
         what: "this is not what the schema of cases says: run `cargo xtask keys`".to_string(),
     })

@@ -35,7 +35,7 @@ pub(super) fn page(schema: &Json) -> String {
     out
 }
 
-fn properties(schema: &Json) -> impl Iterator<Item = (&str, &Json)> {
+pub(super) fn properties(schema: &Json) -> impl Iterator<Item = (&str, &Json)> {
     let all = schema.get("properties").and_then(Json::as_object);
     all.into_iter()
         .flatten()
@@ -89,7 +89,7 @@ fn row(path: &str, schema: &Json) -> String {
 }
 
 /// A description as a sentence without its full stop.
-fn sentence(schema: &Json) -> String {
+pub(super) fn sentence(schema: &Json) -> String {
     let text = schema
         .get("description")
         .and_then(Json::as_str)
@@ -100,7 +100,7 @@ fn sentence(schema: &Json) -> String {
 }
 
 /// The values that a key takes, in words.
-fn values(schema: &Json) -> String {
+pub(super) fn values(schema: &Json) -> String {
     let mut options: Vec<String> = alternatives(schema).map(values).collect();
     if !options.is_empty() {
         options.dedup();

@@ -1,6 +1,7 @@
 //! The vocabulary as a JSON schema, for editors.
 
 use serde_json::{Map, Value, json};
+use signorini_vocabulary::Description;
 
 use super::vocabulary::{Choice, Default, Key, Rule, Shape, Table, Vocabulary};
 
@@ -26,7 +27,25 @@ pub fn schema(vocabulary: &Vocabulary) -> Value {
         );
         map.insert("title".to_owned(), json!("Signorini case"));
     }
+    let material = schema.pointer_mut("/properties/material/additionalProperties");
+    if let Some(map) = material.and_then(Value::as_object_mut) {
+        let models: Vec<Value> = vocabulary.materials().iter().map(model).collect();
+        if !models.is_empty() {
+            map.insert("allOf".to_owned(), json!(models));
+        }
+    }
     schema
+}
+
+/// The constants that a model of materials needs.
+fn model(model: &Description) -> Value {
+    let needed = model.keys.iter();
+    let needed = needed.filter(|key| key.default == Default::Required);
+    let needed: Vec<&str> = needed.map(|key| key.name).collect();
+    json!({
+        "if": { "properties": { "model": { "const": model.name } }, "required": ["model"] },
+        "then": { "description": model.doc, "required": needed },
+    })
 }
 
 fn table(words: &Table) -> Value {

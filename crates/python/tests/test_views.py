@@ -1,0 +1,155 @@
+"""Arrays of results are read-only views of the memory of the Rust module."""
+
+from __future__ import annotations
+
+import gc
+import resource
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+from .conftest import box, native, pressed
+
+pytestmark = native
+
+
+@pytest.fixture(scope="module")
+def result() -> sg.Result:
+    return pressed().run(save=False)
+
+
+def test_a_run_gives_frames_and_a_history(result: sg.Result) -> None:
+    assert result.ok and result.exit_code == 0
+    assert [frame.increment for frame in result] == [0, 1, 2]
+    assert result[-1]["displacement"].shape == (27, 3)
+    assert result[-1]["stress"].shape == (27, 6)
+    assert result.history["floor.force_z"].shape == (2,)
+    force = result[-1].contact["floor"].force
+    assert force[2] > 0.0
+    assert result.contact["floor"].force[-1] == pytest.approx(force, abs=1e-12)
+    assert result[-1].contact["floor"].nodal_force.sum(axis=0) == pytest.approx(force, abs=1e-9)
+
+
+def test_arrays_share_memory(result: sg.Result) -> None:
+    frame = result[-1]
+    for name in ("displacement", "reaction_force", "contact_pressure"):
+        assert np.shares_memory(frame[name], frame[name]), name
+    contact = frame.contact["floor"]
+    assert np.shares_memory(contact.pressure, frame.contact["floor"].pressure)
+
+
+def test_writing_raises(result: sg.Result) -> None:
+    frame = result[-1]
+    for name in frame.names:
+        with pytest.raises(ValueError, match="read-only"):
+            frame[name][0] = 0
+    with pytest.raises(ValueError, match="read-only"):
+        frame.contact["floor"].pressure[0] = 0.0
+
+
+def test_arrays_outlive_their_frame() -> None:
+    found = pressed().run(save=False)
+    u = found[-1]["displacement"]
+    kept = np.array(u)
+    del found
+    gc.collect()
+    assert np.array_equal(u, kept)
+
+
+def test_unknown_names_propose_the_closest(result: sg.Result) -> None:
+    with pytest.raises(KeyError, match="did you mean 'displacement'"):
+        _ = result[-1]["displacment"]
+    with pytest.raises(KeyError, match="did you mean 'floor'"):
+        _ = result[-1].contact["flor"]
+
+
+def test_a_native_mesh_shares_its_points() -> None:
+    native_mesh = box().native()
+    mesh = sg.Mesh.from_native(native_mesh)
+    assert np.shares_memory(mesh.points, native_mesh.points)
+    assert np.array_equal(mesh.points, box().points)
+    assert mesh.node_sets["head"].tolist() == box().node_sets["head"].tolist()
+    assert mesh.surfaces["foot"].tolist() == box().surfaces["foot"].tolist()
+
+
+def test_faces_by_predicate() -> None:
+    mesh = box()
+    foot = mesh.faces_where(lambda c: c[:, 2] < 1e-9)
+    assert sorted(foot.tolist()) == sorted(mesh.surfaces["foot"].tolist())
+    assert sorted(mesh.faces_where(normal=(0, 0, -1)).tolist()) == sorted(foot.tolist())
+    _, _, normals = mesh.boundary()
+    assert len(normals) == 24 and np.allclose(np.linalg.norm(normals, axis=1), 1.0)
+    with pytest.raises(ValueError, match="24 booleans"):
+        mesh.faces_where(lambda c: c[0])
+
+
+def test_the_native_mesh_is_kept_until_a_set_changes() -> None:
+    mesh = box()
+    first = mesh.native()
+    assert mesh.native() is first
+    mesh.node_sets["more"] = [0]
+    assert mesh.native() is not first
+
+
+def test_a_folder_reads_back_as_what_was_computed(tmp_path: Path) -> None:
+    case = pressed()
+    result = case.run(tmp_path / "out")
+    again = sg.open(tmp_path / "out")
+    assert again.ok and len(again) == len(result)
+    assert again.history.text == result.history.text
+    for a, b in zip(result, again, strict=True):
+        assert a.step == b.step or a.increment == 0
+        assert np.array_equal(a["displacement"], b["displacement"])
+        assert np.array_equal(a["stress"], b["stress"])
+        one, other = a.contact["floor"], b.contact["floor"]
+        for name in ("gap", "pressure", "slip", "area", "points", "nodes", "status", "nodal_force"):
+            assert np.allclose(getattr(one, name), getattr(other, name), equal_nan=True), name
+        if a.increment:
+            assert np.allclose(one.force, other.force) and one.radius == pytest.approx(other.radius)
+            assert np.allclose(one.center, other.center)
+    assert again.summary == result.summary
+    assert np.array_equal(again.mesh.points, case.mesh.points)  # type: ignore[union-attr]  # pyright: ignore
+
+
+def test_frames_go_to_pyvista_and_meshio(result: sg.Result) -> None:
+    pytest.importorskip("pyvista")
+    pytest.importorskip("meshio")
+    grid = result[-1].to_pyvista(warp=1.0)
+    assert np.allclose(grid.points, result[-1].points + result[-1]["displacement"])
+    assert set(result[-1].names) <= set(grid.point_data.keys())
+    assert result[-1].to_meshio().cell_data["von_mises"][0].shape == (8,)
+    assert result[-1].contact["floor"].to_pyvista().n_points == 9
+    assert result.to_pyvista().n_blocks == 3
+
+
+def test_results_show_themselves(result: sg.Result) -> None:
+    assert "3 frames" in repr(result)
+    assert "<svg" in result._repr_html_()
+    assert "floor" in repr(result[-1].contact["floor"])
+    assert "hex8" in str(pressed().check())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads the memory of the process")
+def test_a_thousand_runs_leak_less_than_a_megabyte() -> None:
+    mesh = box(1)
+    case = pressed(mesh, increments=1)
+
+    def memory() -> int:
+        gc.collect()
+        return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
+
+    def once() -> None:
+        result = case.run(save=False, threads=1)
+        assert result.ok and result[-1]["displacement"].shape == (8, 3)
+        _ = result[-1].contact["floor"].pressure, result.history["floor.force_z"]
+
+    for _ in range(200):
+        once()
+    before = memory()
+    for _ in range(1000):
+        once()
+    assert memory() - before < 1 << 20
