@@ -35,10 +35,13 @@ pub struct Built {
     pub seconds: [f64; 2],
 }
 
+/// What a case says of a mesh in memory: the last lines, so that those before keep their numbers.
+const IN_MEMORY: &str = "\n[mesh]\nfile = \"the mesh in memory\"\n";
+
 #[pymethods]
 impl Job {
-    /// `text` is the case in TOML; with a `mesh` in memory that one stands in place of what the case names, and `record` is the
-    /// case with that mesh in it, which a folder of results keeps. `name` is what the case is called, `folder` what paths in it
+    /// `text` is the case in TOML, without its mesh where that is in memory; `record` is the whole case then, the mesh in it,
+    /// which a folder of results keeps. `name` is what the case is called, `folder` what paths in it
     /// are relative to; `own` holds physics by kind and name; `set` changes the case as `--set` does.
     #[new]
     #[pyo3(signature = (text, name, folder, mesh = None, record = None, own = None, set = Vec::new()))]
@@ -102,7 +105,11 @@ impl Job {
             set: self.set.clone(),
             compat: None,
         };
-        let opened = open_text(&self.path, self.text.clone().into_bytes(), &reading)?;
+        let mut text = self.text.clone();
+        if self.mesh.is_some() {
+            text.push_str(IN_MEMORY);
+        }
+        let opened = open_text(&self.path, text.into_bytes(), &reading)?;
         match &self.mesh {
             Some(mesh) => {
                 let record = self.record.as_ref().unwrap_or(&self.text);

@@ -199,7 +199,7 @@ impl Mesh {
     /// The mesh as the beginning of a case: `[mesh]` in place, and its sets in `[sets]`.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| inline(&self.inner))
-            .map_err(|error| PyValueError::new_err(error))
+            .map_err(PyValueError::new_err)
     }
 
     fn __repr__(&self) -> String {

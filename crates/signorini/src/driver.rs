@@ -194,9 +194,9 @@ impl Driver {
             system, settings, ..
         } = &mut self.model;
         let stepper = Stepper::resumed(system, *settings, archive);
-        self.stepper = stepper.map_err(|error| cannot_resume(error))?;
+        self.stepper = stepper.map_err(cannot_resume)?;
         let frame = self.stepper.report(system);
-        self.frame = frame.map_err(|error| cannot_resume(error))?;
+        self.frame = frame.map_err(cannot_resume)?;
         let step = self.model.steps.get(self.frame.step_number);
         self.frame.step = step.map_or_else(String::new, |step| step.name.clone());
         Ok(())
