@@ -249,6 +249,8 @@ impl<'a> Parser<'a> {
                 joined(self.module.get(..keep)?, owned(segments.get(up..)?))
             }
             "signorini" => owned(segments),
+            // the one room whose name is that of its package
+            "signorini_cli" => joined(&["signorini-cli".to_string()], owned(rest)),
             _ => match first.strip_prefix("signorini_") {
                 Some(name) => joined(&[name.to_string()], owned(rest)),
                 None => joined(&self.module, owned(segments)),
