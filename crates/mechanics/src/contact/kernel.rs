@@ -311,6 +311,10 @@ impl<'a> Laws<'a> {
             return (Vec3::ZERO, Contact::Slip);
         }
         let (size, limit) = (trial.norm(), limit.value);
+        if limit.is_nan() {
+            // nothing sticks below what is no number: the force is none either, and the attempt fails
+            return (trial * limit, before);
+        }
         let (end, sticking) = match self.stick_of() {
             Stick::Stiffness(_) => (limit, trial),
             Stick::Slip(length) => (length, trial * (limit / length)),
