@@ -11,7 +11,7 @@ use signorini_geometry::surface::{Patch, Shape, SurfaceError};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::{read_case, resolved};
 use signorini_mechanics::contact::friction::{FrictionLaw, Limit, Sliding};
-use signorini_mechanics::contact::law::{ContactLaw, Eval, Scale};
+use signorini_mechanics::contact::law::{ContactLaw, Eval, Scale, each};
 use signorini_mechanics::material::{Material, MaterialError, Order, Response, Strain};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -29,13 +29,15 @@ impl ContactLaw for Film {
         "film"
     }
 
-    fn pressure(&self, gap: f64, _: f64, _: &Scale) -> Eval {
-        let value = self.p0 * (-self.rate * gap).exp();
-        Eval {
-            value,
-            dgap: -self.rate * value,
-            dlambda: 0.0,
-        }
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], _: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, _| {
+            let value = self.p0 * (-self.rate * gap).exp();
+            Eval {
+                value,
+                dgap: -self.rate * value,
+                dlambda: 0.0,
+            }
+        });
     }
 
     fn energy(&self, gap: f64, _: f64, _: &Scale) -> Option<f64> {
@@ -74,10 +76,12 @@ impl Shape for Ball {
 struct Dry(f64);
 
 impl FrictionLaw for Dry {
-    fn limit(&self, at: &Sliding) -> Limit {
-        Limit {
-            value: self.0 * at.pressure,
-            dpressure: self.0,
+    fn limits(&self, at: &[Sliding], out: &mut [Limit]) {
+        for (out, at) in out.iter_mut().zip(at) {
+            *out = Limit {
+                value: self.0 * at.pressure,
+                dpressure: self.0,
+            };
         }
     }
 }
