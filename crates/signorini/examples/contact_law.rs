@@ -22,13 +22,15 @@ impl ContactLaw for Asperities {
         "asperities"
     }
 
-    fn pressure(&self, gap: f64, _: f64, _: &Scale) -> Eval {
-        let d = (-gap).max(0.0);
-        Eval {
-            value: d * (self.linear + self.cubic * d * d),
-            dgap: -(self.linear + 3.0 * self.cubic * d * d) * f64::from(d > 0.0),
-            dlambda: 0.0,
-        }
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], _: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, _| {
+            let d = (-gap).max(0.0);
+            Eval {
+                value: d * (self.linear + self.cubic * d * d),
+                dgap: -(self.linear + 3.0 * self.cubic * d * d) * f64::from(d > 0.0),
+                dlambda: 0.0,
+            }
+        });
     }
 
     fn energy(&self, gap: f64, _: f64, _: &Scale) -> Option<f64> {

@@ -23,7 +23,7 @@ use std::sync::Arc;
 ///
 /// # Example
 /// ```
-/// use signorini::prelude::{ContactLaw, Eval, Scale};
+/// use signorini::prelude::{ContactLaw, Eval, Scale, each};
 /// use signorini::{Own, Reading, RunOptions, build_with, load, solve};
 /// use std::sync::Arc;
 ///
@@ -35,9 +35,11 @@ use std::sync::Arc;
 ///     fn name(&self) -> &str {
 ///         "springs"
 ///     }
-///     fn pressure(&self, gap: f64, _: f64, _: &Scale) -> Eval {
-///         let k = if gap < 0.0 { self.0 } else { 0.0 };
-///         Eval { value: -k * gap, dgap: -k, dlambda: 0.0 }
+///     fn pressures(&self, gaps: &[f64], lambdas: &[f64], _: &Scale, out: &mut [Eval]) {
+///         each(gaps, lambdas, out, |gap, _| {
+///             let k = if gap < 0.0 { self.0 } else { 0.0 };
+///             Eval { value: -k * gap, dgap: -k, dlambda: 0.0 }
+///         });
 ///     }
 ///     fn energy(&self, gap: f64, _: f64, _: &Scale) -> Option<f64> {
 ///         Some(0.5 * self.0 * gap.min(0.0).powi(2))

@@ -16,7 +16,7 @@ pub use signorini_geometry::surface::{
 pub use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 pub use signorini_linear::LinearKind;
 pub use signorini_mechanics::contact::friction::{Coulomb, FrictionLaw, Limit, Sliding};
-pub use signorini_mechanics::contact::law::{ContactLaw, Eval, Scale};
+pub use signorini_mechanics::contact::law::{ContactLaw, Eval, Scale, each};
 pub use signorini_mechanics::load::{
     Acting, BodyForce, Force, Gravity, Load, Moment, PerNode, Place, Pressure, Spin, Traction,
     Wrench,

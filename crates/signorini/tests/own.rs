@@ -6,16 +6,20 @@ mod common;
 
 use common::Run;
 use signorini::setup::read_mesh_of;
-use signorini::{Diagnostics, Model, Own, build_with};
+use signorini::{
+    Diagnostics, Finished, Listener, Model, News, Own, RunOptions, Source, build_with, solve,
+};
 use signorini_geometry::surface::{Patch, Shape, SurfaceError};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::{read_case, resolved};
 use signorini_mechanics::contact::friction::{FrictionLaw, Limit, Sliding};
-use signorini_mechanics::contact::law::{ContactLaw, Eval, Scale};
+use signorini_mechanics::contact::law::{ContactLaw, Eval, Scale, each};
 use signorini_mechanics::material::{Material, MaterialError, Order, Response, Strain};
+use signorini_mechanics::solve::Flow;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// `p = p0 exp(−r g)`.
 #[derive(Debug)]
@@ -29,13 +33,15 @@ impl ContactLaw for Film {
         "film"
     }
 
-    fn pressure(&self, gap: f64, _: f64, _: &Scale) -> Eval {
-        let value = self.p0 * (-self.rate * gap).exp();
-        Eval {
-            value,
-            dgap: -self.rate * value,
-            dlambda: 0.0,
-        }
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], _: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, _| {
+            let value = self.p0 * (-self.rate * gap).exp();
+            Eval {
+                value,
+                dgap: -self.rate * value,
+                dlambda: 0.0,
+            }
+        });
     }
 
     fn energy(&self, gap: f64, _: f64, _: &Scale) -> Option<f64> {
@@ -74,10 +80,12 @@ impl Shape for Ball {
 struct Dry(f64);
 
 impl FrictionLaw for Dry {
-    fn limit(&self, at: &Sliding) -> Limit {
-        Limit {
-            value: self.0 * at.pressure,
-            dpressure: self.0,
+    fn limits(&self, at: &[Sliding], out: &mut [Limit]) {
+        for (out, at) in out.iter_mut().zip(at) {
+            *out = Limit {
+                value: self.0 * at.pressure,
+                dpressure: self.0,
+            };
         }
     }
 }
@@ -412,4 +420,223 @@ fn what_the_program_lacks_is_refused_once_with_its_place() {
     };
     let found = try_model(&text(say), &own()).err().unwrap().plain();
     assert!(found.contains("this program has: stiff"), "{found}");
+}
+
+/// Something of the program that is asked so many times, and then answers with what is no number.
+#[derive(Clone, Debug, Default)]
+struct Patience {
+    left: usize,
+    asked: Arc<AtomicUsize>,
+}
+
+impl Patience {
+    fn is_over(&self) -> bool {
+        self.asked.fetch_add(1, Ordering::Relaxed) >= self.left
+    }
+
+    /// The number, while patience lasts.
+    fn of(&self, number: f64) -> f64 {
+        if self.is_over() { f64::NAN } else { number }
+    }
+}
+
+/// Something that fails after some time.
+#[derive(Debug)]
+struct Failing<T>(T, Patience);
+
+impl ContactLaw for Failing<Film> {
+    fn name(&self) -> &str {
+        "failing"
+    }
+
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], scale: &Scale, out: &mut [Eval]) {
+        self.0.pressures(gaps, lambdas, scale, out);
+        for at in out {
+            at.value = self.1.of(at.value);
+        }
+    }
+
+    fn energy(&self, _: f64, _: f64, _: &Scale) -> Option<f64> {
+        None
+    }
+}
+
+impl FrictionLaw for Failing<Dry> {
+    fn limits(&self, at: &[Sliding], out: &mut [Limit]) {
+        self.0.limits(at, out);
+        for limit in out {
+            limit.value = self.1.of(limit.value);
+        }
+    }
+}
+
+impl Shape for Failing<Ball> {
+    fn closest(&self, point: Vec3) -> Result<Option<Vec3>, SurfaceError> {
+        let closest = self.0.closest(point)?;
+        Ok(closest.map(|on| on * self.1.of(1.0)))
+    }
+
+    fn patch(&self, on: Vec3) -> Result<Patch, SurfaceError> {
+        self.0.patch(on)
+    }
+
+    fn ball(&self) -> Option<(Vec3, f64)> {
+        self.0.ball()
+    }
+}
+
+impl Material for Failing<Stiff> {
+    fn respond(
+        &self,
+        strain: &Strain,
+        old: &[f64],
+        new: &mut [f64],
+        order: Order,
+        out: &mut Response,
+    ) -> Result<(), MaterialError> {
+        self.0.respond(strain, old, new, order, out)?;
+        out.stress = out.stress * self.1.of(1.0);
+        Ok(())
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+}
+
+/// What this program brings, of which one fails after it was asked so many times.
+fn failing(kind: &str, asked: usize) -> (Own, Patience) {
+    let mut own = own();
+    let patience = Patience {
+        left: asked,
+        ..Patience::default()
+    };
+    let with = patience.clone();
+    match kind {
+        "surface" => {
+            let ball = Ball {
+                centre: Vec3::new(0.4, 0.5, 3.0),
+                radius: 2.0,
+            };
+            let ball = Arc::new(Failing(ball, with));
+            own.surfaces.insert("ball".to_owned(), ball);
+        }
+        "law" => {
+            let film = Film {
+                p0: 2.0,
+                rate: 100f64.ln() / 0.1,
+            };
+            own.laws
+                .insert("film".to_owned(), Arc::new(Failing(film, with)));
+        }
+        "friction" => {
+            let dry = Arc::new(Failing(Dry(0.3), with));
+            own.frictions.insert("dry".to_owned(), dry);
+        }
+        "material" => {
+            let stiff = Arc::new(Failing(Stiff::new(100.0, 0.3), with));
+            own.materials.insert("stiff".to_owned(), stiff);
+        }
+        _ => {
+            let course = move |time: f64| with.of(2.0 * time);
+            own.courses
+                .insert("up and down".to_owned(), Arc::new(course));
+        }
+    }
+    (own, patience)
+}
+
+/// What can fail.
+const KINDS: [&str; 5] = ["surface", "law", "friction", "material", "course"];
+
+/// How often it is asked until the middle of a run that comes to its end.
+fn half(kind: &str, text: &str) -> usize {
+    let (own, patience) = failing(kind, usize::MAX);
+    let folder = tempfile::tempdir().unwrap();
+    let finished = solved(text, &own, (folder.path(), false), &mut ());
+    assert_eq!(finished.exit_code, 0, "{kind}");
+    patience.asked.load(Ordering::Relaxed) / 2
+}
+
+fn options(folder: &Path, own: &Own, text: &str) -> RunOptions {
+    let source = Source {
+        name: "case".into(),
+        path: "/nowhere/case.toml".into(),
+        text: text.into(),
+        ..Source::default()
+    };
+    RunOptions {
+        own: own.clone(),
+        folder: folder.to_path_buf(),
+        ..RunOptions::new(source)
+    }
+}
+
+/// Solves a case with what the program brings, into a folder.
+fn solved(
+    text: &str,
+    own: &Own,
+    (folder, resume): (&Path, bool),
+    listener: &mut dyn Listener,
+) -> Finished {
+    let mut model = try_model(text, own).unwrap_or_else(|found| panic!("{}", found.plain()));
+    model.name = "case".to_owned();
+    let options = RunOptions {
+        resume,
+        ..options(folder, own, text)
+    };
+    solve(model, &options, listener)
+}
+
+#[test]
+fn an_answer_that_is_no_number_ends_a_run_as_not_converged() {
+    for kind in KINDS {
+        for increments in ["{ fixed = 4 }", "4"] {
+            let text = text(OWN).replace("{ fixed = 4 }", increments);
+            let (own, patience) = failing(kind, half(kind, &text));
+            let folder = tempfile::tempdir().unwrap();
+            let finished = solved(&text, &own, (folder.path(), false), &mut ());
+            assert!(patience.is_over(), "{kind}");
+            let why = finished.diagnostics.plain();
+            assert_eq!(finished.exit_code, 5, "{kind}: {why}");
+            assert!(why.contains("error[S05"), "{kind}: {why}");
+        }
+    }
+}
+
+/// Stops a run at the first event after something of the program has failed.
+struct Stopping(Patience);
+
+impl Listener for Stopping {
+    fn hear(&mut self, _: &News<'_>) -> Flow {
+        let failed = self.0.asked.load(Ordering::Relaxed) > self.0.left;
+        if failed { Flow::Stop } else { Flow::Continue }
+    }
+}
+
+#[test]
+fn a_run_that_is_stopped_after_a_failure_goes_on_from_before_it() {
+    let text = format!("{}[checkpoint]\nevery = {{ increments = 1 }}\n", text(OWN));
+    let whole = tempfile::tempdir().unwrap();
+    let finished = solved(&text, &own(), (whole.path(), false), &mut ());
+    assert_eq!(finished.exit_code, 0);
+    let history = |folder: &Path| std::fs::read_to_string(folder.join("history.csv")).unwrap();
+    for kind in KINDS {
+        let (own, patience) = failing(kind, half(kind, &text));
+        let folder = tempfile::tempdir().unwrap();
+        let mut listener = Stopping(patience.clone());
+        let stopped = solved(&text, &own, (folder.path(), false), &mut listener);
+        let why = stopped.diagnostics.plain();
+        assert_eq!(stopped.exit_code, 130, "{kind}: {why}");
+        let so_far = history(folder.path()).lines().count();
+        assert!(so_far < history(whole.path()).lines().count(), "{kind}");
+        let resumed = solved(&text, &self::own(), (folder.path(), true), &mut ());
+        assert_eq!(
+            resumed.exit_code,
+            0,
+            "{kind}: {}",
+            resumed.diagnostics.plain()
+        );
+        assert_eq!(history(folder.path()), history(whole.path()), "{kind}");
+    }
 }

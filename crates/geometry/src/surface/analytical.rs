@@ -171,6 +171,9 @@ impl Analytical {
     ) -> Result<Feature, SurfaceError> {
         let patch = self.shape.patch(on)?;
         let normal = patch.normal;
+        if !on.is_finite() || !normal.is_finite() {
+            return Err(SurfaceError::NotFinite);
+        }
         let ntan = self.mount.ntan;
         if ntan == 1 && normal.z.abs() > IN_PLANE {
             return Err(SurfaceError::OutOfPlane { facet: 0 });

@@ -32,6 +32,9 @@ pub enum SurfaceError {
         /// The name of its element.
         element: &'static str,
     },
+    /// A shape answers with a point or normal that is no number; its gap would look like that of an open contact.
+    #[error("the closest point of the surface, or its normal there, is not finite")]
+    NotFinite,
     /// A surface given by the user's own code failed.
     #[error("the user's surface failed: {message}")]
     User {

@@ -21,6 +21,32 @@ pub(super) struct Laws<'a> {
     pub vectors: bool,
     /// c_t of the row at hand: the shear traction per slip of an unknown multiplier.
     pub shear: f64,
+    /// What the laws answer for the row at hand, where they were asked for many rows at once.
+    pub answer: Option<&'a Answer>,
+}
+
+/// What the laws answer for a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Answer {
+    /// The gap and the multiplier along the normal that they were asked with.
+    pub at: [f64; 2],
+    pub pressure: Eval,
+    /// The limit of friction, and what it was asked with.
+    pub limit: Option<(Sliding, Limit)>,
+}
+
+impl Answer {
+    /// The pressure, where it is that of these numbers to the last bit.
+    fn pressure_at(&self, gap: f64, lambda: f64) -> Option<Eval> {
+        let is_same = self.at.map(f64::to_bits) == [gap, lambda].map(f64::to_bits);
+        is_same.then_some(self.pressure)
+    }
+
+    /// The limit of friction, where it is that of these numbers.
+    fn limit_at(&self, at: &Sliding) -> Option<Limit> {
+        let (with, limit) = self.limit?;
+        (with == *at).then_some(limit)
+    }
 }
 
 /// Stands for no friction where multipliers are tractions all the same.
@@ -67,25 +93,13 @@ pub(super) struct Past {
 }
 
 impl Past {
-    fn limit_of(&self, row: &Row, friction: &dyn FrictionLaw, pressure: f64) -> Limit {
-        if row.sliding.free {
-            return Limit::default();
+    /// What a friction law is asked with. Where a law pulls, it rubs as much as where it pushes: CalculiX prints such
+    /// tractions.
+    pub fn sliding(&self, pressure: f64) -> Sliding {
+        Sliding {
+            pressure: pressure.abs(),
+            path: self.path,
         }
-        let held = self.limit.map(|value| Limit {
-            value,
-            dpressure: 0.0,
-        });
-        held.unwrap_or_else(|| {
-            // where a law pulls, it rubs as much as where it pushes: CalculiX prints such tractions
-            let limit = friction.limit(&Sliding {
-                pressure: pressure.abs(),
-                path: self.path,
-            });
-            Limit {
-                dpressure: limit.dpressure.copysign(pressure * limit.dpressure),
-                ..limit
-            }
-        })
     }
 }
 
@@ -176,8 +190,42 @@ impl<'a> Laws<'a> {
 
     /// The pressure of a gap alone.
     pub fn pressure(&self, gap: f64, normal: Vec3, lambda: &Lambda) -> Eval {
-        let scalar = self.scalar(normal, lambda);
-        self.law.pressure(gap, scalar, self.scale)
+        self.pressed(gap, self.scalar(normal, lambda))
+    }
+
+    /// The pressure of a gap and a multiplier along the normal.
+    fn pressed(&self, gap: f64, scalar: f64) -> Eval {
+        let known = self.answer.and_then(|a| a.pressure_at(gap, scalar));
+        known.unwrap_or_else(|| self.law.pressure(gap, scalar, self.scale))
+    }
+
+    /// The pressure that friction is limited by.
+    pub fn tried(&self, gap: f64, scalar: f64) -> Eval {
+        if self.law.multiplier().is_unknown() {
+            self.law.trial(gap, scalar, self.scale)
+        } else {
+            self.pressed(gap, scalar)
+        }
+    }
+
+    /// The limit of friction of a row at a pressure.
+    fn limit_of(&self, row: &Row, past: &Past, friction: &dyn FrictionLaw, pressure: f64) -> Limit {
+        if row.sliding.free {
+            return Limit::default();
+        }
+        let held = past.limit.map(|value| Limit {
+            value,
+            dpressure: 0.0,
+        });
+        held.unwrap_or_else(|| {
+            let at = past.sliding(pressure);
+            let known = self.answer.and_then(|a| a.limit_at(&at));
+            let limit = known.unwrap_or_else(|| friction.limit(&at));
+            Limit {
+                dpressure: limit.dpressure.copysign(pressure * limit.dpressure),
+                ..limit
+            }
+        })
     }
 
     /// Whether anything acts at this gap.
@@ -217,12 +265,12 @@ impl<'a> Laws<'a> {
     /// The limit of friction at a row's pressure.
     pub fn limit(&self, row: &Row, lambda: &Lambda, path: f64) -> f64 {
         let scalar = self.scalar(row.normal, lambda);
-        let pressure = self.law.trial(row.gap, scalar, self.scale);
+        let pressure = self.tried(row.gap, scalar);
         let past = Past {
             path,
             ..Past::default()
         };
-        let limit = |f: &dyn FrictionLaw| past.limit_of(row, f, pressure.value).value;
+        let limit = |f: &dyn FrictionLaw| self.limit_of(row, &past, f, pressure.value).value;
         if pressure == Eval::default() {
             return 0.0;
         }
@@ -256,18 +304,18 @@ impl<'a> Laws<'a> {
             return self.bonded(row, lambda);
         }
         let scalar = self.scalar(row.normal, lambda);
-        let pressure = self.law.trial(row.gap, scalar, self.scale);
+        let pressure = self.tried(row.gap, scalar);
         if pressure == Eval::default() {
             return Traction::default();
         }
         let Some(friction) = self.friction() else {
             return Traction {
-                pressure: self.law.pressure(row.gap, scalar, self.scale).value,
+                pressure: self.pressed(row.gap, scalar).value,
                 state: Contact::Slip,
                 ..Traction::default()
             };
         };
-        let limit = past.limit_of(row, friction, pressure.value);
+        let limit = self.limit_of(row, &past, friction, pressure.value);
         let trial = self.trial(row, lambda);
         let (tangential, state) = self.returned(trial, &limit, past.state);
         let slips = state == Contact::Slip;
@@ -311,6 +359,10 @@ impl<'a> Laws<'a> {
             return (Vec3::ZERO, Contact::Slip);
         }
         let (size, limit) = (trial.norm(), limit.value);
+        if limit.is_nan() {
+            // nothing sticks below what is no number: the force is none either, and the attempt fails
+            return (trial * limit, before);
+        }
         let (end, sticking) = match self.stick_of() {
             Stick::Stiffness(_) => (limit, trial),
             Stick::Slip(length) => (length, trial * (limit / length)),
@@ -395,7 +447,7 @@ impl<'a> Laws<'a> {
     fn press(&self, row: &Row, measure: f64, lambda: f64, target: &mut Target<'_>) {
         let n = row.weights.len();
         let width = target.force.len();
-        let pressure = self.law.pressure(row.gap, lambda, self.scale);
+        let pressure = self.pressed(row.gap, lambda);
         let scaled = measure * pressure.value;
         for (f, b) in target.force.iter_mut().zip(&row.weights) {
             *f -= scaled * b; // (E1)
@@ -448,12 +500,12 @@ impl<'a> Laws<'a> {
         let wants_tangent = !target.stiffness.is_empty();
         let (nu, sliding) = (row.normal, &row.sliding);
         let along = nu.dot(lambda.vector);
-        let pressure = self.law.trial(row.gap, -along, self.scale);
+        let pressure = self.tried(row.gap, -along);
         let open = pressure == Eval::default();
 
         work.reset(width);
         work.project(row, &pressure, lambda, width);
-        let limit = past.limit_of(row, friction, pressure.value);
+        let limit = self.limit_of(row, &past, friction, pressure.value);
         let trial = self.trial(row, lambda);
         let mut tangential = Vec3::ZERO;
         if !open && limit != Limit::default() {

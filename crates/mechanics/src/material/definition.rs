@@ -229,10 +229,6 @@ impl Material for Arc<dyn Material> {
         (**self).modulus()
     }
 
-    fn shear_modulus(&self) -> Option<f64> {
-        (**self).shear_modulus()
-    }
-
     fn is_symmetric(&self) -> bool {
         (**self).is_symmetric()
     }

@@ -39,18 +39,20 @@ pub struct Coulomb {
 }
 
 impl FrictionLaw for Coulomb {
-    fn limit(&self, at: &Sliding) -> Limit {
-        let value = self.mu * at.pressure;
-        if value < self.cap {
-            Limit {
-                value,
-                dpressure: self.mu,
-            }
-        } else {
-            Limit {
-                value: self.cap,
-                dpressure: 0.0,
-            }
+    fn limits(&self, at: &[Sliding], out: &mut [Limit]) {
+        for (out, at) in out.iter_mut().zip(at) {
+            let value = self.mu * at.pressure;
+            *out = if value < self.cap {
+                Limit {
+                    value,
+                    dpressure: self.mu,
+                }
+            } else {
+                Limit {
+                    value: self.cap,
+                    dpressure: 0.0,
+                }
+            };
         }
     }
 }

@@ -22,8 +22,19 @@ pub struct Limit {
 
 /// A friction law.
 pub trait FrictionLaw: Debug + Send + Sync {
-    /// The limit where it touches.
-    fn limit(&self, at: &Sliding) -> Limit;
+    /// The limits of many rows that touch.
+    ///
+    /// # Shapes
+    /// One answer for each row, which does not depend on the others.
+    fn limits(&self, at: &[Sliding], out: &mut [Limit]);
+
+    /// The limit of one row that touches.
+    fn limit(&self, at: &Sliding) -> Limit {
+        let mut out = [Limit::default()];
+        self.limits(std::slice::from_ref(at), &mut out);
+        let [limit] = out;
+        limit
+    }
 }
 
 /// What a contact that sticks yields.

@@ -59,12 +59,14 @@ pub struct Falling {
 }
 
 impl FrictionLaw for Falling {
-    fn limit(&self, at: &Sliding) -> Limit {
+    fn limits(&self, at: &[Sliding], out: &mut [Limit]) {
         let more = self.stationary - self.kinetic;
-        let mu = self.kinetic + more * (-at.path / self.transition).exp();
-        Limit {
-            value: mu * at.pressure,
-            dpressure: mu,
+        for (out, at) in out.iter_mut().zip(at) {
+            let mu = self.kinetic + more * (-at.path / self.transition).exp();
+            *out = Limit {
+                value: mu * at.pressure,
+                dpressure: mu,
+            };
         }
     }
 }

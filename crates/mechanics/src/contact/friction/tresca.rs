@@ -32,10 +32,10 @@ pub struct Tresca(
 );
 
 impl FrictionLaw for Tresca {
-    fn limit(&self, _: &Sliding) -> Limit {
-        Limit {
+    fn limits(&self, _: &[Sliding], out: &mut [Limit]) {
+        out.fill(Limit {
             value: self.0,
             dpressure: 0.0,
-        }
+        });
     }
 }

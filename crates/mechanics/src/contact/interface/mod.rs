@@ -1,5 +1,6 @@
 //! One pair of surfaces with its choices, as the one contact term there is.
 
+mod asked;
 mod audited;
 mod coupled;
 mod drift;
@@ -27,13 +28,14 @@ pub use parts::{
 
 use super::discretization::{Pair, Pairing};
 use super::friction::Stick;
-use super::kernel::{Contact, Derivatives, Lambda, Laws, Past};
+use super::kernel::{Answer, Contact, Derivatives, Lambda, Laws, Past};
 use super::law::Multiplier;
 use super::row::{Participant, RowOrder, Rows, Wanted};
 use crate::system::{
     Archive, ArchiveError, Dof, Elimination, Layout, Order, Sink, State, StepContext, TermError,
     Verdict,
 };
+use asked::Asked;
 use coupled::Coupled;
 use judged::Judged;
 use lents::Lents;
@@ -117,6 +119,7 @@ struct Scratch {
     /// Where stiffness is spread over more multipliers.
     spread: Vec<f64>,
     derivatives: Derivatives,
+    asked: Asked,
 }
 
 impl Interface {
@@ -193,6 +196,7 @@ impl Interface {
             bond_tangential: self.parts.bond_tangential,
             vectors: self.parts.has_vectors(),
             shear: self.parts.scale.shear,
+            answer: None,
         }
     }
 

@@ -376,7 +376,7 @@ impl Interface {
                 Status::Slip => report.area_slip += area,
             }
             if acts {
-                self.add_forces(row, state, Order::Residual, &mut scratch);
+                self.add_forces((row, None), state, Order::Residual, &mut scratch);
                 let forces = (&scratch.rows, &scratch.force[..]);
                 self.distribute(forces, state, (report, first), frame);
             }

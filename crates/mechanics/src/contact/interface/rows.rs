@@ -1,11 +1,12 @@
 //! Rows, and the forces on them.
 
 use super::{
-    Contact, Interface, Judged, Lambda, Order, Participant, RowOrder, Rows, Scratch, Sink, State,
-    TermError, Wanted,
+    Answer, Asked, Contact, Interface, Judged, Lambda, Laws, Order, Participant, RowOrder, Rows,
+    Scratch, Sink, State, TermError, Wanted,
 };
 use crate::contact::discretization::Links;
 use crate::contact::kernel::{Target, Traction};
+use crate::contact::law::Eval;
 use crate::contact::row::Row;
 use signorini_geometry::surface::Feature;
 use signorini_geometry::tensor::Vec3;
@@ -154,23 +155,73 @@ impl Interface {
         Ok(!rows.rows().is_empty())
     }
 
+    /// Asks the laws about these rows. Most rows are open: their gaps are all that is needed of them.
+    pub(super) fn ask(
+        &self,
+        share: Range<usize>,
+        trial: &State,
+        rows: &mut Rows,
+        asked: &mut Asked,
+    ) -> Result<(), TermError> {
+        let laws = self.laws();
+        asked.clear();
+        if !self.is_active() || laws.bond {
+            share.for_each(|_| asked.push(None));
+            return Ok(());
+        }
+        for row in share.clone() {
+            self.fill(row, trial, RowOrder::Gap, rows)?;
+            let lambda = self.lambda(row, trial);
+            let filled = rows.rows().first();
+            asked.push(filled.map(|r| [r.gap, laws.scalar(r.normal, &lambda)]));
+        }
+        asked.ask(&laws, share.map(|row| self.history.past(row)));
+        Ok(())
+    }
+
+    /// Fills a row that the laws were asked about where something acts on it; says whether there is one.
+    fn answered_row(
+        &self,
+        (row, answer): (usize, Option<&Answer>),
+        trial: &State,
+        order: RowOrder,
+        rows: &mut Rows,
+    ) -> Result<bool, TermError> {
+        let of_bond = self.is_active() && self.laws().bond && self.now.pairs[row].is_some();
+        let acts = answer.is_some_and(|answer| answer.pressure != Eval::default());
+        if !acts && !of_bond {
+            rows.start([]);
+            return Ok(false);
+        }
+        self.fill(row, trial, order, rows)?;
+        Ok(!rows.rows().is_empty())
+    }
+
     /// What acts on a filled row.
     pub(super) fn traction(&self, row: &Row, lambda: &Lambda) -> Traction {
-        let laws = self.laws_of(row.number);
+        self.answered(row, lambda, None)
+    }
+
+    /// The same where the laws were asked about it.
+    fn answered(&self, row: &Row, lambda: &Lambda, answer: Option<&Answer>) -> Traction {
+        let laws = Laws {
+            answer,
+            ..self.laws_of(row.number)
+        };
         laws.traction(row, lambda, self.past(row.number))
     }
 
     /// Adds forces and stiffness of a row.
     pub(super) fn act(
         &self,
-        row: usize,
+        (row, answer): (usize, Option<&Answer>),
         trial: &State,
         order: Order,
         scratch: &mut Scratch,
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         let nlambda = self.ncolumn_of_multiplier();
-        let acts = self.acting_row(row, trial, row_order(order), &mut scratch.rows)?;
+        let acts = self.answered_row((row, answer), trial, row_order(order), &mut scratch.rows)?;
         let is_idle =
             acts && nlambda > 0 && !self.laws().bond && self.acts_on_nothing(&scratch.rows);
         if !acts || is_idle {
@@ -180,7 +231,7 @@ impl Interface {
             return Ok(());
         }
         let ncolumn = scratch.rows.ncolumn();
-        self.add_forces(row, trial, order, scratch);
+        self.add_forces((row, answer), trial, order, scratch);
         scratch.rows.dofs(&self.layout, &mut scratch.dofs);
         self.multiplier_dofs(row, &mut scratch.dofs);
         if let Some(lent) = self.lents.of(row) {
@@ -190,7 +241,7 @@ impl Interface {
             }
         }
         out.add(&scratch.dofs, &scratch.force, &scratch.stiffness);
-        let rounding = self.rounding(&scratch.rows, trial);
+        let rounding = self.rounding(&scratch.rows, trial, answer);
         out.uncertain(&scratch.dofs[..ncolumn], rounding);
         self.allow(row, trial, &scratch.dofs[ncolumn..], out);
         Ok(())
@@ -199,7 +250,7 @@ impl Interface {
     /// Forces, and stiffness where it is wanted, of the row that the scratch holds.
     pub(super) fn add_forces(
         &self,
-        number: usize,
+        (number, answer): (usize, Option<&Answer>),
         trial: &State,
         order: Order,
         scratch: &mut Scratch,
@@ -218,7 +269,10 @@ impl Interface {
         let lambda = self.lambda(number, trial);
         // the tangent is that of the branch that the trial is on, to the last bit
         let (measure, past) = (self.measure(number), self.history.past(number));
-        let laws = self.laws_of(number);
+        let laws = Laws {
+            answer,
+            ..self.laws_of(number)
+        };
         for row in scratch.rows.rows() {
             laws.act(
                 row,
@@ -289,7 +343,7 @@ impl Interface {
     }
 
     /// The rounding error of the forces of a row: that of the positions times the stiffness of the law.
-    fn rounding(&self, rows: &Rows, trial: &State) -> f64 {
+    fn rounding(&self, rows: &Rows, trial: &State, answer: Option<&Answer>) -> f64 {
         let size = |p: &Participant| match *p {
             Participant::Node(node) => trial.x.get(node as usize).map_or(0.0, |x| x.max_abs()),
             Participant::Rigid(body) => {
@@ -298,11 +352,14 @@ impl Interface {
             }
         };
         let size = rows.participants().iter().map(size).fold(0.0, f64::max);
-        let laws = self.laws();
+        let laws = Laws {
+            answer,
+            ..self.laws()
+        };
         let stiffness = |row: &Row| {
             let lambda = self.lambda(row.number, trial);
             let normal = laws.pressure(row.gap, row.normal, &lambda).dgap.abs();
-            let tangential = laws.stick_stiffness(&self.traction(row, &lambda));
+            let tangential = laws.stick_stiffness(&self.answered(row, &lambda, answer));
             normal.max(tangential) * self.measure(row.number)
         };
         ROUNDING * size * rows.rows().iter().map(stiffness).sum::<f64>()
@@ -349,16 +406,18 @@ impl Interface {
     pub(super) fn judge(&self, trial: &State) -> Result<Vec<Judged>, TermError> {
         let mut rows = Rows::default();
         let mut judged = vec![Judged::default(); self.judged.len()];
-        for (row, judged) in judged.iter_mut().enumerate() {
+        let mut asked = Asked::default();
+        self.ask(0..judged.len(), trial, &mut rows, &mut asked)?;
+        for ((row, judged), answer) in judged.iter_mut().enumerate().zip(asked.answers()) {
             let Some(pair) = &self.now.pairs[row] else {
                 continue;
             };
-            if !self.acting_row(row, trial, RowOrder::Gradient, &mut rows)? {
+            if !self.answered_row((row, answer), trial, RowOrder::Gradient, &mut rows)? {
                 continue;
             }
             let lambda = self.lambda(row, trial);
             let acting = rows.rows().first().map(|r| {
-                let traction = self.traction(r, &lambda);
+                let traction = self.answered(r, &lambda, answer);
                 // what just touches, without pressure, is open to a verdict
                 let nothing = r.gap >= 0.0 && traction.pressure <= 0.0 && !self.laws().bond;
                 if nothing {

@@ -63,9 +63,13 @@ impl Term for Interface {
         out: &mut dyn Sink,
     ) -> Result<(), TermError> {
         let scratch = work.of::<Scratch>();
-        for row in self.share(chunk) {
-            self.act(row, trial, order, scratch, out)?;
+        let share = self.share(chunk);
+        let mut asked = std::mem::take(&mut scratch.asked);
+        self.ask(share.clone(), trial, &mut scratch.rows, &mut asked)?;
+        for (row, answer) in share.zip(asked.answers()) {
+            self.act((row, answer), trial, order, scratch, out)?;
         }
+        scratch.asked = asked;
         Ok(())
     }
 

@@ -1,4 +1,4 @@
-use super::{ContactLaw, Eval, Scale};
+use super::{ContactLaw, Eval, Scale, each};
 use signorini_vocabulary::{Description, Entry, NOT_NEGATIVE, POSITIVE, key};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -79,18 +79,20 @@ impl ContactLaw for Arctangent {
         ENTRY.description.name
     }
 
-    fn pressure(&self, gap: f64, _: f64, scale: &Scale) -> Eval {
-        if gap > self.within * scale.length {
-            return Eval::default();
-        }
-        let (d, width) = (-gap, self.width());
-        let share = 0.5 + (d / width).atan() / PI;
-        let bend = d * width / (PI * (d * d + width * width));
-        Eval {
-            value: self.stiffness * d * share,
-            dgap: -self.stiffness * (share + bend),
-            dlambda: 0.0,
-        }
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], scale: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, _| {
+            if gap > self.within * scale.length {
+                return Eval::default();
+            }
+            let (d, width) = (-gap, self.width());
+            let share = 0.5 + (d / width).atan() / PI;
+            let bend = d * width / (PI * (d * d + width * width));
+            Eval {
+                value: self.stiffness * d * share,
+                dgap: -self.stiffness * (share + bend),
+                dlambda: 0.0,
+            }
+        });
     }
 
     fn energy(&self, gap: f64, _: f64, scale: &Scale) -> Option<f64> {

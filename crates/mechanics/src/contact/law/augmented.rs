@@ -1,4 +1,4 @@
-use super::{ContactLaw, Eval, Multiplier, Scale, TOUCH};
+use super::{ContactLaw, Eval, Multiplier, Scale, TOUCH, each};
 
 /// `p = ⟨λ − εg⟩`.
 fn augmented(gap: f64, lambda: f64, scale: &Scale) -> Eval {
@@ -27,8 +27,10 @@ impl ContactLaw for Uzawa {
         Multiplier::Frozen
     }
 
-    fn pressure(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {
-        augmented(gap, lambda, scale)
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], scale: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, lambda| {
+            augmented(gap, lambda, scale)
+        });
     }
 
     fn energy(&self, gap: f64, lambda: f64, scale: &Scale) -> Option<f64> {
@@ -50,8 +52,10 @@ impl ContactLaw for AugmentedNewton {
         Multiplier::Augmented
     }
 
-    fn pressure(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {
-        augmented(gap, lambda, scale)
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], scale: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, lambda| {
+            augmented(gap, lambda, scale)
+        });
     }
 
     fn complementarity(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {

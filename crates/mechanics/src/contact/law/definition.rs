@@ -67,8 +67,21 @@ pub trait ContactLaw: Debug + Send + Sync {
         Multiplier::None
     }
 
-    /// The pressure, ≥ 0 in compression; all zero where it is open. A law may pull a little ([`Arctangent`](super::Arctangent)).
-    fn pressure(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval;
+    /// The pressures of many rows, ≥ 0 in compression; all zero where one is open. A law may pull a little
+    /// ([`Arctangent`](super::Arctangent)).
+    ///
+    /// # Shapes
+    /// One gap, one multiplier and one answer for each row. What a row is answered does not depend on the others:
+    /// [`each`] makes this of a formula.
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], scale: &Scale, out: &mut [Eval]);
+
+    /// The pressure of one row.
+    fn pressure(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {
+        let mut out = [Eval::default()];
+        self.pressures(&[gap], &[lambda], scale, &mut out);
+        let [at] = out;
+        at
+    }
 
     /// The function whose root is contact; zero for laws without an unknown multiplier.
     fn complementarity(&self, _gap: f64, _lambda: f64, _scale: &Scale) -> Eval {
@@ -93,6 +106,24 @@ pub trait ContactLaw: Debug + Send + Sync {
 
     /// The potential of the pressure, `p = −∂W/∂g`, where there is one.
     fn energy(&self, gap: f64, lambda: f64, scale: &Scale) -> Option<f64>;
+}
+
+/// Answers each row with the formula of a law: of its gap and multiplier.
+///
+/// # Example
+/// ```
+/// use signorini_mechanics::contact::law::{Eval, each};
+///
+/// let springs = |gap: f64, _: f64| Eval { value: -2.0 * gap, dgap: -2.0, dlambda: 0.0 };
+/// let mut out = [Eval::default(); 2];
+/// each(&[-0.5, -1.0], &[0.0, 0.0], &mut out, springs);
+/// assert_eq!(out.map(|at| at.value), [1.0, 2.0]);
+/// ```
+#[inline]
+pub fn each(gaps: &[f64], lambdas: &[f64], out: &mut [Eval], law: impl Fn(f64, f64) -> Eval) {
+    for ((out, gap), lambda) in out.iter_mut().zip(gaps).zip(lambdas) {
+        *out = law(*gap, *lambda);
+    }
 }
 
 /// Gap over the size of the facets up to which a surface touches.

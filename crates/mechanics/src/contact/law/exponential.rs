@@ -1,4 +1,4 @@
-use super::{ContactLaw, Eval, Scale};
+use super::{ContactLaw, Eval, Scale, each};
 use signorini_vocabulary::{Description, Entry, NOT_NEGATIVE, POSITIVE, key};
 use std::sync::Arc;
 
@@ -80,17 +80,19 @@ impl ContactLaw for Exponential {
         ENTRY.description.name
     }
 
-    fn pressure(&self, gap: f64, _: f64, _: &Scale) -> Eval {
-        if gap > self.within {
-            return Eval::default();
-        }
-        let bend = gap.max(Self::STRAIGHT * self.c0);
-        let (value, slope) = self.at(bend);
-        Eval {
-            value: value + slope * (gap - bend),
-            dgap: slope,
-            dlambda: 0.0,
-        }
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], _: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, _| {
+            if gap > self.within {
+                return Eval::default();
+            }
+            let bend = gap.max(Self::STRAIGHT * self.c0);
+            let (value, slope) = self.at(bend);
+            Eval {
+                value: value + slope * (gap - bend),
+                dgap: slope,
+                dlambda: 0.0,
+            }
+        });
     }
 
     fn energy(&self, gap: f64, _: f64, _: &Scale) -> Option<f64> {

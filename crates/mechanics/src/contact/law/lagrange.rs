@@ -1,4 +1,4 @@
-use super::{ContactLaw, Eval, Multiplier, Scale, TOUCH};
+use super::{ContactLaw, Eval, Multiplier, Scale, TOUCH, each};
 
 /// Lagrange multipliers with a primal-dual active set: no penetration.
 ///
@@ -33,16 +33,18 @@ impl ContactLaw for Lagrange {
         Multiplier::Direct
     }
 
-    fn pressure(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {
-        if Self::is_closed(gap, lambda, scale) {
-            Eval {
-                value: lambda,
-                dgap: 0.0,
-                dlambda: 1.0,
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], scale: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, lambda| {
+            if Self::is_closed(gap, lambda, scale) {
+                Eval {
+                    value: lambda,
+                    dgap: 0.0,
+                    dlambda: 1.0,
+                }
+            } else {
+                Eval::default()
             }
-        } else {
-            Eval::default()
-        }
+        });
     }
 
     fn complementarity(&self, gap: f64, lambda: f64, scale: &Scale) -> Eval {

@@ -36,7 +36,7 @@ mod tests;
 pub use arctangent::Arctangent;
 pub use augmented::{AugmentedNewton, Uzawa};
 use definition::TOUCH;
-pub use definition::{ContactLaw, Eval, Multiplier, Scale};
+pub use definition::{ContactLaw, Eval, Multiplier, Scale, each};
 pub use exponential::Exponential;
 pub use lagrange::Lagrange;
 pub use penalty::Penalty;

@@ -1,4 +1,4 @@
-use super::{ContactLaw, Eval, Scale, TOUCH};
+use super::{ContactLaw, Eval, Scale, TOUCH, each};
 
 /// The linear penalty, `p = ε⟨−g⟩`.
 ///
@@ -12,16 +12,18 @@ impl ContactLaw for Penalty {
         "penalty"
     }
 
-    fn pressure(&self, gap: f64, _: f64, scale: &Scale) -> Eval {
-        if gap <= TOUCH * scale.length {
-            Eval {
-                value: -scale.penalty * gap.min(0.0),
-                dgap: -scale.penalty,
-                dlambda: 0.0,
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], scale: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, _| {
+            if gap <= TOUCH * scale.length {
+                Eval {
+                    value: -scale.penalty * gap.min(0.0),
+                    dgap: -scale.penalty,
+                    dlambda: 0.0,
+                }
+            } else {
+                Eval::default()
             }
-        } else {
-            Eval::default()
-        }
+        });
     }
 
     fn energy(&self, gap: f64, _: f64, scale: &Scale) -> Option<f64> {

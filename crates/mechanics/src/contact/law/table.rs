@@ -1,4 +1,4 @@
-use super::{ContactLaw, Eval, Scale};
+use super::{ContactLaw, Eval, Scale, each};
 use std::cmp::Ordering;
 use thiserror::Error;
 
@@ -86,18 +86,20 @@ impl ContactLaw for Table {
         "table"
     }
 
-    fn pressure(&self, gap: f64, _: f64, _: &Scale) -> Eval {
-        let (end, slope) = self.piece(gap);
-        let [at, p] = self.rows.get(end).copied().unwrap_or_default();
-        let value = p + slope * (gap - at);
-        if value == 0.0 && slope == 0.0 {
-            return Eval::default();
-        }
-        Eval {
-            value,
-            dgap: slope,
-            dlambda: 0.0,
-        }
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], _: &Scale, out: &mut [Eval]) {
+        each(gaps, lambdas, out, |gap, _| {
+            let (end, slope) = self.piece(gap);
+            let [at, p] = self.rows.get(end).copied().unwrap_or_default();
+            let value = p + slope * (gap - at);
+            if value == 0.0 && slope == 0.0 {
+                return Eval::default();
+            }
+            Eval {
+                value,
+                dgap: slope,
+                dlambda: 0.0,
+            }
+        });
     }
 
     fn energy(&self, gap: f64, _: f64, _: &Scale) -> Option<f64> {
