@@ -94,6 +94,19 @@ fn first(array: &Bound<'_, PyAny>) -> PyResult<f64> {
     value.ok_or_else(|| PyValueError::new_err("an array without numbers was returned"))
 }
 
+/// The rows of two arrays of `n` numbers.
+fn pairs(arrays: &Bound<'_, PyAny>, n: usize) -> PyResult<Vec<[f64; 2]>> {
+    let [first, second] = [arrays.get_item(0)?, arrays.get_item(1)?];
+    let first: PyReadonlyArray1<'_, f64> = first.extract()?;
+    let second: PyReadonlyArray1<'_, f64> = second.extract()?;
+    let (first, second) = (first.as_array(), second.as_array());
+    if [first.len(), second.len()] != [n, n] {
+        return Err(PyValueError::new_err(format!("two arrays of {n} numbers are wanted")));
+    }
+    let both = first.iter().zip(second.iter());
+    Ok(both.map(|(&first, &second)| [first, second]).collect())
+}
+
 /// The first row of an array.
 fn row<const N: usize>(array: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let array: PyReadonlyArray2<'_, f64> = array.extract()?;
@@ -203,17 +216,19 @@ impl ContactLaw for Law {
         &self.name
     }
 
-    fn pressure(&self, gap: f64, _: f64, _: &Scale) -> Eval {
+    fn pressures(&self, gaps: &[f64], _: &[f64], _: &Scale, out: &mut [Eval]) {
         let answer = self.called.ask(|object| {
-            let gap = PyArray1::from_slice(object.py(), &[gap]);
-            let pair = object.call_method1("pressure", (gap,))?;
-            Ok((first(&pair.get_item(0)?)?, first(&pair.get_item(1)?)?))
+            let gaps = PyArray1::from_slice(object.py(), gaps);
+            pairs(&object.call_method1("pressure", (gaps,))?, out.len())
         });
-        let (value, dgap) = answer.unwrap_or((SPOILT, SPOILT));
-        Eval {
-            value,
-            dgap,
-            dlambda: 0.0,
+        let mut answer = answer.into_iter().flatten();
+        for at in out {
+            let [value, dgap] = answer.next().unwrap_or([SPOILT; 2]);
+            *at = Eval {
+                value,
+                dgap,
+                dlambda: 0.0,
+            };
         }
     }
 
@@ -233,15 +248,17 @@ impl ContactLaw for Law {
 struct Friction(Called);
 
 impl FrictionLaw for Friction {
-    fn limit(&self, at: &Sliding) -> Limit {
+    fn limits(&self, at: &[Sliding], out: &mut [Limit]) {
         let answer = self.0.ask(|object| {
-            let [pressure, path] =
-                [at.pressure, at.path].map(|value| PyArray1::from_slice(object.py(), &[value]));
-            let pair = object.call_method1("limit", (pressure, path))?;
-            Ok((first(&pair.get_item(0)?)?, first(&pair.get_item(1)?)?))
+            let array = |of: fn(&Sliding) -> f64| PyArray1::from_iter(object.py(), at.iter().map(of));
+            let (pressure, path) = (array(|at| at.pressure), array(|at| at.path));
+            pairs(&object.call_method1("limit", (pressure, path))?, out.len())
         });
-        let (value, dpressure) = answer.unwrap_or((SPOILT, SPOILT));
-        Limit { value, dpressure }
+        let mut answer = answer.into_iter().flatten();
+        for limit in out {
+            let [value, dpressure] = answer.next().unwrap_or([SPOILT; 2]);
+            *limit = Limit { value, dpressure };
+        }
     }
 }
 
