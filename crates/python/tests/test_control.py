@@ -215,7 +215,7 @@ def test_a_stepper_takes_changes_of_the_case() -> None:
     case = pressed(increments=4)
     stepper = case.stepper()
     stepper.advance(0.5)
-    case.contacts["floor"].friction = 0.0
+    case.contacts["floor"].friction = 0.1
     case.steps["press"].moves[0].uz = -0.02
     frame = stepper.advance(0.5)
     assert frame["displacement"][:, 2].min() == pytest.approx(-0.02)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, cast
 from . import _html
 from . import keys as k
 from ._documented import documented
-from ._table import Items, Key, MaterialTable, Shape, Table, dump, plain
+from ._table import Items, Key, MaterialTable, Shape, Table, TableDict, TableList, dump, plain
 from .physics import KINDS, Course, Physics
 from .physics import Material as OwnMaterial
 
@@ -736,6 +736,8 @@ def load(path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, 
     file = loaded.mesh_file
     mesh = Mesh.from_native(loaded.mesh, file=None if file is None else os.path.abspath(file))
     case = Case.from_dict(_parse(loaded.text), mesh)
+    for key, value in (set or {}).items():
+        _override(case, key, value)
     object.__setattr__(case, "_path", os.path.abspath(path))
     object.__setattr__(case, "_folder", os.path.abspath(loaded.folder or os.path.dirname(path)))
     object.__setattr__(case, "_diagnostics", [Diagnostic(one) for one in loaded.diagnostics])
@@ -826,6 +828,25 @@ def _toml(value: Any) -> str:
     from . import _native
 
     return _native.write({"x": plain(value)}).partition("=")[2].strip()
+
+
+def _override(case: Case, path: str, value: Any) -> None:
+    """Sets the key at a path that the loader has accepted."""
+    segments: list[str] = []
+    nested: Any = _parse(f"{path} = 0")
+    while isinstance(nested, dict):
+        (segment, nested), *_ = cast("dict[str, Any]", nested).items()
+        segments.append(segment)
+    place: Any = case
+    for segment in segments[:-1]:
+        if isinstance(place, TableList):
+            tables = cast("TableList[Any]", place)
+            place = tables[segment] if segment in tables else tables[int(segment)]
+        elif isinstance(place, TableDict):
+            place = cast("TableDict[Any]", place)[segment]
+        else:
+            place = place._find(segment).read(place)
+    place[segments[-1]] = value
 
 
 ORDER = ("format", "title", "units", "allow", "mesh", "model", "sets", "reference", "amplitude", "material", "body")

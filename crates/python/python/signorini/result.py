@@ -172,21 +172,22 @@ class ContactFrame:
         """The radius of the closed area (length), or its half-width in plane models; 0 where nothing is closed.
 
         √2 times the radius of gyration of the closed area about the point of largest pressure; √3 times in the plane.
-        Exact for a disc and for any sector of one about its apex, so for half and quarter models too. In bodies of
-        revolution it is about the axis.
+        Exact for a disc and for any sector of one about its apex, so for half and quarter models too. The point is the
+        vertex of the paraboloid that is closest to the squared pressures, exact for Hertz; where they have none, the
+        node of largest pressure. In bodies of revolution it is on the axis.
         """
         closed = self.closed
         area = self.area[closed]
         total = float(area.sum())
         if not total > 0.0:
             return 0.0
-        away = self.points[closed]
-        if self._space == "axisymmetric":
-            distance = away[:, 0] ** 2
-        else:
-            peak = int(np.argmax(self.pressure[closed]))
-            distance = ((away - away[peak]) ** 2).sum(axis=1)
+        points = self.points[closed]
         factor = 3.0 if self._space.startswith("plane") else 2.0
+        if self._space == "axisymmetric":
+            distance = points[:, 0] ** 2
+        else:
+            center = apex(points, self.pressure[closed], 1 if factor == 3.0 else 2)
+            distance = ((points - center) ** 2).sum(axis=1)
         return float(np.sqrt(factor * (area @ distance) / total))
 
     def to_pyvista(self, warp: float = 1.0) -> Any:
@@ -206,6 +207,30 @@ class ContactFrame:
     def __repr__(self) -> str:
         force = ", ".join(f"{x:.6g}" for x in self.force)
         return f"<contact {self.name}: force ({force}), peak {self.peak:.6g}, {int(self.closed.sum())} of {len(self.nodes)} closed>"
+
+
+def apex(points: Floats, pressure: Floats, dim: int) -> Floats:
+    """Where pressures at points of a surface of this dimension are largest.
+
+    The vertex of the paraboloid closest to the squared pressures, in the plane closest to the points. Where that is no
+    maximum, or lies away from the points, the point of largest pressure.
+    """
+    peak = points[int(np.argmax(pressure))]
+    if len(points) < dim + 3:
+        return peak
+    middle = points.mean(axis=0)
+    _, sizes, axes = np.linalg.svd(points - middle, full_matrices=False)
+    if not sizes[dim - 1] > 1e-9 * sizes[0]:
+        return peak
+    flat = (points - middle) @ axes[:dim].T
+    columns = np.column_stack([np.ones(len(flat)), flat, (flat**2).sum(axis=1)])
+    fit = np.linalg.lstsq(columns, pressure**2, rcond=None)[0]
+    if not fit[-1] < 0.0:
+        return peak
+    vertex = -0.5 * fit[1:-1] / fit[-1]
+    near = np.sort(((flat - vertex) ** 2).sum(axis=1))
+    spacing = (np.ptp(flat, axis=0) ** 2).sum() / len(points) ** (2.0 / dim)
+    return middle + vertex @ axes[:dim] if near[0] <= 4.0 * spacing else peak
 
 
 class _Contacts(Mapping[str, ContactFrame]):
