@@ -10,7 +10,7 @@ import pytest
 import signorini as sg
 from signorini._elements import ELEMENTS, GMSH_ORDERS, VTK_ORDERS
 
-from .conftest import box
+from .conftest import box, native
 
 TET = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
 
@@ -209,3 +209,24 @@ def test_gmsh_without_a_mesh_says_so(gmsh: Any) -> None:
     gmsh.model.add("empty")
     with pytest.raises(ValueError, match="has no mesh"):
         sg.Mesh.from_gmsh()
+
+
+@native
+def test_a_grid_has_its_outer_faces_as_surfaces() -> None:
+    x, y, z = [0.0, 1.0, 3.0], [0.0, 2.0], [-1.0, 0.0, 0.5, 1.0]
+    for lines in ((x, y), (x, y, z)):
+        mesh = sg.Mesh.grid(*lines)
+        assert len(mesh.points) == np.prod([len(line) for line in lines])
+        faces, centers, normals = mesh.boundary()
+        found = {tuple(face): (center, normal) for face, center, normal in zip(faces, centers, normals, strict=True)}
+        assert sum(len(mesh.surfaces[name]) for name in mesh.surfaces) == len(faces)
+        for axis, line in enumerate(lines):
+            for name, at, sign in (("min", line[0], -1.0), ("max", line[-1], 1.0)):
+                for face in mesh.surfaces["xyz"[axis] + name]:
+                    center, normal = found[tuple(face)]
+                    assert center[axis] == at and normal[axis] == sign
+
+
+def test_lines_of_a_grid_increase() -> None:
+    with pytest.raises(ValueError, match="y has to be at least two increasing"):
+        sg.Mesh.grid([0.0, 1.0], [0.0, 0.0])

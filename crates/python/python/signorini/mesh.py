@@ -226,6 +226,34 @@ class Mesh:
         return mesh
 
     @classmethod
+    def grid(cls, x: ArrayLike, y: ArrayLike, z: ArrayLike | None = None) -> Mesh:
+        """A block of quad4 between the lines `x` and `y`, or of hex8 with `z`. Lines are increasing coordinates (length).
+
+        Its outer faces are the surfaces xmin, xmax, ymin, ymax, zmin and zmax.
+
+        >>> Mesh.grid([0, 1, 2], [0, 1])
+        <Mesh: 6 nodes, 2 quad4, sets xmin, xmax, ymin, ymax>
+        """
+        lines = [np.asarray(line, dtype=float) for line in (x, y, z) if line is not None]
+        for axis, line in zip("xyz", lines, strict=False):
+            if line.ndim != 1 or len(line) < 2 or not (np.diff(line) > 0.0).all():
+                raise ValueError(f"{axis} has to be at least two increasing coordinates")
+        dim, counts = len(lines), [len(line) for line in lines]
+        points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).T.reshape(dim, -1).T
+        strides = np.cumprod([1, *counts[:-1]])
+        first = np.sum(np.meshgrid(*(np.arange(n - 1) * s for n, s in zip(counts, strides, strict=True)), indexing="ij"), axis=0)
+        corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
+        cells = first.T.reshape(-1, 1) + corners[: 2**dim, :dim] @ strides
+        mesh = cls(points, {("quad4", "hex8")[dim - 2]: cells})
+        places = np.stack(np.unravel_index(np.arange(len(cells)), [n - 1 for n in counts], order="F"), axis=-1)
+        sides = ((3, 1), (0, 2)) if dim == 2 else ((5, 3), (2, 4), (0, 1))
+        for axis, (low, high) in enumerate(sides):
+            for name, side, at in ((f"{'xyz'[axis]}min", low, 0), (f"{'xyz'[axis]}max", high, counts[axis] - 2)):
+                ids = np.flatnonzero(places[:, axis] == at)
+                mesh.surfaces[name] = np.column_stack([0 * ids, ids, 0 * ids + side])
+        return mesh
+
+    @classmethod
     def from_gmsh(cls) -> Mesh:
         """The mesh of gmsh's current model. Physical groups become sets; with groups, only cells in groups are taken.
 

@@ -75,7 +75,8 @@ mod tests {
         let folders = std::fs::read_dir(root.join("examples")).unwrap();
         let read =
             |entry: std::fs::DirEntry| std::fs::read_to_string(entry.path().join("case.toml"));
-        let cases: Vec<String> = folders.map(|entry| read(entry.unwrap()).unwrap()).collect();
+        // scripts in Python have no case
+        let cases: Vec<String> = folders.flat_map(|entry| read(entry.unwrap())).collect();
         for template in &TEMPLATES {
             assert!(
                 cases.iter().any(|case| case == template.text),
