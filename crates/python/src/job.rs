@@ -3,6 +3,7 @@
 use crate::diagnostics::{exception, list};
 use crate::mesh::Mesh;
 use crate::own::{self, Failures};
+use crate::worker::supervised;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use signorini::{
@@ -150,7 +151,8 @@ pub fn load(
     compat: Option<&str>,
 ) -> PyResult<Loaded> {
     let compat = compat.map(compat_of).transpose()?;
-    let loaded = py.detach(|| signorini::load(&path, &Reading { set, compat }));
+    let reading = Reading { set, compat };
+    let loaded = supervised(py, |_| signorini::load(&path, &reading))?;
     let loaded = loaded.map_err(|found| exception(py, &found))?;
     let mesh = Mesh {
         inner: Arc::new(loaded.mesh),
@@ -187,14 +189,14 @@ fn is_deck(path: &Path) -> bool {
 /// Errors: `InputError`, `ModelError` with all faults at once.
 #[pyfunction]
 pub fn check<'py>(py: Python<'py>, job: &Job) -> PyResult<(Vec<String>, Bound<'py, PyList>)> {
-    let looked = py.detach(|| {
+    let looked = supervised(py, |_| {
         let mut built = job.build()?;
         let mut found = std::mem::take(&mut built.warnings);
         found.append(std::mem::take(&mut built.model.warnings));
         signorini::run::check_output(&built.model)?;
         let preview = preview::preview(&mut built.model)?;
         Ok((preview.lines, found))
-    });
+    })?;
     let (lines, found) = looked.map_err(|found| exception(py, &found))?;
     Ok((lines, list(py, &found)?))
 }

@@ -21,6 +21,7 @@ mod stepper;
 mod table;
 mod view;
 mod vtu;
+mod worker;
 
 use pyo3::prelude::*;
 

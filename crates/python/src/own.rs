@@ -101,7 +101,9 @@ fn pairs(arrays: &Bound<'_, PyAny>, n: usize) -> PyResult<Vec<[f64; 2]>> {
     let second: PyReadonlyArray1<'_, f64> = second.extract()?;
     let (first, second) = (first.as_array(), second.as_array());
     if [first.len(), second.len()] != [n, n] {
-        return Err(PyValueError::new_err(format!("two arrays of {n} numbers are wanted")));
+        return Err(PyValueError::new_err(format!(
+            "two arrays of {n} numbers are wanted"
+        )));
     }
     let both = first.iter().zip(second.iter());
     Ok(both.map(|(&first, &second)| [first, second]).collect())
@@ -250,7 +252,8 @@ struct Friction(Called);
 impl FrictionLaw for Friction {
     fn limits(&self, at: &[Sliding], out: &mut [Limit]) {
         let answer = self.0.ask(|object| {
-            let array = |of: fn(&Sliding) -> f64| PyArray1::from_iter(object.py(), at.iter().map(of));
+            let array =
+                |of: fn(&Sliding) -> f64| PyArray1::from_iter(object.py(), at.iter().map(of));
             let (pressure, path) = (array(|at| at.pressure), array(|at| at.path));
             pairs(&object.call_method1("limit", (pressure, path))?, out.len())
         });

@@ -14,6 +14,7 @@ use crate::frame::{Frame, Kept};
 use crate::job::{Built, Job};
 use crate::own::Failures;
 use crate::pool;
+use crate::worker::{internal, wait};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -27,10 +28,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::time::Duration;
 
-/// How often signals are looked for.
-const LOOK: Duration = Duration::from_millis(50);
 /// The number of the signal that Ctrl-C sends.
 const SIGINT: usize = 2;
 /// How many of the nodes that kept an increment from converging are named.
@@ -443,28 +441,4 @@ fn outcome(
         worst_nodes: heard.worst,
         error: error.map(|error| error.into_value(py).into_any()),
     })
-}
-
-/// The exception for a panic of the program: a bug.
-pub fn internal(panic: &(dyn std::any::Any + Send)) -> PyErr {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-    let message = format!(
-        "this is a bug of signorini, not of your case: {}",
-        text.unwrap_or("a panic")
-    );
-    Python::attach(|py| {
-        let class = py
-            .import("signorini.errors")
-            .and_then(|errors| errors.getattr("InternalError"));
-        match class.and_then(|class| class.call1((&message,))) {
-            Ok(exception) => PyErr::from_value(exception),
-            Err(_) => PyRuntimeError::new_err(message),
-        }
-    })
-}
-
-/// Waits for a message, not longer than until signals are looked for again.
-pub fn wait<T>(asked: &mut Receiver<T>) -> Result<T, RecvTimeoutError> {
-    asked.recv_timeout(LOOK)
 }

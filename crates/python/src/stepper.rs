@@ -5,13 +5,12 @@ use crate::frame::{Frame, Kept};
 use crate::job::{Built, Job};
 use crate::own::Failures;
 use crate::pool;
-use crate::run::{internal, wait};
+use crate::worker::supervised;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use signorini::{Diagnostics, Driver};
 use signorini_mechanics::solve::{Event, Flow};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A case in a state, which goes forward when it is asked to.
@@ -155,28 +154,4 @@ fn raised<T>(py: Python<'_>, failures: &Failures, result: Result<T, Diagnostics>
         return Err(error);
     }
     result.map_err(|found| exception(py, &found))
-}
-
-/// Does something on a thread of its own, which is asked to stop by a signal; the exception of that signal comes first.
-fn supervised<R: Send>(py: Python<'_>, work: impl FnOnce(&AtomicBool) -> R + Send) -> PyResult<R> {
-    let stop = AtomicBool::new(false);
-    let stop = &stop;
-    let (done, mut ended) = channel::<()>();
-    std::thread::scope(|scope| {
-        let worker = scope.spawn(move || {
-            // dropped when the work is done, or panics
-            let _done = done;
-            work(stop)
-        });
-        let mut interrupt = Ok(());
-        while py.detach(|| wait(&mut ended)) == Err(RecvTimeoutError::Timeout) {
-            if let Err(signal) = py.check_signals() {
-                interrupt = interrupt.and(Err(signal));
-                stop.store(true, Ordering::Relaxed);
-            }
-        }
-        let result = py.detach(|| worker.join());
-        interrupt?;
-        result.map_err(|panic| internal(&*panic))
-    })
 }

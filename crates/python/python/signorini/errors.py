@@ -221,6 +221,6 @@ class LimitError(_WithResult):
 
 
 class InternalError(_WithResult):
-    """A bug in the program. The message says where the file is that helps to find it."""
+    """A bug in the program. Please send the message with the case: what had converged is on the disk."""
 
     exit_code = 70
