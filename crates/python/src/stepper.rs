@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use signorini::{Diagnostics, Driver};
 use signorini_mechanics::solve::{Event, Flow};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// A case in a state, which goes forward when it is asked to.
