@@ -164,6 +164,34 @@ def test_control_c_leaves_a_run_that_resumes_to_the_same_bits(tmp_path: Path) ->
     assert np.array_equal(resumed[-1]["displacement"], whole[-1]["displacement"])
 
 
+MANY = """
+import sys
+sys.path.insert(0, {tests!r})
+import signorini as sg
+from tests.test_control import long_case
+print("started", flush=True)
+try:
+    sg.run_many([long_case(2000) for _ in range(4)])
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+    raise SystemExit(130)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs SIGINT")
+def test_control_c_stops_many_runs() -> None:
+    parent = str(Path(__file__).resolve().parents[1])
+    code = MANY.format(tests=parent)
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, cwd=parent)
+    assert process.stdout is not None
+    assert process.stdout.readline().strip() == "started"
+    time.sleep(1.0)
+    start = time.monotonic()
+    os.kill(process.pid, signal.SIGINT)
+    assert process.stdout.read().strip() == "interrupted" and process.wait() == 130
+    assert time.monotonic() - start < 2.0
+
+
 def test_many_runs_come_back_in_order() -> None:
     depths = [0.002 * k for k in range(1, 7)]
     results = sg.run_many([pressed(depth=depth) for depth in depths])

@@ -126,6 +126,16 @@ def test_frames_go_to_pyvista_and_meshio(result: sg.Result) -> None:
     assert result.to_pyvista().n_blocks == 3
 
 
+def test_frames_are_drawn(result: sg.Result, tmp_path: Path) -> None:
+    pv = pytest.importorskip("pyvista")
+    path = result[-1].screenshot(tmp_path / "p.png", "contact_pressure", warp=1.0)
+    assert Path(path).read_bytes().startswith(b"\x89PNG")
+    result[-1].screenshot(tmp_path / "u.png", "displacement", component=2)
+    plotter = result[-1].plotter("contact_pressure", warp=2.0, off_screen=True)
+    assert isinstance(plotter, pv.Plotter)
+    plotter.close()
+
+
 def test_results_show_themselves(result: sg.Result) -> None:
     assert "3 frames" in repr(result)
     assert "<svg" in result._repr_html_()

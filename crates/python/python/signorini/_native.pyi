@@ -11,6 +11,25 @@ _Ids = NDArray[np.int64]
 _Sets = dict[str, tuple[_Ids, _Ids, _Ids]]
 _Diagnostics = list[dict[str, Any]]
 
+__all__ = [
+    "ContactFrame",
+    "Frame",
+    "Job",
+    "Loaded",
+    "Mesh",
+    "Outcome",
+    "Stepper",
+    "check",
+    "load",
+    "main",
+    "parse",
+    "read_vtu",
+    "run",
+    "schema",
+    "version",
+    "write",
+]
+
 version: str
 
 def main(arguments: Sequence[str]) -> int:
@@ -73,7 +92,7 @@ class Job:
         mesh: Mesh | None = None,
         record: str | None = None,
         own: Mapping[str, Mapping[str, Any]] | None = None,
-        set: Sequence[tuple[str, str]] = (),
+        set: Sequence[tuple[str, str]] = ...,
     ) -> Job: ...
 
 @final
@@ -87,7 +106,7 @@ class Loaded:
     folder: str
     diagnostics: _Diagnostics
 
-def load(path: str, set: Sequence[tuple[str, str]] = (), compat: str | None = None) -> Loaded:
+def load(path: str, set: Sequence[tuple[str, str]] = ..., compat: str | None = None) -> Loaded:
     """Reads a case or a deck with its mesh. Raises `InputError`."""
 
 def check(job: Job) -> tuple[list[str], _Diagnostics]:

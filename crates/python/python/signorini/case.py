@@ -576,9 +576,9 @@ class Case(k.CaseTable):
         if self._mesh.file is not None:
             file = self._mesh.file if folder is None else _relative(self._mesh.file, folder)
             return _native.write(_in_order({**values, "mesh": {"file": file.replace(os.sep, "/")}}))
-        inline = self._mesh.native().to_toml()
-        sets = values.get("sets", {})
-        if set(sets).isdisjoint(self._mesh.set_names):
+        inline, unions = self._mesh.in_place()
+        sets = {**unions, **values.get("sets", {})}
+        if set(values.get("sets", {})).isdisjoint(self._mesh.set_names):
             # the text of the mesh ends with its sets, to which those of the case are added
             rest = {key: value for key, value in values.items() if key != "sets"}
             more = _native.write({"sets": sets}) if sets else ""

@@ -426,6 +426,48 @@ class Mesh:
             )
         return out
 
+    def in_place(self) -> tuple[str, dict[str, dict[str, list[str]]]]:
+        """`[mesh]` and `[sets]` in TOML, and sets that are unions of those.
+
+        A list of elements gives each element one group. Where cells of surfaces are in several sets, each combination of
+        sets is a group, and the sets are unions of them.
+        """
+        lower = np.concatenate([np.full(len(block), ELEMENTS[name].dim < self.dim) for name, block in self._blocks])
+        holders: dict[int, list[str]] = {}
+        for name, ids in self._cell_sets.items():
+            for cell in ids[lower[ids]].tolist():
+                holders.setdefault(cell, []).append(name)
+        shared = {name for names in holders.values() if len(names) > 1 for name in names}
+        if not shared:
+            return self.native().to_toml(), {}
+        twin = Mesh(
+            self._points,
+            self._blocks,
+            {f"{name} nodes" if name in shared else name: ids for name, ids in self._node_sets.items()},
+            {name: ids for name, ids in self._cell_sets.items() if name not in shared},
+            {f"{name} faces" if name in shared else name: ids for name, ids in self._surfaces.items()},
+            node_labels=self._node_labels,
+            cell_labels=self.cell_labels,
+        )
+        parts: dict[str, list[int]] = {}
+        unions: dict[str, list[str]] = {name: [] for name in self._cell_sets if name in shared}
+        for cell, names in sorted(holders.items()):
+            if shared.isdisjoint(names):
+                continue
+            part = " and ".join(names) if len(names) > 1 else f"{names[0]} alone"
+            parts.setdefault(part, []).append(cell)
+        for part, cells in parts.items():
+            twin.cell_sets[part] = cells
+            for name in holders[cells[0]]:
+                unions[name].append(part)
+        for name, union in unions.items():
+            solid = self._cell_sets[name][~lower[self._cell_sets[name]]]
+            if len(solid):
+                twin.cell_sets[f"{name} solids"] = solid
+            kinds = {"solids": len(solid), "nodes": name in self._node_sets, "faces": name in self._surfaces}
+            union += [f"{name} {kind}" for kind, is_there in kinds.items() if is_there]
+        return twin.native().to_toml(), {name: {"union": union} for name, union in unions.items()}
+
     @property
     def file(self) -> str | None:
         """The file it was read from, while its sets are those of the file."""

@@ -222,7 +222,7 @@ def apex(points: Floats, pressure: Floats, dim: int) -> Floats:
     _, sizes, axes = np.linalg.svd(points - middle, full_matrices=False)
     if not sizes[dim - 1] > 1e-9 * sizes[0]:
         return peak
-    flat = (points - middle) @ axes[:dim].T
+    flat: Floats = np.asarray((points - middle) @ np.transpose(axes[:dim]))
     columns = np.column_stack([np.ones(len(flat)), flat, (flat**2).sum(axis=1)])
     fit = np.linalg.lstsq(columns, pressure**2, rcond=None)[0]
     if not fit[-1] < 0.0:
