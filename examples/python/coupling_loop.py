@@ -23,7 +23,7 @@ case.contact("zmin", sg.Plane(normal=(0, 0, 1)), name="seat")
 step = case.step("feed", geometry="linear")
 step.fix("xmin", "x")
 step.fix("ymin", "y")
-load = step.load("zmax", pressure=0.0, amplitude=[[0.0, 1.0], [1.0, 1.0]])  # not ramped: the pressure is the present one
+load = step.load("zmax", pressure=0.0, amplitude=[[0.0, 1.0], [1.0, 1.0]])  # the present one, not ramped
 
 stepper = case.stepper()
 pressure = 0.0

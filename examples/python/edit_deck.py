@@ -13,7 +13,7 @@ case = sg.load(Path(__file__).with_name("blocks.inp"))
 print(case)
 print(case.check())
 
-# everything in the deck is an attribute: a softer rubber, friction, a larger load that comes in ten increments
+# everything in the deck is an attribute: a softer rubber, friction, a larger load in ten increments
 case.materials["RUBBER"].E = 4.0
 case.contacts[0].friction = 0.3
 step = case.steps[0]

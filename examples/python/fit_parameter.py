@@ -1,6 +1,6 @@
 """A modulus from a measured curve of force over displacement, by least squares.
 
-Here the measurement is made up: the closed form of Hertz with an error of 2 %.
+The measurement is synthetic: the closed form of Hertz with 2 % noise.
 """
 
 import numpy as np

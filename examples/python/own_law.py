@@ -1,4 +1,4 @@
-"""A rough surface: asperities that resist with p = c g^2, g the penetration, as a contact law in Python.
+"""A rough surface: a contact law in Python, p = c g^2 with the penetration g, for its asperities.
 
 The law returns pressures and their derivatives by the gap, which is negative in penetration.
 """

@@ -1,4 +1,4 @@
-"""A rigid punch of a shape that no case file knows: y = c r^4, given by a function and its gradient.
+"""A rigid punch with the profile y = c r^4, given by a function and its gradient.
 
 The function has to vanish on the surface and to be positive where bodies are; it need not be a true distance.
 """

@@ -64,7 +64,7 @@ def test_scripts_are_short_and_check_their_result(name: str) -> None:
     assert ast.get_docstring(tree), "a script says what it shows"
     assert any(isinstance(node, ast.Assert) for node in ast.walk(tree)), "a script checks its result"
     lines = [line for line in source.splitlines() if line.strip()]
-    assert len(lines) <= 50 and max(map(len, lines)) <= 120
+    assert 10 <= len(lines) <= 40 and max(map(len, lines)) <= 120
 
 
 @native

@@ -239,11 +239,12 @@ class Mesh:
             if line.ndim != 1 or len(line) < 2 or not (np.diff(line) > 0.0).all():
                 raise ValueError(f"{axis} has to be at least two increasing coordinates")
         dim, counts = len(lines), [len(line) for line in lines]
-        points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).T.reshape(dim, -1).T
-        strides = np.cumprod([1, *counts[:-1]])
-        first = np.sum(np.meshgrid(*(np.arange(n - 1) * s for n, s in zip(counts, strides, strict=True)), indexing="ij"), axis=0)
+        spread: list[Floats] = list(np.meshgrid(*lines, indexing="ij"))
+        points = np.column_stack([one.ravel(order="F") for one in spread])
+        nodes: Ids = np.reshape(np.arange(len(points)), counts, order="F")
+        first = nodes[tuple(slice(count - 1) for count in counts)].ravel(order="F")
         corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
-        cells = first.T.reshape(-1, 1) + corners[: 2**dim, :dim] @ strides
+        cells = first[:, None] + corners[: 2**dim, :dim] @ np.cumprod([1, *counts[:-1]])
         mesh = cls(points, {("quad4", "hex8")[dim - 2]: cells})
         places = np.stack(np.unravel_index(np.arange(len(cells)), [n - 1 for n in counts], order="F"), axis=-1)
         sides = ((3, 1), (0, 2)) if dim == 2 else ((5, 3), (2, 4), (0, 1))

@@ -689,11 +689,11 @@ def run(
 
     def heard(frame: Any, record: dict[str, Any]) -> bool:
         assert on_increment is not None
-        return on_increment(Increment(Frame(frame, mesh, space), record)) is True
+        return bool(on_increment(Increment(Frame(frame, mesh, space), record)))
 
     def iterated(record: dict[str, Any]) -> bool:
         assert on_iteration is not None
-        return on_iteration(record) is True
+        return bool(on_iteration(record))
 
     try:
         outcome = _native.run(
