@@ -6,7 +6,7 @@
 //!        ▼                                    ▼
 //!  Discretization.pair_up ─────────────▶ Pairing                    all discrete choices, once per iterate
 //!  Discretization.rows ────────────────▶ Rows                       gap, gradient, weights: first-order data
-//!        ContactLaw.pressure ──────────▶ p(g)                       a scalar function
+//!        ContactLaw.pressures ─────────▶ p(g)                       a scalar function, for the rows of a chunk at once
 //!  kernel ─────────────────────────────▶ f, K                       never asks what the segment is
 //! ```
 //!

@@ -632,6 +632,7 @@ class Case(k.CaseTable):
         resume: bool = False,
         threads: int | None = None,
         save: bool = True,
+        keep: bool = True,
         progress: bool | None = None,
     ) -> Result:
         """Solves the case.
@@ -644,6 +645,7 @@ class Case(k.CaseTable):
         fresh: start again in a folder that has results of another case; resume: go on from its last checkpoint
         threads: the number of threads; absent: all cores
         save: False writes no file
+        keep: False reads frames from the folder when they are asked for: for runs whose frames fill the memory
         progress: True shows it, False not; absent: a plot in notebooks with ipywidgets, lines in a terminal
 
         Raises `InputError`, `ModelError`, `NotConverged` (with the converged frames in `.result`), `OutputError`,
@@ -661,6 +663,7 @@ class Case(k.CaseTable):
             resume=resume,
             threads=threads,
             progress=progress,
+            keep=keep or folder is None,
         )
 
     def stepper(self, threads: int | None = None) -> Stepper:

@@ -723,6 +723,9 @@ def run(
         mesh=mesh,
         error=outcome.error,
     )
+    if folder is not None and (resume or not keep) and os.path.isfile(os.path.join(folder, "results.pvd")):
+        # a resumed run has made the later frames only
+        result._frames = folder_of_results(folder)._frames
     if outcome.error is not None:
         raise outcome.error
     error = _failure(result)
