@@ -61,6 +61,8 @@ impl Locking {
 
 /// Poisson's ratio from which on a material counts as nearly incompressible.
 const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
+/// What rounding may take from that ratio in the tangent that it is read from, relative.
+const ROUNDING: f64 = 1e-12;
 
 /// Whether a material resists a change of volume far more than a change of shape: nearly incompressible, or plastic,
 /// as the plastic flow of metals keeps the volume.
@@ -76,7 +78,8 @@ pub(super) fn keeps_volume(material: &dyn Material, kinematics: Kinematics) -> b
     let bulk = (0..3).flat_map(|i| &c[i][..3]).sum::<f64>() / 9.0;
     let shear = (3..6).map(|i| c[i][i]).sum::<f64>() / 3.0;
     // ν = (3K − 2μ)/(2(3K + μ))
-    3.0 * bulk - 2.0 * shear >= NEARLY_INCOMPRESSIBLE * 2.0 * (3.0 * bulk + shear)
+    let limit = NEARLY_INCOMPRESSIBLE * (1.0 - ROUNDING);
+    3.0 * bulk - 2.0 * shear >= limit * 2.0 * (3.0 * bulk + shear)
 }
 
 /// What is chosen among.
@@ -187,6 +190,25 @@ impl Situation {
         match self.element.locking_class() {
             LockingClass::ConstantStrain | LockingClass::Multilinear => 1,
             LockingClass::HigherOrder { ndilatation } => ndilatation,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::SaintVenantKirchhoff;
+
+    #[test]
+    fn the_modulus_does_not_decide_whether_a_material_keeps_its_volume() {
+        for k in 1..400 {
+            let modulus = 0.0137 * f64::from(k * k);
+            let keeps = |ratio| {
+                let material = SaintVenantKirchhoff::new(modulus, ratio);
+                keeps_volume(&material, Kinematics::Small)
+            };
+            assert!(keeps(NEARLY_INCOMPRESSIBLE), "{modulus}");
+            assert!(!keeps(NEARLY_INCOMPRESSIBLE - 1e-9), "{modulus}");
         }
     }
 }
