@@ -42,13 +42,23 @@ def test_iterations_are_reported() -> None:
 
 def test_true_stops_and_the_run_can_be_resumed(tmp_path: Path) -> None:
     whole = long_case(8).run(tmp_path / "whole")
-    stopped = long_case(8).run(tmp_path / "parts", on_increment=lambda one: one.increment == 3)
+    stopped = long_case(8).run(tmp_path / "parts", on_increment=lambda one: np.bool_(one.increment == 3))
     assert not stopped.ok and stopped.error is None
     assert stopped.history.nrow == 3
     resumed = long_case(8).run(tmp_path / "parts", resume=True)
     assert resumed.ok
     assert (tmp_path / "parts" / "history.csv").read_bytes() == (tmp_path / "whole" / "history.csv").read_bytes()
     assert np.array_equal(resumed[-1]["displacement"], whole[-1]["displacement"])
+    assert [one.time for one in resumed] == [one.time for one in whole]
+
+
+def test_frames_may_stay_in_their_folder(tmp_path: Path) -> None:
+    kept = pressed().run(tmp_path / "kept")
+    read = pressed().run(tmp_path / "read", keep=False)
+    assert len(read) == len(kept) == 3
+    for one, other in zip(read, kept, strict=True):
+        assert np.array_equal(one["displacement"], other["displacement"])
+        assert np.array_equal(one.contact["floor"].pressure, other.contact["floor"].pressure)
 
 
 def test_an_exception_of_a_callback_comes_back(tmp_path: Path) -> None:

@@ -44,10 +44,10 @@ impl Symbols {
         }
     }
 
-    /// Adds the names that a Python script defines and the strings in it that are no sentences.
+    /// Adds the names that a Python script defines, attributes among them, and the strings in it that are no sentences.
     pub fn add_python(&mut self, text: &str) {
         for line in text.lines().map(str::trim_start) {
-            let named = ["def ", "class "]
+            let named = ["def ", "class ", "self."]
                 .iter()
                 .find_map(|word| line.strip_prefix(word));
             let name = named.and_then(|rest| rest.split(|c| !is_wordy(c)).next());

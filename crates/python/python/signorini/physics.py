@@ -263,7 +263,7 @@ class ContactLaw(Physics):
 
 
 class FrictionLimit(Physics):
-    """The largest shear traction as a function of the pressure and of the length of the path slipped so far.
+    """The largest shear traction as a function of the pressure and of the length of slip at the start of the increment.
 
     `limit(pressure (n,), path (n,)) -> (limit (n,), dlimit_dpressure (n,))`: limit and pressure (stress), path (length).
 

@@ -725,6 +725,8 @@ def run(
     )
     if folder is not None and (resume or not keep) and os.path.isfile(os.path.join(folder, "results.pvd")):
         # a resumed run has made the later frames only
+        from .folder import open as folder_of_results
+
         result._frames = folder_of_results(folder)._frames
     if outcome.error is not None:
         raise outcome.error
