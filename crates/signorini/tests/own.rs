@@ -422,6 +422,43 @@ fn what_the_program_lacks_is_refused_once_with_its_place() {
     assert!(found.contains("this program has: stiff"), "{found}");
 }
 
+/// A law that counts the rows it is asked about: by themselves, and together with others.
+#[derive(Debug)]
+struct Counting(Film, [AtomicUsize; 2]);
+
+impl ContactLaw for Counting {
+    fn name(&self) -> &str {
+        "counting"
+    }
+
+    fn pressures(&self, gaps: &[f64], lambdas: &[f64], scale: &Scale, out: &mut [Eval]) {
+        let together = usize::from(gaps.len() > 1);
+        self.1[together].fetch_add(gaps.len(), Ordering::Relaxed);
+        self.0.pressures(gaps, lambdas, scale, out);
+    }
+
+    fn energy(&self, _: f64, _: f64, _: &Scale) -> Option<f64> {
+        None
+    }
+}
+
+#[test]
+fn a_law_is_asked_about_the_rows_of_a_chunk_at_once() {
+    let film = Film {
+        p0: 2.0,
+        rate: 100f64.ln() / 0.1,
+    };
+    let counting = Arc::new(Counting(film, Default::default()));
+    let mut own = own();
+    own.laws.insert("film".to_owned(), counting.clone());
+    let mut model = try_model(&text(OWN), &own).unwrap_or_else(|all| panic!("{}", all.plain()));
+    let run = common::run(&mut model);
+    assert!(run.error.is_none());
+    let [alone, together] = [0, 1].map(|k| counting.1[k].load(Ordering::Relaxed));
+    // those by themselves are of accepted states
+    assert!(together > 2 * alone, "{together} and {alone}");
+}
+
 /// Something of the program that is asked so many times, and then answers with what is no number.
 #[derive(Clone, Debug, Default)]
 struct Patience {

@@ -235,9 +235,9 @@ class Mesh:
         <Mesh: 6 nodes, 2 quad4, sets xmin, xmax, ymin, ymax>
         """
         lines = [np.asarray(line, dtype=float) for line in (x, y, z) if line is not None]
-        for axis, line in zip("xyz", lines, strict=False):
+        for letter, line in zip("xyz", lines, strict=False):
             if line.ndim != 1 or len(line) < 2 or not (np.diff(line) > 0.0).all():
-                raise ValueError(f"{axis} has to be at least two increasing coordinates")
+                raise ValueError(f"{letter} has to be at least two increasing coordinates")
         dim, counts = len(lines), [len(line) for line in lines]
         spread: list[Floats] = list(np.meshgrid(*lines, indexing="ij"))
         points = np.column_stack([one.ravel(order="F") for one in spread])

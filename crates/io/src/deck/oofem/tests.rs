@@ -1,7 +1,7 @@
 use super::*;
 use crate::case::{
-    ConstraintKind, Enforcement, Features, Geometry, Locking, Method, Moment, Motion, Normals,
-    PointKind, Shape, Sliding, Space, Stick, Tolerance,
+    ConstraintKind, Enforcement, Factor, Features, Geometry, Locking, Method, Moment, Motion,
+    Normals, PointKind, Shape, Sliding, Space, Stick, Tolerance,
 };
 use crate::deck::load::vector;
 use crate::fs::RealFs;

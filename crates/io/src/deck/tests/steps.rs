@@ -1,7 +1,7 @@
 //! What steps prescribe: supports, motions, loads and what holds at the start.
 
 use super::*;
-use crate::case::{AxesSystem, ConstraintKind, Motion, SetContent, Unstrained};
+use crate::case::{AxesSystem, ConstraintKind, Factor, Motion, SetContent, Unstrained};
 use crate::deck::load::vector;
 use signorini_geometry::tensor::Vec3;
 use signorini_vocabulary::{Chosen, Value};
