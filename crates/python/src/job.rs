@@ -19,6 +19,8 @@ use std::time::Instant;
 pub struct Job {
     text: String,
     record: Option<String>,
+    name: String,
+    /// Where the case would lie: next to what its paths are relative to.
     path: PathBuf,
     mesh: Option<Arc<signorini_geometry::mesh::Mesh>>,
     set: Vec<(String, String)>,
@@ -35,6 +37,9 @@ pub struct Built {
     /// Seconds for reading, and for building.
     pub seconds: [f64; 2],
 }
+
+/// What messages call a case: it is no file, and its lines are those of its text in TOML.
+const SHOWN: &str = "the case in Python";
 
 /// What a case says of a mesh in memory: the last lines, so that those before keep their numbers.
 const IN_MEMORY: &str = "\n[mesh]\nfile = \"the mesh in memory\"\n";
@@ -63,6 +68,7 @@ impl Job {
             text,
             record,
             path: folder.join(format!("{name}.toml")),
+            name: name.to_owned(),
             mesh: mesh.map(|mesh| Arc::clone(&mesh.inner)),
             set,
             own: own.unwrap_or_default(),
@@ -110,7 +116,17 @@ impl Job {
         if self.mesh.is_some() {
             text.push_str(IN_MEMORY);
         }
-        let opened = open_text(&self.path, text.into_bytes(), &reading)?;
+        let mut opened = open_text(Path::new(SHOWN), text.into_bytes(), &reading)?;
+        let source = &mut opened.source;
+        source.name.clone_from(&self.name);
+        source.folder = self
+            .path
+            .parent()
+            .map_or_else(PathBuf::new, Path::to_path_buf);
+        source.path.clone_from(&self.path);
+        if let Some(input) = source.inputs.first_mut() {
+            input.path = self.path.display().to_string();
+        }
         match &self.mesh {
             Some(mesh) => {
                 let record = self.record.as_ref().unwrap_or(&self.text);

@@ -16,6 +16,7 @@ use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_mechanics::contact::friction::{FrictionLaw, Limit, Sliding};
 use signorini_mechanics::contact::law::{ContactLaw, Eval, Scale};
 use signorini_mechanics::material::{Material, MaterialError, Order, Response, Strain};
+use std::collections::HashMap;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -151,25 +152,61 @@ fn symmetric(m: [[f64; 3]; 3]) -> Sym3 {
 /// What the library says where Python raised an exception, which is what the user sees.
 const RAISED: &str = "its function raised an exception";
 
-/// Asks a method of an object at a point, and reads its answer.
-fn at_point<T>(
-    called: &Called,
-    method: &str,
-    x: Vec3,
-    read: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<T>,
-) -> Result<T, String> {
-    let answer = called.ask(|object| read(&object.call_method1(method, (point(object.py(), x),))?));
-    answer.ok_or_else(|| RAISED.to_owned())
+/// A function of a point, which a method of an object answers: once for each point, for searches, rows and audits ask about the
+/// same ones.
+struct AtPoint<T> {
+    called: Called,
+    method: &'static str,
+    read: fn(&Bound<'_, PyAny>) -> PyResult<T>,
+    known: Mutex<HashMap<[u64; 3], T>>,
+}
+
+/// How many answers are kept.
+const KEPT: usize = 1 << 16;
+
+impl<T: Copy> AtPoint<T> {
+    fn new(
+        called: &Called,
+        method: &'static str,
+        read: fn(&Bound<'_, PyAny>) -> PyResult<T>,
+    ) -> Self {
+        Self {
+            called: called.clone(),
+            method,
+            read,
+            known: Mutex::default(),
+        }
+    }
+
+    fn at(&self, x: Vec3) -> Result<T, String> {
+        let key = x.to_array().map(f64::to_bits);
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(&answer) = known().get(&key) {
+            return Ok(answer);
+        }
+        let answer = self.called.ask(|object| {
+            (self.read)(&object.call_method1(self.method, (point(object.py(), x),))?)
+        });
+        let answer = answer.ok_or_else(|| RAISED.to_owned())?;
+        let mut known = known();
+        if known.len() >= KEPT {
+            known.clear();
+        }
+        known.insert(key, answer);
+        Ok(answer)
+    }
 }
 
 /// `signorini.SignedDistance`.
 fn signed_distance(called: &Called) -> PyResult<Arc<dyn Shape>> {
-    let [value, gradient, hessian] = [0; 3].map(|_| called.clone());
+    let value = AtPoint::new(called, "value", first);
+    let gradient = AtPoint::new(called, "gradient", row::<3>);
+    let hessian = AtPoint::new(called, "hessian", matrix::<3>);
     let shape = SignedDistance::new(
         called.optional("size").unwrap_or(1.0),
-        Box::new(move |x| at_point(&value, "value", x, first)),
-        Box::new(move |x| at_point(&gradient, "gradient", x, row::<3>).map(Vec3::from)),
-        Box::new(move |x| at_point(&hessian, "hessian", x, matrix::<3>).map(symmetric)),
+        Box::new(move |x| value.at(x)),
+        Box::new(move |x| gradient.at(x).map(Vec3::from)),
+        Box::new(move |x| hessian.at(x).map(symmetric)),
     );
     let shape = shape.map_err(|error| PyValueError::new_err(error.to_string()))?;
     Ok(match called.optional::<([f64; 3], f64)>("ball") {
@@ -179,25 +216,43 @@ fn signed_distance(called: &Called) -> PyResult<Arc<dyn Shape>> {
 }
 
 /// `signorini.Projection`.
-#[derive(Debug)]
-struct Projection(Called);
+struct Projection {
+    closest: AtPoint<[f64; 3]>,
+    normal: AtPoint<[f64; 3]>,
+    normal_gradient: AtPoint<[[f64; 3]; 3]>,
+}
+
+impl fmt::Debug for Projection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Projection").finish_non_exhaustive()
+    }
+}
+
+impl Projection {
+    fn new(called: &Called) -> Self {
+        Self {
+            closest: AtPoint::new(called, "closest", row::<3>),
+            normal: AtPoint::new(called, "normal", row::<3>),
+            normal_gradient: AtPoint::new(called, "normal_gradient", matrix::<3>),
+        }
+    }
+}
+
+fn failed(message: String) -> SurfaceError {
+    SurfaceError::User { message }
+}
 
 impl Shape for Projection {
     fn closest(&self, point: Vec3) -> Result<Option<Vec3>, SurfaceError> {
-        let on = at_point(&self.0, "closest", point, row::<3>);
-        let on = on.map_err(|message| SurfaceError::User { message })?;
-        Ok(Some(Vec3::from(on)).filter(|on| on.is_finite()))
+        let on = self.closest.at(point).map(Vec3::from).map_err(failed)?;
+        Ok(Some(on).filter(|on| on.is_finite()))
     }
 
     fn patch(&self, on: Vec3) -> Result<Patch, SurfaceError> {
-        let normal = at_point(&self.0, "normal", on, row::<3>);
-        let gradient = at_point(&self.0, "normal_gradient", on, matrix::<3>);
-        let (normal, gradient) = normal
-            .and_then(|normal| Ok((Vec3::from(normal), gradient?)))
-            .map_err(|message| SurfaceError::User { message })?;
-        let normal = normal.normalized().ok_or_else(|| SurfaceError::User {
-            message: "a normal has no length".to_owned(),
-        })?;
+        let normal = self.normal.at(on).map(Vec3::from).map_err(failed)?;
+        let gradient = self.normal_gradient.at(on).map_err(failed)?;
+        let no_length = || failed("a normal has no length".to_owned());
+        let normal = normal.normalized().ok_or_else(no_length)?;
         Ok(Patch::smooth(normal, symmetric(gradient)))
     }
 }
@@ -337,7 +392,7 @@ pub fn own(objects: &Bound<'_, PyDict>, failures: &Failures) -> PyResult<Own> {
             match kind.as_str() {
                 "surface" => {
                     let shape: Arc<dyn Shape> = match object.hasattr("closest")? {
-                        true => Arc::new(Projection(called)),
+                        true => Arc::new(Projection::new(&called)),
                         false => signed_distance(&called)?,
                     };
                     own.surfaces.insert(name, shape);

@@ -136,3 +136,25 @@ def test_an_exception_in_own_physics_leaves_a_run_that_resumes(tmp_path: Path) -
 def test_a_wrong_shape_is_named() -> None:
     with pytest.raises(ValueError, match="pressure of the contact law"):
         on_sphere(BALL, 0.0, enforcement=sg.ContactLaw(lambda g: (g[:1, None], g))).run(save=False)
+
+
+def test_a_surface_is_asked_once_about_each_point() -> None:
+    asked: list[bytes] = []
+
+    def value(x: np.ndarray) -> np.ndarray:
+        asked.append(x.tobytes())
+        return distance(x)
+
+    assert on_sphere(sg.SignedDistance(value, gradient, hessian, size=RADIUS)).run(save=False).ok
+    assert 0 < len(asked) == len(set(asked))
+
+
+def test_a_contact_law_is_asked_about_many_points_at_once() -> None:
+    sizes: list[int] = []
+
+    def law(gap: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        sizes.append(len(gap))
+        return np.maximum(-200.0 * gap, 0.0), np.where(gap <= 0.0, -200.0, 0.0)
+
+    assert on_sphere(BALL, 0.0, enforcement=sg.ContactLaw(law)).run(save=False).ok
+    assert max(sizes) > 1
