@@ -163,3 +163,23 @@ def test_a_thousand_runs_leak_less_than_a_megabyte() -> None:
     for _ in range(1000):
         once()
     assert memory() - before < 1 << 20
+
+
+def test_without_a_display_a_plot_opens_no_window(result: sg.Result, monkeypatch: pytest.MonkeyPatch) -> None:
+    pyvista = pytest.importorskip("pyvista")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    made: list[bool | None] = []
+    plotter = pyvista.Plotter
+
+    def make(*, off_screen: bool | None) -> object:
+        made.append(off_screen)
+        return plotter(off_screen=True)
+
+    monkeypatch.setattr(pyvista, "Plotter", make)
+    result[-1].plot("contact_pressure", warp=1.0)
+    assert made == [True if sys.platform.startswith("linux") else None]
+    monkeypatch.setenv("DISPLAY", ":99")
+    result[-1].plot("contact_pressure")
+    # PyVista's own setting decides
+    assert made[-1] is None

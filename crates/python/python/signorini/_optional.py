@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import os
+import sys
 from typing import Any
 
 EXTRAS = {"pyvista": "signorini[viz]"}
@@ -26,3 +28,9 @@ def has(package: str) -> bool:
         return importlib.util.find_spec(package) is not None
     except (ImportError, ValueError):
         return False
+
+
+def off_screen() -> bool | None:
+    """Whether pictures are drawn without a window: where there is no display; elsewhere (None) as PyVista is set."""
+    no_display = not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+    return True if sys.platform.startswith("linux") and no_display else None

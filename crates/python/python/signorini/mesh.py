@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _html
 from ._elements import BY_GMSH, BY_VTK, ELEMENTS, GMSH_ORDERS, VTK_ORDERS, element
 from ._optional import need
+from ._optional import off_screen as without_window
 from ._sets import CellSets, Ids, NodeSets, Surfaces
 
 if TYPE_CHECKING:
@@ -476,7 +477,7 @@ class Mesh:
     def plot(self, **options: Any) -> Any:
         """Shows it with PyVista."""
         need("pyvista", "Mesh.plot")
-        return self.to_pyvista().plot(**{"show_edges": True, **options})
+        return self.to_pyvista().plot(**{"show_edges": True, "off_screen": without_window(), **options})
 
     def _counts(self) -> list[str]:
         counts: dict[str, int] = {}

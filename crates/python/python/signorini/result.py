@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import _html, errors
 from ._elements import ELEMENTS
 from ._optional import need
+from ._optional import off_screen as without_window
 from ._table import did_you_mean
 from .history import History
 
@@ -362,12 +363,12 @@ class Frame:
         warp: float = 0.0,
         *,
         component: int | None = None,
-        off_screen: bool = False,
+        off_screen: bool | None = None,
         **options: Any,
     ) -> Any:
-        """A plotter of PyVista with a field on the deformed mesh."""
+        """A plotter of PyVista with a field on the deformed mesh; without a window where there is no display."""
         pv = need("pyvista", "Frame.plot")
-        plotter = pv.Plotter(off_screen=off_screen)
+        plotter = pv.Plotter(off_screen=without_window() if off_screen is None else off_screen)
         grid = self.to_pyvista(warp=warp)
         if component is not None:
             grid.point_data[f"{name}[{component}]"] = np.array(self[name][:, component])
