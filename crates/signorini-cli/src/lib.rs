@@ -2,4 +2,9 @@
 
 mod command;
 
+// as the binary has it, for the tests of what it notes
+#[cfg(test)]
+#[global_allocator]
+static MEMORY: LargePages = LargePages;
+
 pub use command::{LargePages, main};
