@@ -1,7 +1,8 @@
 """Own physics in Python: rigid surfaces, contact laws, friction limits, materials and courses over time.
 
 All functions are vectorised: they receive arrays over points and return arrays over the same points. What they return
-is checked for its shape. Exceptions raised in them end the run and leave it resumable.
+is checked for its shape. Exceptions raised in them end the run and leave it resumable. They must answer the same whenever
+they are asked: surfaces are asked once about each point of a run.
 """
 
 from __future__ import annotations
