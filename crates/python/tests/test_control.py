@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -275,3 +277,16 @@ def test_a_text_is_a_case() -> None:
     text = pressed().to_toml()
     again = sg.Case.from_toml(text)
     assert again.run(save=False).history.text == pressed().run(save=False).history.text
+
+
+def test_cases_and_meshes_can_be_copied_and_pickled() -> None:
+    case = pressed()
+    expected = case.run(save=False)
+    for other in (copy.deepcopy(case), pickle.loads(pickle.dumps(case))):
+        found = other.run(save=False)
+        assert np.array_equal(found[-1]["displacement"], expected[-1]["displacement"])
+
+
+def test_a_number_of_threads_is_positive() -> None:
+    with pytest.raises(ValueError, match="at least one thread"):
+        pressed().run(save=False, threads=0)

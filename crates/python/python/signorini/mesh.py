@@ -403,6 +403,10 @@ class Mesh:
         """The blocks of the highest dimension."""
         return [(name, block) for name, block in self._blocks if ELEMENTS[name].dim == self.dim]
 
+    def __getstate__(self) -> dict[str, Any]:
+        # the mesh in Rust is made again where it is needed
+        return {**self.__dict__, "_native_mesh": None}
+
     def native(self) -> _native.Mesh:
         """The mesh of the Rust module, made on demand and kept until a set changes."""
         if self._native_mesh is None:

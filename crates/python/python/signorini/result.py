@@ -683,6 +683,8 @@ def run(
     from . import _native
     from .notebook import listener
 
+    if threads is not None and threads < 1:
+        raise ValueError(f"a run has at least one thread, found {threads}")
     job = case.job(saved=folder is not None)
     mesh: Mesh = case.mesh
     space = str(case.model.space)
