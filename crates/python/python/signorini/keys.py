@@ -132,7 +132,7 @@ class Body(Table):
         default="full",
     )
     thickness: Key[float | None, float] = Key(
-        "Thickness in a plane model (length); beside bodies of revolution, that of the full circumference; absent: that of the model",
+        "Thickness in a plane model (length); next to bodies of revolution, that of the full circumference; absent: that of the model",
         "number > 0.0",
     )
 
@@ -260,7 +260,7 @@ class ContactEnforcement(Table):
         "a table",
     )
     augmented: Key[Literal["uzawa", "newton"] | None, Literal["uzawa", "newton"]] = Key(
-        "Multipliers beside a penalty, updated between solutions or solved for with them",
+        "Multipliers in addition to a penalty, updated between solutions or solved for with them",
         "`\"uzawa\"`, `\"newton\"`",
     )
     exponential: One[ContactEnforcementExponential] = One(
@@ -359,7 +359,7 @@ class ContactStart(Table):
         default="bent",
     )
     interference: Key[Literal["step", "increment", "increments", "now", "strain-free"], Literal["step", "increment", "increments", "now", "strain-free"]] = Key(
-        "Overlaps are resolved over the first step; their part of it in its first increment and the rest at once; over what is left of it, measured anew in every increment; at once; or stay without pressure",
+        "Overlaps are resolved over the first step; their part of it in its first increment and the rest at once; over what is left of it, measured again in every increment; at once; or stay without pressure",
         "`\"step\"`, `\"increment\"`, `\"increments\"`, `\"now\"`, `\"strain-free\"`",
         default="step",
     )
@@ -470,14 +470,14 @@ class Contact(Table):
 
 
 class ExpectTol(Table):
-    """How far off it may be: { rel } in parts of the value, or { abs } in its unit.
+    """How far off it may be: { rel } relative to the value, or { abs } in its unit.
 
     TOML: `expect.tol`.
     """
 
     _toml = "expect.tol"
     abs: Key[float | None, float] = Key("In the unit of the value", "number ≥ 0.0")
-    rel: Key[float | None, float] = Key("In parts of the value", "number ≥ 0.0")
+    rel: Key[float | None, float] = Key("Relative to the value", "number ≥ 0.0")
 
 
 class Expect(Table):
@@ -491,7 +491,7 @@ class Expect(Table):
     time: Key[float | None, float] = Key("The total time", "number")
     tol: One[ExpectTol] = One(
         ExpectTol,
-        "How far off it may be: { rel } in parts of the value, or { abs } in its unit",
+        "How far off it may be: { rel } relative to the value, or { abs } in its unit",
         "a table",
     )
     value: Key[float | None, float] = Key("What it should be", "number")

@@ -111,7 +111,7 @@ pub(super) static BODY: Table = Table {
         key(
             "thickness",
             POSITIVE,
-            "thickness in a plane model (length); beside bodies of revolution, that of the full circumference; absent: that of the model",
+            "thickness in a plane model (length); next to bodies of revolution, that of the full circumference; absent: that of the model",
         ),
         key(
             "temperatures",

@@ -174,7 +174,7 @@ pub(super) static ENFORCEMENT: Table = Table {
         key(
             "augmented",
             Shape::Choice(&[word("uzawa"), word("newton")]),
-            "multipliers beside a penalty, updated between solutions or solved for with them",
+            "multipliers in addition to a penalty, updated between solutions or solved for with them",
         ),
         key(
             "per",
@@ -285,7 +285,7 @@ static START: Table = Table {
                 word("strain-free"),
             ]),
             "overlaps are resolved over the first step; their part of it in its first increment and the rest at once; \
-             over what is left of it, measured anew in every increment; at once; or stay without pressure",
+             over what is left of it, measured again in every increment; at once; or stay without pressure",
         )
         .or(Default::Text("step"))
         .hints(&["overlap", "shrink"]),

@@ -236,9 +236,9 @@ pub(super) static EXPECT: Table = Table {
 
 pub(super) static TOLERANCE: Table = Table {
     heading: "tol",
-    doc: "how far off it may be: { rel } in parts of the value, or { abs } in its unit",
+    doc: "how far off it may be: { rel } relative to the value, or { abs } in its unit",
     keys: &[
-        key("rel", NOT_NEGATIVE, "in parts of the value"),
+        key("rel", NOT_NEGATIVE, "relative to the value"),
         key("abs", NOT_NEGATIVE, "in the unit of the value"),
     ],
     rules: &[Rule::ExactlyOne(&["rel", "abs"])],
