@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 #[pyclass(frozen, module = "signorini._native")]
 pub struct Stepper {
     inner: Mutex<Inner>,
-    threads: Option<usize>,
+    threads: Option<u64>,
 }
 
 struct Inner {
@@ -42,7 +42,7 @@ impl Stepper {
     /// Errors: `InputError`, `ModelError`.
     #[new]
     #[pyo3(signature = (job, threads = None))]
-    fn new(py: Python<'_>, job: &Job, threads: Option<usize>) -> PyResult<Self> {
+    fn new(py: Python<'_>, job: &Job, threads: Option<u64>) -> PyResult<Self> {
         let inner = supervised(py, |_| pool::with(threads, || Inner::new(job)))?;
         let inner = raised(py, &job.failures, inner)?;
         Ok(Self {

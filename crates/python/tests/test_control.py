@@ -17,6 +17,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini import _native
+from signorini.result import threads_of
 
 from .conftest import box, native, pressed
 
@@ -247,8 +249,18 @@ def test_a_stepper_goes_back_to_a_state() -> None:
     stepper.restore(state)
     assert stepper.time == 0.25
     assert np.array_equal(stepper.advance(0.25)["displacement"], first)
-    with pytest.raises(sg.SignoriniError):
-        stepper.restore(b"nothing")
+    other = sg.Case(box(3))
+    other.body("all", sg.LinearElastic(E=1.0, nu=0.3))
+    other.step("press").move("head", x=0.0, y=0.0, z=-0.1)
+    for junk in (b"nothing", other.stepper().save()):
+        with pytest.raises(sg.SignoriniError):
+            stepper.restore(junk)
+    # the state is what it was
+    assert stepper.time == 0.5
+    second = stepper.advance(0.25)["displacement"]
+    stepper.restore(state)
+    stepper.advance(0.25)
+    assert np.array_equal(stepper.advance(0.25)["displacement"], second)
 
 
 def test_a_stepper_takes_changes_of_the_case() -> None:
@@ -285,6 +297,19 @@ def test_cases_and_meshes_can_be_copied_and_pickled() -> None:
     for other in (copy.deepcopy(case), pickle.loads(pickle.dumps(case))):
         found = other.run(save=False)
         assert np.array_equal(found[-1]["displacement"], expected[-1]["displacement"])
+
+
+def test_a_case_says_on_how_many_threads_it_runs() -> None:
+    case = pressed()
+    case.solver.threads = 1
+    started: list[int] = []
+
+    def hear(event: dict[str, Any]) -> None:
+        started.extend([event["threads"]] if event["ev"] == "start" else [])
+
+    _native.run(case.job(), None, threads=threads_of(case, None), on_event=hear)
+    _native.run(case.job(), None, threads=threads_of(case, 2), on_event=hear)
+    assert started == [1, 2]
 
 
 def test_a_number_of_threads_is_positive() -> None:

@@ -27,6 +27,7 @@ pub mod resume;
 pub mod run;
 pub mod setup;
 pub mod text;
+pub mod threads;
 mod vocabulary;
 
 pub use driver::Driver;

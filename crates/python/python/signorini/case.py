@@ -595,7 +595,7 @@ class Case(k.CaseTable):
 
     @property
     def default_output(self) -> str:
-        """The folder of results where none is given: NAME.out beside the case file, else signorini.out here."""
+        """The folder of results where none is given: NAME.out next to the case file, else signorini.out here."""
         folder = os.getcwd() if self._path is None else os.path.dirname(self._path)
         return os.path.join(folder, f"{self.name}.out")
 
@@ -639,7 +639,7 @@ class Case(k.CaseTable):
 
         Parameters
         ----------
-        output: the folder of results; absent: NAME.out beside the case file, or signorini.out
+        output: the folder of results; absent: NAME.out next to the case file, or signorini.out
         on_increment: receives each converged increment; returning True stops the run, with its state saved
         on_iteration: receives a dict for each Newton iteration; returning True stops likewise
         fresh: start again in a folder that has results of another case; resume: go on from its last checkpoint

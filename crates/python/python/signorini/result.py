@@ -683,8 +683,7 @@ def run(
     from . import _native
     from .notebook import listener
 
-    if threads is not None and threads < 1:
-        raise ValueError(f"a run has at least one thread, found {threads}")
+    threads = threads_of(case, threads)
     job = case.job(saved=folder is not None)
     mesh: Mesh = case.mesh
     space = str(case.model.space)
@@ -738,6 +737,16 @@ def run(
         result.error = error
         raise error
     return result
+
+
+def threads_of(case: Case, wanted: int | None) -> int | None:
+    """How many threads a case runs on: as many as wanted, else as the case says; None: as the environment says."""
+    if wanted is None:
+        given = case.solver.threads
+        return None if given == "auto" else given
+    if wanted < 1:
+        raise ValueError(f"a run has at least one thread, found {wanted}")
+    return wanted
 
 
 def _failure(result: Result) -> errors.SignoriniError | None:

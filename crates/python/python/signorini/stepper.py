@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .result import Frame
+from .result import Frame, threads_of
 
 if TYPE_CHECKING:
     from .case import Case
@@ -28,7 +28,7 @@ class Stepper:
         self.case = case
         self._mesh: Mesh = case.mesh
         self._space = str(case.model.space)
-        self._native = _native.Stepper(case.job(), threads)
+        self._native = _native.Stepper(case.job(), threads_of(case, threads))
         self._state = case.fingerprint()
 
     @property
