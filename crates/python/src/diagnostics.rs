@@ -2,30 +2,29 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use signorini::run::event_of;
 use signorini::{Diagnostic, Diagnostics};
-use signorini_io::diagnostic::Severity;
+use signorini_io::writers::json::Event;
 
 /// A finding as a dictionary.
 fn dictionary<'py>(py: Python<'py>, one: &Diagnostic) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
-    let severity = match one.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Note => "note",
-    };
-    let place = one.labels.first().map(|label| {
-        let line = label.file.line_index(label.span.start);
-        let start = label.file.line_range(line).start;
-        let before = label.file.text().get(start..label.span.start);
-        let column = before.map_or(0, |text| text.chars().count());
-        (label.file.name().to_owned(), line + 1, column + 1)
-    });
-    dict.set_item("severity", severity)?;
-    dict.set_item("code", one.code.id)?;
-    dict.set_item("message", &one.message)?;
-    dict.set_item("file", place.as_ref().map(|place| &place.0))?;
-    dict.set_item("line", place.as_ref().map(|place| place.1))?;
-    dict.set_item("column", place.as_ref().map(|place| place.2))?;
+    if let Event::Diagnostic {
+        severity,
+        code,
+        message,
+        file,
+        line,
+        column,
+    } = event_of(one)
+    {
+        dict.set_item("severity", severity)?;
+        dict.set_item("code", code)?;
+        dict.set_item("message", message)?;
+        dict.set_item("file", file)?;
+        dict.set_item("line", line)?;
+        dict.set_item("column", column)?;
+    }
     dict.set_item("notes", &one.notes)?;
     dict.set_item("help", &one.help)?;
     dict.set_item("text", Diagnostics::from(one.clone()).plain().trim_end())?;

@@ -146,8 +146,6 @@ pub struct Loaded {
     mesh: Py<Mesh>,
     /// The file of the mesh, where it has one of its own.
     mesh_file: Option<PathBuf>,
-    /// Whether it was a deck.
-    is_deck: bool,
     /// The folder that paths in the case are relative to.
     folder: PathBuf,
     /// What is unusual.
@@ -177,7 +175,6 @@ pub fn load(
         text: String::from_utf8_lossy(&loaded.source.text).into_owned(),
         mesh: Py::new(py, mesh)?,
         mesh_file: loaded.source.mesh,
-        is_deck: is_deck(&path),
         folder: loaded.source.folder,
         diagnostics: list(py, &loaded.warnings)?.unbind(),
     })
@@ -193,11 +190,6 @@ fn compat_of(word: &str) -> PyResult<Compat> {
             return Err(pyo3::exceptions::PyValueError::new_err(message));
         }
     })
-}
-
-fn is_deck(path: &Path) -> bool {
-    path.extension()
-        .is_none_or(|ending| !ending.eq_ignore_ascii_case("toml"))
 }
 
 /// Looks at a case without solving it: the lines that the command `check` prints, and what is unusual.

@@ -18,7 +18,7 @@ use crate::worker::{internal, wait};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use signorini::run::{Detail, Finished};
+use signorini::run::{Detail, Finished, NOT_STARTED};
 use signorini::{Diagnostics, Limits, Listener, News, RunOptions, solve};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::fs::{Fs, MemoryFs, RealFs};
@@ -160,9 +160,12 @@ impl Hearing {
 
 impl Listener for Hearing {
     fn hear(&mut self, news: &News<'_>) -> Flow {
-        let line = serde_json::to_string(news.event).ok();
-        let line = line.filter(|_| self.wanted.events);
-        let flow = line.map_or(Flow::Continue, |line| self.ask(Message::Event(line)));
+        let mut flow = Flow::Continue;
+        if self.wanted.events
+            && let Ok(line) = serde_json::to_string(news.event)
+        {
+            flow = self.ask(Message::Event(line));
+        }
         match self.detail(news.detail) {
             Flow::Continue if !self.failures.any() => flow,
             _ => Flow::Stop,
@@ -242,7 +245,7 @@ fn iteration<'py>(py: Python<'py>, record: &IterationRecord) -> PyResult<Bound<'
     Ok(dict)
 }
 
-pub fn increment<'py>(py: Python<'py>, record: &IncrementRecord) -> PyResult<Bound<'py, PyDict>> {
+fn increment<'py>(py: Python<'py>, record: &IncrementRecord) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("increment", record.increment)?;
     dict.set_item("attempts", record.attempts)?;
@@ -258,7 +261,7 @@ struct Place {
     output: Option<PathBuf>,
     fresh: bool,
     resume: bool,
-    threads: Option<usize>,
+    threads: Option<u64>,
     signal: Arc<AtomicUsize>,
 }
 
@@ -277,7 +280,7 @@ pub fn run<'py>(
     output: Option<PathBuf>,
     fresh: bool,
     resume: bool,
-    threads: Option<usize>,
+    threads: Option<u64>,
     keep: bool,
     on_event: Option<Bound<'py, PyAny>>,
     on_iteration: Option<Bound<'py, PyAny>>,
@@ -410,9 +413,6 @@ fn solve_job(
     heard.convergence = text_of(fs.as_ref(), &folder.join("convergence.csv"));
     Ok((finished, heard))
 }
-
-/// The status of a run that never began.
-const NOT_STARTED: &str = "not started";
 
 /// The text of a table; empty where there is none.
 fn text_of(fs: &dyn Fs, path: &Path) -> String {

@@ -3,7 +3,7 @@
 //! Nothing is written; frames are handed over. For coupling with other programs, for optimisation, and for looking at a
 //! run from inside.
 
-use crate::run::{Saved, bad_checkpoint, begin, cannot_resume, failure_message};
+use crate::run::{Saved, bad_checkpoint, begin, cannot_resume, failure_message, solution};
 use crate::setup::Model;
 use signorini_io::checkpoint::{self, Stamp};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
@@ -152,12 +152,8 @@ impl Driver {
     /// # Errors
     /// An array that no checkpoint can have.
     pub fn save(&self) -> Result<Vec<u8>, Diagnostics> {
-        let mut solution = Archive::default();
-        self.stepper.save(&self.model.system, &mut solution);
         let mut archive = checkpoint::Archive::new();
-        for (name, values) in &solution.arrays {
-            archive.put_f64(name, values).map_err(cannot_resume)?;
-        }
+        solution::put(&self.solution(), &mut archive).map_err(cannot_resume)?;
         let stamp = Stamp {
             step: self.frame.step_number as u64,
             increment: self.frame.increment as u64,
@@ -171,8 +167,15 @@ impl Driver {
     /// # Errors
     /// Bytes that are no state, or one of another model; the state is what it was.
     pub fn restore(&mut self, state: &[u8]) -> Result<(), Diagnostics> {
-        let archive = archive_of(state)?;
-        self.take(&archive)
+        let from = checkpoint::from_bytes(state, &ANY_CASE);
+        let from = from.map_err(|error| bad_checkpoint(&error))?;
+        let before = self.solution();
+        let taken = self.take(&solution::of(&from.archive));
+        if taken.is_err() {
+            // terms may have taken a part of it
+            self.take(&before)?;
+        }
+        taken
     }
 
     /// Goes on with another model of the same unknowns, from the present state: one whose loads, materials or contacts have
@@ -181,12 +184,17 @@ impl Driver {
     /// # Errors
     /// A model of other unknowns, or one that cannot be evaluated.
     pub fn replace(&mut self, model: Model) -> Result<(), Diagnostics> {
-        let mut solution = Archive::default();
-        self.stepper.save(&self.model.system, &mut solution);
+        let solution = self.solution();
         let mut other = Self::new(model)?;
         other.take(&solution)?;
         *self = other;
         Ok(())
+    }
+
+    fn solution(&self) -> Archive {
+        let mut solution = Archive::default();
+        self.stepper.save(&self.model.system, &mut solution);
+        solution
     }
 
     fn take(&mut self, archive: &Archive) -> Result<(), Diagnostics> {
@@ -201,16 +209,4 @@ impl Driver {
         self.frame.step = step.map_or_else(String::new, |step| step.name.clone());
         Ok(())
     }
-}
-
-fn archive_of(state: &[u8]) -> Result<Archive, Diagnostics> {
-    let from = checkpoint::from_bytes(state, &ANY_CASE);
-    let from = from.map_err(|error| bad_checkpoint(&error))?;
-    let mut archive = Archive::default();
-    for name in from.archive.names() {
-        if let Ok(values) = from.archive.get_f64(name) {
-            archive.put(name, values);
-        }
-    }
-    Ok(archive)
 }

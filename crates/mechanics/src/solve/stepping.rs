@@ -587,8 +587,7 @@ impl Stepper {
         system.accept(&self.state)
     }
 
-    /// The step time at which an increment of about `dt` ends, no later than a pause: on the grid where increments are fixed, and at the end of
-    /// the step rather than shortly before it.
+    /// The step time at which an increment of about `dt` ends, no later than a pause.
     fn end_of_increment(&self, step: &Step, dt: f64) -> f64 {
         match self.pause_in(step) {
             Some(pause) => pause.min(self.usual_end(step, dt)),
@@ -596,6 +595,8 @@ impl Stepper {
         }
     }
 
+    /// The same without pauses: on the grid where increments are fixed, and at the end of the step rather than shortly
+    /// before it.
     fn usual_end(&self, step: &Step, dt: f64) -> f64 {
         let max = match step.increments {
             Increments::Fixed(n) => {

@@ -102,7 +102,6 @@ class Loaded:
     text: str
     mesh: Mesh
     mesh_file: str | None
-    is_deck: bool
     folder: str
     diagnostics: _Diagnostics
 

@@ -7,7 +7,7 @@ use super::options::SolveOptions;
 use super::signals::{Notice, Signals};
 use super::terminal::Terminal;
 use super::threads;
-use signorini::run::{Detail, Finished};
+use signorini::run::{Detail, Finished, NOT_STARTED};
 use signorini::{Diagnostics, Limits, Listener, Loaded, Model, News, RunOptions, Source, build};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::Case;
@@ -107,7 +107,7 @@ pub fn refused(found: &Diagnostics, options: &SolveOptions) -> u8 {
         let mut out = Ndjson(Console::stdout());
         signorini::run::tell(found, &mut out);
         let event = Event::End {
-            status: "not started".into(),
+            status: NOT_STARTED.into(),
             exit_code: code,
             seconds: 0.0,
         };

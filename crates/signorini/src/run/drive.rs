@@ -11,18 +11,18 @@ use super::start::{Start, begin, facts};
 use super::tables::Tables;
 use super::tree::{Claim, Tree};
 use super::volume::Volume;
-use super::{Finished, RunOptions, drift, event_of, failure};
+use super::{Finished, NOT_STARTED, RunOptions, drift, event_of, failure, solution};
 use crate::setup::Model;
 use crate::vocabulary::vocabulary;
 use signorini_io::case;
-use signorini_io::checkpoint::{self, Checkpoint, Checkpoints};
+use signorini_io::checkpoint::{Checkpoint, Checkpoints};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_io::fs::{BehindFs, FsError};
 use signorini_io::writers::frd::FrdError;
 use signorini_io::writers::json::{DiagnosticSummary, Event, Expectation, StepSummary, Summary};
 use signorini_io::writers::pvd::Pvd;
 use signorini_mechanics::solve::{LinearSeconds, Outcome, RunError, Stepper};
-use signorini_mechanics::system::{Archive, ArchiveError};
+use signorini_mechanics::system::ArchiveError;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -94,7 +94,7 @@ fn refused(found: Diagnostics) -> Finished {
     Finished {
         exit_code,
         summary: Summary {
-            status: "not started".into(),
+            status: NOT_STARTED.into(),
             exit_code,
             version: crate::VERSION.into(),
             diagnostics: summaries(&found),
@@ -214,7 +214,7 @@ impl Run<'_, '_> {
     fn solve(&mut self, start: Start, from: Option<&Checkpoint>) -> Result<Ending, ArchiveError> {
         let mut stepper = match from {
             Some(from) => {
-                let archive = solution_of(&from.archive);
+                let archive = solution::of(&from.archive);
                 Stepper::resumed(&mut self.model.system, self.model.settings, &archive)?
             }
             None => {
@@ -503,17 +503,6 @@ impl Run<'_, '_> {
         }
         one
     }
-}
-
-/// The part of a checkpoint that belongs to the solution.
-fn solution_of(archive: &checkpoint::Archive) -> Archive {
-    let mut solution = Archive::default();
-    for name in archive.names() {
-        if let (Some(own), Ok(values)) = (name.strip_prefix("solve/"), archive.get_f64(name)) {
-            solution.put(own, values);
-        }
-    }
-    solution
 }
 
 fn summaries(found: &Diagnostics) -> Vec<DiagnosticSummary> {

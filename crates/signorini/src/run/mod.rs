@@ -36,6 +36,7 @@ mod point;
 mod probe;
 mod recorder;
 mod remedies;
+pub(crate) mod solution;
 mod start;
 mod tables;
 #[cfg(test)]
@@ -162,6 +163,9 @@ impl RunOptions {
 pub fn check_output(model: &Model) -> Result<(), Diagnostics> {
     recorder::Setting::check(model).map(|_| ())
 }
+
+/// The status of a run that never began.
+pub const NOT_STARTED: &str = "not started";
 
 /// How a run ended.
 #[derive(Clone, Debug)]

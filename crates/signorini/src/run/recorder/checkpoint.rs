@@ -3,6 +3,7 @@
 use super::Recorder;
 use crate::run::error::OutputError;
 use crate::run::news::Detail;
+use crate::run::solution;
 use signorini_io::checkpoint::{Archive, Stamp};
 use signorini_io::writers::frd::Mark;
 use signorini_io::writers::json::{Event, StepSummary};
@@ -74,9 +75,7 @@ impl Recorder<'_> {
             frd.sync()?;
         }
         let mut archive = Archive::new();
-        for (name, values) in &solution.arrays {
-            archive.put_f64(&format!("solve/{name}"), values)?;
-        }
+        solution::put(solution, &mut archive)?;
         let rows = [
             files.history.nrow(),
             files.convergence.nrow(),
