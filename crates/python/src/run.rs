@@ -14,7 +14,7 @@ use crate::frame::{Frame, Kept};
 use crate::job::{Built, Job};
 use crate::own::Failures;
 use crate::pool;
-use crate::worker::{internal, wait};
+use crate::worker::{internal, wait, watch_for_panics};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -301,6 +301,7 @@ pub fn run<'py>(
         signal: Arc::default(),
     };
     let signal = Arc::clone(&place.signal);
+    watch_for_panics();
     let ended = std::thread::scope(|scope| {
         let (ask, mut asked) = channel();
         let (reply, answer) = channel();

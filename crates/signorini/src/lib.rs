@@ -18,6 +18,7 @@
 //! # Ok::<(), signorini::Diagnostics>(())
 //! ```
 
+pub mod crash;
 mod driver;
 mod load;
 mod own;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -221,6 +222,10 @@ class LimitError(_WithResult):
 
 
 class InternalError(_WithResult):
-    """A bug in the program. Please send the message with the case: what had converged is on the disk."""
+    """A bug in the program. Please send `bundle` with the case: what had converged is on the disk.
+
+    `bundle`: the path of `crash-ID.zip`, with the message and the backtrace; None where it could not be written.
+    """
 
     exit_code = 70
+    bundle: str | os.PathLike[str] | None = None

@@ -2,14 +2,13 @@
 
 use super::console::Console;
 use super::{exhausted, stack};
+use signorini::crash::{self, Crash};
 use std::panic::{self, AssertUnwindSafe};
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What the standard library says where a thread has no room for its stack.
 const NO_THREAD: &str = "failed to spawn thread";
-
-/// The exit code for an error of the program.
-const INTERNAL: u8 = 70;
 
 /// The stack of the thread that works, in bytes, where it is one of its own.
 const STACK: usize = 16 << 20;
@@ -18,13 +17,13 @@ const STACK: usize = 16 << 20;
 const ENOUGH: u64 = 8 << 20;
 
 /// Runs the program, in a thread of its own where the shell leaves the first one too little stack, and turns a panic into a
-/// message.
-pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> u8 {
-    let seen: Arc<Mutex<Option<String>>> = Arc::default();
+/// message and a file to send; `arguments` is the command line without the program.
+pub fn guarded(arguments: &[String], program: impl FnOnce() -> u8 + Send + 'static) -> u8 {
+    let seen: Arc<Mutex<Option<Crash>>> = Arc::default();
     let keep = Arc::clone(&seen);
     panic::set_hook(Box::new(move |info| {
         let mut first = keep.lock().unwrap_or_else(PoisonError::into_inner);
-        first.get_or_insert_with(|| info.to_string());
+        first.get_or_insert_with(|| Crash::record(info));
     }));
     let outcome = if stack::first_may_take(ENOUGH) {
         Ok(panic::catch_unwind(AssertUnwindSafe(program)))
@@ -37,14 +36,16 @@ pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> u8 {
     match outcome {
         Ok(Ok(code)) => code,
         Ok(Err(_)) => {
-            let what = seen.lock().unwrap_or_else(PoisonError::into_inner).take();
-            let what = what.unwrap_or_else(|| "a panic".into());
-            if what.contains(NO_THREAD) {
-                exhausted::say("a thread could not be started");
-                exhausted::CODE
-            } else {
-                report(&what);
-                INTERNAL
+            let crash = seen.lock().unwrap_or_else(PoisonError::into_inner).take();
+            match crash {
+                Some(crash) if crash.message.contains(NO_THREAD) => {
+                    exhausted::say("a thread could not be started");
+                    exhausted::CODE
+                }
+                crash => {
+                    report(crash.as_ref(), arguments);
+                    crash::EXIT_CODE
+                }
             }
         }
         Err(error) => {
@@ -54,17 +55,70 @@ pub fn guarded(program: impl FnOnce() -> u8 + Send + 'static) -> u8 {
     }
 }
 
-fn report(what: &str) {
+fn report(crash: Option<&Crash>, arguments: &[String]) {
     let console = Console::stderr();
     console.line("internal error: this is a bug of signorini, not of your case");
-    console.line(&format!("  {what}"));
+    console.line(&format!(
+        "  {}",
+        crash.map_or("a panic", |crash| crash.message.as_str())
+    ));
     console.line(&format!(
         "  signorini {} on {}-{}",
         signorini::VERSION,
         std::env::consts::ARCH,
         std::env::consts::OS
     ));
-    console.line(
-        "  please send these lines with the case and its mesh; what had converged is on disk",
-    );
+    let folders = [PathBuf::from("."), std::env::temp_dir()];
+    let saved = crash.map(|crash| crash.save(&folders, arguments, &inputs(arguments)));
+    console.line(&match saved {
+        Some(Ok(path)) => format!(
+            "  please send {} with the mesh of the case; what had converged is on disk",
+            path.display()
+        ),
+        _ => "  please send these lines with the case and its mesh; what had converged is on disk"
+            .to_owned(),
+    });
+}
+
+/// The files among the arguments: a case, a deck, a mesh.
+fn inputs(arguments: &[String]) -> Vec<PathBuf> {
+    let files = arguments
+        .iter()
+        .map(Path::new)
+        .filter(|path| path.is_file());
+    files.map(Path::to_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::process::Command;
+
+    /// Names the test that is to panic, in a process of its own: a hook for panics belongs to the whole process.
+    const INNER: &str = "SIGNORINI_TEST_OF_CRASHES";
+
+    #[test]
+    fn a_panic_ends_with_exit_code_70_and_a_file_to_send() {
+        if std::env::var_os(INNER).is_some() {
+            let arguments = ["check".to_owned(), "case.toml".to_owned()];
+            std::process::exit(guarded(&arguments, || panic!("made on purpose")).into());
+        }
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("case.toml"), "format = 1\n").unwrap();
+        let name = "a_panic_ends_with_exit_code_70_and_a_file_to_send";
+        let output = Command::new(std::env::current_exe().unwrap())
+            .args([name, "--nocapture"])
+            .env(INNER, "yes")
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(70), "{said}");
+        assert!(said.contains("made on purpose"), "{said}");
+        let files = std::fs::read_dir(folder.path()).unwrap();
+        let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+        let zips: Vec<String> = names.filter(|name| name.ends_with(".zip")).collect();
+        assert_eq!(zips.len(), 1, "{zips:?}");
+        assert!(said.contains(&zips[0]), "{said}");
+    }
 }

@@ -92,7 +92,11 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
     let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
     pages::keep_memory();
     exhausted::watch();
-    guard::guarded(|| {
+    let words = arguments.iter().skip(1);
+    let words: Vec<String> = words
+        .map(|word| word.to_string_lossy().into_owned())
+        .collect();
+    guard::guarded(&words, || {
         let cli = match Cli::try_parse_from(arguments) {
             Ok(cli) => cli,
             Err(error) => return refused(&error),
