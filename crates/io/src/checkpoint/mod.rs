@@ -1,4 +1,4 @@
-//! What a run needs to go on after it was stopped, in two files that take turns.
+//! What a run needs to go on after it was stopped, in two files or more that take turns.
 //!
 //! ```text
 //!  a.sgc  ■ increment 5 ─────────────▶ ■ increment 15          the newer good one is resumed from;
@@ -40,8 +40,11 @@ pub const FORMAT_VERSION: u32 = 2;
 const MAGIC: &[u8; 8] = b"SGNCHKPT";
 /// Length of everything before the arrays, in bytes.
 const HEAD: usize = 96;
-/// The two files, in the order in which they are first written.
-const SLOTS: [&str; 2] = ["a.sgc", "b.sgc"];
+/// The fewest files of a run: one is good while another is written.
+pub const FEWEST: u64 = 2;
+/// The most files of a run: `a.sgc` to `z.sgc`, first written in this order.
+pub const MOST: u64 = SLOTS.len() as u64;
+const SLOTS: &[u8; 26] = b"abcdefghijklmnopqrstuvwxyz";
 
 /// Where in a run a checkpoint stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -111,11 +114,13 @@ impl CheckpointError {
     pub const EXIT_CODE: u8 = 7;
 }
 
-/// The two checkpoint files of a run.
+/// The checkpoint files of a run.
 #[derive(Clone, Debug)]
 pub struct Checkpoints {
     folder: PathBuf,
     case_hash: [u8; 32],
+    /// How many files take turns.
+    keep: usize,
     /// Which file is written next, and its sequence number; unknown before the first write.
     next: Option<(usize, u64)>,
 }
@@ -126,11 +131,21 @@ impl Checkpoints {
         Self {
             folder: folder.to_path_buf(),
             case_hash,
+            keep: FEWEST as usize,
             next: None,
         }
     }
 
-    /// Writes a checkpoint over the older or unusable file and returns its path; the other one is not touched.
+    /// The same with so many files in turns, at least [`FEWEST`] and at most [`MOST`].
+    #[must_use]
+    pub fn keeping(self, files: u64) -> Self {
+        Self {
+            keep: files.clamp(FEWEST, MOST) as usize,
+            ..self
+        }
+    }
+
+    /// Writes a checkpoint over the oldest or an unusable file and returns its path; the others are not touched.
     ///
     /// # Errors
     /// [`FsError`]; the last good checkpoint is then still there.
@@ -147,11 +162,11 @@ impl Checkpoints {
         self.next = Some((slot, sequence));
         let path = self.path(slot);
         fs.write_atomic(&path, &encode(sequence, &self.case_hash, stamp, archive))?;
-        self.next = Some((1 - slot, sequence + 1));
+        self.next = Some(((slot + 1) % self.keep, sequence + 1));
         Ok(path)
     }
 
-    /// Reads the newest good checkpoint of this case; where one file is not good, the other one is taken.
+    /// Reads the newest good checkpoint of this case; where a file is not good, another one is taken.
     ///
     /// # Errors
     /// [`CheckpointError`]
@@ -178,7 +193,7 @@ impl Checkpoints {
         }
     }
 
-    /// Removes both files: a fresh run must not fall back to a checkpoint of an earlier one.
+    /// Removes all files: a fresh run must not fall back to a checkpoint of an earlier one.
     ///
     /// # Errors
     /// [`FsError`]
@@ -194,20 +209,25 @@ impl Checkpoints {
     }
 
     fn path(&self, slot: usize) -> PathBuf {
-        self.folder
-            .join(SLOTS.get(slot).copied().unwrap_or_default())
+        let letter = SLOTS.get(slot).copied().map_or('a', char::from);
+        self.folder.join(format!("{letter}.sgc"))
     }
 
-    /// The file to write next: one that is not good, else the older one.
+    /// The file to write next: one that is not good, else the oldest one.
     fn find_next(&self, fs: &dyn Fs) -> Result<(usize, u64), FsError> {
-        let sequences = [0, 1].map(|slot| match self.read(fs, slot) {
-            Ok(found) => Ok(found.map_or(0, |checkpoint| checkpoint.sequence)),
-            Err(CheckpointError::Unreadable(error)) => Err(error),
-            Err(_) => Ok(0),
-        });
-        let [a, b] = sequences;
-        let (a, b) = (a?, b?);
-        Ok((usize::from(b < a), a.max(b) + 1))
+        let (mut oldest, mut newest) = ((0, u64::MAX), 0);
+        for slot in 0..SLOTS.len() {
+            let sequence = match self.read(fs, slot) {
+                Ok(found) => found.map_or(0, |checkpoint| checkpoint.sequence),
+                Err(CheckpointError::Unreadable(error)) => return Err(error),
+                Err(_) => 0,
+            };
+            newest = newest.max(sequence);
+            if slot < self.keep && sequence < oldest.1 {
+                oldest = (slot, sequence);
+            }
+        }
+        Ok((oldest.0, newest + 1))
     }
 
     /// One of the files, where it exists.

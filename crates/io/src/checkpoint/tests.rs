@@ -94,6 +94,31 @@ fn files_take_turns_and_the_newest_is_found() {
 }
 
 #[test]
+fn as_many_files_take_turns_as_are_kept() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut checkpoints = Checkpoints::new(dir.path(), CASE).keeping(3);
+    for i in 1..=4 {
+        checkpoints.write(&RealFs, stamp(i), &archive(i)).unwrap();
+    }
+    assert_eq!(RealFs.list(dir.path()).unwrap().len(), 3);
+    for (good, damaged) in [(4, "a.sgc"), (3, "c.sgc"), (2, "b.sgc")] {
+        let found = checkpoints.latest_good(&RealFs).unwrap();
+        assert_true(&found);
+        assert_eq!(found.stamp.increment, good);
+        std::fs::write(dir.path().join(damaged), "torn").unwrap();
+    }
+    assert!(checkpoints.latest_good(&RealFs).is_err());
+
+    // fewer from now on: the files in turns are the first ones, and the newest one counts wherever it is
+    let mut fewer = Checkpoints::new(dir.path(), CASE);
+    for (i, name) in [(5, "a.sgc"), (6, "b.sgc"), (7, "a.sgc")] {
+        let path = fewer.write(&RealFs, stamp(i), &archive(i)).unwrap();
+        assert!(path.ends_with(name), "{}", path.display());
+        assert_eq!(fewer.latest_good(&RealFs).unwrap().stamp.increment, i);
+    }
+}
+
+#[test]
 fn a_large_array_comes_back_to_the_bit() {
     let dir = tempfile::tempdir().unwrap();
     let values: Vec<f64> = (0..1_000_003_u64)

@@ -160,7 +160,9 @@ class Checkpoint(Table):
         "How often; absent: { increments = 5, wall = \"10 min\" }",
         "a table",
     )
-    keep: Key[int, int] = Key("How many are kept", "whole number ≥ 1, ≤ 1000", default=2)
+    keep: Key[int, int] = Key(
+        "How many are kept, in files that take turns; at least two", "whole number ≥ 1, ≤ 26", default=2
+    )
 
 
 class Constraint(Table):

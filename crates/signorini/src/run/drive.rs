@@ -45,7 +45,8 @@ pub fn run(model: &mut Model, options: &RunOptions, listener: &mut dyn Listener)
         Ok(tree) => tree,
         Err(found) => return refuse(found, listener),
     };
-    let checkpoints = Checkpoints::new(&tree.path("checkpoint"), options.source.hash());
+    let checkpoints = Checkpoints::new(&tree.path("checkpoint"), options.source.hash())
+        .keeping(model.case.checkpoint.keep);
     let from = match options
         .resume
         .then(|| checkpoints.latest_good(options.fs.as_ref()))

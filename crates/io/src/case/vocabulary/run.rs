@@ -194,7 +194,12 @@ pub(super) static CHECKPOINT: Table = Table {
             Shape::Table(&CHECKPOINT_EVERY),
             "how often; absent: { increments = 5, wall = \"10 min\" }",
         ),
-        key("keep", Shape::Integer(1, 1000), "how many are kept").or(Default::Integer(2)),
+        key(
+            "keep",
+            Shape::Integer(1, 26),
+            "how many are kept, in files that take turns; at least two",
+        )
+        .or(Default::Integer(2)),
     ],
     rules: &[],
 };
