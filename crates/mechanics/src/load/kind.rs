@@ -201,6 +201,12 @@ pub enum LoadError {
         /// The element, as numbered in the input.
         element: u64,
     },
+    /// A node that no body has and no constraint names: the load would be lost.
+    #[error("node {node} belongs to no body")]
+    Loose {
+        /// The node, as numbered in the input.
+        node: u64,
+    },
     /// Something that is no face of a solid.
     #[error("side {side} of element {element} is no face of a solid")]
     NoFace {

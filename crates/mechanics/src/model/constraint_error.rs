@@ -84,6 +84,14 @@ pub enum ConstraintError {
         /// Whose rotation.
         carrier: String,
     },
+    /// A motion of nodes that no body has and no constraint names.
+    #[error("step \"{step}\" moves nodes of no body, such as node {node}")]
+    Loose {
+        /// Name of the step.
+        step: String,
+        /// One of the nodes, as numbered in the input.
+        node: u64,
+    },
     /// A reference that is moved or loaded, and that nothing follows.
     #[error("step \"{step}\" moves or loads the reference \"{reference}\", which nothing follows")]
     Idle {

@@ -14,6 +14,8 @@ use std::sync::Arc;
 /// What the parts of a model are made from.
 pub(super) struct Context<'a> {
     pub mesh: &'a Mesh,
+    /// Of each node, whether no body has it, and no constraint and no spring names it.
+    pub loose: &'a [bool],
     pub reference: &'a Arc<[Vec3]>,
     pub owner: &'a HashMap<CellId, usize>,
     pub modulus: &'a [Option<f64>],

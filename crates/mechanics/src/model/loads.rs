@@ -1,5 +1,6 @@
 //! Loads of all steps, as terms.
 
+use super::label::label;
 use super::substance::Substance;
 use super::{Context, LoadPart, ModelError};
 use crate::load::{
@@ -98,6 +99,10 @@ impl Context<'_> {
             Place::Nodes(nodes) => {
                 for &node in nodes {
                     self.on_rigid(node)?;
+                    if self.is_loose(node) {
+                        let node = label(self.mesh, node);
+                        return Err(named(LoadError::Loose { node }));
+                    }
                 }
                 self.site(part, schedule.clone())
             }

@@ -184,8 +184,11 @@ impl Model {
         let substances: Vec<_> = bodies.iter().map(|b| Substance::new(b, space)).collect();
         let temperature = temperatures(parts.temperature, &parts.steps);
 
+        let loose = loose(&body_of_node, &parts.constraints, &parts.springs);
+
         let mut context = Context {
             mesh,
+            loose: &loose,
             reference: &reference,
             owner: &owner,
             modulus: &modulus,
@@ -277,6 +280,24 @@ impl Followers<'_> {
             judged => judged,
         }
     }
+}
+
+/// Whether each node belongs to no body and is named by no constraint and no spring: nothing follows from a load on it.
+fn loose(
+    body_of_node: &[u32],
+    constraints: &[ConstraintPart],
+    springs: &[SpringPart],
+) -> Vec<bool> {
+    let mut loose: Vec<bool> = body_of_node.iter().map(|&body| body == u32::MAX).collect();
+    let of_constraints = constraints.iter().flat_map(|one| one.kind.nodes());
+    let ends = springs.iter().flat_map(|spring| &spring.ends);
+    let of_springs = ends.flat_map(|&(a, b)| [Some(a), b]).flatten();
+    for node in of_constraints.chain(of_springs) {
+        if let Some(loose) = loose.get_mut(node as usize) {
+            *loose = false;
+        }
+    }
+    loose
 }
 
 /// Nodes of no body, given the body of each.

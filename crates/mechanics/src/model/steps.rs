@@ -59,6 +59,11 @@ impl Context<'_> {
         }
     }
 
+    /// Whether a node belongs to no body, and no constraint and no spring names it.
+    pub(super) fn is_loose(&self, node: NodeId) -> bool {
+        self.loose.get(node as usize) == Some(&true)
+    }
+
     fn carrier_name(&self, carrier: RigidId) -> String {
         let part = self.carriers.get(carrier as usize);
         part.map(|c| c.name.clone()).unwrap_or_default()
@@ -143,6 +148,15 @@ impl Context<'_> {
                                 (target, *motion != Motion::Hold)
                             {
                                 self.may_move(&part.name, *carrier, *component)?;
+                            }
+                            if let Target::Nodes(nodes) = target
+                                && *motion != Motion::Hold
+                                && let Some(&first) = nodes.first()
+                                && nodes.iter().all(|&node| self.is_loose(node))
+                            {
+                                let step = part.name.clone();
+                                let node = label(self.mesh, first);
+                                return Err(ConstraintError::Loose { step, node }.into());
                             }
                             // everything starts at zero: to go there is to stay
                             let stays = steps.is_empty() && *motion == Motion::Ramp(0.0);

@@ -4,18 +4,19 @@ use super::carriers::Carriers;
 use super::names::{Cells, Names};
 use super::quoted;
 use crate::own::Own;
+use crate::text::plural;
 use signorini_geometry::element::LockingClass;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures};
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
 use signorini_mechanics::material::{
     self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Oriented,
     Plasticity,
 };
 use signorini_mechanics::model::{BodyKind, BodyPart, LockingSummary};
 use signorini_mechanics::solid::{AtNodes, AtStart, Integration, Locking};
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 /// The bodies of a case, in its order.
@@ -31,6 +32,41 @@ pub(super) fn bodies(
     at_start(case, names, &bodies, found);
     unchangeable(case, found);
     bodies
+}
+
+/// A warning of elements that are in no body: a forgotten [[body]] leaves no other trace.
+pub(super) fn left_out(
+    case: &Case,
+    names: &Names<'_>,
+    mesh: &Mesh,
+    bodies: &[BodyPart],
+) -> Option<Diagnostic> {
+    let used: BTreeSet<CellId> = bodies.iter().flat_map(|b| &b.cells).copied().collect();
+    let all = mesh.cells(case.model.space.ndim());
+    let (mut count, mut first) = (0, None);
+    for cell in all.filter(|cell| !used.contains(cell)) {
+        count += 1;
+        first.get_or_insert(cell);
+    }
+    let first = first?;
+    let verb = if count == 1 { "is" } else { "are" };
+    let message = format!("{} {verb} in no body: left out", plural(count, "element"));
+    let groups: Vec<String> = names
+        .groups_of(first)
+        .map(|name| format!("\"{name}\""))
+        .collect();
+    let label = names.element(first).unwrap_or_default();
+    let of = match groups.len() {
+        0 => String::new(),
+        _ => format!(", of {}", groups.join(", ")),
+    };
+    let found = Diagnostic::new(Severity::Warning, &codes::MESH_NOTE, message)
+        .note(format!("the first is element {label}{of}"))
+        .help("name its group in a [[body]]");
+    Some(match case.bodies.last() {
+        Some(body) => found.at(&body.place, ""),
+        None => found,
+    })
 }
 
 /// What a body is called: by its groups.

@@ -221,6 +221,11 @@ fn parts<'a>(
     }
     let mut parts = Parts::new(mesh, idealisation(&case.model));
     parts.bodies = bodies::bodies(case, names, carriers, own, found);
+    if !found.has_errors()
+        && let Some(message) = bodies::left_out(case, names, mesh, &parts.bodies)
+    {
+        found.push(message);
+    }
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, cuts, found);

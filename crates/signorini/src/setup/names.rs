@@ -281,6 +281,15 @@ impl<'a> Names<'a> {
         cells
     }
 
+    /// The groups and sets that list an element.
+    pub fn groups_of(&self, cell: CellId) -> impl Iterator<Item = &str> {
+        let lists = move |(name, set): &(&String, &Set)| *name != ALL && set.cells.contains(&cell);
+        self.sets
+            .iter()
+            .filter(lists)
+            .map(|(name, _)| name.as_str())
+    }
+
     /// The number of an element in the input.
     pub fn element(&self, cell: CellId) -> Option<u64> {
         self.mesh.cell_label(cell)

@@ -179,6 +179,7 @@ const fn of_constraint_error(error: &ConstraintError) -> &'static str {
         ConstraintError::Idle { .. } => {
             "write  reference = \"...\"  in a rigid [[body]] or in a [[constraint]]"
         }
+        ConstraintError::Loose { .. } => "move nodes of a [[body]], or a [reference]",
         ConstraintError::OffAxis { .. } => "move and load it along y alone",
     }
 }
@@ -247,6 +248,10 @@ fn of_load_error(error: &LoadError) -> (&'static Code, &'static str) {
             &codes::BAD_LOAD,
             "make the element part of a [[body]], or load another set",
         ),
+        LoadError::Loose { .. } => (
+            &codes::BAD_LOAD,
+            "load nodes of a [[body]]; a set by place takes those of a body with  of = \"BODY\"",
+        ),
         LoadError::Misplaced | LoadError::NoFace { .. } | LoadError::NoVolume { .. } => (
             &codes::WRONG_KIND,
             "name something that this load can act on",
@@ -284,7 +289,9 @@ fn of_constraint<'a>(case: &'a Case, error: &ConstraintError) -> Option<&'a Plac
         | ConstraintError::Contradictory { constraint }
         | ConstraintError::OverConstrained { constraint, .. }
         | ConstraintError::Turning { constraint, .. } => of_constraint(constraint),
-        ConstraintError::Idle { step, .. } | ConstraintError::OffAxis { step, .. } => of_step(step),
+        ConstraintError::Idle { step, .. }
+        | ConstraintError::Loose { step, .. }
+        | ConstraintError::OffAxis { step, .. } => of_step(step),
         ConstraintError::OnFollower { .. } => None,
     }
 }

@@ -254,6 +254,28 @@ pub enum ConstraintKind {
     },
 }
 
+impl ConstraintKind {
+    /// The nodes that it names, some of them maybe several times.
+    pub fn nodes(&self) -> Vec<NodeId> {
+        match self {
+            Self::Equation { terms, .. } => {
+                let node = |(unknown, _): &(Unknown, f64)| match unknown {
+                    Unknown::Node(node, _) => Some(*node),
+                    Unknown::Carrier(..) => None,
+                };
+                terms.iter().filter_map(node).collect()
+            }
+            Self::Distributing { nodes, .. } => nodes.iter().map(|(node, _)| *node).collect(),
+            Self::Distance { nodes, .. } => nodes.to_vec(),
+            Self::Equal { nodes, .. }
+            | Self::Kinematic { nodes, .. }
+            | Self::Plane { nodes }
+            | Self::Line { nodes }
+            | Self::Twist { nodes, .. } => nodes.clone(),
+        }
+    }
+}
+
 /// What a support or a motion is applied to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
