@@ -27,6 +27,8 @@ fn dictionary<'py>(py: Python<'py>, one: &Diagnostic) -> PyResult<Bound<'py, PyD
     }
     dict.set_item("notes", &one.notes)?;
     dict.set_item("help", &one.help)?;
+    dict.set_item("motions", &one.about.motions)?;
+    dict.set_item("elements", &one.about.elements)?;
     dict.set_item("text", Diagnostics::from(one.clone()).plain().trim_end())?;
     Ok(dict)
 }

@@ -91,7 +91,18 @@ def test_a_free_body_is_a_model_error() -> None:
     case.step("s", geometry="linear").load("head", force=(1, 0, 0))
     with pytest.raises(sg.ModelError) as caught:
         case.run(save=False)
-    assert caught.value.free_modes or caught.value.diagnostics
+    (motion,) = caught.value.free_modes
+    assert "slide" in motion and motion in str(caught.value)
+
+
+def test_a_flat_element_is_named() -> None:
+    mesh = sg.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], {"tet4": [[0, 1, 2, 3]]})
+    case = sg.Case(mesh)
+    case.body("all", sg.LinearElastic(E=1.0, nu=0.0))
+    case.step("s", geometry="linear").fix("all", "xyz")
+    with pytest.raises(sg.ModelError) as caught:
+        case.run(save=False)
+    assert caught.value.bad_elements == [1]
 
 
 def test_what_converged_is_in_the_exception(tmp_path: Path) -> None:

@@ -109,7 +109,7 @@ def test_errors_print_their_diagnostics() -> None:
     assert error.diagnostics[0].line == 3 and error.diagnostics[0]["code"] == "S0102"
     assert issubclass(sg.NotConverged, sg.SignoriniError)
     model = sg.ModelError.of(
-        [{"code": "S0301", "message": "m", "notes": ["free motions: translation along z", "element 7"]}]
+        [{"code": "S0302", "message": "m", "motions": ["slide along z"], "elements": [7]}]
     )
     assert isinstance(model, sg.ModelError)
-    assert model.free_modes == ["translation along z"] and model.bad_elements == [7]
+    assert model.free_modes == ["slide along z"] and model.bad_elements == [7]

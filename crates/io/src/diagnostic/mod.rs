@@ -66,6 +66,17 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// What to do, ready to be copied.
     pub help: Vec<String>,
+    /// What it is about, for programs that read it.
+    pub about: About,
+}
+
+/// What a finding is about, where its message names it in words.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct About {
+    /// Motions that nothing stops, as in `slide along x`.
+    pub motions: Vec<String>,
+    /// The first of the elements, as numbered in the input.
+    pub elements: Vec<u64>,
 }
 
 impl Diagnostic {
@@ -78,6 +89,7 @@ impl Diagnostic {
             labels: Vec::new(),
             notes: Vec::new(),
             help: Vec::new(),
+            about: About::default(),
         }
     }
 
@@ -111,6 +123,20 @@ impl Diagnostic {
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Self {
         self.notes.push(text.into());
+        self
+    }
+
+    /// Adds a motion that it is about.
+    #[must_use]
+    pub fn about_motion(mut self, motion: impl Into<String>) -> Self {
+        self.about.motions.push(motion.into());
+        self
+    }
+
+    /// Adds elements that it is about, as numbered in the input.
+    #[must_use]
+    pub fn about_elements(mut self, elements: &[u64]) -> Self {
+        self.about.elements.extend(elements);
         self
     }
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -144,15 +143,8 @@ class ModelError(SignoriniError):
         diagnostics: Sequence[Mapping[str, Any]] = (),
     ) -> None:
         super().__init__(message, diagnostics)
-        notes = [note for one in self.diagnostics for note in one.notes]
-        modes = [note.partition(":")[2].strip() for note in notes if note.startswith("free motions:")]
-        self.free_modes = list(free_modes) or modes
-        self.bad_elements = list(bad_elements) or [
-            int(number)
-            for one in self.diagnostics
-            for text in (one.message, *one.notes)
-            for number in re.findall(r"\belement (\d+)", text)
-        ]
+        self.free_modes = list(free_modes) or [str(m) for one in self.diagnostics for m in one.get("motions", ())]
+        self.bad_elements = list(bad_elements) or [int(n) for one in self.diagnostics for n in one.get("elements", ())]
 
 
 class _WithResult(SignoriniError):

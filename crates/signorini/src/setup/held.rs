@@ -32,6 +32,9 @@ pub(super) fn by_contact(
     } else {
         Diagnostic::error(&codes::HELD_BY_CONTACT, what)
     };
+    for one in bodies {
+        message = message.about_motion(one.motion.clone());
+    }
     if bodies.len() == 1 {
         message = message.note(format!("without contact it is free to {}", first.motion));
     } else {

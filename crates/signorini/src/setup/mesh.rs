@@ -104,7 +104,7 @@ pub fn judge_mesh_of(case: &Case, mesh: &Mesh) -> Result<Diagnostics, Diagnostic
     };
     let mut found = Diagnostics::new();
     for issue in readers::validate(mesh) {
-        let mut one = judged(&issue, place);
+        let mut one = judged(&issue, place).about_elements(issue.elements());
         let element = issue.elements().first();
         if let Some((element, body)) = element.and_then(|e| Some((e, body_of(*e, case, mesh)?))) {
             one = one.note(format!(

@@ -15,6 +15,9 @@ pub(super) fn refused(case: &Case, error: &ModelError) -> Diagnostic {
     if let Some(place) = place {
         message = message.at(place, "");
     }
+    if let ModelError::FreeBody(free) = error {
+        message = message.about_motion(free.motion.clone());
+    }
     let helps = helps(case, error, help).into_iter();
     helps.fold(message, Diagnostic::help)
 }
