@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::object;
-use super::templates::TEMPLATES;
+use super::templates;
 use super::threads;
 use clap::Args;
 use serde_json::json;
@@ -59,14 +59,14 @@ impl Doctor {
     }
 }
 
-/// Solves the first template into a folder that is removed afterwards.
+/// Solves a small template into a folder that is removed afterwards.
 fn trial(folder: &std::path::Path) -> Result<f64, (u8, String)> {
     let clock = Instant::now();
     let failed = |found: signorini::Diagnostics| (found.exit_code().unwrap_or(70), found.plain());
     let written = std::fs::create_dir_all(folder);
     written.map_err(|e| (6, format!("{}: {e}\n", folder.display())))?;
     let path = folder.join("doctor.toml");
-    let text = TEMPLATES.first().map_or("", |template| template.text);
+    let text = templates::smallest().map_or("", |template| template.text);
     std::fs::write(&path, text).map_err(|e| (6, format!("{}: {e}\n", path.display())))?;
     let loaded = signorini::load(&path, &signorini::Reading::default()).map_err(failed)?;
     let mut model = build(loaded.case, loaded.mesh).map_err(failed)?;

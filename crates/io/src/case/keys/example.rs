@@ -8,7 +8,7 @@ use signorini_vocabulary::Description;
 const NUMBERS: [f64; 4] = [1.0, 0.3, 10.0, -1.0];
 
 /// Values that a reader would expect, by the name of the key.
-const KNOWN: [(&str, &str); 21] = [
+const KNOWN: [(&str, &str); 25] = [
     ("E", "210e3"),
     ("nu", "0.3"),
     ("density", "7.8e-9"),
@@ -33,6 +33,10 @@ const KNOWN: [(&str, &str); 21] = [
         "[[\"left\", \"x\", 1.0], [\"right\", \"x\", -1.0]]",
     ),
     ("nodes", "[1, 2, 3]"),
+    ("y", "[0.0, 1.0, 0.0]"),
+    ("tube", "0.3"),
+    ("stabilize", "false"),
+    ("faces", "[[1, \"+z\"], [2, \"S3\"]]"),
 ];
 
 /// A piece of a case with a key; `model` is the material model that it is a constant of.
@@ -142,8 +146,11 @@ fn fits(shape: &Shape, value: &str) -> bool {
         Shape::Text => value.starts_with('"'),
         Shape::Choice(choices) => choices.iter().any(|c| value == format!("\"{}\"", c.word)),
         Shape::Number(bounds) => value.parse().is_ok_and(|value| bounds.hold(value)),
-        Shape::List(item, ..) => {
-            value.starts_with('[') && (matches!(item, Shape::Row(..)) == value.starts_with("[["))
+        Shape::Flag => value == "true" || value == "false",
+        Shape::List(Shape::Row(..), ..) => value.starts_with("[["),
+        Shape::List(Shape::Text | Shape::Choice(_), ..) => value.starts_with("[\""),
+        Shape::List(Shape::Number(_) | Shape::Integer(..), ..) => {
+            value.starts_with('[') && !value.starts_with("[[") && !value.contains('"')
         }
         Shape::Either(shapes) => shapes.iter().any(|one| fits(one, value)),
         _ => false,

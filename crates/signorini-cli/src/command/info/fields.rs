@@ -1,7 +1,7 @@
 //! Fields of results with the ranges of their components.
 
 use serde::Serialize;
-use signorini::text::short;
+use signorini::text::{plural, short};
 use signorini_io::readers::frd::Dataset;
 use signorini_io::writers::vtu::Vtu;
 
@@ -11,6 +11,9 @@ pub struct Field {
     name: String,
     /// `node` or `cell`.
     on: &'static str,
+    /// At how many nodes there are values, where that may be fewer than all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    count: Option<usize>,
     components: Vec<Range>,
 }
 
@@ -32,6 +35,7 @@ pub fn of_grid(grid: &Vtu) -> Vec<Field> {
             fields.push(Field {
                 name: array.name.clone(),
                 on,
+                count: None,
                 components: ranges(&array.numbers.to_f64(), array.ncomponent, names),
             });
         }
@@ -45,6 +49,7 @@ pub fn of_dataset(dataset: &Dataset) -> Field {
     Field {
         name: dataset.name.clone(),
         on: "node",
+        count: Some(dataset.nodes.len()),
         components: ranges(&dataset.values, names.len(), names),
     }
 }
@@ -87,15 +92,12 @@ impl Field {
             Some([low, high]) => format!("{} to {}", short(low), short(high)),
             None => "no numbers".to_owned(),
         };
+        let on = self.count.map(|n| plural(n, self.on));
+        let on = on.unwrap_or_else(|| self.on.to_owned());
         match self.components.as_slice() {
-            [only] => vec![format!("  {} ({}): {}", self.name, self.on, words(only))],
+            [only] => vec![format!("  {} ({on}): {}", self.name, words(only))],
             several => {
-                let head = format!(
-                    "  {} ({}, {} components)",
-                    self.name,
-                    self.on,
-                    several.len()
-                );
+                let head = format!("  {} ({on}, {} components)", self.name, several.len());
                 let of = |one: &Range| format!("    {:<4} {}", one.name, words(one));
                 std::iter::once(head)
                     .chain(several.iter().map(of))
@@ -114,6 +116,7 @@ mod tests {
         let field = Field {
             name: "displacement".into(),
             on: "node",
+            count: None,
             components: ranges(&[1.0, f64::NAN, 3.0, -1.0, f64::NAN, 5.0], 3, Vec::new()),
         };
         let wanted = [
