@@ -43,6 +43,13 @@ const HEAD: usize = 96;
 /// The two files, in the order in which they are first written.
 const SLOTS: [&str; 2] = ["a.sgc", "b.sgc"];
 
+/// Whether a folder of checkpoints holds one, good or not.
+#[must_use]
+pub fn has_checkpoint(fs: &dyn Fs, folder: &Path) -> bool {
+    let is_there = |slot: &&str| fs.exists(&folder.join(slot)).unwrap_or(false);
+    SLOTS.iter().any(|slot| is_there(&slot))
+}
+
 /// Where in a run a checkpoint stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stamp {

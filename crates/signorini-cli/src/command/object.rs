@@ -33,7 +33,7 @@ pub fn answer(command: &str, exit_code: u8, found: &Diagnostics, members: Member
     let all = found.iter().map(|one| json!(event_of(one)));
     object.insert("diagnostics".into(), all.collect());
     object.extend(members);
-    Console::stdout().line(&Value::Object(object).to_string());
+    Console::stdout().raw(&format!("{}\n", Value::Object(object)));
     exit_code
 }
 

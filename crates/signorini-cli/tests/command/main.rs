@@ -21,4 +21,5 @@ mod results;
 mod status;
 mod stopping;
 mod support;
+mod terminal;
 mod text;

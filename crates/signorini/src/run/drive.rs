@@ -144,6 +144,7 @@ fn setting(
         checkpoint_increments: checkpoint.increments,
         checkpoint_wall: checkpoint.wall.map(Duration::from_secs_f64),
         limits: options.limits.clone(),
+        first_steps: options.steps.filter(|n| *n < model.steps.len()),
         has_contact: !model.contacts.is_empty(),
     };
     (setting, expectations)
@@ -246,7 +247,10 @@ impl Run<'_, '_> {
             self.linear += stepper.take_linear_seconds();
             match outcome {
                 Ok(Outcome::Finished) => return Ok(Ending::Solved),
-                Ok(Outcome::Stopped) => due = self.recorder.is_due(),
+                Ok(Outcome::Stopped) => {
+                    // the rest goes on from the end of the steps that were asked for
+                    due = self.recorder.is_due() || self.recorder.stop == Some(Stop::Steps);
+                }
                 Err(error) => return Ok(self.failed(&error, &stepper)),
             }
         }

@@ -79,6 +79,14 @@ pub struct Effort {
     pub worst: Option<String>,
     /// Closed contact points at its end.
     pub closed: usize,
+    /// Linear solves, those of failed attempts too.
+    pub solves: u64,
+    /// Whether multigrid takes part in them.
+    pub multigrid: bool,
+    /// Iterations of the linear solver in them; those of a direct solution improve it.
+    pub linear_iterations: u64,
+    /// Whether iterations gave way to a direct solution.
+    pub gave_way: bool,
 }
 
 /// How a run ended.

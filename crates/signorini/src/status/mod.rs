@@ -3,8 +3,8 @@
 //! ```text
 //!   lock held                                  running
 //!   no lock, no summary                        killed
-//!   summary: exit code 0 or 1                  finished
-//!            stopped by a signal or a limit    interrupted
+//!   summary: stopped by a signal or a limit    interrupted
+//!            exit code 0 or 1                  finished
 //!            else                              failed
 //! ```
 //!
@@ -31,7 +31,7 @@ pub enum State {
     Running,
     /// It ended without an ending: `kill -9`, a power cut, no memory.
     Killed,
-    /// It was stopped by a signal or a time limit.
+    /// It was stopped by a signal or a time limit, or behind the steps that were asked for.
     Interrupted,
     /// It ended with an error.
     Failed,
@@ -115,10 +115,10 @@ pub fn status(fs: &dyn Fs, folder: &Path) -> Result<Status, Diagnostics> {
 }
 
 fn state_of(summary: &Summary) -> State {
-    if summary.exit_code <= 1 {
-        State::Finished
-    } else if Stop::STATUSES.contains(&summary.status.as_str()) {
+    if Stop::STATUSES.contains(&summary.status.as_str()) {
         State::Interrupted
+    } else if summary.exit_code <= 1 {
+        State::Finished
     } else {
         State::Failed
     }

@@ -81,6 +81,7 @@ fn an_ending_decides_what_a_run_without_a_process_is() {
         (1, "expectation failed", State::Finished),
         (130, "interrupted", State::Interrupted),
         (8, "time limit reached", State::Interrupted),
+        (0, "first steps solved", State::Interrupted),
         (8, "out of memory", State::Failed),
         (5, "not converged", State::Failed),
     ] {
