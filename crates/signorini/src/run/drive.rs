@@ -26,6 +26,9 @@ use signorini_mechanics::system::ArchiveError;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// The script that shows results in ParaView.
+const VIEW: &str = include_str!("view.py");
+
 /// Solves a model; everything that happens goes to files and to the listener.
 ///
 /// Never fails in another way than by the exit code and the messages of what it returns.
@@ -202,11 +205,19 @@ impl Run<'_, '_> {
         self.close(ending, found, facts.nunknown, solving)
     }
 
+    /// Writes what was really run, and a script that shows the results.
     fn write_resolved(&mut self) {
         let text = case::resolved(&self.model.case, vocabulary());
-        let path = self.recorder.setting.tree.path("case.resolved.toml");
-        let fs = &self.recorder.setting.fs;
-        if let Err(error) = fs.write_atomic(&path, text.as_bytes()) {
+        let setting = &self.recorder.setting;
+        let write = |name: &str, text: &str| {
+            let path = setting.tree.path(name);
+            setting.fs.write_atomic(&path, text.as_bytes())
+        };
+        let mut written = write("case.resolved.toml", &text);
+        if setting.has_vtu && written.is_ok() {
+            written = write("view.py", VIEW);
+        }
+        if let Err(error) = written {
             self.recorder.error.get_or_insert(error.into());
         }
     }
