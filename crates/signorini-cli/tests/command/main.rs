@@ -7,6 +7,7 @@
 mod advice;
 mod audit;
 mod check;
+mod convert;
 mod decks;
 mod events;
 mod files;
