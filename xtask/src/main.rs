@@ -6,7 +6,7 @@
 //! cargo xtask rooms --graph    prints that table
 //! cargo xtask rooms --circles  lists files that use each other in a circle
 //! cargo xtask docs             fails where a Markdown file names what does not exist
-//! cargo xtask keys             writes docs/keys.md, the page of all keys of cases, and their classes for Python
+//! cargo xtask keys             writes docs/keys.md, the page of all keys of cases, their schema, and their classes for Python
 //! cargo xtask shape            fails where a function or file is too long, or a default serves one implementor
 //! ```
 //!
@@ -57,7 +57,7 @@ const CHORES: [Chore; 6] = [
     },
     Chore {
         arguments: &["keys"],
-        about: "write docs/keys.md and the classes of keys for Python from the schema of cases",
+        about: "write docs/keys.md, docs/case.schema.json and the classes of keys for Python",
         run: docs::write_keys,
     },
     Chore {

@@ -1,7 +1,8 @@
 //! Reading what a stopped run started from, out of its output folder.
 
 use crate::load::{Loaded, Source, load_again, sha256};
-use crate::run::{OutputError, Owner, cannot_resume, case_copy, process_in};
+use crate::run::{OutputError, Owner, Stop, cannot_resume, case_copy, process_in};
+use signorini_io::checkpoint::has_checkpoint;
 use signorini_io::diagnostic::Diagnostics;
 use signorini_io::fs::{Fs, FsError};
 use signorini_io::writers::json::{Input, Summary};
@@ -35,6 +36,7 @@ pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
     })?;
     if let Ok(summary) = Summary::read(fs, &folder.join("summary.json"))
         && summary.exit_code <= 1
+        && !Stop::STATUSES.contains(&summary.status.as_str())
     {
         return Ok(Stopped::Done(Box::new(summary)));
     }
@@ -66,4 +68,33 @@ pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
         .into());
     }
     Ok(Stopped::Open(Box::new(loaded)))
+}
+
+/// As [`stopped`], for the folder of a case: none where it holds no run of this case with a checkpoint.
+///
+/// # Errors
+/// As [`stopped`]; a case that has changed since, or that other values were set in: exit code 7.
+pub fn stopped_case(
+    fs: &dyn Fs,
+    folder: &Path,
+    source: &Source,
+) -> Result<Option<Stopped>, Diagnostics> {
+    let now = Owner::of(source);
+    let owner = Owner::read(fs, folder).filter(|owner| owner.is_case_of(&now));
+    let Some(owner) = owner else {
+        return Ok(None);
+    };
+    if !has_checkpoint(fs, &folder.join("checkpoint")) {
+        return Ok(None);
+    }
+    if (&owner.sha256, &owner.overrides) != (&now.sha256, &now.overrides) {
+        return Err(cannot_resume(format!(
+            "the case has changed since the run in {}; start again with --fresh, or go on with the case as it was: \
+             signorini resume {}",
+            folder.display(),
+            folder.display()
+        ))
+        .into());
+    }
+    stopped(fs, folder).map(Some)
 }

@@ -48,6 +48,9 @@ struct Facts {
     symbols: Symbols,
 }
 
+/// The schema of cases itself, for the editors of those who open an example.
+const SCHEMA: &str = "docs/case.schema.json";
+
 /// Checks all pages and prints their faults.
 pub(crate) fn check(root: &Path) -> Outcome {
     let facts = Facts::read(root)?;
@@ -77,7 +80,7 @@ pub(crate) fn check(root: &Path) -> Outcome {
     Ok(faults.is_empty())
 }
 
-/// Writes the page of all keys, and their classes for Python.
+/// Writes the schema, the page of all keys, and their classes for Python.
 pub(crate) fn write_keys(root: &Path) -> Outcome {
     let schema = json("signorini schema", &signorini(root, &["schema"])?)?;
     for (path, text) in written_from(&schema) {
@@ -90,8 +93,10 @@ pub(crate) fn write_keys(root: &Path) -> Outcome {
 }
 
 /// What is written from the schema: files and their text.
-fn written_from(schema: &serde_json::Value) -> [(&'static str, String); 2] {
+fn written_from(schema: &serde_json::Value) -> [(&'static str, String); 3] {
     [
+        // values of JSON can be written
+        (SCHEMA, format!("{schema:#}\n")),
         (reference::PATH, reference::page(schema)),
         (python::PATH, python::module(schema)),
     ]

@@ -46,6 +46,13 @@ pub const FEWEST: u64 = 2;
 pub const MOST: u64 = SLOTS.len() as u64;
 const SLOTS: &[u8; 26] = b"abcdefghijklmnopqrstuvwxyz";
 
+/// Whether a folder of checkpoints holds one, good or not.
+#[must_use]
+pub fn has_checkpoint(fs: &dyn Fs, folder: &Path) -> bool {
+    let is_there = |slot: &&str| fs.exists(&folder.join(slot)).unwrap_or(false);
+    SLOTS.iter().any(|slot| is_there(&slot))
+}
+
 /// Where in a run a checkpoint stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stamp {

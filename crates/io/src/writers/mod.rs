@@ -9,6 +9,7 @@
 //! hertz.dat                dat   printed tables at the times asked for         grows
 //! hertz.frd                frd   the mesh, then every frame                    grows
 //! events.jsonl             json  one line per event                            grows
+//! part.inp                 inp   a mesh                                        written once, atomically
 //! summary.json             json  how it ended                                  written once, atomically
 //! ```
 //!
@@ -21,6 +22,7 @@
 pub mod csv;
 pub mod dat;
 pub mod frd;
+pub mod inp;
 pub mod json;
 pub mod pvd;
 mod rows;

@@ -15,7 +15,7 @@ impl Completions {
     pub fn execute(self, mut command: Command) -> u8 {
         let mut text = Vec::new();
         clap_complete::generate(self.shell, &mut command, "signorini", &mut text);
-        Console::stdout().text(&String::from_utf8_lossy(&text));
+        Console::stdout().raw(&String::from_utf8_lossy(&text));
         0
     }
 }

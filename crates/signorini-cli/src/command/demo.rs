@@ -33,11 +33,13 @@ impl Demo {
         let clock = Instant::now();
         let signals = Signals::taken();
         let folder = std::env::temp_dir().join(format!("signorini-demo-{}", std::process::id()));
-        let path = folder.join(init::file_name(template));
-        if let Err(error) = init::write(&path, template) {
-            console.findings(&not_written(&error).into());
-            return FsError::EXIT_CODE;
-        }
+        let path = match init::write(&folder, template) {
+            Ok(path) => path,
+            Err(error) => {
+                console.findings(&not_written(&error).into());
+                return FsError::EXIT_CODE;
+            }
+        };
         console.line(&format!("{}: {}", template.name, template.about));
         match load(&path, &Reading::default()) {
             Err(found) => refused(&found, &self.solve),

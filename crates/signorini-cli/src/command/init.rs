@@ -36,16 +36,18 @@ impl Init {
             console.line(&format!("error: {}", templates::unknown(&self.template)));
             return WRONG_COMMAND;
         };
-        let path = self.folder.join(file_name(template));
-        if path.exists() {
+        let files = template.mesh.iter().map(|(name, _)| *name);
+        let mut files = std::iter::once(template.file).chain(files);
+        let existing = files.find(|name| self.folder.join(name).exists());
+        if let Some(name) = existing {
             console.line(&format!(
                 "error: {} is there already; name another folder, or remove it",
-                path.display()
+                self.folder.join(name).display()
             ));
             return 3;
         }
-        match write(&path, template) {
-            Ok(()) => {
+        match write(&self.folder, template) {
+            Ok(path) => {
                 let shown = path.display();
                 console.line(&format!("✓ {shown}   run it: signorini run {shown}"));
                 0
@@ -58,22 +60,27 @@ impl Init {
     }
 }
 
-/// The file that a template is written to.
-pub fn file_name(template: &Template) -> String {
-    format!("{}.toml", template.name.replace('-', "_"))
-}
+/// What the first line of a case says to editors.
+const SCHEMA: &str = "#:schema .signorini/schema.json\n";
 
-/// Writes a template, and the schema that its first line may name for editors.
-pub fn write(path: &Path, template: &Template) -> Result<(), FsError> {
-    let folder = path.parent().unwrap_or(Path::new("."));
+/// Writes a template into a folder, with its mesh and the schema that its first line names for editors; returns the path
+/// of the file to run.
+pub fn write(folder: &Path, template: &Template) -> Result<PathBuf, FsError> {
+    RealFs.create_dir_all(folder)?;
+    if let Some((name, text)) = template.mesh {
+        RealFs.write_atomic(&folder.join(name), text.as_bytes())?;
+    }
+    let path = folder.join(template.file);
+    if !template.file.ends_with(".toml") {
+        RealFs.write_atomic(&path, template.text.as_bytes())?;
+        return Ok(path);
+    }
     let schema = folder.join(".signorini");
     RealFs.create_dir_all(&schema)?;
     let text = serde_json::to_string_pretty(&signorini_io::case::schema(signorini::vocabulary()))
         .unwrap_or_default();
     RealFs.write_atomic(&schema.join("schema.json"), text.as_bytes())?;
-    let mut case = template.text.to_owned();
-    if !case.starts_with("#:schema") {
-        case.insert_str(0, "#:schema .signorini/schema.json\n");
-    }
-    RealFs.write_atomic(path, case.as_bytes())
+    let case = format!("{SCHEMA}{}", template.text);
+    RealFs.write_atomic(&path, case.as_bytes())?;
+    Ok(path)
 }

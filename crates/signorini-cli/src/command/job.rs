@@ -1,6 +1,7 @@
 //! A job: the model, the place of its results, and its report.
 
 use super::console::Console;
+use super::exit::WRONG_COMMAND;
 use super::findings::joined;
 use super::ndjson::Ndjson;
 use super::options::SolveOptions;
@@ -58,11 +59,21 @@ impl Job {
             Err(found) => return refused(&joined(self.warnings, found), options),
         };
         model.name.clone_from(&self.source.name);
+        let names: Vec<&str> = model.steps.iter().map(|s| s.name.as_str()).collect();
+        if !is_beginning(&options.steps, &names) {
+            Console::stderr().line(&format!(
+                "error: --steps {} are not the first steps of the case\n  its steps are, in order: {}",
+                options.steps.join(","),
+                names.join(", ")
+            ));
+            return WRONG_COMMAND;
+        }
         let mut run = RunOptions::new(self.source);
         run.warnings = self.warnings;
         run.folder = self.folder.unwrap_or(run.folder);
         run.fresh = self.fresh;
         run.resume = self.resume;
+        run.steps = (!options.steps.is_empty()).then_some(options.steps.len());
         run.strict = options.strict;
         run.threads = self.threads;
         run.seconds = [self.read_seconds, clock.elapsed().as_secs_f64()];
@@ -79,6 +90,11 @@ impl Job {
         }
         finished.exit_code
     }
+}
+
+/// Whether all that is wanted is how a list begins.
+fn is_beginning(wanted: &[String], all: &[&str]) -> bool {
+    wanted.len() <= all.len() && wanted.iter().zip(all).all(|(a, b)| a == b)
 }
 
 /// Solves and reports as the options say.

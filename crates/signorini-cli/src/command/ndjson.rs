@@ -9,7 +9,7 @@ pub struct Ndjson(pub Console);
 
 impl Listener for Ndjson {
     fn hear(&mut self, news: &News<'_>) -> Flow {
-        self.0.text(&news.event.line());
+        self.0.raw(&news.event.line());
         Flow::Continue
     }
 }

@@ -61,6 +61,9 @@ pub struct SolveOptions {
     /// Stop after this time, resumable: 90s, 10min, 2h
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub max_wall: Option<f64>,
+    /// Solve the first steps only, by their names in order: press,drag; the rest can be resumed
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub steps: Vec<String>,
     /// Tell where the time went
     #[arg(long)]
     pub timings: bool,

@@ -25,20 +25,33 @@ impl Resume {
         let signals = Signals::taken();
         match stopped(&RealFs, &self.folder) {
             Err(found) => refused(&found, &self.solve),
-            Ok(Stopped::Done(summary)) => {
-                let folder = self.folder.display();
-                Console::stderr().line(&format!(
-                    "nothing is left to do: the run in {folder} ended as \"{}\"",
-                    summary.status
-                ));
-                summary.exit_code
-            }
-            Ok(Stopped::Open(loaded)) => Job {
-                folder: Some(self.folder),
-                resume: true,
-                ..Job::new(*loaded, signals, clock, &self.solve)
-            }
-            .solve(&self.solve),
+            Ok(found) => go_on(found, self.folder, signals, clock, &self.solve),
         }
+    }
+}
+
+/// Goes on with what was found in a folder, and returns the exit code.
+pub fn go_on(
+    found: Stopped,
+    folder: PathBuf,
+    signals: Signals,
+    clock: Instant,
+    options: &SolveOptions,
+) -> u8 {
+    match found {
+        Stopped::Done(summary) => {
+            Console::stderr().line(&format!(
+                "nothing is left to do: the run in {} ended as \"{}\"",
+                folder.display(),
+                summary.status
+            ));
+            summary.exit_code
+        }
+        Stopped::Open(loaded) => Job {
+            folder: Some(folder),
+            resume: true,
+            ..Job::new(*loaded, signals, clock, options)
+        }
+        .solve(options),
     }
 }

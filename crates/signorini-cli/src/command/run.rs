@@ -1,11 +1,14 @@
 //! `signorini run CASE`
 
+use super::console::Console;
 use super::job::{Job, refused};
 use super::options::{CaseOptions, FolderOption, SolveOptions};
 use super::signals::Signals;
 use super::threads;
 use clap::Args;
 use signorini::load_case;
+use signorini::resume::stopped_case;
+use signorini_io::fs::RealFs;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -19,6 +22,9 @@ pub struct Run {
     /// Start even in a folder with results of another case
     #[arg(long)]
     fresh: bool,
+    /// Go on from the last checkpoint of this case, where there is one; else start
+    #[arg(long, conflicts_with_all = ["fresh", "dry_run"])]
+    resume: bool,
     /// Build everything and stop before the first increment; nothing is written
     #[arg(long)]
     dry_run: bool,
@@ -45,11 +51,28 @@ impl Run {
             Ok(opened) => opened,
             Err(found) => return refused(&found, &self.solve),
         };
+        if self.resume {
+            let folder = self.folder.output.clone();
+            let folder = folder.unwrap_or_else(|| opened.source.output_folder());
+            match stopped_case(&RealFs, &folder, &opened.source) {
+                Err(found) => return refused(&found, &self.solve),
+                Ok(Some(found)) => {
+                    return super::resume::go_on(found, folder, signals, clock, &self.solve);
+                }
+                Ok(None) => Console::stderr().line(&format!(
+                    "there is no checkpoint of this case in {}: it starts",
+                    folder.display()
+                )),
+            }
+        }
         let nthread = threads::make(self.solve.threads, opened.case.solver.threads);
         let loaded = match opened.with_mesh() {
             Ok(loaded) => loaded,
             Err(found) => return refused(&found, &self.solve),
         };
+        if self.dry_run {
+            return super::check::preview(loaded);
+        }
         let job = Job {
             warnings: loaded.warnings,
             case: loaded.case,
@@ -63,9 +86,6 @@ impl Run {
             clock,
             read_seconds: clock.elapsed().as_secs_f64(),
         };
-        if self.dry_run {
-            return super::check::preview(job.case, job.mesh, job.warnings, None);
-        }
         job.solve(&self.solve)
     }
 }

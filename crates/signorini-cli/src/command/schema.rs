@@ -6,6 +6,6 @@ use super::console::Console;
 pub fn execute() -> u8 {
     let text = serde_json::to_string_pretty(&signorini_io::case::schema(signorini::vocabulary()))
         .unwrap_or_default();
-    Console::stdout().line(&text);
+    Console::stdout().raw(&format!("{text}\n"));
     0
 }

@@ -7,7 +7,7 @@
 //!  process at once   │ the second signal: ends the process at once
 //! ```
 
-use super::console::Console;
+use super::console::{Console, fitted};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signorini::Limits;
 use signorini::run::Stop;
@@ -177,7 +177,11 @@ impl Notice {
 
 /// Shows a line in place of a progress bar, where there may be one.
 pub fn show(console: &Console, line: &str) {
-    let wipe = if console.terminal { "\r\x1b[2K" } else { "" };
+    let wipe = if console.draws { "\r\x1b[2K" } else { "" };
+    let line = match console.width() {
+        Some(width) => fitted(line, width),
+        None => line.to_owned(),
+    };
     console.text(&format!("{wipe}{line}\n"));
 }
 
@@ -188,6 +192,7 @@ fn text(stop: Stop) -> String {
         Stop::Signal(number) => format!("signal {number}"),
         Stop::Time => "time limit".to_owned(),
         Stop::Listener => "request".to_owned(),
+        Stop::Steps => "the steps asked for are done".to_owned(),
     };
     let again = match stop {
         Stop::Signal(_) => "; a second signal ends the process at once",

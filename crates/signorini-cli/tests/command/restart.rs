@@ -442,3 +442,39 @@ fn memory_that_is_not_to_be_had_ends_with_8_and_a_message() {
         .collect();
     assert!(odd.is_empty(), "{odd:?}");
 }
+
+#[test]
+fn the_first_steps_are_solved_and_the_rest_is_resumed() {
+    let second = "\n[[step]]\nname = \"lift\"\nincrements = { fixed = 3 }\n[[step.move]]\non = \"tool\"\nuz = 0.01\n[checkpoint]";
+    let folder = folder_with(&change(&brick_in(4), "[checkpoint]", second));
+    let wrong = run(folder.path(), &["run", "case.toml", "--steps", "lift"]);
+    wrong.says(2, &["not the first steps", "press, lift"]);
+    assert!(!folder.path().join("case.out").exists());
+    let first = run(folder.path(), &["run", "case.toml", "--steps", "press"]);
+    first.says(0, &["first steps solved: 4 increments", "signorini resume"]);
+    run(folder.path(), &["status", "case.out"])
+        .says(0, &["first steps solved", "signorini resume"]);
+    let rest = run(folder.path(), &["run", "case.toml", "--resume"]);
+    rest.says(0, &["solved: 7 increments"]);
+    assert!(!rest.err.contains(" press "), "{}", rest.err);
+    let all = run(
+        folder.path(),
+        &["run", "case.toml", "--steps", "press,lift"],
+    );
+    all.says(0, &["✓ solved: 7 increments"]);
+}
+
+#[test]
+fn a_run_that_is_to_be_resumed_starts_where_there_is_nothing_to_go_on_from() {
+    let folder = folder_with(&brick_in(4));
+    let resumed = || run(folder.path(), &["run", "case.toml", "--resume"]);
+    resumed().says(
+        0,
+        &["no checkpoint of this case in", "✓ solved: 4 increments"],
+    );
+    resumed().says(0, &["nothing is left to do"]);
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, brick_in(5)).unwrap();
+    resumed().says(7, &["the case has changed since", "--fresh"]);
+    run(folder.path(), &["run", "case.toml", "--resume", "--fresh"]).says(2, &[]);
+}

@@ -26,6 +26,9 @@ use signorini_mechanics::system::ArchiveError;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// The script that shows results in ParaView.
+const VIEW: &str = include_str!("view.py");
+
 /// Solves a model; everything that happens goes to files and to the listener.
 ///
 /// Never fails in another way than by the exit code and the messages of what it returns.
@@ -145,6 +148,7 @@ fn setting(
         checkpoint_increments: checkpoint.increments,
         checkpoint_wall: checkpoint.wall.map(Duration::from_secs_f64),
         limits: options.limits.clone(),
+        first_steps: options.steps.filter(|n| *n < model.steps.len()),
         has_contact: !model.contacts.is_empty(),
     };
     (setting, expectations)
@@ -202,11 +206,19 @@ impl Run<'_, '_> {
         self.close(ending, found, facts.nunknown, solving)
     }
 
+    /// Writes what was really run, and a script that shows the results.
     fn write_resolved(&mut self) {
         let text = case::resolved(&self.model.case, vocabulary());
-        let path = self.recorder.setting.tree.path("case.resolved.toml");
-        let fs = &self.recorder.setting.fs;
-        if let Err(error) = fs.write_atomic(&path, text.as_bytes()) {
+        let setting = &self.recorder.setting;
+        let write = |name: &str, text: &str| {
+            let path = setting.tree.path(name);
+            setting.fs.write_atomic(&path, text.as_bytes())
+        };
+        let mut written = write("case.resolved.toml", &text);
+        if setting.has_vtu && written.is_ok() {
+            written = write("view.py", VIEW);
+        }
+        if let Err(error) = written {
             self.recorder.error.get_or_insert(error.into());
         }
     }
@@ -247,7 +259,10 @@ impl Run<'_, '_> {
             self.linear += stepper.take_linear_seconds();
             match outcome {
                 Ok(Outcome::Finished) => return Ok(Ending::Solved),
-                Ok(Outcome::Stopped) => due = self.recorder.is_due(),
+                Ok(Outcome::Stopped) => {
+                    // the rest goes on from the end of the steps that were asked for
+                    due = self.recorder.is_due() || self.recorder.stop == Some(Stop::Steps);
+                }
                 Err(error) => return Ok(self.failed(&error, &stepper)),
             }
         }

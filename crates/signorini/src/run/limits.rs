@@ -22,11 +22,13 @@ pub enum Stop {
     Time,
     /// Who listens wants no more.
     Listener,
+    /// The steps that were asked for are done.
+    Steps,
 }
 
 impl Stop {
     /// All statuses that [`Stop::status`] gives.
-    pub const STATUSES: [&str; 2] = ["interrupted", "time limit reached"];
+    pub const STATUSES: [&str; 3] = ["interrupted", "time limit reached", "first steps solved"];
 
     /// The exit code of the program.
     #[must_use]
@@ -35,16 +37,18 @@ impl Stop {
             Self::Signal(number) => u8::try_from(128 + number).unwrap_or(130),
             Self::Time => 8,
             Self::Listener => 130,
+            Self::Steps => 0,
         }
     }
 
     /// The status in the summary.
     #[must_use]
     pub const fn status(self) -> &'static str {
-        let [interrupted, late] = Self::STATUSES;
+        let [interrupted, late, first] = Self::STATUSES;
         match self {
             Self::Signal(_) | Self::Listener => interrupted,
             Self::Time => late,
+            Self::Steps => first,
         }
     }
 }

@@ -122,6 +122,8 @@ pub struct RunOptions {
     pub fresh: bool,
     /// Go on from the last checkpoint in the folder.
     pub resume: bool,
+    /// Stop behind this many steps, resumable; all of them where there are no more.
+    pub steps: Option<usize>,
     /// Whether a run whose audit finds something wrong ends with exit code 1.
     pub strict: bool,
     /// What was unusual when the case was read.
@@ -146,6 +148,7 @@ impl RunOptions {
             own: Own::default(),
             fresh: false,
             resume: false,
+            steps: None,
             strict: false,
             warnings: Diagnostics::default(),
             limits: Limits::default(),

@@ -79,6 +79,14 @@ pub struct Effort {
     pub worst: Option<String>,
     /// Closed contact points at its end.
     pub closed: usize,
+    /// Linear solves, those of failed attempts too.
+    pub solves: u64,
+    /// Whether multigrid takes part in them.
+    pub multigrid: bool,
+    /// Iterations of the linear solver in them; those of a direct solution improve it.
+    pub linear_iterations: u64,
+    /// Whether iterations gave way to a direct solution.
+    pub gave_way: bool,
 }
 
 /// How a run ended.
@@ -167,6 +175,11 @@ pub fn event_of(finding: &Diagnostic) -> Event {
         file: place.as_ref().map(|(file, ..)| file.clone()),
         line: place.as_ref().map(|(_, line, _)| *line),
         column: place.map(|(.., column)| column),
+        label: label
+            .map(|label| label.text.clone())
+            .filter(|text| !text.is_empty()),
+        notes: finding.notes.clone(),
+        help: finding.help.clone(),
     }
 }
 

@@ -3,7 +3,7 @@
 //! ```text
 //! hertz.out/
 //!   results.pvd  contact.pvd  frames/  hertz.frd  history.csv  convergence.csv  hertz.sta  hertz.dat
-//!   run.log  events.jsonl  summary.json  case.resolved.toml
+//!   run.log  events.jsonl  summary.json  case.resolved.toml  view.py
 //!   checkpoint/   a.sgc b.sgc   the state, in turns
 //!                 case.toml     the case as it was read
 //!                 run.json      where it came from: whose folder this is

@@ -8,7 +8,7 @@ use crate::run::error::OutputError;
 use crate::run::expectations::Expectations;
 use crate::run::idle::Idle;
 use crate::run::narration::Narrator;
-use crate::run::news::Listener;
+use crate::run::news::{Effort, Listener};
 use signorini_io::checkpoint::{Archive, Checkpoints};
 use signorini_io::writers::csv::{CONVERGENCE_COLUMNS, Table};
 use signorini_io::writers::dat;
@@ -228,6 +228,8 @@ impl Opened {
             judged: 0,
             last_flips: 0,
             worst: None,
+            linear: Effort::default(),
+            multigrid: false,
             setting: self.setting,
             files: self.files,
             results: self.results,

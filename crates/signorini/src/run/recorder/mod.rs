@@ -22,7 +22,7 @@ use crate::run::history::History;
 use crate::run::idle::Idle;
 use crate::run::limits::{Limits, Stop};
 use crate::run::narration::{Level, Narrator};
-use crate::run::news::{Detail, Facts, Listener, News};
+use crate::run::news::{Detail, Effort, Facts, Listener, News};
 use crate::run::tables::Tables;
 use crate::run::tree::Tree;
 use crate::run::volume::Volume;
@@ -34,7 +34,9 @@ use signorini_io::diagnostic::Diagnostics;
 use signorini_io::fs::Fs;
 use signorini_io::writers::json::{ContactSummary, Event, StepSummary};
 use signorini_io::writers::pvd::Pvd;
-use signorini_mechanics::solve::{Event as Happening, Flow, Observer, Step, Stepper};
+use signorini_mechanics::solve::{
+    Event as Happening, Flow, IncrementRecord, Observer, Step, Stepper,
+};
 use signorini_mechanics::system::{Dof, Frame, Layout, System};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -60,6 +62,8 @@ pub struct Setting {
     pub checkpoint_increments: Option<u64>,
     pub checkpoint_wall: Option<Duration>,
     pub limits: Limits,
+    /// The steps behind which to stop, where there are more.
+    pub first_steps: Option<usize>,
     /// Whether there is a contact to write frames of.
     pub has_contact: bool,
 }
@@ -136,6 +140,10 @@ pub struct Recorder<'l> {
     judged: usize,
     last_flips: usize,
     worst: Option<Dof>,
+    /// What the linear solver did since the last increment.
+    linear: Effort,
+    /// Whether multigrid has made a hierarchy.
+    multigrid: bool,
     time: f64,
     step_time: f64,
 }
@@ -151,6 +159,7 @@ impl Recorder<'_> {
             nodes: facts.nnode as u64,
             elements: facts.cells.iter().map(|(_, n)| *n as u64).sum(),
             unknowns: facts.nunknown as u64,
+            duration: facts.duration,
         };
         self.tell(&event, Detail::Start(facts));
         for finding in findings {
@@ -302,6 +311,12 @@ impl Recorder<'_> {
         }
     }
 
+    /// Whether an increment is the last one of the steps that were asked for.
+    fn is_behind_steps(&self, record: &IncrementRecord) -> bool {
+        let (time, duration) = record.step_time;
+        self.setting.first_steps == Some(record.step + 1) && time >= duration
+    }
+
     fn step_name(&self, step: usize) -> String {
         let step = self.setting.steps.get(step);
         step.map_or_else(String::new, |s| s.name.clone())
@@ -349,6 +364,9 @@ impl Observer for Recorder<'_> {
             } => self.solver(*step, *increment, note),
             Happening::Increment { record, frame } => {
                 self.increment(record, frame);
+                if self.is_behind_steps(record) {
+                    self.stop.get_or_insert(Stop::Steps);
+                }
                 if self.is_due() {
                     self.stop = self.stop.or_else(|| self.setting.limits.reached());
                     return Flow::Stop;

@@ -19,6 +19,8 @@ impl Recorder<'_> {
         } else if record.iteration != self.judged {
             self.iterations += 1;
             self.flips += u64::from(record.flips > 0);
+            self.linear.solves += 1;
+            self.linear.linear_iterations += record.linear_iterations as u64;
             if let Some(step) = self.counts.steps.get_mut(record.step) {
                 step.iterations += 1;
                 step.linear_iterations += record.linear_iterations as u64;
@@ -123,6 +125,10 @@ impl Recorder<'_> {
     pub(super) fn solver(&mut self, step: usize, increment: usize, note: &Note) {
         if let (Note::Direct { .. }, Some(counts)) = (note, self.counts.steps.get_mut(step)) {
             counts.fallbacks += 1;
+            self.linear.gave_way = true;
+        }
+        if matches!(note, Note::Hierarchy { .. } | Note::Factor { .. }) {
+            self.multigrid = true;
         }
         let event = Event::Solver {
             step: self.step_name(step),
@@ -211,6 +217,8 @@ impl Recorder<'_> {
         let effort = Effort {
             worst: self.worst_in_words(record),
             closed: frame.contacts.iter().map(|c| c.nclosed()).sum(),
+            multigrid: self.multigrid,
+            ..std::mem::take(&mut self.linear)
         };
         self.tell(&event, Detail::Increment(record, frame, &effort));
         let from = self.time;

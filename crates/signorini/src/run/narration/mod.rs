@@ -4,18 +4,20 @@
 //! hertz  577 nodes · 1 855 tet4 · 1 pair  ·  2 threads
 //! ✓ read 0.02 s   ✓ built 0.01 s: 1 203 unknowns · 93 candidate nodes, smallest gap 0.000 mm
 //!   against locking: block: b-bar
-//!  step        inc  att   time    iter  contact  residual   worst                     p_max     F
-//!  press         5    1  0.950       9       41  8.8e-07    2 flips n214               37.9     23.8   ← slow
+//!  step          inc  att      time  iter  contact  residual    linear worst                  p_max         F
+//!  press           5    1     0.950     9       41    8.8e-7    direct 2 flips n214            37.9      23.8  ← slow
 //! ✓ solved: 6 increments, 31 iterations, 0 cut-backs, 3.4 s   → hertz.out/results.pvd
 //!   expect ball-block.pressure_max  38.12  (38.80 ± 3 %)  ✓
 //! ```
 
-use super::news::{Detail, Effort, Facts, News, SLOW, Totals};
+mod table;
+
+use super::limits::Stop;
+use super::news::{Detail, Facts, News, SLOW, Totals};
 use crate::text::{count, plural, short};
 use signorini_io::diagnostic::{Diagnostics, Severity};
 use signorini_io::writers::json::Event;
-use signorini_mechanics::solve::{IncrementRecord, IterationRecord};
-use signorini_mechanics::system::Frame;
+use signorini_mechanics::solve::IterationRecord;
 
 /// How much a line matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,14 +39,33 @@ pub struct Line {
     pub level: Level,
 }
 
+/// What the lines are for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Page {
+    /// Characters in a line: the table has columns that fit. Sentences are not broken.
+    pub width: usize,
+}
+
+impl Default for Page {
+    fn default() -> Self {
+        Self { width: 120 }
+    }
+}
+
 /// Puts news into words; remembers what has been said before.
 #[derive(Clone, Debug, Default)]
 pub struct Narrator {
-    headed: bool,
+    page: Page,
+    headed: Option<Page>,
     step: String,
 }
 
 impl Narrator {
+    /// From now on, the lines are for another page: the table begins again with its head where its columns change.
+    pub fn turn_to(&mut self, page: Page) {
+        self.page = page;
+    }
+
     /// The lines for one piece of news; there may be none.
     pub fn lines(&mut self, news: &News<'_>) -> Vec<Line> {
         let normal = |text: String| vec![line(text, Level::Normal)];
@@ -65,7 +86,16 @@ impl Narrator {
             (Event::Increment { step, .. }, Detail::Increment(record, frame, effort)) => {
                 self.step.clone_from(step);
                 let mut lines = self.head();
-                lines.push(line(increment(step, record, frame, effort), Level::Normal));
+                let row = table::increment(self.page, step, record, frame, effort);
+                lines.push(line(row, Level::Normal));
+                if record.iterations >= SLOW
+                    && let Some(worst) = &effort.worst
+                    && !table::head(self.page).contains("worst")
+                {
+                    let start = table::beginning(self.page, step, record.increment as u64, 1);
+                    let start = " ".repeat(start.chars().count());
+                    lines.push(line(format!("{start} slow: {worst}"), Level::Normal));
+                }
                 lines
             }
             (
@@ -76,7 +106,7 @@ impl Narrator {
                 _,
             ) => {
                 let mut lines = self.head();
-                lines.extend(remedy(news.event).map(|text| line(text, Level::Normal)));
+                lines.extend(remedy(self.page, news.event).map(|text| line(text, Level::Normal)));
                 lines
             }
             (Event::Solver { note, .. }, _) => {
@@ -93,12 +123,19 @@ impl Narrator {
                     ok,
                 },
                 Detail::Expectation(tolerance),
-            ) => normal(format!(
-                "  expect {what}  {}  ({} {tolerance})  {}",
-                digits(*got),
-                digits(*value),
-                if *ok { "✓" } else { "✗" }
-            )),
+            ) => {
+                let sign = if *ok { "✓" } else { "✗" };
+                let name = format!("  expect {what}");
+                let found = format!("{}  ({} {tolerance})  {sign}", digits(*got), digits(*value));
+                let whole = format!("{name}  {found}");
+                match whole.chars().count() < self.page.width {
+                    true => normal(whole),
+                    false => [name, format!("    {found}")]
+                        .into_iter()
+                        .flat_map(normal)
+                        .collect(),
+                }
+            }
             (
                 Event::End {
                     status,
@@ -116,16 +153,14 @@ impl Narrator {
         }
     }
 
-    /// The head of the table, once.
+    /// The head of the table, once for each page.
     fn head(&mut self) -> Vec<Line> {
-        if std::mem::replace(&mut self.headed, true) {
+        let head = table::head(self.page);
+        let before = self.headed.replace(self.page);
+        if before.is_some_and(|before| table::head(before) == head) {
             return Vec::new();
         }
-        let text = format!(
-            " {:<12}{:>4}  {:>3}  {:<8}{:>4}  {:>7}  {:<9}  {:<22}{:>9}{:>10}",
-            "step", "inc", "att", "time", "iter", "contact", "residual", "worst", "p_max", "F"
-        );
-        vec![line(text.trim_end().to_owned(), Level::Normal)]
+        vec![line(head, Level::Normal)]
     }
 }
 
@@ -181,7 +216,8 @@ fn iteration(record: &IterationRecord) -> String {
 }
 
 /// What was done where Newton's method failed or nothing resists a motion.
-fn remedy(event: &Event) -> Option<String> {
+fn remedy(page: Page, event: &Event) -> Option<String> {
+    let start = |step: &str, inc: &u64, att: &u64| table::beginning(page, step, *inc, *att);
     Some(match event {
         Event::Cutback {
             step,
@@ -191,8 +227,8 @@ fn remedy(event: &Event) -> Option<String> {
             why,
             ..
         } => {
-            let size = short(*size);
-            format!(" {step:<12}{inc:>4}  {att:>3}  cut to {size}: {why}")
+            let (start, size) = (start(step, inc, att), short(*size));
+            format!("{start}  cut to {size}: {why}")
         }
         Event::Followed {
             step,
@@ -200,7 +236,7 @@ fn remedy(event: &Event) -> Option<String> {
             att,
             parts,
             ..
-        } => format!(" {step:<12}{inc:>4}  {att:>3}  gone through in {parts} parts"),
+        } => format!("{}  gone through in {parts} parts", start(step, inc, att)),
         Event::Stabilized {
             step,
             inc,
@@ -210,6 +246,7 @@ fn remedy(event: &Event) -> Option<String> {
             work_external,
             ..
         } => {
+            let start = start(step, inc, att);
             let part = match 100.0 * work / work_external.abs() {
                 part if part.is_finite() => {
                     format!(", {part:.2} % of that of supports and loads")
@@ -217,8 +254,8 @@ fn remedy(event: &Event) -> Option<String> {
                 _ => String::new(),
             };
             format!(
-                " {step:<12}{inc:>4}  {att:>3}  no equilibrium nearby: led to another by viscous forces, in \
-                 {stages} stages; their work is {work:.3e}{part}"
+                "{start}  no equilibrium nearby: led to another by viscous forces, in {stages} stages; their work is \
+                 {work:.3e}{part}"
             )
         }
         Event::Held { step, at } => {
@@ -228,48 +265,11 @@ fn remedy(event: &Event) -> Option<String> {
             };
             let at = at.join(", ");
             format!(
-                " {step:<12}      warning: nothing resists {motions}, and no load acts there: held at {at}"
+                " {step:<12}  warning: nothing resists {motions}, and no load acts there: held at {at}"
             )
         }
         _ => return None,
     })
-}
-
-fn increment(step: &str, record: &IncrementRecord, frame: &Frame, effort: &Effort) -> String {
-    let pressure = frame
-        .contacts
-        .iter()
-        .map(|c| c.pressure_max)
-        .fold(0.0, f64::max);
-    let force = frame.contacts.iter().map(|c| c.secondary.force.norm());
-    let force = force.fold(0.0, f64::max);
-    let text = format!(
-        " {step:<12}{:>4}  {:>3}  {:<8}{:>4}  {:>7}  {:<9}  {:<22}{:>9}{:>10}{}",
-        record.increment,
-        record.attempts,
-        time(record.time),
-        record.iterations,
-        effort.closed,
-        format!("{:.1e}", record.residual),
-        effort.worst.as_deref().unwrap_or("—"),
-        short(pressure),
-        short(force),
-        if record.iterations >= SLOW {
-            "   ← slow"
-        } else {
-            ""
-        }
-    );
-    text.trim_end().to_owned()
-}
-
-/// A time with three decimals, or more where they are needed to distinguish small ones.
-fn time(time: f64) -> String {
-    if time != 0.0 && !(0.01..1e4).contains(&time.abs()) {
-        format!("{time:.2e}")
-    } else {
-        format!("{time:.3}")
-    }
 }
 
 /// A value with seven digits, less the zeros at its end.
@@ -303,8 +303,9 @@ fn end(status: &str, exit_code: u8, seconds: f64, totals: &Totals) -> String {
         plural(totals.cutbacks as usize, "cut-back"),
     );
     let folder = &totals.folder;
+    let goes_on = Stop::STATUSES.contains(&status);
     match exit_code {
-        0 | 1 => format!("{sign} {status}: {effort}   → {folder}/results.pvd"),
+        0 | 1 if !goes_on => format!("{sign} {status}: {effort}   → {folder}/results.pvd"),
         _ if totals.increments > 0 => {
             format!(
                 "{sign} {status}: {effort}   → {folder}/results.pvd, go on with: signorini resume {folder}"
