@@ -11,11 +11,15 @@
 mod colour;
 mod error;
 pub mod fields;
+mod pack;
+mod page;
 mod picture;
 pub mod results;
 pub mod skin;
 pub mod table;
 mod text;
+mod view;
 
 pub use error::ReportError;
+pub use page::{PageOptions, check_page, page};
 pub use picture::{PictureOptions, names, picture};
