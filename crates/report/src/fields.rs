@@ -17,6 +17,15 @@ pub const DISPLACEMENT: &str = "displacement";
 /// The status of contact: 0 open, 1 stick, 2 slip.
 pub const STATUS: &str = "contact_status";
 
+/// The fields that are shown first, and as long as any are.
+pub const MAIN: [&str; 5] = [
+    DISPLACEMENT,
+    "von_mises",
+    "contact_pressure",
+    STATUS,
+    "contact_gap",
+];
+
 /// An array of a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {

@@ -22,4 +22,4 @@ mod view;
 
 pub use error::ReportError;
 pub use page::{PageOptions, check_page, page};
-pub use picture::{PictureOptions, names, picture};
+pub use picture::{PictureOptions, main_fields, names, picture};

@@ -4,7 +4,7 @@
 //! left out is said in [`View::notes`].
 
 use crate::error::ReportError;
-use crate::fields::{self, DISPLACEMENT, Field, Sites};
+use crate::fields::{self, Field, MAIN, Sites};
 use crate::pack::Chunk;
 use crate::results::{Frame, Results};
 use crate::skin::Skin;
@@ -19,15 +19,6 @@ const FRAMES_MOST: usize = 80;
 
 /// More triangles than these are slow in a browser.
 const TRIANGLES_MOST: usize = 260_000;
-
-/// The fields that are shown as long as anything is.
-const MAIN: [&str; 5] = [
-    DISPLACEMENT,
-    "von_mises",
-    "contact_pressure",
-    "contact_status",
-    "contact_gap",
-];
 
 /// Bytes of base64 per byte of numbers, at worst: of reals with four bytes, and in steps of two.
 const RATIO_F32: f64 = 1.25;

@@ -7,6 +7,9 @@ use maud::{Markup, html};
 use signorini_io::vtk::Vtu;
 use signorini_io::writers::json::ContactSummary;
 
+/// Penetrations below this part of the size of an element are rounding.
+const ROUNDING: f64 = 1e-10;
+
 /// The section; `end` is the last frame and `start` the first.
 pub fn section(results: &Results, start: Option<&Frame>, end: Option<&Frame>) -> Markup {
     let names = names(results);
@@ -168,6 +171,9 @@ fn at_end(results: &Results, name: &str, contact: &ContactSummary, sites: &Sites
         }
     };
     let penetration = match sites.size {
+        Some(size) if contact.gap_min < 0.0 && -contact.gap_min < ROUNDING * size => {
+            "no penetration but rounding".to_owned()
+        }
         Some(size) if contact.gap_min < 0.0 => format!(
             "{} % of the mean element size {}",
             short(-100.0 * contact.gap_min / size, 3),

@@ -166,9 +166,13 @@ fn contact(contact: &Table) -> String {
     let enforcement = contact.get("enforcement");
     let kind = match enforcement {
         Some(Value::Table(table)) => {
-            let one = |(key, value): (&String, &Value)| match plain(value).as_str() {
-                "" => key.clone(),
-                value => format!("{key} {value}"),
+            let one = |(key, value): (&String, &Value)| {
+                let key = if key == "lagrange" {
+                    "Lagrange multipliers"
+                } else {
+                    key
+                };
+                format!("{key} {}", plain(value)).trim_end().to_owned()
             };
             table.iter().map(one).collect::<Vec<String>>().join(", ")
         }

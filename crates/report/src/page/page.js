@@ -135,11 +135,11 @@
     plot("plot-size", [line(time, sizes, "increment", false, LINES[0]),
       { x: cuts.map((cut) => cut.time), y: cuts.map((cut) => cut.size), text: cuts.map((cut) => cut.why), name: "cut-back", type: "scatter",
         mode: "markers", marker: { symbol: "x", size: 10, color: LINES[1] } }],
-    layout("Size of increments", "time", "size", { yaxis: { type: "log", exponentformat: "power", dtick: 1 } }));
-    plot("plot-iterations", [{ x: time, y: own.iterations?.values ?? [], width: sizes.map((s) => 0.9 * s), type: "bar", marker: { color: LINES[0] } }],
+    layout("Size of increments", "time", "size", { yaxis: Math.max(...sizes) > 20 * Math.min(...sizes) ? { type: "log", exponentformat: "power", dtick: 1 } : { rangemode: "tozero" } }));
+    plot("plot-iterations", [{ x: time.map((t, k) => t - 0.5 * sizes[k]), y: own.iterations?.values ?? [], width: sizes.map((s) => 0.9 * s), type: "bar", marker: { color: LINES[0] } }],
       layout("Iterations of each increment", "time", "iterations"));
     // residuals: one line per attempt
-    const n = c.residual.length, number = [...Array(n).keys()];
+    const n = c.residual.length, number = Array.from({ length: n }, (_, k) => k + 1);
     const x = [], y = [], text = [], hue = [];
     for (let k = 0; k < n; k++) {
       if (k && c.iteration[k] <= c.iteration[k - 1]) { x.push(null); y.push(null); text.push(""); hue.push(0); }
@@ -149,11 +149,11 @@
     }
     const drawn = plot("plot-residual", [{ x, y, text, type: "scatter", mode: "lines+markers", line: { width: 1, color: "#9fb3c8" },
       marker: { size: 5, color: hue.map((attempt) => (attempt > 1 ? LINES[1] : LINES[0])) }, hovertemplate: "%{text}<br>%{y:.3e}<extra></extra>" }],
-    layout("Residual of every iteration (red: repeated attempts)", "iteration of the run", "relative to the force scale",
+    layout("Residual of every iteration (red: repeated attempts; click a point to see its worst node)", "iteration of the run", "relative to the force scale",
       { yaxis: { type: "log", exponentformat: "power" } }));
     drawn?.then((place) => place.on("plotly_click", (event) => {
-      const worst = c.worst[event.points[0].x];
-      if (worst !== null) { showNode(worst); element("view").scrollIntoView(); }
+      const worst = c.worst[event.points[0].x - 1];
+      if (worst ?? false) { showNode(worst); element("view").scrollIntoView(); }
     }));
     plot("plot-flips", [
       { x: number, y: c.flips, name: "changes of status", type: "bar", marker: { color: LINES[3] } },
@@ -237,17 +237,28 @@
         for (let k = 0; k < 3; k++) for (const x of at[k]) { if (x < low[k]) low[k] = x; if (x > high[k]) high[k] = x; }
       }
       const size = Math.max(...[0, 1, 2].map((k) => high[k] - low[k])) || 1;
-      return [0, 1, 2].map((k) => { const least = 0.001 * size, middle = 0.5 * (low[k] + high[k]), half = Math.max(0.5 * (high[k] - low[k]), least); return [middle - 1.02 * half, middle + 1.02 * half]; });
+      return [0, 1, 2].map((k) => { const least = 0.02 * size, middle = 0.5 * (low[k] + high[k]), half = Math.max(0.5 * (high[k] - low[k]), least); return [middle - 1.02 * half, middle + 1.02 * half]; });
     };
     let ranges = await box();
-    const ratio = () => { const sizes = ranges.map(([a, b]) => b - a), most = Math.max(...sizes); return { x: sizes[0] / most, y: sizes[1] / most, z: sizes[2] / most }; };
+    // as large as the picture lets it be: about two units are visible from top to bottom
+    const ratio = () => {
+      const sizes = ranges.map(([a, b]) => b - a), { eye, up } = view();
+      const length = Math.hypot(eye.x, eye.y, eye.z), d = [eye.x / length, eye.y / length, eye.z / length], u = [up.x, up.y, up.z];
+      const cross = (p, q) => [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+      let right = cross(u, d);
+      right = right.map((x) => x / (Math.hypot(...right) || 1));
+      const extent = (axis) => axis.reduce((sum, x, k) => sum + Math.abs(x) * sizes[k], 0);
+      const place = element("scene"), wide = 0.7 * 2.03 * place.clientWidth / (place.clientHeight || 1);
+      const f = Math.min(wide / extent(right), 1.78 / extent(cross(d, right)));
+      return { x: f * sizes[0], y: f * sizes[1], z: f * sizes[2] };
+    };
     const view = () => {
       if (v.plane) return { eye: { x: 0, y: 0, z: 2 }, up: { x: 0, y: 1, z: 0 }, center: { x: 0, y: 0, z: 0 }, projection: { type: "orthographic" } };
       return { eye: { x: -0.85, y: -1.25, z: 0.8 }, up: { x: 0, y: 0, z: 1 }, center: { x: 0, y: 0, z: 0 }, projection: { type: "orthographic" } };
     };
     let camera = view();
 
-    const light = { ambient: v.plane ? 1 : 0.62, diffuse: v.plane ? 0 : 0.45, specular: 0.03, roughness: 0.9, facenormalsepsilon: 0, vertexnormalsepsilon: 0 };
+    const light = { ambient: v.plane ? 1 : 0.78, diffuse: v.plane ? 0 : 0.4, specular: 0.03, roughness: 0.9, facenormalsepsilon: 0, vertexnormalsepsilon: 0 };
     const draw = async () => {
       const [name, which] = choice.value.split("|"), field = fields[name], component = Number(which), frame = state.frame;
       const [at, all] = await Promise.all([positions(frame), field ? numbers(field, frame) : []]);
@@ -281,10 +292,22 @@
       if (coloured.length) traces.push({ ...mesh, ...some(coloured), intensity: field.cells ? coloured.map((t) => values[t]) : values.map((x) => (x === x ? x : low)),
         intensitymode: field.cells ? "cell" : "vertex", showscale: true, ...colors });
       if (grey.length && show !== "contact") traces.push({ ...mesh, ...some(grey), color: show === "ghost" ? "#b9c1cc" : "#d4d8de", opacity: show === "ghost" ? 0.18 : 1 });
+      // lines lie a little outside of the surface, or it would hide them
+      const lift = [0, 1, 2].map((k) => at[k].slice()), step = 0.0015 * Math.max(...ranges.map(([a, b]) => b - a));
+      if (v.plane) { for (let i = 0; i < n; i++) lift[2][i] += 6 * step; } else if (edgesBox.checked) {
+        const normal = [new Float64Array(n), new Float64Array(n), new Float64Array(n)];
+        for (let t = 0; t < nt; t++) {
+          const [a, b, c] = [corner[0][t], corner[1][t], corner[2][t]];
+          const d = [0, 1, 2].map((k) => at[k][b] - at[k][a]), e = [0, 1, 2].map((k) => at[k][c] - at[k][a]);
+          const cross = [d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]], size = Math.hypot(...cross) || 1;
+          for (const i of [a, b, c]) for (let k = 0; k < 3; k++) normal[k][i] += cross[k] / size;
+        }
+        for (let i = 0; i < n; i++) { const size = Math.hypot(normal[0][i], normal[1][i], normal[2][i]) || 1; for (let k = 0; k < 3; k++) lift[k][i] += step * normal[k][i] / size; }
+      }
       const strokes = (pairs, more) => {
         const x = [], y = [], z = [], node = [];
         for (let e = 0; e < pairs.length; e += 2) {
-          for (const i of [pairs[e], pairs[e + 1]]) { x.push(at[0][i]); y.push(at[1][i]); z.push(at[2][i]); node.push(i); }
+          for (const i of [pairs[e], pairs[e + 1]]) { x.push(lift[0][i]); y.push(lift[1][i]); z.push(lift[2][i]); node.push(i); }
           x.push(null); y.push(null); z.push(null); node.push(-1);
         }
         return { trace: { type: "scatter3d", mode: "lines", x, y, z, hoverinfo: "none", showlegend: false, ...more(node) }, node };
@@ -296,7 +319,7 @@
           for (let t = 0; t < nt; t++) if (seen(t)) for (let k = 0; k < 3; k++) visible[corner[k][t]] = 1;
           drawn = Array.from({ length: edges.length / 2 }, (_, e) => e).filter((e) => visible[edges[2 * e]] && visible[edges[2 * e + 1]]).flatMap((e) => [edges[2 * e], edges[2 * e + 1]]);
         }
-        traces.push(strokes(drawn, () => ({ line: { color: "rgba(25,30,38,0.55)", width: 1 } })).trace);
+        traces.push(strokes(drawn, () => ({ line: { color: "#6c7484", width: 1 } })).trace);
       }
       const onLines = (pairs, width) => traces.push({ ...strokes(pairs, (node) => ({ line: { width, color: node.map((i) => (i < 0 ? low : values[i])), ...colors, showscale: !coloured.length } })).trace });
       if (segments.length && field && !field.cells) onLines(segments, 6);

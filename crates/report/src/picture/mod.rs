@@ -14,7 +14,7 @@ mod raster;
 
 use crate::colour;
 use crate::error::ReportError;
-use crate::fields::{self, DISPLACEMENT, Field, STATUS, Sites};
+use crate::fields::{self, DISPLACEMENT, Field, MAIN, STATUS, Sites};
 use crate::results::{Frame, Results};
 use crate::skin::Skin;
 use crate::text::{short, unit};
@@ -114,6 +114,22 @@ pub fn names(fields: &[Field]) -> Vec<String> {
         names.extend(components.map(|component| format!("{}.{component}", field.name)));
     }
     names
+}
+
+/// The fields that are drawn where nothing else is asked for, as far as a frame of the folder has them.
+///
+/// # Errors
+/// A folder that holds no results, no frames or no such frame; a frame that cannot be read.
+pub fn main_fields(
+    fs: &dyn Fs,
+    folder: &Path,
+    frame: Option<usize>,
+) -> Result<Vec<String>, ReportError> {
+    let results = Results::read(fs, folder)?;
+    let number = frame.unwrap_or(results.frames.len().saturating_sub(1));
+    let names = names(&fields::fields(&results.frame(fs, number)?));
+    let main = MAIN.iter().map(ToString::to_string);
+    Ok(main.filter(|name| names.contains(name)).collect())
 }
 
 /// A frame that is drawn.
