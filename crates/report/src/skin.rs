@@ -53,8 +53,8 @@ impl Skin {
     pub fn of(grid: &Vtu) -> Self {
         let mut faces = Vec::new();
         let mut lines: Vec<Face> = Vec::new();
-        let mut open: HashMap<Vec<usize>, Option<Face>> = HashMap::new();
-        let mut order: Vec<Vec<usize>> = Vec::new();
+        let mut open: HashMap<[usize; 4], Option<Face>> = HashMap::new();
+        let mut order: Vec<[usize; 4]> = Vec::new();
         let mut groups = Groups::new(grid.points.len());
         for (cell, element, nodes) in cells(grid) {
             groups.join(&nodes);
@@ -71,10 +71,8 @@ impl Skin {
                 }),
                 _ => {
                     for face in sides(cell, element, &nodes) {
-                        let mut key = face.nodes.clone();
-                        key.truncate(face.element.ncorner());
-                        key.sort_unstable();
-                        open.entry(key.clone())
+                        let key = corners(&face);
+                        open.entry(key)
                             .and_modify(|place| *place = None)
                             .or_insert_with(|| {
                                 order.push(key);
@@ -194,6 +192,17 @@ fn sides(cell: usize, element: Element, nodes: &[usize]) -> impl Iterator<Item =
             .collect(),
         cell,
     })
+}
+
+/// The corners of a face in the order of their numbers; faces have at most four.
+fn corners(face: &Face) -> [usize; 4] {
+    let mut key = [usize::MAX; 4];
+    let corners = face.nodes.iter().take(face.element.ncorner());
+    key.iter_mut()
+        .zip(corners)
+        .for_each(|(place, node)| *place = *node);
+    key.sort_unstable();
+    key
 }
 
 /// The nodes along an edge, both ends included.

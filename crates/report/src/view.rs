@@ -359,7 +359,7 @@ fn coarser(skin: &Skin, most: usize) -> Skin {
         if coarse.triangles.len() <= most || ncell < 2.0 {
             return coarse;
         }
-        ncell *= 0.8;
+        ncell *= 0.7;
     }
 }
 
