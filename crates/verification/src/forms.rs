@@ -4,7 +4,10 @@ use std::f64::consts::PI;
 
 /// The contact modulus of two bodies, each with modulus and Poisson's ratio; of a rigid one the modulus is infinite.
 pub(crate) fn contact_modulus(bodies: [[f64; 2]; 2]) -> f64 {
-    1.0 / bodies.map(|[e, nu]| (1.0 - nu * nu) / e).iter().sum::<f64>()
+    1.0 / bodies
+        .map(|[e, nu]| (1.0 - nu * nu) / e)
+        .iter()
+        .sum::<f64>()
 }
 
 /// Hertz's contact.
@@ -105,10 +108,7 @@ impl Wall {
     pub(crate) fn tube_in_plane_stress(&self, r: f64) -> [f64; 2] {
         let (mean, part) = self.tube(r);
         let Self { e, nu, .. } = *self;
-        [
-            ((1.0 - nu) * mean + (1.0 + nu) * part) * r / e,
-            mean + part,
-        ]
+        [((1.0 - nu) * mean + (1.0 + nu) * part) * r / e, mean + part]
     }
 
     /// The mean of radial and hoop stress, and half of their difference.
@@ -174,10 +174,10 @@ pub(crate) fn elastica(load: f64) -> [f64; 2] {
     let h = 1.0 / N as f64;
     // angle and its change along the length, from the clamped end; then the two coordinates
     let march = |curvature: f64| {
-        let slope = |[angle, bend, _, _]: [f64; 4]| {
-            [bend, -load * angle.cos(), angle.cos(), angle.sin()]
-        };
-        let step = |y: [f64; 4], d: [f64; 4], part: f64| [0, 1, 2, 3].map(|i| y[i] + part * h * d[i]);
+        let slope =
+            |[angle, bend, _, _]: [f64; 4]| [bend, -load * angle.cos(), angle.cos(), angle.sin()];
+        let step =
+            |y: [f64; 4], d: [f64; 4], part: f64| [0, 1, 2, 3].map(|i| y[i] + part * h * d[i]);
         (0..N).fold([0.0, curvature, 0.0, 0.0], |y, _| {
             let a = slope(y);
             let b = slope(step(y, a, 0.5));
@@ -263,7 +263,11 @@ mod tests {
         let stress = [outer, inner].map(|w| w.tube_in_plane_stress(1.0)[0]);
         near(fit_pressure(0.01, stress[0], stress[1]), 2.343_75, 1e-9);
         let spheres = [outer, inner].map(|w| w.sphere(1.0)[0]);
-        near(fit_pressure(0.01, spheres[0], spheres[1]), 6.089_743_59, 1e-8);
+        near(
+            fit_pressure(0.01, spheres[0], spheres[1]),
+            6.089_743_59,
+            1e-8,
+        );
     }
 
     /// BENCHMARKS 1.3: one block of two equal ones at half of the compression would do; here the stack by its parts.

@@ -292,9 +292,7 @@ fn outer_sides(
 
 /// Equal spaces from `a` to `b`.
 pub(crate) fn even(a: f64, b: f64, n: usize) -> Vec<f64> {
-    (0..=n)
-        .map(|i| a + (b - a) * i as f64 / n as f64)
-        .collect()
+    (0..=n).map(|i| a + (b - a) * i as f64 / n as f64).collect()
 }
 
 /// From 0 on: `n` spaces of size `h`, then spaces that grow by `ratio` up to `end`.
@@ -309,7 +307,9 @@ pub(crate) fn graded(h: f64, n: usize, ratio: f64, end: f64) -> Vec<f64> {
     }
     // the last one ends where it is asked to: all are stretched alike
     let (from, last) = (h * n as f64, x);
-    let stretched = grown.iter().map(|x| from + (x - from) * (end - from) / (last - from));
+    let stretched = grown
+        .iter()
+        .map(|x| from + (x - from) * (end - from) / (last - from));
     at.extend(stretched);
     at
 }
@@ -342,10 +342,22 @@ mod tests {
             grid.block("b", kind, &two[..ndim]);
             assert_eq!((grid.nnode(), grid.ncell()), (nnode, ncell), "{kind}");
             assert_eq!(grid.sets.len(), 2 * ndim, "{kind}");
-            let per_side = if kind.starts_with("t") && ndim == 3 { 8 } else { 0 };
-            let top = &grid.sets.iter().find(|(name, _)| name == "b_top").unwrap().1;
+            let per_side = if kind.starts_with("t") && ndim == 3 {
+                8
+            } else {
+                0
+            };
+            let top = &grid
+                .sets
+                .iter()
+                .find(|(name, _)| name == "b_top")
+                .unwrap()
+                .1;
             let nface = top.matches("\"S").count();
-            assert!(nface == per_side || per_side == 0 && nface >= 2, "{kind}: {top}");
+            assert!(
+                nface == per_side || per_side == 0 && nface >= 2,
+                "{kind}: {top}"
+            );
         }
     }
 

@@ -275,7 +275,11 @@ impl Setup {
     /// The whole case in TOML, which can be run as it is.
     #[must_use]
     pub fn text(&self, title: &str, expectations: Expectations) -> String {
-        let mut out = format!("format = 1\ntitle = {title:?}\n\n{}\n{}\n", self.case.trim(), self.mesh.text());
+        let mut out = format!(
+            "format = 1\ntitle = {title:?}\n\n{}\n{}\n",
+            self.case.trim(),
+            self.mesh.text()
+        );
         for check in &self.checks {
             for ask in &check.asks {
                 let (value, allowed) = match (expectations, check.combine) {

@@ -161,7 +161,10 @@ fn run(
 fn first_line(found: &Diagnostics) -> String {
     let text = found.plain();
     let error = text.lines().find(|line| line.starts_with("error"));
-    error.or_else(|| text.lines().next()).unwrap_or("").to_owned()
+    error
+        .or_else(|| text.lines().next())
+        .unwrap_or("")
+        .to_owned()
 }
 
 /// Runs problems, as many at a time as there are workers, each on one thread; results come in the order of the problems and

@@ -28,6 +28,7 @@ mod stack;
 mod templates;
 mod terminal;
 mod threads;
+mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
@@ -73,6 +74,8 @@ enum Verb {
     Keywords,
     /// Explain the code of a message.
     Explain(explain::Explain),
+    /// Run problems with known answers on this machine and compare.
+    Verify(verify::Verify),
     /// Tell version, machine and threads, and solve something small: for reports of bugs.
     Doctor,
     /// Print completions for a shell.
@@ -110,6 +113,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Verb::Schema => schema::execute(),
             Verb::Keywords => keywords::execute(),
             Verb::Explain(explain) => explain.execute(),
+            Verb::Verify(verify) => verify.execute(),
             Verb::Doctor => doctor::execute(),
             Verb::Completions(completions) => completions.execute(Cli::command()),
         }

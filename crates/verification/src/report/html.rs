@@ -49,7 +49,11 @@ pub fn html(judged: &[Judged], seconds: f64) -> String {
             name = escaped(one.problem.name),
         );
         if let Some(why) = &one.solved.failure {
-            let _ = writeln!(out, "<tr><td colspan=\"8\" class=\"no\">{}</td></tr>", escaped(why));
+            let _ = writeln!(
+                out,
+                "<tr><td colspan=\"8\" class=\"no\">{}</td></tr>",
+                escaped(why)
+            );
         }
         for row in one.rows() {
             let check = row.check;

@@ -7,11 +7,6 @@ use signorini_io::fs::{Fs, FsError};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Why a manual was not written.
-#[derive(Debug, thiserror::Error)]
-#[error(transparent)]
-pub struct ManualError(#[from] pub FsError);
-
 /// Makes the picture of a problem, a PNG; none where it has none.
 pub type Draw<'a> = &'a dyn Fn(&Judged) -> Option<Vec<u8>>;
 
@@ -25,7 +20,7 @@ pub fn manual(
     folder: &Path,
     judged: &[Judged],
     draw: Draw<'_>,
-) -> Result<(), ManualError> {
+) -> Result<(), FsError> {
     fs.create_dir_all(folder)?;
     for one in judged {
         let name = one.problem.name;
@@ -50,11 +45,22 @@ fn index(judged: &[Judged]) -> String {
         signorini::VERSION
     );
     for one in judged {
-        let used = one.rows().into_iter().map(|row| {
-            row.check.difference(row.value).abs() / row.check.tolerance.part()
+        let used = one
+            .rows()
+            .into_iter()
+            .map(|row| row.check.difference(row.value).abs() / row.check.tolerance.part());
+        let used = used.fold(0.0, |most: f64, part| {
+            if part.is_nan() {
+                f64::NAN
+            } else {
+                most.max(part)
+            }
         });
-        let used = used.fold(0.0, |most: f64, part| if part.is_nan() { f64::NAN } else { most.max(part) });
-        let used = if used.is_finite() { format!("{:.2}", used) } else { "-".to_owned() };
+        let used = if used.is_finite() {
+            format!("{:.2}", used)
+        } else {
+            "-".to_owned()
+        };
         // writing to a string does not fail
         let _ = writeln!(
             out,
@@ -119,7 +125,9 @@ fn page(judged: &Judged, has_picture: bool) -> String {
 /// All problems as a Markdown table: name, title, source, labels, tolerances, whether it is quick.
 #[must_use]
 pub fn list(problems: &[Problem]) -> String {
-    let mut out = String::from("| problem | what | source | label | allowed | quick |\n|---|---|---|---|---|---|\n");
+    let mut out = String::from(
+        "| problem | what | source | label | allowed | quick |\n|---|---|---|---|---|---|\n",
+    );
     for problem in problems {
         let checks = problem.setup().checks;
         let mut labels: Vec<&str> = checks.iter().map(|check| check.kind.label()).collect();

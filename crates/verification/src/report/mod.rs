@@ -14,7 +14,7 @@ mod terminal;
 
 pub use html::html;
 pub use json::json;
-pub use manual::{ManualError, list, manual};
+pub use manual::{Draw, list, manual};
 pub use terminal::{Signs, ending, head, problem};
 
 use crate::problem::{Check, Tolerance};

@@ -27,7 +27,10 @@ impl Signs {
     fn text(self, text: &str) -> String {
         match self {
             Self::Unicode => text.to_owned(),
-            Self::Ascii => text.chars().map(|c| if c.is_ascii() { c } else { '?' }).collect(),
+            Self::Ascii => text
+                .chars()
+                .map(|c| if c.is_ascii() { c } else { '?' })
+                .collect(),
         }
     }
 }

@@ -1,33 +1,16 @@
-//! Hertz in its forms, rigid punches, Cattaneo and Mindlin, a pin in its hole.
+//! Hertz in its forms, Cattaneo and Mindlin.
 //!
 //! Bodies are graded rectangles that reach 40 half-widths of the contact and more. What such an end changes bends the surface
 //! at the contact by the square of their ratio only, so that loads, not motions, are prescribed and compared; stresses
 //! below it, which change with the ratio itself, need more. A round side is Hertz's parabola.
 
-use crate::forms::{
-    cattaneo_work, contact_modulus, hertz_line, hertz_line_axis, hertz_point, persson,
-};
+use crate::forms::{cattaneo_work, contact_modulus, hertz_line, hertz_line_axis, hertz_point};
 use crate::mesh::{Grid, Lines, Point, even, graded, mirrored};
 use crate::problem::{Check, Problem, Setup, fill};
 use std::f64::consts::PI;
 
-/// Modulus and Poisson's ratio of all bodies here (MPa).
-const MATERIAL: [f64; 2] = [1000.0, 0.3];
-const RIGID: [f64; 2] = [f64::INFINITY, 0.0];
-/// Half-width or radius of the contact, and radius of the round body (mm).
-const A: f64 = 2.0;
-const R: f64 = 100.0;
-
-const POLYMER: &str = r#"
-units = "mm-N-MPa"
-[material.polymer]
-model = "linear-elastic"
-E = 1000.0
-nu = 0.3
-"#;
-
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 13] = [
+pub(super) const PROBLEMS: [Problem; 10] = [
     Problem {
         name: "hertz-cylinder-mortar",
         title: "Hertz: cylinder on block, mortar",
@@ -91,7 +74,7 @@ pub(super) const PROBLEMS: [Problem; 13] = [
         mesh: "12 and 9.5 cells on the radius of contact, graded outwards to 40 radii",
         conditions: "the axis is held along r, the base along the axis; the load acts on the head, which stays level",
         formula: "$p_0 = 3F/(2\\pi a^2)$, $a^3 = 3FR/(4E^*)$",
-        quick: true,
+        quick: false,
         pose: sphere_axisymmetric,
     },
     Problem {
@@ -117,28 +100,6 @@ pub(super) const PROBLEMS: [Problem; 13] = [
         pose: rigid_sphere,
     },
     Problem {
-        name: "flat-punch-2d",
-        title: "A rigid flat punch on a block, plane",
-        source: "K. L. Johnson, Contact Mechanics (1985), equation 2.64",
-        goal: "the pressure below a rigid body with a sharp edge",
-        mesh: "32 cells on the half-width, graded outwards to 40 half-widths",
-        conditions: "plane strain, symmetry at x = 0; the base is held along y, the load acts on the punch",
-        formula: "$p(x) = P/(\\pi\\sqrt{a^2 - x^2})$",
-        quick: true,
-        pose: || flat_punch(false),
-    },
-    Problem {
-        name: "flat-punch-axisymmetric",
-        title: "A rigid flat punch on a block, axisymmetric",
-        source: "Boussinesq 1885; K. L. Johnson, Contact Mechanics (1985), equation 3.34",
-        goal: "the pressure below a rigid round punch",
-        mesh: "32 cells on the radius, graded outwards to 40 radii",
-        conditions: "the axis is held along r, the base along the axis; the load acts on the punch",
-        formula: "$p(r) = F/(2\\pi a\\sqrt{a^2 - r^2})$",
-        quick: true,
-        pose: || flat_punch(true),
-    },
-    Problem {
         name: "cattaneo-mindlin",
         title: "Cattaneo and Mindlin: cylinders pressed, then sheared",
         source: "K. L. Johnson, Contact Mechanics (1985), section 7.2; work of slip: integral of μ p times slip over c < |x| < a",
@@ -148,17 +109,6 @@ pub(super) const PROBLEMS: [Problem; 13] = [
         formula: "$c = a\\sqrt{1 - Q/(\\mu P)}$, $W = 2\\int_c^a \\mu p\\, s\\, dx$ with $s(x) = \\frac{2\\mu p_0}{E^* a}\\int_c^x\\sqrt{\\xi^2 - c^2}\\,d\\xi$",
         quick: false,
         pose: cattaneo_mindlin,
-    },
-    Problem {
-        name: "persson-pin",
-        title: "Persson: a pin in a hole of nearly its size",
-        source: "A. Persson, On the Stress Distribution of Cylindrical Elastic Bodies in Contact (Chalmers 1964); closed form: Ciavarella and Decuzzi, Int. J. Solids Struct. 38 (2001) 4507",
-        goal: "conforming contact, where Hertz does not hold: the half-angle of contact is 60 degrees",
-        mesh: "quad8 in polar rows, 1.25 degrees at the contact; the plate reaches 20 radii",
-        conditions: "plane strain, symmetry at x = 0; the outside of the plate is held, the load acts on a small core of the pin",
-        formula: "$\\frac{E_1^*\\Delta R}{Q} = \\frac{2}{\\pi}\\frac{1 - b^2}{b^2} - \\frac{I_b}{\\pi^2 b^2(1 + b^2)}$, $I_b = \\int_{-b}^b \\ln\\frac{\\sqrt{b^2+1}+\\sqrt{b^2-t^2}}{\\sqrt{b^2+1}-\\sqrt{b^2-t^2}}\\frac{dt}{1+t^2}$, $b = \\tan(\\varepsilon/2)$; $p_0 R/Q = \\frac{2b}{\\pi\\sqrt{b^2+1}} + \\frac{1}{2\\pi b^2(1+b^2)}\\ln\\frac{\\sqrt{b^2+1}+b}{\\sqrt{b^2+1}-b}$",
-        quick: false,
-        pose: persson_pin,
     },
     Problem {
         name: "hertz-cylinder-quad8",
@@ -173,10 +123,32 @@ pub(super) const PROBLEMS: [Problem; 13] = [
     },
 ];
 
+/// Modulus and Poisson's ratio of all bodies here (MPa).
+const MATERIAL: [f64; 2] = [1000.0, 0.3];
+
+const RIGID: [f64; 2] = [f64::INFINITY, 0.0];
+
+/// Half-width or radius of the contact, and radius of the round body (mm).
+const A: f64 = 2.0;
+
+const R: f64 = 100.0;
+
+const POLYMER: &str = r#"
+units = "mm-N-MPa"
+[material.polymer]
+model = "linear-elastic"
+E = 1000.0
+nu = 0.3
+"#;
+
 const P0: &str = "largest pressure";
+
 const WIDTH: &str = "half-width of contact";
+
 const RADIUS: &str = "radius of contact";
+
 const WHY_WIDTH: &str = "nodes are in contact or not: a cell, on 8 cells";
+
 const WHY_FORCE: &str = "equilibrium, to the tolerance of Newton's method";
 
 /// The round lower side of a block that reaches up to `top`.
@@ -253,14 +225,29 @@ fn hertz_cylinder(method: &str, cells: [f64; 2], part: f64) -> Setup {
     let [along, across] = hertz_line_axis(A, hertz.p0, -y);
     grid.set("below", format!("{{ nodes = [{node}] }}"));
     grid.set("middle", "{ near = [0.0, 0.0], of = \"upper\" }");
-    let case = fill(TWO_BODIES, &[("space", &"plane-strain"), ("load", &(-0.5 * hertz.load))]);
+    let case = fill(
+        TWO_BODIES,
+        &[("space", &"plane-strain"), ("load", &(-0.5 * hertz.load))],
+    );
     Setup {
         mesh: grid,
         case: format!("{POLYMER}{}", case.replace("@METHOD", method)),
         checks: vec![
-            Check::exact(P0, "contact_pressure @ set middle", hertz.p0, part, "discretization on 8 cells"),
+            Check::exact(
+                P0,
+                "contact_pressure @ set middle",
+                hertz.p0,
+                part,
+                "discretization on 8 cells",
+            ),
             Check::exact(WIDTH, "line.area_slip", A, 0.125, WHY_WIDTH),
-            Check::exact("force on half of it", "line.force_y", 0.5 * hertz.load, 1e-6, WHY_FORCE),
+            Check::exact(
+                "force on half of it",
+                "line.force_y",
+                0.5 * hertz.load,
+                1e-6,
+                WHY_FORCE,
+            ),
             Check::exact(
                 "largest shear below",
                 "stress.xx @ set below",
@@ -275,27 +262,63 @@ fn hertz_cylinder(method: &str, cells: [f64; 2], part: f64) -> Setup {
 
 fn hertz_quadratic() -> Setup {
     let hertz = hertz_line(A, R, contact_modulus([MATERIAL; 2]));
-    let case = fill(TWO_BODIES, &[("space", &"plane-strain"), ("load", &(-0.5 * hertz.load))]);
+    let case = fill(
+        TWO_BODIES,
+        &[("space", &"plane-strain"), ("load", &(-0.5 * hertz.load))],
+    );
     Setup {
         mesh: two_bodies("quad8", [4.0, 3.25], 40.0 * A, 1.4, true),
-        case: format!("{POLYMER}{}", case.replace("@METHOD", "method = \"mortar\"")),
+        case: format!(
+            "{POLYMER}{}",
+            case.replace("@METHOD", "method = \"mortar\"")
+        ),
         checks: vec![
-            Check::exact(P0, "line.pressure_max", hertz.p0, 0.02, "discretization on 4 cells"),
-            Check::exact("force on half of it", "line.force_y", 0.5 * hertz.load, 1e-6, WHY_FORCE),
+            Check::exact(
+                P0,
+                "line.pressure_max",
+                hertz.p0,
+                0.02,
+                "discretization on 4 cells",
+            ),
+            Check::exact(
+                "force on half of it",
+                "line.force_y",
+                0.5 * hertz.load,
+                1e-6,
+                WHY_FORCE,
+            ),
         ],
     }
 }
 
 fn sphere_axisymmetric() -> Setup {
     let hertz = hertz_point(A, R, contact_modulus([MATERIAL; 2]));
-    let case = fill(TWO_BODIES, &[("space", &"axisymmetric"), ("load", &(-hertz.load))]);
+    let case = fill(
+        TWO_BODIES,
+        &[("space", &"axisymmetric"), ("load", &(-hertz.load))],
+    );
     Setup {
         mesh: two_bodies("quad4", [12.0, 9.5], 40.0 * A, 1.3, true),
-        case: format!("{POLYMER}{}", case.replace("@METHOD", "method = \"mortar\"")),
+        case: format!(
+            "{POLYMER}{}",
+            case.replace("@METHOD", "method = \"mortar\"")
+        ),
         checks: vec![
-            Check::exact(P0, "line.pressure_max", hertz.p0, 0.015, "discretization on 12 cells"),
-            Check::exact(RADIUS, "line.area_slip", A, 0.09, "nodes are in contact or not: a cell, on 12 cells")
-                .by(|area| (area[0] / PI).sqrt()),
+            Check::exact(
+                P0,
+                "line.pressure_max",
+                hertz.p0,
+                0.015,
+                "discretization on 12 cells",
+            ),
+            Check::exact(
+                RADIUS,
+                "line.area_slip",
+                A,
+                0.09,
+                "nodes are in contact or not: a cell, on 12 cells",
+            )
+            .by(|area| (area[0] / PI).sqrt()),
             Check::exact("force", "line.force_y", hertz.load, 1e-6, WHY_FORCE),
         ],
     }
@@ -344,19 +367,40 @@ increments = 2
 fn rigid_circle() -> Setup {
     let hertz = hertz_line(A, R, contact_modulus([MATERIAL, RIGID]));
     let mut grid = Grid::plane();
-    let axes = [graded(A / 8.0, 11, 1.25, 80.0), graded(A / 8.0, 6, 1.25, 80.0)];
+    let axes = [
+        graded(A / 8.0, 11, 1.25, 80.0),
+        graded(A / 8.0, 6, 1.25, 80.0),
+    ];
     grid.block("block", "quad4", &[axes[0].clone(), mirrored(&axes[1])]);
     grid.set("symmetry", "{ plane = \"x\", at = 0.0 }");
-    let names: [(&str, &dyn std::fmt::Debug); 3] =
-        [("space", &"plane-strain"), ("UP", &R), ("load", &(-0.5 * hertz.load))];
+    let names: [(&str, &dyn std::fmt::Debug); 3] = [
+        ("space", &"plane-strain"),
+        ("UP", &R),
+        ("load", &(-0.5 * hertz.load)),
+    ];
     let shape = format!("{{ circle = {{ center = [0.0, {R:?}], radius = {R:?} }} }}");
     Setup {
         mesh: grid,
-        case: format!("{POLYMER}{}", fill(UNDER_SURFACE, &names).replace("@SHAPE", &shape)),
+        case: format!(
+            "{POLYMER}{}",
+            fill(UNDER_SURFACE, &names).replace("@SHAPE", &shape)
+        ),
         checks: vec![
-            Check::exact(P0, "line.pressure_max", hertz.p0, 0.015, "discretization on 8 cells"),
+            Check::exact(
+                P0,
+                "line.pressure_max",
+                hertz.p0,
+                0.015,
+                "discretization on 8 cells",
+            ),
             Check::exact(WIDTH, "line.area_slip", A, 0.125, WHY_WIDTH),
-            Check::exact("force on half of it", "line.force_y", -0.5 * hertz.load, 1e-6, WHY_FORCE),
+            Check::exact(
+                "force on half of it",
+                "line.force_y",
+                -0.5 * hertz.load,
+                1e-6,
+                WHY_FORCE,
+            ),
         ],
     }
 }
@@ -364,25 +408,42 @@ fn rigid_circle() -> Setup {
 fn rigid_cylinder() -> Setup {
     let hertz = hertz_line(A, R, contact_modulus([MATERIAL, RIGID]));
     let mut grid = Grid::space();
-    let axes = [graded(A / 8.0, 11, 1.3, 80.0), graded(A / 8.0, 6, 1.3, 80.0)];
+    let axes = [
+        graded(A / 8.0, 11, 1.3, 80.0),
+        graded(A / 8.0, 6, 1.3, 80.0),
+    ];
     let z = even(0.0, 1.0, 1);
     grid.block("block", "hex8", &[axes[0].clone(), mirrored(&axes[1]), z]);
     grid.set("symmetry", "{ plane = \"x\", at = 0.0 }");
-    let shape = format!(
-        "{{ cylinder = {{ point = [0.0, {R:?}, 0.0], axis = \"z\", radius = {R:?} }} }}"
-    );
+    let shape =
+        format!("{{ cylinder = {{ point = [0.0, {R:?}, 0.0], axis = \"z\", radius = {R:?} }} }}");
     let names: [(&str, &dyn std::fmt::Debug); 3] =
         [("space", &"3d"), ("UP", &R), ("load", &(-0.5 * hertz.load))];
     let case = fill(UNDER_SURFACE, &names)
         .replace("@SHAPE", &shape)
-        .replace(&format!("at = [0.0, {R:?}]"), &format!("at = [0.0, {R:?}, 0.0]"));
+        .replace(
+            &format!("at = [0.0, {R:?}]"),
+            &format!("at = [0.0, {R:?}, 0.0]"),
+        );
     let flat = "\n  [[step.fix]]\n  on = \"block\"\n  u = [\"z\"]\n";
     Setup {
         mesh: grid,
         case: format!("{POLYMER}{case}{flat}"),
         checks: vec![
-            Check::exact(P0, "line.pressure_max", hertz.p0, 0.015, "discretization on 8 cells"),
-            Check::exact("force on half of it", "line.force_y", -0.5 * hertz.load, 1e-6, WHY_FORCE),
+            Check::exact(
+                P0,
+                "line.pressure_max",
+                hertz.p0,
+                0.015,
+                "discretization on 8 cells",
+            ),
+            Check::exact(
+                "force on half of it",
+                "line.force_y",
+                -0.5 * hertz.load,
+                1e-6,
+                WHY_FORCE,
+            ),
         ],
     }
 }
@@ -454,7 +515,13 @@ method = "mortar"
         mesh: grid,
         case,
         checks: vec![
-            Check::exact(P0, "ball.pressure_max", hertz.p0, 0.03, "discretization on 5 cells"),
+            Check::exact(
+                P0,
+                "ball.pressure_max",
+                hertz.p0,
+                0.03,
+                "discretization on 5 cells",
+            ),
             Check::exact("force on a quarter", "ball.force_z", -load, 1e-6, WHY_FORCE),
         ],
     }
@@ -494,78 +561,14 @@ primary = "tool"
         mesh: grid,
         case,
         checks: vec![
-            Check::exact(P0, "ball.pressure_max", hertz.p0, 0.03, "discretization on 5 cells"),
+            Check::exact(
+                P0,
+                "ball.pressure_max",
+                hertz.p0,
+                0.03,
+                "discretization on 5 cells",
+            ),
             Check::exact("force on a quarter", "ball.force_z", load, 1e-6, WHY_FORCE),
-        ],
-    }
-}
-
-fn flat_punch(is_round: bool) -> Setup {
-    let mut grid = Grid::plane();
-    let y = graded(A / 32.0, 8, 1.25, 40.0 * A);
-    let x = graded(A / 32.0, 32, 1.2, 40.0 * A);
-    grid.block("block", "quad4", &[x, mirrored(&y)]);
-    grid.block("punch", "quad4", &[even(0.0, A, 1), even(0.0, A, 1)]);
-    grid.set("symmetry", "{ plane = \"x\", at = 0.0, of = \"block\" }");
-    grid.set("middle", "{ near = [0.0, 0.0], of = \"block\" }");
-    let place = A / 2.0;
-    grid.set("halfway", format!("{{ near = [{place:?}, 0.0], of = \"block\" }}"));
-    let load: f64 = 10.0;
-    let pressure = |x: f64| {
-        let width = (A * A - x * x).sqrt();
-        match is_round {
-            true => load / (2.0 * PI * A * width),
-            // the load is that of half of the punch
-            false => 2.0 * load / (PI * width),
-        }
-    };
-    let space = if is_round { "axisymmetric" } else { "plane-strain" };
-    let case = format!(
-        r#"{POLYMER}
-[model]
-space = "{space}"
-
-[[body]]
-group = "block"
-material = "polymer"
-
-[[body]]
-group = "punch"
-rigid = true
-
-[[contact]]
-name = "face"
-secondary = "block_top"
-primary = "punch_bottom"
-method = "mortar"
-
-[[step]]
-name = "press"
-geometry = "linear"
-increments = 1
-
-  [[step.fix]]
-  on = "block_bottom"
-  u = ["y"]
-
-  [[step.fix]]
-  on = "symmetry"
-  u = ["x"]
-
-  [[step.load]]
-  on = "punch"
-  force = [0.0, {:?}]
-"#,
-        -load
-    );
-    let why = "discretization on 32 cells, with a pressure that is infinite at the edge";
-    Setup {
-        mesh: grid,
-        case,
-        checks: vec![
-            Check::exact("pressure in the middle", "contact_pressure @ set middle", pressure(0.0), 0.02, why),
-            Check::exact("pressure halfway", "contact_pressure @ set halfway", pressure(place), 0.02, why),
-            Check::exact("force", "face.force_y", -load, 1e-6, WHY_FORCE),
         ],
     }
 }
@@ -626,7 +629,13 @@ increments = {{ fixed = 4 }}
         mesh: two_bodies("quad4", [16.0, 13.0], 20.0 * A, 1.5, false),
         case,
         checks: vec![
-            Check::exact(P0, "line.pressure_max", hertz.p0, 0.02, "discretization on 10 cells"),
+            Check::exact(
+                P0,
+                "line.pressure_max",
+                hertz.p0,
+                0.02,
+                "discretization on 10 cells",
+            ),
             Check::exact("shear force", "line.force_x", -pull, 1e-5, WHY_FORCE),
             Check::exact(
                 "half-width of stick",
@@ -643,95 +652,6 @@ increments = {{ fixed = 4 }}
                 0.05,
                 "slip zones of two cells",
             ),
-        ],
-    }
-}
-
-fn persson_pin() -> Setup {
-    let (radius, b) = (10.0, (PI / 6.0).tan());
-    let load = 1.0;
-    let [young, nu] = MATERIAL;
-    let [clearance, p0] = persson(b);
-    let gap = clearance * load * (1.0 - nu * nu) / young;
-    let fine = graded(0.25 * radius * 5.0_f64.to_radians(), 3, 1.3, 0.9 * radius);
-    let angles = [even(0.0, 75.0, 60), even(75.0, 180.0, 14).split_off(1)].concat();
-    let other = [even(0.0, 78.0, 52), even(78.0, 180.0, 12).split_off(1)].concat();
-    let polar = |[r, turn, z]: Point, up: f64| {
-        // from the lowest point of the pin upwards
-        let angle = (turn - 90.0).to_radians();
-        [r * angle.cos(), r * angle.sin() + up, z]
-    };
-    let mut grid = Grid::plane();
-    let inwards = fine.iter().rev().map(|x| radius - x).collect();
-    // the pin starts where it touches the hole
-    grid.mapped(&Lines {
-        name: "pin",
-        kind: "quad8",
-        axes: &[inwards, angles],
-        map: &|p| polar(p, -gap),
-    });
-    let outwards = graded(0.25 * radius * 5.0_f64.to_radians(), 3, 1.3, 19.0 * radius);
-    grid.mapped(&Lines {
-        name: "plate",
-        kind: "quad8",
-        axes: &[outwards.iter().map(|x| radius + gap + x).collect(), other],
-        map: &|p| polar(p, 0.0),
-    });
-    grid.set("symmetry", "{ plane = \"x\", at = 0.0, tol = 1e-6 }");
-    let case = format!(
-        r#"{POLYMER}
-[model]
-space = "plane-strain"
-
-[[body]]
-group = ["pin", "plate"]
-material = "polymer"
-
-[[contact]]
-name = "bore"
-secondary = "pin_right"
-primary = "plate_left"
-method = "mortar"
-
-[[step]]
-name = "press"
-geometry = "linear"
-increments = 2
-
-  [[step.fix]]
-  on = "plate_right"
-  u = "all"
-
-  [[step.fix]]
-  on = "symmetry"
-  u = ["x"]
-
-  [[step.load]]
-  on = "pin_left"
-  force = [0.0, {:?}]
-  coupling = "rigid-y"
-"#,
-        -0.5 * load
-    );
-    Setup {
-        mesh: grid,
-        case,
-        checks: vec![
-            Check::exact(
-                P0,
-                "bore.pressure_max",
-                p0 * load / radius,
-                0.02,
-                "the plate ends at 20 radii, and the load acts on a core instead of a point",
-            ),
-            Check::exact(
-                "half-angle (degree)",
-                "bore.area_slip",
-                60.0,
-                0.04,
-                "nodes are in contact or not: a cell of 1.25 degrees on either side",
-            )
-            .by(|area| (area[0] / 10.0).to_degrees()),
         ],
     }
 }

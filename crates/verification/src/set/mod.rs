@@ -1,10 +1,13 @@
 //! The problems, by topic.
 
-mod bodies;
-mod contact;
+mod beams;
+mod friction;
 mod hertz;
+mod joints;
 mod paper;
 mod patch;
+mod punches;
+mod solids;
 mod walls;
 
 use crate::problem::Problem;
@@ -17,9 +20,12 @@ pub fn problems() -> &'static [Problem] {
         [
             patch::PROBLEMS.as_slice(),
             &hertz::PROBLEMS,
+            &punches::PROBLEMS,
             &walls::PROBLEMS,
-            &bodies::PROBLEMS,
-            &contact::PROBLEMS,
+            &friction::PROBLEMS,
+            &joints::PROBLEMS,
+            &solids::PROBLEMS,
+            &beams::PROBLEMS,
             &paper::PROBLEMS,
         ]
         .concat()

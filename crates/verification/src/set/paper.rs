@@ -4,7 +4,8 @@ use crate::forms::root;
 use crate::mesh::Grid;
 use crate::problem::{Check, Kind, Problem, Setup};
 
-const SOURCE: &str = "Faltus and Horak, A modular extension of a finite element contact implementation, figure 2";
+const SOURCE: &str =
+    "Faltus and Horak, A modular extension of a finite element contact implementation, figure 2";
 
 /// The problems of this file.
 pub(super) const PROBLEMS: [Problem; 2] = [
@@ -104,11 +105,28 @@ fn wedge() -> Setup {
         1000.0,
     );
     Setup {
-        mesh: with_tip("wedge6", &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], [third, third], "+z"),
+        mesh: with_tip(
+            "wedge6",
+            &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+            [third, third],
+            "+z",
+        ),
         case: CASE.to_owned(),
         checks: vec![
-            Check::exact("force on the tip", "tip.force_z", force, 1e-9, "three unknowns: rounding"),
-            Check::exact("gap at the tip", "tip.gap_min", -force / 1e5, 1e-9, "three unknowns: rounding"),
+            Check::exact(
+                "force on the tip",
+                "tip.force_z",
+                force,
+                1e-9,
+                "three unknowns: rounding",
+            ),
+            Check::exact(
+                "gap at the tip",
+                "tip.gap_min",
+                -force / 1e5,
+                1e-9,
+                "three unknowns: rounding",
+            ),
         ],
     }
 }
@@ -129,7 +147,14 @@ fn brick() -> Setup {
             force("force after 20 increments", 20, 32.263_017_988_9),
             force("force after 40 increments", 40, 56.602_543_405_9),
             force("force after 60 increments", 60, 68.956_391_015_2),
-            Check::exact("gap at the tip", "tip.gap_min", -0.000_725_088_618_977, 1e-8, why).of(Kind::CrossCode),
+            Check::exact(
+                "gap at the tip",
+                "tip.gap_min",
+                -0.000_725_088_618_977,
+                1e-8,
+                why,
+            )
+            .of(Kind::CrossCode),
         ],
     }
 }

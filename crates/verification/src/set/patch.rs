@@ -5,10 +5,11 @@ use crate::problem::{Check, Problem, Setup};
 
 const SOURCE: &str = "Taylor and Papadopoulos, On a patch test for contact problems in two dimensions (1991); El-Abbasi and Bathe, Comput. Struct. 79 (2001) 1473";
 const GOAL: &str = "a uniform pressure goes through meshes that do not match without a trace";
-const FORMULA: &str =
-    "$\\sigma = -p$ everywhere; the head sinks by $p\\,h\\,(1/M_1 + 1/M_2)$, $M = E/(1-\\nu^2)$ in plane strain, $E$ in space";
-const PLANE: &str = "plane strain, pressure 1 on the head; the base is held along the pressure, one side along x";
-const SPACE: &str = "pressure 1 on the head; the base is held along the pressure, two sides along x and y";
+const FORMULA: &str = "$\\sigma = -p$ everywhere; the head sinks by $p\\,h\\,(1/M_1 + 1/M_2)$, $M = E/(1-\\nu^2)$ in plane strain, $E$ in space";
+const PLANE: &str =
+    "plane strain, pressure 1 on the head; the base is held along the pressure, one side along x";
+const SPACE: &str =
+    "pressure 1 on the head; the base is held along the pressure, two sides along x and y";
 
 const fn patch(
     name: &'static str,
@@ -178,8 +179,16 @@ const WHY_POINTS: &str = "points inside facets integrate a kink in the middle of
 
 fn plane(kind: &'static str, cells: [usize; 2], method: &str, part: f64) -> Setup {
     let mut grid = Grid::plane();
-    grid.block("lower", kind, &[even(0.0, 2.0, cells[1]), even(0.0, 1.0, 2)]);
-    grid.block("upper", kind, &[even(0.0, 2.0, cells[0]), even(1.0, 2.0, 2)]);
+    grid.block(
+        "lower",
+        kind,
+        &[even(0.0, 2.0, cells[1]), even(0.0, 1.0, 2)],
+    );
+    grid.block(
+        "upper",
+        kind,
+        &[even(0.0, 2.0, cells[0]), even(1.0, 2.0, 2)],
+    );
     grid.set("left", "{ plane = \"x\", at = 0.0 }");
     let why = if method == POINTS { WHY_POINTS } else { WHY };
     let modulus = E.map(|e| e / (1.0 - NU * NU));
@@ -189,10 +198,28 @@ fn plane(kind: &'static str, cells: [usize; 2], method: &str, part: f64) -> Setu
         mesh: grid,
         case: case("y", method, "\n[model]\nspace = \"plane-strain\"\n"),
         checks: vec![
-            Check::exact("least stress at the foot", "stress.yy @ set upper_bottom max", -1.0, part, why),
-            Check::exact("largest stress at the foot", "stress.yy @ set upper_bottom min", -1.0, part, why),
+            Check::exact(
+                "least stress at the foot",
+                "stress.yy @ set upper_bottom max",
+                -1.0,
+                part,
+                why,
+            ),
+            Check::exact(
+                "largest stress at the foot",
+                "stress.yy @ set upper_bottom min",
+                -1.0,
+                part,
+                why,
+            ),
             Check::exact("force", "joint.force_y", 2.0, 1e-9, "equilibrium"),
-            Check::exact("the head sinks by", "displacement.y @ set upper_top", sinks, part, why),
+            Check::exact(
+                "the head sinks by",
+                "displacement.y @ set upper_top",
+                sinks,
+                part,
+                why,
+            ),
         ],
     }
 }
@@ -218,11 +245,29 @@ const SIDE: &str = "\n  [[step.fix]]\n  on = \"side\"\n  u = [\"y\"]\n";
 fn checks_in_space(part: f64) -> Vec<Check> {
     let sinks = -(1.0 / E[0] + 1.0 / E[1]);
     vec![
-        Check::exact("least stress at the foot", "stress.zz @ set upper_back max", -1.0, part, WHY),
-        Check::exact("largest stress at the foot", "stress.zz @ set upper_back min", -1.0, part, WHY),
+        Check::exact(
+            "least stress at the foot",
+            "stress.zz @ set upper_back max",
+            -1.0,
+            part,
+            WHY,
+        ),
+        Check::exact(
+            "largest stress at the foot",
+            "stress.zz @ set upper_back min",
+            -1.0,
+            part,
+            WHY,
+        ),
         Check::exact("largest pressure", "joint.pressure_max", 1.0, part, WHY),
         Check::exact("force", "joint.force_z", 4.0, 1e-9, "equilibrium"),
-        Check::exact("the head sinks by", "displacement.z @ set upper_front", sinks, part, WHY),
+        Check::exact(
+            "the head sinks by",
+            "displacement.z @ set upper_front",
+            sinks,
+            part,
+            WHY,
+        ),
     ]
 }
 

@@ -105,10 +105,17 @@ fn ring(grid: &mut Grid, name: &str, radii: [f64; 2], cells: [usize; 2]) {
     grid.mapped(&Lines {
         name,
         kind: "quad8",
-        axes: &[even(radii[0], radii[1], cells[0]), even(0.0, FRAC_PI_2, cells[1])],
+        axes: &[
+            even(radii[0], radii[1], cells[0]),
+            even(0.0, FRAC_PI_2, cells[1]),
+        ],
         map: &|[r, angle, z]| {
             // what is held along an axis lies on it
-            let x = if angle == FRAC_PI_2 { 0.0 } else { r * angle.cos() };
+            let x = if angle == FRAC_PI_2 {
+                0.0
+            } else {
+                r * angle.cos()
+            };
             [x, r * angle.sin(), z]
         },
     });
@@ -133,7 +140,9 @@ const HELD: &str = r#"
 "#;
 
 fn material(e: f64, more: &str) -> String {
-    format!("units = \"mm-N-MPa\"\n[material.metal]\nmodel = \"linear-elastic\"\nE = {e:?}\nnu = 0.3\n{more}\n")
+    format!(
+        "units = \"mm-N-MPa\"\n[material.metal]\nmodel = \"linear-elastic\"\nE = {e:?}\nnu = 0.3\n{more}\n"
+    )
 }
 
 fn wall(space: &str, e: f64, more: &str, pressure: f64, increments: usize) -> String {
@@ -174,14 +183,35 @@ fn lame_tube() -> Setup {
         e: 1000.0,
         nu: 0.3,
     };
-    let ([inner, hoop], [outer, _]) = (tube.tube_in_plane_strain(1.0), tube.tube_in_plane_strain(2.0));
+    let ([inner, hoop], [outer, _]) = (
+        tube.tube_in_plane_strain(1.0),
+        tube.tube_in_plane_strain(2.0),
+    );
     Setup {
         mesh: grid,
         case: wall("plane-strain", 1000.0, "", 10.0, 1),
         checks: vec![
-            Check::exact("bore widens by", "displacement.x @ set bore_node", inner, 1e-3, WHY_WALL),
-            Check::exact("rim widens by", "displacement.x @ set rim_node", outer, 1e-3, WHY_WALL),
-            Check::exact("hoop stress at the bore", "stress.yy @ set bore_node", hoop, 0.01, WHY_STRESS),
+            Check::exact(
+                "bore widens by",
+                "displacement.x @ set bore_node",
+                inner,
+                1e-3,
+                WHY_WALL,
+            ),
+            Check::exact(
+                "rim widens by",
+                "displacement.x @ set rim_node",
+                outer,
+                1e-3,
+                WHY_WALL,
+            ),
+            Check::exact(
+                "hoop stress at the bore",
+                "stress.yy @ set bore_node",
+                hoop,
+                0.01,
+                WHY_STRESS,
+            ),
         ],
     }
 }
@@ -203,9 +233,27 @@ fn lame_sphere() -> Setup {
         mesh: grid,
         case: wall("axisymmetric", 1000.0, "", 10.0, 1),
         checks: vec![
-            Check::exact("bore widens by", "displacement.x @ set bore_node", inner, 1e-3, WHY_WALL),
-            Check::exact("rim widens by", "displacement.x @ set rim_node", outer, 1e-3, WHY_WALL),
-            Check::exact("hoop stress at the bore", "stress.zz @ set bore_node", hoop, 0.02, WHY_STRESS),
+            Check::exact(
+                "bore widens by",
+                "displacement.x @ set bore_node",
+                inner,
+                1e-3,
+                WHY_WALL,
+            ),
+            Check::exact(
+                "rim widens by",
+                "displacement.x @ set rim_node",
+                outer,
+                1e-3,
+                WHY_WALL,
+            ),
+            Check::exact(
+                "hoop stress at the bore",
+                "stress.zz @ set bore_node",
+                hoop,
+                0.02,
+                WHY_STRESS,
+            ),
         ],
     }
 }
@@ -268,17 +316,45 @@ fn press_fit_tubes(method: &str, parts: [f64; 2]) -> Setup {
         mesh: grid,
         case: fit("plane-strain", method, HELD),
         checks: vec![
-            Check::exact("force on the quarter", "fit.force_x", -pressure, parts[0], why),
-            Check::exact("rim widens by", "displacement.x @ set rim_node", outer.tube_in_plane_strain(1.5)[0], parts[0], why),
-            Check::exact("bore narrows by", "displacement.x @ set bore_node", inner.tube_in_plane_strain(0.5)[0], parts[0], why),
-            Check::exact("mean pressure", "contact_pressure @ set inner_right mean", pressure, parts[1], why),
+            Check::exact(
+                "force on the quarter",
+                "fit.force_x",
+                -pressure,
+                parts[0],
+                why,
+            ),
+            Check::exact(
+                "rim widens by",
+                "displacement.x @ set rim_node",
+                outer.tube_in_plane_strain(1.5)[0],
+                parts[0],
+                why,
+            ),
+            Check::exact(
+                "bore narrows by",
+                "displacement.x @ set bore_node",
+                inner.tube_in_plane_strain(0.5)[0],
+                parts[0],
+                why,
+            ),
+            Check::exact(
+                "mean pressure",
+                "contact_pressure @ set inner_right mean",
+                pressure,
+                parts[1],
+                why,
+            ),
         ],
     }
 }
 
 fn press_fit_rings() -> Setup {
     let mut grid = Grid::plane();
-    grid.block("inner", "quad8", &[even(0.5, 1.0 + OVERLAP, 8), even(0.0, 1.0, 4)]);
+    grid.block(
+        "inner",
+        "quad8",
+        &[even(0.5, 1.0 + OVERLAP, 8), even(0.0, 1.0, 4)],
+    );
     grid.block("outer", "quad8", &[even(1.0, 1.5, 6), even(0.0, 1.0, 3)]);
     grid.set("on_x", "{ plane = \"y\", at = 0.0 }");
     let [outer, inner] = fit_walls(1.0);
@@ -294,10 +370,34 @@ fn press_fit_rings() -> Setup {
         mesh: grid,
         case: fit("axisymmetric", "method = \"mortar\"", held),
         checks: vec![
-            Check::exact("least pressure", "contact_pressure @ set inner_right min", pressure, 0.005, why),
-            Check::exact("largest pressure", "contact_pressure @ set inner_right max", pressure, 0.005, why),
-            Check::exact("rim widens by", "displacement.x @ set outer_right", outer.tube_in_plane_stress(1.5)[0], 0.005, why),
-            Check::exact("bore narrows by", "displacement.x @ set inner_left", inner.tube_in_plane_stress(0.5)[0], 0.005, why),
+            Check::exact(
+                "least pressure",
+                "contact_pressure @ set inner_right min",
+                pressure,
+                0.005,
+                why,
+            ),
+            Check::exact(
+                "largest pressure",
+                "contact_pressure @ set inner_right max",
+                pressure,
+                0.005,
+                why,
+            ),
+            Check::exact(
+                "rim widens by",
+                "displacement.x @ set outer_right",
+                outer.tube_in_plane_stress(1.5)[0],
+                0.005,
+                why,
+            ),
+            Check::exact(
+                "bore narrows by",
+                "displacement.x @ set inner_left",
+                inner.tube_in_plane_stress(0.5)[0],
+                0.005,
+                why,
+            ),
         ],
     }
 }
@@ -316,9 +416,27 @@ fn press_fit_spheres() -> Setup {
         case: fit("axisymmetric", "method = \"mortar\"", HELD),
         checks: vec![
             // the sum over the half of the sphere along its axis: p times the area of its great circle
-            Check::exact("force along the axis", "fit.force_y", -pressure * PI, 0.005, why),
-            Check::exact("rim widens by", "displacement.x @ set rim_node", outer.sphere(1.5)[0], 0.005, why),
-            Check::exact("bore narrows by", "displacement.x @ set bore_node", inner.sphere(0.5)[0], 0.005, why),
+            Check::exact(
+                "force along the axis",
+                "fit.force_y",
+                -pressure * PI,
+                0.005,
+                why,
+            ),
+            Check::exact(
+                "rim widens by",
+                "displacement.x @ set rim_node",
+                outer.sphere(1.5)[0],
+                0.005,
+                why,
+            ),
+            Check::exact(
+                "bore narrows by",
+                "displacement.x @ set bore_node",
+                inner.sphere(0.5)[0],
+                0.005,
+                why,
+            ),
         ],
     }
 }
@@ -367,7 +485,13 @@ increments = {{ fixed = 10 }}
                 0.005,
                 "discretization: 10 cells through the wall",
             ),
-            Check::exact("equivalent stress at the rim", "von_mises @ set wall_right", YIELD, 0.01, WHY_STRESS),
+            Check::exact(
+                "equivalent stress at the rim",
+                "von_mises @ set wall_right",
+                YIELD,
+                0.01,
+                WHY_STRESS,
+            ),
         ],
     }
 }
@@ -386,8 +510,12 @@ fn plastic_sphere() -> Setup {
     Setup {
         mesh: grid,
         case: wall("axisymmetric", e, PERFECT, pressure, 10),
-        checks: vec![
-            Check::exact("equator widens by", "displacement.x @ set rim_node", widens, 0.005, "discretization: the plastic front lies inside of a cell"),
-        ],
+        checks: vec![Check::exact(
+            "equator widens by",
+            "displacement.x @ set rim_node",
+            widens,
+            0.005,
+            "discretization: the plastic front lies inside of a cell",
+        )],
     }
 }
