@@ -54,7 +54,7 @@ pub(super) const PROBLEMS: [Problem; 6] = [
     Problem {
         name: "bars-with-gaps",
         title: "Bars that close gaps",
-        source: "statics of bars (BENCHMARKS of the project, 2.1 to 2.3)",
+        source: "statics of bars: S. Timoshenko, Strength of Materials I, chapter I",
         goal: "node to node contact by multipliers, loaded and heated",
         mesh: "four bars (line2)",
         conditions: "a bar and a wall, two bars that face each other, and a bar that is heated between a support and a wall",

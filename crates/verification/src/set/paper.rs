@@ -1,14 +1,14 @@
-//! The figure of the paper: a rigid tip on one wedge and on one brick.
+//! The figure of the paper, a rigid tip on one wedge and on one brick; and two blocks that another program slid.
 
 use crate::forms::root;
-use crate::mesh::Grid;
+use crate::mesh::{Grid, even};
 use crate::problem::{Check, Kind, Problem, Setup};
 
 const SOURCE: &str =
     "Faltus and Horak, A modular extension of a finite element contact implementation, figure 2";
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 2] = [
+pub(super) const PROBLEMS: [Problem; 3] = [
     Problem {
         name: "paper-wedge",
         title: "The paper's figure: a tip on one wedge",
@@ -30,6 +30,17 @@ pub(super) const PROBLEMS: [Problem; 2] = [
         formula: "no closed form; an independent program, written for the purpose, lists force and penetration of all 60 increments",
         quick: true,
         pose: brick,
+    },
+    Problem {
+        name: "two-blocks",
+        title: "A block is pressed into another one and slid over its facets",
+        source: "independent program, written for the purpose: Newton to round-off, twelve digits (crates/signorini/tests/data/two_block_2d.json)",
+        goal: "sliding across the boundaries of facets at finite strain",
+        mesh: "2 by 2 quad4 on 4 by 2",
+        conditions: "plane strain, neo-Hookean, E = 1000 and 2000, ν = 0.3; pressed by 0.05, slid by 0.21; penalty 1e5 per node, no friction",
+        formula: "no closed form; both ends of the path of the independent program",
+        quick: true,
+        pose: two_blocks,
     },
 ];
 
@@ -155,6 +166,78 @@ fn brick() -> Setup {
                 why,
             )
             .of(Kind::CrossCode),
+        ],
+    }
+}
+
+fn two_blocks() -> Setup {
+    let mut grid = Grid::plane();
+    grid.block("lower", "quad4", &[even(0.0, 2.0, 4), even(0.0, 1.0, 2)]);
+    grid.block("upper", "quad4", &[even(0.55, 1.25, 2), even(1.0, 1.5, 2)]);
+    grid.set("foot", "{ plane = \"y\", at = 1.0, of = \"upper\" }");
+    let case = r#"
+units = "mm-N-MPa"
+
+[model]
+space = "plane-strain"
+
+[amplitude]
+slide = { table = [[5.0, 0.0], [12.0, 0.21]], time = "total" }
+press = { table = [[0.0, 0.0], [5.0, -0.05]], time = "total" }
+
+[material.soft]
+model = "neo-hookean"
+E = 1000.0
+nu = 0.3
+
+[material.stiff]
+model = "neo-hookean"
+E = 2000.0
+nu = 0.3
+
+[[body]]
+group = "lower"
+material = "soft"
+
+[[body]]
+group = "upper"
+material = "stiff"
+
+[[contact]]
+name = "foot"
+secondary = "foot"
+primary = "lower_top"
+method = "node-to-segment"
+enforcement = { penalty = 1.0e5, per = "node" }
+
+[[step]]
+name = "press and slide"
+geometry = "nonlinear"
+duration = 12.0
+increments = { fixed = 12 }
+
+  [[step.fix]]
+  on = "lower_bottom"
+  u = "all"
+
+  [[step.move]]
+  on = "upper_top"
+  ux = { amplitude = "slide", value = 1.0 }
+  uy = { amplitude = "press", value = 1.0 }
+
+[solver]
+newton = { force_tol = 1e-10 }
+"#;
+    let why = "the same equations by another program, to the tolerance of Newton's method";
+    let force = |words: &'static str, what: &str, value: f64| {
+        Check::exact(words, what, value, 1e-8, why).of(Kind::CrossCode)
+    };
+    Setup {
+        mesh: grid,
+        case: case.to_owned(),
+        checks: vec![
+            force("force along the facets", "foot.force_x", 0.144_150_365_488),
+            force("force across the facets", "foot.force_y", 55.164_083_934),
         ],
     }
 }
