@@ -1,12 +1,12 @@
 //! Beams, rigid motions and linear equations.
 
-use crate::forms::elastica;
+use crate::forms::{elastica, root};
 use crate::mesh::{Grid, Lines, even};
 use crate::problem::{Check, Kind, Problem, Setup};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 7] = [
+pub(super) const PROBLEMS: [Problem; 10] = [
     Problem {
         name: "cook-membrane",
         title: "Cook's membrane",
@@ -83,6 +83,39 @@ pub(super) const PROBLEMS: [Problem; 7] = [
         formula: "$u_1 = F/(k_1 + 4k_2)$, $u_2 = 2u_1$, reaction of the second bar $-k_2 u_2$",
         quick: true,
         pose: lever,
+    },
+    Problem {
+        name: "cook-incompressible",
+        title: "Cook's membrane, nearly incompressible",
+        source: "own value, quad9 extrapolated over meshes: crates/mechanics/tests/cook.rs",
+        goal: "bending without volumetric locking",
+        mesh: "16 by 16 quad8",
+        conditions: "plane strain, E = 250, ν = 0.4999; the left side is clamped, a force of 100 acts along the right one",
+        formula: "no closed form; the converged deflection at the upper corner of the right side",
+        quick: true,
+        pose: cook_incompressible,
+    },
+    Problem {
+        name: "torsion-bar",
+        title: "Torsion of a square bar",
+        source: "Saint-Venant 1855; Timoshenko and Goodier, Theory of Elasticity, section 109",
+        goal: "shear and warping of a section that may warp",
+        mesh: "4 by 4 by 8 hex20",
+        conditions: "one end is held across the axis, the section of the other one turns by 0.01; both may warp",
+        formula: "$\\tau = G\\theta' a\\left(1 - \\frac{8}{\\pi^2}\\sum_{n\\,odd} \\frac{1}{n^2\\cosh(n\\pi/2)}\\right)$ in the middle of a side",
+        quick: true,
+        pose: torsion,
+    },
+    Problem {
+        name: "plastic-cantilever",
+        title: "A cantilever of perfectly plastic material",
+        source: "Prager and Hodge, Theory of Perfectly Plastic Solids (1951); W. Johnson and Mellor, Engineering Plasticity",
+        goal: "a plastic zone that grows through the height",
+        mesh: "80 by 6 quad8, finer towards the clamp",
+        conditions: "plane stress, length 20, height 1; one end is clamped, the other one is moved by 1.6 of what first yields",
+        formula: "$\\frac{\\delta}{\\delta_y} = \\left(\\frac{F_y}{F}\\right)^2\\left(5 - \\left(3 + \\frac{F}{F_y}\\right)\\sqrt{3 - 2\\frac{F}{F_y}}\\right)$, $F_y = Yh^2/(6L)$",
+        quick: true,
+        pose: plastic_cantilever,
     },
 ];
 
@@ -455,5 +488,119 @@ increments = 1
                 why,
             ),
         ],
+    }
+}
+
+fn cook_incompressible() -> Setup {
+    let mut setup = cook();
+    let of = |e: f64, nu: f64| elastic(e, nu, "");
+    setup.case = setup
+        .case
+        .replace(&of(1.0, 1.0 / 3.0), &of(250.0, 0.4999))
+        .replace("plane-stress", "plane-strain")
+        .replace("force = [0.0, 1.0]", "force = [0.0, 100.0]");
+    setup.mesh.set("tip", "{ near = [48.0, 60.0] }");
+    setup.checks = vec![
+        Check::exact(
+            "upper corner rises by",
+            "displacement.y @ set tip",
+            7.773,
+            0.01,
+            "16 cells; two singular corners",
+        )
+        .of(Kind::Regression),
+    ];
+    setup
+}
+
+fn torsion() -> Setup {
+    let (e, nu, length, turn) = (1000.0, 0.3, 8.0, 0.01);
+    let mut grid = Grid::space();
+    let side = || even(-0.5, 0.5, 4);
+    grid.block("body", "hex20", &[even(0.0, length, 8), side(), side()]);
+    grid.set("middle", "{ near = [4.0, -0.5, 0.0] }");
+    grid.set("root", "{ near = [0.0, 0.0, 0.0] }");
+    let case = format!(
+        r#"{}
+[reference.hand]
+at = [{length:?}, 0.0, 0.0]
+
+[[constraint]]
+kind = "kinematic"
+on = "body_right"
+reference = "hand"
+dofs = ["y", "z"]
+
+[[step]]
+name = "twist"
+geometry = "linear"
+increments = 1
+
+  [[step.fix]]
+  on = "body_left"
+  u = ["y", "z"]
+
+  [[step.fix]]
+  on = "root"
+  u = ["x"]
+
+  [[step.fix]]
+  on = "hand"
+  u = "all"
+  rot = ["y", "z"]
+
+  [[step.move]]
+  on = "hand"
+  rx = {turn:?}
+"#,
+        elastic(e, nu, "")
+    );
+    let sum: f64 = (0..8)
+        .map(|k| f64::from(2 * k + 1))
+        .map(|n| 1.0 / (n * n * (0.5 * n * PI).cosh()))
+        .sum();
+    let shear = -e / (2.0 * (1.0 + nu)) * turn / length * (1.0 - 8.0 / (PI * PI) * sum);
+    Setup {
+        mesh: grid,
+        case,
+        checks: vec![Check::exact(
+            "shear in the middle of a side",
+            "stress.xz @ set middle",
+            shear,
+            0.01,
+            "stress at nodes is extrapolated from the points of 4 cells on a side",
+        )],
+    }
+}
+
+fn plastic_cantilever() -> Setup {
+    let (e, y, length): (f64, f64, f64) = (200e3, 200.0, 20.0);
+    // of first yield
+    let force = y / (6.0 * length);
+    let moved = 1.6 * force * length.powi(3) * 4.0 / e;
+    let ratio = |f: f64| (5.0 - (3.0 + f) * (3.0 - 2.0 * f).sqrt()) / (f * f);
+    let carries = force * root(|f| ratio(f) - 1.6, 1.0, 1.4999);
+    let mut grid = Grid::plane();
+    let x = [even(0.0, 8.0, 48), even(8.0, length, 24).split_off(1)].concat();
+    grid.block("body", "quad8", &[x, even(-0.5, 0.5, 6)]);
+    let table = format!("plasticity = {{ hardening = \"isotropic\", table = [[{y:?}, 0.0]] }}");
+    let end = format!(
+        "\n  [[step.move]]\n  on = \"body_right\"\n  uy = {:?}\n",
+        -moved
+    );
+    Setup {
+        mesh: grid,
+        case: format!(
+            "{}{PLANE_STRESS}{}",
+            elastic(e, 0.0, &table),
+            clamped("linear", 8, &end)
+        ),
+        checks: vec![Check::exact(
+            "force at the end",
+            "reaction_force.y @ set body_right",
+            -carries,
+            0.01,
+            "beam theory without shear, and the clamp that keeps its section plane",
+        )],
     }
 }

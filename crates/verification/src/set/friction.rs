@@ -5,7 +5,7 @@ use crate::problem::{Check, Problem, Setup};
 use std::f64::consts::PI;
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 5] = [
+pub(super) const PROBLEMS: [Problem; 6] = [
     Problem {
         name: "friction-loop",
         title: "A cube is dragged forth and back",
@@ -60,6 +60,17 @@ pub(super) const PROBLEMS: [Problem; 5] = [
         formula: "$F_x/F_y = -\\tan(\\arctan y'(x) + \\arctan\\mu)$, $F_y = P + k\\,(y(x) - y_0)$",
         quick: true,
         pose: dragged_toe,
+    },
+    Problem {
+        name: "friction-tresca",
+        title: "Shear traction that pressure does not change",
+        source: "Tresca's law of friction",
+        goal: "a limit without pressure",
+        mesh: "one hex8 on 3 by 3 hex8",
+        conditions: "as the friction loop, with a limit of 15",
+        formula: "$|t| = t_{max}$ against the motion",
+        quick: true,
+        pose: || dragged_cube("{ tresca = 15.0, stiffness = 80.0 }", 15.0),
     },
 ];
 

@@ -10,7 +10,7 @@ use crate::problem::{Check, Problem, Setup, fill};
 use std::f64::consts::PI;
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 10] = [
+pub(super) const PROBLEMS: [Problem; 12] = [
     Problem {
         name: "hertz-cylinder-mortar",
         title: "Hertz: cylinder on block, mortar",
@@ -97,7 +97,7 @@ pub(super) const PROBLEMS: [Problem; 10] = [
         conditions: "symmetry at x = 0 and y = 0, the base is held along z; the load acts on the reference of the sphere",
         formula: "$p_0 = 3F/(2\\pi a^2)$, $a^3 = 3FR/(4E^*)$",
         quick: false,
-        pose: rigid_sphere,
+        pose: || rigid_sphere("hex8", 5.0, 0.03),
     },
     Problem {
         name: "cattaneo-mindlin",
@@ -120,6 +120,28 @@ pub(super) const PROBLEMS: [Problem; 10] = [
         formula: "$p_0 = 2P/(\\pi a)$, $a^2 = 4PR/(\\pi E^*)$",
         quick: true,
         pose: hertz_quadratic,
+    },
+    Problem {
+        name: "hertz-groove",
+        title: "Hertz: a cylinder in a rigid groove",
+        source: "K. L. Johnson, Contact Mechanics (1985), equations 4.43 to 4.45",
+        goal: "an analytical circle from its inside",
+        mesh: "8 cells on the half-width, graded outwards to 40 half-widths",
+        conditions: "plane strain, symmetry at x = 0; radius 100 in a groove of radius 150; the load acts on the head, which stays level",
+        formula: "$p_0 = 2P/(\\pi a)$, $a^2 = 4PR/(\\pi E^*)$, $1/R = 1/R_1 - 1/R_2$",
+        quick: true,
+        pose: groove,
+    },
+    Problem {
+        name: "hertz-rigid-sphere-tet10",
+        title: "Hertz: rigid ball on a block of tetrahedra",
+        source: "K. L. Johnson, Contact Mechanics (1985), equations 4.22 to 4.24",
+        goal: "quadratic triangles against an analytical sphere",
+        mesh: "tet10, 3 cells on the radius of contact, graded outwards to 12 radii",
+        conditions: "as for hexahedra",
+        formula: "$p_0 = 3F/(2\\pi a^2)$, $a^3 = 3FR/(4E^*)$",
+        quick: false,
+        pose: || rigid_sphere("tet10", 3.0, 0.04),
     },
 ];
 
@@ -449,13 +471,19 @@ fn rigid_cylinder() -> Setup {
 }
 
 /// A quarter of a block, whose top or bottom is round where a map says so.
-fn quarter(name: &str, n: f64, up: f64, map: &dyn Fn(Point) -> Point, grid: &mut Grid) {
+fn quarter(
+    [name, kind]: [&'static str; 2],
+    n: f64,
+    up: f64,
+    map: &dyn Fn(Point) -> Point,
+    grid: &mut Grid,
+) {
     let flat = graded(A / n, n as usize + 1, 1.55, 12.0 * A);
     let deep = graded(A / n, (0.6 * n) as usize + 1, 1.6, 12.0 * A);
     let z = if up > 0.0 { deep } else { mirrored(&deep) };
     grid.mapped(&Lines {
         name,
-        kind: "hex8",
+        kind,
         axes: &[flat.clone(), flat, z],
         map,
     });
@@ -489,8 +517,8 @@ fn sphere_in_space() -> Setup {
     let hertz = hertz_point(A, R, contact_modulus([MATERIAL; 2]));
     let mut grid = Grid::space();
     let round = |[x, y, z]: Point| [x, y, bulged(x.hypot(y), z, 12.0 * A)];
-    quarter("upper", 5.0, 1.0, &round, &mut grid);
-    quarter("lower", 4.0, -1.0, &|p| p, &mut grid);
+    quarter(["upper", "hex8"], 5.0, 1.0, &round, &mut grid);
+    quarter(["lower", "hex8"], 4.0, -1.0, &|p| p, &mut grid);
     symmetries(&mut grid);
     let load = -0.25 * hertz.load;
     let case = format!(
@@ -527,10 +555,10 @@ method = "mortar"
     }
 }
 
-fn rigid_sphere() -> Setup {
+fn rigid_sphere(kind: &'static str, n: f64, part: f64) -> Setup {
     let hertz = hertz_point(A, R, contact_modulus([MATERIAL, RIGID]));
     let mut grid = Grid::space();
-    quarter("lower", 5.0, -1.0, &|p| p, &mut grid);
+    quarter(["lower", kind], n, -1.0, &|p| p, &mut grid);
     symmetries(&mut grid);
     let load = -0.25 * hertz.load;
     let case = format!(
@@ -565,8 +593,8 @@ primary = "tool"
                 P0,
                 "ball.pressure_max",
                 hertz.p0,
-                0.03,
-                "discretization on 5 cells",
+                part,
+                "discretization of the radius of contact",
             ),
             Check::exact("force on a quarter", "ball.force_z", load, 1e-6, WHY_FORCE),
         ],
@@ -651,6 +679,81 @@ increments = {{ fixed = 4 }}
                 cattaneo_work(A, c, hertz.p0, mu, modulus),
                 0.05,
                 "slip zones of two cells",
+            ),
+        ],
+    }
+}
+
+fn groove() -> Setup {
+    let wide = 150.0;
+    let hertz = hertz_line(
+        A,
+        1.0 / (1.0 / R - 1.0 / wide),
+        contact_modulus([MATERIAL, RIGID]),
+    );
+    let mut grid = Grid::plane();
+    let axes = [
+        graded(A / 8.0, 11, 1.25, 80.0),
+        graded(A / 8.0, 9, 1.25, 80.0),
+    ];
+    grid.mapped(&Lines {
+        name: "block",
+        kind: "quad4",
+        axes: &axes,
+        map: &|[x, y, z]| [x, bulged(x, y, 80.0), z],
+    });
+    grid.set("symmetry", "{ plane = \"x\", at = 0.0 }");
+    let case = format!(
+        r#"{POLYMER}
+[model]
+space = "plane-strain"
+
+[[body]]
+group = "block"
+material = "polymer"
+
+[[surface]]
+name = "groove"
+shape = {{ circle = {{ center = [0.0, {wide:?}], radius = {wide:?}, side = "inside" }} }}
+
+[[contact]]
+name = "line"
+secondary = "block_bottom"
+primary = "groove"
+
+[[step]]
+name = "press"
+geometry = "linear"
+increments = 2
+
+  [[step.fix]]
+  on = "symmetry"
+  u = ["x"]
+
+  [[step.load]]
+  on = "block_top"
+  force = [0.0, {:?}]
+  coupling = "rigid-y"
+"#,
+        -0.5 * hertz.load
+    );
+    Setup {
+        mesh: grid,
+        case,
+        checks: vec![
+            Check::exact(
+                P0,
+                "line.pressure_max",
+                hertz.p0,
+                0.015,
+                "discretization on 8 cells, and a parabola next to a circle",
+            ),
+            Check::exact(
+                "force on half of it",
+                "line.force_y",
+                0.5 * hertz.load,
+                1e-6,
+                WHY_FORCE,
             ),
         ],
     }

@@ -32,7 +32,7 @@ const fn patch(
 }
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 10] = [
+pub(super) const PROBLEMS: [Problem; 12] = [
     patch(
         "patch-quad4-mortar",
         "Patch test, quad4, mortar",
@@ -102,6 +102,20 @@ pub(super) const PROBLEMS: [Problem; 10] = [
         "3 by 3 cells on 3 by 3 that match",
         false,
         matching,
+    ),
+    patch(
+        "patch-tri3-mortar",
+        "Patch test, tri3, mortar",
+        "7 cells of two triangles on 5",
+        true,
+        || plane("tri3", [7, 5], MORTAR, 1e-10),
+    ),
+    patch(
+        "patch-wedge6-mortar",
+        "Patch test, wedge6, mortar",
+        "4 by 4 cells of two wedges on 3 by 3",
+        false,
+        || space("wedge6", MORTAR, 1e-9),
     ),
 ];
 

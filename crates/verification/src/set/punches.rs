@@ -1,12 +1,12 @@
 //! Rigid punches, and a pin in its hole: loads are prescribed, as in `hertz.rs`.
 
-use crate::forms::persson;
+use crate::forms::{contact_modulus, persson};
 use crate::mesh::{Grid, Lines, Point, even, graded, mirrored};
 use crate::problem::{Check, Problem, Setup};
 use std::f64::consts::PI;
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 3] = [
+pub(super) const PROBLEMS: [Problem; 5] = [
     Problem {
         name: "flat-punch-2d",
         title: "A rigid flat punch on a block, plane",
@@ -39,6 +39,28 @@ pub(super) const PROBLEMS: [Problem; 3] = [
         formula: "$\\frac{E_1^*\\Delta R}{Q} = \\frac{2}{\\pi}\\frac{1 - b^2}{b^2} - \\frac{I_b}{\\pi^2 b^2(1 + b^2)}$, $I_b = \\int_{-b}^b \\ln\\frac{\\sqrt{b^2+1}+\\sqrt{b^2-t^2}}{\\sqrt{b^2+1}-\\sqrt{b^2-t^2}}\\frac{dt}{1+t^2}$, $b = \\tan(\\varepsilon/2)$; $p_0 R/Q = \\frac{2b}{\\pi\\sqrt{b^2+1}} + \\frac{1}{2\\pi b^2(1+b^2)}\\ln\\frac{\\sqrt{b^2+1}+b}{\\sqrt{b^2+1}-b}$",
         quick: false,
         pose: persson_pin,
+    },
+    Problem {
+        name: "wedge-punch-2d",
+        title: "A rigid blunt wedge on a block",
+        source: "K. L. Johnson, Contact Mechanics (1985), section 5.2",
+        goal: "a pressure that is infinite at a tip",
+        mesh: "32 cells on the half-width, graded outwards to 40 half-widths",
+        conditions: "plane strain, symmetry at x = 0; the base is held along y, the load acts on the wedge; slope 2 degrees",
+        formula: "$a = P/(E^*\\tan\\beta)$, $p(x) = \\frac{E^*\\tan\\beta}{\\pi}\\operatorname{arcosh}(a/x)$",
+        quick: true,
+        pose: || blunt_punch(false),
+    },
+    Problem {
+        name: "cone-punch-axisymmetric",
+        title: "A rigid blunt cone on a block",
+        source: "A. E. H. Love 1939; I. N. Sneddon 1948; K. L. Johnson, Contact Mechanics (1985), section 5.2",
+        goal: "a pressure that is infinite at a tip",
+        mesh: "32 cells on the radius, graded outwards to 40 radii",
+        conditions: "the axis is held along r, the base along the axis; the load acts on the cone; slope 2 degrees",
+        formula: "$F = \\tfrac{\\pi}{2} a^2 E^*\\tan\\beta$, $p(r) = \\tfrac12 E^*\\tan\\beta\\operatorname{arcosh}(a/r)$",
+        quick: true,
+        pose: || blunt_punch(true),
     },
 ];
 
@@ -238,4 +260,59 @@ increments = 2
             .by(|area| (area[0] / 10.0).to_degrees()),
         ],
     }
+}
+
+/// Of blunt punches, in degrees.
+const BLUNT: f64 = 2.0;
+
+fn blunt_punch(is_round: bool) -> Setup {
+    let mut setup = flat_punch(is_round);
+    let tan = BLUNT.to_radians().tan();
+    let modulus = contact_modulus([MATERIAL, [f64::INFINITY, 0.0]]);
+    let (load, pressure) = match is_round {
+        true => (0.5 * PI * A * A * modulus * tan, 0.5 * modulus * tan),
+        // on half of it
+        false => (0.5 * A * modulus * tan, modulus * tan / PI),
+    };
+    let mut grid = Grid::plane();
+    let y = graded(A / 32.0, 8, 1.25, 40.0 * A);
+    let x = graded(A / 32.0, 40, 1.2, 40.0 * A);
+    grid.block("block", "quad4", &[x, mirrored(&y)]);
+    grid.mapped(&Lines {
+        name: "punch",
+        kind: "quad4",
+        axes: &[even(0.0, 2.0 * A, 1), even(0.0, A, 1)],
+        map: &|[x, up, z]| [x, x * tan + up, z],
+    });
+    grid.set("symmetry", "{ plane = \"x\", at = 0.0, of = \"block\" }");
+    let place = A / 2.0;
+    grid.set(
+        "halfway",
+        format!("{{ near = [{place:?}, 0.0], of = \"block\" }}"),
+    );
+    setup.mesh = grid;
+    setup.case = setup
+        .case
+        .replace("[0.0, -10.0]", &format!("[0.0, {:?}]", -load));
+    let width = Check::exact(
+        "extent of contact",
+        "face.area_slip",
+        A,
+        0.04,
+        "nodes are in contact or not: a cell, on 32 cells",
+    );
+    setup.checks = vec![
+        Check::exact(
+            "pressure halfway",
+            "contact_pressure @ set halfway",
+            pressure * 2.0_f64.acosh(),
+            0.02,
+            "discretization on 32 cells, with a pressure that is infinite at the tip",
+        ),
+        match is_round {
+            true => width.by(|area| (area[0] / PI).sqrt()),
+            false => width,
+        },
+    ];
+    setup
 }

@@ -6,7 +6,7 @@ use crate::problem::{Check, Problem, Setup};
 use std::f64::consts::FRAC_PI_2;
 
 /// The problems of this file.
-pub(super) const PROBLEMS: [Problem; 7] = [
+pub(super) const PROBLEMS: [Problem; 11] = [
     Problem {
         name: "uniaxial-neo-hookean",
         title: "A neo-Hookean cube is stretched and compressed",
@@ -18,7 +18,7 @@ pub(super) const PROBLEMS: [Problem; 7] = [
         quick: true,
         pose: || {
             let text = "model = \"neo-hookean\"\nE = 2.6\nnu = 0.3";
-            stretched(text, &|l| neo_hookean(1.0, 1.5, l))
+            stretched(text, [LONG, SHORT], &|l| neo_hookean(1.0, 1.5, l))
         },
     },
     Problem {
@@ -32,7 +32,9 @@ pub(super) const PROBLEMS: [Problem; 7] = [
         quick: true,
         pose: || {
             let text = "model = \"mooney-rivlin\"\nc10 = 0.4\nc01 = 0.1\nbulk = 20.0";
-            stretched(text, &|l| ogden(&[[0.8, 2.0], [0.2, -2.0]], 20.0, l))
+            stretched(text, [LONG, SHORT], &|l| {
+                ogden(&[[0.8, 2.0], [0.2, -2.0]], 20.0, l)
+            })
         },
     },
     Problem {
@@ -46,7 +48,9 @@ pub(super) const PROBLEMS: [Problem; 7] = [
         quick: true,
         pose: || {
             let text = "model = \"ogden\"\nmu = [0.6, -0.1]\nalpha = [1.3, -2.0]\nbulk = 20.0";
-            stretched(text, &|l| ogden(&[[0.6, 1.3], [-0.1, -2.0]], 20.0, l))
+            stretched(text, [LONG, SHORT], &|l| {
+                ogden(&[[0.6, 1.3], [-0.1, -2.0]], 20.0, l)
+            })
         },
     },
     Problem {
@@ -93,6 +97,56 @@ pub(super) const PROBLEMS: [Problem; 7] = [
         quick: true,
         pose: rotating_disc,
     },
+    Problem {
+        name: "uniaxial-st-venant-kirchhoff",
+        title: "A cube of St. Venant and Kirchhoff's law is stretched and compressed",
+        source: "Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, section 6.4",
+        goal: "stress and contraction at large strain",
+        mesh: "one hex8",
+        conditions: "three planes of symmetry; the stretch goes to 1.5, then to 0.8",
+        formula: "$P = \\tfrac12 E(l^3 - l)$, lateral stretch $\\sqrt{1 - \\nu(l^2 - 1)}$",
+        quick: true,
+        pose: saint_venant,
+    },
+    Problem {
+        name: "uniaxial-hyperfoam",
+        title: "A cube of Ogden's and Storåkers's foam is stretched and compressed",
+        source: "B. Storåkers, J. Mech. Phys. Solids 34 (1986) 125",
+        goal: "a compressible law in principal stretches",
+        mesh: "one hex8",
+        conditions: "three planes of symmetry; the stretch goes to 2, then to 0.5",
+        formula: "$\\tau_i = \\sum_p \\frac{2\\mu_p}{\\alpha_p}(\\lambda_i^{\\alpha_p} - J^{-\\alpha_p\\beta_p})$, $\\beta_p = \\nu_p/(1 - 2\\nu_p)$; the lateral stretch solves $\\tau_2 = 0$",
+        quick: true,
+        pose: || {
+            let text =
+                "model = \"hyperfoam\"\nmu = [0.5, 0.2]\nalpha = [2.0, -2.0]\nnu = [0.2, 0.1]";
+            stretched(text, [LONG, SHORT], &|l| {
+                foam(&[[0.5, 2.0, 0.2], [0.2, -2.0, 0.1]], l)
+            })
+        },
+    },
+    Problem {
+        name: "heavy-column",
+        title: "A column under its own weight",
+        source: "Timoshenko and Goodier, Theory of Elasticity, section 96",
+        goal: "gravity",
+        mesh: "10 hex8 along the column",
+        conditions: "ν = 0; the base is held along the column, three planes of symmetry",
+        formula: "$u = \\rho g L^2/(2E)$, base force $\\rho g A L$",
+        quick: true,
+        pose: column,
+    },
+    Problem {
+        name: "bimetal",
+        title: "A strip of two metals is heated",
+        source: "S. Timoshenko, J. Opt. Soc. Am. 11 (1925) 233",
+        goal: "thermal strain that differs on both sides of a joint",
+        mesh: "two tied layers of 40 quad8",
+        conditions: "plane stress, layers of thickness 1 and 1, length 50, moduli 1 : 2; symmetry at one end, heated by 100 K",
+        formula: "$\\kappa = \\frac{6(\\alpha_1 - \\alpha_2)\\Delta T(1+m)^2}{h(3(1+m)^2 + (1+mn)(m^2 + 1/(mn)))}$, $w = \\kappa L^2/2$; $m$, $n$: ratios of thickness and modulus",
+        quick: true,
+        pose: bimetal,
+    },
 ];
 
 const UNITS: &str = "units = \"mm-N-MPa\"\n";
@@ -131,7 +185,7 @@ const CUBE_HELD: &str = r#"
   u = ["z"]
 "#;
 
-fn stretched(material: &str, law: Kirchhoff<'_>) -> Setup {
+fn stretched(material: &str, [long, short]: [f64; 2], law: Kirchhoff<'_>) -> Setup {
     let case = format!(
         r#"{UNITS}[material.rubber]
 {material}
@@ -160,24 +214,21 @@ increments = {{ fixed = 8 }}
   on = "body_right"
   ux = {:?}
 "#,
-        LONG - 1.0,
-        SHORT - 1.0
+        long - 1.0,
+        short - 1.0
     );
     let why = "homogeneous: the closed form to the tolerance of Newton's method";
     let mut checks = Vec::new();
     for (stretch, time, words) in [
         (
-            LONG,
+            long,
             1.0,
-            ["force at twice the length", "lateral motion then"],
+            ["force when stretched", "lateral motion when stretched"],
         ),
         (
-            SHORT,
+            short,
             2.0,
-            [
-                "force at half the length",
-                "lateral motion then, compressed",
-            ],
+            ["force when compressed", "lateral motion when compressed"],
         ),
     ] {
         let [force, lateral] = uniaxial(law, stretch);
@@ -432,5 +483,146 @@ increments = 1
                 "stress at nodes is extrapolated from the points of the cells",
             ),
         ],
+    }
+}
+
+fn saint_venant() -> Setup {
+    let (e, nu) = (2.6, 0.3);
+    let (mu, lambda) = (
+        e / (2.0 * (1.0 + nu)),
+        e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+    );
+    let law = |l: [f64; 3]| {
+        let green = l.map(|l| 0.5 * (l * l - 1.0));
+        let trace: f64 = green.iter().sum();
+        [0, 1, 2].map(|i| l[i] * l[i] * (lambda * trace + 2.0 * mu * green[i]))
+    };
+    let text = "model = \"saint-venant-kirchhoff\"\nE = 2.6\nnu = 0.3";
+    stretched(text, [1.5, 0.8], &law)
+}
+
+/// `W = Σ 2μ/α² (l₁^α + l₂^α + l₃^α − 3 + (J^(−αβ) − 1)/β)`, terms as `[μ, α, ν]`.
+fn foam(terms: &[[f64; 3]], l: [f64; 3]) -> [f64; 3] {
+    let j: f64 = l.iter().product();
+    let mut stress = [0.0; 3];
+    for [mu, alpha, nu] in terms {
+        let volume = j.powf(-alpha * nu / (1.0 - 2.0 * nu));
+        for (s, l) in stress.iter_mut().zip(l) {
+            *s += 2.0 * mu / alpha * (l.powf(*alpha) - volume);
+        }
+    }
+    stress
+}
+
+fn column() -> Setup {
+    let (e, density, gravity, length): (f64, f64, f64, f64) = (1000.0, 1e-8, 9810.0, 10.0);
+    let mut grid = Grid::space();
+    let one = || even(0.0, 1.0, 1);
+    grid.block("body", "hex8", &[one(), one(), even(0.0, length, 10)]);
+    let case = format!(
+        r#"{}
+[[step]]
+name = "stand"
+geometry = "linear"
+increments = 1
+{CUBE_HELD}
+  [[step.load]]
+  on = "body"
+  gravity = [0.0, 0.0, {:?}]
+"#,
+        elastic(e, 0.0, &format!("density = {density:?}")),
+        -gravity
+    );
+    let weight = density * gravity;
+    let why = "nodal values of linear elements are exact in one dimension";
+    Setup {
+        mesh: grid,
+        case,
+        checks: vec![
+            Check::exact(
+                "the head sinks by",
+                "displacement.z @ set body_front",
+                -weight * length * length / (2.0 * e),
+                1e-8,
+                why,
+            ),
+            Check::exact(
+                "force at the base",
+                "reaction_force.z @ set body_back",
+                weight * length,
+                1e-8,
+                "equilibrium",
+            ),
+        ],
+    }
+}
+
+fn bimetal() -> Setup {
+    let (length, alpha, rise) = (50.0, [2e-5, 1e-5], 100.0);
+    let mut grid = Grid::plane();
+    grid.block("low", "quad8", &[even(0.0, length, 40), even(0.0, 1.0, 1)]);
+    grid.block("high", "quad8", &[even(0.0, length, 40), even(1.0, 2.0, 1)]);
+    grid.set("root", "{ plane = \"x\", at = 0.0 }");
+    grid.set("foot", "{ near = [0.0, 0.0] }");
+    grid.set("end", format!("{{ near = [{length:?}, 0.0] }}"));
+    let material = |name: &str, e: f64, alpha: f64| {
+        format!(
+            r#"
+[material.{name}]
+model = "linear-elastic"
+E = {e:?}
+nu = 0.3
+expansion = {{ alpha = {alpha:?} }}
+
+[[body]]
+group = "{name}"
+material = "{name}"
+"#
+        )
+    };
+    let case = format!(
+        r#"{UNITS}{}{}{PLANE_STRESS}
+[initial]
+temperature = 0.0
+
+[[contact]]
+name = "joint"
+secondary = "high_bottom"
+primary = "low_top"
+tied = true
+
+[[step]]
+name = "heat"
+geometry = "linear"
+increments = 1
+
+  [[step.fix]]
+  on = "root"
+  u = ["x"]
+
+  [[step.fix]]
+  on = "foot"
+  u = ["y"]
+
+  [[step.temperature]]
+  on = "all"
+  value = {rise:?}
+"#,
+        material("low", 1000.0, alpha[0]),
+        material("high", 2000.0, alpha[1])
+    );
+    let (m, n, thick) = (1.0_f64, 0.5, 2.0);
+    let ends = 3.0 * (1.0 + m).powi(2) + (1.0 + m * n) * (m * m + 1.0 / (m * n));
+    let bends = 6.0 * (alpha[0] - alpha[1]) * rise * (1.0 + m).powi(2) / (thick * ends);
+    Setup {
+        mesh: grid,
+        case,
+        checks: vec![Check::exact(
+            "the end rises by",
+            "displacement.y @ set end",
+            0.5 * bends * length * length,
+            5e-3,
+            "beam theory: at the free end the layers are not yet bent, and the thickness grows",
+        )],
     }
 }
