@@ -100,7 +100,7 @@ pub(super) const PROBLEMS: [Problem; 10] = [
         title: "Torsion of a square bar",
         source: "Saint-Venant 1855; Timoshenko and Goodier, Theory of Elasticity, section 109",
         goal: "shear and warping of a section that may warp",
-        mesh: "4 by 4 by 8 hex20",
+        mesh: "6 by 6 by 6 hex20",
         conditions: "one end is held across the axis, the section of the other one turns by 0.01; both may warp",
         formula: "$\\tau = G\\theta' a\\left(1 - \\frac{8}{\\pi^2}\\sum_{n\\,odd} \\frac{1}{n^2\\cosh(n\\pi/2)}\\right)$ in the middle of a side",
         quick: true,
@@ -516,8 +516,8 @@ fn cook_incompressible() -> Setup {
 fn torsion() -> Setup {
     let (e, nu, length, turn) = (1000.0, 0.3, 8.0, 0.01);
     let mut grid = Grid::space();
-    let side = || even(-0.5, 0.5, 4);
-    grid.block("body", "hex20", &[even(0.0, length, 8), side(), side()]);
+    let side = || even(-0.5, 0.5, 6);
+    grid.block("body", "hex20", &[even(0.0, length, 6), side(), side()]);
     grid.set("middle", "{ near = [4.0, -0.5, 0.0] }");
     grid.set("root", "{ near = [0.0, 0.0, 0.0] }");
     let case = format!(
@@ -568,7 +568,7 @@ increments = 1
             "stress.xz @ set middle",
             shear,
             0.01,
-            "stress at nodes is extrapolated from the points of 4 cells on a side",
+            "stress at nodes is extrapolated from the points of 6 cells on a side",
         )],
     }
 }
