@@ -31,6 +31,7 @@ mod status;
 mod templates;
 mod terminal;
 mod threads;
+mod verify;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
@@ -86,6 +87,8 @@ enum Verb {
     Explain(explain::Explain),
     /// Explain a command, a key of cases, or the code of a message.
     Help(help::Help),
+    /// Run problems with known answers on this machine and compare.
+    Verify(verify::Verify),
     /// Tell version, machine and threads, and solve something small: for reports of bugs.
     Doctor(doctor::Doctor),
     /// Print completions for a shell.
@@ -130,6 +133,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Verb::Explain(explain) => explain.execute(),
             Verb::Help(help) => help.execute(Cli::command()),
             Verb::Doctor(doctor) => doctor.execute(),
+            Verb::Verify(verify) => verify.execute(),
             Verb::Completions(completions) => completions.execute(Cli::command()),
         }
     })

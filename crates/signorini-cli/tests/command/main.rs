@@ -24,3 +24,4 @@ mod stopping;
 mod support;
 mod terminal;
 mod text;
+mod verify;

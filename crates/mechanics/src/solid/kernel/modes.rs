@@ -34,6 +34,10 @@ const STEPS: usize = 25;
 /// order in forces, by (E12).
 const BALANCED: f64 = 1e-9;
 
+/// A step of the modes, relative to the displacements of the nodes, that is rounding: where stresses cancel, as in a body
+/// that expands freely, there is no size of forces to compare with.
+const ROUNDING: f64 = 1e-13;
+
 /// The largest number of numbers that describe the modes.
 const MOST: usize = 9;
 
@@ -100,8 +104,10 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
         if dense::solve(inner, nmode, solution, nright).is_none() {
             break;
         }
-        let left = force[..nmode].iter().fold(0.0f64, |m, f| m.max(f.abs()));
-        if is_exact || left <= BALANCED * size {
+        let left = largest(force[..nmode].iter());
+        let steps = largest(solution.chunks_exact(nright).filter_map(<[f64]>::first));
+        let moved = largest(element.u[..n].iter());
+        if is_exact || left <= BALANCED * size || steps <= ROUNDING * moved {
             outcome = Ok(());
             break;
         }
@@ -114,6 +120,11 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
     }
     *out.scratch = scratch;
     outcome
+}
+
+/// The largest size of numbers.
+fn largest<'a>(numbers: impl Iterator<Item = &'a f64>) -> f64 {
+    numbers.fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// Newton's step of the modes, from `solution = K_αα⁻¹ (f_α, …)`.
