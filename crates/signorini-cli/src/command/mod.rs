@@ -28,6 +28,7 @@ mod stack;
 mod templates;
 mod terminal;
 mod threads;
+mod within;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
@@ -90,6 +91,9 @@ enum Verb {
 /// ```
 pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    if let Err(code) = within::keep() {
+        return code;
+    }
     pages::keep_memory();
     exhausted::watch();
     guard::guarded(|| {

@@ -20,3 +20,4 @@ mod results;
 mod stopping;
 mod support;
 mod text;
+mod within;
