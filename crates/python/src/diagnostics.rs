@@ -16,6 +16,7 @@ fn dictionary<'py>(py: Python<'py>, one: &Diagnostic) -> PyResult<Bound<'py, PyD
         file,
         line,
         column,
+        ..
     } = event_of(one)
     {
         dict.set_item("severity", severity)?;

@@ -26,6 +26,7 @@ pub mod preview;
 pub mod resume;
 pub mod run;
 pub mod setup;
+pub mod status;
 pub mod text;
 pub mod threads;
 mod vocabulary;

@@ -14,6 +14,7 @@
 mod build;
 mod check;
 mod fields;
+pub mod keys;
 #[doc(hidden)]
 pub mod mutate;
 mod origin;

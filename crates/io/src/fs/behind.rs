@@ -20,6 +20,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
+use std::time::SystemTime;
 
 /// Bytes that may be on their way to the disk, unless one call alone has more.
 const MOST: usize = 64 << 20;
@@ -257,6 +258,10 @@ impl Fs for BehindFs {
 
     fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
         self.settled()?.is_locked(path)
+    }
+
+    fn modified(&self, path: &Path) -> Result<Option<SystemTime>, FsError> {
+        self.settled()?.modified(path)
     }
 
     fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {

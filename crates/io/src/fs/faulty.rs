@@ -8,6 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::SystemTime;
 
 use super::{Action, Fs, FsError, Lock, Log, replace};
 
@@ -238,6 +239,10 @@ impl<F: Fs, P: Plan> Fs for Faulty<F, P> {
 
     fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
         self.inner.is_locked(path)
+    }
+
+    fn modified(&self, path: &Path) -> Result<Option<SystemTime>, FsError> {
+        self.inner.modified(path)
     }
 
     fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
 
 /// Files that live as long as this value and its clones, which share them.
 ///
@@ -112,6 +113,12 @@ impl Fs for MemoryFs {
 
     fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
         Ok(self.content().locked.contains(path))
+    }
+
+    fn modified(&self, path: &Path) -> Result<Option<SystemTime>, FsError> {
+        let content = self.content();
+        let file = content.files.get(path).map(|_| None);
+        file.ok_or_else(|| missing(Action::Read, path))
     }
 
     fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {

@@ -31,6 +31,7 @@ mod within;
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 pub use behind::BehindFs;
 pub use error::{Action, FsError};
@@ -79,6 +80,12 @@ pub trait Fs: Send + Sync {
 
     /// Whether a process holds the lock file at `path`; no where there is no such file, or where the disk has no locks.
     fn is_locked(&self, path: &Path) -> Result<bool, FsError>;
+
+    /// When a file was written to last; none where the disk does not say.
+    ///
+    /// # Errors
+    /// A file that is missing or cannot be asked.
+    fn modified(&self, path: &Path) -> Result<Option<SystemTime>, FsError>;
 
     /// Replaces a file as a whole: readers see the old content or the new one, also after a power cut.
     ///

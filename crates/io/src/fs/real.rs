@@ -3,7 +3,7 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use super::within::permit;
 use super::{Action, Fs, FsError, Lock, Log, folder_of, replace};
@@ -138,6 +138,11 @@ impl Fs for RealFs {
             Err(TryLockError::Error(e)) if e.kind() == io::ErrorKind::Unsupported => Ok(false),
             Err(TryLockError::Error(e)) => Err(FsError::new(Action::Lock, path, e)),
         }
+    }
+
+    fn modified(&self, path: &Path) -> Result<Option<SystemTime>, FsError> {
+        let metadata = fs::metadata(path).map_err(|e| FsError::new(Action::Read, path, e))?;
+        Ok(metadata.modified().ok())
     }
 
     fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {

@@ -344,6 +344,10 @@ impl Fs for Panicking {
         RealFs.is_locked(path)
     }
 
+    fn modified(&self, path: &Path) -> Result<Option<SystemTime>, FsError> {
+        RealFs.modified(path)
+    }
+
     fn write_atomic(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
         replace(self, path, bytes)
     }
@@ -407,6 +411,9 @@ fn files_in_memory_behave_as_those_on_the_disk() {
         assert!(matches!(locked, FsError::Locked { .. }));
         drop(lock);
         assert!(!fs.is_locked(&at("lock")).unwrap());
+        let written = fs.modified(&at("rows")).unwrap();
+        assert!(written.is_none_or(|at| at <= SystemTime::now()));
+        assert!(fs.modified(&at("missing")).is_err());
         fs.rename(&at("rows"), &at("moved")).unwrap();
         assert!(!fs.exists(&at("rows")).unwrap());
         fs.remove(&at("moved")).unwrap();

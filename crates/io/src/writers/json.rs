@@ -35,6 +35,8 @@ pub enum Event {
         elements: u64,
         /// Number of unknowns.
         unknowns: u64,
+        /// Duration of all steps.
+        duration: f64,
     },
     /// A message to the user.
     Diagnostic {
@@ -53,6 +55,15 @@ pub enum Event {
         /// The column, from 1.
         #[serde(skip_serializing_if = "Option::is_none")]
         column: Option<u64>,
+        /// The remark at that place.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        label: Option<String>,
+        /// Facts with numbers.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        notes: Vec<String>,
+        /// What to do.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        help: Vec<String>,
     },
     /// A Newton iteration.
     Iteration {

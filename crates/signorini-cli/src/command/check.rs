@@ -2,14 +2,15 @@
 
 use super::console::Console;
 use super::findings::{joined, not_written};
+use super::object::{self, Members};
 use super::options::{CaseOptions, FolderOption};
 use clap::Args;
-use signorini::preview;
-use signorini::{Diagnostics, build, load};
-use signorini_geometry::mesh::Mesh;
-use signorini_io::case::Case;
+use serde_json::{Value, json};
+use signorini::preview::{self, Preview};
+use signorini::{Diagnostics, Loaded, Model, build, load};
 use signorini_io::diagnostic::{Diagnostic, codes};
 use signorini_io::fs::{Fs, FsError, RealFs};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Read everything, solve nothing.
@@ -19,31 +20,62 @@ pub struct Check {
     case: PathBuf,
     #[command(flatten)]
     folder: FolderOption,
+    /// The answer as one object of JSON on standard output
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     changes: CaseOptions,
 }
 
 impl Check {
     pub fn execute(self) -> u8 {
-        match load(&self.case, &self.changes.reading()) {
-            Ok(loaded) => preview(
-                loaded.case,
-                loaded.mesh,
-                loaded.warnings,
-                self.folder.output.as_deref(),
-            ),
-            Err(found) => refused(&found),
+        let folder = self.folder.output.as_deref();
+        let looked = load(&self.case, &self.changes.reading()).and_then(|case| look(case, folder));
+        if self.json {
+            return match looked {
+                Ok(looked) => object::answer("check", 0, &looked.found, looked.members),
+                Err(found) => object::refused("check", &found),
+            };
+        }
+        report(looked)
+    }
+}
+
+/// What a case is, without a solution.
+struct Looked {
+    found: Diagnostics,
+    lines: Vec<String>,
+    members: Members,
+}
+
+/// Builds a case and reports what would be solved.
+pub fn preview(loaded: Loaded) -> u8 {
+    report(look(loaded, None))
+}
+
+fn report(looked: Result<Looked, Diagnostics>) -> u8 {
+    match looked {
+        Ok(looked) => {
+            Console::stderr().findings(&looked.found);
+            let out = Console::stdout();
+            looked.lines.iter().for_each(|line| out.line(line));
+            out.line("✓ nothing wrong was found");
+            0
+        }
+        Err(found) => {
+            Console::stderr().findings(&found);
+            found.exit_code().unwrap_or(3)
         }
     }
 }
 
-/// Builds a case and reports what would be solved; draws it where there is a folder.
-pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Path>) -> u8 {
-    let mut model = match build(case, mesh) {
+/// Builds a case and looks at it; draws it where there is a folder.
+fn look(loaded: Loaded, folder: Option<&Path>) -> Result<Looked, Diagnostics> {
+    let mut model = match build(loaded.case, loaded.mesh) {
         Ok(model) => model,
-        Err(found) => return refused(&joined(warnings, found)),
+        Err(found) => return Err(joined(loaded.warnings, found)),
     };
-    let mut found = joined(warnings, std::mem::take(&mut model.warnings));
+    let mut found = joined(loaded.warnings, std::mem::take(&mut model.warnings));
     let is_by_contact = |one: &Diagnostic| one.code.id == codes::HELD_BY_CONTACT.id;
     let is_held = !found.iter().any(is_by_contact);
     let output = signorini::run::check_output(&model);
@@ -53,37 +85,84 @@ pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Pa
             for wrong in [output.err(), seen.err()].into_iter().flatten() {
                 found.append(wrong);
             }
-            return refused(&found);
+            return Err(found);
         }
     };
-    Console::stderr().findings(&found);
-    let out = Console::stdout();
-    for line in &preview.lines {
-        out.line(line);
-    }
+    let mut members = members(&model, &preview);
+    members.insert("held_by_supports".into(), is_held.into());
+    let mut lines = preview.lines.clone();
     if is_held {
-        out.line("supports hold every body");
+        lines.push("supports hold every body".to_owned());
     }
     if let Some(folder) = folder {
         let path = folder.join("check.vtu");
         let written = preview::picture(&model, &preview)
             .map_err(|error| Diagnostic::error(&codes::NOT_WRITTEN, error.to_string()))
             .and_then(|bytes| write(&path, &bytes).map_err(|e| not_written(&e)));
-        match written {
-            Ok(()) => out.line(&format!("→ {}", path.display())),
-            Err(one) => return refused(&one.into()),
-        }
+        written.map_err(|one| joined(found.clone(), one.into()))?;
+        lines.push(format!("→ {}", path.display()));
+        members.insert("picture".into(), json!(path));
     }
-    out.line("✓ nothing wrong was found");
-    0
+    Ok(Looked {
+        found,
+        lines,
+        members,
+    })
+}
+
+/// Sizes, bodies, contacts and cost, for machines; with the lines for people.
+fn members(model: &Model, preview: &Preview) -> Members {
+    let mesh = &model.mesh;
+    let mut elements = BTreeMap::new();
+    let solids = mesh.blocks.iter().filter(|b| b.element.dim() == mesh.dim());
+    for block in solids {
+        *elements.entry(block.element.name()).or_insert(0) += block.ncell();
+    }
+    let quality = preview.quality.as_ref().map(|quality| {
+        json!({
+            "scaled_jacobian_min": quality.scaled_jacobian.min,
+            "scaled_jacobian_mean": quality.scaled_jacobian.mean,
+            "edge_ratio_min": quality.edge_ratio.min,
+            "inverted": quality.nbad,
+        })
+    });
+    let bodies = model.case.bodies.iter().map(|body| {
+        let groups: Vec<&str> = body.groups.iter().map(|g| g.value.as_str()).collect();
+        let material = body.material.as_ref().map(|m| m.value.clone());
+        json!({ "groups": groups, "material": material, "rigid": body.rigid })
+    });
+    let bodies: Vec<Value> = bodies.collect();
+    let contacts = model.contacts.iter().map(|contact| {
+        json!({
+            "name": contact.name,
+            "method": contact.method,
+            "enforcement": contact.enforcement,
+            "sliding": contact.sliding,
+            "points": contact.npoint,
+            "facets": contact.nfacet,
+            "facet_size": contact.facet_size,
+            "gap_min": contact.start.gap,
+            "touching": contact.start.touching,
+        })
+    });
+    let contacts: Vec<Value> = contacts.collect();
+    let steps: Vec<&str> = model.steps.iter().map(|s| s.name.as_str()).collect();
+    object::members(&json!({
+        "title": model.case.title,
+        "nodes": mesh.nnode(),
+        "elements": elements,
+        "unknowns": preview.start.nunknown,
+        "quality": quality,
+        "bodies": bodies,
+        "contacts": contacts,
+        "steps": steps,
+        "locking": model.remedies(),
+        "cost": preview.estimate,
+        "lines": preview.lines,
+    }))
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), FsError> {
     RealFs.create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
     RealFs.write_atomic(path, bytes)
-}
-
-fn refused(found: &Diagnostics) -> u8 {
-    Console::stderr().findings(found);
-    found.exit_code().unwrap_or(3)
 }

@@ -1,38 +1,61 @@
 //! `signorini doctor`
 
 use super::console::Console;
+use super::object;
 use super::templates::TEMPLATES;
 use super::threads;
-use signorini::{RunOptions, build};
+use clap::Args;
+use serde_json::json;
+use signorini::{Diagnostics, RunOptions, build};
 use signorini_linear::SOLVERS;
 use std::time::Instant;
 
-/// Tells what there is to know about program and machine, and solves something small.
-pub fn execute() -> u8 {
-    let out = Console::stdout();
-    out.line(&format!("signorini {}", signorini::VERSION));
-    out.line(&format!(
-        "system    {} {}",
-        std::env::consts::OS,
-        std::env::consts::ARCH
-    ));
-    out.line(&format!("threads   {}", threads::make(None, None)));
-    let solvers: Vec<&str> = SOLVERS.iter().map(|solver| solver.name).collect();
-    out.line(&format!("linear    {}", solvers.join(", ")));
-    let folder = std::env::temp_dir();
-    out.line(&format!("temporary {}", folder.display()));
-    match trial(&folder.join(format!("signorini-doctor-{}", std::process::id()))) {
-        Ok(seconds) => {
-            out.line(&format!(
+/// Tell version, machine and threads, and solve something small: for reports of bugs.
+#[derive(Debug, Args)]
+pub struct Doctor {
+    /// The answer as one object of JSON on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+impl Doctor {
+    /// Tells what there is to know about program and machine, and solves something small.
+    pub fn execute(self) -> u8 {
+        let (os, architecture) = (std::env::consts::OS, std::env::consts::ARCH);
+        let threads = threads::make(None, None);
+        let solvers: Vec<&str> = SOLVERS.iter().map(|solver| solver.name).collect();
+        let folder = std::env::temp_dir();
+        let trial = trial(&folder.join(format!("signorini-doctor-{}", std::process::id())));
+        let code = trial.as_ref().map_or_else(|(code, _)| *code, |_| 0);
+        if self.json {
+            let members = object::members(&json!({
+                "version": signorini::VERSION,
+                "system": os,
+                "architecture": architecture,
+                "threads": threads,
+                "linear": solvers,
+                "temporary": folder,
+                "trial_seconds": trial.as_ref().ok(),
+                "trial_fault": trial.as_ref().err().map(|(_, why)| why),
+            }));
+            return object::answer("doctor", code, &Diagnostics::new(), members);
+        }
+        let out = Console::stdout();
+        out.line(&format!("signorini {}", signorini::VERSION));
+        out.line(&format!("system    {os} {architecture}"));
+        out.line(&format!("threads   {threads}"));
+        out.line(&format!("linear    {}", solvers.join(", ")));
+        out.line(&format!("temporary {}", folder.display()));
+        match trial {
+            Ok(seconds) => out.line(&format!(
                 "✓ a small case is solved and written in {seconds:.2} s"
-            ));
-            0
+            )),
+            Err((code, why)) => {
+                out.line(&format!("✗ a small case fails with exit code {code}"));
+                out.text(&why);
+            }
         }
-        Err((code, why)) => {
-            out.line(&format!("✗ a small case fails with exit code {code}"));
-            out.text(&why);
-            code
-        }
+        code
     }
 }
 

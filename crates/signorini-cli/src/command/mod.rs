@@ -13,11 +13,13 @@ mod exit;
 mod explain;
 mod findings;
 mod guard;
+mod help;
 mod info;
 mod init;
 mod job;
 mod keywords;
 mod ndjson;
+mod object;
 mod options;
 mod pages;
 mod resume;
@@ -25,6 +27,7 @@ mod run;
 mod schema;
 mod signals;
 mod stack;
+mod status;
 mod templates;
 mod terminal;
 mod threads;
@@ -38,7 +41,13 @@ use std::ffi::OsString;
 
 /// Contact mechanics by finite elements.
 #[derive(Debug, Parser)]
-#[command(name = "signorini", version, about, arg_required_else_help = true)]
+#[command(
+    name = "signorini",
+    version,
+    about,
+    arg_required_else_help = true,
+    disable_help_subcommand = true
+)]
 #[command(
     after_help = "Exit codes: 0 solved, 1 an expectation failed or results differ, 2 command line, 3 input, 4 ill-posed model, \
     5 not converged,\n6 not written, 7 cannot resume, 8 limit reached, 70 internal error, 130/143 interrupted"
@@ -60,6 +69,8 @@ enum Verb {
     Init(init::Init),
     /// Run an example in a temporary folder and compare with its expected values.
     Demo(demo::Demo),
+    /// Say what a run has reached: while it goes on, after it was killed, and after its end.
+    Status(status::Status),
     /// List the content of a mesh, a case, or a folder of results.
     Info(info::Info),
     /// Compare results with a reference, block by block.
@@ -72,10 +83,12 @@ enum Verb {
     Schema,
     /// List the keywords of decks: read, left out, refused.
     Keywords,
-    /// Explain the code of a message.
+    /// Explain the code of a message, or a key of cases.
     Explain(explain::Explain),
+    /// Explain a command, a key of cases, or the code of a message.
+    Help(help::Help),
     /// Tell version, machine and threads, and solve something small: for reports of bugs.
-    Doctor,
+    Doctor(doctor::Doctor),
     /// Print completions for a shell.
     Completions(completions::Completions),
 }
@@ -107,6 +120,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Verb::Check(check) => check.execute(),
             Verb::Init(init) => init.execute(),
             Verb::Demo(demo) => demo.execute(),
+            Verb::Status(status) => status.execute(),
             Verb::Info(info) => info.execute(),
             Verb::Diff(diff) => diff.execute(),
             Verb::CcxCompat(compat) => compat.execute(),
@@ -114,7 +128,8 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Verb::Schema => schema::execute(),
             Verb::Keywords => keywords::execute(),
             Verb::Explain(explain) => explain.execute(),
-            Verb::Doctor => doctor::execute(),
+            Verb::Help(help) => help.execute(Cli::command()),
+            Verb::Doctor(doctor) => doctor.execute(),
             Verb::Completions(completions) => completions.execute(Cli::command()),
         }
     })

@@ -50,6 +50,9 @@ impl Run {
             Ok(loaded) => loaded,
             Err(found) => return refused(&found, &self.solve),
         };
+        if self.dry_run {
+            return super::check::preview(loaded);
+        }
         let job = Job {
             warnings: loaded.warnings,
             case: loaded.case,
@@ -63,9 +66,6 @@ impl Run {
             clock,
             read_seconds: clock.elapsed().as_secs_f64(),
         };
-        if self.dry_run {
-            return super::check::preview(job.case, job.mesh, job.warnings, None);
-        }
         job.solve(&self.solve)
     }
 }

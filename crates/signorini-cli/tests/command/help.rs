@@ -11,6 +11,7 @@ fn a_wrong_command_line_ends_with_2_and_says_what_is_known() {
         &["run", "case.toml", "--set", "nothing"],
         &["run", "case.toml", "--max-wall", "soon"],
         &["explain", "S9999"],
+        &["help", "S9999"],
         &["init", "nonsense"],
         &["completions", "nonsense"],
     ] {
@@ -38,6 +39,42 @@ fn explanations_schema_and_completions_are_printed() {
     let schema = run(folder.path(), &["schema"]);
     let schema: serde_json::Value = serde_json::from_str(&schema.out).unwrap();
     assert!(schema["properties"]["contact"].is_object());
+}
+
+#[test]
+fn keys_are_explained_with_values_defaults_and_examples() {
+    let folder = folder_with(BRICK);
+    run(folder.path(), &["explain", "contact.enforcement"]).says(
+        0,
+        &[
+            "how penetration is prevented",
+            "\"auto\"",
+            "Keys inside",
+            "[[contact]]",
+        ],
+    );
+    run(folder.path(), &["explain", "friction"]).says(
+        0,
+        &[
+            "contact.friction: ",
+            "range    at least 0",
+            "default  0.0",
+            "step.contact.friction",
+        ],
+    );
+    run(folder.path(), &["help", "material.neo-hookean.E"]).says(0, &["Young's modulus"]);
+    run(folder.path(), &["explain", "contact.frcition"])
+        .says(2, &["did you mean contact.friction?"]);
+}
+
+#[test]
+fn help_explains_commands_and_suggests_them() {
+    let folder = folder_with(BRICK);
+    run(folder.path(), &["help"]).says(0, &["Exit codes"]);
+    run(folder.path(), &["help", "resume"]).says(0, &["checkpoint", "--max-wall"]);
+    run(folder.path(), &["help", "resum"]).says(2, &["did you mean resume?"]);
+    run(folder.path(), &["statsu", "case.out"]).says(2, &["'status'"]);
+    run(folder.path(), &["chek", "case.toml"]).says(2, &["'check'"]);
 }
 
 #[test]

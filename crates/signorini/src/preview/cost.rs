@@ -10,12 +10,20 @@ const PROGRAM: f64 = 2e7;
 const PER_NODE: f64 = 1_000.0;
 const PER_CELL: f64 = 2_500.0;
 
-/// Lines on memory and time; none where they are not known.
-pub fn lines(model: &Model) -> Vec<String> {
-    known(model).unwrap_or_default()
+/// What a solution is expected to take on this machine.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Estimate {
+    /// Bytes of memory.
+    pub memory_bytes: f64,
+    /// Seconds for each iteration.
+    pub seconds_per_iteration: f64,
+    /// The same in words, and what it is where multigrid does not serve.
+    #[serde(skip)]
+    pub(super) lines: Vec<String>,
 }
 
-fn known(model: &Model) -> Option<Vec<String>> {
+/// Memory and time; none where they are not known.
+pub fn estimate(model: &Model) -> Option<Estimate> {
     let first = model.steps.first()?;
     let state = model.system.initial_state();
     let Cost { linear, assembly } =
@@ -44,7 +52,11 @@ fn known(model: &Model) -> Option<Vec<String>> {
             duration(seconds + assembly)
         ));
     }
-    Some(lines)
+    Some(Estimate {
+        memory_bytes: other + linear.bytes(),
+        seconds_per_iteration: linear.seconds() + assembly,
+        lines,
+    })
 }
 
 fn duration(seconds: f64) -> String {

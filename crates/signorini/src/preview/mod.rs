@@ -4,6 +4,7 @@
 mod cost;
 mod picture;
 
+pub use cost::Estimate;
 pub use picture::picture;
 
 use crate::run::{Start, begin};
@@ -23,6 +24,8 @@ pub struct Preview {
     pub start: Start,
     /// The shapes of the elements; none where there are none.
     pub quality: Option<Quality>,
+    /// Memory and time; none where they are not known.
+    pub estimate: Option<Estimate>,
     /// What there is to say, line by line.
     pub lines: Vec<String>,
 }
@@ -76,10 +79,12 @@ pub fn preview(model: &mut Model) -> Result<Preview, Diagnostics> {
         let contact = start.frame.contacts.iter().find(|c| c.name == info.name);
         lines.extend(contact.map(|c| gaps(c, info, model)));
     }
-    lines.extend(cost::lines(model));
+    let estimate = cost::estimate(model);
+    lines.extend(estimate.iter().flat_map(|one| one.lines.iter().cloned()));
     Ok(Preview {
         start,
         quality,
+        estimate,
         lines,
     })
 }

@@ -167,6 +167,11 @@ pub fn event_of(finding: &Diagnostic) -> Event {
         file: place.as_ref().map(|(file, ..)| file.clone()),
         line: place.as_ref().map(|(_, line, _)| *line),
         column: place.map(|(.., column)| column),
+        label: label
+            .map(|label| label.text.clone())
+            .filter(|text| !text.is_empty()),
+        notes: finding.notes.clone(),
+        help: finding.help.clone(),
     }
 }
 

@@ -19,7 +19,7 @@ const EVERYTHING: &str = include_str!("../cases/everything.toml");
 /// What is different in the plane.
 const PLANE: &str = include_str!("../cases/plane.toml");
 
-fn vocabulary() -> &'static Vocabulary {
+pub(super) fn vocabulary() -> &'static Vocabulary {
     static VOCABULARY: LazyLock<Vocabulary> = LazyLock::new(|| {
         Vocabulary::new(Kinds {
             materials: signorini_mechanics::material::descriptions(),

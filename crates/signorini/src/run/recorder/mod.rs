@@ -151,6 +151,7 @@ impl Recorder<'_> {
             nodes: facts.nnode as u64,
             elements: facts.cells.iter().map(|(_, n)| *n as u64).sum(),
             unknowns: facts.nunknown as u64,
+            duration: facts.duration,
         };
         self.tell(&event, Detail::Start(facts));
         for finding in findings {
