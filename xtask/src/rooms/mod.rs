@@ -37,7 +37,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 39] = [
+const ROOMS: [Room; 40] = [
     room("vocabulary", &[]),
     room("geometry", &[]),
     room("geometry::tensor", &[]),
@@ -129,10 +129,12 @@ const ROOMS: [Room; 39] = [
         "signorini",
         &["io", "mechanics", "linear", "geometry", "vocabulary"],
     ),
+    room("mcp", &[]),
     room(
         "signorini-cli",
         &[
             "signorini",
+            "mcp",
             "io",
             "mechanics",
             "linear",

@@ -141,6 +141,7 @@ impl Fs for RealFs {
     }
 
     fn modified(&self, path: &Path) -> Result<Option<SystemTime>, FsError> {
+        permit(Action::Read, path)?;
         let metadata = fs::metadata(path).map_err(|e| FsError::new(Action::Read, path, e))?;
         Ok(metadata.modified().ok())
     }

@@ -18,6 +18,7 @@ mod info;
 mod init;
 mod job;
 mod keywords;
+mod mcp;
 mod ndjson;
 mod object;
 mod options;
@@ -89,6 +90,8 @@ enum Verb {
     Help(help::Help),
     /// Tell version, machine and threads, and solve something small: for reports of bugs.
     Doctor(doctor::Doctor),
+    /// Serve agents by the Model Context Protocol, on standard input and output.
+    Mcp(mcp::Mcp),
     /// Print completions for a shell.
     Completions(completions::Completions),
 }
@@ -109,6 +112,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
     }
     pages::keep_memory();
     exhausted::watch();
+    let program = arguments.first().cloned().unwrap_or_default();
     guard::guarded(|| {
         let cli = match Cli::try_parse_from(arguments) {
             Ok(cli) => cli,
@@ -130,6 +134,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Verb::Explain(explain) => explain.execute(),
             Verb::Help(help) => help.execute(Cli::command()),
             Verb::Doctor(doctor) => doctor.execute(),
+            Verb::Mcp(mcp) => mcp.execute(&program),
             Verb::Completions(completions) => completions.execute(Cli::command()),
         }
     })
