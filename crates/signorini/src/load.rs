@@ -6,8 +6,8 @@ use sha2::{Digest, Sha256};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::{self, Case, MeshSource, Shape};
 use signorini_io::deck::{self, Compat};
-use signorini_io::diagnostic::Diagnostics;
-use signorini_io::fs::RealFs;
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
+use signorini_io::fs::{self, Action, RealFs};
 use signorini_io::writers::json::Input;
 use std::path::{Path, PathBuf};
 
@@ -195,7 +195,10 @@ pub fn load(path: &Path, reading: &Reading) -> Result<Loaded, Diagnostics> {
 /// All faults of the case at once.
 pub fn load_case(path: &Path, reading: &Reading) -> Result<Opened, Diagnostics> {
     let overrides = &reading.set;
-    let Ok(text) = std::fs::read(path) else {
+    fs::permit(Action::Read, path).map_err(|error| {
+        Diagnostic::error(&codes::UNREADABLE, error.to_string()).help(error.help())
+    })?;
+    let Ok(text) = fs::read(path) else {
         // says why, in the words for users
         let (case, warnings) = case::read_case_file(path, overrides, vocabulary())?;
         return Ok(Opened {
@@ -304,7 +307,7 @@ fn mesh_of(
             (mesh, None)
         }
     };
-    let hash_of = |path: &Path| sha256(&std::fs::read(path).unwrap_or_default());
+    let hash_of = |path: &Path| sha256(&fs::read(path).unwrap_or_default());
     for surface in &case.surfaces {
         if let Shape::Stl { path } = &surface.shape {
             let path = source.folder.join(&path.value);

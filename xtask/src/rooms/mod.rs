@@ -37,7 +37,7 @@ const fn room(name: &'static str, may_import: &'static [&'static str]) -> Room {
 }
 
 /// Every room there is.
-const ROOMS: [Room; 41] = [
+const ROOMS: [Room; 42] = [
     room("vocabulary", &[]),
     room("geometry", &[]),
     room("geometry::tensor", &[]),
@@ -131,12 +131,14 @@ const ROOMS: [Room; 41] = [
         &["io", "mechanics", "linear", "geometry", "vocabulary"],
     ),
     room("verification", &["signorini", "io", "geometry"]),
+    room("mcp", &[]),
     room(
         "signorini-cli",
         &[
             "signorini",
             "verification",
             "report",
+            "mcp",
             "io",
             "mechanics",
             "linear",

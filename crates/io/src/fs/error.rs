@@ -89,6 +89,16 @@ pub enum FsError {
         /// The lock file.
         path: PathBuf,
     },
+    /// The process is confined to a folder, and the path leads out of it.
+    #[error("{} is outside of {}, the only folder that may be used ({action} it was refused)", path.display(), root.display())]
+    Outside {
+        /// What was tried.
+        action: Action,
+        /// The file or folder, as it was named.
+        path: PathBuf,
+        /// The folder that may be used.
+        root: PathBuf,
+    },
     /// A growing file is shorter than the part to be kept.
     #[error("{} has {have} bytes where {keep} were to be kept", path.display())]
     TooShort {
@@ -157,6 +167,7 @@ impl FsError {
             | Self::NotFound { path, .. }
             | Self::WrongKind { path, .. }
             | Self::Locked { path }
+            | Self::Outside { path, .. }
             | Self::TooShort { path, .. }
             | Self::Other { path, .. } => path,
         }
@@ -173,6 +184,7 @@ impl FsError {
             }
             Self::WrongKind { .. } => "move it away, or write elsewhere with -o DIR".into(),
             Self::Locked { .. } => "wait for the other run, stop it, or write elsewhere with -o DIR".into(),
+            Self::Outside { .. } => "use a path in that folder, without links that lead out of it".into(),
             Self::TooShort { .. } => "the file was changed since the checkpoint: start again with --fresh".into(),
             Self::Other { .. } => "check the disk, or write elsewhere with -o DIR".into(),
         }
@@ -199,7 +211,7 @@ impl FsError {
                 *action = Action::Write;
                 *path = file.to_path_buf();
             }
-            Self::Locked { .. } | Self::TooShort { .. } => {}
+            Self::Locked { .. } | Self::Outside { .. } | Self::TooShort { .. } => {}
         }
         error
     }

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! [`MemoryFs`] keeps files in memory, for runs that leave none behind.
-//! [`BehindFs`] lets any of them work on a thread of its own.
+//! [`BehindFs`] lets any of them work on a thread of its own. [`confine`] restricts [`RealFs`] to one folder.
 //!
 //! At any instant a file written by [`Fs::write_atomic`] is either the old one or the new one, whole. Files that grow
 //! (tables, logs, frames) are a [`Log`]: one write per row, so that at most the last row can be torn.
@@ -27,6 +27,7 @@ mod error;
 mod faulty;
 mod memory;
 mod real;
+mod within;
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -37,6 +38,7 @@ pub use error::{Action, FsError};
 pub use faulty::{Failing, FailingFs, Faulty, Torn, TornFs};
 pub use memory::MemoryFs;
 pub use real::RealFs;
+pub use within::{confine, permit, read};
 
 /// A file system, as the program needs one.
 ///

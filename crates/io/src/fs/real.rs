@@ -5,6 +5,7 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use super::within::permit;
 use super::{Action, Fs, FsError, Lock, Log, folder_of, replace};
 
 /// The file system of this machine.
@@ -13,15 +14,18 @@ pub struct RealFs;
 
 impl Fs for RealFs {
     fn read(&self, path: &Path) -> Result<Vec<u8>, FsError> {
+        permit(Action::Read, path)?;
         fs::read(path).map_err(|e| FsError::new(Action::Read, path, e))
     }
 
     fn exists(&self, path: &Path) -> Result<bool, FsError> {
+        permit(Action::Read, path)?;
         path.try_exists()
             .map_err(|e| FsError::new(Action::Read, path, e))
     }
 
     fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, FsError> {
+        permit(Action::List, folder)?;
         let paths = || -> io::Result<Vec<PathBuf>> {
             let mut paths = fs::read_dir(folder)?
                 .map(|entry| Ok(entry?.path()))
@@ -33,6 +37,7 @@ impl Fs for RealFs {
     }
 
     fn create_dir_all(&self, folder: &Path) -> Result<(), FsError> {
+        permit(Action::CreateFolder, folder)?;
         let created = || -> io::Result<()> {
             let missing: Vec<&Path> = folder
                 .ancestors()
@@ -45,6 +50,7 @@ impl Fs for RealFs {
     }
 
     fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), FsError> {
+        permit(Action::Write, path)?;
         let written = || -> io::Result<()> {
             let mut file = File::create(path)?;
             file.write_all(bytes)?;
@@ -54,6 +60,8 @@ impl Fs for RealFs {
     }
 
     fn rename(&self, from: &Path, to: &Path) -> Result<(), FsError> {
+        permit(Action::Rename, from)?;
+        permit(Action::Rename, to)?;
         fs::rename(from, to).map_err(|e| FsError::new(Action::Rename, from, e))
     }
 
@@ -62,10 +70,12 @@ impl Fs for RealFs {
     }
 
     fn remove(&self, path: &Path) -> Result<(), FsError> {
+        permit(Action::Remove, path)?;
         fs::remove_file(path).map_err(|e| FsError::new(Action::Remove, path, e))
     }
 
     fn open_log(&self, path: &Path, keep: u64) -> Result<Box<dyn Log>, FsError> {
+        permit(Action::Write, path)?;
         let opened = || -> io::Result<(File, bool)> {
             let new = !path.try_exists()?;
             let file = OpenOptions::new()
@@ -88,6 +98,7 @@ impl Fs for RealFs {
     }
 
     fn lock(&self, path: &Path) -> Result<Lock, FsError> {
+        permit(Action::Lock, path)?;
         let failed = |e| FsError::new(Action::Lock, path, e);
         let mut file = OpenOptions::new()
             .write(true)
@@ -114,6 +125,7 @@ impl Fs for RealFs {
     }
 
     fn is_locked(&self, path: &Path) -> Result<bool, FsError> {
+        permit(Action::Read, path)?;
         let file = match File::open(path) {
             Ok(file) => file,
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(false),
@@ -129,6 +141,7 @@ impl Fs for RealFs {
     }
 
     fn modified(&self, path: &Path) -> Result<Option<SystemTime>, FsError> {
+        permit(Action::Read, path)?;
         let metadata = fs::metadata(path).map_err(|e| FsError::new(Action::Read, path, e))?;
         Ok(metadata.modified().ok())
     }

@@ -6,7 +6,7 @@ import sys
 
 
 def main() -> None:
-    """Runs the command with the arguments of the process."""
+    """Runs the command with the words of the process; `signorini mcp` starts itself again by the first of them."""
     from . import _native
 
-    sys.exit(_native.main(sys.argv[1:]))
+    sys.exit(_native.main(sys.argv))

@@ -32,8 +32,8 @@ __all__ = [
 
 version: str
 
-def main(arguments: Sequence[str]) -> int:
-    """Runs the command with these arguments; returns the exit code."""
+def main(words: Sequence[str]) -> int:
+    """Runs the command with these words, the name of the program the first; returns the exit code."""
 
 def schema() -> str:
     """The JSON schema of a case."""

@@ -18,6 +18,7 @@ mod info;
 mod init;
 mod job;
 mod keywords;
+mod mcp;
 mod ndjson;
 mod object;
 mod options;
@@ -32,6 +33,7 @@ mod templates;
 mod terminal;
 mod threads;
 mod verify;
+mod within;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use console::Console;
@@ -91,6 +93,8 @@ enum Verb {
     Verify(verify::Verify),
     /// Tell version, machine and threads, and solve something small: for reports of bugs.
     Doctor(doctor::Doctor),
+    /// Serve agents by the Model Context Protocol, on standard input and output.
+    Mcp(mcp::Mcp),
     /// Print completions for a shell.
     Completions(completions::Completions),
 }
@@ -106,12 +110,16 @@ enum Verb {
 /// ```
 pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    if let Err(code) = within::keep() {
+        return code;
+    }
     pages::keep_memory();
     exhausted::watch();
     let words = arguments.iter().skip(1);
     let words: Vec<String> = words
         .map(|word| word.to_string_lossy().into_owned())
         .collect();
+    let program = arguments.first().cloned().unwrap_or_default();
     guard::guarded(&words, || {
         let cli = match Cli::try_parse_from(arguments) {
             Ok(cli) => cli,
@@ -134,6 +142,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Verb::Help(help) => help.execute(Cli::command()),
             Verb::Doctor(doctor) => doctor.execute(),
             Verb::Verify(verify) => verify.execute(),
+            Verb::Mcp(mcp) => mcp.execute(&program),
             Verb::Completions(completions) => completions.execute(Cli::command()),
         }
     })

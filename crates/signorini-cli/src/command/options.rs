@@ -89,7 +89,8 @@ fn assignment(text: &str) -> Result<(String, String), String> {
     }
 }
 
-fn duration(text: &str) -> Result<f64, String> {
+/// A time such as 90s, 10min or 2h, in seconds.
+pub fn duration(text: &str) -> Result<f64, String> {
     signorini::text::seconds(text).ok_or_else(|| "write 90s, 10min or 2h".to_owned())
 }
 

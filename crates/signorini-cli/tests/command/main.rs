@@ -25,3 +25,4 @@ mod support;
 mod terminal;
 mod text;
 mod verify;
+mod within;

@@ -20,7 +20,7 @@ pub fn read_surfaces_of(case: &mut Case, folder: &Path) -> Result<Diagnostics, D
         };
         let file = folder.join(&path.value);
         let name = file.display().to_string();
-        let bytes = match std::fs::read(&file) {
+        let bytes = match signorini_io::fs::read(&file) {
             Ok(bytes) => bytes,
             Err(error) => {
                 found.push(
@@ -63,7 +63,7 @@ pub fn read_mesh_of(case: &Case, folder: &Path) -> Result<(Mesh, Diagnostics), D
     let mesh = match &case.mesh {
         MeshSource::File { path } => {
             let file = folder.join(&path.value);
-            let bytes = std::fs::read(&file).map_err(|error| {
+            let bytes = signorini_io::fs::read(&file).map_err(|error| {
                 Diagnostic::error(
                     &codes::UNREADABLE,
                     format!("{} cannot be read: {error}", file.display()),

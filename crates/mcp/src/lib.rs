@@ -1,0 +1,111 @@
+//! A server of the Model Context Protocol: agents check cases, run them and read their results.
+//!
+//! ```text
+//!  client ──stdin──▶ wire ──▶ rmcp ──▶ Server ──▶ a tool ──▶ Root     files in the folder
+//!         ◀─stdout───────────  │                        └──▶ Program  signorini … --json, a child confined to the folder
+//!                              └── progress, cancellation
+//! ```
+//!
+//! The server solves nothing itself: it runs the command, so that no fault of a case ends it. What a client may do is
+//! limited by a folder ([`Options::root`]) and by sizes, counts and times ([`Limits`]).
+//!
+//! One more tool: a method in a file of `tools/`, with a description and a struct for its parameters, and a row of the table in
+//! `docs/mcp.md`, which a test compares with the list that clients get.
+//!
+//! Limits: links in the folder that are there when the server starts are the user's; hard links are files of the folder.
+//! Clients that speak over HTTP are not served.
+//!
+//! Source: the Model Context Protocol, <https://modelcontextprotocol.io/specification>.
+#![forbid(unsafe_code)]
+
+mod account;
+mod limits;
+mod program;
+mod reply;
+mod root;
+mod server;
+mod table;
+mod tools;
+mod wire;
+
+pub use limits::Limits;
+pub use server::Server;
+
+use rmcp::ServiceExt;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use tokio::io::{AsyncRead, AsyncWrite};
+
+/// What a server works on, and with.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The folder: nothing outside of it is read or written.
+    pub root: PathBuf,
+    /// The command signorini: the file to run, and the arguments that come before all others.
+    pub command: Vec<OsString>,
+    /// How much a client may ask for.
+    pub limits: Limits,
+}
+
+/// Why a server does not start, or ends.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ServeError {
+    /// The folder cannot be used.
+    #[error("the folder {} cannot be used: {source}", path.display())]
+    Root {
+        /// The folder.
+        path: PathBuf,
+        /// The system's error.
+        source: std::io::Error,
+    },
+    /// The system has no threads or timers for the server.
+    #[error("the server cannot start: {0}")]
+    Runtime(std::io::Error),
+    /// The client and the server do not understand each other.
+    #[error("the client did not start a session: {0}")]
+    Session(Box<rmcp::service::ServerInitializeError>),
+}
+
+/// Serves a client on standard input and output until it leaves. Blocks; nothing else may read or write these streams.
+///
+/// # Errors
+/// A folder that cannot be used; a client that starts no session.
+pub fn serve(options: Options) -> Result<(), ServeError> {
+    let server = Server::new(options)?;
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()
+        .map_err(ServeError::Runtime)?;
+    let served = runtime.block_on(serve_over(server, tokio::io::stdin(), tokio::io::stdout()));
+    // a read of standard input that still waits must not keep the process
+    runtime.shutdown_background();
+    served
+}
+
+/// Serves a client on any pair of streams until it leaves; then asks runs that are going on to stop, and waits for them a while.
+///
+/// # Errors
+/// A client that starts no session. A client that leaves before is none.
+pub async fn serve_over(
+    server: Server,
+    from: impl AsyncRead + Send + Unpin + 'static,
+    to: impl AsyncWrite + Send + Unpin + 'static,
+) -> Result<(), ServeError> {
+    use rmcp::service::ServerInitializeError as Failed;
+    let (near, far) = tokio::io::duplex(64 << 10);
+    let relay = tokio::spawn(wire::relay(from, near, server.limits().request));
+    let running = server.clone().serve((far, to)).await;
+    let served = match running {
+        Ok(running) => {
+            // how it ended is no matter: the client is gone
+            let _ = running.waiting().await;
+            Ok(())
+        }
+        Err(Failed::ConnectionClosed(_)) => Ok(()),
+        Err(error) => Err(ServeError::Session(Box::new(error))),
+    };
+    relay.abort();
+    server.finish().await;
+    served
+}

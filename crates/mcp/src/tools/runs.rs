@@ -1,0 +1,256 @@
+//! The tool that solves.
+
+use super::changes;
+use crate::Server;
+use crate::account::Account;
+use crate::program::{Ended, Stopped, Watch};
+use crate::reply::{Refusal, Reply, diagnostics_text};
+use crate::root::Place;
+use rmcp::handler::server::wrapper::Parameters;
+use rmcp::model::{ProgressNotificationParam, ProgressToken};
+use rmcp::schemars::{self, JsonSchema};
+use rmcp::service::RequestContext;
+use rmcp::{Peer, RoleServer, tool, tool_router};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::time::Duration;
+use tokio::sync::mpsc::{Receiver, channel};
+
+/// Reports of progress that wait for a client at most.
+const REPORTS: usize = 16;
+
+/// What to run.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// The case (.toml) or deck (.inp, .in), relative to the folder of the server. With `resume`: the folder of results to go on with.
+    path: String,
+    /// The folder for the results. Default: next to the case, with `.out` in place of its extension.
+    output: Option<String>,
+    /// Number of threads; results do not depend on it. Default: as the case says, or one per core.
+    threads: Option<u16>,
+    /// Seconds after which the run stops, resumable. Default: 600.
+    max_wall: Option<f64>,
+    /// Changes for this run, as KEY=VALUE: `material.steel.E=2000`. The file stays as it is.
+    #[serde(default)]
+    set: Vec<String>,
+    /// Start even where the folder has results of another case, which are then removed.
+    #[serde(default)]
+    fresh: bool,
+    /// Go on with a run that was stopped, from its last checkpoint: `path` is then the folder of its results.
+    #[serde(default)]
+    resume: bool,
+}
+
+#[tool_router(router = run_tools, vis = "pub(crate)")]
+impl Server {
+    /// Solves a case and returns when it has ended: status, exit code, messages, expectations, and the summary with forces, areas and
+    /// pressures of every contact. Reports progress while it goes on. Cancelling the request, or `max_wall`, stops the run after its
+    /// present iteration; what had converged is on disk, and `resume` goes on from there.
+    ///
+    /// Exit codes: 0 solved, 1 an expectation failed, 2 command line, 3 input, 4 ill-posed model, 5 not converged, 6 not written, 7 cannot
+    /// resume, 8 limit reached, 70 internal error, 130 interrupted.
+    #[tool(annotations(
+        title = "Run a case",
+        read_only_hint = false,
+        destructive_hint = true,
+        open_world_hint = false
+    ))]
+    async fn run(
+        &self,
+        Parameters(wanted): Parameters<Run>,
+        context: RequestContext<RoleServer>,
+    ) -> Result<Reply, Refusal> {
+        let (arguments, results) = self.run_arguments(&wanted)?;
+        let wall = self.wall(wanted.max_wall)?;
+        let _permit = self.run_permit()?;
+        let (reports, heard) = channel(REPORTS);
+        let reporter = tokio::spawn(pass_on(
+            heard,
+            context.peer.clone(),
+            context.meta.get_progress_token(),
+        ));
+        let mut account = Account::default();
+        let most = self.limits().diagnostics;
+        let watch = Watch {
+            limits: self.limits(),
+            // the run stops by itself before
+            time: wall + self.limits().grace,
+            cancelled: context.ct.cancelled(),
+        };
+        let ended = self
+            .program()
+            .lines(&arguments, watch, |line| {
+                if let Some(report) = account.hear(line, most) {
+                    // a client that is slow to read gets fewer
+                    let _ = reports.try_send(report);
+                }
+            })
+            .await;
+        // no report comes after the result
+        drop(reports);
+        let _ = reporter.await;
+        let ended = ended?;
+        self.outcome(&account, &ended, &results)
+    }
+}
+
+impl Server {
+    /// The command line of a run, and the folder of its results.
+    fn run_arguments(&self, wanted: &Run) -> Result<(Vec<String>, Place), Refusal> {
+        let changes = changes(&wanted.set, self.limits())?;
+        let wall = self.wall(wanted.max_wall)?.as_secs_f64();
+        let mut arguments;
+        let results;
+        if wanted.resume {
+            let folder = self.root().folder(&wanted.path)?;
+            if !changes.is_empty() || wanted.output.is_some() || wanted.fresh {
+                let why = "a run goes on as it was started: leave out set, output and fresh";
+                return Err(Refusal::value("resume", why));
+            }
+            arguments = vec!["resume".to_owned(), folder.argument()];
+            results = folder;
+        } else {
+            let case = self.root().file(&wanted.path)?;
+            results = match &wanted.output {
+                Some(folder) => self.root().place(folder)?,
+                // a link of this name leads elsewhere as any other
+                None => self.root().place(&case.results().shown())?,
+            };
+            arguments = vec!["run".to_owned(), case.argument()];
+            arguments.push(format!("--output={}", results.argument()));
+            if wanted.fresh {
+                arguments.push("--fresh".to_owned());
+            }
+            arguments.extend(changes);
+        }
+        arguments.push("--json".to_owned());
+        arguments.push(format!("--max-wall={wall}s"));
+        if let Some(threads) = wanted.threads {
+            let cores = std::thread::available_parallelism().map_or(1, usize::from);
+            if !(1..=cores).contains(&usize::from(threads)) {
+                let why = format!("this machine has {cores} cores: choose 1 to {cores}");
+                return Err(Refusal::value("threads", why));
+            }
+            arguments.push(format!("--threads={threads}"));
+        }
+        Ok((arguments, results))
+    }
+
+    fn wall(&self, wanted: Option<f64>) -> Result<Duration, Refusal> {
+        let most = self.limits().wall;
+        let Some(seconds) = wanted else {
+            return Ok(self.limits().default_wall.min(most));
+        };
+        match Duration::try_from_secs_f64(seconds) {
+            Ok(time) if !time.is_zero() && time <= most => Ok(time),
+            _ => {
+                let why = format!("choose more than 0 and at most {} seconds", most.as_secs());
+                Err(Refusal::value("max_wall", why))
+            }
+        }
+    }
+
+    /// How a run ended, for the client.
+    fn outcome(&self, account: &Account, ended: &Ended, results: &Place) -> Result<Reply, Refusal> {
+        let code = ended.code.or(match ended.stopped {
+            Some(_) => Some(130),
+            None => None,
+        });
+        let (Some(code), true) = (code, account.end.is_some() || ended.stopped.is_some()) else {
+            // a panic, a crash, no memory: what was heard of it helps all the same
+            let mut fault = ended.fault("run");
+            if let Refusal::Command { why, .. } = &mut fault {
+                why.push_str(&format!(
+                    "\n{}\nwhat had converged is in {}; go on with resume",
+                    account.work(),
+                    results.shown()
+                ));
+            }
+            return Err(fault);
+        };
+        let is_started = account.start.is_some();
+        let summary = is_started
+            .then(|| {
+                self.root()
+                    .read(&results.join("summary.json"), self.limits().reply)
+                    .ok()
+            })
+            .flatten()
+            .and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+        let status = account.status().unwrap_or("interrupted");
+        let is_resumable = is_started && matches!(code, 5 | 6 | 8 | 130 | 143);
+        let stopped = ended.stopped.map(|stopped| match stopped {
+            Stopped::Cancelled => "the request was cancelled",
+            Stopped::OutOfTime => "the time was over",
+            Stopped::TooLong => "it printed too much",
+        });
+        let mut text = format!("{status} (exit code {code}): {}", account.work());
+        if let Some(stopped) = stopped {
+            text.push_str(&format!("; stopped because {stopped}"));
+        }
+        text.push('\n');
+        text.push_str(&diagnostics_text(
+            &account.diagnostics,
+            self.limits().diagnostics,
+        ));
+        if account.more > 0 {
+            text.push_str(&format!("and {} more\n", account.more));
+        }
+        for one in &account.expectations {
+            let sign = if one["ok"] == true { "met" } else { "FAILED" };
+            text.push_str(&format!(
+                "expect {}: {} for {}, {sign}\n",
+                one["what"].as_str().unwrap_or_default(),
+                one["got"],
+                one["value"]
+            ));
+        }
+        let contacts = account
+            .increment
+            .as_ref()
+            .and_then(|one| one["contact"].as_object());
+        for (name, contact) in contacts.into_iter().flatten() {
+            text.push_str(&format!("contact {name}: {contact}\n"));
+        }
+        if is_started {
+            text.push_str(&format!("results: {}\n", results.shown()));
+        }
+        if is_resumable {
+            text.push_str("go on with run, path = this folder, resume = true\n");
+        }
+        let value = json!({
+            "ok": code == 0,
+            "exit_code": code,
+            "status": status,
+            "stopped": stopped,
+            "resumable": is_resumable,
+            "output": is_started.then(|| results.shown()),
+            "increments": account.increments,
+            "iterations": account.iterations,
+            "cutbacks": account.cutbacks,
+            "last_increment": account.increment,
+            "diagnostics": account.diagnostics,
+            "diagnostics_left_out": account.more,
+            "expectations": account.expectations,
+            "summary": summary,
+        });
+        Ok(Reply::new(text.trim_end(), value))
+    }
+}
+
+/// Passes reports of progress on to a client that asked for them.
+async fn pass_on(
+    mut reports: Receiver<String>,
+    peer: Peer<RoleServer>,
+    token: Option<ProgressToken>,
+) {
+    let mut count = 0.0;
+    while let Some(message) = reports.recv().await {
+        let Some(token) = &token else { continue };
+        count += 1.0;
+        let report = ProgressNotificationParam::new(token.clone(), count);
+        // a client that is gone ends the session elsewhere
+        let _ = peer.notify_progress(report.with_message(message)).await;
+    }
+}
