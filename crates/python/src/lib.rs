@@ -16,6 +16,7 @@ mod job;
 mod mesh;
 mod own;
 mod pool;
+mod report;
 mod run;
 mod stepper;
 mod table;
@@ -39,6 +40,8 @@ mod _native {
     use super::job::{Job, Loaded, check, load, schema};
     #[pymodule_export]
     use super::mesh::Mesh;
+    #[pymodule_export]
+    use super::report::report;
     #[pymodule_export]
     use super::run::{Outcome, run};
     #[pymodule_export]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,6 +10,8 @@ import pytest
 
 import signorini as sg
 from signorini.result import ContactFrame, Result
+
+from .conftest import pressed
 
 TEXT = """time,step,increment,iterations,a.b.force_x,a.b.force_y,a.b.force_z,a.b.pressure_max,a.b.gap_min
 0.5,"press, then",1,3,1.0,0.0,-2.0,3.5,0.0
@@ -113,3 +116,19 @@ def test_errors_print_their_diagnostics() -> None:
     )
     assert isinstance(model, sg.ModelError)
     assert model.free_modes == ["slide along z"] and model.bad_elements == [7]
+
+
+def test_the_report_is_a_page_of_the_saved_run(tmp_path: Path) -> None:
+    result = pressed().run(str(tmp_path / "out"), progress=False)
+    path = result.report(tmp_path / "report.html")
+    page = Path(path).read_text(encoding="utf-8")
+    assert page.lstrip().lower().startswith("<!doctype html>") and "pressed cube" in page
+    other = pressed(depth=0.02).run(str(tmp_path / "other"), progress=False)
+    compared = Path(other.report(tmp_path / "both.html", compare=tmp_path / "out")).read_text(encoding="utf-8")
+    assert len(compared) > 0 and compared != page
+
+
+def test_no_report_without_a_folder(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="in memory only"):
+        pressed().run(save=False).report(tmp_path / "report.html")
+    assert not (tmp_path / "report.html").exists()

@@ -148,7 +148,14 @@ const ROOMS: [Room; 42] = [
     ),
     room(
         "python",
-        &["signorini", "signorini-cli", "io", "mechanics", "geometry"],
+        &[
+            "signorini",
+            "signorini-cli",
+            "report",
+            "io",
+            "mechanics",
+            "geometry",
+        ],
     ),
 ];
 

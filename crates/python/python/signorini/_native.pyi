@@ -24,6 +24,7 @@ __all__ = [
     "main",
     "parse",
     "read_vtu",
+    "report",
     "run",
     "schema",
     "version",
@@ -43,6 +44,9 @@ def parse(text: str, name: str = "case.toml") -> dict[str, Any]:
 
 def write(case: Mapping[str, Any]) -> str:
     """Dictionaries as TOML; floats to the last bit, keys in their order."""
+
+def report(folder: str, compare: str | None = None) -> bytes:
+    """The page of a folder of results, in UTF-8."""
 
 def read_vtu(path: str) -> dict[str, Any]:
     """The arrays of a .vtu file: points, types, offsets, connectivity, point_data, cell_data, field_data."""
