@@ -114,6 +114,21 @@ pub enum Event {
         /// Why.
         why: String,
     },
+    /// An attempt was given up, and the same size is tried from another start.
+    Retry {
+        /// The step.
+        step: String,
+        /// The increment.
+        inc: u64,
+        /// The attempt that failed.
+        att: u64,
+        /// Total time at its start.
+        time: f64,
+        /// The size that is tried again.
+        size: f64,
+        /// Why.
+        why: String,
+    },
     /// The increment was gone through in parts: there was an equilibrium nearby.
     Followed {
         /// The step.

@@ -80,7 +80,7 @@ pub enum Event<'a> {
     },
     /// The state was assembled and judged.
     Iteration(&'a IterationRecord),
-    /// An increment failed and is tried again in smaller pieces.
+    /// An increment failed and is tried again: in smaller pieces, or from another start where `next` is the same size.
     Cutback {
         /// Number of the step, from 0.
         step: usize,

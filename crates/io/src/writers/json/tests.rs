@@ -106,6 +106,17 @@ fn events_of_an_increment() -> Vec<(Event, &'static str)> {
             "cutback",
         ),
         (
+            Event::Retry {
+                step: text(),
+                inc: 1,
+                att: 1,
+                time: 0.0,
+                size: 0.1,
+                why: text(),
+            },
+            "retry",
+        ),
+        (
             Event::Followed {
                 step: text(),
                 inc: 1,

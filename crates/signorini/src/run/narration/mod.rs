@@ -100,6 +100,7 @@ impl Narrator {
             }
             (
                 Event::Cutback { .. }
+                | Event::Retry { .. }
                 | Event::Followed { .. }
                 | Event::Stabilized { .. }
                 | Event::Held { .. },
@@ -229,6 +230,17 @@ fn remedy(page: Page, event: &Event) -> Option<String> {
         } => {
             let (start, size) = (start(step, inc, att), short(*size));
             format!("{start}  cut to {size}: {why}")
+        }
+        Event::Retry {
+            step,
+            inc,
+            att,
+            size,
+            why,
+            ..
+        } => {
+            let (start, size) = (start(step, inc, att), short(*size));
+            format!("{start}  {size} again from another start: {why}")
         }
         Event::Followed {
             step,

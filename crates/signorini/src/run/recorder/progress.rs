@@ -67,7 +67,8 @@ impl Recorder<'_> {
 
     pub(super) fn cutback(&mut self, place: [usize; 3], cause: &Cause, next: f64) {
         let [step, increment, attempt] = place;
-        if let Some(step) = self.counts.steps.get_mut(step) {
+        let is_smaller = next < cause.dt;
+        if is_smaller && let Some(step) = self.counts.steps.get_mut(step) {
             step.cutbacks += 1;
         }
         let row = Attempt {
@@ -82,13 +83,26 @@ impl Recorder<'_> {
             increment_time: cause.dt,
         };
         self.write(|files| Ok(files.sta.row(&row)?));
-        let event = Event::Cutback {
-            step: self.step_name(step),
-            inc: increment as u64,
-            att: attempt as u64,
-            time: self.time,
-            size: next,
-            why: cause.failure.to_string(),
+        let (step, why) = (self.step_name(step), cause.failure.to_string());
+        let (inc, att, time, size) = (increment as u64, attempt as u64, self.time, next);
+        let event = if is_smaller {
+            Event::Cutback {
+                step,
+                inc,
+                att,
+                time,
+                size,
+                why,
+            }
+        } else {
+            Event::Retry {
+                step,
+                inc,
+                att,
+                time,
+                size,
+                why,
+            }
         };
         self.tell(&event, Detail::Cutback(cause));
     }
