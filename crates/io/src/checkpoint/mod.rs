@@ -49,8 +49,14 @@ const SLOTS: &[u8; 26] = b"abcdefghijklmnopqrstuvwxyz";
 /// Whether a folder of checkpoints holds one, good or not.
 #[must_use]
 pub fn has_checkpoint(fs: &dyn Fs, folder: &Path) -> bool {
-    let is_there = |slot: &&str| fs.exists(&folder.join(slot)).unwrap_or(false);
-    SLOTS.iter().any(|slot| is_there(&slot))
+    let is_there = |slot| fs.exists(&folder.join(file(slot))).unwrap_or(false);
+    (0..SLOTS.len()).any(is_there)
+}
+
+/// The name of a file.
+fn file(slot: usize) -> String {
+    let letter = SLOTS.get(slot).copied().map_or('a', char::from);
+    format!("{letter}.sgc")
 }
 
 /// Where in a run a checkpoint stands.
@@ -216,8 +222,7 @@ impl Checkpoints {
     }
 
     fn path(&self, slot: usize) -> PathBuf {
-        let letter = SLOTS.get(slot).copied().map_or('a', char::from);
-        self.folder.join(format!("{letter}.sgc"))
+        self.folder.join(file(slot))
     }
 
     /// The file to write next: one that is not good, else the oldest one.
