@@ -47,7 +47,7 @@ const SLOTS: [&str; 2] = ["a.sgc", "b.sgc"];
 #[must_use]
 pub fn has_checkpoint(fs: &dyn Fs, folder: &Path) -> bool {
     let is_there = |slot: &&str| fs.exists(&folder.join(slot)).unwrap_or(false);
-    SLOTS.iter().any(|slot| is_there(&slot))
+    SLOTS.iter().any(is_there)
 }
 
 /// Where in a run a checkpoint stands.
