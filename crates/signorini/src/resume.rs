@@ -1,10 +1,10 @@
 //! Reading what a stopped run started from, out of its output folder.
 
 use crate::load::{Loaded, Source, load_again, sha256};
-use crate::run::{OutputError, Owner, Stop, cannot_resume, case_copy, process_in};
+use crate::run::{OutputError, Owner, Stop, cannot_resume, case_copy, hold, process_in};
 use signorini_io::checkpoint::has_checkpoint;
 use signorini_io::diagnostic::Diagnostics;
-use signorini_io::fs::{Fs, FsError};
+use signorini_io::fs::{Fs, FsError, Lock};
 use signorini_io::writers::json::{Input, Summary};
 use std::path::Path;
 
@@ -21,6 +21,18 @@ pub enum Stopped {
 /// # Errors
 /// A folder without results, a mesh that has changed: exit code 7; a run that still goes on there: exit code 6.
 pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
+    stopped_and_held(fs, folder).map(|(stopped, _)| stopped)
+}
+
+/// As [`stopped`], and holds the folder from before the mesh is read: to be let go right before the run begins, which takes it
+/// by itself.
+///
+/// # Errors
+/// As there.
+pub fn stopped_and_held(
+    fs: &dyn Fs,
+    folder: &Path,
+) -> Result<(Stopped, Option<Lock>), Diagnostics> {
     let shown = folder.display();
     // asked before a large mesh is read; the lock itself is taken later
     if let Ok(Some(_)) = process_in(fs, folder) {
@@ -38,8 +50,9 @@ pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
         && summary.exit_code <= 1
         && !Stop::STATUSES.contains(&summary.status.as_str())
     {
-        return Ok(Stopped::Done(Box::new(summary)));
+        return Ok((Stopped::Done(Box::new(summary)), None));
     }
+    let lock = hold(fs, folder);
     let text = case_copy(fs, folder).map_err(cannot_resume)?;
     if sha256(&text) != owner.sha256 {
         return Err(cannot_resume(format!(
@@ -67,10 +80,10 @@ pub fn stopped(fs: &dyn Fs, folder: &Path) -> Result<Stopped, Diagnostics> {
         )
         .into());
     }
-    Ok(Stopped::Open(Box::new(loaded)))
+    Ok((Stopped::Open(Box::new(loaded)), lock))
 }
 
-/// As [`stopped`], for the folder of a case: none where it holds no run of this case with a checkpoint.
+/// As [`stopped_and_held`], for the folder of a case: none where it holds no run of this case with a checkpoint.
 ///
 /// # Errors
 /// As [`stopped`]; a case that has changed since, or that other values were set in: exit code 7.
@@ -78,7 +91,7 @@ pub fn stopped_case(
     fs: &dyn Fs,
     folder: &Path,
     source: &Source,
-) -> Result<Option<Stopped>, Diagnostics> {
+) -> Result<Option<(Stopped, Option<Lock>)>, Diagnostics> {
     let now = Owner::of(source);
     let owner = Owner::read(fs, folder).filter(|owner| owner.is_case_of(&now));
     let Some(owner) = owner else {
@@ -96,5 +109,5 @@ pub fn stopped_case(
         ))
         .into());
     }
-    stopped(fs, folder).map(Some)
+    stopped_and_held(fs, folder).map(Some)
 }

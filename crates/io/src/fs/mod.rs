@@ -72,7 +72,8 @@ pub trait Fs: Send + Sync {
     /// Opens a file that grows, creates it where it is missing, and cuts it back to its first `keep` bytes.
     fn open_log(&self, path: &Path, keep: u64) -> Result<Box<dyn Log>, FsError>;
 
-    /// Takes the lock file at `path` for as long as the returned [`Lock`] lives, or until the process ends in any way.
+    /// Takes the lock file at `path` for as long as the returned [`Lock`] lives, or until the process ends in any way. On a
+    /// disk, the file holds the number of the process; it is empty after the lock was released, and not after a kill.
     ///
     /// # Errors
     /// [`FsError::Locked`] while another process holds it.

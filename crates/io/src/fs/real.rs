@@ -120,8 +120,11 @@ impl Fs for RealFs {
         file.set_len(0)
             .and_then(|()| writeln!(file, "{}", std::process::id()))
             .map_err(failed)?;
-        // the system releases the lock with the last handle
-        Ok(Lock::until_dropped(move || drop(file)))
+        // the system releases the lock with the last handle; who is killed leaves its number behind
+        Ok(Lock::until_dropped(move || {
+            let _ = file.set_len(0);
+            drop(file);
+        }))
     }
 
     fn is_locked(&self, path: &Path) -> Result<bool, FsError> {

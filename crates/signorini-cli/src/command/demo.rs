@@ -41,9 +41,16 @@ impl Demo {
             }
         };
         console.line(&format!("{}: {}", template.name, template.about));
-        match load(&path, &Reading::default()) {
-            Err(found) => refused(&found, &self.solve),
-            Ok(loaded) => Job::new(loaded, signals, clock, &self.solve).solve(&self.solve),
+        let loaded = match load(&path, &Reading::default()) {
+            Ok(loaded) => loaded,
+            Err(found) => return refused(&found, &self.solve),
+        };
+        let script = loaded.source.output_folder().join("view.py");
+        let code = Job::new(loaded, signals, clock, &self.solve).solve(&self.solve);
+        if code == 0 {
+            console.line(&format!("  case      {}", path.display()));
+            console.line(&format!("  pictures  pvpython {}", script.display()));
         }
+        code
     }
 }

@@ -12,6 +12,7 @@ use signorini::run::{Detail, Finished, NOT_STARTED};
 use signorini::{Diagnostics, Limits, Listener, Loaded, Model, News, RunOptions, Source, build};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::Case;
+use signorini_io::fs::Lock;
 use signorini_io::writers::json::Event;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,6 +27,8 @@ pub struct Job {
     pub folder: Option<PathBuf>,
     pub fresh: bool,
     pub resume: bool,
+    /// Holds the folder until the run takes it.
+    pub hold: Option<Lock>,
     pub threads: usize,
     pub signals: Signals,
     /// When the command began.
@@ -47,6 +50,7 @@ impl Job {
             folder: None,
             fresh: false,
             resume: false,
+            hold: None,
             read_seconds: clock.elapsed().as_secs_f64(),
         }
     }
@@ -84,6 +88,7 @@ impl Job {
                 .map(|s| self.clock + Duration::from_secs_f64(s.min(1e9))),
         };
         self.signals.are_requests();
+        drop(self.hold);
         let finished = solve(model, &run, options);
         if options.timings {
             timings(&finished);

@@ -5,8 +5,8 @@ use super::job::{Job, refused};
 use super::options::SolveOptions;
 use super::signals::Signals;
 use clap::Args;
-use signorini::resume::{Stopped, stopped};
-use signorini_io::fs::RealFs;
+use signorini::resume::{Stopped, stopped_and_held};
+use signorini_io::fs::{Lock, RealFs};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -23,7 +23,7 @@ impl Resume {
     pub fn execute(self) -> u8 {
         let clock = Instant::now();
         let signals = Signals::taken();
-        match stopped(&RealFs, &self.folder) {
+        match stopped_and_held(&RealFs, &self.folder) {
             Err(found) => refused(&found, &self.solve),
             Ok(found) => go_on(found, self.folder, signals, clock, &self.solve),
         }
@@ -32,7 +32,7 @@ impl Resume {
 
 /// Goes on with what was found in a folder, and returns the exit code.
 pub fn go_on(
-    found: Stopped,
+    (found, hold): (Stopped, Option<Lock>),
     folder: PathBuf,
     signals: Signals,
     clock: Instant,
@@ -50,6 +50,7 @@ pub fn go_on(
         Stopped::Open(loaded) => Job {
             folder: Some(folder),
             resume: true,
+            hold,
             ..Job::new(*loaded, signals, clock, options)
         }
         .solve(options),

@@ -81,6 +81,7 @@ impl Run {
             folder: self.folder.output,
             fresh: self.fresh,
             resume: false,
+            hold: None,
             threads: nthread,
             signals,
             clock,

@@ -53,7 +53,7 @@ pub use limits::{Limits, Stop};
 pub use news::{Detail, Effort, Facts, Listener, News, Totals, event_of, tell};
 pub use point::element_named;
 pub use start::{Start, begin, facts};
-pub use tree::{Owner, Tree, case_copy, process_in};
+pub use tree::{Owner, Tree, case_copy, hold, killed_after, process_in};
 pub use volume::Volume;
 
 use crate::load::Source;

@@ -181,6 +181,22 @@ pub fn process_in(fs: &dyn Fs, folder: &Path) -> Result<Option<String>, FsError>
     Ok(Some(String::from_utf8_lossy(&bytes).trim().to_owned()))
 }
 
+/// Whether the last process in a folder was killed, and took the folder after a file in it was written.
+#[must_use]
+pub fn killed_after(fs: &dyn Fs, folder: &Path, file: &str) -> bool {
+    let lock = folder.join(LOCK);
+    let when = |path: &Path| fs.modified(path).ok().flatten();
+    let is_left = fs.read(&lock).is_ok_and(|bytes| !bytes.is_empty());
+    is_left && when(&lock) > when(&folder.join(file))
+}
+
+/// Takes a folder before its run begins, so that others see that something goes on there; none where that fails, as the run
+/// will say.
+#[must_use]
+pub fn hold(fs: &dyn Fs, folder: &Path) -> Option<Lock> {
+    fs.lock(&folder.join(LOCK)).ok()
+}
+
 /// The bytes of the case that a folder holds results of.
 ///
 /// # Errors

@@ -1,11 +1,11 @@
 //! What a run in a folder has reached: while it goes on, after it was killed, and after its end.
 //!
 //! ```text
-//!   lock held                                  running
-//!   no lock, no summary                        killed
-//!   summary: stopped by a signal or a limit    interrupted
-//!            exit code 0 or 1                  finished
-//!            else                              failed
+//!   lock held                                    running
+//!   no lock, and no summary of the last process  killed
+//!   summary: stopped by a signal or a limit      interrupted
+//!            exit code 0 or 1                    finished
+//!            else                                failed
 //! ```
 //!
 //! A run that goes on removes the summary of the part before: what it says holds for the last process only.
@@ -14,7 +14,7 @@ mod progress;
 
 pub use progress::{Attempt, Progress, Saved};
 
-use crate::run::{Owner, Stop, process_in};
+use crate::run::{Owner, Stop, killed_after, process_in};
 use crate::text::{clock, plural, short};
 use serde::Serialize;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
@@ -84,6 +84,8 @@ pub fn status(fs: &dyn Fs, folder: &Path) -> Result<Status, Diagnostics> {
     let owner = Owner::read(fs, folder);
     let (state, summary) = match (&process, summary) {
         (Some(_), _) => (State::Running, None),
+        // it ended before it could say that the ending is no longer true
+        (None, Ok(_)) if killed_after(fs, folder, "summary.json") => (State::Killed, None),
         (None, Ok(summary)) => (state_of(&summary), Some(summary)),
         (None, Err(_)) if owner.is_some() => (State::Killed, None),
         (None, Err(error)) => return Err(none(&error)),

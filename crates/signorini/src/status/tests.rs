@@ -1,5 +1,6 @@
 use super::*;
-use signorini_io::fs::MemoryFs;
+use crate::run::hold;
+use signorini_io::fs::{MemoryFs, RealFs};
 
 const EVENTS: &str = concat!(
     r#"{"v":1,"ev":"start","case":"a","duration":2.0}"#,
@@ -126,4 +127,31 @@ fn a_second_start_is_a_resumed_run() {
 fn folders_with_blanks_are_quoted() {
     assert_eq!(quoted(Path::new("a b.out")), "\"a b.out\"");
     assert_eq!(quoted(Path::new("a.out")), "a.out");
+}
+
+#[test]
+fn who_is_killed_after_an_ending_is_not_called_by_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let fs = RealFs;
+    let (name, text) = owner();
+    let at = |name: &str| dir.path().join(name);
+    fs.create_dir_all(&at("checkpoint")).unwrap();
+    fs.write(&at(name), text.as_bytes()).unwrap();
+    let summary = Summary {
+        status: "interrupted".into(),
+        exit_code: 130,
+        ..Summary::default()
+    };
+    fs.write(&at("summary.json"), summary.text().as_bytes())
+        .unwrap();
+    let state = || status(&fs, dir.path()).unwrap().state;
+    assert_eq!(state(), State::Interrupted);
+    let lock = hold(&fs, dir.path()).unwrap();
+    assert_eq!(state(), State::Running);
+    drop(lock);
+    assert_eq!(state(), State::Interrupted, "it ended by itself");
+    // disks count time in steps
+    std::thread::sleep(std::time::Duration::from_millis(20));
+    fs.write(&at("checkpoint/lock"), b"4711\n").unwrap();
+    assert_eq!(state(), State::Killed);
 }

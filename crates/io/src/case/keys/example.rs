@@ -227,11 +227,25 @@ fn lists(item: &Shape, least: usize, most: usize) -> Vec<String> {
             (0..count).map(|k| at(k).to_owned()).collect()
         }
         Shape::List(..) | Shape::Row(..) if is_rows(item) && count == 2 => {
-            vec![entry.replace("1.0", "0.0"), entry]
+            vec![start(item), entry]
         }
         _ => vec![entry; count],
     };
     vec![format!("[{}]", entries.join(", "))]
+}
+
+/// The first row of a table: zeros, where they are in range.
+fn start(row: &Shape) -> String {
+    let number = |shape: &Shape| match shape {
+        Shape::Number(bounds) if bounds.hold(0.0) => "0.0".to_owned(),
+        other => first(other).unwrap_or_default(),
+    };
+    let numbers: Vec<String> = match row {
+        Shape::Row(_, items) => items.iter().map(number).collect(),
+        Shape::List(item, least, _) => vec![number(item); *least],
+        other => vec![number(other)],
+    };
+    format!("[{}]", numbers.join(", "))
 }
 
 /// Whether a form is a row of numbers.

@@ -115,34 +115,34 @@ impl Bar {
         }
     }
 
-    /// Cells of the bar, and the text behind it, for a terminal of this width.
+    /// Cells of the bar, and the text behind it, for a terminal of this width. The bar stays as it is while the text changes.
     fn content(&self, width: usize) -> (usize, String) {
         let [most, least] = CELLS;
-        // ` name bar 100 %   text`, and the last column stays free
+        // ` name bar 100 %  text`, and the last column stays free
         let taken = 1 + NAME + 1 + 1 + 5 + 2 + 1;
         let room = width.saturating_sub(taken);
         let now = format!("inc {} · iter {}", self.increment, self.iteration);
         let so_far = clock(self.start.elapsed().as_secs_f64());
         let left = self.left();
-        let left = left.map_or_else(|| "—".to_owned(), |s| format!("about {}", clock(s)));
+        let about = left.map_or_else(|| "—".to_owned(), |s| format!("about {}", clock(s)));
+        let left = left.map_or_else(|| "—".to_owned(), clock);
+        // with the most letters that each may have
         let texts = [
-            format!("{now} · {so_far} so far · {left} left"),
-            format!("{now} · {so_far}"),
-            now,
+            (58, format!("{now} · {so_far} so far · {about} left")),
+            (42, format!("{now} · {so_far} · {left} left")),
+            (30, format!("{now} · {so_far}")),
+            (20, now),
         ];
-        let fitting = texts.into_iter().find(|text| {
-            let length = text.chars().count();
-            length + least <= room
-        });
-        let text = fitting.unwrap_or_default();
+        let fitting = texts
+            .into_iter()
+            .find(|(letters, _)| letters + least <= room);
+        let (letters, text) = fitting.unwrap_or_default();
+        let text: String = text.chars().take(letters).collect();
         let text = match self.ascii {
             true => text.replace('·', "|").replace('—', "-"),
             false => text,
         };
-        // as wide as for the longest text, so that the bar stays where it is
-        let beside = if room >= 48 + least { 48 } else { 26 };
-        let cells = room.saturating_sub(beside).clamp(least, most);
-        (cells.min(room), text)
+        (room.saturating_sub(letters).min(most), text)
     }
 
     /// Seconds left, once there is something to estimate them from.
@@ -176,6 +176,7 @@ mod tests {
             assert!(all < width, "{width}: {all} {text}");
             assert!(ProgressStyle::with_template(&style(cells)).is_ok());
         }
+        assert!(bar.content(80).1.ends_with(" left"));
         let (_, text) = bar.content(120);
         assert!(text.ends_with("so far · — left"), "{text}");
     }
