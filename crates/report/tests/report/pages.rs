@@ -76,6 +76,12 @@ fn every_number_of_a_table_is_that_of_the_summary_or_of_the_history() {
 }
 
 #[test]
+fn numbers_are_those_of_the_file_to_the_last_digit() {
+    let number = ("work_external".to_owned(), "0.00011567142010628889".to_owned());
+    assert!(numbers(&text(&complete())).contains(&number));
+}
+
+#[test]
 fn what_was_run_is_said_in_sentences() {
     let page = text(&complete());
     for sentence in [
