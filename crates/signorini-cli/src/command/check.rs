@@ -4,8 +4,8 @@ use super::console::Console;
 use super::findings::{joined, not_written};
 use super::options::{CaseOptions, FolderOption};
 use clap::Args;
-use signorini::preview;
-use signorini::{Diagnostics, build, load};
+use signorini::preview::{self, Preview};
+use signorini::{Diagnostics, Model, build, load};
 use signorini_geometry::mesh::Mesh;
 use signorini_io::case::Case;
 use signorini_io::diagnostic::{Diagnostic, codes};
@@ -19,6 +19,9 @@ pub struct Check {
     case: PathBuf,
     #[command(flatten)]
     folder: FolderOption,
+    /// Also write the initial state as one page that works offline
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     #[command(flatten)]
     changes: CaseOptions,
 }
@@ -31,14 +34,21 @@ impl Check {
                 loaded.mesh,
                 loaded.warnings,
                 self.folder.output.as_deref(),
+                self.report.as_deref(),
             ),
             Err(found) => refused(&found),
         }
     }
 }
 
-/// Builds a case and reports what would be solved; draws it where there is a folder.
-pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Path>) -> u8 {
+/// Builds a case and reports what would be solved; draws it where there is a folder, and writes a page where one is named.
+pub fn preview(
+    case: Case,
+    mesh: Mesh,
+    warnings: Diagnostics,
+    folder: Option<&Path>,
+    report: Option<&Path>,
+) -> u8 {
     let mut model = match build(case, mesh) {
         Ok(model) => model,
         Err(found) => return refused(&joined(warnings, found)),
@@ -74,8 +84,41 @@ pub fn preview(case: Case, mesh: Mesh, warnings: Diagnostics, folder: Option<&Pa
             Err(one) => return refused(&one.into()),
         }
     }
+    if let Some(path) = report {
+        match page(&model, &preview, &found, is_held, path) {
+            Ok(()) => out.line(&format!("→ {}", path.display())),
+            Err(one) => return refused(&one.into()),
+        }
+    }
     out.line("✓ nothing wrong was found");
     0
+}
+
+/// Writes the initial state as a page.
+fn page(
+    model: &Model,
+    preview: &Preview,
+    found: &Diagnostics,
+    is_held: bool,
+    path: &Path,
+) -> Result<(), Diagnostic> {
+    let grid = preview::picture(model, preview)
+        .map_err(|error| Diagnostic::error(&codes::NOT_WRITTEN, error.to_string()))?;
+    let mut lines = preview.lines.clone();
+    if is_held {
+        lines.push("supports hold every body".to_owned());
+    }
+    let findings: Vec<String> = found
+        .iter()
+        .map(|one| Diagnostics::from(one.clone()).plain())
+        .collect();
+    let title = match model.case.title.is_empty() {
+        true => &model.name,
+        false => &model.case.title,
+    };
+    let bytes =
+        signorini_report::check_page(title, &model.case.units.value, &grid, &lines, &findings);
+    super::report::write(path, &bytes)
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), FsError> {

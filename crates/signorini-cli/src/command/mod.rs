@@ -20,6 +20,7 @@ mod keywords;
 mod ndjson;
 mod options;
 mod pages;
+mod report;
 mod resume;
 mod run;
 mod schema;
@@ -61,6 +62,8 @@ enum Verb {
     Demo(demo::Demo),
     /// List the content of a mesh, a case, or a folder of results.
     Info(info::Info),
+    /// Write results as one page that works offline, or as pictures.
+    Report(report::Report),
     /// Compare results with a reference, block by block.
     Diff(diff::Diff),
     /// Stand in for CalculiX.
@@ -104,6 +107,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Verb::Init(init) => init.execute(),
             Verb::Demo(demo) => demo.execute(),
             Verb::Info(info) => info.execute(),
+            Verb::Report(report) => report.execute(),
             Verb::Diff(diff) => diff.execute(),
             Verb::CcxCompat(compat) => compat.execute(),
             Verb::Convert(convert) => convert.execute(),

@@ -22,6 +22,9 @@ pub struct Run {
     /// Build everything and stop before the first increment; nothing is written
     #[arg(long)]
     dry_run: bool,
+    /// At the end, also of a run that fails, write report.html: one page that works offline
+    #[arg(long)]
+    report: bool,
     /// Formats of the frames, in place of those that the case names: vtu, frd, or both
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', value_parser = ["vtu", "frd"])]
     format: Vec<String>,
@@ -64,8 +67,14 @@ impl Run {
             read_seconds: clock.elapsed().as_secs_f64(),
         };
         if self.dry_run {
-            return super::check::preview(job.case, job.mesh, job.warnings, None);
+            return super::check::preview(job.case, job.mesh, job.warnings, None, None);
         }
-        job.solve(&self.solve)
+        if !self.report {
+            return job.solve(&self.solve);
+        }
+        let folder = job.folder.clone();
+        let folder = folder.unwrap_or_else(|| job.source.output_folder());
+        let code = job.solve(&self.solve);
+        super::report::after_run(&folder, code, self.solve.quiet || self.solve.json)
     }
 }
