@@ -22,7 +22,7 @@ import tempfile
 import zlib
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import TimeoutError, sync_playwright
 
 ROOT = Path(__file__).resolve().parent.parent
 # name, example, changes, exit code
@@ -96,9 +96,17 @@ class Page:
         self.page.wait_for_function(f"Number(document.body.dataset.drawn) > {drawn}", timeout=60_000)
         return self.pixels()
 
+    def within(self, what, milliseconds):
+        """A value that comes to be within this time, or nothing."""
+        try:
+            self.page.wait_for_function(what, timeout=milliseconds)
+        except TimeoutError:
+            return None
+        return self.page.evaluate(what)
+
     def pixels(self):
         self.page.wait_for_timeout(500)
-        return self.page.locator("#scene").screenshot()
+        return self.page.locator("#stage").screenshot()
 
     def frame(self, number):
         return self.after_drawing(lambda: self.page.evaluate(
@@ -136,19 +144,20 @@ def numbers_agree(page, folder):
 
 def click_a_node(page):
     """Clicks into the view until a node is picked; returns its number."""
-    box = page.page.locator("#scene").bounding_box()
-    for x, y in [(0.42, 0.5), (0.42, 0.6), (0.35, 0.55), (0.5, 0.6), (0.3, 0.5), (0.25, 0.6), (0.42, 0.4), (0.2, 0.5), (0.55, 0.5), (0.42, 0.7)]:
+    # plotly looks what is under the mouse when it draws, which takes its time without a graphics card
+    page.page.evaluate("document.getElementById('stage').on('plotly_hover', () => { document.body.dataset.hovered = 'yes'; })")
+    box = page.page.locator("#stage").bounding_box()
+    places = [(0.1 + 0.075 * i, 0.25 + 0.07 * j) for i in range(9) for j in range(8)]
+    for x, y in sorted(places, key=lambda place: abs(place[0] - 0.42) + abs(place[1] - 0.55))[::3]:
         at = (box["x"] + x * box["width"], box["y"] + y * box["height"])
         page.page.mouse.move(*at)
-        page.page.wait_for_timeout(400)
-        page.page.mouse.move(at[0] + 1, at[1])
-        page.page.wait_for_timeout(400)
+        if not page.within("document.body.dataset.hovered", 2_000):
+            continue
         page.page.mouse.down()
+        picked = page.within("document.getElementById('picked').dataset.node", 6_000)
         page.page.mouse.up()
-        page.page.wait_for_timeout(600)
-        node = page.page.evaluate("document.getElementById('picked').dataset.node")
-        if node:
-            return int(node)
+        if picked:
+            return int(picked)
     raise AssertionError("no click has picked a node")
 
 
@@ -179,7 +188,7 @@ def examine(browser, name, folder, keep):
     page = Page(browser, folder / "report.html")
     ncell = numbers_agree(page, folder)
     check(ncell > 15, f"only {ncell} numbers have a source")
-    page.page.locator("#scene").scroll_into_view_if_needed()
+    page.page.locator("#stage").scroll_into_view_if_needed()
     last = int(page.page.evaluate("document.getElementById('frame').max"))
     start = page.pixels()
     other = page.frame(0)

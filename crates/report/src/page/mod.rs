@@ -268,7 +268,7 @@ fn viewer(view: &View) -> Markup {
                 }
                 div #parts.controls {}
                 div.viewer {
-                    div #scene {}
+                    div #stage {}
                     aside #picked { p.hint { "Click a node, or type its number, to see its values." } }
                 }
                 p.hint { (crate::text::grouped(number("nnode") as usize)) " nodes on the surface, "

@@ -248,7 +248,7 @@
       let right = cross(u, d);
       right = right.map((x) => x / (Math.hypot(...right) || 1));
       const extent = (axis) => axis.reduce((sum, x, k) => sum + Math.abs(x) * sizes[k], 0);
-      const place = element("scene"), wide = 0.7 * 2.03 * place.clientWidth / (place.clientHeight || 1);
+      const place = element("stage"), wide = 0.7 * 2.03 * place.clientWidth / (place.clientHeight || 1);
       const f = Math.min(wide / extent(right), 1.78 / extent(cross(d, right)));
       return { x: f * sizes[0], y: f * sizes[1], z: f * sizes[2] };
     };
@@ -310,7 +310,7 @@
           for (const i of [pairs[e], pairs[e + 1]]) { x.push(lift[0][i]); y.push(lift[1][i]); z.push(lift[2][i]); node.push(i); }
           x.push(null); y.push(null); z.push(null); node.push(-1);
         }
-        return { trace: { type: "scatter3d", mode: "lines", x, y, z, hoverinfo: "none", showlegend: false, ...more(node) }, node };
+        return { trace: { type: "scatter3d", mode: "lines", x, y, z, customdata: node, hoverinfo: "none", showlegend: false, ...more(node) }, node };
       };
       if (edgesBox.checked && show === "whole") {
         let drawn = edges;
@@ -343,7 +343,7 @@
       }
       const axis = (k) => ({ range: ranges[k], visible: true, title: { text: "xyz"[k] }, showspikes: false, showbackground: false, gridcolor: "#eef0f3", zeroline: false,
         nticks: 5, tickfont: { size: 10, color: "#8a919c" } });
-      await plot("scene", traces, {
+      await plot("stage", traces, {
         margin: { l: 0, r: 0, t: 0, b: 0 }, paper_bgcolor: "#fff", uirevision: "view", font: { family: "system-ui, Segoe UI, Roboto, Arial, sans-serif", size: 12, color: SOFT },
         scene: { xaxis: axis(0), yaxis: axis(1), zaxis: v.plane ? { ...axis(2), visible: false } : axis(2), aspectmode: "manual", aspectratio: ratio(),
           camera, dragmode: v.plane ? "pan" : "turntable", uirevision: "view" },
@@ -412,17 +412,18 @@
     slider.oninput = () => { state.frame = Number(slider.value); redraw(); };
     element("warp").onchange = async () => { const warp = Number(element("warp").value); state.warp = Number.isFinite(warp) ? warp : 1; ranges = await box(); redraw(); };
     element("pick").onchange = () => showNode(element("pick").value);
-    element("reset").onclick = () => { camera = view(); Plotly.relayout("scene", { "scene.camera": camera }); };
+    element("reset").onclick = () => { camera = view(); Plotly.relayout("stage", { "scene.camera": camera }); };
     element("play").onclick = () => {
       if (state.playing) { clearInterval(state.playing); state.playing = 0; element("play").textContent = "▶"; return; }
       element("play").textContent = "❚❚";
       state.playing = setInterval(() => { if (busy) return; state.frame = (state.frame + 1) % v.frames.length; slider.value = state.frame; redraw(); }, 350);
     };
     await redraw();
-    element("scene").on("plotly_click", (event) => {
+    element("stage").on("plotly_click", (event) => {
       const point = event.points[0];
-      if (point.data.type !== "mesh3d") return;
-      state.picked = point.pointNumber;
+      const node = point.data.type === "mesh3d" ? point.pointNumber : point.data.customdata?.[point.pointNumber] ?? -1;
+      if (node < 0) return;
+      state.picked = node;
       element("pick").value = labels[state.picked];
       redraw();
     });

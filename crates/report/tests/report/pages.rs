@@ -76,6 +76,15 @@ fn every_number_of_a_table_is_that_of_the_summary_or_of_the_history() {
 }
 
 #[test]
+fn numbers_are_those_of_the_file_to_the_last_digit() {
+    let number = (
+        "work_external".to_owned(),
+        "0.00011567142010628889".to_owned(),
+    );
+    assert!(numbers(&text(&complete())).contains(&number));
+}
+
+#[test]
 fn what_was_run_is_said_in_sentences() {
     let page = text(&complete());
     for sentence in [
@@ -125,7 +134,7 @@ fn a_killed_run_has_a_page_without_a_verdict() {
     );
     assert!(page.contains("Extremes over all increments"));
     assert!(page.contains("The run has no summary: there is no audit of its states."));
-    assert!(page.contains("id=\"scene\""));
+    assert!(page.contains("id=\"stage\""));
 }
 
 #[test]
@@ -135,7 +144,7 @@ fn a_damaged_summary_is_named_and_the_rest_is_shown() {
         .unwrap();
     let page = text(&fs);
     assert!(page.contains("summary.json: "));
-    assert!(page.contains("id=\"scene\""));
+    assert!(page.contains("id=\"stage\""));
 }
 
 #[test]
@@ -183,7 +192,7 @@ fn results_without_frames_have_tables_and_no_view() {
     fs.remove(&file("contact.pvd")).unwrap();
     let page = text(&fs);
     assert!(page.contains("The results hold no frames for a view"));
-    assert!(!page.contains("id=\"scene\""));
+    assert!(!page.contains("id=\"stage\""));
     assert!(numbers(&page).len() > 30);
 }
 
@@ -194,7 +203,7 @@ fn a_damaged_frame_leaves_out_the_view_and_is_named() {
         .unwrap();
     let page = text(&fs);
     assert!(page.contains("frames/volume_0002.vtu: "));
-    assert!(!page.contains("id=\"scene\""));
+    assert!(!page.contains("id=\"stage\""));
 }
 
 #[test]
@@ -260,7 +269,7 @@ fn the_page_of_a_check_shows_lines_findings_and_cells() {
     let page = String::from_utf8(page).unwrap();
     assert_eq!(sections(&page), ["verdict", "model", "view"]);
     assert!(page.contains("27 points within reach") && page.contains("is held only by contact"));
-    assert!(page.contains("id=\"scene\"") && page.contains("1 finding"));
+    assert!(page.contains("id=\"stage\"") && page.contains("1 finding"));
     let torn = check_page("t", "", b"<VTKFile", &lines, &[]);
     assert!(String::from_utf8(torn).unwrap().contains("check.vtu: "));
 }

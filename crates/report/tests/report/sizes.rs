@@ -17,7 +17,7 @@ fn a_model_with_100000_contact_facets_has_a_page_below_8_megabytes() {
     let bytes = page(&fs, Path::new(FOLDER), &PageOptions::default()).unwrap();
     assert!(bytes.len() < 8_000_000, "{}", bytes.len());
     let text = String::from_utf8(bytes).unwrap();
-    assert!(text.contains("id=\"scene\""));
+    assert!(text.contains("id=\"stage\""));
     // what was left out is said
     assert!(
         text.contains("triangles for the"),
@@ -38,5 +38,5 @@ fn less_is_shown_and_said_where_the_budget_is_small() {
     };
     assert!(!page(7_800_000).contains("are rounded to"));
     // a view keeps its least share, so that a long table cannot push it out
-    assert!(page(1).contains("id=\"scene\""));
+    assert!(page(1).contains("id=\"stage\""));
 }

@@ -215,7 +215,7 @@ pub fn summary() -> Summary {
             got: 0.5,
             ok: true,
         }],
-        work_external: 1.25,
+        work_external: 0.00011567142010628889,
         memory_peak_bytes: 12_345_678,
         unknowns: 54,
         version: "0.1.0".into(),

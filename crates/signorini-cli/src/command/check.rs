@@ -23,14 +23,20 @@ pub struct Check {
     /// The answer as one object of JSON on standard output
     #[arg(long)]
     json: bool,
+    /// Also write the initial state as one page that works offline
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     #[command(flatten)]
     changes: CaseOptions,
 }
 
 impl Check {
     pub fn execute(self) -> u8 {
-        let folder = self.folder.output.as_deref();
-        let looked = load(&self.case, &self.changes.reading()).and_then(|case| look(case, folder));
+        let files = Files {
+            folder: self.folder.output.as_deref(),
+            page: self.report.as_deref(),
+        };
+        let looked = load(&self.case, &self.changes.reading()).and_then(|case| look(case, &files));
         if self.json {
             return match looked {
                 Ok(looked) => object::answer("check", 0, &looked.found, looked.members),
@@ -39,6 +45,15 @@ impl Check {
         }
         report(looked)
     }
+}
+
+/// What a look at a case leaves, where it is asked for.
+#[derive(Default)]
+struct Files<'a> {
+    /// The folder of `check.vtu`.
+    folder: Option<&'a Path>,
+    /// The page of the initial state.
+    page: Option<&'a Path>,
 }
 
 /// What a case is, without a solution.
@@ -50,7 +65,7 @@ struct Looked {
 
 /// Builds a case and reports what would be solved.
 pub fn preview(loaded: Loaded) -> u8 {
-    report(look(loaded, None))
+    report(look(loaded, &Files::default()))
 }
 
 fn report(looked: Result<Looked, Diagnostics>) -> u8 {
@@ -69,8 +84,8 @@ fn report(looked: Result<Looked, Diagnostics>) -> u8 {
     }
 }
 
-/// Builds a case and looks at it; draws it where there is a folder.
-fn look(loaded: Loaded, folder: Option<&Path>) -> Result<Looked, Diagnostics> {
+/// Builds a case and looks at it; draws it where there is a folder, and writes a page where one is named.
+fn look(loaded: Loaded, files: &Files<'_>) -> Result<Looked, Diagnostics> {
     let mut model = match build(loaded.case, loaded.mesh) {
         Ok(model) => model,
         Err(found) => return Err(joined(loaded.warnings, found)),
@@ -94,20 +109,48 @@ fn look(loaded: Loaded, folder: Option<&Path>) -> Result<Looked, Diagnostics> {
     if is_held {
         lines.push("supports hold every body".to_owned());
     }
-    if let Some(folder) = folder {
-        let path = folder.join("check.vtu");
-        let written = preview::picture(&model, &preview)
+    let failed = |one: Diagnostic| joined(found.clone(), one.into());
+    let grid = || {
+        preview::picture(&model, &preview)
             .map_err(|error| Diagnostic::error(&codes::NOT_WRITTEN, error.to_string()))
-            .and_then(|bytes| write(&path, &bytes).map_err(|e| not_written(&e)));
-        written.map_err(|one| joined(found.clone(), one.into()))?;
+    };
+    if let Some(folder) = files.folder {
+        let path = folder.join("check.vtu");
+        let written = grid().and_then(|bytes| write(&path, &bytes).map_err(|e| not_written(&e)));
+        written.map_err(failed)?;
         lines.push(format!("→ {}", path.display()));
         members.insert("picture".into(), json!(path));
+    }
+    if let Some(path) = files.page {
+        let written = grid().and_then(|grid| page(&model, &grid, &lines, &found, path));
+        written.map_err(failed)?;
+        lines.push(format!("→ {}", path.display()));
+        members.insert("report".into(), json!(path));
     }
     Ok(Looked {
         found,
         lines,
         members,
     })
+}
+
+/// Writes the initial state as a page.
+fn page(
+    model: &Model,
+    grid: &[u8],
+    lines: &[String],
+    found: &Diagnostics,
+    path: &Path,
+) -> Result<(), Diagnostic> {
+    let findings = found.iter().map(|one| Diagnostics::from(one.clone()).plain());
+    let findings: Vec<String> = findings.collect();
+    let title = match model.case.title.is_empty() {
+        true => &model.name,
+        false => &model.case.title,
+    };
+    let units = &model.case.units.value;
+    let bytes = signorini_report::check_page(title, units, grid, lines, &findings);
+    super::report::write(path, &bytes)
 }
 
 /// Sizes, bodies, contacts and cost, for machines; with the lines for people.

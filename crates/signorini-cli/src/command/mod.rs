@@ -23,6 +23,7 @@ mod ndjson;
 mod object;
 mod options;
 mod pages;
+mod report;
 mod resume;
 mod run;
 mod schema;
@@ -75,6 +76,8 @@ enum Verb {
     Status(status::Status),
     /// List the content of a mesh, a case, or a folder of results.
     Info(info::Info),
+    /// Write results as one page that works offline, or as pictures.
+    Report(report::Report),
     /// Compare results with a reference, block by block.
     Diff(diff::Diff),
     /// Stand in for CalculiX.
@@ -133,6 +136,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
             Verb::Demo(demo) => demo.execute(),
             Verb::Status(status) => status.execute(),
             Verb::Info(info) => info.execute(),
+            Verb::Report(report) => report.execute(),
             Verb::Diff(diff) => diff.execute(),
             Verb::CcxCompat(compat) => compat.execute(),
             Verb::Convert(convert) => convert.execute(),

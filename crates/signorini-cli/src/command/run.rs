@@ -9,7 +9,7 @@ use clap::Args;
 use signorini::load_case;
 use signorini::resume::stopped_case;
 use signorini_io::fs::RealFs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Solve a case.
@@ -28,6 +28,9 @@ pub struct Run {
     /// Build everything and stop before the first increment; nothing is written
     #[arg(long)]
     dry_run: bool,
+    /// At the end, also of a run that fails, write report.html: one page that works offline
+    #[arg(long)]
+    report: bool,
     /// Formats of the frames, in place of those that the case names: vtu, frd, or both
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', value_parser = ["vtu", "frd"])]
     format: Vec<String>,
@@ -57,7 +60,9 @@ impl Run {
             match stopped_case(&RealFs, &folder, &opened.source) {
                 Err(found) => return refused(&found, &self.solve),
                 Ok(Some(found)) => {
-                    return super::resume::go_on(found, folder, signals, clock, &self.solve);
+                    let code =
+                        super::resume::go_on(found, folder.clone(), signals, clock, &self.solve);
+                    return self.with_report(&folder, code);
                 }
                 Ok(None) => Console::stderr().line(&format!(
                     "there is no checkpoint of this case in {}: it starts",
@@ -78,7 +83,7 @@ impl Run {
             case: loaded.case,
             mesh: loaded.mesh,
             source: loaded.source,
-            folder: self.folder.output,
+            folder: self.folder.output.clone(),
             fresh: self.fresh,
             resume: false,
             hold: None,
@@ -87,6 +92,17 @@ impl Run {
             clock,
             read_seconds: clock.elapsed().as_secs_f64(),
         };
-        job.solve(&self.solve)
+        let folder = job.folder.clone();
+        let folder = folder.unwrap_or_else(|| job.source.output_folder());
+        let code = job.solve(&self.solve);
+        self.with_report(&folder, code)
+    }
+
+    /// Writes the page of a run that ended with this exit code, where it is asked for, and returns the code.
+    fn with_report(&self, folder: &Path, code: u8) -> u8 {
+        match self.report {
+            true => super::report::after_run(folder, code, self.solve.quiet || self.solve.json),
+            false => code,
+        }
     }
 }
