@@ -33,7 +33,12 @@ pub fn number(value: f64) -> String {
     if !(1e-3..1e6).contains(&size) {
         return format!("{value:.5e}");
     }
-    let decimals = (6 - size.log10().floor() as i32).clamp(0, 9);
+    // of the rounded number: 0.99999999 is 1.000000
+    let exponent = format!("{size:.6e}");
+    let exponent = exponent
+        .split_once('e')
+        .and_then(|(_, e)| e.parse::<i32>().ok());
+    let decimals = (6 - exponent.unwrap_or(0)).clamp(0, 9);
     format!("{value:.*}", decimals as usize)
 }
 
@@ -74,7 +79,15 @@ mod tests {
 
     #[test]
     fn numbers_have_seven_digits() {
-        let all = [1.0, -12.345_678_9, 0.0, 2.5e-7, f64::NAN, 123_456.789].map(number);
+        let all = [
+            0.999_999_999,
+            -12.345_678_9,
+            0.0,
+            2.5e-7,
+            f64::NAN,
+            123_456.789,
+        ]
+        .map(number);
         assert_eq!(
             all,
             ["1.000000", "-12.34568", "0", "2.50000e-7", "-", "123456.8"]

@@ -165,7 +165,8 @@ increments = {{ fixed = 15 }}
 /// The slope, in degrees.
 const SLOPE: f64 = 20.0;
 
-fn incline() -> Setup {
+/// Two blocks on the slope.
+fn inclined() -> Grid {
     let (sin, cos) = (SLOPE.to_radians().sin(), SLOPE.to_radians().cos());
     // down the slope is along (cos, -sin)
     let turn = |[x, y, z]: Point| [x * cos + y * sin, y * cos - x * sin, z];
@@ -183,10 +184,14 @@ fn incline() -> Setup {
             format!("{{ near = [{x:?}, {y:?}] }}"),
         );
     }
-    let (weight, stiffness, mu) = (4.0, 10.0, 0.2);
-    let contact = |name: &str, mu: f64| {
-        format!(
-            r#"
+    grid
+}
+
+/// The contact of a block on the slope, and its spring.
+fn on_slope(name: &str, mu: f64, stiffness: f64) -> String {
+    let (sin, cos) = (SLOPE.to_radians().sin(), SLOPE.to_radians().cos());
+    format!(
+        r#"
 [[contact]]
 name = "{name}"
 secondary = "{name}_bottom"
@@ -199,9 +204,14 @@ on = "{name}_end"
 direction = [{cos:?}, {:?}]
 stiffness = {stiffness:?}
 "#,
-            -sin
-        )
-    };
+        -sin
+    )
+}
+
+fn incline() -> Setup {
+    let (sin, cos) = (SLOPE.to_radians().sin(), SLOPE.to_radians().cos());
+    let grid = inclined();
+    let (weight, stiffness, mu) = (4.0, 10.0, 0.2);
     let case = format!(
         r#"{UNITS}{}
 [model]
@@ -229,8 +239,8 @@ increments = {{ fixed = 4 }}
   body_force = [0.0, -1.0]
 "#,
         law("steel", "linear-elastic", 1e5, 0.3),
-        contact("rests", 0.5),
-        contact("slides", mu)
+        on_slope("rests", 0.5, stiffness),
+        on_slope("slides", mu, stiffness)
     );
     let why = "equilibrium, and the limit of friction by multipliers";
     let along = |f: &[f64]| {

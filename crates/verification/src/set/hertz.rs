@@ -102,7 +102,7 @@ pub(super) const PROBLEMS: [Problem; 12] = [
     Problem {
         name: "cattaneo-mindlin",
         title: "Cattaneo and Mindlin: cylinders pressed, then sheared",
-        source: "K. L. Johnson, Contact Mechanics (1985), section 7.2; work of slip: integral of μ p times slip over c < |x| < a",
+        source: "K. L. Johnson, Contact Mechanics (1985), section 7.2; work of slip: integral of μ p times slip over both slip zones",
         goal: "stick and slip of a contact with friction, by mortar",
         mesh: "16 and 13 cells on the half-width, graded outwards to 20 half-widths",
         conditions: "plane strain; the base is held; the head is pressed by P and then pulled by Q = 0.6 μP, and stays level; μ = 0.3",

@@ -262,8 +262,7 @@ increments = {{ fixed = 6 }}
     }
 }
 
-fn tied() -> Setup {
-    let (e, nu, shear) = (100.0, 0.3, 0.5);
+fn tied_mesh() -> Grid {
     let mut grid = Grid::plane();
     grid.block("lower", "quad4", &[even(0.0, 2.0, 7), even(0.0, 1.0, 3)]);
     grid.block("upper", "quad4", &[even(0.0, 2.0, 5), even(1.0, 2.0, 2)]);
@@ -271,6 +270,12 @@ fn tied() -> Setup {
     grid.set("rights", "{ union = [\"lower_right\", \"upper_right\"] }");
     grid.set("corner", "{ near = [0.0, 0.0] }");
     grid.set("top_left", "{ near = [0.0, 2.0] }");
+    grid
+}
+
+fn tied() -> Setup {
+    let (e, nu, shear) = (100.0, 0.3, 0.5);
+    let grid = tied_mesh();
     let case = format!(
         r#"{UNITS}{}
 [model]
@@ -368,16 +373,7 @@ increments = 1
     }
 }
 
-fn hairpin() -> Setup {
-    let (e, nu) = (10.0, 0.3);
-    let (mu, lambda) = (
-        e / (2.0 * (1.0 + nu)),
-        e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
-    );
-    let squeezed = 0.9;
-    let state = |along: f64| neo_hookean(mu, lambda, [along, squeezed, 1.0]);
-    let along = root(|along| state(along)[0], 0.5, 2.0);
-    let stress = state(along)[1] / (along * squeezed);
+fn hairpin_mesh() -> Grid {
     let mut grid = Grid::plane();
     // along the strip: the upper leg inwards, the bend, the lower leg outwards
     let legs = [even(0.0, 3.0, 15), even(3.0, 4.0, 12), even(4.0, 7.0, 12)];
@@ -403,6 +399,20 @@ fn hairpin() -> Setup {
     grid.set("middle", "{ near = [2.0, 0.4] }");
     grid.set("bend", "{ box = [[-0.7, -1e-6], [-0.3, 1e-6]] }");
     grid.set("held", "{ union = [\"above\", \"below\", \"bend\"] }");
+    grid
+}
+
+fn hairpin() -> Setup {
+    let (e, nu) = (10.0, 0.3);
+    let (mu, lambda) = (
+        e / (2.0 * (1.0 + nu)),
+        e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+    );
+    let squeezed = 0.9;
+    let state = |along: f64| neo_hookean(mu, lambda, [along, squeezed, 1.0]);
+    let along = root(|along| state(along)[0], 0.5, 2.0);
+    let stress = state(along)[1] / (along * squeezed);
+    let grid = hairpin_mesh();
     let case = format!(
         r#"{UNITS}{}
 [model]
@@ -473,7 +483,7 @@ increments = {{ initial = 0.05, max = 0.05 }}
     }
 }
 
-fn bars() -> Setup {
+fn bars_mesh() -> Grid {
     let mut grid = Grid::plane();
     let mut bar = |name: &str, y: f64, from: f64, to: f64| {
         let ends = [grid.node([from, y, 0.0]), grid.node([to, y, 0.0])];
@@ -497,6 +507,11 @@ fn bars() -> Setup {
     }
     grid.set("roots", "{ nodes = [1, 5, 8, 9] }");
     grid.set("guided", "{ nodes = [2, 6, 7, 10] }");
+    grid
+}
+
+fn bars() -> Setup {
+    let grid = bars_mesh();
     let contact = |name: &str, secondary: &str, primary: &str| {
         format!(
             r#"

@@ -67,10 +67,8 @@ pub(super) const PROBLEMS: [Problem; 5] = [
 /// Modulus and Poisson's ratio of all bodies here (MPa).
 const MATERIAL: [f64; 2] = [1000.0, 0.3];
 
-/// Half-width or radius of the contact, and radius of the round body (mm).
+/// Half-width or radius of the contact (mm).
 const A: f64 = 2.0;
-
-const R: f64 = 100.0;
 
 const POLYMER: &str = r#"
 units = "mm-N-MPa"
