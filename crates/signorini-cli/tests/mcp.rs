@@ -195,7 +195,7 @@ async fn an_agent_mends_a_case_by_its_messages_runs_it_and_reads_the_results() {
     let results = done(&client, "results", arguments).await;
     assert_eq!(
         results["table"]["rows"][1],
-        json!([1, force]),
+        json!([1.0, force]),
         "{results:#}"
     );
     assert_eq!(results["table"]["total_rows"], 4);

@@ -113,7 +113,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
     pages::keep_memory();
     exhausted::watch();
     let program = arguments.first().cloned().unwrap_or_default();
-    guard::guarded(|| {
+    guard::guarded(move || {
         let cli = match Cli::try_parse_from(arguments) {
             Ok(cli) => cli,
             Err(error) => return refused(&error),
