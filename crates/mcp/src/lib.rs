@@ -77,7 +77,17 @@ pub fn serve(options: Options) -> Result<(), ServeError> {
         .enable_all()
         .build()
         .map_err(ServeError::Runtime)?;
-    let served = runtime.block_on(serve_over(server, tokio::io::stdin(), tokio::io::stdout()));
+    let served = runtime.block_on(async {
+        let session = serve_over(server.clone(), tokio::io::stdin(), tokio::io::stdout());
+        tokio::select! {
+            served = session => served,
+            () = terminated() => {
+                server.leave();
+                server.finish().await;
+                Ok(())
+            }
+        }
+    });
     // a read of standard input that still waits must not keep the process
     runtime.shutdown_background();
     served
@@ -94,7 +104,13 @@ pub async fn serve_over(
 ) -> Result<(), ServeError> {
     use rmcp::service::ServerInitializeError as Failed;
     let (near, far) = tokio::io::duplex(64 << 10);
-    let relay = tokio::spawn(wire::relay(from, near, server.limits().request));
+    let most = server.limits().request;
+    let left = server.clone();
+    let relay = tokio::spawn(async move {
+        wire::relay(from, near, most).await;
+        // at once: clients give a server a few seconds to end before they kill it
+        left.leave();
+    });
     let running = server.clone().serve((far, to)).await;
     let served = match running {
         Ok(running) => {
@@ -106,6 +122,25 @@ pub async fn serve_over(
         Err(error) => Err(ServeError::Session(Box::new(error))),
     };
     relay.abort();
+    server.leave();
     server.finish().await;
     served
+}
+
+/// Resolves when the process is asked to end.
+#[cfg(unix)]
+async fn terminated() {
+    use tokio::signal::unix::{SignalKind, signal};
+    match signal(SignalKind::terminate()) {
+        Ok(mut asked) => {
+            asked.recv().await;
+        }
+        // then the signal ends the process as it always does
+        Err(_) => std::future::pending().await,
+    }
+}
+
+#[cfg(not(unix))]
+async fn terminated() {
+    std::future::pending().await
 }

@@ -11,7 +11,7 @@ use rmcp::service::RequestContext;
 use rmcp::{ErrorData, RoleServer, ServerHandler, tool_handler};
 use serde_json::Value;
 use std::sync::Arc;
-use tokio::sync::{OnceCell, Semaphore, SemaphorePermit};
+use tokio::sync::{OnceCell, Semaphore, SemaphorePermit, watch};
 
 /// What clients read first.
 const INSTRUCTIONS: &str = "\
@@ -37,6 +37,8 @@ struct Shared {
     runs: Semaphore,
     commands: Semaphore,
     schema: OnceCell<Value>,
+    /// Whether the client has left.
+    left: watch::Sender<bool>,
 }
 
 impl Server {
@@ -66,6 +68,7 @@ impl Server {
                 commands: Semaphore::new(limits.commands),
                 limits,
                 schema: OnceCell::new(),
+                left: watch::Sender::new(false),
             }),
         })
     }
@@ -113,7 +116,7 @@ impl Server {
         let watch = Watch {
             limits: self.limits(),
             time: self.limits().command,
-            cancelled: context.ct.cancelled(),
+            cancelled: self.cancelled(context),
         };
         self.program().output(arguments, watch).await
     }
@@ -132,6 +135,21 @@ impl Server {
         match object(&printed) {
             Some(value) if ended.stopped.is_none() => Ok(value),
             _ => Err(ended.fault(name)),
+        }
+    }
+
+    /// The client is gone: everything that goes on is asked to stop.
+    pub(crate) fn leave(&self) {
+        self.shared.left.send_replace(true);
+    }
+
+    /// Resolves when a request is cancelled, or its client has left.
+    pub(crate) async fn cancelled(&self, context: &RequestContext<RoleServer>) {
+        let mut left = self.shared.left.subscribe();
+        tokio::select! {
+            () = context.ct.cancelled() => {}
+            // an error: there is nobody left to say so, which is the same
+            _ = left.wait_for(|left| *left) => {}
         }
     }
 

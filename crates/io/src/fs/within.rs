@@ -63,20 +63,20 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 fn inside(root: &Path, action: Action, path: &Path) -> Result<(), FsError> {
-    match resolve(path) {
-        Ok(real) if real.starts_with(root) => Ok(()),
-        Ok(_) => Err(FsError::Outside {
-            action,
-            path: path.to_path_buf(),
-            root: root.to_path_buf(),
-        }),
-        Err(source) => Err(FsError::new(action, path, source)),
+    let real = resolve(path).map_err(|source| FsError::new(action, path, source))?;
+    if real.is_some_and(|real| real.starts_with(root)) {
+        return Ok(());
     }
+    Err(FsError::Outside {
+        action,
+        path: path.to_path_buf(),
+        root: root.to_path_buf(),
+    })
 }
 
 /// The place that a path leads to, whether or not there is something: the longest part of it that exists with its links
-/// resolved, and the names behind it.
-fn resolve(path: &Path) -> io::Result<PathBuf> {
+/// resolved, and the names behind it. None where a link leads to nothing: what is created through it could be anywhere.
+fn resolve(path: &Path) -> io::Result<Option<PathBuf>> {
     let path = std::path::absolute(path)?;
     let mut missing: Vec<OsString> = Vec::new();
     let mut known = path.as_path();
@@ -93,10 +93,13 @@ fn resolve(path: &Path) -> io::Result<PathBuf> {
         missing.push(name.to_owned());
         known = known.parent().ok_or(io::ErrorKind::NotFound)?;
     }
-    // a link that leads to nothing has no place: what is created through it would be elsewhere
-    let mut real = known.canonicalize()?;
+    let mut real = match known.canonicalize() {
+        Ok(real) => real,
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(e),
+    };
     real.extend(missing.iter().rev());
-    Ok(real)
+    Ok(Some(real))
 }
 
 #[cfg(test)]

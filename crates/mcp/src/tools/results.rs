@@ -139,8 +139,9 @@ impl Server {
     ) -> Result<Reply, Refusal> {
         let folder = self.root().folder(&wanted.path)?;
         let page = self.root().place(&folder.join("report.html").shown())?;
-        let output = format!("--output={}", page.argument());
-        let arguments = ["report".to_owned(), folder.argument(), output];
+        // the path starts with ./, so that it is never taken for an option
+        let words = ["report", &folder.argument(), "-o", &page.argument()];
+        let arguments = words.map(str::to_owned);
         let (ended, _) = self.output(&arguments, &context).await?;
         if ended.code != Some(0) || self.root().kind(&page) != Kind::File {
             return Err(ended.fault("report"));

@@ -76,7 +76,7 @@ impl Server {
             limits: self.limits(),
             // the run stops by itself before
             time: wall + self.limits().grace,
-            cancelled: context.ct.cancelled(),
+            cancelled: self.cancelled(&context),
         };
         let ended = self
             .program()
@@ -153,10 +153,8 @@ impl Server {
 
     /// How a run ended, for the client.
     fn outcome(&self, account: &Account, ended: &Ended, results: &Place) -> Result<Reply, Refusal> {
-        let code = ended.code.or(match ended.stopped {
-            Some(_) => Some(130),
-            None => None,
-        });
+        // killed because it heeded no request to stop
+        let code = ended.code.or(ended.stopped.map(|_| 130));
         let (Some(code), true) = (code, account.end.is_some() || ended.stopped.is_some()) else {
             // a panic, a crash, no memory: what was heard of it helps all the same
             let mut fault = ended.fault("run");
@@ -169,31 +167,61 @@ impl Server {
             }
             return Err(fault);
         };
-        let is_started = account.start.is_some();
-        let summary = is_started
-            .then(|| {
-                self.root()
-                    .read(&results.join("summary.json"), self.limits().reply)
-                    .ok()
-            })
-            .flatten()
-            .and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
-        let status = account.status().unwrap_or("interrupted");
-        let is_resumable = is_started && matches!(code, 5 | 6 | 8 | 130 | 143);
-        let stopped = ended.stopped.map(|stopped| match stopped {
-            Stopped::Cancelled => "the request was cancelled",
-            Stopped::OutOfTime => "the time was over",
-            Stopped::TooLong => "it printed too much",
+        let summary = account.start.as_ref().and_then(|_| {
+            let place = results.join("summary.json");
+            let bytes = self.root().read(&place, self.limits().reply).ok()?;
+            serde_json::from_slice(&bytes).ok()
         });
-        let mut text = format!("{status} (exit code {code}): {}", account.work());
-        if let Some(stopped) = stopped {
+        let outcome = Outcome {
+            account,
+            code,
+            stopped: ended.stopped.map(|stopped| match stopped {
+                Stopped::Cancelled => "the request was cancelled",
+                Stopped::OutOfTime => "the time was over",
+                Stopped::TooLong => "it printed too much",
+            }),
+            results: account.start.as_ref().map(|_| results.shown()),
+            summary,
+        };
+        Ok(Reply::new(outcome.text(), outcome.value()))
+    }
+}
+
+/// How a run ended.
+struct Outcome<'a> {
+    account: &'a Account,
+    code: i32,
+    /// Why the server stopped it.
+    stopped: Option<&'static str>,
+    /// The folder of its results, where it started.
+    results: Option<String>,
+    summary: Option<Value>,
+}
+
+impl Outcome<'_> {
+    fn status(&self) -> &str {
+        self.account.status().unwrap_or("interrupted")
+    }
+
+    /// Whether `resume` can go on with it.
+    fn is_resumable(&self) -> bool {
+        self.results.is_some() && matches!(self.code, 5 | 6 | 8 | 130 | 143)
+    }
+
+    fn text(&self) -> String {
+        let account = self.account;
+        let mut text = format!(
+            "{} (exit code {}): {}",
+            self.status(),
+            self.code,
+            account.work()
+        );
+        if let Some(stopped) = self.stopped {
             text.push_str(&format!("; stopped because {stopped}"));
         }
         text.push('\n');
-        text.push_str(&diagnostics_text(
-            &account.diagnostics,
-            self.limits().diagnostics,
-        ));
+        let found = &account.diagnostics;
+        text.push_str(&diagnostics_text(found, found.len()));
         if account.more > 0 {
             text.push_str(&format!("and {} more\n", account.more));
         }
@@ -206,26 +234,29 @@ impl Server {
                 one["value"]
             ));
         }
-        let contacts = account
-            .increment
-            .as_ref()
-            .and_then(|one| one["contact"].as_object());
+        let last = account.increment.as_ref();
+        let contacts = last.and_then(|one| one["contact"].as_object());
         for (name, contact) in contacts.into_iter().flatten() {
             text.push_str(&format!("contact {name}: {contact}\n"));
         }
-        if is_started {
-            text.push_str(&format!("results: {}\n", results.shown()));
+        if let Some(results) = &self.results {
+            text.push_str(&format!("results: {results}\n"));
         }
-        if is_resumable {
+        if self.is_resumable() {
             text.push_str("go on with run, path = this folder, resume = true\n");
         }
-        let value = json!({
-            "ok": code == 0,
-            "exit_code": code,
-            "status": status,
-            "stopped": stopped,
-            "resumable": is_resumable,
-            "output": is_started.then(|| results.shown()),
+        text.trim_end().to_owned()
+    }
+
+    fn value(&self) -> Value {
+        let account = self.account;
+        json!({
+            "ok": self.code == 0,
+            "exit_code": self.code,
+            "status": self.status(),
+            "stopped": self.stopped,
+            "resumable": self.is_resumable(),
+            "output": self.results,
             "increments": account.increments,
             "iterations": account.iterations,
             "cutbacks": account.cutbacks,
@@ -233,9 +264,8 @@ impl Server {
             "diagnostics": account.diagnostics,
             "diagnostics_left_out": account.more,
             "expectations": account.expectations,
-            "summary": summary,
-        });
-        Ok(Reply::new(text.trim_end(), value))
+            "summary": self.summary,
+        })
     }
 }
 

@@ -278,10 +278,7 @@ async fn a_report_is_a_path_once_it_is_there() {
     let value = session.done("report", json!({ "path": "a.out" })).await;
     assert_eq!(value["path"], "a.out/report.html");
     assert!(std::path::Path::new(value["absolute_path"].as_str().unwrap()).exists());
-    assert_eq!(
-        yard.calls(),
-        ["report ./a.out --output=./a.out/report.html"]
-    );
+    assert_eq!(yard.calls(), ["report ./a.out -o ./a.out/report.html"]);
     std::fs::remove_file(yard.root().join("a.out/report.html")).unwrap();
     yard.act("echo no frames >&2; exit 3");
     let said = session.refused("report", json!({ "path": "a.out" })).await;

@@ -142,7 +142,9 @@ fn page(
     found: &Diagnostics,
     path: &Path,
 ) -> Result<(), Diagnostic> {
-    let findings = found.iter().map(|one| Diagnostics::from(one.clone()).plain());
+    let findings = found
+        .iter()
+        .map(|one| Diagnostics::from(one.clone()).plain());
     let findings: Vec<String> = findings.collect();
     let title = match model.case.title.is_empty() {
         true => &model.name,

@@ -123,7 +123,7 @@ pub fn main<T: Into<OsString> + Clone>(arguments: impl IntoIterator<Item = T>) -
         .map(|word| word.to_string_lossy().into_owned())
         .collect();
     let program = arguments.first().cloned().unwrap_or_default();
-    guard::guarded(&words, || {
+    guard::guarded(&words, move || {
         let cli = match Cli::try_parse_from(arguments) {
             Ok(cli) => cli,
             Err(error) => return refused(&error),
