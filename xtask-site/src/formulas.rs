@@ -1,0 +1,81 @@
+//! Formulas in LaTeX as MathML, which browsers draw without a script.
+
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Parser, Storage, push_mathml};
+
+/// A formula as one line of HTML that may stand in Markdown.
+///
+/// # Errors
+/// What the parser says of a formula that it cannot read.
+pub fn mathml(latex: &str, is_display: bool) -> Result<String, String> {
+    let storage = Storage::new();
+    if let Some(error) = Parser::new(latex, &storage).find_map(Result::err) {
+        return Err(error.to_string());
+    }
+    let storage = Storage::new();
+    let config = RenderConfig {
+        display_mode: if is_display {
+            DisplayMode::Block
+        } else {
+            DisplayMode::Inline
+        },
+        ..RenderConfig::default()
+    };
+    let mut out = String::new();
+    push_mathml(&mut out, Parser::new(latex, &storage), config)
+        .map_err(|error| error.to_string())?;
+    Ok(quiet(&out))
+}
+
+/// The same HTML on one line, with everything between tags written such that Markdown has nothing to say about it.
+fn quiet(html: &str) -> String {
+    let mut out = String::with_capacity(html.len());
+    let mut is_tag = false;
+    for letter in html.chars() {
+        match letter {
+            '<' => is_tag = true,
+            '>' => is_tag = false,
+            _ => {}
+        }
+        match letter {
+            '\n' | '\r' => out.push(' '),
+            '*' | '_' | '`' | '[' | ']' | '|' | '\\' | '~' | '$' | '#' | '!' | '^' if !is_tag => {
+                out.push_str(&format!("&#{};", u32::from(letter)));
+            }
+            _ => out.push(letter),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fraction_becomes_mathml_on_one_line() {
+        let html = mathml("p = \\frac{3F}{2\\pi a^2}", true).unwrap();
+        assert!(
+            html.starts_with("<math") && html.ends_with("</math>"),
+            "{html}"
+        );
+        assert!(
+            html.contains("<mfrac>") && html.contains("display=\"block\""),
+            "{html}"
+        );
+        assert!(!html.contains('\n'), "{html}");
+    }
+
+    #[test]
+    fn nothing_between_tags_is_markdown() {
+        let html = mathml("a * b \\mid c", false).unwrap();
+        assert!(!html.contains('*') && !html.contains('|'), "{html}");
+    }
+
+    #[test]
+    fn what_is_no_formula_is_an_error() {
+        for latex in ["\\frac{1", "\\nosuchcommand x", "a_{b"] {
+            assert!(mathml(latex, false).is_err(), "{latex}");
+        }
+    }
+}
