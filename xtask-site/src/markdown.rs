@@ -1,7 +1,7 @@
 //! Markdown of the repository as Markdown of the site: links lead to pages and files of the site, formulas are MathML.
 
 use crate::formulas::mathml;
-use pulldown_cmark::{Event, Options, Parser, Tag};
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::ops::Range;
 
 /// A page for the site.
@@ -35,8 +35,15 @@ pub fn rewrite(source: &str, mut lead: impl FnMut(&str) -> Option<String>) -> Wr
         .iter()
         .map(|(_, definition)| (definition.dest.to_string(), definition.span.clone()))
         .collect();
+    let mut is_code = false;
     for (event, range) in parser.into_offset_iter() {
         match event {
+            Event::Start(Tag::CodeBlock(_)) => is_code = true,
+            Event::End(TagEnd::CodeBlock) => is_code = false,
+            Event::Text(_) if !is_code && has_dollar(source, &range) => {
+                let what = "a dollar sign begins no formula: close it, or write \\$".to_string();
+                written.faults.push((line(range.start), what));
+            }
             Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
                 edits.extend(target(source, range, &dest_url, "](").zip(lead(&dest_url)));
             }
@@ -59,6 +66,14 @@ pub fn rewrite(source: &str, mut lead: impl FnMut(&str) -> Option<String>) -> Wr
     }
     written.text = apply(source, edits);
     written
+}
+
+/// Whether a text has a dollar sign that no backslash stands before.
+fn has_dollar(source: &str, range: &Range<usize>) -> bool {
+    let text = source.get(range.clone()).unwrap_or_default();
+    let before = source.get(..range.start).unwrap_or_default();
+    text.match_indices('$')
+        .any(|(at, _)| !format!("{before}{}", &text[..at]).ends_with('\\'))
 }
 
 /// Where the target of a link stands within the link: after the last mark.
@@ -128,8 +143,11 @@ mod tests {
 
     #[test]
     fn a_broken_formula_is_named_with_its_line() {
-        let written = rewrite("one\n\n$\\frac{1$ two\n", up);
-        assert_eq!(written.faults[0].0, 3);
-        assert!(written.faults[0].1.contains("frac"));
+        for formula in ["$\\frac{1$", "$\\nothing x$", "$x"] {
+            let written = rewrite(&format!("one\n\n{formula} two\n"), up);
+            assert!(!written.faults.is_empty(), "{formula}");
+            assert!(written.faults.iter().all(|(line, _)| *line == 3));
+        }
+        assert!(rewrite("5 \\$ and `$x`\n", up).faults.is_empty());
     }
 }
