@@ -8,9 +8,32 @@ use pulldown_latex::{Parser, Storage, push_mathml};
 /// # Errors
 /// What the parser says of a formula that it cannot read.
 pub fn mathml(latex: &str, is_display: bool) -> Result<String, String> {
+    let (latex, tag) = without_tag(latex);
+    let html = rendered(latex, is_display)?;
+    Ok(match tag {
+        Some(tag) => format!(
+            "<span class=\"equation\">{html}<span>({})</span></span>",
+            quiet(tag)
+        ),
+        None => html,
+    })
+}
+
+/// A formula without the number that it ends with, which the parser does not know, and that number.
+fn without_tag(latex: &str) -> (&str, Option<&str>) {
+    let latex = latex.trim_end();
+    let split = latex
+        .strip_suffix('}')
+        .and_then(|inner| inner.rsplit_once("\\tag{"))
+        .filter(|(_, tag)| !tag.contains(['{', '}']));
+    split.map_or((latex, None), |(latex, tag)| (latex, Some(tag)))
+}
+
+fn rendered(latex: &str, is_display: bool) -> Result<String, String> {
     let storage = Storage::new();
     if let Some(error) = Parser::new(latex, &storage).find_map(Result::err) {
-        return Err(error.to_string());
+        let text = error.to_string();
+        return Err(text.lines().next().unwrap_or_default().to_string());
     }
     let storage = Storage::new();
     let config = RenderConfig {
@@ -31,7 +54,7 @@ pub fn mathml(latex: &str, is_display: bool) -> Result<String, String> {
 fn quiet(html: &str) -> String {
     let mut out = String::with_capacity(html.len());
     let mut is_tag = false;
-    for letter in html.chars() {
+    for letter in html.replace("&nbsp;", "\u{a0}").chars() {
         match letter {
             '<' => is_tag = true,
             '>' => is_tag = false,
@@ -67,9 +90,18 @@ mod tests {
     }
 
     #[test]
+    fn the_number_of_an_equation_stands_next_to_it() {
+        let html = mathml("a = b \\tag{E1}", true).unwrap();
+        assert!(html.ends_with("</math><span>(E1)</span></span>"), "{html}");
+    }
+
+    #[test]
     fn nothing_between_tags_is_markdown() {
-        let html = mathml("a * b \\mid c", false).unwrap();
-        assert!(!html.contains('*') && !html.contains('|'), "{html}");
+        let html = mathml("a * b \\mid c\\ d", false).unwrap();
+        assert!(
+            !html.contains(['*', '|']) && !html.contains("&nbsp;"),
+            "{html}"
+        );
     }
 
     #[test]
