@@ -114,26 +114,57 @@ fn sentence(example: &Example) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
 }
 
-/// The picture of a run: the one that lies with its results, or the one of `signorini report --png`.
+/// The picture of a run: `picture.png` in its folder, or one of those that `signorini report --png` draws.
 fn picture(run: &Path) -> Result<Vec<u8>> {
-    let there = run.join("picture.png");
-    if !there.exists() {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let ended = Command::new(cargo)
-            .args(["run", "--quiet", "--release", "--", "report"])
-            .arg(run)
-            .arg("--png")
-            .arg("-o")
-            .arg(&there)
-            .output()
-            .context("signorini report cannot be run")?;
-        if !ended.status.success() {
-            let said = String::from_utf8_lossy(&ended.stderr);
-            let first = said.lines().next().unwrap_or("signorini report failed");
-            anyhow::bail!("{first}");
+    let own = run.join("picture.png");
+    let path = if own.exists() {
+        own
+    } else {
+        let folder = run.join("pictures");
+        if !folder.exists() {
+            draw(run)?;
         }
+        best(&folder)?
+    };
+    std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// Draws the pictures of a run into its folder.
+fn draw(run: &Path) -> Result<()> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let ended = Command::new(cargo)
+        .args(["run", "--quiet", "--release", "--package", "signorini-cli"])
+        .args(["--", "report", "--png"])
+        .arg(run)
+        .output()
+        .context("signorini report cannot be run")?;
+    if !ended.status.success() {
+        let said = String::from_utf8_lossy(&ended.stderr);
+        anyhow::bail!(
+            "{}",
+            said.lines().next().unwrap_or("signorini report failed")
+        );
     }
-    std::fs::read(&there).with_context(|| format!("cannot read {}", there.display()))
+    Ok(())
+}
+
+/// The picture that says most of a run: that of the field that comes first here, or the first by name.
+fn best(folder: &Path) -> Result<PathBuf> {
+    let fields = ["von_mises", "contact_pressure", "displacement"];
+    let named = fields.map(|field| folder.join(format!("{field}.png")));
+    if let Some(path) = named.into_iter().find(|path| path.exists()) {
+        return Ok(path);
+    }
+    let entries =
+        std::fs::read_dir(folder).with_context(|| format!("cannot list {}", folder.display()))?;
+    let mut paths = Vec::new();
+    for entry in entries {
+        paths.push(entry?.path());
+    }
+    paths.sort();
+    let is_picture = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "png");
+    let first = paths.into_iter().find(is_picture);
+    first.with_context(|| format!("{} has no picture", folder.display()))
 }
 
 /// How a run ended and what it took.
@@ -204,6 +235,16 @@ mod tests {
             gallery.text
         );
         assert!(pictures.path().join("ball.png").exists() && gallery.faults.is_empty());
+    }
+
+    #[test]
+    fn of_several_pictures_the_stress_is_shown() {
+        let run = tempfile::tempdir().unwrap();
+        for (name, text) in [("contact_pressure", "p"), ("von_mises", "s"), ("a", "a")] {
+            let path = run.path().join(format!("pictures/{name}.png"));
+            write(&path, text.as_bytes()).unwrap();
+        }
+        assert_eq!(picture(run.path()).unwrap(), b"s");
     }
 
     #[test]

@@ -91,6 +91,9 @@ pub(crate) fn write_keys(root: &Path) -> Outcome {
     Ok(true)
 }
 
+/// The schema that editors find by the first line of every example.
+const SCHEMA: &str = "examples/schema.json";
+
 /// Pages that are written from the program, and compared with it.
 const WRITTEN: [&str; 3] = [reference::PATH, "docs/messages.md", "docs/commands.md"];
 
@@ -113,8 +116,9 @@ fn examples(root: &Path, schema: &serde_json::Value) -> Result<Examples, ChoreEr
 }
 
 /// What is written from the schema: files and their text.
-fn written_from(schema: &serde_json::Value, examples: &Examples) -> [(&'static str, String); 2] {
+fn written_from(schema: &serde_json::Value, examples: &Examples) -> [(&'static str, String); 3] {
     [
+        (SCHEMA, format!("{schema:#}\n")),
         (reference::PATH, reference::page(schema, examples)),
         (python::PATH, python::module(schema)),
     ]

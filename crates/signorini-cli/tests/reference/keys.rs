@@ -111,3 +111,17 @@ fn every_key_that_can_be_given_has_an_example() {
         assert!(!rows[&path].1.is_empty(), "{path} has no example");
     }
 }
+
+#[test]
+fn every_example_names_the_schema_for_editors() {
+    let examples = crate::docs().join("../examples");
+    let mut count = 0;
+    for entry in std::fs::read_dir(&examples).unwrap() {
+        let Ok(case) = std::fs::read_to_string(entry.unwrap().path().join("case.toml")) else {
+            continue;
+        };
+        assert_eq!(case.lines().next(), Some("#:schema ../schema.json"));
+        count += 1;
+    }
+    assert!(count >= 20 && examples.join("schema.json").exists());
+}
