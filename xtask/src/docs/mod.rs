@@ -95,7 +95,12 @@ pub(crate) fn write_keys(root: &Path) -> Outcome {
 const SCHEMA: &str = "examples/schema.json";
 
 /// Pages that are written from the program, and compared with it.
-const WRITTEN: [&str; 3] = [reference::PATH, "docs/messages.md", "docs/commands.md"];
+const WRITTEN: [&str; 4] = [
+    reference::PATH,
+    "docs/messages.md",
+    "docs/commands.md",
+    "docs/python-api.md",
+];
 
 /// Values of keys that the case of the tests leaves out.
 const MORE_KEYS: &str = include_str!("keys.toml");
