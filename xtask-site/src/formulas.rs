@@ -54,7 +54,7 @@ fn rendered(latex: &str, is_display: bool) -> Result<String, String> {
 fn quiet(html: &str) -> String {
     let mut out = String::with_capacity(html.len());
     let mut is_tag = false;
-    for letter in html.replace("&nbsp;", "\u{a0}").chars() {
+    for letter in html.replace("&nbsp;", "\u{2004}").chars() {
         match letter {
             '<' => is_tag = true,
             '>' => is_tag = false,
