@@ -57,9 +57,7 @@ pub fn check(site: &Path) -> Result<Checked> {
                 continue;
             }
             checked.nlink += 1;
-            checked
-                .faults
-                .extend(fault(path, to, &files, &pages).into_iter());
+            checked.faults.extend(fault(path, to, &files, &pages));
         }
         for to in page.files.iter().filter(|to| !to.starts_with("data:")) {
             checked.nfile += 1;
