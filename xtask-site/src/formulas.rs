@@ -30,6 +30,7 @@ fn without_tag(latex: &str) -> (&str, Option<&str>) {
 }
 
 fn rendered(latex: &str, is_display: bool) -> Result<String, String> {
+    let latex = &with_greek_mu(latex);
     let storage = Storage::new();
     if let Some(error) = Parser::new(latex, &storage).find_map(Result::err) {
         let text = error.to_string();
@@ -50,10 +51,25 @@ fn rendered(latex: &str, is_display: bool) -> Result<String, String> {
     Ok(quiet(&out))
 }
 
+/// A formula with the letter for `\mu`, for which the parser takes the sign of micro, which has no italic and no bold.
+fn with_greek_mu(latex: &str) -> String {
+    let mut out = String::new();
+    let mut parts = latex.split("\\mu");
+    out.push_str(parts.next().unwrap_or_default());
+    for part in parts {
+        let is_longer = part.starts_with(|letter: char| letter.is_ascii_alphabetic());
+        out.push_str(if is_longer { "\\mu" } else { "{\u{3bc}}" });
+        out.push_str(part);
+    }
+    out
+}
+
 /// The same HTML on one line, with everything between tags written such that Markdown has nothing to say about it.
 fn quiet(html: &str) -> String {
     let mut out = String::with_capacity(html.len());
     let mut is_tag = false;
+    // a space that the parser writes as an entity, and its writer escapes
+    let html = html.replace("&amp;nbsp;", "\u{2004}");
     for letter in html.replace("&nbsp;", "\u{2004}").chars() {
         match letter {
             '<' => is_tag = true,
@@ -93,6 +109,19 @@ mod tests {
     fn the_number_of_an_equation_stands_next_to_it() {
         let html = mathml("a = b \\tag{E1}", true).unwrap();
         assert!(html.ends_with("</math><span>(E1)</span></span>"), "{html}");
+    }
+
+    #[test]
+    fn mu_is_a_greek_letter() {
+        let html = mathml("\\mu p + \\boldsymbol\\mu", false).unwrap();
+        assert!(
+            html.contains('\u{3bc}') || html.contains('\u{1d707}'),
+            "{html}"
+        );
+        assert!(
+            html.contains('\u{1d741}') && !html.contains('\u{b5}'),
+            "{html}"
+        );
     }
 
     #[test]
