@@ -4,6 +4,7 @@
 //! of the only ones to do, SIGNORINI_PROGRAM another program than that of this build.
 #![allow(clippy::unwrap_used)]
 
+mod examples;
 #[cfg(unix)]
 mod reader;
 #[cfg(unix)]
