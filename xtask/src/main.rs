@@ -6,7 +6,7 @@
 //! cargo xtask rooms --graph    prints that table
 //! cargo xtask rooms --circles  lists files that use each other in a circle
 //! cargo xtask docs             fails where a Markdown file names what does not exist
-//! cargo xtask keys             writes docs/keys.md, examples/schema.json for editors, and the classes of keys for Python
+//! cargo xtask keys             writes docs/keys.md, the page of all keys of cases, their schema, and their classes for Python
 //! cargo xtask shape            fails where a function or file is too long, or a default serves one implementor
 //! cargo xtask site             builds the documentation as a site, target/site/index.html, and checks its links; its options
 //!                              are at the head of `xtask-site/src/main.rs`
@@ -69,7 +69,7 @@ const CHORES: [Chore; 7] = [
     },
     Chore {
         arguments: &["keys"],
-        about: "write docs/keys.md, examples/schema.json and the classes of keys for Python",
+        about: "write docs/keys.md, docs/case.schema.json and the classes of keys for Python",
         run: Run::Alone(docs::write_keys),
     },
     Chore {

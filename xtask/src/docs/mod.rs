@@ -49,6 +49,9 @@ struct Facts {
     symbols: Symbols,
 }
 
+/// The schema of cases itself, for the editors of those who open an example.
+const SCHEMA: &str = "docs/case.schema.json";
+
 /// Checks all pages and prints their faults.
 pub(crate) fn check(root: &Path) -> Outcome {
     let facts = Facts::read(root)?;
@@ -79,7 +82,7 @@ pub(crate) fn check(root: &Path) -> Outcome {
     Ok(faults.is_empty())
 }
 
-/// Writes the page of all keys, and their classes for Python.
+/// Writes the schema, the page of all keys, and their classes for Python.
 pub(crate) fn write_keys(root: &Path) -> Outcome {
     let schema = json("signorini schema", &signorini(root, &["schema"])?)?;
     for (path, text) in written_from(&schema, &examples(root, &schema)?) {
@@ -90,9 +93,6 @@ pub(crate) fn write_keys(root: &Path) -> Outcome {
     }
     Ok(true)
 }
-
-/// The schema that editors find by the first line of every example.
-const SCHEMA: &str = "examples/schema.json";
 
 /// Pages that are written from the program, and compared with it.
 const WRITTEN: [&str; 4] = [
@@ -123,6 +123,7 @@ fn examples(root: &Path, schema: &serde_json::Value) -> Result<Examples, ChoreEr
 /// What is written from the schema: files and their text.
 fn written_from(schema: &serde_json::Value, examples: &Examples) -> [(&'static str, String); 3] {
     [
+        // values of JSON can be written
         (SCHEMA, format!("{schema:#}\n")),
         (reference::PATH, reference::page(schema, examples)),
         (python::PATH, python::module(schema)),

@@ -120,8 +120,11 @@ fn every_example_names_the_schema_for_editors() {
         let Ok(case) = std::fs::read_to_string(entry.unwrap().path().join("case.toml")) else {
             continue;
         };
-        assert_eq!(case.lines().next(), Some("#:schema ../schema.json"));
+        assert_eq!(
+            case.lines().next(),
+            Some("#:schema ../../docs/case.schema.json")
+        );
         count += 1;
     }
-    assert!(count >= 20 && examples.join("schema.json").exists());
+    assert!(count >= 20 && crate::docs().join("case.schema.json").exists());
 }
