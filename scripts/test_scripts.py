@@ -27,6 +27,7 @@ from unittest import mock
 
 import numpy as np
 import pyvista
+import python_reference
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SIGNORINI = os.environ.get("SIGNORINI", os.path.join(HERE, "..", "target", "release", "signorini"))
@@ -308,6 +309,17 @@ def make_frd(folder):
             text += frd_block(frame.point_data[field])
     with open(os.path.join(folder, "job.frd"), "w", encoding="utf-8") as file:
         file.write(text + " 9999\n")
+
+
+class PythonReference(unittest.TestCase):
+    def test_the_page_of_the_package_is_what_its_sources_say(self):
+        self.assertEqual(python_reference.PAGE.read_text(), python_reference.page())
+
+    def test_every_public_name_of_the_package_is_on_the_page(self):
+        page = python_reference.page()
+        for names in python_reference.homes().values():
+            for name in names:
+                self.assertIn(f"\n### {name}\n", page)
 
 
 class CheckFrd(InFolder):

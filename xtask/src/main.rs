@@ -8,6 +8,8 @@
 //! cargo xtask docs             fails where a Markdown file names what does not exist
 //! cargo xtask keys             writes docs/keys.md, the page of all keys of cases, their schema, and their classes for Python
 //! cargo xtask shape            fails where a function or file is too long, or a default serves one implementor
+//! cargo xtask site             builds the documentation as a site, target/site/index.html, and checks its links; its options
+//!                              are at the head of `xtask-site/src/main.rs`
 //! ```
 //!
 //! Exit codes: 0 all is well, 1 a check failed, 2 the command line is wrong or a file cannot be read.
@@ -18,6 +20,7 @@ mod docs;
 mod fault;
 mod rooms;
 mod shape;
+mod site;
 mod tree;
 
 use std::fmt;
@@ -31,39 +34,53 @@ type Outcome = Result<bool, ChoreError>;
 struct Chore {
     arguments: &'static [&'static str],
     about: &'static str,
-    run: fn(&Path) -> Outcome,
+    run: Run,
 }
 
-const CHORES: [Chore; 6] = [
+/// The function of a chore.
+#[derive(Clone, Copy)]
+enum Run {
+    /// One that takes nothing but the root.
+    Alone(fn(&Path) -> Outcome),
+    /// One that takes the options behind its name, too.
+    WithOptions(fn(&Path, &[String]) -> Outcome),
+}
+
+const CHORES: [Chore; 7] = [
     Chore {
         arguments: &["rooms"],
         about: "fail where a room imports one that its line in the table does not list",
-        run: rooms::check,
+        run: Run::Alone(rooms::check),
     },
     Chore {
         arguments: &["rooms", "--circles"],
         about: "list circles of files that use each other, and fail where there are any",
-        run: rooms::circles,
+        run: Run::Alone(rooms::circles),
     },
     Chore {
         arguments: &["rooms", "--graph"],
         about: "print which room may import which",
-        run: rooms::graph,
+        run: Run::Alone(rooms::graph),
     },
     Chore {
         arguments: &["docs"],
         about: "fail where a Markdown file names a file, command, key or symbol that does not exist",
-        run: docs::check,
+        run: Run::Alone(docs::check),
     },
     Chore {
         arguments: &["keys"],
         about: "write docs/keys.md, docs/case.schema.json and the classes of keys for Python",
-        run: docs::write_keys,
+        run: Run::Alone(docs::write_keys),
     },
     Chore {
         arguments: &["shape"],
         about: "fail where a function or file is too long, or a default serves one implementor",
-        run: shape::check,
+        run: Run::Alone(shape::check),
+    },
+    Chore {
+        arguments: &["site"],
+        about: "build the documentation as a site, target/site/index.html, and fail where a link leads nowhere",
+        run: Run::WithOptions(site::build),
     },
 ];
 
@@ -103,11 +120,17 @@ fn main() -> ExitCode {
         print!("{}", list());
         return ExitCode::SUCCESS;
     }
-    let Some(chore) = CHORES.iter().find(|chore| chore.arguments == given) else {
+    let words: Vec<&str> = given.iter().map(String::as_str).collect();
+    let Some(chore) = CHORES.iter().find(|chore| chore.is(&words)) else {
         eprint!("no chore is called \"{}\"\n{}", given.join(" "), list());
         return ExitCode::from(2);
     };
-    match root().and_then(|root| (chore.run)(&root)) {
+    let options = given.get(chore.arguments.len()..).unwrap_or_default();
+    let done = root().and_then(|root| match chore.run {
+        Run::Alone(run) => run(&root),
+        Run::WithOptions(run) => run(&root, options),
+    });
+    match done {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {
@@ -119,7 +142,17 @@ fn main() -> ExitCode {
 
 /// Whether a command line names a chore.
 fn is_chore(arguments: &[&str]) -> bool {
-    CHORES.iter().any(|chore| chore.arguments == arguments)
+    CHORES.iter().any(|chore| chore.is(arguments))
+}
+
+impl Chore {
+    /// Whether a command line names this chore, with options where it takes some.
+    fn is(&self, words: &[&str]) -> bool {
+        match self.run {
+            Run::Alone(_) => words == self.arguments,
+            Run::WithOptions(_) => words.starts_with(self.arguments),
+        }
+    }
 }
 
 fn list() -> String {

@@ -211,6 +211,11 @@ fn takes(script: &str, option: &str) -> bool {
     script.contains(&format!("\"{option}\""))
 }
 
+/// Whether a page is one that a test does from the first line to the last: `crates/signorini-cli/tests/pages/reader.rs`.
+pub(super) fn is_followed(page: &Path) -> bool {
+    page.starts_with("docs/tutorials") || page.starts_with("docs/howto")
+}
+
 struct Check<'a> {
     page: &'a Path,
     facts: &'a Facts,
@@ -223,7 +228,11 @@ impl Check<'_> {
             [] => {}
             ["cargo", rest @ ..] => self.cargo(rest),
             ["signorini", rest @ ..] => self.signorini(rest),
-            ["python" | "python3" | "pvpython", script, rest @ ..] => self.script(script, rest),
+            ["python" | "python3" | "pvpython", script, rest @ ..] if !is_followed(self.page) => {
+                self.script(script, rest);
+            }
+            // the test that follows these pages runs their commands, with the files that they show
+            _ if is_followed(self.page) => {}
             [program, rest @ ..] if FOREIGN.contains(program) => self.files(rest),
             [program, ..] if program.contains('/') => self.file(program),
             [program, ..] => self.faults.push(format!(

@@ -58,14 +58,17 @@ impl Keys {
             .is_some_and(|all| all.get(key).is_some())
     }
 
-    /// Whether a dotted path leads to a value: `material.NAME.E`.
+    /// Whether a dotted path leads to a value: `material.NAME.E`, or `contact.NAME.friction` of a list.
     pub fn leads(&self, path: &str) -> bool {
         let mut level = vec![&self.schema];
-        for part in path.split('.') {
-            level = level
-                .into_iter()
-                .flat_map(|schema| step(schema, part))
-                .collect();
+        let mut parts = path.split('.').peekable();
+        while let Some(part) = parts.next() {
+            let is_last = parts.peek().is_none();
+            let of = |schema| {
+                let named = named_items(schema).filter(|_| !is_last);
+                step(schema, part).into_iter().chain(named)
+            };
+            level = level.into_iter().flat_map(of).collect();
         }
         !level.is_empty()
     }
@@ -124,6 +127,12 @@ pub(super) fn others(schema: &Json) -> Option<&Json> {
     schema
         .get("additionalProperties")
         .filter(|other| other.is_object())
+}
+
+/// The tables of a list that go by their name in a path: `contact.NAME.friction`.
+fn named_items(schema: &Json) -> Option<&Json> {
+    let items = schema.get("items")?;
+    items.get("properties")?.get("name").map(|_| items)
 }
 
 /// Where one part of a dotted path leads; lists are gone into.
@@ -246,6 +255,7 @@ pub(super) mod tests {
     /// A small vocabulary.
     pub fn sample() -> Keys {
         let contact = serde_json::json!({ "type": "object", "additionalProperties": false, "properties": {
+            "name": { "type": "string" },
             "method": { "enum": ["auto", "mortar"] },
             "enforcement": { "anyOf": [{ "enum": ["auto"] }, { "type": "object", "additionalProperties": false,
                 "properties": { "penalty": { "type": "number" } } }] },
@@ -314,10 +324,14 @@ pub(super) mod tests {
 
     #[test]
     fn dotted_keys_lead_somewhere() {
-        for good in ["material.rubber.E", "contact.enforcement.penalty"] {
+        for good in [
+            "material.rubber.E",
+            "contact.enforcement.penalty",
+            "contact.foot.enforcement.penalty",
+        ] {
             assert!(sample().leads(good), "{good}");
         }
-        for bad in ["material.rubber.modulus", "contact.law"] {
+        for bad in ["material.rubber.modulus", "contact.law", "contact.foot.law"] {
             assert!(!sample().leads(bad), "{bad}");
         }
     }

@@ -33,6 +33,7 @@ use crate::{ChoreError, Outcome};
 use commands::{Packages, Program, Script};
 use keys::Keys;
 use markdown::{Page, Piece};
+use reference::Examples;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -66,7 +67,8 @@ pub(crate) fn check(root: &Path) -> Outcome {
         pages.push(markdown::page(path.to_path_buf(), &source));
     }
     faults.append(&mut judge(&pages, &facts));
-    faults.extend(stale_keys(root, &facts.keys));
+    let examples = examples(root, facts.keys.schema())?;
+    faults.extend(stale_keys(root, &facts.keys, &examples));
     faults.sort();
     for fault in &faults {
         println!("{fault}");
@@ -83,7 +85,7 @@ pub(crate) fn check(root: &Path) -> Outcome {
 /// Writes the schema, the page of all keys, and their classes for Python.
 pub(crate) fn write_keys(root: &Path) -> Outcome {
     let schema = json("signorini schema", &signorini(root, &["schema"])?)?;
-    for (path, text) in written_from(&schema) {
+    for (path, text) in written_from(&schema, &examples(root, &schema)?) {
         let path = root.join(path);
         if let Err(source) = std::fs::write(&path, text) {
             return Err(ChoreError::Write { path, source });
@@ -92,19 +94,45 @@ pub(crate) fn write_keys(root: &Path) -> Outcome {
     Ok(true)
 }
 
+/// Pages that are written from the program, and compared with it.
+const WRITTEN: [&str; 4] = [
+    reference::PATH,
+    "docs/messages.md",
+    "docs/commands.md",
+    "docs/python-api.md",
+];
+
+/// Values of keys that the case of the tests leaves out.
+const MORE_KEYS: &str = include_str!("keys.toml");
+
+/// Values of keys, from the case that gives all of them.
+fn examples(root: &Path, schema: &serde_json::Value) -> Result<Examples, ChoreError> {
+    let case = read(&root.join(reference::CASE))?;
+    if let Some(fault) = Keys::new(schema.clone()).faults(MORE_KEYS).first() {
+        return Err(ChoreError::Failed {
+            what: "xtask/src/docs/keys.toml".to_string(),
+            reason: format!("byte {}: {}", fault.at, fault.what),
+        });
+    }
+    Examples::new(schema, [&case, MORE_KEYS]).map_err(|error| ChoreError::Failed {
+        what: reference::CASE.to_string(),
+        reason: error.to_string(),
+    })
+}
+
 /// What is written from the schema: files and their text.
-fn written_from(schema: &serde_json::Value) -> [(&'static str, String); 3] {
+fn written_from(schema: &serde_json::Value, examples: &Examples) -> [(&'static str, String); 3] {
     [
         // values of JSON can be written
         (SCHEMA, format!("{schema:#}\n")),
-        (reference::PATH, reference::page(schema)),
+        (reference::PATH, reference::page(schema, examples)),
         (python::PATH, python::module(schema)),
     ]
 }
 
 /// Files of keys that are not what the schema says.
-fn stale_keys(root: &Path, keys: &Keys) -> Vec<Fault> {
-    let all = written_from(keys.schema()).into_iter();
+fn stale_keys(root: &Path, keys: &Keys, examples: &Examples) -> Vec<Fault> {
+    let all = written_from(keys.schema(), examples).into_iter();
     all.filter_map(|(path, wanted)| stale(root, path, &wanted))
         .collect()
 }
@@ -135,8 +163,9 @@ fn judge(pages: &[Page], facts: &Facts) -> Vec<Fault> {
     for page in pages {
         for (line, piece) in &page.pieces {
             let found = match piece {
-                // written from the schema, and compared with it
-                Piece::Code(_) if page.path == Path::new(reference::PATH) => Vec::new(),
+                Piece::Code(_) if WRITTEN.iter().any(|path| page.path == Path::new(path)) => {
+                    Vec::new()
+                }
                 Piece::Code(text) => at_start(spans::faults(text, &page.path, facts)),
                 Piece::Link(to) => at_start(link_faults(to, page, &by_path, facts)),
                 Piece::Block { language, text } => block_faults(language, text, &page.path, facts),

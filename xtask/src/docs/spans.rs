@@ -51,7 +51,8 @@ fn missing(is_known: bool, text: &str, what: &str) -> Vec<String> {
 
 /// A file of the repository, one that a program writes, or one of the user.
 fn is_known_path(text: &str, page: &Path, facts: &Facts) -> bool {
-    if facts.tree.knows(page, text) {
+    let is_shown = commands::is_followed(page) && !text.contains('/');
+    if is_shown || facts.tree.knows(page, text) {
         return true;
     }
     let (folder, name) = text

@@ -1,5 +1,14 @@
 //! Every command of a block in README.md, CONTRIBUTING.md and docs/ runs here, or is a part of `.ci/run`.
+//!
+//! Tutorials and how-to pages are done from the first line to the last, see [`script`]; SIGNORINI_PAGE names a part of the path
+//! of the only ones to do, SIGNORINI_PROGRAM another program than that of this build.
 #![allow(clippy::unwrap_used)]
+
+mod examples;
+#[cfg(unix)]
+mod reader;
+#[cfg(unix)]
+mod script;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
