@@ -72,6 +72,10 @@ def draw(list_of_frames, names, picture, scale=None):
     display = simple.Show(shown, view)
     display.Representation = "Surface With Edges"
     display.EdgeColor = [0.3, 0.3, 0.3]
+    if list_of_frames == "contact.pvd":
+        # surfaces of plane models are lines
+        display.Representation = "Surface"
+        display.LineWidth = 6
     # quadratic faces are curved
     if hasattr(display, "NonlinearSubdivisionLevel"):
         display.NonlinearSubdivisionLevel = 2
