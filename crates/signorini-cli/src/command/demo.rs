@@ -6,6 +6,7 @@ use super::findings::not_written;
 use super::init;
 use super::job::{Job, refused};
 use super::options::SolveOptions;
+use super::report;
 use super::signals::Signals;
 use super::templates::{self, TEMPLATES};
 use clap::Args;
@@ -45,12 +46,23 @@ impl Demo {
             Ok(loaded) => loaded,
             Err(found) => return refused(&found, &self.solve),
         };
-        let script = loaded.source.output_folder().join("view.py");
+        let results = loaded.source.output_folder();
         let code = Job::new(loaded, signals, clock, &self.solve).solve(&self.solve);
-        if code == 0 {
-            console.line(&format!("  case      {}", path.display()));
-            console.line(&format!("  pictures  pvpython {}", script.display()));
+        if code != 0 {
+            return code;
         }
+        let made = report::main_picture(&results, &results.join("picture.png"))
+            .and_then(|picture| Ok([picture, report::page_of(&results)?]));
+        let [picture, page] = match made {
+            Ok(paths) => paths,
+            Err(one) => {
+                console.findings(&one.into());
+                return FsError::EXIT_CODE;
+            }
+        };
+        console.line(&format!("  case     {}", path.display()));
+        console.line(&format!("  page     {}", page.display()));
+        console.line(&format!("  picture  {}", picture.display()));
         code
     }
 }

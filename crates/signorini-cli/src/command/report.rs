@@ -111,13 +111,9 @@ pub fn after_run(folder: &Path, code: u8, quiet: bool) -> u8 {
     if NOT_STARTED.contains(&code) {
         return code;
     }
-    let path = folder.join(PAGE);
-    let written = page(&RealFs, folder, &PageOptions::default())
-        .map_err(|error| unreadable(&error))
-        .and_then(|bytes| write(&path, &bytes));
-    match written {
-        Ok(()) if quiet => code,
-        Ok(()) => {
+    match page_of(folder) {
+        Ok(_) if quiet => code,
+        Ok(path) => {
             Console::stderr().line(&format!("→ {}", path.display()));
             code
         }
@@ -132,6 +128,21 @@ pub fn after_run(folder: &Path, code: u8, quiet: bool) -> u8 {
             }
         }
     }
+}
+
+/// Writes the page of a folder of results into it, and returns its path.
+pub fn page_of(folder: &Path) -> Result<PathBuf, Diagnostic> {
+    let bytes = page(&RealFs, folder, &PageOptions::default()).map_err(|e| unreadable(&e))?;
+    let path = folder.join(PAGE);
+    write(&path, &bytes)?;
+    Ok(path)
+}
+
+/// Draws the last frame of a folder of results, coloured by its main field, and returns the path of the picture.
+pub fn main_picture(folder: &Path, path: &Path) -> Result<PathBuf, Diagnostic> {
+    let bytes = picture(&RealFs, folder, &PictureOptions::default()).map_err(|e| unreadable(&e))?;
+    write(path, &bytes)?;
+    Ok(path.to_owned())
 }
 
 /// Writes a file, and the folder that it is in.

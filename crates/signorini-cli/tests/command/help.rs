@@ -178,7 +178,15 @@ fn the_demo_meets_its_expected_values() {
     let ended = run(folder.path(), &["demo", "paper-brick"]);
     ended.says(0, &["expect tip.force_z", "✓ solved: 60 increments"]);
     assert!(!ended.err.contains('✗'));
-    run(folder.path(), &["demo"]).says(0, &["expect ball.pressure_max", "✓ solved", "view.py"]);
+    run(folder.path(), &["demo"]).says(
+        0,
+        &[
+            "expect ball.pressure_max",
+            "✓ solved",
+            "report.html",
+            "picture.png",
+        ],
+    );
 }
 
 #[test]
