@@ -168,7 +168,7 @@ fn first_line(found: &Diagnostics) -> String {
 }
 
 /// Runs problems, as many at a time as there are workers, each on one thread; results come in the order of the problems and
-/// do not depend on the number of workers. `begun` hears of every problem that is done.
+/// do not depend on the number of workers. `done` hears of every problem as it ends.
 ///
 /// # Errors
 /// A pool of threads that the system refuses.
@@ -185,10 +185,11 @@ pub fn solve_all(
             .num_threads(1)
             .stack_size(signorini::threads::STACK)
             .build()?;
-        while let Some((at, problem)) = {
+        loop {
             let at = next.fetch_add(1, Ordering::Relaxed);
-            problems.get(at).map(|problem| (at, problem))
-        } {
+            let Some(problem) = problems.get(at) else {
+                break;
+            };
             let judged = pool.install(|| solve_as(problem, problem.setup(), frames));
             done(&judged);
             let mut results = results.lock().unwrap_or_else(PoisonError::into_inner);

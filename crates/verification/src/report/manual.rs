@@ -57,7 +57,7 @@ fn index(judged: &[Judged]) -> String {
             }
         });
         let used = if used.is_finite() {
-            format!("{:.2}", used)
+            format!("{used:.2}")
         } else {
             "-".to_owned()
         };

@@ -273,7 +273,7 @@ increments = {{ fixed = 4 }}
             )
             .and("slides.force_y", along),
             Check::exact(
-                "pressing force of the sliding block",
+                "pressing force, sliding block",
                 "slides.force_x",
                 weight * cos,
                 1e-5,
