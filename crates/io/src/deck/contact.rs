@@ -91,6 +91,7 @@ fn given(number: f64, otherwise: f64) -> f64 {
 
 impl Translation<'_> {
     pub fn contacts(&mut self) {
+        self.named_twice("SURFACEINTERACTION");
         let interactions = self.interactions();
         for card in self.cards("CONTACTPAIR") {
             self.pairs(card, &interactions);
@@ -140,7 +141,12 @@ impl Translation<'_> {
     /// The coefficient, and the slope of sticking or zero.
     fn friction(&mut self, card: &Statement) -> [f64; 2] {
         let row = card.rows().next().unwrap_or_default();
-        self.reals(&row)
+        let given: [f64; 2] = self.reals(&row);
+        for (field, value) in row.iter().zip(given).filter(|(_, value)| *value < 0.0) {
+            let text = format!("{value} in *FRICTION is negative");
+            self.error(&codes::OUT_OF_RANGE, text, &field.place(), "zero or more");
+        }
+        given
     }
 
     fn law(&mut self, card: &Statement) -> Law {
@@ -253,7 +259,7 @@ impl Translation<'_> {
 
     /// The secondary and the primary side that a line names; `at_nodes`: of contact at nodes.
     fn sides(&mut self, card: &Statement, row: &[Field<'_>], at_nodes: bool) -> Option<Sides> {
-        let [secondary, primary] = self.two_surfaces(card, row)?;
+        let [secondary, primary] = row.first_chunk()?;
         let both = [secondary, primary].map(|side| (side.text, side.place()));
         self.sides_of(card, both, at_nodes)
     }
