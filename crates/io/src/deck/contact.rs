@@ -141,12 +141,8 @@ impl Translation<'_> {
     /// The coefficient, and the slope of sticking or zero.
     fn friction(&mut self, card: &Statement) -> [f64; 2] {
         let row = card.rows().next().unwrap_or_default();
-        let given: [f64; 2] = self.reals(&row);
-        for (field, value) in row.iter().zip(given).filter(|(_, value)| *value < 0.0) {
-            let text = format!("{value} in *FRICTION is negative");
-            self.error(&codes::OUT_OF_RANGE, text, &field.place(), "zero or more");
-        }
-        given
+        self.not_negative(card, &row);
+        self.reals(&row)
     }
 
     fn law(&mut self, card: &Statement) -> Law {
@@ -446,8 +442,7 @@ impl Translation<'_> {
             };
             let both = [slave, master].map(|name| (name, card.place.clone()));
             let sides = self.sides_of(card, both, false);
-            let value = card.get("VALUE").and_then(number);
-            let Some(value) = value else {
+            let Some(value) = card.get("VALUE").and_then(number) else {
                 let text = "*CLEARANCE without a number for VALUE is not supported";
                 self.error(&codes::NOT_BUILT, text, &card.place, "");
                 continue;
@@ -636,8 +631,7 @@ impl Translation<'_> {
             if contact.tied.is_some() {
                 continue;
             }
-            let first = self.case.steps.first();
-            let mut changes = first.into_iter().flat_map(|step| &step.contacts);
+            let mut changes = (self.case.steps.first().into_iter()).flat_map(|step| &step.contacts);
             let change = changes.find(|change| change.name == contact.name);
             let acts = change.and_then(|c| c.active).unwrap_or(contact.active);
             contact.start.interference = match (pair.method, acts) {

@@ -265,6 +265,16 @@ impl<'d> Translation<'d> {
         }
     }
 
+    /// Refuses numbers below zero.
+    pub fn not_negative(&mut self, card: &Statement, row: &[Field<'_>]) {
+        for field in row.iter().filter(|field| field.real() < Some(0.0)) {
+            if let Some(value) = field.real() {
+                let text = format!("{value} in *{} is negative", card.keyword);
+                self.error(&codes::OUT_OF_RANGE, text, &field.place(), "zero or more");
+            }
+        }
+    }
+
     /// A whole number in a field; `default` where the field is empty.
     pub fn count(&mut self, field: Option<&Field<'_>>, default: u64) -> u64 {
         let Some(field) = field.filter(|field| !field.text.is_empty()) else {

@@ -1,6 +1,6 @@
 //! What a deck says, card by card, before any number or name in it is looked up.
 
-use super::card::{Card, Fields, Parameter, key, not_a_number, real, text, whole};
+use super::card::{Card, Fields, Parameter, at_most, key, not_a_number, real, text, whole};
 use super::directory::ElementCard;
 use super::kind::{Kind, supported};
 use super::lines::{Files, Lines, Spot};
@@ -399,15 +399,11 @@ impl Reader<'_> {
                     });
                 }
             }
-            let nmore = fields.filter(|field| !field.is_empty()).count();
-            if nmore > 0 {
-                return Err(MeshError::TooManyValues {
-                    place: lines.place(),
-                    card: card.keyword.clone(),
-                    wanted: "a number and three coordinates",
-                    found: 1 + ncoordinate + nmore,
-                    hint: "; decimals have a point, not a comma, and normals of shells are not read",
-                });
+            if fields.next().is_some() {
+                let hint =
+                    "; decimals have a point, not a comma, and normals of shells are not read";
+                let most = (4, "a number and three coordinates", hint);
+                at_most(lines, card, line, most)?;
             }
             unplaced = (ncoordinate == 0).then_some((label, lines.spot));
             let [a, b, c] = x;
@@ -545,16 +541,9 @@ impl Reader<'_> {
         while let Some(line) = self.lines.data() {
             let mut fields = Fields::of(line);
             if generate {
-                let found = Fields::of(line).filter(|field| !field.is_empty()).count();
-                if found > 3 {
-                    return Err(MeshError::TooManyValues {
-                        place: self.lines.place(),
-                        card: card.keyword.clone(),
-                        wanted: "first, last and step with GENERATE",
-                        found,
-                        hint: "; write one range on a line, or leave out GENERATE",
-                    });
-                }
+                let hint = "; write one range on a line, or leave out GENERATE";
+                let most = (3, "first, last and step with GENERATE", hint);
+                at_most(&self.lines, card, line, most)?;
                 let mut entry = |default: Option<u64>| match (fields.next(), default) {
                     (None | Some(b""), Some(default)) => Ok(default),
                     (field, _) => {
@@ -610,26 +599,7 @@ impl Reader<'_> {
         while let Some(line) = self.lines.data() {
             let mut fields = Fields::of(line);
             let region = fields.next().unwrap_or_default();
-            let found = Fields::of(line).filter(|field| !field.is_empty()).count();
-            // of a surface of nodes, the second is an area, with a decimal point
-            let is_area = |field: &[u8]| whole(field).is_none() && real(field).is_some();
-            let fits = match (kind.as_str(), found) {
-                (_, 0 | 1) => true,
-                ("NODE", 2) => Fields::of(line).nth(1).is_some_and(is_area),
-                (_, count) => count == 2,
-            };
-            if !fits {
-                return Err(MeshError::TooManyValues {
-                    place: self.lines.place(),
-                    card: card.keyword.clone(),
-                    wanted: match kind.as_str() {
-                        "NODE" => "one node or node set",
-                        _ => "an element or element set, and one side",
-                    },
-                    found,
-                    hint: "; write one on a line",
-                });
-            }
+            self.judge_side(card, line, family)?;
             if kind == "NODE" {
                 match whole(region) {
                     Some(label) => surface.labels.push(label),
@@ -653,6 +623,24 @@ impl Reader<'_> {
         }
         self.scope().definitions.push(surface);
         Ok(())
+    }
+
+    /// Refuses a line of a surface that names more than one thing.
+    fn judge_side(&self, card: &Card, line: &[u8], family: Family) -> Result<()> {
+        // of a surface of nodes, the second may be an area, which has a decimal point
+        let is_area = |field: &[u8]| whole(field).is_none() && real(field).is_some();
+        let second = Fields::of(line).nth(1);
+        let most = match family {
+            Family::Points if !second.is_some_and(is_area) => (1, "one node or node set"),
+            Family::Points => (2, "a node or node set, and an area"),
+            _ => (2, "an element or element set, and one side"),
+        };
+        at_most(
+            &self.lines,
+            card,
+            line,
+            (most.0, most.1, "; write one on a line"),
+        )
     }
 
     fn nesting(&self, card: &Card, found: &'static str, wanted: &'static str) -> MeshError {
@@ -731,17 +719,10 @@ impl Reader<'_> {
                 let found = "with more than a translation and a rotation";
                 return Err(self.nesting(card, found, "write two lines at most"));
             };
+            let wanted = "a translation of three components, then two points and an angle";
             let most = if nline == 0 { 3 } else { 7 };
-            let found = Fields::of(line).filter(|field| !field.is_empty()).count();
-            if found > most {
-                return Err(MeshError::TooManyValues {
-                    place: self.lines.place(),
-                    card: card.keyword.clone(),
-                    wanted: "three components of a translation, then two points and an angle",
-                    found,
-                    hint: "; decimals have a point, not a comma",
-                });
-            }
+            let hint = "; decimals have a point, not a comma";
+            at_most(&self.lines, card, line, (most, wanted, hint))?;
             for (field, x) in Fields::of(line).zip(numbers) {
                 *x = number(&self.lines, card, "a number of its position", field)?;
             }
