@@ -226,21 +226,22 @@ impl Translation<'_> {
         let smallest = least.unwrap_or((1e-6 * period).min(first).min(largest));
         // a rounding of decimals is no contradiction
         let exceeds = |a: f64, b: f64| a > b * (1.0 + 1e-9);
-        let contradictions = [
-            (exceeds(first, period), 0, 1),
-            (exceeds(smallest, first), 2, 0),
-            (exceeds(smallest, largest), 2, 3),
+        let limits = [
+            (0, ("initial increment", first), ("period", period)),
+            (2, ("smallest increment", smallest), ("initial one", first)),
+            (
+                2,
+                ("smallest increment", smallest),
+                ("largest one", largest),
+            ),
         ];
-        for (_, a, b) in contradictions.into_iter().filter(|(wrong, ..)| *wrong) {
-            let value = |at: usize| [first, period, smallest, largest][at];
-            let text = format!(
-                "the {} of *STATIC, {}, is larger than its {}, {}",
-                names[a],
-                value(a),
-                names[b],
-                value(b)
-            );
-            let place = given(a).map_or(card.place.clone(), Field::place);
+        let wrong = limits
+            .into_iter()
+            .find(|(_, (_, a), (_, b))| exceeds(*a, *b));
+        if let Some((at, (name, value), (other, limit))) = wrong {
+            let text =
+                format!("the {name} of *STATIC, {value}, is larger than its {other}, {limit}");
+            let place = given(at).map_or(card.place.clone(), Field::place);
             let remark = "initial increment, period, smallest, largest increment";
             self.error(&codes::CONTRADICTION, text, &place, remark);
             return None;
