@@ -438,7 +438,7 @@ impl Translation<'_> {
                 continue;
             }
             let row = tie.rows().next().unwrap_or_default();
-            let Some(two) = self.two_surfaces(tie, &row) else {
+            let Some(two) = row.first_chunk::<2>() else {
                 continue;
             };
             let sides = two.each_ref().map(|side| {
@@ -473,6 +473,13 @@ impl Translation<'_> {
                         self.error(&codes::WRONG_LENGTH, text, &place, "");
                         break;
                     };
+                    if let Some(cut) = row.chunks(3).find(|term| term.len() < 3) {
+                        let words = (
+                            "node or set, degree of freedom, coefficient",
+                            " for each term",
+                        );
+                        self.values_of(card, cut, (3, 3), words);
+                    }
                     terms.extend(row.chunks(3).map(<[_]>::to_vec));
                 }
                 let summands: Vec<Summand> = (terms.iter())

@@ -91,6 +91,7 @@ fn given(number: f64, otherwise: f64) -> f64 {
 
 impl Translation<'_> {
     pub fn contacts(&mut self) {
+        self.named_twice("SURFACEINTERACTION");
         let interactions = self.interactions();
         for card in self.cards("CONTACTPAIR") {
             self.pairs(card, &interactions);
@@ -140,6 +141,7 @@ impl Translation<'_> {
     /// The coefficient, and the slope of sticking or zero.
     fn friction(&mut self, card: &Statement) -> [f64; 2] {
         let row = card.rows().next().unwrap_or_default();
+        self.not_negative(card, &row);
         self.reals(&row)
     }
 
@@ -253,7 +255,7 @@ impl Translation<'_> {
 
     /// The secondary and the primary side that a line names; `at_nodes`: of contact at nodes.
     fn sides(&mut self, card: &Statement, row: &[Field<'_>], at_nodes: bool) -> Option<Sides> {
-        let [secondary, primary] = self.two_surfaces(card, row)?;
+        let [secondary, primary] = row.first_chunk()?;
         let both = [secondary, primary].map(|side| (side.text, side.place()));
         self.sides_of(card, both, at_nodes)
     }
@@ -440,8 +442,7 @@ impl Translation<'_> {
             };
             let both = [slave, master].map(|name| (name, card.place.clone()));
             let sides = self.sides_of(card, both, false);
-            let value = card.get("VALUE").and_then(number);
-            let Some(value) = value else {
+            let Some(value) = card.get("VALUE").and_then(number) else {
                 let text = "*CLEARANCE without a number for VALUE is not supported";
                 self.error(&codes::NOT_BUILT, text, &card.place, "");
                 continue;
@@ -630,8 +631,7 @@ impl Translation<'_> {
             if contact.tied.is_some() {
                 continue;
             }
-            let first = self.case.steps.first();
-            let mut changes = first.into_iter().flat_map(|step| &step.contacts);
+            let mut changes = (self.case.steps.first().into_iter()).flat_map(|step| &step.contacts);
             let change = changes.find(|change| change.name == contact.name);
             let acts = change.and_then(|c| c.active).unwrap_or(contact.active);
             contact.start.interference = match (pair.method, acts) {

@@ -1,5 +1,6 @@
 //! Materials: their constants, density, expansion, yield stresses.
 
+use super::forms::needs_data;
 use super::translation::Translation;
 use crate::case::{Constant, Expansion, Hardening, Material, Name, Plasticity, Unstrained};
 use crate::diagnostic::{Place, Spanned, codes};
@@ -13,13 +14,20 @@ type Constants = Vec<(&'static str, Vec<f64>)>;
 pub(super) struct Properties {
     pub name: Name,
     law: Option<(&'static str, Constants)>,
-    density: Option<f64>,
+    /// Where its law is given.
+    of_law: Place,
+    density: Option<Spanned<f64>>,
     expansion: Option<Expansion>,
     plasticity: Option<Plasticity>,
     place: Place,
 }
 
 impl Properties {
+    /// Whether its stiffness is known.
+    pub fn has_law(&self) -> bool {
+        self.law.is_some()
+    }
+
     /// The first elastic constant.
     pub fn modulus(&self) -> Option<f64> {
         let (_, constants) = self.law.as_ref()?;
@@ -62,6 +70,7 @@ impl Translation<'_> {
             }
         }
         order.extend(open);
+        self.named_twice("MATERIAL");
         for material in order {
             if let (Some((law, _)), Some(_)) = (&material.law, &material.plasticity)
                 && *law != "linear-elastic"
@@ -83,19 +92,29 @@ impl Translation<'_> {
     fn property(&mut self, card: &Statement, material: &mut Properties) {
         let rows: Vec<_> = card.rows().filter(|row| !row.is_empty()).collect();
         let Some(first) = rows.first() else {
-            let text = format!("*{} has no data", card.keyword);
-            self.error(&codes::MISSING, text, &card.place, "");
+            if !needs_data(card) {
+                let text = format!("*{} has no data", card.keyword);
+                self.error(&codes::MISSING, text, &card.place, "");
+            }
             return;
         };
         let kind = card.get("TYPE").map(compared).unwrap_or_default();
+        if ["ELASTIC", "HYPERELASTIC", "HYPERFOAM"].contains(&card.keyword.as_str()) {
+            material.of_law = first.first().map_or(card.place.clone(), Field::place);
+        }
         match card.keyword.as_str() {
             "DENSITY" => {
                 let density = self.real(first.first());
+                let place = first.first().map_or(card.place.clone(), Field::place);
+                if density < 0.0 {
+                    let text = format!("the density of `{}` is {density}", material.name.value);
+                    self.error(&codes::OUT_OF_RANGE, text, &place, "not negative");
+                }
                 if rows.iter().any(|row| self.real(row.first()) != density) {
                     let text = "a density that depends on temperature is not supported";
                     self.error(&codes::NOT_BUILT, text, &card.place, "");
                 }
-                material.density = Some(density);
+                material.density = Some(Spanned::new(density, place));
             }
             "ELASTIC" => material.law = self.elastic(card, &kind, &rows).or(material.law.take()),
             "EXPANSION" => material.expansion = self.expansion(card, &kind, &rows),
@@ -116,6 +135,13 @@ impl Translation<'_> {
                     let text = "plastic strains do not increase";
                     let remark = "hardening that depends on temperature is not supported";
                     self.error(&codes::NOT_INCREASING, text, &card.place, remark);
+                }
+                let start = rows.first().and_then(|row| row.first());
+                if let (Some(row), Some(start)) = (table.first(), start)
+                    && row[0] <= 0.0
+                {
+                    let text = "the yield stress of *PLASTIC has to be positive";
+                    self.error(&codes::OUT_OF_RANGE, text, &start.place(), "");
                 }
                 if let Some(first) = table.first_mut() {
                     first[1] = 0.0;
@@ -261,7 +287,11 @@ impl Translation<'_> {
                 ("ogden", vec![("mu", mu), ("alpha", alpha)], shear)
             }
             // polynomial is the default
-            Some(1) if !card.has("ARRUDA-BOYCE") && !card.has("YEOH") => {
+            Some(1)
+                if card.has("MOONEY-RIVLIN")
+                    || card.has("POLYNOMIAL")
+                    || !card.has("ARRUDA-BOYCE") && !card.has("YEOH") =>
+            {
                 let (c10, c01) = (next(), next());
                 let constants = vec![("c10", vec![c10]), ("c01", vec![c01])];
                 ("mooney-rivlin", constants, 2.0 * (c10 + c01))
@@ -306,11 +336,11 @@ fn case_of(of: Properties) -> Option<Material> {
         constants: (constants.into_iter())
             .map(|(name, values)| Constant {
                 name,
-                values: values.into(),
+                values: Spanned::new(values, of.of_law.clone()),
             })
             .collect(),
         own: None,
-        density: of.density.map(Spanned::from),
+        density: of.density,
         expansion: of.expansion,
         plasticity: of.plasticity,
         place: of.place,

@@ -3,6 +3,8 @@
 //! ```text
 //! bytes ──readers::inp──▶ Mesh, statements ──▶ Case
 //!                                  material    materials
+//!                                  forms       how many values and lines cards have
+//!                                  sections    elements that have none, or one that is not theirs
 //!                                  model       sections, amplitudes, initial conditions
 //!                                  constraint  equations, local axes, rigid bodies, couplings, cuts, sectors
 //!                                  spring      springs between nodes, and to the ground
@@ -25,6 +27,7 @@ mod axes;
 mod compat;
 mod constraint;
 mod contact;
+mod forms;
 mod keywords;
 mod load;
 mod material;
@@ -32,6 +35,7 @@ mod model;
 mod names;
 pub mod oofem;
 mod print;
+mod sections;
 mod spring;
 mod step;
 #[cfg(test)]
@@ -83,7 +87,10 @@ pub fn read(fs: &dyn Fs, name: &str, bytes: &[u8], compat: Compat) -> Result<Rea
     let deck = inp::read_deck(fs, name, bytes)
         .map_err(|error| Diagnostic::error(&codes::BAD_MESH, error.to_string()))?;
     let mut translation = Translation::new(&deck, name, compat);
+    translation.parameters();
+    translation.forms();
     translation.model();
+    translation.elements_without_section();
     translation.constraints();
     translation.springs();
     translation.contacts();

@@ -89,6 +89,9 @@ impl Translation<'_> {
                 .map(|(name, _)| name)
         };
         let of = |letters: &str| names().any(|name| name.starts_with(letters));
+        if dim == 2 && ["CPE", "CPS", "CAX"].into_iter().any(of) {
+            self.judge_plane();
+        }
         let space = match dim {
             0 | 3 => Space::ThreeD,
             1 if !of("T2D") => Space::ThreeD,
@@ -216,6 +219,7 @@ impl Translation<'_> {
                 }
             }
             let fields: Vec<_> = card.rows().flatten().collect();
+            self.pairs_of_amplitude(card, &fields);
             let mut table: Vec<[f64; 2]> = Vec::new();
             for pair in fields.chunks(2) {
                 table.push(self.reals(pair));
@@ -242,6 +246,19 @@ impl Translation<'_> {
             };
             if !self.is_defined(&amplitude) {
                 self.case.amplitudes.push(amplitude);
+            }
+        }
+    }
+
+    /// Refuses a table of no pairs, or with half a pair at its end.
+    fn pairs_of_amplitude(&mut self, card: &Statement, fields: &[Field<'_>]) {
+        let words = ("time and value, pair by pair", "");
+        match fields.chunks(2).last() {
+            Some(last) if last.len() == 2 => {}
+            Some(last) => self.values_of(card, last, (2, 2), words),
+            None => {
+                let text = "*AMPLITUDE has no data line";
+                self.error(&codes::MISSING, text, &card.place, words.0);
             }
         }
     }
@@ -330,6 +347,15 @@ impl Translation<'_> {
                 continue;
             };
             let material = known.name.value.clone();
+            if !known.has_law() {
+                let text = format!("material `{material}` has no elastic constants");
+                let one = Diagnostic::error(&codes::MISSING, text)
+                    .at(&card.place, "it is used here")
+                    .at(&known.name.place, "and defined here")
+                    .help("write *ELASTIC below *MATERIAL, with E and nu in the next line");
+                self.found.push(one);
+                continue;
+            }
             let orientation = card.get("ORIENTATION").map(compared);
             let orientation = orientation.and_then(|name| match orientations.get(&name) {
                 Some(found) => found.clone(),
@@ -340,10 +366,20 @@ impl Translation<'_> {
                 }
             });
             let row = card.rows().next().filter(|row| !row.is_empty());
-            let given = row.map(|row| Spanned::new(self.real(row.first()), card.place.clone()));
+            let given = row.map(|row| {
+                let place = row.first().map_or(card.place.clone(), Field::place);
+                Spanned::new(self.real(row.first()), place)
+            });
+            if let Some(given) = given.as_ref().filter(|given| given.value < 0.0) {
+                let text = format!("the thickness of *SOLID SECTION is {}", given.value);
+                self.error(&codes::OUT_OF_RANGE, text, &given.place, "positive");
+            }
             let sets = self.sets_of(card, elset);
             if sets.is_empty() {
                 self.set(card, elset, &card.place, Kind::Elements);
+            }
+            if !self.makes_solids(card, &sets) {
+                continue;
             }
             let trusses = sets.iter().any(|set| self.has_trusses(set));
             if self.case.model.space.value.has_thickness()
@@ -403,7 +439,7 @@ impl Translation<'_> {
     }
 
     /// The sets of elements that a name stands for where a card is.
-    fn sets_of(&self, card: &Statement, name: &str) -> Vec<String> {
+    pub fn sets_of(&self, card: &Statement, name: &str) -> Vec<String> {
         let directory = &self.deck.directory;
         (directory.spaces(card.scope).iter())
             .filter_map(|&space| directory.set(space, Kind::Elements, name))
@@ -624,6 +660,7 @@ impl Translation<'_> {
     /// Axes of materials; nothing for those that are not supported, which have been reported.
     fn orientations(&mut self) -> BTreeMap<String, Option<Orientation>> {
         let mut all = BTreeMap::new();
+        self.named_twice("ORIENTATION");
         for card in self.cards("ORIENTATION") {
             let Some(name) = self.need(card, "NAME") else {
                 continue;

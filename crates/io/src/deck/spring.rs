@@ -50,6 +50,13 @@ impl Translation<'_> {
             _ if rows.is_empty() => Some(Vec::new()),
             _ => Some(rows.remove(0)),
         };
+        let (least, words) = match card.has("NONLINEAR") {
+            true => (2, "force, elongation, temperature"),
+            false => (1, "stiffness, nothing, temperature"),
+        };
+        for row in &rows {
+            self.values_of(card, row, (least, 3), (words, " on a line"));
+        }
         let law = self.spring_law(card, &rows);
         let direction = axes.map(|axes| self.spring_direction(card, &axes));
         let (Some(law), Some(direction)) = (law, direction.map_or(Some(None), |d| d.map(Some)))

@@ -167,11 +167,10 @@ impl Translation<'_> {
             }
             return;
         };
-        let row = card.rows().next().unwrap_or_default();
-        let [initial, period, least, most]: [f64; 4] = self.reals(&row);
-        let or = |value: f64, default: f64| if value > 0.0 { value } else { default };
-        step.duration = or(period, 1.0);
-        let initial = or(initial, step.duration).min(step.duration);
+        let Some([initial, period, least, most]) = self.times(card) else {
+            return;
+        };
+        step.duration = period;
         let limit = cards.first().and_then(|head| head.get("INC")).map(compared);
         let limit = limit.and_then(|text| text.parse().ok()).unwrap_or(100);
         step.increments = if card.has("DIRECT") {
@@ -187,11 +186,74 @@ impl Translation<'_> {
         } else {
             Increments::Adaptive {
                 initial,
-                min: or(least, (1e-6 * step.duration).min(initial)).min(initial),
-                max: or(most, step.duration).min(step.duration).max(initial),
+                min: least,
+                max: most,
                 count_max: limit,
             }
         };
+    }
+
+    /// Initial increment, period, smallest and largest increment of *STATIC; nothing where they contradict each other,
+    /// which is reported.
+    fn times(&mut self, card: &Statement) -> Option<[f64; 4]> {
+        let row = card.rows().next().unwrap_or_default();
+        let given = |at: usize| row.get(at).filter(|field| !field.text.is_empty());
+        let names = [
+            "initial increment",
+            "period",
+            "smallest increment",
+            "largest increment",
+        ];
+        let mut is_sound = true;
+        let mut values = [None; 4];
+        for (at, (value, name)) in values.iter_mut().zip(names).enumerate() {
+            let Some(field) = given(at) else { continue };
+            *value = Some(self.real(Some(field)));
+            if value.is_some_and(|value| value <= 0.0) {
+                is_sound = false;
+                let text = format!("the {name} of *STATIC is {}", field.text);
+                let remark = "positive; left empty it is chosen by the program";
+                self.error(&codes::OUT_OF_RANGE, text, &field.place(), remark);
+            }
+        }
+        if !is_sound {
+            return None;
+        }
+        let [initial, period, least, most] = values;
+        let period = period.unwrap_or(1.0);
+        let largest = most.unwrap_or(period).min(period);
+        let first = initial.unwrap_or(largest);
+        let smallest = least.unwrap_or((1e-6 * period).min(first).min(largest));
+        // a rounding of decimals is no contradiction
+        let exceeds = |a: f64, b: f64| a > b * (1.0 + 1e-9);
+        let limits = [
+            (0, ("initial increment", first), ("period", period)),
+            (2, ("smallest increment", smallest), ("initial one", first)),
+            (
+                2,
+                ("smallest increment", smallest),
+                ("largest one", largest),
+            ),
+        ];
+        let wrong = limits
+            .into_iter()
+            .find(|(_, (_, a), (_, b))| exceeds(*a, *b));
+        if let Some((at, (name, value), (other, limit))) = wrong {
+            let text =
+                format!("the {name} of *STATIC, {value}, is larger than its {other}, {limit}");
+            let place = given(at).map_or(card.place.clone(), Field::place);
+            let remark = "initial increment, period, smallest, largest increment";
+            self.error(&codes::CONTRADICTION, text, &place, remark);
+            return None;
+        }
+        if exceeds(first, largest) {
+            let text = format!(
+                "the initial increment of *STATIC is reduced to its largest one, {largest}"
+            );
+            self.note(text, &card.place);
+        }
+        let first = first.min(largest);
+        Some([first, period, smallest.min(first), largest])
     }
 
     /// The lines of a card, those together that differ in single nodes alone.

@@ -7,7 +7,7 @@ use super::{constraint, contact, material};
 use crate::case::{Case, FreeMotions, MeshSource, Name, Set, SetContent, Side};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Place, Severity, Spanned, codes};
 use crate::diagnostic::{closest, listed};
-use crate::readers::inp::{Deck, Field, Kind, Statement, number};
+use crate::readers::inp::{Deck, Field, Kind, Statement, compared, judge, number};
 use crate::readers::labels::Lookup;
 use signorini_geometry::mesh::{CellId, Face};
 use signorini_geometry::tensor::Vec3;
@@ -40,7 +40,8 @@ pub(super) struct Translation<'d> {
     nodes: Lookup,
     /// Places of elements among those of the mesh's dimension.
     elements: Lookup,
-    cells: Vec<CellId>,
+    /// Elements that have to be in a body.
+    pub cells: Vec<CellId>,
     names: Names,
     /// Sets of nodes of the case, by the numbers in them.
     sets: BTreeMap<Vec<u64>, String>,
@@ -109,6 +110,20 @@ impl<'d> Translation<'d> {
             inside &= card.keyword != "ENDSTEP";
             here
         })
+    }
+
+    /// Refuses parameters that cards do not take, and words that parameters do not.
+    pub fn parameters(&mut self) {
+        for card in &self.deck.statements {
+            let named = card.parameters().filter(|(name, _)| !name.is_empty());
+            for (name, value) in named {
+                if let Some(fault) = judge(&card.keyword, name, value) {
+                    let one = Diagnostic::error(fault.code, fault.message);
+                    let one = one.at(&card.place, fault.remark);
+                    self.found.push(one.note(fault.known));
+                }
+            }
+        }
     }
 
     /// Names cards that are left out and what of others is not read, once each with all places, and refuses those that
@@ -222,6 +237,9 @@ impl<'d> Translation<'d> {
             let text = format!("{shown} is no number");
             self.error(&codes::NOT_A_NUMBER, text, &card.place, "");
         }
+        if let Some(value) = found {
+            self.judge_size(value, text, &card.place);
+        }
         found
     }
 
@@ -230,10 +248,31 @@ impl<'d> Translation<'d> {
         let Some(field) = field.filter(|field| !field.text.is_empty()) else {
             return 0.0;
         };
-        field.real().unwrap_or_else(|| {
+        let Some(value) = field.real() else {
             self.not_a_number(field, "a number");
-            0.0
-        })
+            return 0.0;
+        };
+        self.judge_size(value, field.text, &field.place());
+        value
+    }
+
+    /// Refuses a number that has lost digits because it is so small.
+    fn judge_size(&mut self, value: f64, text: &str, place: &Place) {
+        if value != 0.0 && !value.is_normal() {
+            let shown: String = text.chars().take(40).collect();
+            let text = format!("`{shown}` is no number to compute with");
+            self.error(&codes::NOT_FINITE, text, place, "too small: below 2.3e-308");
+        }
+    }
+
+    /// Refuses numbers below zero.
+    pub fn not_negative(&mut self, card: &Statement, row: &[Field<'_>]) {
+        for field in row.iter().filter(|field| field.real() < Some(0.0)) {
+            if let Some(value) = field.real() {
+                let text = format!("{value} in *{} is negative", card.keyword);
+                self.error(&codes::OUT_OF_RANGE, text, &field.place(), "zero or more");
+            }
+        }
     }
 
     /// A whole number in a field; `default` where the field is empty.
@@ -258,18 +297,26 @@ impl<'d> Translation<'d> {
         std::array::from_fn(|i| self.real(fields.get(i)))
     }
 
-    /// The fields of a line that names two surfaces.
-    pub fn two_surfaces<'f, 't>(
-        &mut self,
-        card: &Statement,
-        row: &'f [Field<'t>],
-    ) -> Option<&'f [Field<'t>; 2]> {
-        let two = row.first_chunk();
-        if two.is_none() {
-            let text = format!("a line of *{} needs two surfaces", card.keyword);
-            self.error(&codes::MISSING, text, &card.place, "");
+    /// Refuses names that two cards of a keyword give to different things: other programs take the first without a word.
+    pub fn named_twice(&mut self, keyword: &'static str) {
+        let mut first: BTreeMap<(usize, String), &Statement> = BTreeMap::new();
+        for card in self.cards(keyword) {
+            let Some(name) = card.peek("NAME").filter(|name| !name.is_empty()) else {
+                continue;
+            };
+            let Some(known) = first.get(&(card.scope, compared(name))) else {
+                first.insert((card.scope, compared(name)), card);
+                continue;
+            };
+            let shown: String = name.chars().take(80).collect();
+            let called = Keyword::of(keyword).map_or(keyword, |known| known.name);
+            let text = format!("*{called} `{shown}` is defined twice");
+            let twice = Diagnostic::error(&codes::NAME_TWICE, text)
+                .at(&card.place, "a second time here")
+                .at(&known.place, "first here")
+                .help("remove one of them, or give it another name");
+            self.found.push(twice);
         }
-        two
     }
 
     /// What a field names, in all spaces that the card speaks of.

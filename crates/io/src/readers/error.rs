@@ -367,6 +367,30 @@ pub enum MeshError {
         /// The parameter.
         parameter: &'static str,
     },
+    /// A keyword with a parameter that it does not take.
+    #[error("{place}: {what}; {remark}")]
+    Parameter {
+        /// Where.
+        place: Place,
+        /// What is wrong.
+        what: String,
+        /// What was probably meant, or what the card takes.
+        remark: String,
+    },
+    /// A data line with more values than its card takes.
+    #[error("{place}: a line of *{card} takes {wanted}, found {found} values{hint}")]
+    TooManyValues {
+        /// Where.
+        place: Place,
+        /// The keyword.
+        card: String,
+        /// What it takes.
+        wanted: &'static str,
+        /// How many there are.
+        found: usize,
+        /// What to do.
+        hint: &'static str,
+    },
     /// A keyword that changes the mesh in a way that is not read.
     #[error("{place}: *{card} is refused: {why}")]
     Refused {

@@ -32,29 +32,40 @@ fn a_plain_deck_has_no_such_notes() {
 
 #[test]
 fn parameters_that_nobody_reads_are_named_once_with_all_lines() {
-    let model = "*NSET, NSET=HEAD, COLOUR=RED\n5,6,7,8\n*NSET, NSET=TIP, COLOUR=BLUE\n5\n";
-    let step = "*CLOAD, FOLLOWER\n5, 3, 1.\n*CLOAD, FOLLOWER\n6, 3, 1.\n*CLOAD, FOLLOWER, AMPLITUD=A\n7, 3, 1.\n";
+    let model = "*NSET, NSET=HEAD, FREQUENCY=1\n5,6,7,8\n*NSET, NSET=TIP, FREQUENCY=1\n5\n";
+    let step = "*CLOAD\n5, 3, 1.\n*NODE PRINT, NSET=TIP, SUMMARY=NO\nU\n*NODE PRINT, NSET=HEAD, SUMMARY=NO\nU\n";
     let (found, is_read) = read(&deck(model, step));
     let notes = found.plain();
     assert!(is_read, "{notes}");
     assert_eq!(
-        notes.matches("FOLLOWER of *CLOAD is not read").count(),
+        notes.matches("SUMMARY of *NODE PRINT is not read").count(),
         1,
         "{notes}"
     );
-    assert!(notes.contains("also in lines 28, 30"), "{notes}");
-    assert_eq!(
-        notes.matches("AMPLITUD of *CLOAD is not read").count(),
-        1,
-        "{notes}"
-    );
+    assert!(notes.contains("also in lines 30"), "{notes}");
     assert_eq!(
         notes
-            .matches("COLOUR of *NSET is not read, and once more below")
+            .matches("FREQUENCY of *NSET is not read, and once more below")
             .count(),
         1,
         "{notes}"
     );
+}
+
+#[test]
+fn parameters_that_no_card_has_are_refused_all_at_once() {
+    let step =
+        "*CLOAD, FOLLOWER\n5, 3, 1.\n*CLOAD, AMPLITUD=A\n7, 3, 1.\n*DLOAD, OP=NWE\nB, P2, 1.\n";
+    let (found, is_read) = read(&deck("", step));
+    let shown = found.plain();
+    assert!(!is_read && found.exit_code() == Some(3), "{shown}");
+    for words in [
+        "FOLLOWER of *CLOAD is not supported",
+        "did you mean AMPLITUDE?",
+        "did you mean NEW?",
+    ] {
+        assert!(shown.contains(words), "{words}: {shown}");
+    }
 }
 
 #[test]

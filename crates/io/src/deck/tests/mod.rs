@@ -2,6 +2,7 @@ mod constraints;
 mod contact;
 mod materials;
 mod sections;
+mod silent;
 mod steps;
 
 use super::*;

@@ -215,6 +215,26 @@ fn decimal(text: &str) -> Option<f64> {
     (value.is_finite() || text.bytes().all(is_number)).then_some(value)
 }
 
+/// Refuses a line with more values than a card takes: how many, what they are, and what to do.
+pub(super) fn at_most(
+    lines: &Lines<'_>,
+    card: &Card,
+    line: &[u8],
+    (most, wanted, hint): (usize, &'static str, &'static str),
+) -> Result<(), MeshError> {
+    let found = Fields::of(line).filter(|field| !field.is_empty()).count();
+    if found <= most {
+        return Ok(());
+    }
+    Err(MeshError::TooManyValues {
+        place: lines.place(),
+        card: card.keyword.clone(),
+        wanted,
+        found,
+        hint,
+    })
+}
+
 /// The fault of a field that is no number.
 pub(super) fn not_a_number(
     lines: &Lines<'_>,

@@ -1,9 +1,11 @@
 //! What a deck says, card by card, before any number or name in it is looked up.
 
-use super::card::{Card, Fields, Parameter, key, not_a_number, real, text, whole};
+use super::card::{Card, Fields, Parameter, at_most, key, not_a_number, real, text, whole};
+use super::directory::ElementCard;
 use super::kind::{Kind, supported};
 use super::lines::{Files, Lines, Spot};
-use super::statement::Statement;
+use super::parameters::judge;
+use super::statement::{Statement, place_of};
 use crate::readers::MeshError;
 use crate::readers::error::excerpt;
 use signorini_geometry::tensor::Vec3;
@@ -27,6 +29,10 @@ const REFUSED: [(&str, &str); 10] = [
         "it moves the nodes that follow; write their coordinates in the global system",
     ),
     ("PARAMETER", "write numbers in place of its names"),
+];
+/// Cards of the mesh, which are read here.
+const OF_MESH: [&str; 7] = [
+    "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "INSTANCE",
 ];
 /// Parameters with which Abaqus/CAE marks sets of its own, and order that no set here has.
 const INTERNAL: [&str; 2] = ["INTERNAL", "UNSORTED"];
@@ -131,6 +137,8 @@ pub(super) struct Scope {
     pub element_labels: Vec<u64>,
     pub element_kinds: Vec<u32>,
     pub element_spots: Vec<Spot>,
+    /// The *ELEMENT card of each, where these are kept.
+    pub element_cards: Vec<u32>,
     /// Node numbers of all elements, one after the other.
     pub connectivity: Vec<u64>,
     pub definitions: Vec<Definition>,
@@ -155,6 +163,8 @@ pub(super) struct Deck {
     /// The first is the deck itself, or its assembly.
     pub scopes: Vec<Scope>,
     pub instances: Vec<Instance>,
+    /// Cards of elements; none unless the whole deck is asked for.
+    pub element_cards: Vec<ElementCard>,
     /// Cards that are no part of the mesh; none unless they are asked for.
     pub statements: Vec<Statement>,
     pub notes: Vec<String>,
@@ -168,6 +178,7 @@ pub(super) fn read(files: &Files<'_>, whole: bool) -> Result<Deck> {
             kinds: Vec::new(),
             scopes: vec![Scope::default()],
             instances: Vec::new(),
+            element_cards: Vec::new(),
             statements: Vec::new(),
             notes: Vec::new(),
         },
@@ -235,6 +246,13 @@ impl Reader<'_> {
                 wanted: "its *END",
             });
         }
+        if let Some(spot) = self.step.filter(|_| self.whole) {
+            return Err(MeshError::Truncated {
+                place: self.lines.place_of(spot),
+                section: "*STEP".into(),
+                wanted: "its *END STEP",
+            });
+        }
         if let Some(spot) = self.step {
             let note = format!(
                 "{}: *STEP without *END STEP; was the deck cut off?",
@@ -245,7 +263,27 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// Refuses what a card of the mesh does not take; other cards are judged by those who read them.
+    fn judge(&self, card: &Card) -> Result<()> {
+        let faults = card.parameters.iter().filter(|one| !one.name.is_empty());
+        let mut faults = faults.filter_map(|one| judge(&card.keyword, &one.name, &one.value));
+        match faults.next() {
+            None => Ok(()),
+            Some(fault) => Err(MeshError::Parameter {
+                place: self.lines.place_of(card.spot),
+                what: fault.message,
+                remark: match fault.remark.as_str() {
+                    "" => fault.known,
+                    _ => fault.remark,
+                },
+            }),
+        }
+    }
+
     fn card(&mut self, card: &Card) -> Result<()> {
+        if OF_MESH.contains(&card.keyword.as_str()) {
+            self.judge(card)?;
+        }
         let of_mesh = match card.keyword.as_str() {
             "NODE" => Some(self.nodes(card)),
             "ELEMENT" => Some(self.elements(card)),
@@ -266,7 +304,12 @@ impl Reader<'_> {
             "INCLUDE" => {
                 card.need("INPUT", &self.lines)?;
             }
-            "STEP" => self.step = Some(card.spot),
+            "STEP" => {
+                if self.step.is_some() && self.whole {
+                    return Err(self.nesting(card, "in another step", "end that one by *END STEP"));
+                }
+                self.step = Some(card.spot);
+            }
             "ENDSTEP" => self.step = None,
             keyword => {
                 if let Some((_, why)) = REFUSED.iter().find(|(known, _)| *known == keyword) {
@@ -343,7 +386,8 @@ impl Reader<'_> {
             let label = label(lines, card, "a node number", field)?;
             let mut x = [0.0; 3];
             let mut ncoordinate = 0;
-            for ((field, x), axis) in (&mut fields).zip(&mut x).zip(['x', 'y', 'z']) {
+            // the fields last: what is looked at there is gone
+            for ((x, axis), field) in x.iter_mut().zip(['x', 'y', 'z']).zip(&mut fields) {
                 *x = number(lines, card, "a coordinate", field)?;
                 ncoordinate += usize::from(!field.is_empty());
                 if !x.is_finite() {
@@ -354,6 +398,12 @@ impl Reader<'_> {
                         found: excerpt(field),
                     });
                 }
+            }
+            if fields.next().is_some() {
+                let hint =
+                    "; decimals have a point, not a comma, and normals of shells are not read";
+                let most = (4, "a number and three coordinates", hint);
+                at_most(lines, card, line, most)?;
             }
             unplaced = (ncoordinate == 0).then_some((label, lines.spot));
             let [a, b, c] = x;
@@ -461,6 +511,17 @@ impl Reader<'_> {
             return Err(count_error(lines.place_of(spot), label, count));
         }
         let end = scope.element_labels.len();
+        if self.whole {
+            let number = self.deck.element_cards.len() as u32;
+            self.deck.element_cards.push(ElementCard {
+                place: place_of(card, &self.lines),
+                elset: card
+                    .get("ELSET")
+                    .filter(|name| !name.is_empty())
+                    .map(str::to_owned),
+            });
+            self.scope().element_cards.resize(end, number);
+        }
         self.added(card, "ELSET", Family::Cells, first..end);
         Ok(())
     }
@@ -480,6 +541,9 @@ impl Reader<'_> {
         while let Some(line) = self.lines.data() {
             let mut fields = Fields::of(line);
             if generate {
+                let hint = "; write one range on a line, or leave out GENERATE";
+                let most = (3, "first, last and step with GENERATE", hint);
+                at_most(&self.lines, card, line, most)?;
                 let mut entry = |default: Option<u64>| match (fields.next(), default) {
                     (None | Some(b""), Some(default)) => Ok(default),
                     (field, _) => {
@@ -535,6 +599,7 @@ impl Reader<'_> {
         while let Some(line) = self.lines.data() {
             let mut fields = Fields::of(line);
             let region = fields.next().unwrap_or_default();
+            self.judge_side(card, line, family)?;
             if kind == "NODE" {
                 match whole(region) {
                     Some(label) => surface.labels.push(label),
@@ -558,6 +623,24 @@ impl Reader<'_> {
         }
         self.scope().definitions.push(surface);
         Ok(())
+    }
+
+    /// Refuses a line of a surface that names more than one thing.
+    fn judge_side(&self, card: &Card, line: &[u8], family: Family) -> Result<()> {
+        // of a surface of nodes, the second may be an area, which has a decimal point
+        let is_area = |field: &[u8]| whole(field).is_none() && real(field).is_some();
+        let second = Fields::of(line).nth(1);
+        let most = match family {
+            Family::Points if !second.is_some_and(is_area) => (1, "one node or node set"),
+            Family::Points => (2, "a node or node set, and an area"),
+            _ => (2, "an element or element set, and one side"),
+        };
+        at_most(
+            &self.lines,
+            card,
+            line,
+            (most.0, most.1, "; write one on a line"),
+        )
     }
 
     fn nesting(&self, card: &Card, found: &'static str, wanted: &'static str) -> MeshError {
@@ -636,6 +719,10 @@ impl Reader<'_> {
                 let found = "with more than a translation and a rotation";
                 return Err(self.nesting(card, found, "write two lines at most"));
             };
+            let wanted = "a translation of three components, then two points and an angle";
+            let most = if nline == 0 { 3 } else { 7 };
+            let hint = "; decimals have a point, not a comma";
+            at_most(&self.lines, card, line, (most, wanted, hint))?;
             for (field, x) in Fields::of(line).zip(numbers) {
                 *x = number(&self.lines, card, "a number of its position", field)?;
             }

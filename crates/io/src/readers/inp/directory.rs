@@ -2,6 +2,8 @@
 
 use super::card::key;
 use super::deck::Family;
+use crate::diagnostic::Place;
+use signorini_geometry::mesh::CellId;
 use std::collections::BTreeMap;
 
 /// What a name in a deck is a name of.
@@ -51,6 +53,15 @@ pub struct Special {
     pub nodes: Vec<u64>,
 }
 
+/// An *ELEMENT card.
+#[derive(Clone, Debug)]
+pub struct ElementCard {
+    /// Where it stands.
+    pub place: Place,
+    /// The element set that it names.
+    pub elset: Option<String>,
+}
+
 /// What names and numbers of a deck are called in its mesh.
 ///
 /// A *space* is the deck itself, number 0, or one of its instances; a statement in a part speaks of all its instances.
@@ -63,6 +74,9 @@ pub struct Directory {
     /// The type of each cell, in capitals, by block and cell.
     pub(super) types: Vec<Vec<u32>>,
     pub(super) type_names: Vec<String>,
+    /// The *ELEMENT card of each cell, by block and cell.
+    pub(super) cards: Vec<Vec<u32>>,
+    pub(super) element_cards: Vec<ElementCard>,
     /// Elements that are no cells.
     pub(super) special: Vec<Special>,
 }
@@ -129,6 +143,14 @@ impl Directory {
             let (within, rest) = self.qualified(space, name)?;
             of(within, rest)
         })
+    }
+
+    /// The number of the *ELEMENT card of a cell, and the card.
+    #[must_use]
+    pub fn card_of(&self, cell: CellId) -> Option<(u32, &ElementCard)> {
+        let cards = self.cards.get(cell.block as usize)?;
+        let number = *cards.get(cell.index as usize)?;
+        Some((number, self.element_cards.get(number as usize)?))
     }
 
     /// The types of elements, in capitals, and the type of each cell, by block and cell.

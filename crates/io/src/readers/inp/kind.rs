@@ -185,6 +185,17 @@ impl Kind {
     }
 }
 
+/// What elements of a type are that no solid section makes solids of: shells, say; nothing for solids and trusses.
+pub(crate) fn without_volume(name: &str) -> Option<&'static str> {
+    let kind = Kind::find(name)?;
+    let is_solid = match kind.role {
+        Role::Solid | Role::PlaneStrain | Role::PlaneStress | Role::Axisymmetric => true,
+        Role::Truss => name.starts_with('T'),
+        _ => false,
+    };
+    (!is_solid).then(|| kind.role.word())
+}
+
 /// The types that can be read, for messages.
 pub(super) fn supported() -> String {
     let sizes = |(letters, _, sizes): &(&str, Role, Sizes)| {

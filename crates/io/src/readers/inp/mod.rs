@@ -31,12 +31,15 @@ mod deck;
 mod directory;
 mod kind;
 mod lines;
+mod parameters;
 mod statement;
 #[cfg(test)]
 mod tests;
 
 pub use card::compared;
-pub use directory::{Directory, Kind, Special};
+pub use directory::{Directory, ElementCard, Kind, Special};
+pub(crate) use kind::without_volume;
+pub(crate) use parameters::judge;
 pub use statement::{Field, Statement};
 
 use super::{MeshError, Place};

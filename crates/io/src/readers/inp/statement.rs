@@ -58,6 +58,12 @@ impl Field<'_> {
         real(self.text.as_bytes()).filter(|value| value.is_finite())
     }
 
+    /// Whether another field follows this one without a blank between them.
+    #[must_use]
+    pub const fn touches(&self, next: &Self) -> bool {
+        self.at + self.text.len() + 1 == next.at
+    }
+
     /// What names are compared by.
     #[must_use]
     pub fn key(&self) -> String {
@@ -93,6 +99,18 @@ impl Statement {
         Parameter::find(&self.parameters, name)
     }
 
+    /// The value of a parameter as [`Statement::get`] gives it, without a sign that anybody has asked for it.
+    #[must_use]
+    pub fn peek(&self, name: &str) -> Option<&str> {
+        let mut named = self.parameters.iter().filter(|one| one.name == name);
+        named.next().map(|one| one.value.as_str())
+    }
+
+    /// The names of its parameters, in capitals and without blanks, with their values as they were written.
+    pub fn parameters(&self) -> impl Iterator<Item = (&str, &str)> {
+        (self.parameters.iter()).map(|one| (one.name.as_str(), one.value.as_str()))
+    }
+
     /// Whether a parameter is there.
     #[must_use]
     pub fn has(&self, name: &str) -> bool {
@@ -119,6 +137,11 @@ impl Statement {
     /// The fields of each data line; those at the end that are empty are left out.
     pub fn rows(&self) -> impl Iterator<Item = Vec<Field<'_>>> {
         self.seen.set(true);
+        self.peek_rows()
+    }
+
+    /// The same, without a sign that anybody has looked at them.
+    pub fn peek_rows(&self) -> impl Iterator<Item = Vec<Field<'_>>> {
         self.rows.iter().map(|row| {
             let line = row.text();
             let fields = Fields::of(line.as_bytes()).map(|field| {
@@ -148,6 +171,13 @@ impl Row {
     fn text(&self) -> &str {
         self.file.text().get(self.line.clone()).unwrap_or_default()
     }
+}
+
+/// Where a card stands.
+pub(super) fn place_of(card: &Card, lines: &Lines<'_>) -> Place {
+    let rows = excerpts(vec![(card.spot, card.written.clone())], lines);
+    let first = rows.into_iter().next();
+    first.map_or_else(Place::nowhere, |row| Place::new(&row.file, row.line))
 }
 
 /// Texts of lines that follow each other, one for each stretch without a gap.

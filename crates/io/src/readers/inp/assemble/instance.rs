@@ -21,6 +21,7 @@ pub(super) fn copy(part: &Scope, instance: &Instance) -> Scope {
         element_labels: part.element_labels.clone(),
         element_kinds: part.element_kinds.clone(),
         element_spots: part.element_spots.clone(),
+        element_cards: part.element_cards.clone(),
         connectivity: part.connectivity.clone(),
         definitions: part.definitions.clone(),
     }
@@ -35,6 +36,7 @@ pub(super) fn append(scope: &mut Scope, own: Scope) {
     scope.element_labels.extend(own.element_labels);
     scope.element_kinds.extend(own.element_kinds);
     scope.element_spots.extend(own.element_spots);
+    scope.element_cards.extend(own.element_cards);
     scope.connectivity.extend(own.connectivity);
     scope
         .definitions

@@ -65,6 +65,7 @@ pub(super) fn assemble(files: &Files<'_>, deck: Deck, whole: bool) -> Result<Ass
     assembly.note_missing();
     assembly.name_sets();
     assembly.directory.instances = assembly.instances;
+    assembly.directory.element_cards = assembly.deck.element_cards;
     assembly.directory.type_names = assembly.deck.kinds.into_iter().map(|k| k.name).collect();
     Ok(Assembled {
         mesh: assembly.mesh,
@@ -298,6 +299,13 @@ impl Assembly<'_> {
             types.resize_with(types.len().max(number as usize + 1), Vec::new);
             if let Some(types) = types.get_mut(number as usize) {
                 types.push(kind);
+            }
+            if let Some(&card) = scope.element_cards.get(place) {
+                let cards = &mut self.directory.cards;
+                cards.resize_with(cards.len().max(number as usize + 1), Vec::new);
+                if let Some(cards) = cards.get_mut(number as usize) {
+                    cards.push(card);
+                }
             }
             space.cells.push(Some(CellId {
                 block: number,

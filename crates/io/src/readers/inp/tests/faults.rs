@@ -78,6 +78,11 @@ fn faults_of_nodes_and_elements_are_reported_with_their_line() {
         (
             "*ELEMENT, TYPE=C3D8R",
             "*ELEMENT, TIPE=C3D8R",
+            "part.inp, line 18: *ELEMENT has no parameter TIPE; did you mean TYPE?",
+        ),
+        (
+            "*ELEMENT, TYPE=C3D8R",
+            "*ELEMENT",
             "part.inp, line 18: *ELEMENT has no TYPE; write *ELEMENT, TYPE=…",
         ),
         (

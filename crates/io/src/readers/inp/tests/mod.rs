@@ -531,7 +531,7 @@ fn five_thousand_damaged_decks_end_in_a_mesh_or_an_error_and_take_little_memory(
     }
     println!("{good} meshes, {bad} errors, at most {most} bytes");
     assert!(most < 1 << 20, "{most}");
-    assert!(good > 500 && bad > 1000, "{good} meshes, {bad} errors");
+    assert!(good > 400 && bad > 1000, "{good} meshes, {bad} errors");
 }
 
 /// `n³` bricks.

@@ -1,0 +1,135 @@
+//! Elements that have no section, or one that is not theirs; nodes that leave the plane of their elements.
+
+use super::translation::{Translation, is_truss};
+use crate::diagnostic::{Diagnostic, Place, codes};
+use crate::readers::inp::{Statement, without_volume};
+use signorini_geometry::mesh::CellId;
+use std::collections::BTreeMap;
+
+/// Coordinates across a plane may differ by this part of its size: roundings of decimals.
+const FLAT: f64 = 1e-9;
+
+impl Translation<'_> {
+    /// Refuses elements that no section gives a material, and no rigid body its motion: without them, and the loads on
+    /// them, the model would be another one.
+    pub fn elements_without_section(&mut self) {
+        let mesh = &self.deck.mesh;
+        let mut covered: Vec<CellId> = Vec::new();
+        let mut inside = false;
+        for card in &self.deck.statements {
+            inside |= card.keyword == "STEP";
+            let keyword = card.keyword.as_str();
+            // sections of elements that are not built are refused by their keyword
+            let gives = keyword.ends_with("SECTION") && !keyword.starts_with("CHANGE")
+                || ["MEMBRANE", "RIGIDBODY", "FLUIDSECTIONS"].contains(&keyword);
+            if inside || !gives {
+                continue;
+            }
+            let Some(name) = card.peek("ELSET") else {
+                continue;
+            };
+            let sets = self.sets_of(card, name).into_iter();
+            let cells = sets.filter_map(|set| mesh.sets.get(&set).map(|set| &set.cells));
+            covered.extend(cells.flatten());
+        }
+        covered.sort_unstable();
+        let mut bare: BTreeMap<u32, (usize, u64, CellId)> = BTreeMap::new();
+        for &cell in &self.cells {
+            if covered.binary_search(&cell).is_err()
+                && let Some((number, _)) = self.deck.directory.card_of(cell)
+            {
+                let label = mesh.cell_label(cell).unwrap_or(0);
+                let (count, ..) = bare.entry(number).or_insert((0, label, cell));
+                *count += 1;
+            }
+        }
+        for (count, label, cell) in bare.into_values() {
+            let Some((_, card)) = self.deck.directory.card_of(cell) else {
+                continue;
+            };
+            let of = card.elset.as_ref();
+            let of_set = of.map_or(String::new(), |name| format!(" of `{name}`"));
+            let text = match count {
+                1 => format!("element {label}{of_set} has no section"),
+                _ => format!("{count} elements{of_set} have no section, such as {label}"),
+            };
+            let shown = of.map_or("…", String::as_str);
+            let help = format!("write *SOLID SECTION, ELSET={shown}, MATERIAL=…");
+            let one = Diagnostic::error(&codes::MISSING, text);
+            let one = one.at(&card.place, "no material is given to what is defined here");
+            self.found.push(one.help(help));
+        }
+    }
+
+    /// Whether all elements that a *SOLID SECTION names are solids of the model, or trusses; if not, that is reported.
+    pub fn makes_solids(&mut self, card: &Statement, sets: &[String]) -> bool {
+        let mesh = &self.deck.mesh;
+        let cells = sets.iter().filter_map(|set| mesh.sets.get(set));
+        let mut strange = cells.flat_map(|set| &set.cells).filter_map(|&cell| {
+            let kind = self.type_of(cell);
+            let dim = mesh.element(cell).map_or(0, |element| element.dim());
+            let is_side = dim < mesh.dim() && !is_truss(kind);
+            let word = without_volume(kind).or(is_side.then_some("in the plane"))?;
+            Some((mesh.cell_label(cell).unwrap_or(0), kind, word))
+        });
+        let Some((label, kind, word)) = strange.next() else {
+            return true;
+        };
+        let more = match strange.count() {
+            0 => String::new(),
+            more => format!(", and {more} more"),
+        };
+        let text = format!(
+            "*SOLID SECTION names element {label}, which is no solid: {kind} ({word}){more}"
+        );
+        let one = Diagnostic::error(&codes::NOT_BUILT, text).at(&card.place, "");
+        self.found.push(one.help(match word {
+            "in the plane" => {
+                "elements of the plane next to solids are faces of these: give them no section"
+            }
+            _ => "shells, membranes and beams are not built: use solids, such as C3D8, or leave the section out",
+        }));
+        false
+    }
+
+    /// Refuses elements of the plane that are not in one plane of constant z, and notes one that is not z = 0.
+    pub fn judge_plane(&mut self) {
+        let mesh = &self.deck.mesh;
+        let of_plane = |cell: &CellId| {
+            let kind = self.type_of(*cell);
+            ["CPE", "CPS", "CAX"]
+                .iter()
+                .any(|plane| kind.starts_with(plane))
+        };
+        let nodes = || {
+            let cells = mesh.cells(2).filter(of_plane);
+            cells.flat_map(|cell| mesh.cell(cell)).copied()
+        };
+        let point = |node: u32| mesh.points.get(node as usize).copied();
+        let first = nodes().next().and_then(|node| Some((node, point(node)?)));
+        let Some((first, x)) = first else {
+            return;
+        };
+        let size = nodes().filter_map(point);
+        let size = size.map(|y| (y.x - x.x).abs().max((y.y - x.y).abs()));
+        let size = size.fold(0.0, f64::max);
+        let leaves = |node: u32| point(node).is_some_and(|y| (y.z - x.z).abs() > FLAT * size);
+        let off = nodes().find(|&node| leaves(node));
+        let label = |node: u32| mesh.node_labels.get(node as usize).copied().unwrap_or(0);
+        if let Some((node, y)) = off.and_then(|node| Some((node, point(node)?))) {
+            let text = format!(
+                "elements of the plane are not in one: z is {} at node {}, and {} at node {}",
+                x.z,
+                label(first),
+                y.z,
+                label(node)
+            );
+            let one = Diagnostic::error(&codes::BAD_MESH, text);
+            self.found
+                .push(one.help("write all nodes of plane elements with z = 0, or none"));
+        } else if x.z.abs() > FLAT * size {
+            let text = format!("all plane elements are at z = {}, which is left out", x.z);
+            self.note(text, &Place::nowhere());
+        }
+    }
+}
