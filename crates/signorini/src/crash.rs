@@ -6,8 +6,9 @@
 //! ```
 
 use crate::VERSION;
+use signorini_io::fs::{Fs, RealFs};
 use std::backtrace::Backtrace;
-use std::io::{self, Cursor, Read, Write};
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 use zip::ZipWriter;
@@ -57,9 +58,9 @@ impl Crash {
         let mut last = io::Error::from(io::ErrorKind::NotFound);
         for folder in folders {
             let path = folder.join(&name);
-            match std::fs::write(&path, &bytes) {
+            match RealFs.write_atomic(&path, &bytes) {
                 Ok(()) => return Ok(path),
-                Err(error) => last = error,
+                Err(error) => last = io::Error::other(error),
             }
         }
         Err(last)
@@ -104,18 +105,15 @@ impl Crash {
 
 /// The content of a file, unless it is none or too large.
 fn input(path: &Path) -> Option<Vec<u8>> {
-    let file = std::fs::File::open(path).ok()?;
-    if !file.metadata().ok()?.is_file() {
-        return None;
-    }
-    let mut bytes = Vec::new();
-    let read = file.take(LARGEST_INPUT + 1).read_to_end(&mut bytes).ok()?;
-    (read as u64 <= LARGEST_INPUT).then_some(bytes)
+    let about = std::fs::metadata(path).ok()?;
+    let is_fit = about.is_file() && about.len() <= LARGEST_INPUT;
+    is_fit.then(|| RealFs.read(path).ok()).flatten()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Read;
     use zip::ZipArchive;
 
     fn crash() -> Crash {
