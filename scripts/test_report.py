@@ -145,16 +145,16 @@ def numbers_agree(page, folder):
 def click_a_node(page):
     """Clicks into the view until a node is picked; returns its number."""
     # plotly looks what is under the mouse when it draws, which takes its time without a graphics card
-    page.page.evaluate("document.getElementById('stage').on('plotly_hover', () => { document.body.dataset.hovered = 'yes'; })")
     box = page.page.locator("#stage").bounding_box()
     places = [(0.1 + 0.075 * i, 0.25 + 0.07 * j) for i in range(9) for j in range(8)]
-    for x, y in sorted(places, key=lambda place: abs(place[0] - 0.42) + abs(place[1] - 0.55))[::3]:
+    for x, y in sorted(places, key=lambda place: abs(place[0] - 0.42) + abs(place[1] - 0.55))[::2]:
         at = (box["x"] + x * box["width"], box["y"] + y * box["height"])
         page.page.mouse.move(*at)
-        if not page.within("document.body.dataset.hovered", 2_000):
-            continue
+        page.page.wait_for_timeout(300)
+        page.page.mouse.move(at[0] + 1, at[1])
+        page.page.wait_for_timeout(300)
         page.page.mouse.down()
-        picked = page.within("document.getElementById('picked').dataset.node", 6_000)
+        picked = page.within("document.getElementById('picked').dataset.node", 2_500)
         page.page.mouse.up()
         if picked:
             return int(picked)

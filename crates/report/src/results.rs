@@ -74,8 +74,8 @@ impl Results {
     /// # Errors
     /// [`ReportError::NotResults`] for a folder that holds none of the files of a run.
     pub fn read(fs: &dyn Fs, folder: &Path) -> Result<Self, ReportError> {
-        let found = |name: &&str| fs.exists(&folder.join(name)).unwrap_or(false);
-        if !SIGNS.iter().any(|name| found(&name)) {
+        let found = |name: &str| fs.exists(&folder.join(name)).unwrap_or(false);
+        if !SIGNS.iter().any(|name| found(name)) {
             return Err(ReportError::NotResults {
                 folder: folder.to_path_buf(),
                 wanted: SIGNS.join(", "),

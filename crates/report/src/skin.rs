@@ -130,10 +130,10 @@ impl Skin {
             for edge in 0..face.element.edges().len() {
                 let chain = chain(face.element, edge).map(node).collect::<Vec<u32>>();
                 for pair in chain.windows(2) {
-                    if let [a, b] = *pair {
-                        if seen.insert([a.min(b), a.max(b)]) {
-                            skin.edges.push([a, b]);
-                        }
+                    if let [a, b] = *pair
+                        && seen.insert([a.min(b), a.max(b)])
+                    {
+                        skin.edges.push([a, b]);
                     }
                 }
             }

@@ -192,7 +192,7 @@ pub fn of_grid(grid: &Vtu, units: &str) -> Option<View> {
     let sites = Sites::of(&skin, None);
     for field in fields::fields(&frame) {
         let values = fields::values(&field, &skin, &frame, &sites);
-        described.push(describe(&field, &[values.clone()], units, None));
+        described.push(describe(&field, std::slice::from_ref(&values), units, None));
         let name = format!("field-{}", field.name);
         view.chunks.push((
             name,
@@ -211,7 +211,7 @@ pub fn of_grid(grid: &Vtu, units: &str) -> Option<View> {
             components: vec![String::new()],
             of_contact: false,
         };
-        let mut described_field = describe(&field, &[values.clone()], units, None);
+        let mut described_field = describe(&field, std::slice::from_ref(&values), units, None);
         described_field["cells"] = json!(true);
         described.push(described_field);
         view.chunks

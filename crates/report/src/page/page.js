@@ -339,7 +339,7 @@
       if (state.picked >= 0) {
         const i = state.picked;
         traces.push({ type: "scatter3d", mode: "markers+text", x: [at[0][i]], y: [at[1][i]], z: [at[2][i]], text: [String(labels[i])], textposition: "top center",
-          textfont: { color: "#b3261e", size: 13 }, marker: { size: 5, color: "#b3261e" }, hoverinfo: "none", showlegend: false });
+          textfont: { color: "#b3261e", size: 13 }, marker: { size: 4, color: "#b3261e" }, hoverinfo: "none", showlegend: false });
       }
       const axis = (k) => ({ range: ranges[k], visible: true, title: { text: "xyz"[k] }, showspikes: false, showbackground: false, gridcolor: "#eef0f3", zeroline: false,
         nticks: 5, tickfont: { size: 10, color: "#8a919c" } });

@@ -47,12 +47,14 @@ impl Raster {
     /// Puts a colour where nothing nearer is; it covers what was there by `cover` from 0 to 1.
     fn put(&mut self, x: usize, y: usize, depth: f64, colour: Colour, cover: f64) {
         let at = y * self.width + x;
-        if let (Some(old), Some(place)) = (self.depths.get_mut(at), self.colours.get_mut(at)) {
-            if depth as f32 >= *old {
-                *old = depth as f32;
-                for (place, colour) in place.iter_mut().zip(colour) {
-                    *place = (f64::from(*place) * (1.0 - cover) + colour * cover) as u8;
-                }
+        let pixel = (self.depths.get_mut(at), self.colours.get_mut(at));
+        let (Some(old), Some(place)) = pixel else {
+            return;
+        };
+        if depth as f32 >= *old {
+            *old = depth as f32;
+            for (place, colour) in place.iter_mut().zip(colour) {
+                *place = (f64::from(*place) * (1.0 - cover) + colour * cover) as u8;
             }
         }
     }
