@@ -41,9 +41,11 @@ mod step;
 #[cfg(test)]
 mod tests;
 mod translation;
+mod words;
 
 pub use compat::Compat;
 pub use keywords::{KEYWORDS, Keyword, Support};
+pub use words::{in_words, is_of_deck, one_in_words};
 
 use crate::case::Case;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, codes};

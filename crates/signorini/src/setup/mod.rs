@@ -43,6 +43,7 @@ use cuts::Cuts;
 use names::Names;
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_io::case::{Case, FreeMotions, Stabilize};
+use signorini_io::deck;
 use signorini_io::diagnostic::{Diagnostics, Spanned};
 use signorini_mechanics::model::{LockingSummary, Parts};
 use signorini_mechanics::solid::Locking;
@@ -129,7 +130,16 @@ pub fn build(case: Case, mesh: Mesh) -> Result<Model, Diagnostics> {
 /// # Errors
 /// Names that the program does not have; names that the mesh does not have, sets of the wrong kind, and what makes no well-posed model: all messages at once
 /// as far as they do not follow from each other.
-pub fn build_with(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnostics> {
+pub fn build_with(case: Case, mesh: Mesh, own: &Own) -> Result<Model, Diagnostics> {
+    if !deck::is_of_deck(&case) {
+        return build_of(case, mesh, own);
+    }
+    let mut model = build_of(case, mesh, own).map_err(deck::in_words)?;
+    model.warnings = deck::in_words(std::mem::take(&mut model.warnings));
+    Ok(model)
+}
+
+fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnostics> {
     let mut found = Diagnostics::new();
     own::check(&case, own, &mut found);
     // what is lacking draws other messages after it
