@@ -208,11 +208,13 @@ impl Translation<'_> {
         let mut values = [None; 4];
         for (at, (value, name)) in values.iter_mut().zip(names).enumerate() {
             let Some(field) = given(at) else { continue };
-            *value = Some(self.real(Some(field)));
-            if value.is_some_and(|value| value <= 0.0) {
+            // zero stands for the default, as an empty field does
+            let number = self.real(Some(field));
+            *value = (number > 0.0).then_some(number);
+            if number < 0.0 {
                 is_sound = false;
                 let text = format!("the {name} of *STATIC is {}", field.text);
-                let remark = "positive; left empty it is chosen by the program";
+                let remark = "positive; left empty or zero it is chosen by the program";
                 self.error(&codes::OUT_OF_RANGE, text, &field.place(), remark);
             }
         }

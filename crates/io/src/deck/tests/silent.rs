@@ -313,7 +313,7 @@ fn increments_that_contradict_each_other_are_refused() {
             "0.1, 1., 0.5",
             "the smallest increment of *STATIC, 0.5, is larger",
         ),
-        times("0.1, 0.", "the period of *STATIC is 0."),
+        times("0.1, -2.", "the period of *STATIC is -2."),
         times("0.1, 1., -1.", "the smallest increment of *STATIC is -1."),
         times(
             "0.1, 1., 0.01, -1.",
@@ -321,7 +321,16 @@ fn increments_that_contradict_each_other_are_refused() {
         ),
     ];
     assert_refused(&all.map(|(deck, line, words)| (deck, line + 1, words)));
-    for row in ["", "0.1", "0.1, 1.", "0.1, 2., , 0.5", "1., 1., 1e-5, 1."] {
+    // zero stands for the default
+    for row in [
+        "",
+        "0.1",
+        "0.1, 0.",
+        "0., 0., 0., 0.",
+        "0.1, 1.",
+        "0.1, 2., , 0.5",
+        "1., 1., 1e-5, 1.",
+    ] {
         case(&with_card("*STATIC", row));
     }
 }
