@@ -160,7 +160,7 @@ fn a_flipped_bit_anywhere_is_noticed() {
 #[test]
 fn any_byte_changed_in_both_files_is_an_error() {
     let (dir, checkpoints) = two();
-    let paths = SLOTS.map(|slot| dir.path().join(slot));
+    let paths = [0, 1].map(|slot| dir.path().join(file(slot)));
     let good = paths.each_ref().map(|path| RealFs.read(path).unwrap());
     for at in 0..good[0].len() {
         for (path, good) in paths.iter().zip(&good) {
@@ -206,8 +206,8 @@ fn another_case_and_another_format_are_said() {
         Err(CheckpointError::OtherCase { .. })
     ));
     for version in [0, FORMAT_VERSION - 1, FORMAT_VERSION + 1, u32::MAX] {
-        for slot in SLOTS {
-            let path = dir.path().join(slot);
+        for slot in [0, 1] {
+            let path = dir.path().join(file(slot));
             let mut bytes = RealFs.read(&path).unwrap();
             bytes[8..12].copy_from_slice(&version.to_le_bytes());
             let crc = crc32(&bytes[..12]);
