@@ -35,13 +35,11 @@ pub(super) fn bodies(
 }
 
 /// A warning of elements that are in no body: a forgotten [[body]] leaves no other trace.
-pub(super) fn left_out(
-    case: &Case,
-    names: &Names<'_>,
-    mesh: &Mesh,
-    bodies: &[BodyPart],
-) -> Option<Diagnostic> {
-    let used: BTreeSet<CellId> = bodies.iter().flat_map(|b| &b.cells).copied().collect();
+pub(super) fn left_out(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Option<Diagnostic> {
+    let groups = case.bodies.iter().flat_map(|body| &body.groups);
+    // groups that are not there were reported where the bodies were made
+    let cells = groups.map(|group| names.cells(group, &mut Diagnostics::new()).solids);
+    let used: BTreeSet<CellId> = cells.flatten().collect();
     let all = mesh.cells(case.model.space.ndim());
     let (mut count, mut first) = (0, None);
     for cell in all.filter(|cell| !used.contains(cell)) {

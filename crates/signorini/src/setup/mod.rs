@@ -175,6 +175,9 @@ fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnost
         return Err(found);
     }
     found.append(bodies::stiff_elements(&case, &names, &mesh));
+    if let Some(one) = bodies::left_out(&case, &names, &mesh) {
+        found.push(one);
+    }
     let contacts = info::contacts(&case, &model.contacts);
     let stabilized = case.solver.stabilize == Stabilize::Auto;
     let sets = names.node_sets();
@@ -231,11 +234,6 @@ fn parts<'a>(
     }
     let mut parts = Parts::new(mesh, idealisation(&case.model));
     parts.bodies = bodies::bodies(case, names, carriers, own, found);
-    if !found.has_errors()
-        && let Some(message) = bodies::left_out(case, names, mesh, &parts.bodies)
-    {
-        found.push(message);
-    }
     parts.carriers = carriers.parts();
     parts.springs = constraints::springs(case, names, found);
     parts.constraints = constraints::constraints(case, names, carriers, cuts, found);
