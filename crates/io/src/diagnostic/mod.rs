@@ -66,8 +66,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// What to do, ready to be copied.
     pub help: Vec<String>,
-    /// What it is about, for programs that read it.
-    pub about: About,
+    /// What it is about, for programs that read it; boxed, so that results that may be a finding stay small.
+    pub about: Box<About>,
 }
 
 /// What a finding is about, where its message names it in words.
@@ -89,7 +89,7 @@ impl Diagnostic {
             labels: Vec::new(),
             notes: Vec::new(),
             help: Vec::new(),
-            about: About::default(),
+            about: Box::default(),
         }
     }
 

@@ -185,7 +185,6 @@ impl Model {
         let temperature = temperatures(parts.temperature, &parts.steps);
 
         let loose = loose(&body_of_node, &parts.constraints, &parts.springs);
-
         let mut context = Context {
             mesh,
             loose: &loose,
@@ -208,7 +207,6 @@ impl Model {
         // forces on unknowns that follow by an equation have a stiffness, too: equations come before loads
         let loads = loads::terms(&context, &steps, loads)?;
         let elimination = context.elimination.clone();
-
         let held_by_contact =
             followers.held_by_contact(&context, &joint, &steps, parts.hold_free)?;
         let sizes = sizes_of_strain(&steps);
@@ -219,8 +217,8 @@ impl Model {
         let summaries = context.interfaces(sides, &joint, &mut terms)?;
         terms.extend(loads);
         terms.extend(dampers);
-        let unused = unused(&body_of_node);
         Ok(Self {
+            unused: unused(&body_of_node),
             system: System {
                 layout,
                 coordinates: reference.iter().map(|x| x.to_array()).collect(),
@@ -235,7 +233,6 @@ impl Model {
             steps,
             contacts: summaries,
             locking,
-            unused,
             held_by_contact,
         })
     }

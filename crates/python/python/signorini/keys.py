@@ -161,7 +161,9 @@ class Checkpoint(Table):
         "a table",
     )
     keep: Key[int, int] = Key(
-        "How many are kept, in files that take turns; at least two", "whole number ≥ 1, ≤ 26", default=2
+        "How many are kept, in files that take turns; at least two",
+        "whole number ≥ 1, ≤ 26",
+        default=2,
     )
 
 

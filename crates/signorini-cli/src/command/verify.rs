@@ -103,8 +103,14 @@ impl Verify {
                 return Err(format!("there is no problem \"{name}\"{hint}"));
             }
         }
+        // a whole name means that problem alone, a part of one all problems that have it
+        let is_whole = |name: &str| problems().iter().any(|problem| problem.name == name);
+        let means = |problem: &Problem, name: &str| match is_whole(name) {
+            true => problem.name == name,
+            false => problem.name.contains(name),
+        };
         let named = |problem: &&Problem| {
-            self.only.is_empty() || self.only.iter().any(|name| problem.name.contains(name))
+            self.only.is_empty() || self.only.iter().any(|name| means(problem, name))
         };
         let wanted = all
             .filter(named)

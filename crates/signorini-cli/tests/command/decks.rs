@@ -66,7 +66,8 @@ fn a_deck_can_be_changed_and_converted() {
         ],
     )
     .says(0, &["solved"]);
-    run(folder.path(), &["convert", "block.toml", "block.inp"]).says(2, &["takes a deck"]);
+    run(folder.path(), &["convert", "block.toml", "block.inp"])
+        .says(2, &["a deck, .inp or .in, as a case, .toml"]);
 }
 
 #[test]

@@ -136,10 +136,9 @@ fn a_load_on_a_node_of_no_body() {
 fn a_load_on_a_node_of_an_equation_acts() {
     let text = loaded("on = \"some\"\nper_node = [-0.5, 0]\n").text();
     let text = with_a_loose_node(&text, "");
-    let text = change(&text, "[sets]", "[sets]\ntip = { nodes = [115] }");
+    let text = change(&text, "[sets]", "[sets]\ntip = { nodes = [110] }");
     let terms = "[[constraint]]\nequation = [[\"some\", \"x\", 1.0], [\"tip\", \"x\", -1.0]]\n";
     let text = change(&text, "[[step]]", &format!("{terms}[[step]]"));
-    let text = change(&text, "ux = 0\n", "");
     let ended = super::trial::ended(&text);
     ended.says(0, &[]);
 }
