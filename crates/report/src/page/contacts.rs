@@ -197,7 +197,7 @@ fn at_end(results: &Results, name: &str, contact: &ContactSummary, sites: &Sites
                 }))
                 (scalar("open area", contact.area_open, "area_open", html! {}))
                 (scalar("sticking area", contact.area_stick, "area_stick", html! {}))
-                (scalar("slipping area", contact.area_slip, "area_slip", html! { "without friction, all that is closed" }))
+                (scalar("slipping area", contact.area_slip, "area_slip", html! { "closed area without friction counts here" }))
                 (imbalance("|force on secondary + force on primary|", contact.imbalance_force, &key("imbalance_force"), "of the force"))
                 (imbalance("the same of moments", contact.imbalance_moment, &key("imbalance_moment"), "of the moment"))
             }

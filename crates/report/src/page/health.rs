@@ -85,7 +85,7 @@ fn energy(results: &Results, summary: &Summary) -> Markup {
                 }
                 tr { th { "spent by viscous forces that hold what only contact stops" } (number(viscous, "work_stabilization")) td { (work) } }
                 tr { th { "the same as part of the work" } (derived(part))
-                    @if part.abs() < VISCOUS_MOST { td.good { "✓ below 5 %" } } @else { td.bad { "✗ above 5 %" } } }
+                    @if part.abs() < VISCOUS_MOST { td.good { "✓ below 5 %" } } @else { td.bad { "✗ above 5 %: bodies moved freely before contact held them, or nothing holds them" } } }
             } }
         }
     }

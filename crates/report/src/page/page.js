@@ -101,16 +101,21 @@
     across.onchange = up.onchange = draw;
     draw();
     const place = element("plot-contacts");
+    // all boxes are there before the first plot is drawn into one: they share the width
+    const boxes = [];
+    const add = (traces, how) => {
+      const box = document.createElement("div");
+      box.className = "plot";
+      place.append(box);
+      boxes.push([box, traces, how]);
+    };
     for (const contact of data.contacts) {
       const groups = [["force", ["force_x", "force_y", "force_z"]], ["largest pressure", ["pressure_max"]],
         ["area", ["area_stick", "area_slip", "area_open"]], ["smallest gap and largest slip", ["gap_min", "slip_max"]]];
       for (const [title, quantities] of groups) {
         const shown = quantities.map((quantity) => `${contact}.${quantity}`).filter((name) => own[name]);
         if (!shown.length) continue;
-        const box = document.createElement("div");
-        box.className = "plot";
-        place.append(box);
-        plot(box, lines("time", shown, (name) => name.slice(contact.length + 1)),
+        add(lines("time", shown, (name) => name.slice(contact.length + 1)),
           layout(`${contact}: ${title}`, "time", unitOf(own[shown[0]].unit).trim()));
       }
     }
@@ -118,11 +123,9 @@
     const known = /^(time|step|increment|iterations)$/;
     const rest = names.filter((name) => !known.test(name) && !data.contacts.some((contact) => name.startsWith(contact + ".")));
     for (const name of rest.slice(0, 12)) {
-      const box = document.createElement("div");
-      box.className = "plot";
-      place.append(box);
-      plot(box, lines("time", [name], () => name), layout(name, "time", unitOf(own[name].unit).trim()));
+      add(lines("time", [name], () => name), layout(name, "time", unitOf(own[name].unit).trim()));
     }
+    for (const [box, traces, how] of boxes) plot(box, traces, how);
   };
 
   // ---- convergence
@@ -432,8 +435,11 @@
     const link = event.target.closest("a.node");
     if (link) showNode(link.dataset.node);
   });
-  // a printed page shows what is folded
-  addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((one) => { one.open = true; }));
+  // a printed page shows what is folded, and plots of its width
+  addEventListener("beforeprint", () => {
+    document.querySelectorAll("details").forEach((one) => { one.open = true; });
+    document.querySelectorAll(".js-plotly-plot").forEach((one) => Plotly.Plots.resize(one));
+  });
 
   try {
     if (!data.check) { drawHistories(); drawConvergence(); drawQuality(); }

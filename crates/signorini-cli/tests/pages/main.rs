@@ -72,27 +72,48 @@ fn of_program(line: &str) -> Option<Vec<&str>> {
     Some(rest.split_whitespace().collect())
 }
 
+/// A folder in which the commands of a page run one after the other: what they name of the repository is there, and what
+/// they write stays there.
+fn folder_of_page(root: &Path) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink(root.join("examples"), folder.path().join("examples")).unwrap();
+    folder
+}
+
 #[test]
 fn commands_of_the_program_end_well() {
     let root = repository();
     let mut count = 0;
-    for line in pages(&root).iter().flat_map(|page| commands(page)) {
-        let Some(arguments) = of_program(&line) else {
-            continue;
-        };
-        let results = tempfile::tempdir().unwrap();
-        let mut program = Command::new(env!("CARGO_BIN_EXE_signorini"));
-        program.args(&arguments).current_dir(&root);
-        if arguments[0] == "run" {
-            program.arg("-o").arg(results.path());
+    for page in pages(&root) {
+        let folder = folder_of_page(&root);
+        for line in commands(&page) {
+            let Some(mut arguments) = of_program(&line) else {
+                continue;
+            };
+            let is_run = arguments[0] == "run";
+            let output = arguments.iter().position(|word| *word == "-o");
+            let results = output.map_or("results.out", |at| arguments[at + 1]);
+            if is_run && output.is_none() {
+                arguments.extend(["-o", results, "--fresh"]);
+            }
+            let mut program = Command::new(env!("CARGO_BIN_EXE_signorini"));
+            let ended = program.args(&arguments).current_dir(folder.path()).output();
+            let ended = ended.unwrap();
+            let said = String::from_utf8_lossy(&ended.stderr);
+            assert_eq!(
+                ended.status.code(),
+                Some(0),
+                "{}: {line}: {said}",
+                page.display()
+            );
+            if is_run {
+                assert!(
+                    folder.path().join(results).join("results.pvd").exists(),
+                    "{line}"
+                );
+            }
+            count += 1;
         }
-        let output = program.output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{line}: {said}");
-        if arguments[0] == "run" {
-            assert!(results.path().join("results.pvd").exists(), "{line}");
-        }
-        count += 1;
     }
     assert!(count >= 1, "README shows how to run a case");
 }
