@@ -35,6 +35,7 @@ use keys::Keys;
 use markdown::{Page, Piece};
 use reference::Examples;
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use symbols::Symbols;
@@ -301,21 +302,29 @@ fn json(what: &str, text: &str) -> Result<serde_json::Value, ChoreError> {
     })
 }
 
-/// What the program prints; it is built where it is not.
+/// What the program prints: the one that the variable `SIGNORINI` names, else the one of this tree, built where it is not.
 fn signorini(root: &Path, arguments: &[&str]) -> Result<String, ChoreError> {
-    output(
-        root,
-        &[&["run", "--quiet", "--release", "--"], arguments].concat(),
-    )
+    match std::env::var_os("SIGNORINI") {
+        Some(program) => printed(root, &program, arguments),
+        None => output(
+            root,
+            &[&["run", "--quiet", "--release", "--"], arguments].concat(),
+        ),
+    }
 }
 
+/// What cargo prints.
 fn output(root: &Path, arguments: &[&str]) -> Result<String, ChoreError> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    printed(root, &cargo, arguments)
+}
+
+fn printed(root: &Path, program: &OsStr, arguments: &[&str]) -> Result<String, ChoreError> {
     let failed = |reason: String| ChoreError::Failed {
-        what: format!("cargo {}", arguments.join(" ")),
+        what: format!("{} {}", program.display(), arguments.join(" ")),
         reason,
     };
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let ended = Command::new(cargo)
+    let ended = Command::new(program)
         .args(arguments)
         .current_dir(root)
         .output();
