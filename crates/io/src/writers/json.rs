@@ -100,35 +100,9 @@ pub enum Event {
         contact: BTreeMap<String, ContactState>,
     },
     /// An attempt was given up and the increment made smaller.
-    Cutback {
-        /// The step.
-        step: String,
-        /// The increment.
-        inc: u64,
-        /// The attempt that failed.
-        att: u64,
-        /// Total time at its start.
-        time: f64,
-        /// The size that is tried next.
-        size: f64,
-        /// Why.
-        why: String,
-    },
+    Cutback(GivenUp),
     /// An attempt was given up, and the same size is tried from another start.
-    Retry {
-        /// The step.
-        step: String,
-        /// The increment.
-        inc: u64,
-        /// The attempt that failed.
-        att: u64,
-        /// Total time at its start.
-        time: f64,
-        /// The size that is tried again.
-        size: f64,
-        /// Why.
-        why: String,
-    },
+    Retry(GivenUp),
     /// The increment was gone through in parts: there was an equilibrium nearby.
     Followed {
         /// The step.
@@ -215,6 +189,23 @@ pub enum Event {
         /// Wall time in seconds.
         seconds: f64,
     },
+}
+
+/// An attempt at an increment that was given up.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GivenUp {
+    /// The step.
+    pub step: String,
+    /// The increment.
+    pub inc: u64,
+    /// The attempt that failed.
+    pub att: u64,
+    /// Total time at its start.
+    pub time: f64,
+    /// The size that is tried next.
+    pub size: f64,
+    /// Why.
+    pub why: String,
 }
 
 /// What a contact carries at the end of an increment.

@@ -69,6 +69,14 @@ const AWKWARD: &str = "a\n\"b\"";
 /// Every event on the way to an increment, with its kind.
 fn events_of_an_increment() -> Vec<(Event, &'static str)> {
     let text = || AWKWARD.to_string();
+    let given_up = || GivenUp {
+        step: text(),
+        inc: 1,
+        att: 1,
+        time: 0.0,
+        size: 0.1,
+        why: text(),
+    };
     vec![
         (
             Event::Iteration {
@@ -94,28 +102,8 @@ fn events_of_an_increment() -> Vec<(Event, &'static str)> {
             },
             "increment",
         ),
-        (
-            Event::Cutback {
-                step: text(),
-                inc: 1,
-                att: 1,
-                time: 0.0,
-                size: 0.1,
-                why: text(),
-            },
-            "cutback",
-        ),
-        (
-            Event::Retry {
-                step: text(),
-                inc: 1,
-                att: 1,
-                time: 0.0,
-                size: 0.1,
-                why: text(),
-            },
-            "retry",
-        ),
+        (Event::Cutback(given_up()), "cutback"),
+        (Event::Retry(given_up()), "retry"),
         (
             Event::Followed {
                 step: text(),

@@ -22,11 +22,11 @@ use signorini_mechanics::solve::IterationRecord;
 /// How much a line matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// Told even to those who want quiet.
+    /// Printed even where only the ending is wanted.
     Important,
-    /// Told by default.
+    /// Printed by default.
     Normal,
-    /// Told to those who want to know all.
+    /// Printed where all is wanted.
     Verbose,
 }
 
@@ -90,7 +90,7 @@ impl Narrator {
                 lines.push(line(row, Level::Normal));
                 if record.iterations >= SLOW
                     && let Some(worst) = &effort.worst
-                    && !table::head(self.page).contains("worst")
+                    && !table::shows_worst(self.page)
                 {
                     let start = table::beginning(self.page, step, record.increment as u64, 1);
                     let start = " ".repeat(start.chars().count());
@@ -99,8 +99,8 @@ impl Narrator {
                 lines
             }
             (
-                Event::Cutback { .. }
-                | Event::Retry { .. }
+                Event::Cutback(_)
+                | Event::Retry(_)
                 | Event::Followed { .. }
                 | Event::Stabilized { .. }
                 | Event::Held { .. },
@@ -220,28 +220,18 @@ fn iteration(record: &IterationRecord) -> String {
 fn remedy(page: Page, event: &Event) -> Option<String> {
     let start = |step: &str, inc: &u64, att: &u64| table::beginning(page, step, *inc, *att);
     Some(match event {
-        Event::Cutback {
-            step,
-            inc,
-            att,
-            size,
-            why,
-            ..
-        } => {
-            let (start, size) = (start(step, inc, att), short(*size));
-            format!("{start}  cut to {size}: {why}")
-        }
-        Event::Retry {
-            step,
-            inc,
-            att,
-            size,
-            why,
-            ..
-        } => {
-            let (start, size) = (start(step, inc, att), short(*size));
-            format!("{start}  {size} again from another start: {why}")
-        }
+        Event::Cutback(one) => format!(
+            "{}  cut to {}: {}",
+            start(&one.step, &one.inc, &one.att),
+            short(one.size),
+            one.why
+        ),
+        Event::Retry(one) => format!(
+            "{}  {} again from another start: {}",
+            start(&one.step, &one.inc, &one.att),
+            short(one.size),
+            one.why
+        ),
         Event::Followed {
             step,
             inc,

@@ -119,6 +119,11 @@ fn columns(page: Page) -> &'static [(Column, usize)] {
     fitting.map_or(&[], |(_, columns)| columns)
 }
 
+/// Whether there is room for what was worst in an increment.
+pub fn shows_worst(page: Page) -> bool {
+    columns(page).iter().any(|(column, _)| *column == Worst)
+}
+
 /// A row, made column by column.
 fn row(page: Page, cell: impl Fn(Column, usize) -> String) -> String {
     let mut out = String::new();
@@ -163,7 +168,7 @@ pub fn increment(
         Pressure => short(pressure),
         Force => short(force),
     });
-    let mark = match columns(page).iter().any(|(column, _)| *column == Worst) {
+    let mark = match shows_worst(page) {
         true => "  ← slow",
         false => "",
     };

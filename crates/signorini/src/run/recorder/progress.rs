@@ -5,7 +5,7 @@ use crate::run::news::SLOW;
 use crate::run::news::{Detail, Effort};
 use signorini_io::case::Every;
 use signorini_io::writers::csv::Cell;
-use signorini_io::writers::json::{ContactState, ContactSummary, Event};
+use signorini_io::writers::json::{ContactState, ContactSummary, Event, GivenUp};
 use signorini_io::writers::sta::Attempt;
 use signorini_linear::Note;
 use signorini_mechanics::solve::{Cause, IncrementRecord, IterationRecord, RunError};
@@ -83,26 +83,17 @@ impl Recorder<'_> {
             increment_time: cause.dt,
         };
         self.write(|files| Ok(files.sta.row(&row)?));
-        let (step, why) = (self.step_name(step), cause.failure.to_string());
-        let (inc, att, time, size) = (increment as u64, attempt as u64, self.time, next);
-        let event = if is_smaller {
-            Event::Cutback {
-                step,
-                inc,
-                att,
-                time,
-                size,
-                why,
-            }
-        } else {
-            Event::Retry {
-                step,
-                inc,
-                att,
-                time,
-                size,
-                why,
-            }
+        let given_up = GivenUp {
+            step: self.step_name(step),
+            inc: increment as u64,
+            att: attempt as u64,
+            time: self.time,
+            size: next,
+            why: cause.failure.to_string(),
+        };
+        let event = match is_smaller {
+            true => Event::Cutback(given_up),
+            false => Event::Retry(given_up),
         };
         self.tell(&event, Detail::Cutback(cause));
     }
