@@ -9,14 +9,14 @@ use signorini_geometry::element::LockingClass;
 use signorini_geometry::mesh::{CellId, Mesh};
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::case::{self, AtPoint, Body, Case, Name, Temperatures};
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, Severity, codes};
+use signorini_io::diagnostic::{Diagnostic, Diagnostics, Place, codes};
 use signorini_mechanics::material::{
     self, Constants, ConstantsError, Expanding, Hardening, HardeningKind, Material, Oriented,
     Plasticity,
 };
 use signorini_mechanics::model::{BodyKind, BodyPart, LockingSummary};
 use signorini_mechanics::solid::{AtNodes, AtStart, Integration, Locking};
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 /// The bodies of a case, in its order.
@@ -35,18 +35,24 @@ pub(super) fn bodies(
 }
 
 /// A warning of elements that are in no body: a forgotten [[body]] leaves no other trace.
-pub(super) fn left_out(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Option<Diagnostic> {
-    let groups = case.bodies.iter().flat_map(|body| &body.groups);
-    // groups that are not there were reported where the bodies were made
-    let cells = groups.map(|group| names.cells(group, &mut Diagnostics::new()).solids);
-    let used: BTreeSet<CellId> = cells.flatten().collect();
-    let all = mesh.cells(case.model.space.ndim());
-    let (mut count, mut first) = (0, None);
-    for cell in all.filter(|cell| !used.contains(cell)) {
-        count += 1;
-        first.get_or_insert(cell);
+pub(super) fn left_out(
+    case: &Case,
+    names: &Names<'_>,
+    mesh: &Mesh,
+    bodies: &[BodyPart],
+) -> Option<Diagnostic> {
+    let ndim = case.model.space.ndim();
+    let is_solid = |cell: &&CellId| mesh.element(**cell).is_some_and(|e| e.dim() == ndim);
+    let used = || bodies.iter().flat_map(|body| &body.cells).filter(is_solid);
+    let solids = mesh.blocks.iter().filter(|b| b.element.dim() == ndim);
+    let all: usize = solids.map(|block| block.ncell()).sum();
+    // no cell is in two bodies
+    let count = all.saturating_sub(used().count());
+    if count == 0 {
+        return None;
     }
-    let first = first?;
+    let used: HashSet<CellId> = used().copied().collect();
+    let first = mesh.cells(ndim).find(|cell| !used.contains(cell))?;
     let verb = if count == 1 { "is" } else { "are" };
     let message = format!("{} {verb} in no body: left out", plural(count, "element"));
     let groups: Vec<String> = names
@@ -58,7 +64,7 @@ pub(super) fn left_out(case: &Case, names: &Names<'_>, mesh: &Mesh) -> Option<Di
         0 => String::new(),
         _ => format!(", of {}", groups.join(", ")),
     };
-    let found = Diagnostic::new(Severity::Warning, &codes::MESH_NOTE, message)
+    let found = Diagnostic::warning(&codes::MESH_NOTE, message)
         .note(format!("the first is element {label}{of}"))
         .help("name its group in a [[body]]");
     Some(match case.bodies.last() {

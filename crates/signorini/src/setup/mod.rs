@@ -157,6 +157,7 @@ fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnost
         _ => return Err(found),
     };
     case.initial_temperature = start.map(Spanned::from);
+    let left_out = bodies::left_out(&case, &names, &mesh, &parts.bodies);
     let mut model = match signorini_mechanics::model::Model::assemble(parts) {
         Ok(model) => model,
         Err(error) => {
@@ -175,7 +176,7 @@ fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnost
         return Err(found);
     }
     found.append(bodies::stiff_elements(&case, &names, &mesh));
-    if let Some(one) = bodies::left_out(&case, &names, &mesh) {
+    if let Some(one) = left_out {
         found.push(one);
     }
     let contacts = info::contacts(&case, &model.contacts);
