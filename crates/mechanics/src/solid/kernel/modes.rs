@@ -105,9 +105,11 @@ pub(super) fn respond<const NN: usize, const NT: usize, const ND: usize, const N
             break;
         }
         let left = largest(force[..nmode].iter());
-        let steps = largest(solution.chunks_exact(nright).filter_map(<[f64]>::first));
-        let moved = largest(element.u[..n].iter());
-        if is_exact || left <= BALANCED * size || steps <= ROUNDING * moved {
+        let is_rounding = || {
+            let steps = largest(solution.chunks_exact(nright).filter_map(<[f64]>::first));
+            steps <= ROUNDING * largest(element.u[..n].iter())
+        };
+        if is_exact || left <= BALANCED * size || is_rounding() {
             outcome = Ok(());
             break;
         }
