@@ -2,10 +2,12 @@
 
 mod letters;
 
+pub use letters::ascii;
+
 use signorini::Diagnostics;
 use std::io::{IsTerminal, Write};
 
-/// Width of a terminal that does not tell its own.
+/// Width of a terminal that does not report its own.
 const USUAL_WIDTH: usize = 80;
 
 /// One of the two standard streams.
@@ -52,7 +54,7 @@ impl Console {
     /// Writes a text for people, in the letters that can be shown. What cannot be written is lost.
     pub fn text(&self, text: &str) {
         if self.ascii {
-            self.raw(&letters::ascii(text));
+            self.raw(&ascii(text));
         } else {
             self.raw(text);
         }

@@ -1,5 +1,6 @@
 //! The bar: how far a run is, in one line that is drawn again and again.
 
+use crate::command::console::ascii;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use signorini::News;
 use signorini::run::Detail;
@@ -105,14 +106,8 @@ impl Bar {
     }
 
     fn name(&self) -> String {
-        let name: String = self.step.chars().take(NAME).collect();
-        match self.ascii {
-            true => name
-                .chars()
-                .map(|c| if c.is_ascii() { c } else { '?' })
-                .collect(),
-            false => name,
-        }
+        let name = self.shown(self.step.clone());
+        name.chars().take(NAME).collect()
     }
 
     /// Cells of the bar, and the text behind it, for a terminal of this width. The bar stays as it is while the text changes.
@@ -138,11 +133,15 @@ impl Bar {
             .find(|(letters, _)| letters + least <= room);
         let (letters, text) = fitting.unwrap_or_default();
         let text: String = text.chars().take(letters).collect();
-        let text = match self.ascii {
-            true => text.replace('·', "|").replace('—', "-"),
+        (room.saturating_sub(letters).min(most), self.shown(text))
+    }
+
+    /// A text in the letters of the terminal.
+    fn shown(&self, text: String) -> String {
+        match self.ascii {
+            true => ascii(&text),
             false => text,
-        };
-        (room.saturating_sub(letters).min(most), text)
+        }
     }
 
     /// Seconds left, once there is something to estimate them from.
