@@ -4,6 +4,7 @@ use super::console::Console;
 use super::exit::WRONG_COMMAND;
 use super::findings::not_written;
 use clap::Args;
+use signorini::crash;
 use signorini::threads::count;
 use signorini_io::fs::{Fs, FsError, RealFs};
 use signorini_report::{PictureOptions, picture};
@@ -74,12 +75,12 @@ impl Verify {
             Ok(judged) => judged,
             Err(error) => {
                 notes.line(&format!("error: no threads: {error}"));
-                return INTERNAL;
+                return crash::EXIT_CODE;
             }
         };
         let seconds = clock.elapsed().as_secs_f64();
         if self.json {
-            out.line(&report::json(&judged, seconds));
+            out.raw(&format!("{}\n", report::json(&judged, seconds)));
         } else {
             out.text(&report::ending(&judged, seconds, signs));
         }
@@ -133,9 +134,6 @@ impl Verify {
         Ok(())
     }
 }
-
-/// The exit code where the system refuses what every process needs.
-const INTERNAL: u8 = 70;
 
 /// A picture of the last frame; none of a run that left none.
 fn draw(judged: &Judged) -> Option<Vec<u8>> {
