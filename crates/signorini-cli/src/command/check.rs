@@ -1,15 +1,14 @@
 //! `signorini check CASE`
 
-use super::console::Console;
-use super::findings::{joined, not_written};
-use super::object::{self, Members};
+use super::findings::joined;
+use super::object::{self, Answer, Members};
 use super::options::{CaseOptions, FolderOption};
+use super::report::write;
 use clap::Args;
 use serde_json::{Value, json};
 use signorini::preview::{self, Preview};
 use signorini::{Diagnostics, Loaded, Model, build, load};
 use signorini_io::diagnostic::{Diagnostic, codes};
-use signorini_io::fs::{Fs, FsError, RealFs};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -37,13 +36,7 @@ impl Check {
             page: self.report.as_deref(),
         };
         let looked = load(&self.case, &self.changes.reading()).and_then(|case| look(case, &files));
-        if self.json {
-            return match looked {
-                Ok(looked) => object::answer("check", 0, &looked.found, looked.members),
-                Err(found) => object::refused("check", &found),
-            };
-        }
-        report(looked)
+        object::print("check", looked, self.json)
     }
 }
 
@@ -56,36 +49,13 @@ struct Files<'a> {
     page: Option<&'a Path>,
 }
 
-/// What a case is, without a solution.
-struct Looked {
-    found: Diagnostics,
-    lines: Vec<String>,
-    members: Members,
-}
-
 /// Builds a case and reports what would be solved.
 pub fn preview(loaded: Loaded) -> u8 {
-    report(look(loaded, &Files::default()))
-}
-
-fn report(looked: Result<Looked, Diagnostics>) -> u8 {
-    match looked {
-        Ok(looked) => {
-            Console::stderr().findings(&looked.found);
-            let out = Console::stdout();
-            looked.lines.iter().for_each(|line| out.line(line));
-            out.line("✓ nothing wrong was found");
-            0
-        }
-        Err(found) => {
-            Console::stderr().findings(&found);
-            found.exit_code().unwrap_or(3)
-        }
-    }
+    object::print("check", look(loaded, &Files::default()), false)
 }
 
 /// Builds a case and looks at it; draws it where there is a folder, and writes a page where one is named.
-fn look(loaded: Loaded, files: &Files<'_>) -> Result<Looked, Diagnostics> {
+fn look(loaded: Loaded, files: &Files<'_>) -> Result<Answer, Diagnostics> {
     let mut model = match build(loaded.case, loaded.mesh) {
         Ok(model) => model,
         Err(found) => return Err(joined(loaded.warnings, found)),
@@ -116,7 +86,7 @@ fn look(loaded: Loaded, files: &Files<'_>) -> Result<Looked, Diagnostics> {
     };
     if let Some(folder) = files.folder {
         let path = folder.join("check.vtu");
-        let written = grid().and_then(|bytes| write(&path, &bytes).map_err(|e| not_written(&e)));
+        let written = grid().and_then(|bytes| write(&path, &bytes));
         written.map_err(failed)?;
         lines.push(format!("→ {}", path.display()));
         members.insert("picture".into(), json!(path));
@@ -127,7 +97,8 @@ fn look(loaded: Loaded, files: &Files<'_>) -> Result<Looked, Diagnostics> {
         lines.push(format!("→ {}", path.display()));
         members.insert("report".into(), json!(path));
     }
-    Ok(Looked {
+    lines.push("✓ nothing wrong was found".to_owned());
+    Ok(Answer {
         found,
         lines,
         members,
@@ -152,7 +123,7 @@ fn page(
     };
     let units = &model.case.units.value;
     let bytes = signorini_report::check_page(title, units, grid, lines, &findings);
-    super::report::write(path, &bytes)
+    write(path, &bytes)
 }
 
 /// Sizes, bodies, contacts and cost, for machines; with the lines for people.
@@ -205,9 +176,4 @@ fn members(model: &Model, preview: &Preview) -> Members {
         "cost": preview.estimate,
         "lines": preview.lines,
     }))
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), FsError> {
-    RealFs.create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
-    RealFs.write_atomic(path, bytes)
 }

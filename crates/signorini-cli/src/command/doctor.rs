@@ -38,7 +38,7 @@ impl Doctor {
                 "trial_seconds": trial.as_ref().ok(),
                 "trial_fault": trial.as_ref().err().map(|(_, why)| why),
             }));
-            return object::answer("doctor", code, &Diagnostics::new(), members);
+            return object::object("doctor", code, &Diagnostics::new(), members);
         }
         let out = Console::stdout();
         out.line(&format!("signorini {}", signorini::VERSION));

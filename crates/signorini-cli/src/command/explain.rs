@@ -38,7 +38,7 @@ impl Explain {
                 let all = codes::ALL.iter();
                 let all = all.map(|code| json!({ "code": code.id, "title": code.title }));
                 let members = Members::from_iter([("codes".to_owned(), all.collect())]);
-                object::answer("explain", 0, &Diagnostics::new(), members)
+                object::object("explain", 0, &Diagnostics::new(), members)
             }
             (None, false) => {
                 let out = Console::stdout();
@@ -113,10 +113,10 @@ fn answer(topic: &str, explained: Explained) -> u8 {
                 "error": unknown(topic, near.as_deref()),
                 "did_you_mean": near,
             }));
-            return object::answer("explain", WRONG_COMMAND, &Diagnostics::new(), members);
+            return object::object("explain", WRONG_COMMAND, &Diagnostics::new(), members);
         }
     };
-    object::answer("explain", 0, &Diagnostics::new(), members)
+    object::object("explain", 0, &Diagnostics::new(), members)
 }
 
 fn of_key(key: &KeyInfo) -> Members {

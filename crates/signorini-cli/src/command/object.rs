@@ -1,4 +1,4 @@
-//! `--json` of commands that answer once: one object on standard output.
+//! The answer of commands that answer once: lines for people or, by `--json`, one object on standard output.
 //!
 //! ```text
 //! {"v":1,"command":"check","ok":true,"exit_code":0,"diagnostics":[…], members of the command}
@@ -15,6 +15,42 @@ use signorini_io::writers::json::EVENT_VERSION;
 /// The members of an object besides those that all have.
 pub type Members = Map<String, Value>;
 
+/// What a command answers: what it found, lines for people, members for machines.
+#[derive(Debug, Default)]
+pub struct Answer {
+    pub found: Diagnostics,
+    pub lines: Vec<String>,
+    pub members: Members,
+}
+
+impl Answer {
+    /// Adds a member.
+    pub fn put(&mut self, name: &str, value: &impl serde::Serialize) {
+        self.members.insert(name.into(), json!(value));
+    }
+}
+
+/// Prints the answer of a command, or what kept it from one, and returns the exit code.
+pub fn print(command: &str, answer: Result<Answer, Diagnostics>, as_object: bool) -> u8 {
+    match answer {
+        Ok(answer) if as_object => object(command, 0, &answer.found, answer.members),
+        Ok(answer) => {
+            Console::stderr().findings(&answer.found);
+            let out = Console::stdout();
+            answer.lines.iter().for_each(|line| out.line(line));
+            0
+        }
+        Err(found) => {
+            let code = found.exit_code().unwrap_or(3);
+            if as_object {
+                return object(command, code, &found, Members::new());
+            }
+            Console::stderr().findings(&found);
+            code
+        }
+    }
+}
+
 /// The members of a value that is written as an object; none of any other value.
 pub fn members(value: &impl serde::Serialize) -> Members {
     match serde_json::to_value(value) {
@@ -23,8 +59,8 @@ pub fn members(value: &impl serde::Serialize) -> Members {
     }
 }
 
-/// Prints the answer of a command, and returns the exit code.
-pub fn answer(command: &str, exit_code: u8, found: &Diagnostics, members: Members) -> u8 {
+/// Prints one object, and returns the exit code.
+pub fn object(command: &str, exit_code: u8, found: &Diagnostics, members: Members) -> u8 {
     let mut object = Members::new();
     object.insert("v".into(), EVENT_VERSION.into());
     object.insert("command".into(), command.into());
@@ -35,10 +71,4 @@ pub fn answer(command: &str, exit_code: u8, found: &Diagnostics, members: Member
     object.extend(members);
     Console::stdout().raw(&format!("{}\n", Value::Object(object)));
     exit_code
-}
-
-/// Prints that a command ended with what it found, and returns the exit code.
-pub fn refused(command: &str, found: &Diagnostics) -> u8 {
-    let code = found.exit_code().unwrap_or(3);
-    answer(command, code, found, Members::new())
 }

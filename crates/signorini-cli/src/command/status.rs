@@ -1,9 +1,7 @@
 //! `signorini status DIR`
 
-use super::console::Console;
-use super::object;
+use super::object::{self, Answer};
 use clap::Args;
-use signorini::Diagnostics;
 use signorini::status::status;
 use signorini_io::fs::RealFs;
 use std::path::PathBuf;
@@ -20,21 +18,11 @@ pub struct Status {
 
 impl Status {
     pub fn execute(self) -> u8 {
-        match status(&RealFs, &self.folder) {
-            Ok(status) if self.json => {
-                let members = object::members(&status);
-                object::answer("status", 0, &Diagnostics::new(), members)
-            }
-            Ok(status) => {
-                let out = Console::stdout();
-                status.lines().iter().for_each(|line| out.line(line));
-                0
-            }
-            Err(found) if self.json => object::refused("status", &found),
-            Err(found) => {
-                Console::stderr().findings(&found);
-                found.exit_code().unwrap_or(3)
-            }
-        }
+        let reached = status(&RealFs, &self.folder).map(|status| Answer {
+            lines: status.lines(),
+            members: object::members(&status),
+            ..Answer::default()
+        });
+        object::print("status", reached, self.json)
     }
 }

@@ -115,12 +115,6 @@ fn extension(path: &Path) -> String {
     end.unwrap_or_default()
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Diagnostic> {
-    RealFs.read(path).map_err(|error| {
-        Diagnostic::error(&codes::UNREADABLE, error.to_string()).help(error.help())
-    })
-}
-
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     RealFs
         .write_atomic(path, bytes)

@@ -1,7 +1,8 @@
 //! Results in other formats.
 
 use super::grid::Cells;
-use super::{extension, no_such_form, noted, read, write};
+use super::{extension, no_such_form, noted, write};
+use crate::command::findings::read;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::{Sym3, Vec3};
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use signorini::text::{plural, short};
 use signorini_io::readers::frd::Dataset;
-use signorini_io::writers::vtu::Vtu;
+use signorini_io::writers::vtu::{TENSOR_COMPONENTS, Vtu};
 
 /// A field with its ranges.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -58,7 +58,7 @@ pub fn of_dataset(dataset: &Dataset) -> Field {
 fn usual_names(ncomponent: usize) -> &'static [&'static str] {
     match ncomponent {
         2 | 3 => &["x", "y", "z"],
-        6 => &["XX", "YY", "ZZ", "XY", "YZ", "XZ"],
+        6 => &TENSOR_COMPONENTS,
         _ => &[],
     }
 }
