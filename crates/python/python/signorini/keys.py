@@ -1039,12 +1039,12 @@ class SolverNewton(Table):
 
     _toml = "solver.newton"
     force_tol: Key[float, float] = Key(
-        "Largest residual force, in parts of the mean force",
+        "Largest residual force, relative to the mean force",
         "number > 0.0",
         default=1e-6,
     )
     gap_tol: Key[float, float] = Key(
-        "Largest penetration, in parts of the size of a facet, of laws with multipliers",
+        "Largest penetration, relative to the size of a facet, of laws with multipliers",
         "number > 0.0",
         default=1e-6,
     )

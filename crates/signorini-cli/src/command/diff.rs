@@ -21,7 +21,7 @@ const NOT_COMPARED: u8 = 2;
 #[command(after_help = "\
 Both are files of one kind, .dat, .frd, .csv or .vtu (.ref behind it does not count), or two folders of results: their \
 history.csv,\n.dat, .frd and frames. Compared is block by block: a quantity at one time; of a table in .csv, a column in one \
-step.\nEvery difference counts in parts of the largest absolute value that the block has in the reference. Numbers of nodes,\n\
+step.\nEvery difference counts relative to the largest absolute value that the block has in the reference. Numbers of nodes,\n\
 elements and points must be the same. Banners of steps and increments in .dat files and numbers of iterations do not count.\n\n\
 Exit codes: 0 the same within the tolerance, 1 different, 2 command line, or files that cannot be compared")]
 pub struct Diff {

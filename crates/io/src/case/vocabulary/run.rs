@@ -64,14 +64,14 @@ pub(super) static NEWTON: Table = Table {
         key(
             "force_tol",
             POSITIVE,
-            "largest residual force, in parts of the mean force",
+            "largest residual force, relative to the mean force",
         )
         .or(Default::Number(1e-6))
         .hints(&["tol", "tolerance", "rtol"]),
         key(
             "gap_tol",
             POSITIVE,
-            "largest penetration, in parts of the size of a facet, of laws with multipliers",
+            "largest penetration, relative to the size of a facet, of laws with multipliers",
         )
         .or(Default::Number(1e-6)),
         key(
