@@ -7,7 +7,9 @@
 //!
 //! A quadratic face is divided at its nodes inside of edges, so that curved faces are drawn curved.
 
-use signorini_geometry::element::{Element, Family, MAX_NODES};
+use signorini_geometry::element::Element;
+use signorini_geometry::mesh::{CellId, Mesh, NodeId, boundary, quality};
+use signorini_geometry::tensor::Vec3;
 use signorini_io::vtk::Vtu;
 use signorini_io::vtk::cells::CellType;
 use std::collections::{HashMap, HashSet};
@@ -39,11 +41,12 @@ pub struct Skin {
     pub is_plane: bool,
 }
 
-/// A face of a cell.
+/// A face of a cell, or a whole cell of fewer than three dimensions.
 struct Face {
     element: Element,
     /// Nodes of the grid, in the order of the element.
-    nodes: Vec<usize>,
+    nodes: Vec<NodeId>,
+    /// The place of the cell in the grid.
     cell: usize,
 }
 
@@ -51,47 +54,32 @@ impl Skin {
     /// The surface of a grid. Cells of kinds that are not read are left out.
     #[must_use]
     pub fn of(grid: &Vtu) -> Self {
-        let mut faces = Vec::new();
-        let mut lines: Vec<Face> = Vec::new();
-        let mut open: HashMap<[usize; 4], Option<Face>> = HashMap::new();
-        let mut order: Vec<[usize; 4]> = Vec::new();
-        let mut groups = Groups::new(grid.points.len());
-        for (cell, element, nodes) in cells(grid) {
-            groups.join(&nodes);
-            match element.dim() {
-                1 => lines.push(Face {
+        let mesh = mesh_of(grid);
+        let mut faces = whole(&mesh, 2);
+        let mut outer = Vec::new();
+        for face in boundary(&mesh, mesh.cells(3)) {
+            if let Some((element, nodes)) = mesh.face(face) {
+                let cell = place(&mesh, face.cell);
+                outer.push(Face {
                     element,
                     nodes,
                     cell,
-                }),
-                2 => faces.push(Face {
-                    element,
-                    nodes,
-                    cell,
-                }),
-                _ => {
-                    for face in sides(cell, element, &nodes) {
-                        let key = corners(&face);
-                        open.entry(key)
-                            .and_modify(|place| *place = None)
-                            .or_insert_with(|| {
-                                order.push(key);
-                                Some(face)
-                            });
-                    }
-                }
+                });
             }
         }
-        faces.extend(order.iter().filter_map(|key| open.remove(key).flatten()));
-        Self::of_faces(grid, &faces, &lines, &mut groups)
+        // the order of the grid, whatever block a cell is in
+        outer.sort_by_key(|face| face.cell);
+        faces.append(&mut outer);
+        Self::of_faces(grid, &faces, &whole(&mesh, 1), &groups(&mesh))
     }
 
-    fn of_faces(grid: &Vtu, faces: &[Face], lines: &[Face], groups: &mut Groups) -> Self {
+    /// `groups` holds for every cell of the grid the group that it hangs together with.
+    fn of_faces(grid: &Vtu, faces: &[Face], lines: &[Face], groups: &[usize]) -> Self {
         let mut skin = Self {
             nface: faces.len(),
             ..Self::default()
         };
-        let mut numbers: HashMap<usize, u32> = HashMap::new();
+        let mut numbers: HashMap<NodeId, u32> = HashMap::new();
         let mut parts: HashMap<usize, u32> = HashMap::new();
         let mut seen: HashSet<[u32; 2]> = HashSet::new();
         let labels = grid
@@ -102,10 +90,11 @@ impl Skin {
             let nodes: Vec<u32> = (face.nodes.iter())
                 .map(|&node| {
                     *numbers.entry(node).or_insert_with(|| {
-                        skin.nodes.push(node as u32);
+                        let at = node as usize;
+                        skin.nodes.push(node);
                         skin.points
-                            .push(grid.points.get(node).copied().unwrap_or_default());
-                        skin.labels.push(labels.get(node).copied().unwrap_or(-1));
+                            .push(grid.points.get(at).copied().unwrap_or_default());
+                        skin.labels.push(labels.get(at).copied().unwrap_or(-1));
                         (skin.nodes.len() - 1) as u32
                     })
                 })
@@ -120,8 +109,8 @@ impl Skin {
                 continue;
             }
             let nparts = parts.len() as u32;
-            let root = groups.root(face.nodes.first().copied().unwrap_or_default());
-            let part = *parts.entry(root).or_insert(nparts);
+            let group = groups.get(face.cell).copied().unwrap_or_default();
+            let part = *parts.entry(group).or_insert(nparts);
             for triangle in triangles(face.element) {
                 skin.triangles.push(triangle.map(node));
                 skin.parts.push(part);
@@ -155,54 +144,64 @@ impl Skin {
     }
 }
 
-/// All cells whose kind is known, with their nodes in the order of the element.
-fn cells(grid: &Vtu) -> impl Iterator<Item = (usize, Element, Vec<usize>)> {
+/// The cells of a grid whose kind is known; the label of each is its place in the grid.
+pub(crate) fn mesh_of(grid: &Vtu) -> Mesh {
+    let mut mesh = Mesh {
+        points: grid.points.iter().map(|&x| Vec3::from(x)).collect(),
+        ..Mesh::default()
+    };
     let types = CellType::by_number();
-    let of_cell = move |(cell, (&kind, ends)): (usize, (&u8, &[usize]))| {
-        let cell_type = types.get(kind as usize).copied().flatten()?;
-        let given = match *ends {
-            [start, end] => grid.connectivity.get(start..end)?,
-            _ => return None,
+    for (label, (&kind, ends)) in (0..).zip(grid.types.iter().zip(grid.offsets.windows(2))) {
+        let cell_type = types.get(kind as usize).copied().flatten();
+        let (Some(cell_type), &[start, end]) = (cell_type, ends) else {
+            continue;
         };
-        let element = cell_type.element;
-        if given.len() != element.nnode() {
-            return None;
+        let given = grid.connectivity.get(start..end).unwrap_or_default();
+        if given.len() != cell_type.element.nnode() {
+            continue;
         }
         let mut nodes = vec![0; given.len()];
         for (&node, place) in given.iter().zip(cell_type.places()) {
-            *nodes.get_mut(place)? = node;
+            if let Some(entry) = nodes.get_mut(place) {
+                *entry = node as NodeId;
+            }
         }
-        Some((cell, element, nodes))
+        mesh.push_cell(cell_type.element, &nodes, label);
+    }
+    mesh
+}
+
+/// The place in the grid of a cell of [`mesh_of`].
+fn place(mesh: &Mesh, cell: CellId) -> usize {
+    mesh.cell_label(cell).unwrap_or_default() as usize
+}
+
+/// All cells of a dimension, in the order of the grid.
+fn whole(mesh: &Mesh, dim: usize) -> Vec<Face> {
+    let of_cell = |cell: CellId| {
+        Some(Face {
+            element: mesh.element(cell)?,
+            nodes: mesh.cell(cell).to_vec(),
+            cell: place(mesh, cell),
+        })
     };
-    grid.types
-        .iter()
-        .zip(grid.offsets.windows(2))
-        .enumerate()
-        .filter_map(of_cell)
+    let mut all: Vec<Face> = mesh.cells(dim).filter_map(of_cell).collect();
+    all.sort_by_key(|face| face.cell);
+    all
 }
 
-/// The sides of a cell.
-fn sides(cell: usize, element: Element, nodes: &[usize]) -> impl Iterator<Item = Face> {
-    element.sides().iter().map(move |side| Face {
-        element: side.element,
-        nodes: side
-            .nodes
-            .iter()
-            .filter_map(|&k| nodes.get(k).copied())
-            .collect(),
-        cell,
-    })
-}
-
-/// The corners of a face in the order of their numbers; faces have at most four.
-fn corners(face: &Face) -> [usize; 4] {
-    let mut key = [usize::MAX; 4];
-    let corners = face.nodes.iter().take(face.element.ncorner());
-    key.iter_mut()
-        .zip(corners)
-        .for_each(|(place, node)| *place = *node);
-    key.sort_unstable();
-    key
+/// For every cell of the grid the group of cells that it hangs together with by nodes.
+fn groups(mesh: &Mesh) -> Vec<usize> {
+    let all: Vec<CellId> = (1..=3).flat_map(|dim| mesh.cells(dim)).collect();
+    let mut groups = Vec::new();
+    for (group, cells) in quality::parts(mesh, &all).into_iter().enumerate() {
+        for cell in cells {
+            let at = place(mesh, cell);
+            groups.resize(groups.len().max(at + 1), 0);
+            groups[at] = group;
+        }
+    }
+    groups
 }
 
 /// The nodes along an edge, both ends included.
@@ -219,18 +218,16 @@ fn triangles(element: Element) -> Vec<[usize; 3]> {
     let ring: Vec<usize> = element.ring().collect();
     let n = ring.len();
     let at = |k: usize| ring.get(k % n.max(1)).copied().unwrap_or_default();
-    let inner =
-        (0..element.nnode()).find(|node| !ring.contains(node) && element.nnode() <= MAX_NODES);
-    match (element.family(), element.order(), inner) {
+    let inner = (0..element.nnode()).find(|node| !ring.contains(node));
+    match (element.order(), inner) {
         // a fan round the node in the middle
-        (_, _, Some(middle)) => (0..n).map(|k| [at(k), at(k + 1), middle]).collect(),
+        (_, Some(middle)) => (0..n).map(|k| [at(k), at(k + 1), middle]).collect(),
         // corners cut off, and the polygon that is left
-        (_, 2, None) => {
+        (2, None) => {
             let corners = (0..n).step_by(2).map(|k| [at(k + n - 1), at(k), at(k + 1)]);
             let rest: Vec<usize> = (1..n).step_by(2).map(at).collect();
             corners.chain(fan(&rest)).collect()
         }
-        (Family::Triangle | Family::Quadrilateral, _, None) => fan(&ring),
         _ => fan(&ring),
     }
 }
@@ -244,37 +241,6 @@ fn fan(polygon: &[usize]) -> Vec<[usize; 3]> {
     pairs
         .filter_map(|pair| Some([first, *pair.first()?, *pair.last()?]))
         .collect()
-}
-
-/// Nodes that hang together.
-struct Groups(Vec<usize>);
-
-impl Groups {
-    fn new(count: usize) -> Self {
-        Self((0..count).collect())
-    }
-
-    fn root(&mut self, mut node: usize) -> usize {
-        while let Some(&up) = self.0.get(node).filter(|up| **up != node) {
-            let above = self.0.get(up).copied().unwrap_or(up);
-            if let Some(place) = self.0.get_mut(node) {
-                *place = above;
-            }
-            node = above;
-        }
-        node
-    }
-
-    fn join(&mut self, nodes: &[usize]) {
-        let Some(&first) = nodes.first() else { return };
-        let first = self.root(first);
-        for &node in nodes {
-            let root = self.root(node);
-            if let Some(place) = self.0.get_mut(root) {
-                *place = first;
-            }
-        }
-    }
 }
 
 #[cfg(test)]
