@@ -2,8 +2,10 @@
 
 use super::cell::{derived, node, number};
 use crate::results::{Frame, Results};
+use crate::skin::mesh_of;
 use crate::text::{short, unit};
 use maud::{Markup, html};
+use signorini_geometry::mesh::Mesh;
 use signorini_io::vtk::Vtu;
 use signorini_io::writers::json::ContactSummary;
 
@@ -13,6 +15,9 @@ const ROUNDING: f64 = 1e-10;
 /// The section; `end` is the last frame and `start` the first.
 pub fn section(results: &Results, start: Option<&Frame>, end: Option<&Frame>) -> Markup {
     let names = names(results);
+    let [start, end] = [start, end].map(|frame| frame.and_then(|frame| frame.contact.as_ref()));
+    let start = start.map(|grid| (mesh_of(grid), pairs(grid)));
+    let end = end.map(|grid| (grid, pairs(grid)));
     html! {
         section #contacts {
             h2 { "Contact" }
@@ -23,7 +28,7 @@ pub fn section(results: &Results, start: Option<&Frame>, end: Option<&Frame>) ->
                 div.contact {
                     h3 { (name) }
                     @let summary = results.summary.as_ref().and_then(|s| s.contacts.get(name));
-                    @let sites = Sites::of(place, start, end);
+                    @let sites = Sites::of(place, start.as_ref(), end.as_ref());
                     @if let Some(contact) = summary {
                         (at_end(results, name, contact, &sites))
                     } @else {
@@ -59,24 +64,23 @@ struct Sites {
     pressure: Option<(i64, [f64; 3])>,
     /// The node of the least gap at the end.
     gap: Option<(i64, [f64; 3])>,
-    /// The mean length of the edges of the secondary side at the start.
+    /// The mean length of the edges of the facets of the secondary side at the start.
     size: Option<f64>,
 }
 
 impl Sites {
-    fn of(pair: usize, start: Option<&Frame>, end: Option<&Frame>) -> Self {
-        let grid = end.and_then(|frame| frame.contact.as_ref());
-        let least_gap = |value: f64| -value;
+    /// Of the frames at the start and at the end, each with the pairs of its points.
+    fn of(pair: usize, start: Option<&(Mesh, Vec<i64>)>, end: Option<&(&Vtu, Vec<i64>)>) -> Self {
+        let largest = |name: &str, sign: f64| {
+            let (grid, pairs) = end?;
+            extreme(grid, pairs, pair, name, sign)
+        };
         Self {
-            pressure: grid
-                .and_then(|g| extreme(g, pair, "contact_pressure_max", |v| v).filter(|x| x.2 > 0.0))
+            pressure: largest("contact_pressure_max", 1.0)
+                .filter(|x| x.2 > 0.0)
                 .map(|x| (x.0, x.1)),
-            gap: grid
-                .and_then(|g| extreme(g, pair, "contact_gap", least_gap))
-                .map(|x| (x.0, x.1)),
-            size: start
-                .and_then(|frame| frame.contact.as_ref())
-                .and_then(|g| size(g, pair)),
+            gap: largest("contact_gap", -1.0).map(|x| (x.0, x.1)),
+            size: start.and_then(|(facets, pairs)| size(facets, pairs, pair)),
         }
     }
 }
@@ -89,20 +93,20 @@ fn pairs(grid: &Vtu) -> Vec<i64> {
     pairs.unwrap_or_else(|| vec![0; grid.points.len()])
 }
 
-/// The node of a contact where a field is largest, its present place, and the largest value.
+/// The node of a contact where a field times a sign is largest, its present place, and the value there.
 fn extreme(
     grid: &Vtu,
+    pairs: &[i64],
     pair: usize,
     name: &str,
-    of: fn(f64) -> f64,
+    sign: f64,
 ) -> Option<(i64, [f64; 3], f64)> {
     let values = grid.point_field(name)?.numbers.to_f64();
-    let pairs = pairs(grid);
     let of_pair = values
         .iter()
         .enumerate()
         .filter(|(k, value)| value.is_finite() && pairs.get(*k).is_some_and(|p| *p == pair as i64));
-    let (at, value) = of_pair.max_by(|a, b| of(*a.1).total_cmp(&of(*b.1)))?;
+    let (at, value) = of_pair.max_by(|a, b| (sign * a.1).total_cmp(&(sign * b.1)))?;
     let ids = grid.point_field("node_id")?.numbers.to_i64()?;
     let moved = grid
         .point_field("displacement")
@@ -113,29 +117,24 @@ fn extreme(
     Some((*ids.get(at)?, place, *value))
 }
 
-/// The mean length of the sides of the facets of a contact, from corner to corner.
-fn size(grid: &Vtu, pair: usize) -> Option<f64> {
-    let pairs = pairs(grid);
+/// The mean length of the edges of the facets of a contact, from corner to corner.
+fn size(facets: &Mesh, pairs: &[i64], pair: usize) -> Option<f64> {
     let (mut sum, mut count) = (0.0, 0.0);
-    for (kind, ends) in grid.types.iter().zip(grid.offsets.windows(2)) {
-        let [start, end] = *ends else { continue };
-        let nodes = grid.connectivity.get(start..end)?;
-        let ncorner = match kind {
-            3 | 21 => 2,
-            5 | 22 => 3,
-            9 | 23 | 28 => 4,
-            _ => continue,
-        };
-        let corners = nodes.get(..ncorner)?;
-        if pairs.get(*corners.first()?) != Some(&(pair as i64)) {
-            continue;
-        }
-        for k in 0..ncorner {
-            let (a, b) = (*corners.get(k)?, *corners.get((k + 1) % ncorner)?);
-            let (a, b) = (grid.points.get(a)?, grid.points.get(b)?);
-            let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
-            sum += squares.sum::<f64>().sqrt();
-            count += 1.0;
+    for block in &facets.blocks {
+        for nodes in (0..block.ncell()).map(|cell| block.cell(cell)) {
+            let first = *nodes.first()? as usize;
+            if pairs.get(first) != Some(&(pair as i64)) {
+                continue;
+            }
+            for [a, b] in block.element.edges() {
+                let (a, b) = (*nodes.get(*a)?, *nodes.get(*b)?);
+                let (a, b) = (
+                    facets.points.get(a as usize)?,
+                    facets.points.get(b as usize)?,
+                );
+                sum += (*a - *b).norm();
+                count += 1.0;
+            }
         }
     }
     (count > 0.0).then(|| sum / count)
