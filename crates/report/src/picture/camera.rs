@@ -1,82 +1,53 @@
 //! From space to the picture: an orthographic view.
 
+use signorini_geometry::proximity::Aabb;
+use signorini_geometry::tensor::Vec3;
+
 /// A view of a model.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    right: [f64; 3],
-    up: [f64; 3],
-    towards: [f64; 3],
-    middle: [f64; 3],
+    right: Vec3,
+    up: Vec3,
+    towards: Vec3,
+    middle: Vec3,
     /// Pixels per length.
     scale: f64,
     /// Where the middle is in the picture.
     centre: [f64; 2],
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// The inner product.
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
 /// The vector of length 1; the third axis where there is no direction.
-pub fn unit(a: [f64; 3]) -> [f64; 3] {
-    let norm = dot(a, a).sqrt();
-    match norm.is_finite() && norm > 0.0 {
-        true => a.map(|x| x / norm),
-        false => [0.0, 0.0, 1.0],
-    }
+pub fn unit(a: Vec3) -> Vec3 {
+    a.normalized().unwrap_or(Vec3::unit(2))
 }
 
 /// The unit normal of a triangle.
-pub fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
-    unit(cross(minus(b, a), minus(c, a)))
+pub fn normal([a, b, c]: [Vec3; 3]) -> Vec3 {
+    unit((b - a).cross(c - a))
 }
 
 impl Camera {
     /// Looks at all points from the direction `towards`, z up (y up where z is the direction itself), so that they fill the
     /// rectangle from `x[0]`, `y[0]` to `x[1]`, `y[1]`.
     #[must_use]
-    pub fn fit(points: &[[f64; 3]], towards: [f64; 3], x: [f64; 2], y: [f64; 2]) -> Self {
+    pub fn fit(points: &[Vec3], towards: Vec3, x: [f64; 2], y: [f64; 2]) -> Self {
         let towards = unit(towards);
-        let up = match towards[2].abs() > 0.999 {
-            true => [0.0, 1.0, 0.0],
-            false => [0.0, 0.0, 1.0],
+        let up = match towards.z.abs() > 0.999 {
+            true => Vec3::unit(1),
+            false => Vec3::unit(2),
         };
-        let right = unit(cross(up, towards));
-        let up = cross(towards, right);
-        let axes = [right, up, towards];
-        let mut low = [f64::INFINITY; 3];
-        let mut high = [f64::NEG_INFINITY; 3];
-        for point in points
-            .iter()
-            .filter(|point| point.iter().all(|x| x.is_finite()))
-        {
-            for (k, axis) in axes.iter().enumerate() {
-                let along = dot(*axis, *point);
-                low[k] = low[k].min(along);
-                high[k] = high[k].max(along);
-            }
-        }
-        let size = |k: usize| (high[k] - low[k]).max(f64::MIN_POSITIVE);
-        let along: [f64; 3] = std::array::from_fn(|k| match low[k] <= high[k] {
-            true => 0.5 * (low[k] + high[k]),
-            false => 0.0,
-        });
-        let middle =
-            std::array::from_fn(|k| right[k] * along[0] + up[k] * along[1] + towards[k] * along[2]);
-        let scale = ((x[1] - x[0]) / size(0)).min((y[1] - y[0]) / size(1));
+        let right = unit(up.cross(towards));
+        let up = towards.cross(right);
+        let finite = points.iter().filter(|point| point.is_finite());
+        let bounds =
+            Aabb::around(finite.map(|p| Vec3::new(right.dot(*p), up.dot(*p), towards.dot(*p))));
+        let (along, size) = match bounds.is_empty() {
+            true => (Vec3::ZERO, Vec3::ZERO),
+            false => (bounds.centre(), bounds.extent()),
+        };
+        let middle = right * along.x + up * along.y + towards * along.z;
+        let per = |side: [f64; 2], size: f64| (side[1] - side[0]) / size.max(f64::MIN_POSITIVE);
+        let scale = per(x, size.x).min(per(y, size.y));
         Self {
             right,
             up,
@@ -89,27 +60,24 @@ impl Camera {
 
     /// Pixels from the left and from the top, and the depth towards the eye, also in pixels.
     #[must_use]
-    pub fn project(&self, point: [f64; 3]) -> [f64; 3] {
-        let from = minus(point, self.middle);
+    pub fn project(&self, point: Vec3) -> [f64; 3] {
+        let from = point - self.middle;
         [
-            self.centre[0] + self.scale * dot(self.right, from),
-            self.centre[1] - self.scale * dot(self.up, from),
-            self.scale * dot(self.towards, from),
+            self.centre[0] + self.scale * self.right.dot(from),
+            self.centre[1] - self.scale * self.up.dot(from),
+            self.scale * self.towards.dot(from),
         ]
     }
 
     /// How much light comes back from a surface of this normal, from 0 to 1; both sides are lit.
     #[must_use]
-    pub fn light(&self, normal: [f64; 3]) -> f64 {
-        let facing = dot(self.towards, normal);
-        let facing = if facing < 0.0 {
-            normal.map(|x| -x)
-        } else {
-            normal
+    pub fn light(&self, normal: Vec3) -> f64 {
+        let facing = match self.towards.dot(normal) < 0.0 {
+            true => -normal,
+            false => normal,
         };
-        let lamp: [f64; 3] =
-            std::array::from_fn(|k| self.towards[k] + 0.5 * self.up[k] - 0.35 * self.right[k]);
-        0.7 + 0.3 * dot(unit(lamp), facing).max(0.0)
+        let lamp = self.towards + self.up * 0.5 - self.right * 0.35;
+        0.7 + 0.3 * unit(lamp).dot(facing).max(0.0)
     }
 
     /// Where the three axes point in the picture, to the right and down, as parts of their length.

@@ -21,6 +21,7 @@ use crate::text::{short, unit};
 use camera::Camera;
 use letters::{Sheet, Side};
 use raster::{Corner, FINE, Raster};
+use signorini_geometry::tensor::Vec3;
 use signorini_io::fs::Fs;
 use std::path::Path;
 
@@ -28,7 +29,7 @@ use std::path::Path;
 const SIZES: [u32; 2] = [160, 4000];
 
 /// Where the eye is in space, unless it is given: in front, on the left, above.
-const ISOMETRIC: [f64; 3] = [-0.8, -1.2, 0.8];
+const ISOMETRIC: Vec3 = Vec3::new(-0.8, -1.2, 0.8);
 
 /// Edges closer than this in the mean, in pixels, would blacken the picture.
 const EDGE_LEAST: f64 = 3.5;
@@ -280,8 +281,8 @@ impl<'a> Scene<'a> {
     ) -> Camera {
         let moved = fields::displacements(&self.skin, self.frame);
         let places = self.skin.points.iter().zip(&moved);
-        let points: Vec<[f64; 3]> = places
-            .map(|(x, u)| std::array::from_fn(|k| x[k] + options.warp * u[k]))
+        let points: Vec<Vec3> = places
+            .map(|(&x, &u)| Vec3::from(x) + Vec3::from(u) * options.warp)
             .collect();
         let value = |node: u32| {
             chosen
@@ -298,24 +299,22 @@ impl<'a> Scene<'a> {
             .filter(|triangle| !alone || has_value(*triangle))
             .collect();
         let alone = alone && !drawn.is_empty();
-        let seen: Vec<[f64; 3]> = match alone {
+        let seen: Vec<Vec3> = match alone {
             true => drawn
                 .iter()
                 .flat_map(|t| t.iter().map(|&n| point(n)))
                 .collect(),
             false => points.clone(),
         };
-        let towards = options.view.unwrap_or_else(|| {
+        let towards = options.view.map(Vec3::from).unwrap_or_else(|| {
             if self.skin.is_plane {
-                return [0.0, 0.0, 1.0];
+                return Vec3::unit(2);
             }
             if !alone {
                 return ISOMETRIC;
             }
             let normals = drawn.iter().map(|t| camera::normal(t.map(point)));
-            let sum = normals.fold([0.0; 3], |s, n| std::array::from_fn(|k| s[k] + n[k]));
-            let (mean, oblique) = (camera::unit(sum), camera::unit(ISOMETRIC));
-            std::array::from_fn(|k| mean[k] + 0.3 * oblique[k])
+            camera::unit(normals.sum()) + camera::unit(ISOMETRIC) * 0.3
         });
         let fine = |ends: [f64; 2]| ends.map(|end| end * FINE as f64);
         let camera = Camera::fit(&seen, towards, fine(layout.model_x), fine(layout.model_y));
@@ -423,7 +422,7 @@ fn bar(sheet: &mut Sheet, layout: &Layout, chosen: &Chosen<'_>, unit: &str) {
     let text = layout.text;
     let wide = (0.9 * text) as i64;
     let (x, [top, bottom]) = (layout.bar_x, layout.bar_y);
-    let beside = (x + wide) as f32 + 0.4 * text;
+    let right_of_bar = (x + wide) as f32 + 0.4 * text;
     if chosen.is_status() {
         for (k, (name, colour)) in colour::STATUS_NAMES
             .iter()
@@ -432,7 +431,7 @@ fn bar(sheet: &mut Sheet, layout: &Layout, chosen: &Chosen<'_>, unit: &str) {
         {
             let y = top + (k as f32 * 1.7 * text) as i64;
             sheet.fill([x, x + wide], [y, y + wide], colour);
-            let place = [beside, y as f32 + 0.8 * text];
+            let place = [right_of_bar, y as f32 + 0.8 * text];
             sheet.write(name, text, place, Side::Left, INK);
         }
         return;
@@ -456,7 +455,7 @@ fn bar(sheet: &mut Sheet, layout: &Layout, chosen: &Chosen<'_>, unit: &str) {
         } else {
             value
         };
-        let place = [beside, y as f32 + 0.35 * text];
+        let place = [right_of_bar, y as f32 + 0.35 * text];
         sheet.write(&short(value, 4), text, place, Side::Left, INK);
     }
     let place = [x as f32, top as f32 - 0.6 * text];
