@@ -1,5 +1,7 @@
 //! `history.csv` and `convergence.csv`: columns with the text of every cell as it is in the file.
 
+use signorini_io::readers::csv::records;
+
 /// A table, as read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -10,11 +12,13 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a table of comma-separated values with quotes as in RFC 4180. Rows that have not as many cells as the
-    /// header are left out.
+    /// Reads a table of comma-separated values. Rows that have not as many cells as the header, and a last line that does
+    /// not end, are left out.
     #[must_use]
     pub fn read(text: &str) -> Self {
-        let mut lines = records(text).into_iter();
+        let mut lines = records(text)
+            .filter(|record| record.is_ended)
+            .map(|record| record.cells);
         let columns = lines.next().unwrap_or_default();
         let rows = lines.filter(|row| row.len() == columns.len()).collect();
         Self { columns, rows }
@@ -60,32 +64,6 @@ impl Table {
         let all = column.map(|c| (0..self.rows.len()).map(|row| self.text(row, c)).collect());
         all.unwrap_or_default()
     }
-}
-
-/// The cells of all lines. The last line counts only if it ends.
-fn records(text: &str) -> Vec<Vec<String>> {
-    let mut records = Vec::new();
-    let mut record = Vec::new();
-    let mut cell = String::new();
-    let mut quoted = false;
-    let mut characters = text.chars().peekable();
-    while let Some(character) = characters.next() {
-        match character {
-            '"' if quoted && characters.peek() == Some(&'"') => {
-                characters.next();
-                cell.push('"');
-            }
-            '"' => quoted = !quoted,
-            ',' if !quoted => record.push(std::mem::take(&mut cell)),
-            '\r' if !quoted => {}
-            '\n' if !quoted => {
-                record.push(std::mem::take(&mut cell));
-                records.push(std::mem::take(&mut record));
-            }
-            other => cell.push(other),
-        }
-    }
-    records
 }
 
 #[cfg(test)]

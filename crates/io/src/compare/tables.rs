@@ -1,7 +1,7 @@
 //! What a file of results has to compare.
 
 use super::Table;
-use crate::readers::{LineError, dat, frd};
+use crate::readers::{LineError, csv, dat, frd};
 use crate::vtk::{self, Array, Vtu, VtuReadError};
 use std::collections::BTreeMap;
 
@@ -292,16 +292,19 @@ fn of_csv(name: &str, bytes: &[u8]) -> Result<Vec<Table>, CompareError> {
         error: LineError { line, what },
     };
     let text = std::str::from_utf8(bytes).map_err(|_| wrong(1, "the file is no text in UTF-8"))?;
-    let mut records = records(text);
-    let (_, head) = records.next().ok_or(wrong(1, "the file is empty"))?;
+    let mut records = csv::records(text);
+    let head = records.next().ok_or(wrong(1, "the file is empty"))?.cells;
     let columns = Columns::new(&head);
     let mut tables: Vec<Table> = Vec::new();
     let (mut step, mut start) = (None, 0);
-    for (number, (line, record)) in (1..).zip(records) {
-        if record.len() != head.len() {
-            return Err(wrong(line, "a row has not as many cells as the head"));
+    for (number, record) in (1..).zip(records) {
+        if record.cells.len() != head.len() {
+            return Err(wrong(
+                record.line,
+                "a row has not as many cells as the head",
+            ));
         }
-        let cell = |k: usize| record.get(k).map_or("", |cell| cell.trim());
+        let cell = |k: usize| record.cells.get(k).map_or("", |cell| cell.trim());
         let own = columns.step.map_or("", cell);
         if step.as_deref() != Some(own) {
             start = tables.len();
@@ -357,45 +360,5 @@ impl Columns {
             columns: vec![name.clone()],
             ..Table::default()
         })
-    }
-}
-
-/// The records of a table after RFC 4180, each with the line on which it starts; empty lines are passed over.
-fn records(text: &str) -> impl Iterator<Item = (usize, Vec<String>)> {
-    let mut chars = text.chars().peekable();
-    let mut line = 1;
-    std::iter::from_fn(move || {
-        loop {
-            let start = line;
-            let mut record = vec![String::new()];
-            let (mut quoted, mut any) = (false, false);
-            loop {
-                let Some(c) = chars.next() else {
-                    return any.then_some((start, record));
-                };
-                line += usize::from(c == '\n');
-                match c {
-                    '"' if quoted && chars.peek() == Some(&'"') => {
-                        chars.next();
-                        push(&mut record, '"');
-                    }
-                    '"' => quoted = !quoted,
-                    ',' if !quoted => record.push(String::new()),
-                    '\r' if !quoted => {}
-                    '\n' if !quoted => break,
-                    c => push(&mut record, c),
-                }
-                any = true;
-            }
-            if any {
-                return Some((start, record));
-            }
-        }
-    })
-}
-
-fn push(record: &mut [String], c: char) {
-    if let Some(cell) = record.last_mut() {
-        cell.push(c);
     }
 }

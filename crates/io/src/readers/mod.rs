@@ -10,10 +10,12 @@
 //! matter of [`validate`].
 //!
 //! Triangles of rigid surfaces are no meshes of bodies: [`stl`] reads them by themselves. Results are read back too: of
-//! `.frd` files with their mesh by [`frd::parse`], of `.dat` tables by [`dat::parse`].
+//! `.frd` files with their mesh by [`frd::parse`], of `.dat` tables by [`dat::parse`], of comma-separated values by
+//! [`csv::records`].
 //!
 //! To add a format: one file here with a function of type [`Reader`], and one line in [`READERS`].
 
+pub mod csv;
 pub mod dat;
 mod error;
 mod fortran;
