@@ -332,7 +332,6 @@ fn surface(view: &mut View, skin: &Skin, frames: &[(usize, f64)], described: Vec
         "ntriangle": skin.triangles.len(),
         "npart": skin.npart,
         "nedge": edges.len(),
-        "nline": skin.lines.len(),
         "plane": skin.is_plane,
         "frames": frames.iter().map(|(number, time)| json!({"number": number, "time": time})).collect::<Vec<Value>>(),
         "fields": described,

@@ -91,8 +91,6 @@ pub fn page(fs: &dyn Fs, folder: &Path, options: &PageOptions) -> Result<Vec<u8>
     let (start, end) = (frame(last.map(|_| 0)), frame(last));
     let quality = health::shapes(start.as_ref());
     let data = json!({
-        "title": results.title(),
-        "units": results.units(),
         "history": history(&results),
         "other": other.as_ref().map(history),
         "contacts": contacts::names(&results),
@@ -171,7 +169,7 @@ pub fn check_page(
                 " 1 where the first step holds, moves or loads, " code { "quality" } " 1 for ideal elements, 0 for flat ones." }
         }
     };
-    let data = json!({"title": title, "units": units, "check": true});
+    let data = json!({"check": true});
     whole(title, &before, &view, &html! {}, data)
 }
 

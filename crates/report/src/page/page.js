@@ -313,7 +313,7 @@
           for (const i of [pairs[e], pairs[e + 1]]) { x.push(lift[0][i]); y.push(lift[1][i]); z.push(lift[2][i]); node.push(i); }
           x.push(null); y.push(null); z.push(null); node.push(-1);
         }
-        return { trace: { type: "scatter3d", mode: "lines", x, y, z, customdata: node, hoverinfo: "none", showlegend: false, ...more(node) }, node };
+        return { type: "scatter3d", mode: "lines", x, y, z, customdata: node, hoverinfo: "none", showlegend: false, ...more(node) };
       };
       if (edgesBox.checked && show === "whole") {
         let drawn = edges;
@@ -322,9 +322,9 @@
           for (let t = 0; t < nt; t++) if (seen(t)) for (let k = 0; k < 3; k++) visible[corner[k][t]] = 1;
           drawn = Array.from({ length: edges.length / 2 }, (_, e) => e).filter((e) => visible[edges[2 * e]] && visible[edges[2 * e + 1]]).flatMap((e) => [edges[2 * e], edges[2 * e + 1]]);
         }
-        traces.push(strokes(drawn, () => ({ line: { color: "#6c7484", width: 1 } })).trace);
+        traces.push(strokes(drawn, () => ({ line: { color: "#6c7484", width: 1 } })));
       }
-      const onLines = (pairs, width) => traces.push({ ...strokes(pairs, (node) => ({ line: { width, color: node.map((i) => (i < 0 ? low : values[i])), ...colors, showscale: !coloured.length } })).trace });
+      const onLines = (pairs, width) => traces.push(strokes(pairs, (node) => ({ line: { width, color: node.map((i) => (i < 0 ? low : values[i])), ...colors, showscale: !coloured.length } })));
       if (segments.length && field && !field.cells) onLines(segments, 6);
       if (v.plane && field?.contact) {
         const of = [];
