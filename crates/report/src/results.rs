@@ -50,8 +50,6 @@ pub struct Results {
     pub folder: PathBuf,
     /// How the run ended; nothing where it was killed or still runs.
     pub summary: Option<Summary>,
-    /// `summary.json` as values.
-    pub summary_values: Value,
     /// `history.csv`.
     pub history: Table,
     /// `convergence.csv`.
@@ -90,7 +88,6 @@ impl Results {
                 Ok(summary) => this.summary = Some(summary),
                 Err(error) => this.notes.push(format!("summary.json: {error}")),
             }
-            this.summary_values = serde_json::from_str(&text).unwrap_or_default();
         }
         this.history = this.table(fs, "history.csv");
         this.convergence = this.table(fs, "convergence.csv");
@@ -201,6 +198,11 @@ impl Results {
             volume,
             contact,
         })
+    }
+
+    /// The events of a kind, in the order of time.
+    pub fn events_of(&self, kind: &str) -> impl Iterator<Item = &Value> {
+        self.events.iter().filter(move |event| event["ev"] == kind)
     }
 
     /// The title of the case; the name of the folder where it has none.

@@ -12,11 +12,7 @@ const ITERATIONS_MOST: usize = 20_000;
 /// The section.
 pub fn section(results: &Results) -> Markup {
     let table = &results.convergence;
-    let cutbacks: Vec<&Value> = results
-        .events
-        .iter()
-        .filter(|e| e["ev"] == "cutback")
-        .collect();
+    let cutbacks: Vec<&Value> = results.events_of("cutback").collect();
     html! {
         section #convergence {
             h2 { "Convergence" }
@@ -82,8 +78,8 @@ pub fn data(results: &Results) -> Value {
     let first = table.rows.len().saturating_sub(ITERATIONS_MOST);
     let tail = |name: &str| -> Vec<f64> { table.numbers(name).into_iter().skip(first).collect() };
     let steps: Vec<&str> = table.texts("step").into_iter().skip(first).collect();
-    let cutbacks = results.events.iter().filter(|e| e["ev"] == "cutback");
-    let cutbacks: Vec<Value> = cutbacks
+    let cutbacks: Vec<Value> = results
+        .events_of("cutback")
         .map(|e| json!({"time": e["time"], "size": e["size"], "why": e["why"]}))
         .collect();
     json!({
@@ -92,7 +88,6 @@ pub fn data(results: &Results) -> Value {
         "attempt": tail("attempt"),
         "iteration": tail("iteration"),
         "residual": tail("residual"),
-        "correction": tail("correction"),
         "flips": tail("flips"),
         "closed": tail("closed"),
         "worst": tail("worst_node"),

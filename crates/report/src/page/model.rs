@@ -110,7 +110,7 @@ fn general(results: &Results) -> Vec<String> {
         thickness.unwrap_or_default(),
         results.units()
     ));
-    let start = results.events.iter().find(|e| e["ev"] == "start");
+    let start = results.events_of("start").next();
     let count = |key: &str| {
         start
             .and_then(|e| e[key].as_u64())

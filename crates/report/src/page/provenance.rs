@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 /// The section.
 pub fn section(results: &Results) -> Markup {
-    let start = results.events.iter().find(|event| event["ev"] == "start");
+    let start = results.events_of("start").next();
     let threads = start.and_then(|event| event["threads"].as_u64());
     html! {
         section #provenance {
