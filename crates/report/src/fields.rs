@@ -181,12 +181,15 @@ pub fn scalar(field: &Field, component: Option<usize>, values: &[f64]) -> Vec<f6
     entries.map(of_entry).collect()
 }
 
+/// The range that covers all of these; nothing where there are none.
+#[must_use]
+pub fn joined(ranges: impl Iterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
+    ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+}
+
 /// Smallest and largest finite value; nothing where there is none.
 #[must_use]
 pub fn range(values: &[f64]) -> Option<[f64; 2]> {
     let finite = values.iter().copied().filter(|value| value.is_finite());
-    finite.fold(None, |range, value| match range {
-        None => Some([value, value]),
-        Some([low, high]) => Some([low.min(value), high.max(value)]),
-    })
+    joined(finite.map(|value| [value, value]))
 }

@@ -10,8 +10,11 @@ use crate::results::{Frame, Results};
 use crate::skin::Skin;
 use crate::text::{grouped, plural, unit};
 use serde_json::{Value, json};
+use signorini_geometry::proximity::Aabb;
+use signorini_geometry::tensor::Vec3;
 use signorini_io::fs::Fs;
 use signorini_io::vtk::Vtu;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// More frames than these are not shown.
@@ -94,41 +97,37 @@ fn thinned(numbers: &[usize], count: usize) -> Vec<usize> {
     chosen
 }
 
-/// The view of all frames of a run; nothing where no frame can be drawn.
+/// The view of all frames of a run, of which `end` is the last one; nothing where no frame can be drawn.
 ///
 /// # Errors
 /// A frame that cannot be read.
 pub fn of_results(
     fs: &dyn Fs,
     results: &Results,
+    end: Frame,
     budget: usize,
 ) -> Result<Option<View>, ReportError> {
-    let Some(last) = results.frames.len().checked_sub(1) else {
-        return Ok(None);
-    };
-    let end = results.frame(fs, last)?;
     let whole = Skin::of(&end.volume);
     if whole.is_empty() {
         return Ok(None);
     }
-    let all: Vec<usize> = (0..=last).collect();
+    let nframe = results.frames.len();
+    let all: Vec<usize> = (0..nframe).collect();
     let mut fields = fields::fields(&end);
+    drop(end);
     fields.sort_by_key(|field| {
         MAIN.iter()
             .position(|name| *name == field.name)
             .unwrap_or(MAIN.len())
     });
     let mut plan = Plan {
-        frames: match all.len() > FRAMES_MOST {
-            true => thinned(&all, FRAMES_MOST),
-            false => all,
-        },
+        frames: thinned(&all, FRAMES_MOST),
         fields,
         steps: false,
         triangles: whole.triangles.len().min(TRIANGLES_MOST),
     };
     let nfield = plan.fields.len();
-    let (skin, view) = loop {
+    let (skin, mut view) = loop {
         let skin = coarser(&whole, plan.triangles);
         // the surface itself
         let rest = budget as f64 - (skin.points.len() * 14 + skin.triangles.len() * 5) as f64;
@@ -144,12 +143,11 @@ pub fn of_results(
             None => return Ok(None),
         }
     };
-    let mut view = view;
-    if plan.frames.len() <= last {
+    if plan.frames.len() < nframe {
         view.notes.push(format!(
             "The view shows {} of {}; ParaView shows all of results.pvd.",
             grouped(plan.frames.len()),
-            plural(last + 1, "frame")
+            plural(nframe, "frame")
         ));
     }
     if plan.fields.len() < nfield {
@@ -233,7 +231,7 @@ fn describe(field: &Field, frames: &[Vec<f64>], units: &str, steps: Option<[f64;
         let each = frames
             .iter()
             .filter_map(|values| fields::range(&fields::scalar(field, component, values)));
-        each.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        fields::joined(each)
     };
     let whole = match field.components.len() {
         1 => ranges(Some(0)),
@@ -262,9 +260,9 @@ fn packed(fs: &dyn Fs, results: &Results, skin: &Skin, plan: &Plan) -> Result<Vi
     let mut values: Vec<Vec<Vec<f64>>> = vec![Vec::new(); plan.fields.len()];
     let mut shown = Vec::new();
     let mut view = View::default();
+    let most = skin.nodes.iter().copied().max().unwrap_or(0) as usize;
     for &number in &plan.frames {
         let frame = results.frame(fs, number)?;
-        let most = skin.nodes.iter().copied().max().unwrap_or(0) as usize;
         if frame.volume.points.len() <= most {
             view.notes.push(format!(
                 "Frame {number} is of another mesh and is left out."
@@ -280,7 +278,7 @@ fn packed(fs: &dyn Fs, results: &Results, skin: &Skin, plan: &Plan) -> Result<Vi
     let mut described = Vec::new();
     for (field, frames) in plan.fields.iter().zip(&values) {
         let ends = frames.iter().filter_map(|values| fields::range(values));
-        let Some(ends) = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]) else {
+        let Some(ends) = fields::joined(ends) else {
             continue;
         };
         let ncomponent = field.components.len();
@@ -339,24 +337,18 @@ fn surface(view: &mut View, skin: &Skin, frames: &[(usize, f64)], described: Vec
 }
 
 /// The surface with at most so many triangles: nodes that are close to each other become one of them.
-fn coarser(skin: &Skin, most: usize) -> Skin {
+fn coarser(skin: &Skin, most: usize) -> Cow<'_, Skin> {
     if skin.triangles.len() <= most {
-        return skin.clone();
+        return Cow::Borrowed(skin);
     }
-    let mut low = [f64::INFINITY; 3];
-    let mut high = [f64::NEG_INFINITY; 3];
-    for point in &skin.points {
-        for k in 0..3 {
-            low[k] = low[k].min(point[k]);
-            high[k] = high[k].max(point[k]);
-        }
-    }
-    let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+    let bounds = Aabb::around(skin.points.iter().map(|&point| Vec3::from(point)));
+    let (low, extent) = (bounds.min.to_array(), bounds.extent());
+    let longest = extent.x.max(extent.y).max(extent.z);
     let mut ncell = 2048.0;
     loop {
         let coarse = clustered(skin, low, longest.max(f64::MIN_POSITIVE) / ncell);
         if coarse.triangles.len() <= most || ncell < 2.0 {
-            return coarse;
+            return Cow::Owned(coarse);
         }
         ncell *= 0.7;
     }

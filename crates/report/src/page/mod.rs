@@ -78,18 +78,20 @@ pub fn page(fs: &dyn Fs, folder: &Path, options: &PageOptions) -> Result<Vec<u8>
         .map(|folder| Results::read(fs, folder));
     let other = other.transpose()?;
     let mut notes = results.notes.clone();
-    let mut frame = |number: Option<usize>| -> Option<Frame> {
-        match results.frame(fs, number?) {
-            Ok(frame) => Some(frame),
-            Err(error) => {
-                notes.push(error.to_string());
-                None
-            }
-        }
+    let mut frame = |number: usize| -> Result<Frame, String> {
+        let read = results.frame(fs, number).map_err(|error| error.to_string());
+        read.inspect_err(|why| notes.push(why.clone()))
     };
     let last = results.frames.len().checked_sub(1);
-    let (start, end) = (frame(last.map(|_| 0)), frame(last));
-    let quality = health::shapes(start.as_ref());
+    let first = last.map(|_| frame(0));
+    let last = match last {
+        // it is the first one, too
+        Some(0) => first.clone(),
+        last => last.map(&mut frame),
+    };
+    let start = first.as_ref().and_then(|frame| frame.as_ref().ok());
+    let end = last.as_ref().and_then(|frame| frame.as_ref().ok());
+    let quality = health::shapes(start);
     let data = json!({
         "history": history(&results),
         "other": other.as_ref().map(history),
@@ -100,27 +102,30 @@ pub fn page(fs: &dyn Fs, folder: &Path, options: &PageOptions) -> Result<Vec<u8>
     let before = html! {
         (banner::section(&results, &notes))
         (model::section(&results))
-        (contacts::section(&results, start.as_ref(), end.as_ref()))
+        (contacts::section(&results, start, end))
     };
     let after = html! {
         (histories(&results))
         @if let Some(other) = &other { (compare::section(&results, other)) }
         (convergence::section(&results))
-        (health::section(&results, quality.as_ref(), end.as_ref()))
+        (health::section(&results, quality.as_ref(), end))
         (provenance::section(&results))
     };
-    drop((start, end));
+    drop(first);
     let script = plotly().text.len();
     let rest = before.0.len() + after.0.len() + data.to_string().len() + STYLE.len() + SCRIPT.len();
     let budget = options
         .budget
         .saturating_sub(script + rest + 20_000)
         .max(VIEW_LEAST);
-    let view = match view::of_results(fs, &results, budget) {
-        Ok(Some(view)) => view,
-        Ok(None) => missing(
+    let view = last.map(|end| {
+        let view = view::of_results(fs, &results, end?, budget);
+        view.map_err(|error| error.to_string())
+    });
+    let view = match view.transpose() {
+        Ok(view) => view.flatten().unwrap_or_else(|| missing(
             "The results hold no frames for a view: the case writes none in the format vtu, or no frame was reached.",
-        ),
+        )),
         Err(error) => missing(&format!("There is no view: {error}.")),
     };
     Ok(whole(&results.title(), &before, &view, &after, data))
