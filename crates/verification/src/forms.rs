@@ -132,8 +132,8 @@ impl Wall {
     }
 }
 
-/// The pressure between a body and one around it whose sides overlap: `displace` gives the radial displacement of the outer
-/// and of the inner one at their common radius, under a pressure of one between them.
+/// The pressure between a body and one around it whose sides overlap, from the radial displacements of the outer and of the
+/// inner one at their common radius under a pressure of one between them.
 pub(crate) fn fit_pressure(overlap: f64, outer: f64, inner: f64) -> f64 {
     overlap / (outer - inner)
 }
@@ -231,7 +231,7 @@ mod tests {
         );
     }
 
-    /// Values of BENCHMARKS 4.2 and 6.2: an independent implementation.
+    /// Equal cylinders of radius 8, and a rigid ball; numbers of an independent implementation.
     #[test]
     fn hertz_and_cattaneo_agree_with_another_implementation() {
         let modulus = contact_modulus([[200.0, 0.3]; 2]);
@@ -246,7 +246,6 @@ mod tests {
         near(point.p0, 0.061_594_2, 1e-5);
     }
 
-    /// BENCHMARKS 3.1.
     #[test]
     fn fits_agree_with_another_implementation() {
         let wall = |a: f64, b: f64, inside: f64, outside: f64| Wall {
@@ -270,7 +269,6 @@ mod tests {
         );
     }
 
-    /// BENCHMARKS 1.3: one block of two equal ones at half of the compression would do; here the stack by its parts.
     #[test]
     fn large_strains_are_small_ones_where_they_are_small() {
         let (mu, lambda) = (1.0, 1.5);

@@ -225,7 +225,7 @@ impl Grid {
         out
     }
 
-    /// The mesh in words: `128 quad4, 153 nodes`.
+    /// The mesh in words: `128 quad4; 153 nodes`.
     #[must_use]
     pub fn words(&self) -> String {
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();

@@ -66,7 +66,7 @@ fn index(judged: &[Judged]) -> String {
             out,
             "| [{name}]({name}.md) | {} | {} | {} | {used} | {} |",
             one.problem.title,
-            super::labels(one),
+            super::labels(&one.setup.checks),
             one.setup.checks.len(),
             sign(one.passed()),
             name = one.problem.name,
@@ -130,8 +130,6 @@ pub fn list(problems: &[Problem]) -> String {
     );
     for problem in problems {
         let checks = problem.setup().checks;
-        let mut labels: Vec<&str> = checks.iter().map(|check| check.kind.label()).collect();
-        labels.dedup();
         let mut parts: Vec<String> = checks.iter().map(super::allowed).collect();
         parts.sort();
         parts.dedup();
@@ -142,7 +140,7 @@ pub fn list(problems: &[Problem]) -> String {
             problem.name,
             problem.title,
             problem.source,
-            labels.join(", "),
+            super::labels(&checks),
             parts.join(", "),
             if problem.quick { "yes" } else { "" }
         );

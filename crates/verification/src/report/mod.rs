@@ -20,7 +20,7 @@ pub use terminal::{Signs, ending, head, problem};
 use crate::problem::{Check, Tolerance};
 use crate::solve::Judged;
 
-/// A number with seven digits; `-` where there is none.
+/// A number with seven digits, six next to a power of ten; `-` where there is none.
 #[must_use]
 pub fn number(value: f64) -> String {
     let size = value.abs();
@@ -56,10 +56,10 @@ fn allowed(check: &Check) -> String {
     Tolerance::Relative(check.tolerance.part()).words()
 }
 
-/// The labels of the references of a problem.
-fn labels(judged: &Judged) -> String {
+/// The labels of the references of a problem, each once.
+fn labels(checks: &[Check]) -> String {
     let mut all: Vec<&str> = Vec::new();
-    for check in &judged.setup.checks {
+    for check in checks {
         if !all.contains(&check.kind.label()) {
             all.push(check.kind.label());
         }

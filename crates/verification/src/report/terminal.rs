@@ -54,7 +54,7 @@ pub fn problem(judged: &Judged, signs: Signs) -> String {
     let mut out = format!(
         "{sign} {:<32} {:<12} {:>6.1} s\n",
         judged.problem.name,
-        labels(judged),
+        labels(&judged.setup.checks),
         judged.solved.seconds
     );
     if let Some(why) = &judged.solved.failure {

@@ -110,7 +110,7 @@ fn ring(grid: &mut Grid, name: &str, radii: [f64; 2], cells: [usize; 2]) {
             even(0.0, FRAC_PI_2, cells[1]),
         ],
         map: &|[r, angle, z]| {
-            // what is held along an axis lies on it
+            // nodes on the axis lie exactly on it: the cosine of a right angle is not quite zero
             let x = if angle == FRAC_PI_2 {
                 0.0
             } else {
