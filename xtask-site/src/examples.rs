@@ -2,11 +2,11 @@
 
 use crate::book::write;
 use crate::markdown;
+use crate::places::cargo;
 use anyhow::{Context, Result};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use toml_edit::{DocumentMut, Item};
 
 /// An example of the repository.
@@ -131,8 +131,7 @@ fn picture(run: &Path) -> Result<Vec<u8>> {
 
 /// Draws the pictures of a run into its folder.
 fn draw(run: &Path) -> Result<()> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let ended = Command::new(cargo)
+    let ended = cargo()
         .args(["run", "--quiet", "--release", "--package", "signorini-cli"])
         .args(["--", "report", "--png"])
         .arg(run)

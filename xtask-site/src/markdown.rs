@@ -71,9 +71,8 @@ pub fn rewrite(source: &str, mut lead: impl FnMut(&str) -> Option<String>) -> Wr
 /// Whether a text has a dollar sign that no backslash stands before.
 fn has_dollar(source: &str, range: &Range<usize>) -> bool {
     let text = source.get(range.clone()).unwrap_or_default();
-    let before = source.get(..range.start).unwrap_or_default();
     text.match_indices('$')
-        .any(|(at, _)| !format!("{before}{}", &text[..at]).ends_with('\\'))
+        .any(|(at, _)| !source[..range.start + at].ends_with('\\'))
 }
 
 /// Where the target of a link stands within the link: after the last mark.

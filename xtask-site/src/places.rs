@@ -5,10 +5,14 @@ use serde_json::Value;
 use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 
+/// The cargo that runs this program.
+pub fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
 /// What `cargo metadata` prints.
 pub fn metadata(root: &Path, options: &[&str]) -> Result<Value> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let ended = Command::new(cargo)
+    let ended = cargo()
         .args(["metadata", "--format-version", "1"])
         .args(options)
         .current_dir(root)

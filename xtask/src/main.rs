@@ -23,6 +23,7 @@ mod shape;
 mod site;
 mod tree;
 
+use std::ffi::OsString;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -161,6 +162,11 @@ fn list() -> String {
         format!("cargo xtask {command:<16} {}\n", chore.about)
     };
     CHORES.iter().map(line).collect()
+}
+
+/// The cargo that runs this program.
+fn cargo() -> OsString {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
 fn root() -> Result<PathBuf, ChoreError> {

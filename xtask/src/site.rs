@@ -1,14 +1,13 @@
 //! The documentation as a site. What builds it is a program of its own, `xtask-site`, so that no other chore has to wait for
 //! the libraries that it needs.
 
-use crate::{ChoreError, Outcome};
+use crate::{ChoreError, Outcome, cargo};
 use std::path::Path;
 use std::process::Command;
 
 /// Builds the site with these options.
 pub(crate) fn build(root: &Path, options: &[String]) -> Outcome {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let ended = Command::new(cargo)
+    let ended = Command::new(cargo())
         .args([
             "run",
             "--quiet",

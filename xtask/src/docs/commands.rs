@@ -228,11 +228,9 @@ impl Check<'_> {
             [] => {}
             ["cargo", rest @ ..] => self.cargo(rest),
             ["signorini", rest @ ..] => self.signorini(rest),
-            ["python" | "python3" | "pvpython", script, rest @ ..] if !is_followed(self.page) => {
-                self.script(script, rest);
-            }
             // the test that follows these pages runs their commands, with the files that they show
             _ if is_followed(self.page) => {}
+            ["python" | "python3" | "pvpython", script, rest @ ..] => self.script(script, rest),
             [program, rest @ ..] if FOREIGN.contains(program) => self.files(rest),
             [program, ..] if program.contains('/') => self.file(program),
             [program, ..] => self.faults.push(format!(

@@ -29,7 +29,7 @@ mod toml;
 use crate::fault::Fault;
 use crate::tree::Tree;
 use crate::tree::read;
-use crate::{ChoreError, Outcome};
+use crate::{ChoreError, Outcome, cargo};
 use commands::{Packages, Program, Script};
 use keys::Keys;
 use markdown::{Page, Piece};
@@ -315,8 +315,7 @@ fn signorini(root: &Path, arguments: &[&str]) -> Result<String, ChoreError> {
 
 /// What cargo prints.
 fn output(root: &Path, arguments: &[&str]) -> Result<String, ChoreError> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    printed(root, &cargo, arguments)
+    printed(root, &cargo(), arguments)
 }
 
 fn printed(root: &Path, program: &OsStr, arguments: &[&str]) -> Result<String, ChoreError> {
