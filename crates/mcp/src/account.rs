@@ -22,7 +22,7 @@ pub struct Account {
     pub increment: Option<Value>,
     /// Converged increments.
     pub increments: usize,
-    /// Iterations.
+    /// Iterations of converged increments, which the summary and `status` count, too.
     pub iterations: usize,
     /// Cut-backs.
     pub cutbacks: usize,
@@ -41,10 +41,7 @@ impl Account {
             "expect" => self.expectations.push(bare(event)),
             "start" => self.start = Some(bare(event)),
             "end" => self.end = Some(bare(event)),
-            "iteration" => {
-                self.iterations += 1;
-                return self.report(|| in_words(&event, "iteration", "iter"));
-            }
+            "iteration" => return self.report(|| in_words(&event, "iteration", "iter")),
             "cutback" => {
                 self.cutbacks += 1;
                 return self.report(|| {
@@ -54,6 +51,8 @@ impl Account {
             }
             "increment" => {
                 self.increments += 1;
+                let iterations = event.get("iters").and_then(Value::as_u64);
+                self.iterations += iterations.unwrap_or_default() as usize;
                 let text = in_words(&event, "time", "time");
                 self.increment = Some(bare(event));
                 return self.report(|| format!("{text}, converged"));
@@ -126,6 +125,8 @@ mod tests {
             r#"{"v":1,"ev":"diagnostic","code":"S2"}"#,
             r#"{"v":1,"ev":"iteration","step":"press","inc":1,"iter":1}"#,
             r#"{"v":1,"ev":"increment","step":"press","inc":1,"time":0.5,"iters":1}"#,
+            // of an attempt that is given up
+            r#"{"v":1,"ev":"iteration","step":"press","inc":2,"iter":1}"#,
             r#"{"v":1,"ev":"cutback","step":"press","inc":2,"why":"x"}"#,
             "not json",
             r#"{"v":1,"ev":"new kind"}"#,

@@ -148,6 +148,10 @@ async fn a_run_reports_progress_and_returns_its_summary() {
         (&json!(true), &json!("block.out"))
     );
     assert_eq!(value["last_increment"]["time"], 1.0);
+    assert_eq!(
+        (&value["increments"], &value["iterations"]),
+        (&json!(2), &json!(4))
+    );
     let expected =
         "run ./block.toml --output=./block.out --set=a=1 --json --max-wall=90s --threads=1";
     assert_eq!(yard.calls(), [expected]);
