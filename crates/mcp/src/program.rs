@@ -10,7 +10,7 @@
 //! A panic, a crash or a lack of memory ends the child, never the server. Arguments are a list, no shell reads them.
 
 use crate::limits::Limits;
-use crate::reply::Refusal;
+use crate::reply::{CHECK_DISK, Refusal};
 use serde_json::Value;
 use std::collections::VecDeque;
 use std::ffi::OsString;
@@ -23,6 +23,10 @@ use tokio::time::{Instant, sleep_until};
 
 /// The variable that confines the command to a folder.
 pub const WITHIN: &str = "SIGNORINI_WITHIN";
+
+/// What to do about a command that broke down.
+const BROKEN: &str =
+    "call again; if it happens again, it is a fault of signorini or of its installation";
 
 /// Bytes of standard error that are kept.
 const TAIL: usize = 4096;
@@ -137,6 +141,7 @@ impl Program {
         let failed = |error: std::io::Error| Refusal::Command {
             command: command.clone(),
             why: error.to_string(),
+            help: BROKEN,
         };
         let mut child = self.start(arguments).map_err(failed)?;
         let errors = tokio::spawn(tail(child.stderr.take()));
@@ -254,6 +259,21 @@ impl Ended {
         Refusal::Command {
             command: command.to_owned(),
             why,
+            help: self.help(),
+        }
+    }
+
+    /// What to do about it. The exit codes are those of the command: 2 command line, 3 input, 4 model, 6 not written.
+    const fn help(&self) -> &'static str {
+        match (self.stopped, self.code) {
+            (Some(Stopped::Cancelled), _) => "call again when it is wanted",
+            (Some(Stopped::OutOfTime), _) => {
+                "call it for a smaller case, or outside of this server"
+            }
+            (Some(Stopped::TooLong), _) => "call it outside of this server",
+            (None, Some(2..=4)) => "change the arguments by what the message says",
+            (None, Some(6)) => CHECK_DISK,
+            (None, _) => BROKEN,
         }
     }
 }

@@ -5,6 +5,9 @@ use rmcp::model::{CallToolResponse, CallToolResult, ContentBlock};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
+/// What to do about a file that cannot be read or written.
+pub const CHECK_DISK: &str = "check the path, the free space and the permissions";
+
 /// A request that is not served: what, why, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
@@ -45,6 +48,8 @@ pub enum Refusal {
         command: String,
         /// What happened.
         why: String,
+        /// What to do.
+        help: &'static str,
     },
 }
 
@@ -81,10 +86,8 @@ impl Refusal {
             }
             Self::Value { .. } => "change it and call again",
             Self::Busy { .. } => "wait for one of them, or cancel it",
-            Self::Disk { .. } => "check the path, the free space and the permissions",
-            Self::Command { .. } => {
-                "call again; if it happens again, it is a fault of signorini or of its installation"
-            }
+            Self::Disk { .. } => CHECK_DISK,
+            Self::Command { help, .. } => help,
         }
     }
 }

@@ -158,12 +158,14 @@ impl Server {
         let (Some(code), true) = (code, account.end.is_some() || ended.stopped.is_some()) else {
             // a panic, a crash, no memory: what was heard of it helps all the same
             let mut fault = ended.fault("run");
-            if let Refusal::Command { why, .. } = &mut fault {
+            if let (Refusal::Command { why, help, .. }, Some(_)) = (&mut fault, &account.start) {
                 why.push_str(&format!(
-                    "\n{}\nwhat had converged is in {}; go on with resume",
+                    "\n{}\nwhat had converged is in {}",
                     account.work(),
                     results.shown()
                 ));
+                *help =
+                    "ask for its status, then go on with run, path = that folder, resume = true";
             }
             return Err(fault);
         };

@@ -224,6 +224,32 @@ async fn a_command_that_breaks_down_is_reported_and_the_server_goes_on() {
 }
 
 #[tokio::test]
+async fn help_after_a_failure_is_what_can_be_done_about_it() {
+    let yard = Yard::new("");
+    yard.write("a.toml", "");
+    yard.write("a.out/history.csv", "time\n");
+    let session = yard.session().await;
+    let init = ("init", json!({ "template": "slope" }));
+    let run = ("run", json!({ "path": "a.toml" }));
+    let report = ("report", json!({ "path": "a.out" }));
+    let start = "echo '{\"v\":1,\"ev\":\"start\",\"nodes\":8}'";
+    for (act, (tool, arguments), help) in [
+        ("exit 3".to_owned(), &init, "change the arguments"),
+        ("exit 2".to_owned(), &run, "change the arguments"),
+        ("exit 6".to_owned(), &report, "the free space"),
+        ("kill -KILL $$".to_owned(), &run, "call again"),
+        (format!("{start}; kill -KILL $$"), &run, "resume = true"),
+    ] {
+        yard.act(&act);
+        let said = session.refused(tool, arguments.clone()).await;
+        let (_, given) = said.rsplit_once("help: ").unwrap();
+        assert!(given.contains(help), "{act}: {said}");
+        assert_eq!(said.contains("a.out"), help.starts_with("resume"), "{said}");
+    }
+    session.close().await;
+}
+
+#[tokio::test]
 async fn results_are_a_summary_a_part_of_a_table_and_fields() {
     let fields = json!([{ "name": "stress", "on": "node", "components": [
         { "name": "XX", "range": [-1.0, 2.0] }, { "name": "YY", "range": null }] }]);
