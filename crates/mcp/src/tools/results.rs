@@ -155,7 +155,8 @@ impl Server {
 }
 
 impl Server {
-    fn summary(&self, folder: &Place) -> Result<Option<Value>, Refusal> {
+    /// The summary of a folder of results; none where there is no such file.
+    pub(super) fn summary(&self, folder: &Place) -> Result<Option<Value>, Refusal> {
         let place = folder.join("summary.json");
         if self.root().kind(&place) == Kind::Nothing {
             return Ok(None);
@@ -198,22 +199,33 @@ impl Server {
 
 /// The heart of a summary in lines.
 fn summary_text(summary: &Value) -> String {
-    let mut text = format!(
-        "{} (exit code {})\n",
+    format!(
+        "{} (exit code {})\n{}{}",
         summary["status"].as_str().unwrap_or("?"),
-        summary["exit_code"]
-    );
-    for (name, contact) in summary["contacts"].as_object().into_iter().flatten() {
-        text.push_str(&format!("contact {name}: {contact}\n"));
-    }
-    for one in summary["expectations"].as_array().into_iter().flatten() {
+        summary["exit_code"],
+        contacts_text(&summary["contacts"]),
+        expectations_text(summary["expectations"].as_array().into_iter().flatten())
+    )
+}
+
+/// Contacts with their numbers, a line each.
+pub(super) fn contacts_text(contacts: &Value) -> String {
+    let contacts = contacts.as_object().into_iter().flatten();
+    let lines = contacts.map(|(name, contact)| format!("contact {name}: {contact}\n"));
+    lines.collect()
+}
+
+/// Checked values, a line each.
+pub(super) fn expectations_text<'a>(all: impl IntoIterator<Item = &'a Value>) -> String {
+    let line = |one: &Value| {
+        let what = one["what"].as_str().unwrap_or("?");
         let sign = if one["ok"] == true { "met" } else { "FAILED" };
-        text.push_str(&format!(
-            "expect {}: {} for {}, {sign}\n",
-            one["what"], one["got"], one["value"]
-        ));
-    }
-    text
+        format!(
+            "expect {what}: {} for {}, {sign}\n",
+            one["got"], one["value"]
+        )
+    };
+    all.into_iter().map(line).collect()
 }
 
 /// Fields with the ranges of their components, a line each.

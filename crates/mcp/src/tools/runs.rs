@@ -1,6 +1,7 @@
 //! The tool that solves.
 
 use super::changes;
+use super::results::{contacts_text, expectations_text};
 use crate::Server;
 use crate::account::Account;
 use crate::program::{Ended, Stopped, Watch};
@@ -169,11 +170,9 @@ impl Server {
             }
             return Err(fault);
         };
-        let summary = account.start.as_ref().and_then(|_| {
-            let place = results.join("summary.json");
-            let bytes = self.root().read(&place, self.limits().reply).ok()?;
-            serde_json::from_slice(&bytes).ok()
-        });
+        // one that cannot be read spoils no answer
+        let summary = account.start.as_ref();
+        let summary = summary.and_then(|_| self.summary(results).ok().flatten());
         let outcome = Outcome {
             account,
             code,
@@ -227,19 +226,9 @@ impl Outcome<'_> {
         if account.more > 0 {
             text.push_str(&format!("and {} more\n", account.more));
         }
-        for one in &account.expectations {
-            let sign = if one["ok"] == true { "met" } else { "FAILED" };
-            text.push_str(&format!(
-                "expect {}: {} for {}, {sign}\n",
-                one["what"].as_str().unwrap_or_default(),
-                one["got"],
-                one["value"]
-            ));
-        }
-        let last = account.increment.as_ref();
-        let contacts = last.and_then(|one| one["contact"].as_object());
-        for (name, contact) in contacts.into_iter().flatten() {
-            text.push_str(&format!("contact {name}: {contact}\n"));
+        text.push_str(&expectations_text(&account.expectations));
+        if let Some(last) = &account.increment {
+            text.push_str(&contacts_text(&last["contact"]));
         }
         if let Some(results) = &self.results {
             text.push_str(&format!("results: {results}\n"));

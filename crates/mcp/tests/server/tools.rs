@@ -271,7 +271,8 @@ async fn results_are_a_summary_a_part_of_a_table_and_fields() {
     );
     yard.write(
         "a.out/summary.json",
-        "{\"status\":\"solved\",\"exit_code\":0}",
+        "{\"status\":\"solved\",\"exit_code\":0,\"contacts\":{\"foot\":{\"area\":2}},\
+         \"expectations\":[{\"what\":\"foot.force_z\",\"value\":1,\"got\":1,\"ok\":true}]}",
     );
     let arguments =
         json!({ "path": "a.out", "columns": ["foot.force_z"], "rows": 2, "first_row": 3 });
@@ -279,6 +280,8 @@ async fn results_are_a_summary_a_part_of_a_table_and_fields() {
     let said = text(&result);
     for words in [
         "solved (exit code 0)",
+        "contact foot: {\"area\":2}",
+        "expect foot.force_z: 1 for 1, met",
         "rows 3 to 4 of 200",
         "foot.force_z\n6\n8",
         "stress (node) XX[-1.0, 2.0] YY[no numbers]",
