@@ -12,7 +12,7 @@
 
 use crate::reply::Refusal;
 use cap_std::ambient_authority;
-use cap_std::fs::{Dir, File};
+use cap_std::fs::{Dir, File, Metadata};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
@@ -22,10 +22,8 @@ const LONGEST: usize = 1024;
 /// The extensions of texts that may be written: what the command reads, and tables and notes.
 pub const WRITABLE: [&str; 9] = ["toml", "inp", "in", "inc", "msh", "stl", "csv", "txt", "md"];
 
-/// The extensions of texts that may be read: these, and texts that runs leave.
-pub const READABLE: [&str; 13] = [
-    "toml", "inp", "in", "inc", "msh", "stl", "csv", "txt", "md", "log", "sta", "dat", "json",
-];
+/// The extensions of texts that runs leave, which may be read, too.
+pub const LEFT_BY_RUNS: [&str; 4] = ["log", "sta", "dat", "json"];
 
 /// A folder that is worked in.
 #[derive(Debug)]
@@ -94,6 +92,18 @@ pub enum Kind {
     Other,
     /// Nothing.
     Nothing,
+}
+
+impl Kind {
+    fn of(data: &Metadata) -> Self {
+        if data.is_file() {
+            Self::File
+        } else if data.is_dir() {
+            Self::Folder
+        } else {
+            Self::Other
+        }
+    }
 }
 
 /// A file or folder of a list.
@@ -185,12 +195,8 @@ impl Root {
 
     /// What is at a place.
     pub fn kind(&self, place: &Place) -> Kind {
-        match self.dir.metadata(place.as_path()) {
-            Ok(data) if data.is_file() => Kind::File,
-            Ok(data) if data.is_dir() => Kind::Folder,
-            Ok(_) => Kind::Other,
-            Err(_) => Kind::Nothing,
-        }
+        let data = self.dir.metadata(place.as_path());
+        data.map_or(Kind::Nothing, |data| Kind::of(&data))
     }
 
     /// The place of a file that must be there.
@@ -299,13 +305,7 @@ impl Root {
             let Ok(data) = self.dir.symlink_metadata(inner.as_path()) else {
                 continue;
             };
-            let kind = if data.is_file() {
-                Kind::File
-            } else if data.is_dir() {
-                Kind::Folder
-            } else {
-                Kind::Other
-            };
+            let kind = Kind::of(&data);
             found.push(Entry {
                 path: inner.shown(),
                 kind,

@@ -1,4 +1,4 @@
-//! The server: what its tools share, and what clients are told about it.
+//! The server: what its tools share, and what clients read about it.
 
 use crate::program::{Ended, Program, Watch, object};
 use crate::reply::Refusal;
@@ -106,7 +106,7 @@ impl Server {
     ///
     /// # Errors
     /// A command that cannot be started.
-    pub(crate) async fn output(
+    async fn output(
         &self,
         arguments: &[String],
         context: &RequestContext<RoleServer>,
@@ -121,6 +121,23 @@ impl Server {
         self.program().output(arguments, watch).await
     }
 
+    /// Runs a command that must end with exit code 0, and returns what it prints.
+    ///
+    /// # Errors
+    /// A command that cannot be started, is stopped, or ends otherwise.
+    pub(crate) async fn succeed(
+        &self,
+        arguments: &[String],
+        context: &RequestContext<RoleServer>,
+    ) -> Result<Vec<u8>, Refusal> {
+        let (ended, printed) = self.output(arguments, context).await?;
+        if ended.code == Some(0) {
+            Ok(printed)
+        } else {
+            Err(ended.fault(name(arguments)))
+        }
+    }
+
     /// Runs a command with `--json`, and returns the object that it prints.
     ///
     /// # Errors
@@ -131,10 +148,9 @@ impl Server {
         context: &RequestContext<RoleServer>,
     ) -> Result<Value, Refusal> {
         let (ended, printed) = self.output(arguments, context).await?;
-        let name = arguments.first().map_or("", String::as_str);
         match object(&printed) {
             Some(value) if ended.stopped.is_none() => Ok(value),
-            _ => Err(ended.fault(name)),
+            _ => Err(ended.fault(name(arguments))),
         }
     }
 
@@ -159,6 +175,11 @@ impl Server {
         let time = self.limits().grace.saturating_mul(2);
         let _ = tokio::time::timeout(time, self.shared.runs.acquire_many(all)).await;
     }
+}
+
+/// The subcommand.
+fn name(arguments: &[String]) -> &str {
+    arguments.first().map_or("", String::as_str)
 }
 
 #[tool_handler(router = self.router)]

@@ -3,7 +3,7 @@
 use super::changes;
 use crate::Server;
 use crate::reply::{Refusal, Reply, counted, cut, diagnostics_text};
-use crate::root::Entry;
+use crate::root::{Entry, Place};
 use rmcp::handler::server::wrapper::Parameters;
 use rmcp::schemars::{self, JsonSchema};
 use rmcp::service::RequestContext;
@@ -148,10 +148,7 @@ impl Server {
         let folder = self.root().place(wanted.folder.as_deref().unwrap_or("."))?;
         let before = self.files_in(&folder);
         let arguments = ["init".to_owned(), template, folder.argument()];
-        let (ended, _) = self.output(&arguments, &context).await?;
-        if ended.code != Some(0) {
-            return Err(ended.fault("init"));
-        }
+        self.succeed(&arguments, &context).await?;
         let written: Vec<String> = self
             .files_in(&folder)
             .into_iter()
@@ -168,10 +165,7 @@ impl Server {
 impl Server {
     async fn templates(&self, context: &RequestContext<RoleServer>) -> Result<Reply, Refusal> {
         let arguments = ["init".to_owned(), "--list".to_owned()];
-        let (ended, printed) = self.output(&arguments, context).await?;
-        if ended.code != Some(0) {
-            return Err(ended.fault("init"));
-        }
+        let printed = self.succeed(&arguments, context).await?;
         let printed = String::from_utf8_lossy(&printed).trim_end().to_owned();
         let templates: Vec<Value> = printed
             .lines()
@@ -184,7 +178,7 @@ impl Server {
         ))
     }
 
-    fn files_in(&self, folder: &crate::root::Place) -> Vec<Entry> {
+    fn files_in(&self, folder: &Place) -> Vec<Entry> {
         let listed = self.root().list(folder, 2, self.limits().files);
         listed.map_or_else(|_| Vec::new(), |(entries, _)| entries)
     }

@@ -1,8 +1,8 @@
 //! Tools for the files in the folder.
 
 use crate::Server;
-use crate::reply::{Refusal, Reply, counted, cut};
-use crate::root::{Kind, READABLE, WRITABLE};
+use crate::reply::{Refusal, Reply, cut};
+use crate::root::{Kind, LEFT_BY_RUNS, WRITABLE};
 use rmcp::handler::server::wrapper::Parameters;
 use rmcp::schemars::{self, JsonSchema};
 use rmcp::{tool, tool_router};
@@ -62,11 +62,11 @@ impl Server {
         let most = self.limits().files;
         let listed = self.root().list(&folder, depth, most);
         let (entries, is_all) = listed.map_err(|error| Refusal::disk(name, &error))?;
-        let mut text = format!(
-            "{} in {}",
-            counted(entries.len(), "entry").replace("entrys", "entries"),
-            folder.shown()
-        );
+        let count = match entries.len() {
+            1 => "1 entry".to_owned(),
+            count => format!("{count} entries"),
+        };
+        let mut text = format!("{count} in {}", folder.shown());
         for entry in &entries {
             text.push('\n');
             text.push_str(&entry.path);
@@ -124,11 +124,10 @@ impl Server {
     #[tool(annotations(title = "Read a case", read_only_hint = true, open_world_hint = false))]
     async fn read_case(&self, Parameters(wanted): Parameters<ReadCase>) -> Result<Reply, Refusal> {
         let place = self.root().file(&wanted.path)?;
-        if !READABLE.contains(&place.extension().as_str()) {
-            return Err(Refusal::path(
-                &wanted.path,
-                &format!("texts to read end in {}", READABLE.join(", ")),
-            ));
+        let readable = [WRITABLE.as_slice(), &LEFT_BY_RUNS].concat();
+        if !readable.contains(&place.extension().as_str()) {
+            let why = format!("texts to read end in {}", readable.join(", "));
+            return Err(Refusal::path(&wanted.path, &why));
         }
         // one file of that size is read at a time by hand of the runtime; what is returned is far smaller
         let bytes = self

@@ -142,10 +142,9 @@ impl Server {
         // the path starts with ./, so that it is never taken for an option
         let words = ["report", &folder.argument(), "-o", &page.argument()];
         let arguments = words.map(str::to_owned);
-        let (ended, _) = self.output(&arguments, &context).await?;
-        if ended.code != Some(0) || self.root().kind(&page) != Kind::File {
-            return Err(ended.fault("report"));
-        }
+        self.succeed(&arguments, &context).await?;
+        // a report without a page is a fault of the command
+        let page = self.root().file(&page.shown())?;
         let absolute = self.root().path().join(page.shown());
         Ok(Reply::new(
             format!("{}: open it in a browser", page.shown()),

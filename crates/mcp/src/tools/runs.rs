@@ -62,8 +62,8 @@ impl Server {
         Parameters(wanted): Parameters<Run>,
         context: RequestContext<RoleServer>,
     ) -> Result<Reply, Refusal> {
-        let (arguments, results) = self.run_arguments(&wanted)?;
         let wall = self.wall(wanted.max_wall)?;
+        let (arguments, results) = self.run_arguments(&wanted, wall)?;
         let _permit = self.run_permit()?;
         let (reports, heard) = channel(REPORTS);
         let reporter = tokio::spawn(pass_on(
@@ -98,9 +98,8 @@ impl Server {
 
 impl Server {
     /// The command line of a run, and the folder of its results.
-    fn run_arguments(&self, wanted: &Run) -> Result<(Vec<String>, Place), Refusal> {
+    fn run_arguments(&self, wanted: &Run, wall: Duration) -> Result<(Vec<String>, Place), Refusal> {
         let changes = changes(&wanted.set, self.limits())?;
-        let wall = self.wall(wanted.max_wall)?.as_secs_f64();
         let mut arguments;
         let results;
         if wanted.resume {
@@ -126,7 +125,7 @@ impl Server {
             arguments.extend(changes);
         }
         arguments.push("--json".to_owned());
-        arguments.push(format!("--max-wall={wall}s"));
+        arguments.push(format!("--max-wall={}s", wall.as_secs_f64()));
         if let Some(threads) = wanted.threads {
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             if !(1..=cores).contains(&usize::from(threads)) {

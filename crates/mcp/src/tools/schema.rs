@@ -7,7 +7,7 @@ use rmcp::service::RequestContext;
 use serde_json::{Value, json};
 
 /// What is known of a place in the schema.
-pub(super) struct Found<'a> {
+struct Found<'a> {
     /// Its schema.
     schema: &'a Value,
     /// The keys in it with their schemas, in alphabetical order.

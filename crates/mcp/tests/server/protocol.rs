@@ -183,6 +183,13 @@ echo started >> "$here/started"
 while true; do sleep 0.05; done
 "#;
 
+/// A folder with a case whose run is endless.
+fn endless() -> Yard {
+    let yard = Yard::new(ENDLESS);
+    yard.write("a.toml", "");
+    yard
+}
+
 /// How many lines a file has.
 fn lines(path: std::path::PathBuf) -> usize {
     std::fs::read_to_string(path).map_or(0, |text| text.lines().count())
@@ -201,8 +208,7 @@ async fn start(session: &Session, path: &str) -> rmcp::service::RequestHandle<rm
 
 #[tokio::test]
 async fn a_cancelled_run_is_interrupted_and_makes_room() {
-    let yard = Yard::new(ENDLESS);
-    yard.write("a.toml", "");
+    let yard = endless();
     let mut limits = Limits::default();
     limits.runs = 1;
     let session = yard.session_with(limits).await;
@@ -226,8 +232,7 @@ async fn a_cancelled_run_is_interrupted_and_makes_room() {
 
 #[tokio::test]
 async fn a_run_that_takes_too_long_is_interrupted_and_said_to_be_resumable() {
-    let yard = Yard::new(ENDLESS);
-    yard.write("a.toml", "");
+    let yard = endless();
     let mut limits = Limits::default();
     limits.default_wall = Duration::from_millis(200);
     limits.grace = Duration::from_secs(1);
@@ -261,8 +266,7 @@ async fn a_run_that_heeds_no_signal_is_killed() {
 
 #[tokio::test]
 async fn calls_at_once_do_not_wait_for_a_run() {
-    let yard = Yard::new(ENDLESS);
-    yard.write("a.toml", "");
+    let yard = endless();
     let session = yard.session().await;
     let first = start(&session, "a.toml").await;
     let second = start(&session, "a.toml").await;
@@ -289,8 +293,7 @@ async fn calls_at_once_do_not_wait_for_a_run() {
 
 #[tokio::test]
 async fn a_client_that_leaves_interrupts_its_runs() {
-    let yard = Yard::new(ENDLESS);
-    yard.write("a.toml", "");
+    let yard = endless();
     let session = yard.session().await;
     let _handle = start(&session, "a.toml").await;
     until("the run", || lines(yard.outside("started")) == 1).await;
