@@ -12,8 +12,7 @@
 //! One more tool: a method in a file of `tools/`, with a description and a struct for its parameters, and a row of the table in
 //! `docs/mcp.md`, which a test compares with the list that clients get.
 //!
-//! Limits: links in the folder that are there when the server starts are the user's; hard links are files of the folder.
-//! Clients that speak over HTTP are not served.
+//! Limits: hard links are files of the folder. Clients that speak over HTTP are not served.
 //!
 //! Source: the Model Context Protocol, <https://modelcontextprotocol.io/specification>.
 #![forbid(unsafe_code)]

@@ -14,7 +14,7 @@ pub struct Limits {
     pub text: usize,
     /// Bytes of a text that is returned: a file, or a part of the schema.
     pub reply: usize,
-    /// Bytes that a command other than a run may print.
+    /// Bytes that a command other than a run may print, and that a file to read may have.
     pub printed: usize,
     /// Bytes of one event of a run.
     pub event: usize,

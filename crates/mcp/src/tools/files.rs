@@ -120,7 +120,7 @@ impl Server {
     }
 
     /// Reads a text file in the folder of the server: a case, a deck, a table or log of a run. Large files are cut, and the answer
-    /// says so; for numbers of a run, `results` is better.
+    /// says so; files of more than 8 MiB are refused. For numbers of a run, `results` is better.
     #[tool(annotations(title = "Read a case", read_only_hint = true, open_world_hint = false))]
     async fn read_case(&self, Parameters(wanted): Parameters<ReadCase>) -> Result<Reply, Refusal> {
         let place = self.root().file(&wanted.path)?;
@@ -129,7 +129,7 @@ impl Server {
             let why = format!("texts to read end in {}", readable.join(", "));
             return Err(Refusal::path(&wanted.path, &why));
         }
-        // one file of that size is read at a time by hand of the runtime; what is returned is far smaller
+        // the whole file, since its lines are counted; what is returned is far smaller
         let bytes = self
             .root()
             .read(&place, self.limits().printed)

@@ -340,6 +340,10 @@ async fn large_texts_tables_and_lists_are_refused_or_cut() {
         .await;
     assert!(read["text"].as_str().unwrap().len() <= 256 << 10);
     assert_eq!(read["truncated"], true);
+    yard.write("longer.txt", &"x".repeat((8 << 20) + 1));
+    session
+        .refused("read_case", json!({ "path": "longer.txt" }))
+        .await;
     session.close().await;
 }
 
