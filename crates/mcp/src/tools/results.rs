@@ -4,7 +4,7 @@ use super::cases::readable;
 use crate::Server;
 use crate::reply::{Refusal, Reply, cut, diagnostics_text};
 use crate::root::{Kind, Place};
-use crate::table::{Part, Wanted};
+use crate::table::{Part, TableError, Wanted};
 use rmcp::handler::server::wrapper::Parameters;
 use rmcp::schemars::{self, JsonSchema};
 use rmcp::service::RequestContext;
@@ -190,9 +190,17 @@ impl Server {
             rows: wanted.rows.unwrap_or(ROWS).min(self.limits().rows),
             cells: self.limits().cells,
         };
-        Part::read(std::io::BufReader::new(reader), &part)
-            .map(Some)
-            .map_err(|error| Refusal::value("columns", format!("{}: {error}", place.shown())))
+        match Part::read(std::io::BufReader::new(reader), &part) {
+            Ok(part) => Ok(Some(part)),
+            Err(error @ TableError::Unknown { .. }) => {
+                let why = format!("{}: {error}", place.shown());
+                Err(Refusal::value("columns", why))
+            }
+            Err(error @ TableError::Damaged(_)) => Err(Refusal::Disk {
+                path: place.shown(),
+                why: error.to_string(),
+            }),
+        }
     }
 }
 

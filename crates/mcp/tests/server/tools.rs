@@ -298,6 +298,17 @@ async fn results_are_a_summary_a_part_of_a_table_and_fields() {
         said.contains("there is no column \"force\"; the columns are: time, step, foot.force_z"),
         "{said}"
     );
+    std::fs::write(yard.root().join("a.out/convergence.csv"), b"a,b\n1,\xff\n").unwrap();
+    let said = session
+        .refused(
+            "results",
+            json!({ "path": "a.out", "table": "convergence" }),
+        )
+        .await;
+    assert!(
+        said.starts_with("a.out/convergence.csv: the table cannot be read"),
+        "{said}"
+    );
     yard.write("a.out/summary.json", "{\"torn");
     session.refused("results", json!({ "path": "a.out" })).await;
     session.close().await;
