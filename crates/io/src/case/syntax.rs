@@ -129,7 +129,7 @@ struct Explained {
 
 /// What the reader of TOML means by the head of its message, by what it found and by the text from there on.
 fn explain(head: &str, found: &str, behind: &str) -> Option<Explained> {
-    if head == "string values must be quoted" {
+    if head == "string values must be quoted" && !found.is_empty() {
         return Some(Explained {
             what: "a text needs quotes",
             help: format!("write \"{found}\""),
@@ -137,6 +137,8 @@ fn explain(head: &str, found: &str, behind: &str) -> Option<Explained> {
         });
     }
     let (what, help, local) = match head {
+        // nothing but a blank behind the `=`
+        "string values must be quoted" => ("a value is missing", "write one behind the `=`", true),
         "key with no value" => ("a key without a value", "write  key = value", false),
         "missing value" => ("a value is missing", "write one behind the `=`", false),
         "unclosed array" => ("a list is not closed", "add the missing `]`", false),

@@ -220,6 +220,10 @@ fn syntax() -> Vec<Fault> {
             brick("material = \"soft\"", "material = soft"),
         ),
         (
+            "a value missing",
+            brick("material = \"soft\"", "material = "),
+        ),
+        (
             "a quote not closed",
             brick("\"Node-to-segment", "\"Node-to-\nsegment"),
         ),
