@@ -196,18 +196,19 @@ impl Translation<'_> {
     }
 
     fn lines_of(&mut self, card: &Statement, form: Form) {
-        // an empty line stands for values that are all left out
-        let rows: Vec<Vec<Field<'_>>> = card.peek_rows().collect();
-        let rows: Vec<_> = rows.iter().filter(|row| !row.is_empty()).collect();
+        // an empty line stands for values that are all left out; there may be a million others, so that none is kept
+        let rows = || card.peek_rows().filter(|row| !row.is_empty());
         let (least, most) = form.lines;
-        if rows.len() < least {
+        if rows().take(least).count() < least {
             let text = format!("*{} has no data line", card.keyword);
             let help = format!("write below it: {}", form.words);
             let one = Diagnostic::error(&codes::MISSING, text).at(&card.place, "");
             self.found.push(one.help(help));
             return;
         }
-        if let Some(row) = rows.get(most) {
+        if most < usize::MAX
+            && let Some(row) = rows().nth(most)
+        {
             let text = match most {
                 0 => format!("*{} takes no data line", card.keyword),
                 _ => format!("*{} takes {most} data line{}", card.keyword, s(most)),
@@ -222,30 +223,32 @@ impl Translation<'_> {
             return;
         }
         if form.together {
-            let all: Vec<Field<'_>> = rows.iter().flat_map(|row| row.iter()).cloned().collect();
+            let all: Vec<Field<'_>> = rows().flatten().collect();
             self.values_of(card, &all, form.values, (form.words, ""));
             return;
         }
-        for row in &rows {
-            self.values_of(card, row, form.values, (form.words, " on a line"));
+        for row in rows() {
+            self.values_of(card, &row, form.values, (form.words, " on a line"));
         }
-        if let ([row], Some(from)) = (rows.as_slice(), optional(card)) {
-            self.decimal_comma(card, row, from);
+        if let Some(from) = optional(card)
+            && let (Some(row), None) = (rows().next(), rows().nth(1))
+        {
+            self.decimal_comma(card, &row, from);
         }
     }
 
     /// Lines of *DLOAD, whose values depend on what acts.
     fn distributed_lines(&mut self, card: &Statement) {
-        let rows: Vec<Vec<Field<'_>>> = card.peek_rows().filter(|row| !row.is_empty()).collect();
+        let rows = || card.peek_rows().filter(|row| !row.is_empty());
         let renews = card.peek("OP").map(compared).as_deref() == Some("NEW");
-        if rows.is_empty() && !renews {
+        if !renews && rows().next().is_none() {
             let text = "*DLOAD has no data line";
             let one = Diagnostic::error(&codes::MISSING, text).at(&card.place, "");
             let help =
                 "write below it: element or set, P1 to P6 and a pressure, or GRAV, or CENTRIF";
             self.found.push(one.help(help));
         }
-        for row in &rows {
+        for row in rows() {
             let (values, words) = match row.get(1).map(Field::key).as_deref() {
                 Some("GRAV") => (
                     (4, 6),
@@ -257,7 +260,7 @@ impl Translation<'_> {
                 ),
                 _ => ((3, 3), "element or set, side, pressure"),
             };
-            self.values_of(card, row, values, (words, " on a line"));
+            self.values_of(card, &row, values, (words, " on a line"));
         }
     }
 

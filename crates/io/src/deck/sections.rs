@@ -65,11 +65,14 @@ impl Translation<'_> {
     pub fn makes_solids(&mut self, card: &Statement, sets: &[String]) -> bool {
         let mesh = &self.deck.mesh;
         let cells = sets.iter().filter_map(|set| mesh.sets.get(set));
+        // found once for each type: there are few, and a million elements
+        let mut words: BTreeMap<&str, Option<&str>> = BTreeMap::new();
         let mut strange = cells.flat_map(|set| &set.cells).filter_map(|&cell| {
             let kind = self.type_of(cell);
             let dim = mesh.element(cell).map_or(0, |element| element.dim());
             let is_side = dim < mesh.dim() && !is_truss(kind);
-            let word = without_volume(kind).or(is_side.then_some("in the plane"))?;
+            let word = *words.entry(kind).or_insert_with(|| without_volume(kind));
+            let word = word.or(is_side.then_some("in the plane"))?;
             Some((mesh.cell_label(cell).unwrap_or(0), kind, word))
         });
         let Some((label, kind, word)) = strange.next() else {

@@ -129,7 +129,7 @@ impl<'d> Translation<'d> {
     /// Names cards that are left out and what of others is not read, once each with all places, and refuses those that
     /// are not built or not known.
     pub fn judge(&mut self) {
-        let mut told = BTreeSet::new();
+        let mut reported = BTreeSet::new();
         let mut unread: BTreeMap<String, Vec<&Place>> = BTreeMap::new();
         for card in &self.deck.statements {
             match Keyword::of(&card.keyword) {
@@ -154,7 +154,7 @@ impl<'d> Translation<'d> {
                     self.error(&codes::NOT_BUILT, text, &card.place, "");
                 }
                 None => {
-                    if told.insert(&card.keyword) {
+                    if reported.insert(&card.keyword) {
                         let names = super::KEYWORDS.iter().map(|one| one.name);
                         let meant = closest(&card.keyword, names);
                         let remark = meant.map_or(String::new(), |m| format!("did you mean *{m}?"));
@@ -213,7 +213,7 @@ impl<'d> Translation<'d> {
         self.found.push(one);
     }
 
-    /// Tells that something is left out.
+    /// Notes that something is left out.
     pub fn note(&mut self, text: impl Into<String>, place: &Place) {
         let note = Diagnostic::new(Severity::Note, &codes::NO_EFFECT, text.into());
         self.found.push(note.at(place, ""));
@@ -267,8 +267,8 @@ impl<'d> Translation<'d> {
 
     /// Refuses numbers below zero.
     pub fn not_negative(&mut self, card: &Statement, row: &[Field<'_>]) {
-        for field in row.iter().filter(|field| field.real() < Some(0.0)) {
-            if let Some(value) = field.real() {
+        for field in row {
+            if let Some(value) = field.real().filter(|value| *value < 0.0) {
                 let text = format!("{value} in *{} is negative", card.keyword);
                 self.error(&codes::OUT_OF_RANGE, text, &field.place(), "zero or more");
             }

@@ -1,14 +1,14 @@
 //! Findings about a model in the words of decks.
 //!
-//! What judges a model, and what solves it, speaks of cases: `[[step.fix]]`, keys of `[solver]`. Who runs a deck is told the
-//! cards that say the same, or the option of the command that sets the key.
+//! Findings about a model, and those of its solution, name keys of cases: `[[step.fix]]`, keys of `[solver]`. Users of a deck
+//! read the cards that say the same instead, or the option of the command that sets the key.
 //!
 //! To add a word: one line in [`WORDS`].
 
 use crate::case::Case;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 
-/// What a case calls so, and a deck; the first that fits is taken first.
+/// The words of a case and those of a deck, replaced in this order.
 const WORDS: [(&str, &str); 9] = [
     (
         "give at least one [[body]] a `material`",
