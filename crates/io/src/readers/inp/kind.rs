@@ -206,10 +206,10 @@ pub(super) fn supported() -> String {
             .collect();
         (!known.is_empty()).then(|| format!("{letters}{}", known.join("/")))
     };
-    let told = ["C3D", "CPE", "CPS", "CAX", "S", "M3D", "T3D", "B3"];
+    let shown = ["C3D", "CPE", "CPS", "CAX", "S", "M3D", "T3D", "B3"];
     let families = FAMILIES
         .iter()
-        .filter(|(letters, ..)| told.contains(letters));
+        .filter(|(letters, ..)| shown.contains(letters));
     families.filter_map(sizes).collect::<Vec<_>>().join(", ")
 }
 

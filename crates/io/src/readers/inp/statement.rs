@@ -102,8 +102,8 @@ impl Statement {
     /// The value of a parameter as [`Statement::get`] gives it, without a sign that anybody has asked for it.
     #[must_use]
     pub fn peek(&self, name: &str) -> Option<&str> {
-        let mut named = self.parameters.iter().filter(|one| one.name == name);
-        named.next().map(|one| one.value.as_str())
+        let named = self.parameters().find(|(known, _)| *known == name);
+        named.map(|(_, value)| value)
     }
 
     /// The names of its parameters, in capitals and without blanks, with their values as they were written.
