@@ -18,7 +18,9 @@
 #![forbid(unsafe_code)]
 
 mod account;
+mod error;
 mod limits;
+mod options;
 mod program;
 mod reply;
 mod root;
@@ -27,44 +29,13 @@ mod table;
 mod tools;
 mod wire;
 
+pub use error::ServeError;
 pub use limits::Limits;
+pub use options::Options;
 pub use server::Server;
 
 use rmcp::ServiceExt;
-use std::ffi::OsString;
-use std::path::PathBuf;
 use tokio::io::{AsyncRead, AsyncWrite};
-
-/// What a server works on, and with.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The folder: nothing outside of it is read or written.
-    pub root: PathBuf,
-    /// The command signorini: the file to run, and the arguments that come before all others.
-    pub command: Vec<OsString>,
-    /// How much a client may ask for.
-    pub limits: Limits,
-}
-
-/// Why a server does not start, or ends.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum ServeError {
-    /// The folder cannot be used.
-    #[error("the folder {} cannot be used: {source}", path.display())]
-    Root {
-        /// The folder.
-        path: PathBuf,
-        /// The system's error.
-        source: std::io::Error,
-    },
-    /// The system has no threads or timers for the server.
-    #[error("the server cannot start: {0}")]
-    Runtime(std::io::Error),
-    /// The client and the server do not understand each other.
-    #[error("the client did not start a session: {0}")]
-    Session(Box<rmcp::service::ServerInitializeError>),
-}
 
 /// Serves a client on standard input and output until it leaves. Blocks; nothing else may read or write these streams.
 ///

@@ -1,10 +1,12 @@
 //! The server: what its tools share, and what clients read about it.
 
+use crate::error::ServeError;
+use crate::limits::Limits;
+use crate::options::Options;
 use crate::program::{Ended, Program, Watch, object};
 use crate::reply::Refusal;
 use crate::root::Root;
 use crate::wire::TOO_LONG;
-use crate::{Limits, Options, ServeError};
 use rmcp::handler::server::router::tool::ToolRouter;
 use rmcp::model::{CustomRequest, CustomResult, Implementation, ServerCapabilities, ServerConfig};
 use rmcp::service::RequestContext;

@@ -1,7 +1,8 @@
 //! Pieces of cases that show a key.
 
 use super::super::vocabulary::{Bounds, Default, Key, Rule, Shape, Table};
-use super::{Part, words};
+use super::part::Part;
+use super::words;
 use signorini_vocabulary::Description;
 
 /// Numbers that are tried for a range, the first that lies in it is taken.

@@ -8,10 +8,12 @@
 //! ```
 
 mod example;
+mod part;
 mod words;
 
 use super::vocabulary::{Default, Key, Shape, Table, Vocabulary};
 use crate::diagnostic::closest;
+use part::Part;
 use signorini_vocabulary::Description;
 
 /// What stands for a name of the user's choice.
@@ -58,25 +60,6 @@ pub struct Found {
 struct Entry {
     parts: Vec<Part>,
     key: Key,
-}
-
-/// A table on the way to a key.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
-    /// `[mesh]`, or a table inside a value.
-    Table(&'static str),
-    /// `[[contact]]`.
-    List(&'static str),
-    /// `[material.NAME]`.
-    Named(&'static str),
-}
-
-impl Part {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Table(name) | Self::List(name) | Self::Named(name) => name,
-        }
-    }
 }
 
 impl Entry {

@@ -1,6 +1,7 @@
 //! What a deck says, card by card, before any number or name in it is looked up.
 
 use super::card::{Card, Fields, Parameter, at_most, key, not_a_number, real, text, whole};
+use super::definition::{Definition, Family, Region, Side};
 use super::directory::ElementCard;
 use super::kind::{Kind, supported};
 use super::lines::{Files, Lines, Spot};
@@ -39,94 +40,6 @@ const INTERNAL: [&str; 2] = ["INTERNAL", "UNSORTED"];
 
 const GENERATED: &str =
     "it makes nodes or elements out of others; export the deck with all of them written out";
-
-/// What a set holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Family {
-    Nodes,
-    Cells,
-    Faces,
-    /// A surface of nodes.
-    Points,
-}
-
-impl Family {
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Nodes => "node set",
-            Self::Cells => "element set",
-            Self::Faces => "surface",
-            Self::Points => "surface of nodes",
-        }
-    }
-}
-
-/// A side of an element as a surface names it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    /// `S1`, `S2`, …
-    Number(u8),
-    /// `SPOS` or `SNEG`: a face of a shell.
-    Face,
-    /// Nothing: the sides that no other element has.
-    Free,
-}
-
-impl Side {
-    fn parse(name: &str) -> Option<Self> {
-        match name {
-            "" => return Some(Self::Free),
-            "SPOS" | "SNEG" | "SP" | "SN" => return Some(Self::Face),
-            _ => {}
-        }
-        let number = name.strip_prefix('S')?;
-        number.parse().ok().filter(|&n| n > 0).map(Self::Number)
-    }
-}
-
-/// What a line of a surface means.
-#[derive(Clone)]
-pub(super) enum Region {
-    Label(u64),
-    Name(String),
-}
-
-/// One card that makes a set or adds to it.
-#[derive(Clone)]
-pub(super) struct Definition {
-    pub name: String,
-    pub family: Family,
-    pub spot: Spot,
-    /// The instance whose numbers and names these are.
-    pub instance: Option<String>,
-    /// Nodes or elements that the card itself defines, by place.
-    pub added: Range<usize>,
-    pub labels: Vec<u64>,
-    /// First, last, step.
-    pub ranges: Vec<[u64; 3]>,
-    /// Sets of the same family (of nodes, for a surface of nodes).
-    pub names: Vec<String>,
-    /// Element sets whose nodes are meant.
-    pub elsets: Vec<String>,
-    pub sides: Vec<(Region, Side)>,
-}
-
-impl Definition {
-    fn new(name: &str, family: Family, spot: Spot) -> Self {
-        Self {
-            name: name.to_owned(),
-            family,
-            spot,
-            instance: None,
-            added: 0..0,
-            labels: Vec::new(),
-            ranges: Vec::new(),
-            names: Vec::new(),
-            elsets: Vec::new(),
-            sides: Vec::new(),
-        }
-    }
-}
 
 /// Nodes, elements and sets whose numbers and names stand for themselves: a part, an instance, the whole of a flat deck.
 #[derive(Default)]

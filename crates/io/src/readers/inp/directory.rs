@@ -1,7 +1,7 @@
 //! What names and numbers of a deck are called in its mesh.
 
 use super::card::key;
-use super::deck::Family;
+use super::definition::Family;
 use crate::diagnostic::Place;
 use signorini_geometry::mesh::CellId;
 use std::collections::BTreeMap;

@@ -28,6 +28,7 @@
 mod assemble;
 mod card;
 mod deck;
+mod definition;
 mod directory;
 mod kind;
 mod lines;

@@ -1,7 +1,7 @@
 //! Meshes in other formats.
 
+use super::file::{extension, no_such_form, noted, write};
 use super::grid::Cells;
-use super::{extension, no_such_form, noted, write};
 use crate::command::findings::read;
 use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
 use signorini_io::readers::read_mesh;

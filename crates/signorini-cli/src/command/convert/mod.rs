@@ -7,19 +7,19 @@
 //! job.frd                                    job.pvd, .vtu     results, for ParaView; a .vtu holds the last time
 //! ```
 
+mod file;
 mod grid;
 mod mesh;
 mod results;
 
 use super::console::Console;
 use super::exit::WRONG_COMMAND;
-use super::findings::not_written;
 use super::options::CaseOptions;
 use clap::Args;
+use file::{extension, write};
 use signorini::load_case;
 use signorini_io::case::{MeshSource, resolved};
-use signorini_io::diagnostic::{Diagnostic, Diagnostics, codes};
-use signorini_io::fs::{Fs, RealFs};
+use signorini_io::diagnostic::Diagnostics;
 use std::path::{Path, PathBuf};
 
 /// Write a deck as a case, a mesh or results in another format.
@@ -107,31 +107,4 @@ impl Convert {
             .display()
             .to_string()
     }
-}
-
-/// The end of a file name, in small letters.
-fn extension(path: &Path) -> String {
-    let end = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    end.unwrap_or_default()
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
-    RealFs
-        .write_atomic(path, bytes)
-        .map_err(|error| not_written(&error))
-}
-
-/// Notes of a reader as findings.
-fn noted(notes: Vec<String>) -> Diagnostics {
-    let mut found = Diagnostics::new();
-    for note in notes {
-        let severity = signorini_io::diagnostic::Severity::Note;
-        found.push(Diagnostic::new(severity, &codes::MESH_NOTE, note));
-    }
-    found
-}
-
-/// What cannot be written in another form.
-fn no_such_form(what: impl std::fmt::Display) -> Diagnostic {
-    Diagnostic::error(&codes::NOT_BUILT, what.to_string())
 }

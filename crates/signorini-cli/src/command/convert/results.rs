@@ -1,7 +1,7 @@
 //! Results in other formats.
 
+use super::file::{extension, no_such_form, noted, write};
 use super::grid::Cells;
-use super::{extension, no_such_form, noted, write};
 use crate::command::findings::read;
 use signorini_geometry::mesh::Mesh;
 use signorini_geometry::tensor::{Sym3, Vec3};

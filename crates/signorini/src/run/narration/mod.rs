@@ -10,7 +10,10 @@
 //!   expect ball-block.pressure_max  38.12  (38.80 ± 3 %)  ✓
 //! ```
 
+mod page;
 mod table;
+
+pub use page::Page;
 
 use super::limits::Stop;
 use super::news::{Detail, Facts, News, SLOW, Totals};
@@ -37,19 +40,6 @@ pub struct Line {
     pub text: String,
     /// How much it matters.
     pub level: Level,
-}
-
-/// What the lines are for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Page {
-    /// Characters in a line: the table has columns that fit. Sentences are not broken.
-    pub width: usize,
-}
-
-impl Default for Page {
-    fn default() -> Self {
-        Self { width: 120 }
-    }
 }
 
 /// Puts news into words; remembers what has been said before.

@@ -7,7 +7,7 @@
 //!  below     step inc     time iter                                     F
 //! ```
 
-use super::Page;
+use super::page::Page;
 use crate::run::news::{Effort, SLOW};
 use crate::text::short;
 use signorini_mechanics::solve::IncrementRecord;

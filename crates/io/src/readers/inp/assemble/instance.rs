@@ -1,6 +1,7 @@
 //! Copies of parts: moved, turned, and with what the instance adds.
 
-use crate::readers::inp::deck::{Family, Instance, Scope};
+use crate::readers::inp::deck::{Instance, Scope};
+use crate::readers::inp::definition::Family;
 use signorini_geometry::tensor::{Mat3, Vec3};
 
 /// A part as an instance has it: moved, then turned.

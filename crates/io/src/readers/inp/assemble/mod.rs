@@ -6,7 +6,8 @@ mod sets;
 mod space;
 
 use super::card::key;
-use super::deck::{Deck, Family, Scope};
+use super::deck::{Deck, Scope};
+use super::definition::Family;
 use super::directory::{Directory, Special};
 use super::kind::Role;
 use super::lines::{Files, Spot};

@@ -1,7 +1,7 @@
 //! The names of sets in the mesh, and notes on numbers that no set can have.
 
 use super::Assembly;
-use crate::readers::inp::deck::Family;
+use crate::readers::inp::definition::Family;
 use crate::readers::inp::directory::Names as Known;
 use signorini_geometry::mesh::{CellId, Set};
 use std::collections::HashSet;

@@ -4,7 +4,7 @@ use super::space::{Named, Space};
 use super::{Assembly, Result};
 use crate::readers::MeshError;
 use crate::readers::inp::card::key;
-use crate::readers::inp::deck::{Definition, Family, Region, Side};
+use crate::readers::inp::definition::{Definition, Family, Region, Side};
 use crate::readers::inp::directory::of_instance;
 use crate::readers::labels::Lookup;
 use signorini_geometry::mesh::{CellId, Face, Set, boundary};

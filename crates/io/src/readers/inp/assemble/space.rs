@@ -1,6 +1,6 @@
 //! The numbers and names of one scope of a deck, as entities of the mesh.
 
-use crate::readers::inp::deck::Family;
+use crate::readers::inp::definition::Family;
 use crate::readers::labels::Lookup;
 use signorini_geometry::mesh::{CellId, NodeId, Set};
 use std::collections::BTreeMap;
