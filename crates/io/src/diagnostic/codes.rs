@@ -431,6 +431,14 @@ codes! {
     ["prescribe a motion instead of the load", "hold what is free", "smaller increments:  increments = { max = ... }",
      "refuse such steps:  on_trouble = [\"cut\"]", "make it an error:  --strict"]
 
+    NOT_STOPPED "S0426" Input "a body that moved freely, and that nothing stopped"
+    "A body that only contact holds was pushed away by others, or by what moves it, and at the end of the motion nothing \
+     presses against it from the other side. Any place farther away would do as well: where it is, is no result."
+    ["a support is missing", "a contact pair is missing, the one that would stop it",
+     "a body that is pushed in a direction in which there is no friction"]
+    ["hold it by [[step.fix]], or prescribe its motion by [[step.move]]", "add the contact that stops it",
+     "give the contact that moves it friction", "make it an error:  --strict"]
+
     FAR_FROM_START "S0431" Input "a contact that slid far in the geometry of the start"
     "A contact whose steps all have linear geometry compares the sides where they were at the start. What touches has moved \
      along the other side by more than a facet since, so that it presses on facets that are no longer opposite."

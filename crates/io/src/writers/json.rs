@@ -358,8 +358,24 @@ pub struct AuditSummary {
     /// the work of loads and supports in each increment.
     #[serde(deserialize_with = "nan::of_number")]
     pub part_viscous: f64,
+    /// Bodies that moved freely and that nothing stopped: their place at the end is one of many.
+    #[serde(default)]
+    pub unheld: Vec<UnheldEntry>,
     /// The worst of each check, by contact, then check: `apart`, `through`, `direction`, `stress`.
     pub contacts: BTreeMap<String, BTreeMap<String, AuditEntry>>,
+}
+
+/// Bodies that moved freely and that nothing stopped.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct UnheldEntry {
+    /// Their names, as in `"pin" and "ring"`.
+    pub bodies: String,
+    /// How far they moved since something held them, or since the start.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub distance: f64,
+    /// The time at which they moved first.
+    #[serde(deserialize_with = "nan::of_number")]
+    pub time: f64,
 }
 
 /// What a check found at a contact.

@@ -19,6 +19,7 @@
 //! | t, A | traction on the secondary side at a node, and its area | |
 //! | ν | the normal of the primary side at the closest point | |
 //! | σ | Cauchy stress at a node, the mean over the elements around it | |
+//! | W, W_∞ | `FreeMotion::work`, `work_throughout`: of viscous forces in an increment, and had they acted throughout | energy |
 //!
 //! ```text
 //! (A1) apart       min g over the support of node k  >  max(g*, 0) + tol_k,   tol_k = TOUCH h + s of both sides
@@ -28,6 +29,7 @@
 //! (A4) stress      Σ |S(A t − A σ n)| / Σ A (|t| + |σ|/2) over facets, with means S over the facets around each; and nodes
 //!                  with |t| > STRAINED |σ|
 //! (A5) energy      work of viscous forces in jumps over Σ |ΔW| of loads and supports
+//! (A6) stopped     Σ |f·Δu| of contact forces on bodies that only contact holds  ≥  max(STOPPED · W, TOUCHED · W_∞)
 //! ```
 //!
 //! (A1), (A3) and (A4) are judged by the part of the contact force that they concern, so that the last node of an edge does
@@ -49,7 +51,7 @@ mod rules;
 mod stress;
 mod support;
 
-use crate::system::{ContactAudit, ContactFrame, Frame, Measured};
+use crate::system::{ContactAudit, ContactFrame, Frame, FreeMotion, Measured};
 pub use rules::{Rules, Sides};
 use rules::{VISCOUS, nothing, worst};
 use support::Support;
@@ -80,6 +82,22 @@ pub fn contact(
     }
     audit.checks[3] = stress::check(&support, frame, rules);
     audit
+}
+
+/// Bodies that only contact holds are stopped by it where the work of contact forces in their motion is at least this part
+/// of that of viscous forces. It is as large as that where a load drives them, and larger where a support does; where
+/// nothing stops them, it is what convergence leaves, 1e-8.
+const STOPPED: f64 = 1e-3;
+
+/// The same for the work that viscous forces would have done all the time, which is 1e-3 of an elastic one: where a cube of
+/// steel of 10 mm is carried by its own size, its weight does 4e-6 of it; what rounding leaves is 1e-12.
+const TOUCHED: f64 = 1e-7;
+
+/// Whether contact stopped bodies that only contact holds at the end of their motion in an increment (A6).
+#[must_use]
+pub fn stopped(motion: &FreeMotion) -> bool {
+    let least = (STOPPED * motion.work).max(TOUCHED * motion.work_throughout);
+    motion.opposed >= least
 }
 
 /// Audits the work of viscous forces that led to another equilibrium where there was none nearby (A5).

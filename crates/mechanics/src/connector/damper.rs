@@ -1,10 +1,19 @@
 //! What holds a body that nothing but contact stops, until contact does; and what slows a jump.
 
 use crate::system::{
-    Adaptive, Aid, Archive, ArchiveError, Capabilities, Choices, Dof, Frame, Order, Part,
+    Adaptive, Aid, Archive, ArchiveError, Capabilities, Choices, Course, Dof, Frame, Order, Part,
     PatternSink, Phase, Properties, Role, Sink, State, Stored, Symmetry, Term, TermError, Verdict,
     Viscous, Work,
 };
+use std::ops::Range;
+
+/// Bodies that viscous forces act on until contact holds them.
+pub struct Loose {
+    /// The unknowns that the forces act on, and the stiffness of each.
+    pub damped: Vec<(Dof, f64)>,
+    /// How they move.
+    pub course: Course,
+}
 
 /// Viscous forces on some unknowns, `f = k s (u − u_n)` with the displacement `u_n` at the start of the increment (E4).
 /// Their work is reported.
@@ -12,6 +21,8 @@ pub struct Damper {
     name: String,
     /// Unknowns, and k of each.
     dofs: Vec<(Dof, f64)>,
+    /// The values when the increment began.
+    first: Vec<f64>,
     /// u_n, and how far from there the unknowns move freely.
     start: Vec<f64>,
     drift: Vec<f64>,
@@ -26,8 +37,8 @@ pub struct Damper {
     renewals: u8,
     /// The factor on the forces since then.
     weakened: f64,
-    /// The work of this increment up to the last renewal.
-    work_before: f64,
+    /// What they act on: ranges of `dofs`, and the course of the increment there.
+    courses: Vec<(Range<usize>, Course)>,
     work: f64,
 }
 
@@ -60,26 +71,38 @@ enum Strength {
 const CHUNK: usize = 1024;
 
 impl Damper {
-    /// Viscous forces on these unknowns, with the stiffness of each, until contact holds them.
+    /// Viscous forces on these bodies, until contact holds them.
     #[must_use]
-    pub fn until_held(name: impl Into<String>, dofs: Vec<(Dof, f64)>) -> Self {
+    pub fn until_held(name: impl Into<String>, bodies: Vec<Loose>) -> Self {
         let strength = Strength::UntilHeld {
             acts: true,
             needed: false,
             boost: 1.0,
         };
-        Self::new(name, dofs, strength)
+        Self::new(name, bodies, strength)
     }
 
     /// Viscous forces on these unknowns, with the stiffness of each at strength 1, when they are asked for.
     #[must_use]
     pub fn when_asked(name: impl Into<String>, dofs: Vec<(Dof, f64)>) -> Self {
-        Self::new(name, dofs, Strength::Asked(0.0))
+        let all = Loose {
+            damped: dofs,
+            course: Course::new("", 0.0, Vec::new()),
+        };
+        Self::new(name, vec![all], Strength::Asked(0.0))
     }
 
-    fn new(name: impl Into<String>, dofs: Vec<(Dof, f64)>, strength: Strength) -> Self {
+    fn new(name: impl Into<String>, bodies: Vec<Loose>, strength: Strength) -> Self {
+        let mut dofs = Vec::new();
+        let mut courses = Vec::with_capacity(bodies.len());
+        for mut body in bodies {
+            let first = dofs.len();
+            dofs.append(&mut body.damped);
+            courses.push((first..dofs.len(), body.course));
+        }
         Self {
             name: name.into(),
+            first: Vec::new(),
             start: vec![0.0; dofs.len()],
             drift: Vec::new(),
             dofs,
@@ -89,7 +112,7 @@ impl Damper {
             renewed_at: f64::INFINITY,
             renewals: 0,
             weakened: 1.0,
-            work_before: 0.0,
+            courses,
             work: 0.0,
         }
     }
@@ -129,7 +152,7 @@ impl Damper {
             return None;
         }
         let is_driven = self.renewals >= ALWAYS && force > RENEWED * self.renewed_at;
-        self.work_before += self.spent(state);
+        self.spend(state);
         if is_driven {
             self.weakened *= WEAKER;
         }
@@ -141,17 +164,36 @@ impl Damper {
         Some(force)
     }
 
-    /// The work of the present increment, since it was renewed last.
-    fn spent(&self, state: &State) -> f64 {
-        let energy = |(dof, stiffness, start): (Dof, f64, f64)| {
-            let moved = value(state, dof) - start;
-            stiffness * moved * moved
-        };
-        (0..self.nchunk())
-            .flat_map(|c| self.chunk(c))
-            .map(energy)
-            .sum()
+    /// Adds the work that the forces would have done, had they acted from the beginning to the end of the increment.
+    fn conclude(&mut self, state: &State) {
+        for (range, course) in &mut self.courses {
+            let dofs = self.dofs.get(range.clone()).unwrap_or_default();
+            let starts = self.first.get(range.clone()).unwrap_or_default();
+            course.conclude(work(dofs, starts, state));
+        }
     }
+
+    /// Adds the work since the last renewal to that of the increment, body by body.
+    fn spend(&mut self, state: &State) {
+        let strength = self.strength();
+        if strength == 0.0 {
+            return;
+        }
+        for (range, course) in &mut self.courses {
+            let dofs = self.dofs.get(range.clone()).unwrap_or_default();
+            let starts = self.start.get(range.clone()).unwrap_or_default();
+            course.spend(strength * work(dofs, starts, state));
+        }
+    }
+}
+
+/// `Σ k (u − u_0)²`.
+fn work(dofs: &[(Dof, f64)], starts: &[f64], state: &State) -> f64 {
+    let of_dof = |(&(dof, stiffness), &start): (&(Dof, f64), &f64)| {
+        let moved = value(state, dof) - start;
+        stiffness * moved * moved
+    };
+    dofs.iter().zip(starts).map(of_dof).sum()
 }
 
 fn value(state: &State, dof: Dof) -> f64 {
@@ -181,7 +223,15 @@ impl Term for Damper {
             return Ok(());
         }
         (self.renewed_at, self.renewals) = (f64::INFINITY, 0);
-        (self.weakened, self.work_before) = (1.0, 0.0);
+        self.weakened = 1.0;
+        for (_, course) in &mut self.courses {
+            course.begin(from);
+        }
+        if !matches!(self.strength, Strength::Asked(_)) {
+            self.first.clear();
+            let values = self.dofs.iter().map(|&(dof, _)| value(from, dof));
+            self.first.extend(values);
+        }
         for (start, &(dof, _)) in self.start.iter_mut().zip(&self.dofs) {
             let drift = self.drift.get(dof as usize).copied();
             *start = value(from, dof) + drift.unwrap_or_default();
@@ -315,11 +365,21 @@ impl Viscous for Damper {
     fn work(&self) -> f64 {
         self.work
     }
+
+    fn courses(&self) -> Box<dyn Iterator<Item = &Course> + '_> {
+        Box::new(self.courses.iter().map(|(_, course)| course))
+    }
 }
 
 impl Stored for Damper {
     fn accept(&mut self, state: &State) -> Result<(), TermError> {
-        self.work += self.work_before + self.spent(state);
+        self.spend(state);
+        self.conclude(state);
+        self.work += self
+            .courses
+            .iter()
+            .map(|(_, course)| course.work())
+            .sum::<f64>();
         if let Strength::UntilHeld { needed, boost, .. } = &mut self.strength {
             (*needed, *boost) = (false, 1.0);
         }

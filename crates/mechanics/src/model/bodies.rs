@@ -1,8 +1,8 @@
 use super::{BodyKind, BodyPart, Context, LockingSummary, ModelError, Unheld};
-use crate::connector::Damper;
+use crate::connector::{Damper, Loose};
 use crate::material::Kinematics;
 use crate::solid::{Solid, SolidParts, Truss, TrussParts};
-use crate::system::{Dof, Idealisation, NO_DOF, NodalField, Term};
+use crate::system::{Course, Dof, Idealisation, NO_DOF, NodalField, Term};
 use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_geometry::tensor::{Mat3, Sym3, Vec3};
 use std::collections::{BTreeSet, HashMap};
@@ -99,15 +99,66 @@ fn bending(points: &[Vec3], ndim: usize) -> f64 {
     0.25 * (smallest / largest).powi(3) * (middle / largest)
 }
 
+/// The names of bodies that are free, those together that are tied to each other.
+fn tied(free: &[Unheld]) -> Vec<BTreeSet<&str>> {
+    let mut tied: Vec<(BTreeSet<usize>, BTreeSet<&str>)> = Vec::new();
+    for one in free {
+        let mut together = BTreeSet::from([one.together]);
+        let mut names: BTreeSet<&str> = one.bodies.iter().map(String::as_str).collect();
+        // a body of several parts ties what its parts are tied to
+        tied.retain(|(numbers, others)| {
+            let apart = numbers.is_disjoint(&together) && others.is_disjoint(&names);
+            if !apart {
+                together.extend(numbers);
+                names.extend(others);
+            }
+            apart
+        });
+        tied.push((together, names));
+    }
+    tied.into_iter().map(|(_, names)| names).collect()
+}
+
 impl Context<'_> {
     /// What holds the bodies that nothing but contact stops.
     pub(super) fn holds(&self, bodies: &[BodyPart], free: &[Unheld]) -> Option<Damper> {
-        let free = |name: &str| free.iter().any(|f| f.bodies.iter().any(|b| b == name));
         let ndim = self.layout.ndim();
-        let dofs = self.viscous(bodies, &free, &|points| {
-            DAMPING.min(OF_BENDING * bending(points, ndim))
+        let part = |points: &[Vec3]| DAMPING.min(OF_BENDING * bending(points, ndim));
+        let loose = tied(free).into_iter().map(|names| {
+            let named = |name: &str| names.contains(name);
+            Loose {
+                damped: self.viscous(bodies, &named, &part),
+                course: self.course(bodies, &names),
+            }
         });
-        (!dofs.is_empty()).then(|| Damper::until_held("free bodies", dofs))
+        let loose: Vec<Loose> = loose.filter(|one| !one.damped.is_empty()).collect();
+        (!loose.is_empty()).then(|| Damper::until_held("free bodies", loose))
+    }
+
+    /// The unknowns of the motion of bodies and carriers with these names.
+    fn course(&self, bodies: &[BodyPart], names: &BTreeSet<&str>) -> Course {
+        let named = bodies.iter().filter(|body| names.contains(&*body.name));
+        let nodes: BTreeSet<NodeId> = named
+            .flat_map(|body| &body.cells)
+            .flat_map(|&cell| self.mesh.cell(cell).iter().copied())
+            .collect();
+        let points = nodes.iter().filter_map(|&n| self.reference.get(n as usize));
+        let size = self.extent(self.space, points.copied());
+        let of_node = |&n: &NodeId| (0..self.layout.ndim()).map(move |axis| (n, axis));
+        let of_nodes = nodes.iter().flat_map(of_node);
+        let mut motion: Vec<Dof> = of_nodes
+            .map(|(n, axis)| self.layout.node(n, axis))
+            .collect();
+        let carriers = (0..).zip(self.carriers);
+        for (number, _) in carriers.filter(|(_, carrier)| names.contains(&*carrier.name)) {
+            for axis in 0..3 {
+                motion.push(self.layout.translation(number, axis));
+                motion.push(self.layout.rotation(number, axis));
+            }
+        }
+        motion.retain(|dof| *dof != NO_DOF);
+        let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+        Course::new(names.join(" and "), size, motion)
     }
 
     /// What slows all bodies where the solver asks for it.

@@ -12,8 +12,8 @@
 //! | [`Audited`] | contact |
 
 use super::{
-    Archive, ArchiveError, ContactAudit, Frame, NodeId, Order, Samples, Sink, State, TermError,
-    Work,
+    Archive, ArchiveError, ContactAudit, Course, Frame, NodeId, Order, Samples, Sink, State,
+    TermError, Work,
 };
 use signorini_geometry::mesh::CellId;
 
@@ -139,6 +139,9 @@ pub trait Viscous {
 
     /// Work spent in viscous forces up to the accepted state.
     fn work(&self) -> f64;
+
+    /// The motion in the last increment of bodies that the forces hold until contact does.
+    fn courses(&self) -> Box<dyn Iterator<Item = &Course> + '_>;
 }
 
 /// A term with integration points.

@@ -286,6 +286,23 @@ pub struct Frame {
     pub energy: Option<f64>,
     /// What the audits of the contacts found.
     pub audits: Vec<ContactAudit>,
+    /// How bodies that only contact holds moved in the increment.
+    pub free_motions: Vec<FreeMotion>,
+}
+
+/// The motion in an increment of bodies that only contact holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeMotion {
+    /// Their names, as in `"pin" and "ring"`.
+    pub bodies: Arc<str>,
+    /// The largest component of the displacement of a node.
+    pub distance: f64,
+    /// Work of the viscous forces on them.
+    pub work: f64,
+    /// What it had been, had they acted all the time.
+    pub work_throughout: f64,
+    /// `Σ |f · Δu|` of the contact forces at its end and the displacements in it.
+    pub opposed: f64,
 }
 
 /// A centrifugal load at an accepted state.

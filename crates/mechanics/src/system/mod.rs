@@ -52,6 +52,7 @@ mod frame;
 mod idealisation;
 mod internal_forces;
 mod layout;
+mod loose;
 mod phase;
 mod samples;
 mod setting;
@@ -75,11 +76,12 @@ pub use capabilities::{
 pub use course::{NodalField, TimeFunction, interpolate};
 pub use elimination::{Elimination, Relation, RigidBody, Turn};
 pub use frame::{
-    ContactFrame, ContactSample, Footprint, Frame, IdleRows, NodalValues, Resultant, RigidFrame,
-    SpinFrame, Status,
+    ContactFrame, ContactSample, Footprint, Frame, FreeMotion, IdleRows, NodalValues, Resultant,
+    RigidFrame, SpinFrame, Status,
 };
 pub use idealisation::Idealisation;
 pub use layout::{ByScale, Dof, DofName, Field, FieldId, Layout, MAX_FIELDS, NO_DOF, Scale, Site};
+pub use loose::Course;
 pub use phase::{Increment, Phase, StepContext};
 pub use samples::{PointSample, Samples, Wanted};
 pub use signorini_geometry::mesh::NodeId;

@@ -1,7 +1,7 @@
 use super::internal_forces::internal_forces;
 use super::{
     Adaptive, Aid, Archive, ArchiveError, Assembly, Choices, ContactAudit, Dof, Elimination,
-    FieldId, Frame, Layout, NodalValues, Samples, State, Term, TermError, Wanted,
+    FieldId, Frame, FreeMotion, Layout, NodalValues, Samples, State, Term, TermError, Wanted,
 };
 use signorini_geometry::mesh::CellId;
 use signorini_geometry::tensor::Vec3;
@@ -144,6 +144,7 @@ impl System {
             term.report(state, &mut frame)?;
         }
         frame.audits = self.audit(state, &frame);
+        frame.free_motions = self.free_motions(state, &frame);
         frame.samples = samples_of(&self.terms, state, &self.wanted.cells)?;
         if self.wanted.forces {
             frame.internal_force = internal_forces(&self.terms, &self.layout, state)?;
@@ -183,6 +184,15 @@ impl System {
         let audited = terms.filter_map(|term| term.capabilities().audited);
         audited
             .filter_map(|term| term.audit(state, frame))
+            .collect()
+    }
+
+    /// How bodies that only contact holds moved in the increment that led to an accepted state with these results.
+    fn free_motions(&self, state: &State, frame: &Frame) -> Vec<FreeMotion> {
+        let viscous = self.terms.iter().filter_map(|t| t.capabilities().viscous);
+        viscous
+            .flat_map(|term| term.courses())
+            .filter_map(|course| course.motion(state, &self.layout, frame))
             .collect()
     }
 

@@ -61,8 +61,7 @@ fn look(loaded: Loaded, files: &Files<'_>) -> Result<Answer, Diagnostics> {
         Err(found) => return Err(joined(loaded.warnings, found)),
     };
     let mut found = joined(loaded.warnings, std::mem::take(&mut model.warnings));
-    let is_by_contact = |one: &Diagnostic| one.code.id == codes::HELD_BY_CONTACT.id;
-    let is_held = !found.iter().any(is_by_contact);
+    let is_held = model.held_by_contact.is_empty();
     let output = signorini::run::check_output(&model);
     let preview = match preview::preview(&mut model) {
         Ok(preview) if output.is_ok() => preview,

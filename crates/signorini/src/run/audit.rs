@@ -1,13 +1,13 @@
 //! What the audits of accepted states found in the course of a run, and how it is reported.
 
 use super::remedies::MOTION_INSTEAD;
-use crate::setup::Model;
+use crate::setup::{Model, first_step, hold_it};
 use signorini_geometry::mesh::{Mesh, NodeId};
 use signorini_io::case::{Case, Enforcement};
 use signorini_io::checkpoint::{Archive, ArchiveError};
 use signorini_io::diagnostic::{Code, Diagnostic, Diagnostics, codes};
-use signorini_io::writers::json::{AuditEntry, AuditSummary};
-use signorini_mechanics::audit::viscous;
+use signorini_io::writers::json::{AuditEntry, AuditSummary, UnheldEntry};
+use signorini_mechanics::audit::{stopped, viscous};
 use signorini_mechanics::system::{Check, Frame, Measured};
 use std::collections::BTreeMap;
 
@@ -34,6 +34,17 @@ pub struct Audit {
     viscous: Measured,
     /// When viscous forces first led to another equilibrium.
     jumped: Option<f64>,
+    /// Bodies that moved freely, by their names, until something stops them.
+    unheld: BTreeMap<String, Free>,
+}
+
+/// The motion of bodies that nothing stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Free {
+    /// When it began.
+    time: f64,
+    /// How far they went.
+    distance: f64,
 }
 
 /// A force below this part of the largest one of its contact is rounding: nothing is judged by it.
@@ -52,6 +63,15 @@ impl Audit {
         self.viscous = viscous(frame);
         if frame.work_jumps > 0.0 {
             self.jumped.get_or_insert(frame.time);
+        }
+        for motion in &frame.free_motions {
+            if stopped(motion) {
+                self.unheld.remove(&*motion.bodies);
+                continue;
+            }
+            let (time, distance) = (frame.time, 0.0);
+            let free = self.unheld.entry(motion.bodies.to_string());
+            free.or_insert(Free { time, distance }).distance += motion.distance;
         }
         for audit in &frame.audits {
             let largest = self.forces.entry(audit.name.clone()).or_default();
@@ -82,12 +102,19 @@ impl Audit {
                 .map(|(c, w)| (c.name().to_owned(), entry(w)))
                 .collect()
         };
+        let unheld = self.unheld.iter().map(|(bodies, free)| UnheldEntry {
+            bodies: bodies.clone(),
+            distance: free.distance,
+            time: free.time,
+        });
         let contacts = self.contacts.iter();
         let all = self.contacts.values().flatten();
         AuditSummary {
-            passed: all.fold(self.viscous.passes(), |ok, w| ok && w.failed == 0),
+            passed: all.fold(self.viscous.passes(), |ok, w| ok && w.failed == 0)
+                && self.unheld.is_empty(),
             work_external: self.work_external,
             part_viscous: self.viscous.part,
+            unheld: unheld.collect(),
             contacts: contacts.map(|(n, c)| (n.clone(), of(c))).collect(),
         }
     }
@@ -109,6 +136,9 @@ impl Audit {
                 100.0 * viscous.part
             );
             found.push(self.led_by_viscosity(message, &model.case));
+        }
+        for (bodies, free) in &self.unheld {
+            found.push(not_stopped(bodies, *free, model));
         }
         found
     }
@@ -206,12 +236,7 @@ impl Audit {
     /// # Errors
     /// A name that the archive has.
     pub fn save(&self, archive: &mut Archive) -> Result<(), ArchiveError> {
-        let names: Vec<u64> = self
-            .contacts
-            .keys()
-            .flat_map(|name| name.bytes().chain([0]))
-            .map(u64::from)
-            .collect();
+        let names = bytes(self.contacts.keys());
         let v = &self.viscous;
         let works = [self.work_external, v.part, v.limit, v.worst, v.allowed];
         let mut numbers = works.to_vec();
@@ -225,6 +250,12 @@ impl Audit {
         }
         let forces: Vec<f64> = self.forces.values().copied().collect();
         archive.put_f64("run/audit.forces", &forces)?;
+        let free = self
+            .unheld
+            .values()
+            .flat_map(|free| [free.time, free.distance]);
+        archive.put_u64("run/audit.unheld", &bytes(self.unheld.keys()))?;
+        archive.put_f64("run/audit.free", &free.collect::<Vec<_>>())?;
         archive.put_f64("run/audit.jumped", self.jumped.as_slice())?;
         archive.put_u64("run/audit.names", &names)?;
         archive.put_u64("run/audit.counts", &counts)?;
@@ -243,21 +274,23 @@ impl Audit {
         let (&increments, nodes) = counts.split_first()?;
         let (&[work_external, part, limit, worst, allowed], numbers) =
             numbers.split_first_chunk()?;
-        let bytes: Vec<u8> = names.iter().filter_map(|b| u8::try_from(*b).ok()).collect();
-        let mut names = bytes.split(|b| *b == 0);
-        let all = names
-            .clone()
-            .map(|name| String::from_utf8_lossy(name).into_owned());
+        let all = texts(names);
+        let mut names = all.iter();
         let jumped = archive.get_f64("run/audit.jumped").unwrap_or_default();
         let forces = archive.get_f64("run/audit.forces").unwrap_or_default();
-        let forces = all.zip(forces.iter().copied()).collect();
+        let forces = all.iter().cloned().zip(forces.iter().copied()).collect();
+        let unheld = archive.get_u64("run/audit.unheld").unwrap_or_default();
+        let free = archive.get_f64("run/audit.free").unwrap_or_default();
+        let free = free.as_chunks().0.iter();
+        let free = free.map(|&[time, distance]| Free { time, distance });
+        let unheld = texts(unheld).into_iter().zip(free).collect();
         let (numbers, nodes) = (
             numbers.as_chunks::<STORED>().0,
             nodes.as_chunks::<NODES>().0,
         );
         let mut contacts = BTreeMap::new();
         for (numbers, nodes) in numbers.chunks_exact(4).zip(nodes.chunks_exact(4)) {
-            let name = String::from_utf8_lossy(names.next()?).into_owned();
+            let name = names.next()?.clone();
             let mut checks = <[Worst; 4]>::default();
             for ((to, numbers), nodes) in checks.iter_mut().zip(numbers).zip(nodes) {
                 *to = Worst::of(numbers, nodes);
@@ -268,6 +301,7 @@ impl Audit {
             contacts,
             forces,
             jumped: jumped.first().copied(),
+            unheld,
             increments,
             work_external,
             viscous: Measured {
@@ -315,9 +349,48 @@ impl Worst {
     }
 }
 
+/// Texts as numbers of a checkpoint, each with a zero at its end.
+fn bytes<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<u64> {
+    let bytes = texts.flat_map(|text| text.bytes().chain([0]));
+    bytes.map(u64::from).collect()
+}
+
+/// The texts of [`bytes`].
+fn texts(bytes: &[u64]) -> Vec<String> {
+    let bytes: Vec<u8> = bytes.iter().filter_map(|b| u8::try_from(*b).ok()).collect();
+    let texts = bytes.split_inclusive(|b| *b == 0);
+    let text = |bytes: &[u8]| {
+        let text = bytes.strip_suffix(&[0]).unwrap_or(bytes);
+        String::from_utf8_lossy(text).into_owned()
+    };
+    texts.map(text).collect()
+}
+
 fn labels<'a>(mesh: &'a Mesh, nodes: &'a [NodeId]) -> impl Iterator<Item = u64> + 'a {
     let label = |&node: &NodeId| mesh.node_labels.get(node as usize).copied();
     nodes.iter().filter_map(label)
+}
+
+/// The warning about bodies that moved freely.
+fn not_stopped(bodies: &str, free: Free, model: &Model) -> Diagnostic {
+    let word = if bodies.contains(" and ") {
+        "bodies"
+    } else {
+        "body"
+    };
+    let message = format!(
+        "{word} {bodies} moved freely, by {}, and nothing stopped it: its place is no result",
+        number(free.distance)
+    );
+    let mut one = Diagnostic::warning(&codes::NOT_STOPPED, message).note(format!(
+        "from time {} on; no contact force opposes the motion at its end",
+        number(free.time)
+    ));
+    for body in &model.held_by_contact {
+        one = one.note(format!("without contact {body} is free to {}", body.motion));
+    }
+    one.help(hold_it(first_step(&model.case)))
+        .help("where a contact should stop it: add that pair; where friction should: give the contact friction")
 }
 
 /// The numbers of a failed check.
@@ -408,7 +481,7 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use signorini_mechanics::system::ContactAudit;
+    use signorini_mechanics::system::{ContactAudit, FreeMotion};
 
     fn frame(time: f64, part: f64) -> Frame {
         let measured = |part| Measured {
@@ -458,9 +531,42 @@ mod tests {
     }
 
     #[test]
+    fn bodies_that_nothing_stops_are_reported_until_something_does() {
+        let mut audit = Audit::default();
+        let mut look = |time: f64, opposed: f64| {
+            let mut frame = frame(time, 0.0);
+            frame.free_motions.push(free("\"pin\"", opposed));
+            audit.look(&frame);
+            audit.summary(&Mesh::default()).unheld
+        };
+        assert_eq!(look(1.0, 0.0).len(), 1);
+        let [one] = &look(2.0, 1e-6)[..] else {
+            panic!("one body is free");
+        };
+        assert_eq!((one.time, one.distance), (1.0, 0.2));
+        assert!(look(3.0, 2.0).is_empty());
+        assert_eq!(look(4.0, 0.0)[0].time, 4.0);
+        assert!(!audit.summary(&Mesh::default()).passed);
+    }
+
+    /// A motion by 0.1 against viscous forces whose work is 2.
+    fn free(bodies: &str, opposed: f64) -> FreeMotion {
+        FreeMotion {
+            bodies: bodies.into(),
+            distance: 0.1,
+            work: 2.0,
+            work_throughout: 2.0,
+            opposed,
+        }
+    }
+
+    #[test]
     fn what_a_checkpoint_stores_comes_back() {
         let mut audit = Audit::default();
-        audit.look(&frame(1.0, 0.5));
+        let mut looked = frame(1.0, 0.5);
+        looked.free_motions.push(free("\"pin\" and \"ring\"", 0.0));
+        looked.free_motions.push(free("\"plate\"", 0.0));
+        audit.look(&looked);
         let mut archive = Archive::new();
         audit.save(&mut archive).unwrap();
         assert_eq!(Audit::restored(&archive), audit);

@@ -28,7 +28,7 @@ mod temperature;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use held::{first_step, hold};
+pub(crate) use held::{first_step, hold, hold_it};
 use idealisation::{idealisation, own_idealisation};
 pub use info::{ContactInfo, ReferenceInfo};
 pub use mesh::{judge_mesh_of, read_mesh_of, read_surfaces_of};
@@ -45,7 +45,7 @@ use signorini_geometry::mesh::{CellId, Mesh, NodeId};
 use signorini_io::case::{Case, FreeMotions, Stabilize};
 use signorini_io::deck;
 use signorini_io::diagnostic::{Diagnostics, Spanned};
-use signorini_mechanics::model::{LockingSummary, Parts};
+use signorini_mechanics::model::{LockingSummary, Parts, Unheld};
 use signorini_mechanics::solid::Locking;
 use signorini_mechanics::solve::{Step, StepperSettings};
 use signorini_mechanics::system::{Idealisation, System};
@@ -73,6 +73,8 @@ pub struct Model {
     pub references: Vec<ReferenceInfo>,
     /// The printed tables of every step.
     pub prints: Vec<Vec<Printed>>,
+    /// Motions that nothing but contact can stop.
+    pub held_by_contact: Vec<Unheld>,
     /// The case, every automatic choice replaced by what was chosen.
     pub case: Case,
     /// What is unusual.
@@ -211,6 +213,7 @@ fn build_of(mut case: Case, mut mesh: Mesh, own: &Own) -> Result<Model, Diagnost
         locking: model.locking,
         references,
         prints,
+        held_by_contact: model.held_by_contact,
         case,
         warnings: found,
         sets,

@@ -24,6 +24,7 @@ mod mortar_patch;
 mod patch;
 mod pin;
 mod prescribed;
+mod pushed;
 mod random;
 mod rings;
 mod rotation;

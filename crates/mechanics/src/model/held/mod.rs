@@ -138,8 +138,14 @@ impl<'a> Held<'a> {
 
     /// Who can move, and how.
     fn unheld(&self) -> Vec<Unheld> {
-        let units = self.units.iter().zip(self.free());
-        let of_unit = |(unit, motions): (&Unit, Vec<Motion>)| {
+        let mut together = vec![0; self.units.len()];
+        for (number, group) in self.groups().iter().enumerate() {
+            for &unit in group {
+                together[unit] = number;
+            }
+        }
+        let units = self.units.iter().zip(self.free()).zip(together);
+        let of_unit = |((unit, motions), together): ((&Unit, Vec<Motion>), usize)| {
             let motion = words::describe(self.space, unit.centre, unit.length, &motions)?;
             let names = unit.bodies.iter().filter_map(|&b| self.names.get(b));
             let is_whole =
@@ -148,6 +154,7 @@ impl<'a> Held<'a> {
             Some(Unheld {
                 bodies: names.chain(&unit.carrier).cloned().collect(),
                 node: part.map(|node| label(self.mesh, node)),
+                together,
                 motion,
             })
         };

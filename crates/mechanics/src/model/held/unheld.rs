@@ -15,6 +15,8 @@ pub struct Unheld {
     pub bodies: Vec<String>,
     /// A node of the part that moves, as numbered in the input, where it is not the whole body.
     pub node: Option<u64>,
+    /// Equal for all that supports and joints tie together, and contact does not.
+    pub together: usize,
     /// The motion in words, as in `slide along x and to turn about z`.
     pub motion: String,
 }

@@ -2,7 +2,8 @@
 
 use super::super::StepperSettings;
 use super::*;
-use crate::connector::Damper;
+use crate::connector::{Damper, Loose};
+use crate::system::Course;
 
 /// A spring of unit stiffness.
 fn unit(e: f64) -> [f64; 3] {
@@ -207,11 +208,18 @@ fn the_work_of_supports_and_loads_is_what_springs_store() {
     assert!((frame.work_external - stored).abs() < 1e-12 * stored);
 }
 
+/// Bodies that these forces hold until contact does.
+fn loose(damped: Vec<(Dof, f64)>) -> Loose {
+    let motion = damped.iter().map(|(dof, _)| *dof).collect();
+    let course = Course::new("body", 1.0, motion);
+    Loose { damped, course }
+}
+
 #[test]
 fn what_holds_a_body_that_nothing_else_does_bears_nothing_of_a_load() {
     // the first node is on a spring of stiffness 10, nothing but the viscous forces holds the second
     let dofs = vec![(x(0), 1e-3), (x(1), 1e-3)];
-    let damper = crate::connector::Damper::until_held("free bodies", dofs);
+    let damper = Damper::until_held("free bodies", vec![loose(dofs)]);
     let terms: Vec<Box<dyn Term>> = vec![
         Spring::between(None, 0, linear),
         load(0, &[6.0]),
@@ -229,9 +237,30 @@ fn what_holds_a_body_that_nothing_else_does_bears_nothing_of_a_load() {
     }
 }
 
+#[test]
+fn contact_forces_oppose_a_motion_by_their_work_in_it() {
+    let system = system(2, Vec::new());
+    let dofs = vec![x(0), x(0) + 1, x(1), x(1) + 1];
+    let mut course = Course::new("body", 1.0, dofs);
+    let mut state = system.initial_state();
+    course.begin(&state);
+    state.u[..4].copy_from_slice(&[0.5, -0.25, 0.125, 0.0]);
+    let mut frame = Frame::new(2, &[]);
+    frame.contact_force[0] = Vec3::new(2.0, 4.0, 0.0);
+    frame.contact_force[1] = Vec3::new(-16.0, 7.0, 0.0);
+    course.spend(3.0);
+    course.conclude(5.0);
+    let found = course.motion(&state, &system.layout, &frame).unwrap();
+    // 2 x 0.5 + 4 x 0.25 + 16 x 0.125
+    assert_eq!((found.opposed, found.distance), (4.0, 0.5));
+    assert_eq!((found.work, found.work_throughout), (3.0, 5.0));
+    course.begin(&state);
+    assert_eq!(course.motion(&state, &system.layout, &frame), None);
+}
+
 /// A node that viscous forces of stiffness 10 hold, and a load of 1 drives.
 fn driven(stop: Box<dyn Term>) -> Told {
-    let damper = crate::connector::Damper::until_held("free bodies", vec![(x(0), 10.0)]);
+    let damper = Damper::until_held("free bodies", vec![loose(vec![(x(0), 10.0)])]);
     let terms: Vec<Box<dyn Term>> = vec![stop, load(0, &[1.0]), Box::new(damper)];
     run(system(1, terms), &[step(Increments::Fixed(1), &[])])
 }

@@ -1,6 +1,6 @@
 //! Warnings of the audit, and what takes their reason away.
 
-use super::blocks::{BLOCKS, Blocks};
+use super::blocks::{BLOCKS, Blocks, pressed};
 use super::trial::{Remedy, Trial};
 use crate::audit::WEDGE;
 use crate::support::change;
@@ -62,6 +62,25 @@ fn a_joint_whose_nodes_are_held() {
         help: "take the supports off nodes that are joined",
         remedy: Remedy::Change(held, ""),
         gone: Some("S0424"),
+    }
+    .holds();
+}
+
+#[test]
+fn a_body_that_is_pushed_away() {
+    let held = "[[step.fix]]\non = \"low_bottom\"\nu = \"all\"";
+    let guided = "[[step.fix]]\non = \"low_bottom\"\nu = [\"x\"]";
+    Trial {
+        text: change(&pressed(), held, guided),
+        code: 0,
+        says: &[
+            "warning[S0426]",
+            "body \"low\" moved freely, by 0.05, and nothing stopped it",
+            "without contact body \"low\" is free to slide along y",
+        ],
+        help: "hold it by [[step.fix]]",
+        remedy: Remedy::Change(guided, held),
+        gone: Some("S0426"),
     }
     .holds();
 }
