@@ -194,6 +194,9 @@ impl Run<'_, '_> {
         }
         let facts = facts(self.model, &start, self.options);
         self.recorder.start(&facts, &self.model.case.title, &found);
+        if let Some(from) = from {
+            self.recorder.goes_on_from(from);
+        }
         self.write_resolved();
         let before = self.recorder.write_seconds;
         let solving = Instant::now();
@@ -261,7 +264,9 @@ impl Run<'_, '_> {
                 Ok(Outcome::Finished) => return Ok(Ending::Solved),
                 Ok(Outcome::Stopped) => {
                     // the rest goes on from the end of the steps that were asked for
-                    due = self.recorder.is_due() || self.recorder.stop == Some(Stop::Steps);
+                    due = self.recorder.is_due()
+                        || self.recorder.stop == Some(Stop::Steps)
+                        || self.recorder.would_stand_still();
                 }
                 Err(error) => return Ok(self.failed(&error, &stepper)),
             }

@@ -2,13 +2,15 @@
 
 use super::Recorder;
 use crate::run::error::OutputError;
+use crate::run::limits::Stop;
 use crate::run::news::Detail;
 use crate::run::solution;
-use signorini_io::checkpoint::{Archive, Stamp};
+use signorini_io::checkpoint::{Archive, Checkpoint, Stamp};
 use signorini_io::writers::frd::Mark;
 use signorini_io::writers::json::{Event, StepSummary};
 use signorini_mechanics::solve::Stepper;
 use signorini_mechanics::system::System;
+use std::path::Path;
 use std::time::Instant;
 
 impl Recorder<'_> {
@@ -27,6 +29,30 @@ impl Recorder<'_> {
         by_count || by_clock
     }
 
+    /// Whether a limit of time ends the run before anything that this process has done was saved: a run that is resumed
+    /// under such a limit again and again would never get on.
+    pub fn would_stand_still(&self) -> bool {
+        let saved = self.saved_at.0;
+        self.stop == Some(Stop::Time) && saved == self.began_at && self.counts.increments > saved
+    }
+
+    /// Reports the checkpoint from which the run goes on: the files were cut to where they were when it was written, before
+    /// it was reported.
+    pub fn goes_on_from(&mut self, from: &Checkpoint) {
+        self.report_checkpoint(from.stamp, in_folder(&from.path));
+    }
+
+    fn report_checkpoint(&mut self, stamp: Stamp, file: String) {
+        let step = usize::try_from(stamp.step).ok();
+        let event = Event::Checkpoint {
+            step: self.step_name(step.unwrap_or(0)),
+            inc: stamp.increment,
+            time: stamp.time,
+            file,
+        };
+        self.tell(&event, Detail::None);
+    }
+
     /// Writes a checkpoint and returns what the solution needs to go on from it; none where the disk failed.
     pub fn save(
         &mut self,
@@ -41,14 +67,7 @@ impl Recorder<'_> {
             Ok((stamp, file)) => {
                 self.saved_at = (self.counts.increments, Instant::now());
                 self.write_seconds += clock.elapsed().as_secs_f64();
-                let step = usize::try_from(stamp.step).ok();
-                let event = Event::Checkpoint {
-                    step: self.step_name(step.unwrap_or(0)),
-                    inc: stamp.increment,
-                    time: stamp.time,
-                    file,
-                };
-                self.tell(&event, Detail::None);
+                self.report_checkpoint(stamp, file);
                 Some(solution)
             }
             Err(error) => {
@@ -122,7 +141,12 @@ impl Recorder<'_> {
         let path = self
             .checkpoints
             .write(self.setting.fs.as_ref(), stamp, &archive)?;
-        let name = path.file_name().map(|n| n.to_string_lossy().into_owned());
-        Ok((stamp, format!("checkpoint/{}", name.unwrap_or_default())))
+        Ok((stamp, in_folder(&path)))
     }
+}
+
+/// The path of a checkpoint, relative to the folder of the results.
+fn in_folder(path: &Path) -> String {
+    let name = path.file_name().map(|n| n.to_string_lossy().into_owned());
+    format!("checkpoint/{}", name.unwrap_or_default())
 }

@@ -210,6 +210,7 @@ impl Opened {
     /// Lets someone listen.
     pub fn heard_by(self, listener: &mut dyn Listener) -> Recorder<'_> {
         Recorder {
+            began_at: self.counts.increments,
             saved_at: (self.counts.increments, Instant::now()),
             narrator: Narrator::default(),
             listener,

@@ -132,6 +132,8 @@ pub struct Recorder<'l> {
     pub stop: Option<Stop>,
     /// Seconds spent on files, and in waiting for the disk.
     pub write_seconds: f64,
+    /// Increments that were done when this process began.
+    began_at: u64,
     saved_at: (u64, Instant),
     step: Option<usize>,
     flips: u64,
